@@ -1,0 +1,49 @@
+# One interface target carries the warnings and sanitizers every Patina target is built with.
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+add_library(patina_compiler INTERFACE)
+target_compile_options(patina_compiler INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-qual)
+if(PATINA_WARNINGS_AS_ERRORS)
+  target_compile_options(patina_compiler INTERFACE -Werror)
+endif()
+
+if(PATINA_SANITIZERS)
+  target_compile_options(patina_compiler INTERFACE
+    -fsanitize=${PATINA_SANITIZERS} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(patina_compiler INTERFACE -fsanitize=${PATINA_SANITIZERS})
+  # GCC 12's flow analysis reports false positives in standard headers under the sanitizers.
+  target_compile_options(patina_compiler INTERFACE -Wno-maybe-uninitialized -Wno-restrict)
+  # GCC warns that TSan does not model atomic_thread_fence (TBB's headers use it).
+  if(PATINA_SANITIZERS MATCHES "thread")
+    target_compile_options(patina_compiler INTERFACE -Wno-tsan)
+  endif()
+endif()
+
+find_program(PATINA_CCACHE ccache)
+if(PATINA_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${PATINA_CCACHE})
+endif()
+
+find_program(PATINA_MOLD mold)
+if(PATINA_MOLD)
+  target_link_options(patina_compiler INTERFACE -fuse-ld=mold)
+endif()
+
+# patina_library(NAME): a static library compiled with the house's flags, whose headers are
+# included from the repository's root ("core/image/Image.h").
+function(patina_library name)
+  add_library(${name} STATIC)
+  target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
+  target_link_libraries(${name} PRIVATE patina_compiler)
+endfunction()
+
+# patina_executable(NAME): a program in build/<preset>/bin.
+function(patina_executable name)
+  add_executable(${name})
+  target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR})
+  target_link_libraries(${name} PRIVATE patina_compiler)
+endfunction()

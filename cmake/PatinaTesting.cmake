@@ -1,0 +1,31 @@
+# patina_test(NAME LABEL core|render|app SOURCES … LIBRARIES … [TIMEOUT s])
+# One GoogleTest program, one ctest entry.
+function(patina_test name)
+  cmake_parse_arguments(T "" "LABEL;TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
+  if(NOT T_TIMEOUT)
+    set(T_TIMEOUT 300)
+  endif()
+  patina_executable(${name})
+  target_sources(${name} PRIVATE ${T_SOURCES})
+  target_link_libraries(${name} PRIVATE ${T_LIBRARIES} GTest::gmock GTest::gtest_main)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  add_test(NAME ${name} COMMAND ${name})
+  set_tests_properties(${name} PROPERTIES LABELS "${T_LABEL}" TIMEOUT ${T_TIMEOUT}
+    FAIL_REGULAR_EXPRESSION "\\[  SKIPPED \\]"
+    ENVIRONMENT "PATINA_BIN_DIR=${CMAKE_BINARY_DIR}/bin;LP_NUM_THREADS=2;XDG_RUNTIME_DIR=${CMAKE_BINARY_DIR}/run;TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/cmake/tsan.supp;LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/cmake/lsan.supp")
+endfunction()
+
+# patina_benchmark(NAME SOURCES … LIBRARIES …): a Google Benchmark program; never run by ctest.
+function(patina_benchmark name)
+  if(NOT PATINA_BENCHMARKS)
+    return()
+  endif()
+  cmake_parse_arguments(B "" "" "SOURCES;LIBRARIES" ${ARGN})
+  patina_executable(${name})
+  target_sources(${name} PRIVATE ${B_SOURCES})
+  target_link_libraries(${name} PRIVATE ${B_LIBRARIES} benchmark::benchmark benchmark::benchmark_main)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/benchmarks)
+endfunction()
+
+file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/run)
+file(CHMOD ${CMAKE_BINARY_DIR}/run PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)

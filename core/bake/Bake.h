@@ -1,0 +1,71 @@
+// Bakes are functions: they copy what they need, hold no document, write no files and touch no
+// threads but the pool's. Results do not depend on the number of threads.
+#pragma once
+
+#include "core/bake/BakeArtifact.h"
+#include "core/base/Result.h"
+#include "core/job/JobContext.h"
+#include "core/mesh/Mesh.h"
+
+#include <glm/mat4x4.hpp>
+#include <span>
+#include <vector>
+
+namespace patina {
+
+struct Document;
+
+struct BakeMesh {
+    Id id = 0;
+    Id material = 0;
+    MeshPtr mesh;
+    glm::mat4 transform{1.0f};
+    bool doubleSided = false;
+};
+
+struct BakeInputs {
+    std::vector<BakeMesh> meshes; // visible ones
+};
+
+[[nodiscard]] BakeInputs bakeInputs(const Document& document);
+// Geometry only: what AO and PRT transfer depend on. A bake whose hash differs is stale.
+[[nodiscard]] Hash hashBakeInputs(const BakeInputs& inputs);
+
+// Receives results while a bake runs, from the pool's threads, so that a preview can show them.
+class TileSink {
+  public:
+    virtual ~TileSink() = default;
+    // `values`: stride floats for each vertex first, first+1, … of mesh `mesh`, final for the pass.
+    virtual void vertices(Id /*mesh*/, std::size_t /*first*/, int /*stride*/,
+                          std::span<const float> /*values*/) {}
+    // A rectangle of a material's texture: `width` floats per row, rows from the top.
+    virtual void texels(Id /*material*/, int /*imageSize*/, int /*x*/, int /*y*/, int /*width*/,
+                        std::span<const float> /*values*/) {}
+    // A whole pass over all elements is complete with `samples` rays per element.
+    virtual void passDone(int /*samples*/) {}
+};
+
+struct AoSettings {
+    int samples = 256;        // rays per element, rounded up to a power of two
+    float maxDistance = 0.0f; // metres; 0: unlimited
+    int size = 1024;          // texel bake: side of the square texture
+    std::uint32_t seed = 0;
+};
+
+struct PrtSettings {
+    int order = 3;     // SH bands 1…5
+    int samples = 256; // rays per vertex, rounded up to a power of two
+    std::uint32_t seed = 0;
+};
+
+// Passes of 32, 64, … rays over all elements. stop() ends after the pass in flight (or keeps the
+// finished part of the last complete pass); cancel() returns ErrorKind::Cancelled within 0.5 s.
+// Errors: InputBroken for a scene without triangles; Internal when Embree refuses memory.
+Result<BakeArtifact> bakeAoTexel(const BakeInputs& inputs, const AoSettings& settings,
+                                 TileSink& sink, const JobContext& job);
+Result<BakeArtifact> bakeAoVertex(const BakeInputs& inputs, const AoSettings& settings,
+                                  TileSink& sink, const JobContext& job);
+Result<BakeArtifact> bakePrtVertex(const BakeInputs& inputs, const PrtSettings& settings,
+                                   TileSink& sink, const JobContext& job);
+
+} // namespace patina

@@ -1,0 +1,184 @@
+#include "core/base/AtomicFile.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+
+namespace patina {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A file descriptor that closes itself.
+class Descriptor {
+  public:
+    explicit Descriptor(int fd) : m_fd(fd) {}
+    ~Descriptor() {
+        if (m_fd >= 0)
+            ::close(m_fd);
+    }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    [[nodiscard]] int get() const { return m_fd; }
+    [[nodiscard]] bool valid() const { return m_fd >= 0; }
+
+  private:
+    int m_fd;
+};
+
+Error systemError(ErrorKind kind, const fs::path& path, std::string message, int code) {
+    return {kind, std::move(message), path, std::strerror(code)};
+}
+
+Error cannotCreate(const fs::path& path, int code) {
+    return systemError(ErrorKind::CannotCreate, path,
+                       "the file cannot be created; check that the folder exists and is writable",
+                       code);
+}
+
+Error cannotWrite(const fs::path& path, int code) {
+    return systemError(ErrorKind::Io, path,
+                       code == ENOSPC || code == EDQUOT
+                           ? "the disk is full; free some space or save elsewhere"
+                           : "writing failed; the previous content is untouched",
+                       code);
+}
+
+// Writes everything or returns errno.
+int writeAll(int fd, std::span<const std::byte> data) {
+    while (!data.empty()) {
+        const ssize_t written = ::write(fd, data.data(), data.size());
+        if (written < 0) {
+            if (errno == EINTR)
+                continue;
+            return errno;
+        }
+        data = data.subspan(static_cast<std::size_t>(written));
+    }
+    return 0;
+}
+
+// The file that the name finally stands for, so that a saved-over link stays a link.
+fs::path resolveLinks(const fs::path& path) {
+    std::error_code error;
+    if (fs::is_symlink(fs::symlink_status(path, error)))
+        if (fs::path target = fs::weakly_canonical(path, error); !error)
+            return target;
+    return path;
+}
+
+} // namespace
+
+Result<void> writeFileAtomically(const fs::path& path, std::span<const std::byte> data) {
+    const fs::path target = resolveLinks(path);
+    fs::path folder = target.parent_path();
+    if (folder.empty())
+        folder = ".";
+
+    struct stat existing {};
+    const bool replaces = ::stat(target.c_str(), &existing) == 0;
+    if (replaces && S_ISDIR(existing.st_mode))
+        return cannotCreate(path, EISDIR);
+    // A device such as /dev/null or a pipe takes the data directly: there is nothing to replace.
+    if (replaces && !S_ISREG(existing.st_mode)) {
+        const Descriptor device(::open(target.c_str(), O_WRONLY | O_CLOEXEC));
+        if (!device.valid())
+            return cannotCreate(path, errno);
+        if (const int code = writeAll(device.get(), data))
+            return cannotWrite(path, code);
+        return {};
+    }
+
+    // An unnamed file cannot outlive a crash. Where the file system has none, a named one is used
+    // and removed on every error path.
+    const std::string temporary =
+        (folder / fmt::format(".{}.{}.part", target.filename().string().substr(0, 200), ::getpid()))
+            .string();
+    int fd = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    const bool unnamed = fd >= 0;
+    if (!unnamed && errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL)
+        return cannotCreate(path, errno);
+    if (!unnamed)
+        fd = ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    if (fd < 0)
+        return cannotCreate(path, errno);
+    const Descriptor file(fd);
+    const auto fail = [&](int code) -> Result<void> {
+        ::unlink(temporary.c_str());
+        return cannotWrite(path, code);
+    };
+
+    if (replaces)
+        static_cast<void>(::fchmod(fd, existing.st_mode & 07777)); // best effort: not ours to own
+    if (const int code = writeAll(fd, data))
+        return fail(code);
+    if (::fdatasync(fd) != 0)
+        return fail(errno);
+
+    // Give it a name, then move the name over the old one.
+    if (unnamed) {
+        ::unlink(temporary.c_str());
+        const std::string self = fmt::format("/proc/self/fd/{}", fd);
+        if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, temporary.c_str(), AT_SYMLINK_FOLLOW) != 0)
+            return fail(errno);
+    }
+    if (::rename(temporary.c_str(), target.c_str()) != 0)
+        return fail(errno);
+    const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (directory.valid())
+        ::fsync(directory.get());
+    return {};
+}
+
+Result<void> writeFileAtomically(const fs::path& path, std::string_view text) {
+    return writeFileAtomically(path, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+Result<Bytes> readFile(const fs::path& path, std::size_t maxSize) {
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (!file.valid())
+        return systemError(ErrorKind::InputMissing, path,
+                           errno == ENOENT ? "there is no such file" : "the file cannot be read",
+                           errno);
+    struct stat info {};
+    if (::fstat(file.get(), &info) != 0)
+        return systemError(ErrorKind::InputMissing, path, "the file cannot be read", errno);
+    if (S_ISDIR(info.st_mode))
+        return systemError(ErrorKind::InputMissing, path, "this is a folder, not a file", EISDIR);
+
+    Bytes data;
+    std::byte buffer[1 << 16];
+    if (S_ISREG(info.st_mode) && static_cast<std::size_t>(info.st_size) <= maxSize)
+        data.reserve(static_cast<std::size_t>(info.st_size));
+    while (true) {
+        const ssize_t count = ::read(file.get(), buffer, sizeof buffer);
+        if (count < 0) {
+            if (errno == EINTR)
+                continue;
+            return systemError(ErrorKind::InputMissing, path, "the file cannot be read", errno);
+        }
+        if (count == 0)
+            return data;
+        if (data.size() + static_cast<std::size_t>(count) > maxSize)
+            return Error{ErrorKind::InputBroken,
+                         fmt::format("the file is larger than {} MiB, the most Patina reads of "
+                                     "this kind",
+                                     maxSize >> 20),
+                         path,
+                         {}};
+        data.insert(data.end(), buffer, buffer + count);
+    }
+}
+
+Result<std::string> readTextFile(const fs::path& path, std::size_t maxSize) {
+    Result<Bytes> data = readFile(path, maxSize);
+    if (!data)
+        return data.error();
+    return std::string(reinterpret_cast<const char*>(data->data()), data->size());
+}
+
+} // namespace patina

@@ -1,0 +1,17 @@
+// What an edit touched, so that views of the document can update just that.
+#pragma once
+
+#include "core/material/Parameters.h"
+
+#include <optional>
+
+namespace patina {
+
+struct Change {
+    Affects affects = Affects::Everything;
+    std::optional<Target> target; // set when one element changed
+
+    [[nodiscard]] static Change everything() { return {}; }
+};
+
+} // namespace patina

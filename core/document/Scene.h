@@ -1,0 +1,56 @@
+// Opening things: a project, a model or a built-in scene becomes a document with every payload
+// resolved. The editor and the command line open through these functions.
+#pragma once
+
+#include "core/base/Result.h"
+#include "core/document/Document.h"
+#include "core/job/JobContext.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace patina {
+
+class WorkerClient;
+
+// Something the user should know but that stopped nothing: a missing texture, dropped triangles.
+struct Notice {
+    std::string message;        // one sentence: what happened and what to do
+    std::filesystem::path file; // concerned, may be empty
+    friend bool operator==(const Notice&, const Notice&) = default;
+};
+
+struct OpenedScene {
+    Document document;
+    std::vector<Notice> notices;
+    std::vector<std::string> missingFiles; // textures and models that could not be found
+    bool isProject = false;                // opened from a .patina file
+};
+
+// SCENE of the command line: "builtin:NAME", a .patina project or a model file. A model alone gets
+// the default environment and view, framed.
+Result<OpenedScene> openScene(WorkerClient& worker, const std::string& scene,
+                              const JobContext& job = {});
+
+// The editor's and README's first scene: the shader ball under the studio sky.
+[[nodiscard]] Document startDocument();
+
+// Appends a model's meshes, materials and lights to the document.
+Result<std::vector<Notice>> addModel(WorkerClient& worker, Document& document,
+                                     const std::string& source);
+
+// Reads an image for a map ("builtin:…" or a path). On failure returns the error; callers that
+// must go on store it in MapSlot::problem.
+Result<ImagePtr> loadMapImage(WorkerClient& worker, const std::string& source,
+                              ColorEncoding integerEncoding);
+
+// Reads a lat-long environment as F32 RGB. `notices` receives the count of repaired pixels.
+Result<ImagePtr> loadEnvironmentImage(WorkerClient& worker, const std::string& source,
+                                      std::vector<Notice>& notices);
+
+[[nodiscard]] bool isBuiltin(const std::string& source);
+// Absolute path as UTF-8 for paths, unchanged for builtin:NAME.
+[[nodiscard]] std::string normalizeSource(const std::string& source);
+
+} // namespace patina

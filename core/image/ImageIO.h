@@ -1,0 +1,78 @@
+// Reading and writing image files. Files are guests: decoding happens in the isolated worker
+// process (core/worker), and what comes back is validated before it is believed.
+#pragma once
+
+#include "core/base/AtomicFile.h"
+#include "core/base/Result.h"
+#include "core/image/Image.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace patina {
+
+class WorkerClient;
+
+// One part (EXR) of an image file with its string attributes ("patina:basis" …).
+struct ImagePart {
+    std::string name; // EXR part name, otherwise empty
+    Image image;
+    std::map<std::string, std::string> attributes;
+};
+
+struct LoadedImage {
+    std::vector<ImagePart> parts;     // at least one
+    std::size_t sanitizedSamples = 0; // NaN, Inf and negative samples replaced (sanitizeHdr)
+    std::string format;               // "png", "openexr", "hdr" …
+    [[nodiscard]] const Image& image() const { return parts.front().image; }
+};
+
+struct ImageLoadOptions {
+    // Integer files get this encoding; floating-point files are always Linear.
+    ColorEncoding integerEncoding = ColorEncoding::Data;
+    // Colour and environment images: replace NaN, negative and infinite samples. Off for bake
+    // files, whose coefficients are signed.
+    bool sanitize = true;
+    bool allParts = false; // read every EXR part, not only the first
+};
+
+// PNG, JPEG, TGA, TIFF, OpenEXR, Radiance HDR, PSD, DDS, BMP, WebP; 8/16 bit integer, half, float.
+// Errors: InputMissing, InputBroken (damaged, not an image, beyond the limits, decoder died).
+Result<LoadedImage> loadImage(WorkerClient& worker, const std::filesystem::path& file,
+                              const ImageLoadOptions& options = {});
+// The same from memory (textures embedded in a model); `name` stands in messages.
+Result<LoadedImage> loadImageFromMemory(WorkerClient& worker, std::span<const std::byte> data,
+                                        const std::string& name,
+                                        const ImageLoadOptions& options = {});
+
+struct ImageInfo {
+    int width = 0, height = 0, channels = 0;
+    std::string pixelType; // as stored in the file: "uint8", "half", "float" …
+    std::string format;
+    std::vector<std::string> channelNames;
+    std::vector<std::string> partNames;
+    std::map<std::string, std::string> attributes; // of the first part
+};
+Result<ImageInfo> inspectImage(WorkerClient& worker, const std::filesystem::path& file);
+
+enum class ImageFileFormat { Png, Jpeg, Exr, Hdr, Tiff, Tga };
+// By extension, case-insensitively; Usage error naming the supported ones otherwise.
+Result<ImageFileFormat> imageFormatForPath(const std::filesystem::path& file);
+
+struct ImageSaveOptions {
+    bool half = false; // EXR: store 16-bit floats
+    int jpegQuality = 92;
+};
+// Encodes in the worker. Png, Jpeg, Tga: U8 (Png, Tiff also U16) is stored as it is, F32 is clamped
+// and encoded as sRGB when Linear, taken as it is when Data. Exr, Hdr: linear floats.
+Result<Bytes> encodeImage(WorkerClient& worker, const std::vector<ImagePart>& parts,
+                          ImageFileFormat format, const ImageSaveOptions& options = {});
+Result<Bytes> encodeImage(WorkerClient& worker, const Image& image, ImageFileFormat format,
+                          const ImageSaveOptions& options = {});
+// encodeImage + writeFileAtomically, format from the extension.
+Result<void> saveImage(WorkerClient& worker, const Image& image, const std::filesystem::path& file,
+                       const ImageSaveOptions& options = {});
+
+} // namespace patina

@@ -1,0 +1,59 @@
+// How long work talks to whoever started it. The owner keeps a JobControl and may poll progress,
+// ask to stop (keep what has converged) or cancel (leave nothing); the work receives a JobContext.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+namespace patina {
+
+struct JobProgress {
+    double fraction = 0.0;   // 0…1 of the whole job
+    std::string activity;    // "tracing pass 3 of 6"
+    double workDone = 0.0;   // e.g. rays traced so far
+    std::string workUnit;    // e.g. "rays"; empty when the job counts nothing
+    double secondsSoFar = 0; // wall time since the control was made
+};
+
+namespace detail {
+struct JobState;
+}
+
+// Callable from any thread, cheap enough for inner loops: poll at least every 50 ms.
+class JobContext {
+  public:
+    JobContext(); // a context of its own: nobody listens, nobody stops it
+    explicit JobContext(std::shared_ptr<detail::JobState> state)
+        : m_state(std::move(state)) {}
+
+    [[nodiscard]] bool cancelled() const; // discard everything, return ErrorKind::Cancelled
+    [[nodiscard]] bool stopping() const;  // finish with what there is; true when cancelled too
+
+    void setProgress(double fraction) const; // clamped to 0…1
+    void setActivity(std::string_view activity) const;
+    void addWork(double amount, const char* unit) const;
+
+  private:
+    std::shared_ptr<detail::JobState> m_state;
+};
+
+class JobControl {
+  public:
+    JobControl();
+    [[nodiscard]] JobContext context() const { return JobContext(m_state); }
+    [[nodiscard]] JobProgress progress() const;
+    void stop();
+    void cancel();
+    [[nodiscard]] bool stopping() const;
+    [[nodiscard]] bool cancelled() const;
+    // Seconds until done, estimated from the progress so far; negative while unknown.
+    [[nodiscard]] double secondsLeft() const;
+
+  private:
+    std::shared_ptr<detail::JobState> m_state;
+};
+
+} // namespace patina

@@ -1,0 +1,45 @@
+#include "core/job/Parallel.h"
+
+#include <algorithm>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <thread>
+
+namespace patina {
+
+void parallelFor(const JobContext& job, std::size_t count, std::size_t grain,
+                 const std::function<void(std::size_t, std::size_t)>& body) {
+    if (count == 0)
+        return;
+    const std::size_t step = std::max<std::size_t>(grain, 1);
+    const std::size_t chunks = (count + step - 1) / step;
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, chunks, 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+            for (std::size_t chunk = range.begin(); chunk != range.end(); ++chunk) {
+                if (job.cancelled())
+                    return;
+                body(chunk * step, std::min(count, (chunk + 1) * step));
+            }
+        },
+        tbb::simple_partitioner{});
+}
+
+ThreadLimit::ThreadLimit(int threads) : m_control(nullptr) {
+    const std::size_t count =
+        threads > 0 ? static_cast<std::size_t>(threads)
+                    : std::max<std::size_t>(std::thread::hardware_concurrency(), 1);
+    m_control = new tbb::global_control(tbb::global_control::max_allowed_parallelism, count);
+}
+
+ThreadLimit::~ThreadLimit() {
+    delete static_cast<tbb::global_control*>(m_control);
+}
+
+int threadCount() {
+    return static_cast<int>(
+        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
+} // namespace patina

@@ -1,0 +1,32 @@
+// Loops over all cores. The only part of Patina that sees oneTBB.
+#pragma once
+
+#include "core/job/JobContext.h"
+
+#include <cstddef>
+#include <functional>
+
+namespace patina {
+
+// Calls body(begin, end) for consecutive ranges that cover 0…count, each at most `grain` long, on
+// the pool's threads and in any order; returns when all are done. After a cancel no new range
+// starts. Results must not depend on the order or on the number of threads. An exception thrown
+// by the body reaches the caller.
+void parallelFor(const JobContext& job, std::size_t count, std::size_t grain,
+                 const std::function<void(std::size_t begin, std::size_t end)>& body);
+
+// Limits the pool for the life of the object: `threads` = 0 means all cores.
+class ThreadLimit {
+  public:
+    explicit ThreadLimit(int threads);
+    ~ThreadLimit();
+    ThreadLimit(const ThreadLimit&) = delete;
+    ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+  private:
+    void* m_control;
+};
+
+[[nodiscard]] int threadCount(); // threads the pool may use now
+
+} // namespace patina

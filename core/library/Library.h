@@ -1,0 +1,48 @@
+// The built-in library: meshes, skies and materials made by Patina's own code, so that nothing has
+// to be downloaded. Deterministic: the same name gives the same bytes on every machine.
+#pragma once
+
+#include "core/base/Result.h"
+#include "core/image/Image.h"
+#include "core/material/Material.h"
+#include "core/mesh/Mesh.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace patina::library {
+
+struct Entry {
+    std::string name;  // "shader-ball" — used as "builtin:shader-ball"
+    std::string title; // "Shader Ball"
+    std::string help;  // one sentence
+};
+
+[[nodiscard]] const std::vector<Entry>&
+models(); // sphere rounded-cube torus-knot shader-ball cornell-box plane
+[[nodiscard]] const std::vector<Entry>&
+environments(); // white clear-sky overcast studio sunset night
+[[nodiscard]] const std::vector<Entry>&
+materials(); // worn-painted-metal gold brushed-steel rough-plastic ceramic wood leather concrete …
+
+struct ModelPart {
+    std::string name;
+    MeshPtr mesh;             // in metres, standing on y = 0
+    std::string materialName; // parts with the same name share a material
+    Material material;        // its default look (id 0)
+};
+// Usage error listing the names when there is none such. Cached: the second call returns the same
+// pointers.
+Result<std::vector<ModelPart>> model(const std::string& name);
+
+// Lat-long F32 RGB, 1024 × 512, conventions of patina::Environment.
+Result<ImagePtr> environment(const std::string& name);
+
+// A material with its maps (ids 0), each map's source "builtin:MATERIAL/MAP"
+// ("builtin:wood/baseColor"). Tileable, 512² or 1024².
+Result<Material> material(const std::string& name);
+Result<ImagePtr> map(const std::string& materialSlashMap); // "wood/baseColor"
+
+} // namespace patina::library

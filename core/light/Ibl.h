@@ -1,0 +1,42 @@
+// Image-based light: what the split-sum approximation needs of one lat-long environment.
+#pragma once
+
+#include "core/base/Result.h"
+#include "core/image/Image.h"
+#include "core/job/JobContext.h"
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace patina {
+
+// One level of a cubemap: six faces +X -X +Y -Y +Z -Z in OpenGL's order and orientation, RGB
+// floats, texel centres at (i + 0.5) / size.
+struct CubeLevel {
+    int size = 0;
+    std::vector<glm::vec3> texels; // 6 * size * size
+};
+
+struct IblMaps {
+    std::vector<CubeLevel> prefiltered; // level i: perceptualRoughness = i / (levels - 1)
+    std::array<glm::vec3, 9>
+        irradianceSh; // E(n) = Σ irradianceSh[i] Y_i(n), Y as in shaders/shared/sh.glsl
+    std::array<glm::vec3, 25> radianceSh; // L_i of the environment, 5 bands, for PRT
+};
+
+struct IblSettings {
+    int cubeSize = 256; // of level 0
+    int levels = 7;     // 256 128 64 32 16 8 4
+};
+
+// `environment`: lat-long, F32, 3 channels, conventions of patina::Environment; rotation and
+// exposure are applied by the user of the maps. Deterministic. Cancelled when the job is.
+Result<IblMaps> computeIbl(const Image& environment, const IblSettings& settings,
+                           const JobContext& job);
+
+// The DFG table: size × size, F32, 3 channels; u = N·V, v = perceptualRoughness, texel centres at
+// (i + 0.5) / size; R: scale on F0, G: bias (Smith height-correlated GGX), B: reserved, 0.
+[[nodiscard]] Image computeDfgTable(int size = 128);
+
+} // namespace patina

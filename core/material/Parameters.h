@@ -1,0 +1,98 @@
+// THE parameter table: every number, colour, choice and map the user can edit, described once. It
+// drives panel rows, tooltips, JSON keys, undo text and merging, `--set key=value`, and the
+// reference page (`patina parameters --markdown`). A new parameter is one line in Parameters.cpp
+// and its use in a shader.
+#pragma once
+
+#include "core/base/Result.h"
+#include "core/material/Material.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace patina {
+
+struct Document;
+
+// What a change of a parameter makes necessary.
+enum class Affects : std::uint32_t {
+    Nothing = 0,
+    Uniform = 1,        // a number in a uniform block
+    Texture = 2,        // a texture is exchanged
+    Geometry = 4,       // meshes, transforms, visibility
+    EnvironmentMap = 8, // image-based light is to be prepared anew
+    Bakes = 16,         // attached bakes may become stale
+    Structure = 32,     // elements were added, removed, renamed
+    Everything = 0xffffffffu
+};
+constexpr Affects operator|(Affects a, Affects b) {
+    return static_cast<Affects>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
+}
+constexpr bool touches(Affects value, Affects part) {
+    return (static_cast<std::uint32_t>(value) & static_cast<std::uint32_t>(part)) != 0;
+}
+
+enum class Scope { Material, Light, Environment, View, Mesh };
+enum class ParameterType { Bool, Float, Color, Vector, Choice, Text, Map };
+
+// The value of any parameter: Bool; Float; Color and Vector; Choice (index) ; Text; Map.
+using ParameterValue = std::variant<bool, float, glm::vec3, int, std::string, MapSlot>;
+
+// Whose parameter: Scope::Environment and Scope::View have one element, id 0.
+struct Target {
+    Scope scope = Scope::View;
+    Id id = 0;
+    friend bool operator==(const Target&, const Target&) = default;
+};
+
+struct ParameterInfo {
+    std::string_view id;    // "material.perceptualRoughness": stable, in files and scripts
+    std::string_view alias; // another accepted spelling, or empty
+    std::string_view label; // "Roughness"
+    std::string_view group; // heading in the panel: "Surface"
+    Scope scope = Scope::View;
+    ParameterType type = ParameterType::Float;
+    float softMin = 0.0f, softMax = 1.0f; // the slider's ends
+    float hardMin = 0.0f, hardMax = 1.0f; // what may be typed
+    int decimals = 3;
+    std::string_view unit;                          // "°", "EV", "m", "lx" or empty
+    std::span<const std::string_view> choices;      // names of a Choice, as in files: "openGl"
+    std::span<const std::string_view> choiceLabels; // as shown: "OpenGL (green up)"
+    std::string_view help;                          // one sentence
+    Affects affects = Affects::Uniform;
+    ColorEncoding mapEncoding = ColorEncoding::Data; // Map: how integer files are read
+
+    // Access to the element that `target` names; get() requires that it exists.
+    ParameterValue (*get)(const Document&, Id) = nullptr;
+    void (*set)(Document&, Id, const ParameterValue&) = nullptr;
+
+    [[nodiscard]] ParameterValue defaultValue() const; // of a default-constructed element
+};
+
+[[nodiscard]] std::span<const ParameterInfo> parameters(); // the whole table, in panel order
+[[nodiscard]] const ParameterInfo* findParameter(std::string_view idOrAlias);
+[[nodiscard]] const ParameterInfo* mapOf(const ParameterInfo& parameter); // its ".map", or null
+
+// Clamps to the hard range; NaN becomes the default.
+[[nodiscard]] ParameterValue clampToRange(const ParameterInfo& info, ParameterValue value);
+
+// Text as in scripts: "0.3", "0.8,0.2,0.1", "#c08040", "true", "reinhard", a path (Map: `image`
+// stays null; the caller loads it). Usage error saying what is expected.
+[[nodiscard]] Result<ParameterValue> parseParameterValue(const ParameterInfo& info,
+                                                         std::string_view text);
+[[nodiscard]] std::string formatParameterValue(const ParameterInfo& info,
+                                               const ParameterValue& value);
+
+// "material.metallic" (all materials), "material[Body].metallic" (by name), "light[Sun].intensity".
+struct ParameterSelection {
+    const ParameterInfo* info = nullptr;
+    std::vector<Target> targets;
+};
+[[nodiscard]] Result<ParameterSelection> selectParameter(const Document& document,
+                                                         std::string_view name);
+
+} // namespace patina

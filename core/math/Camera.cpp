@@ -1,0 +1,53 @@
+#include "core/math/Camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace patina {
+
+glm::vec3 Camera::forward() const {
+    const float yaw = glm::radians(yawDeg), pitch = glm::radians(pitchDeg);
+    return -glm::vec3(std::sin(yaw) * std::cos(pitch), std::sin(pitch),
+                      std::cos(yaw) * std::cos(pitch));
+}
+
+glm::vec3 Camera::right() const {
+    const float yaw = glm::radians(yawDeg);
+    return {std::cos(yaw), 0.0f, -std::sin(yaw)};
+}
+
+glm::vec3 Camera::up() const {
+    return glm::cross(right(), forward());
+}
+
+glm::vec3 Camera::position() const {
+    return target - distance * forward();
+}
+
+glm::mat4 Camera::viewMatrix() const {
+    return glm::lookAt(position(), position() + forward(), up());
+}
+
+glm::mat4 Camera::projectionMatrix(float aspect, const Bounds& scene) const {
+    const float radius = std::max(scene.radius(), 1e-4f);
+    const float toCenter = glm::dot(scene.center() - position(), forward());
+    const float farPlane = std::max(toCenter + 1.05f * radius, 1e-3f * radius);
+    // A ratio of 1e5 keeps 24 bits of depth usable when the camera is inside the scene.
+    const float nearPlane = std::clamp(toCenter - 1.05f * radius, farPlane * 1e-5f, farPlane * 0.5f);
+    return glm::perspective(glm::radians(fovDeg), std::max(aspect, 1e-3f),
+                            std::max(nearPlane, 1e-3f * distance), farPlane);
+}
+
+Camera frameBounds(Camera camera, const Bounds& scene, float aspect) {
+    const float margin = 1.08f; // a little air around the object
+    const float halfVertical = 0.5f * glm::radians(camera.fovDeg);
+    const float halfHorizontal = std::atan(std::tan(halfVertical) * aspect);
+    const float radius = std::max(scene.radius(), 1e-4f);
+    camera.target = scene.center();
+    camera.distance = margin * radius / std::sin(std::min(halfVertical, halfHorizontal));
+    return camera;
+}
+
+} // namespace patina

@@ -1,0 +1,53 @@
+// The parent's side of `patina-worker`: the small program that decodes untrusted files and may die
+// doing so. It is started once, forks for each request, and answers through a sealed memory file.
+//
+// Thread-safe: requests from several threads run in parallel children. A request never waits longer
+// than limits::kWorkerWallSeconds; a dead, killed or silent child is an Error, and a dead worker is
+// started again for the next request.
+#pragma once
+
+#include "core/base/AtomicFile.h"
+#include "core/base/Result.h"
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace patina {
+
+struct WorkerLimits {
+    std::size_t memoryBytes; // address space of the child
+    double cpuSeconds;
+    double wallSeconds;
+};
+
+class WorkerClient {
+  public:
+    // `program` is patina-worker; defaultProgram() finds it beside the running executable, in
+    // ../bin beside it, or in $PATINA_BIN_DIR. Nothing starts before the first request or warmUp().
+    explicit WorkerClient(std::filesystem::path program = defaultProgram());
+    ~WorkerClient();
+    WorkerClient(const WorkerClient&) = delete;
+    WorkerClient& operator=(const WorkerClient&) = delete;
+
+    static std::filesystem::path defaultProgram();
+
+    void warmUp(); // starts the process in the background, so that the first file does not wait
+    void setLimits(const WorkerLimits& limits);
+
+    // One request: `header` (JSON text) and an optional payload go out, `header` (JSON) and a
+    // payload come back. The adapters in core/image and core/mesh give them meaning.
+    struct Reply {
+        std::string header;
+        Bytes payload;
+    };
+    Result<Reply> request(const std::string& header, std::span<const std::byte> payload,
+                          const std::filesystem::path& fileForMessages);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> m_impl;
+};
+
+} // namespace patina

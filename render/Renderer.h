@@ -1,0 +1,68 @@
+// Draws a document with OpenGL 4.5. Qt-free: the editor's viewport and the command line both own
+// one. All calls need the context it was created with to be current, on one thread.
+#pragma once
+
+#include "core/base/Result.h"
+#include "core/document/Change.h"
+#include "core/document/Document.h"
+#include "core/light/Ibl.h"
+#include "render/gl/Context.h"
+
+#include <filesystem>
+#include <memory>
+
+namespace patina::render {
+
+struct FrameSettings {
+    int width = 0, height = 0; // pixels
+    int samples = 4;           // MSAA; 1: none
+    Camera camera;
+    bool transparentBackground = false;
+    bool showOverlays = false; // grid, light gizmos (the editor)
+    Id selectedMesh = 0;       // outlined when showOverlays
+};
+
+class Renderer {
+  public:
+    // Compiles the programs. `shaderFolder`: read shaders from there and watch them (hot reload);
+    // empty: the ones built in. Errors: NoOpenGl, Internal with the compiler's log.
+    static Result<std::unique_ptr<Renderer>> create(gl::Context& context,
+                                                    const std::filesystem::path& shaderFolder = {});
+    ~Renderer();
+
+    // Takes over what `change` touched; the renderer keeps the snapshot.
+    void setDocument(const Document& document, const Change& change);
+
+    // Image-based light of document.environment.image; computed elsewhere (a job in the editor,
+    // directly in the command line). Until set, the SH of a grey sky light the scene.
+    void setIbl(const IblMaps& maps);
+
+    // Live bake preview: values of a running bake, drawn instead of an attached artifact's.
+    void previewVertices(Id mesh, int stride,
+                         std::span<const float> values); // all vertices of the mesh
+    void previewTexels(Id material, int size, std::span<const float> values); // whole texture
+    void clearPreview();
+
+    // Renders to the internal HDR target and tone maps into framebuffer `targetFramebuffer`
+    // (0: the window's), viewport 0,0 … width,height.
+    Result<void> render(const FrameSettings& frame, unsigned targetFramebuffer);
+
+    // The last frame before tone mapping: linear RGBA floats, top row first.
+    [[nodiscard]] Image readLinear();
+    // The last frame as displayed: 8-bit RGBA sRGB, top row first.
+    [[nodiscard]] Image readDisplayed();
+
+    // Recompiles shaders that changed on disk; a shader that does not compile keeps the last good
+    // program. Returns the messages (file, line) of what failed.
+    std::vector<std::string> reloadShaders();
+
+    // The mesh instance under a pixel of the last frame (top-left origin), 0 when there is none.
+    [[nodiscard]] Id pick(int x, int y);
+
+  private:
+    struct Impl;
+    explicit Renderer(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> m_impl;
+};
+
+} // namespace patina::render
