@@ -1,0 +1,63 @@
+// The rooms' borders: who may include what (docs/architecture.md). Reads the sources.
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <regex>
+#include <string>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Counts the includes in `folder` that match `forbidden`, except in `allowedFile`.
+int violations(const std::string& folder, const std::string& forbidden,
+               const std::string& allowedFile = {}) {
+    const fs::path root = PATINA_SOURCE_DIR;
+    const std::regex pattern("^\\s*#\\s*include\\s*[<\"](" + forbidden + ")");
+    int found = 0, files = 0;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
+        const std::string extension = entry.path().extension().string();
+        if (extension != ".h" && extension != ".cpp")
+            continue;
+        ++files;
+        const std::string relative = fs::relative(entry.path(), root).generic_string();
+        std::ifstream stream(entry.path());
+        std::string line;
+        for (int number = 1; std::getline(stream, line); ++number)
+            if (relative != allowedFile && std::regex_search(line, pattern)) {
+                ADD_FAILURE() << relative << ":" << number << ": " << line;
+                ++found;
+            }
+    }
+    EXPECT_GT(files, 0) << folder << " holds no sources";
+    return found;
+}
+
+TEST(Borders, CoreSeesNeitherQtNorOpenGlNorTheRoomsAboveIt) {
+    EXPECT_EQ(violations("core", "Q[A-Z]|Qt|GL/|epoxy|render/|app/"), 0);
+}
+
+TEST(Borders, RenderSeesNoQtAndNoApplication) {
+    EXPECT_EQ(violations("render", "Q[A-Z]|Qt|app/|embree|assimp|OpenImageIO"), 0);
+}
+
+TEST(Borders, TheCommandLineAndTheWorkerSeeNoQt) {
+    EXPECT_EQ(violations("app/cli", "Q[A-Z]|Qt"), 0);
+    EXPECT_EQ(violations("app/worker", "Q[A-Z]|Qt|render/"), 0);
+}
+
+TEST(Borders, EachLibraryHasOneAdapter) {
+    EXPECT_EQ(violations("core", "OpenImageIO/|OpenEXR/", "core/worker/ImageCodec.cpp"), 0);
+    EXPECT_EQ(violations("core", "assimp/", "core/worker/ModelCodec.cpp"), 0);
+    EXPECT_EQ(violations("core", "embree3/", "core/bake/RayScene.cpp"), 0);
+    EXPECT_EQ(violations("core", "(oneapi/)?tbb/", "core/job/Parallel.cpp"), 0);
+    EXPECT_EQ(violations("app", "embree3/|assimp/|OpenImageIO/|(oneapi/)?tbb/"), 0);
+}
+
+TEST(Borders, NothingDependsOnTests) {
+    for (const char* folder : {"core", "render", "app"})
+        EXPECT_EQ(violations(folder, "tests/|gtest|gmock"), 0);
+}
+
+} // namespace
