@@ -4,6 +4,7 @@
 
 #include "core/base/Result.h"
 #include "core/document/Document.h"
+#include "core/document/Source.h"
 #include "core/job/JobContext.h"
 
 #include <filesystem>
@@ -48,9 +49,5 @@ Result<ImagePtr> loadMapImage(WorkerClient& worker, const std::string& source,
 // Reads a lat-long environment as F32 RGB. `notices` receives the count of repaired pixels.
 Result<ImagePtr> loadEnvironmentImage(WorkerClient& worker, const std::string& source,
                                       std::vector<Notice>& notices);
-
-[[nodiscard]] bool isBuiltin(const std::string& source);
-// Absolute path as UTF-8 for paths, unchanged for builtin:NAME.
-[[nodiscard]] std::string normalizeSource(const std::string& source);
 
 } // namespace patina

@@ -37,9 +37,11 @@ constexpr bool touches(Affects value, Affects part) {
 }
 
 enum class Scope { Material, Light, Environment, View, Mesh };
-enum class ParameterType { Bool, Float, Color, Vector, Choice, Text, Map };
+// Reference: the id of a material of the same document, 0 for none.
+enum class ParameterType { Bool, Float, Color, Vector, Choice, Text, Map, Reference };
 
-// The value of any parameter: Bool; Float; Color and Vector; Choice (index) ; Text; Map.
+// The value of any parameter: Bool; Float; Color and Vector; Choice (index) and Reference (id);
+// Text; Map.
 using ParameterValue = std::variant<bool, float, glm::vec3, int, std::string, MapSlot>;
 
 // Whose parameter: Scope::Environment and Scope::View have one element, id 0.
@@ -65,6 +67,8 @@ struct ParameterInfo {
     std::string_view help;                          // one sentence
     Affects affects = Affects::Uniform;
     ColorEncoding mapEncoding = ColorEncoding::Data; // Map: how integer files are read
+    MapChannel mapChannel = MapChannel::Rgb;         // Map: what is read when nothing else is said
+    bool wraps = false; // an angle: values beyond the hard range come in at its other end
 
     // Access to the element that `target` names; get() requires that it exists.
     ParameterValue (*get)(const Document&, Id) = nullptr;
@@ -75,19 +79,30 @@ struct ParameterInfo {
 
 [[nodiscard]] std::span<const ParameterInfo> parameters(); // the whole table, in panel order
 [[nodiscard]] const ParameterInfo* findParameter(std::string_view idOrAlias);
+// "material", "light", "environment", "view", "mesh": how names of the scope begin.
+[[nodiscard]] std::string_view scopeName(Scope scope);
 [[nodiscard]] const ParameterInfo* mapOf(const ParameterInfo& parameter); // its ".map", or null
 
-// Clamps to the hard range; NaN becomes the default.
+// Clamps to the hard range (or wraps an angle into it); NaN becomes the default; bytes of a text
+// that are not UTF-8 become U+FFFD. CHECKs that the value has the parameter's type.
 [[nodiscard]] ParameterValue clampToRange(const ParameterInfo& info, ParameterValue value);
 
 // Text as in scripts: "0.3", "0.8,0.2,0.1", "#c08040", "true", "reinhard", a path (Map: `image`
-// stays null; the caller loads it). Usage error saying what is expected.
+// stays null; the caller loads it; relative paths are made absolute), a material's id (Reference).
+// Usage error saying what is expected, also for numbers outside the hard range.
 [[nodiscard]] Result<ParameterValue> parseParameterValue(const ParameterInfo& info,
                                                          std::string_view text);
+// The same, and a Reference may also be given by the material's name.
+[[nodiscard]] Result<ParameterValue>
+parseParameterValue(const ParameterInfo& info, std::string_view text, const Document& document);
+// "a number from 0 to 1", "one of clamp, reinhard" …: what parseParameterValue wants.
+[[nodiscard]] std::string describeExpected(const ParameterInfo& info);
+// The shortest text that parses back to the same value. Map: its source.
 [[nodiscard]] std::string formatParameterValue(const ParameterInfo& info,
                                                const ParameterValue& value);
 
 // "material.metallic" (all materials), "material[Body].metallic" (by name), "light[Sun].intensity".
+// Usage error when nothing is selected, with the nearest names that exist.
 struct ParameterSelection {
     const ParameterInfo* info = nullptr;
     std::vector<Target> targets;

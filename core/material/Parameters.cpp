@@ -1,0 +1,363 @@
+#include "core/material/Parameters.h"
+
+#include "core/base/Check.h"
+#include "core/document/Document.h"
+
+#include <algorithm>
+#include <array>
+#include <type_traits>
+
+namespace patina {
+namespace {
+
+// --- The element of a document that a scope and an id name ---
+
+template <class Element>
+struct ElementOf;
+
+template <>
+struct ElementOf<Material> {
+    static constexpr Scope kScope = Scope::Material;
+    template <class Doc>
+    static auto* find(Doc& document, Id id) {
+        return document.material(id);
+    }
+};
+template <>
+struct ElementOf<Light> {
+    static constexpr Scope kScope = Scope::Light;
+    template <class Doc>
+    static auto* find(Doc& document, Id id) {
+        return document.light(id);
+    }
+};
+template <>
+struct ElementOf<MeshInstance> {
+    static constexpr Scope kScope = Scope::Mesh;
+    template <class Doc>
+    static auto* find(Doc& document, Id id) {
+        return document.mesh(id);
+    }
+};
+template <>
+struct ElementOf<Environment> {
+    static constexpr Scope kScope = Scope::Environment;
+    template <class Doc>
+    static auto* find(Doc& document, Id) {
+        return &document.environment;
+    }
+};
+template <>
+struct ElementOf<View> {
+    static constexpr Scope kScope = Scope::View;
+    template <class Doc>
+    static auto* find(Doc& document, Id) {
+        return &document.view;
+    }
+};
+
+// --- Access through member pointers: <&View::camera, &Camera::fovDeg> ---
+
+template <class Member>
+struct MemberOwner;
+template <class Owner, class Field>
+struct MemberOwner<Field Owner::*> {
+    using Type = Owner;
+};
+
+template <auto First, auto... Rest>
+struct Path {
+    using Element = typename MemberOwner<decltype(First)>::Type;
+    template <class E>
+    static auto& in(E& element) {
+        if constexpr (sizeof...(Rest) == 0)
+            return element.*First;
+        else
+            return Path<Rest...>::in(element.*First);
+    }
+};
+
+// How a member travels in a ParameterValue: choices and references as int, the rest as it is.
+template <class Field>
+using Stored = std::conditional_t<std::is_enum_v<Field> || std::is_same_v<Field, Id>, int, Field>;
+
+template <class P>
+ParameterValue getMember(const Document& document, Id id) {
+    const auto* element = ElementOf<typename P::Element>::find(document, id);
+    CHECK(element != nullptr);
+    const auto& field = P::in(*element);
+    using Field = std::remove_cvref_t<decltype(field)>;
+    return ParameterValue(std::in_place_type<Stored<Field>>, static_cast<Stored<Field>>(field));
+}
+
+template <class P>
+void setMember(Document& document, Id id, const ParameterValue& value) {
+    auto* element = ElementOf<typename P::Element>::find(document, id);
+    CHECK(element != nullptr);
+    auto& field = P::in(*element);
+    using Field = std::remove_cvref_t<decltype(field)>;
+    CHECK(std::holds_alternative<Stored<Field>>(value));
+    field = static_cast<Field>(std::get<Stored<Field>>(value));
+}
+
+// The environment's image is a map to the user, although it is stored without a map's adjustments.
+ParameterValue getEnvironmentImage(const Document& document, Id) {
+    MapSlot slot;
+    slot.source = document.environment.source;
+    slot.image = document.environment.image;
+    slot.problem = document.environment.problem;
+    return slot;
+}
+
+void setEnvironmentImage(Document& document, Id, const ParameterValue& value) {
+    CHECK(std::holds_alternative<MapSlot>(value));
+    const MapSlot& slot = std::get<MapSlot>(value);
+    document.environment.source = slot.source;
+    document.environment.image = slot.image;
+    document.environment.problem = slot.problem;
+}
+
+// --- Rows ---
+
+using Text = std::string_view;
+
+struct Range {
+    float min, max;
+};
+constexpr Range kUnit{0.0f, 1.0f};
+
+template <class P>
+constexpr ParameterInfo row(ParameterType type, Text id, Text label, Text group, Text help,
+                            Affects affects) {
+    ParameterInfo info;
+    info.id = id;
+    info.label = label;
+    info.group = group;
+    info.scope = ElementOf<typename P::Element>::kScope;
+    info.type = type;
+    info.help = help;
+    info.affects = affects;
+    info.get = &getMember<P>;
+    info.set = &setMember<P>;
+    return info;
+}
+
+template <auto... Members>
+constexpr ParameterInfo number(Text id, Text label, Text group, Range soft, Range hard,
+                               int decimals, Text unit, Text help,
+                               Affects affects = Affects::Uniform) {
+    auto info = row<Path<Members...>>(ParameterType::Float, id, label, group, help, affects);
+    info.softMin = soft.min, info.softMax = soft.max;
+    info.hardMin = hard.min, info.hardMax = hard.max;
+    info.decimals = decimals;
+    info.unit = unit;
+    return info;
+}
+
+// A full turn, -180…180.
+template <auto... Members>
+constexpr ParameterInfo angle(Text id, Text label, Text group, Text help,
+                              Affects affects = Affects::Uniform) {
+    constexpr Range kTurn{-180.0f, 180.0f};
+    auto info = number<Members...>(id, label, group, kTurn, kTurn, 1, "°", help, affects);
+    info.wraps = true;
+    return info;
+}
+
+template <auto... Members>
+constexpr ParameterInfo color(Text id, Text label, Text group, Text help,
+                              Affects affects = Affects::Uniform) {
+    return row<Path<Members...>>(ParameterType::Color, id, label, group, help, affects);
+}
+
+template <auto... Members>
+constexpr ParameterInfo vector(Text id, Text label, Text group, Range soft, Range hard, Text unit,
+                               Text help, Affects affects = Affects::Uniform) {
+    auto info = number<Members...>(id, label, group, soft, hard, 3, unit, help, affects);
+    info.type = ParameterType::Vector;
+    return info;
+}
+
+template <auto... Members>
+constexpr ParameterInfo flag(Text id, Text label, Text group, Text help,
+                             Affects affects = Affects::Uniform) {
+    return row<Path<Members...>>(ParameterType::Bool, id, label, group, help, affects);
+}
+
+template <auto... Members>
+constexpr ParameterInfo choice(Text id, Text label, Text group, std::span<const Text> names,
+                               std::span<const Text> labels, Text help,
+                               Affects affects = Affects::Uniform) {
+    auto info = row<Path<Members...>>(ParameterType::Choice, id, label, group, help, affects);
+    info.choices = names;
+    info.choiceLabels = labels;
+    info.hardMax = info.softMax = static_cast<float>(names.size() - 1);
+    info.decimals = 0;
+    return info;
+}
+
+template <auto... Members>
+constexpr ParameterInfo text(Text id, Text label, Text group, Text help) {
+    return row<Path<Members...>>(ParameterType::Text, id, label, group, help, Affects::Structure);
+}
+
+template <auto... Members>
+constexpr ParameterInfo map(Text id, Text label, Text group, ColorEncoding encoding,
+                            MapChannel channel, Text help) {
+    auto info = row<Path<Members...>>(ParameterType::Map, id, label, group, help,
+                                      Affects::Texture | Affects::Uniform);
+    info.mapEncoding = encoding;
+    info.mapChannel = channel;
+    return info;
+}
+
+constexpr ParameterInfo environmentImage(Text id, Text label, Text group, Text help) {
+    auto info = row<Path<&Environment::source>>(ParameterType::Map, id, label, group, help,
+                                                Affects::Texture | Affects::EnvironmentMap);
+    info.mapEncoding = ColorEncoding::Srgb;
+    info.get = &getEnvironmentImage;
+    info.set = &setEnvironmentImage;
+    return info;
+}
+
+template <auto... Members>
+constexpr ParameterInfo reference(Text id, Text label, Text group, Text help, Affects affects) {
+    return row<Path<Members...>>(ParameterType::Reference, id, label, group, help, affects);
+}
+
+constexpr ParameterInfo alias(Text name, ParameterInfo info) {
+    info.alias = name;
+    return info;
+}
+
+// --- Choices, in the order of their enums ---
+
+constexpr std::array<Text, 2> kNormalConventions{"openGl", "directX"};
+constexpr std::array<Text, 2> kNormalConventionLabels{"OpenGL (green up)", "DirectX (green down)"};
+constexpr std::array<Text, 3> kAlphaModes{"opaque", "mask", "blend"};
+constexpr std::array<Text, 3> kAlphaModeLabels{"Opaque", "Cut-out", "Blend"};
+constexpr std::array<Text, 2> kLightTypes{"point", "directional"};
+constexpr std::array<Text, 2> kLightTypeLabels{"Point", "Directional"};
+constexpr std::array<Text, 3> kBackgrounds{"environment", "blurred", "color"};
+constexpr std::array<Text, 3> kBackgroundLabels{"Environment", "Blurred environment", "Colour"};
+constexpr std::array<Text, 2> kToneMaps{"clamp", "reinhard"};
+constexpr std::array<Text, 2> kToneMapLabels{"None (clamp)", "Reinhard"};
+constexpr std::array<Text, 2> kLightings{"ibl", "prt"};
+constexpr std::array<Text, 2> kLightingLabels{"Image-based light", "Precomputed transfer"};
+
+// --- The table ---
+
+constexpr auto kSrgb = ColorEncoding::Srgb;
+constexpr auto kData = ColorEncoding::Data;
+constexpr auto kRgb = MapChannel::Rgb;
+constexpr auto kRed = MapChannel::R;
+constexpr auto kUniform = Affects::Uniform;
+constexpr auto kGeometry = Affects::Geometry | Affects::Bakes;
+
+using M = Material;
+using E = Environment;
+
+// clang-format off
+constexpr std::array kParameters{
+    text<&M::name>("material.name", "Name", "Material", "What the material is called in lists, exports and scripts."),
+    color<&M::baseColor>("material.baseColor", "Base colour", "Surface", "Colour of a non-metal's body, or of a metal's reflection."),
+    map<&M::baseColorMap>("material.baseColor.map", "Base colour map", "Surface", kSrgb, kRgb, "Image that multiplies the base colour; its alpha multiplies the opacity."),
+    number<&M::metallic>("material.metallic", "Metallic", "Surface", kUnit, kUnit, 3, "", "0 for everything that is not metal, 1 for bare metal; values between belong to mixed pixels such as rust or dust."),
+    map<&M::metallicMap>("material.metallic.map", "Metallic map", "Surface", kData, kRed, "Image that multiplies the metallic value."),
+    alias("material.roughness", number<&M::perceptualRoughness>("material.perceptualRoughness", "Roughness", "Surface", kUnit, kUnit, 3, "", "How blurred reflections are: 0 is a mirror, 1 is chalk; the shading uses its square.")),
+    alias("material.roughness.map", map<&M::perceptualRoughnessMap>("material.perceptualRoughness.map", "Roughness map", "Surface", kData, kRed, "Image that multiplies the roughness.")),
+    number<&M::normalStrength>("material.normalStrength", "Normal strength", "Relief", {0.0f, 2.0f}, {-10.0f, 10.0f}, 3, "", "How strongly the normal map tilts the surface; negative values turn bumps into dents."),
+    alias("material.normal.map", map<&M::normalMap>("material.normalStrength.map", "Normal map", "Relief", kData, kRgb, "Tangent-space normal map that adds fine relief.")),
+    choice<&M::normalConvention>("material.normalConvention", "Green channel", "Relief", kNormalConventions, kNormalConventionLabels, "Which way the normal map's green channel points; choose the other one when bumps look like dents."),
+    number<&M::occlusionStrength>("material.occlusionStrength", "Occlusion strength", "Relief", kUnit, kUnit, 3, "", "How much the occlusion map darkens the light that arrives from the surroundings."),
+    alias("material.occlusion.map", map<&M::occlusionMap>("material.occlusionStrength.map", "Occlusion map", "Relief", kData, kRed, "Image of how open each point is to its surroundings: white is open, black is hidden.")),
+    color<&M::emissive>("material.emissive", "Emission colour", "Emission", "Colour of the light that the surface gives off by itself; black gives none."),
+    map<&M::emissiveMap>("material.emissive.map", "Emission map", "Emission", kSrgb, kRgb, "Image that multiplies the emission colour."),
+    number<&M::emissiveStrength>("material.emissiveStrength", "Emission strength", "Emission", {0.0f, 20.0f}, {0.0f, 1e5f}, 2, "", "Multiplies the emission colour, for screens and lamps brighter than white paper."),
+    number<&M::opacity>("material.opacity", "Opacity", "Transparency", kUnit, kUnit, 3, "", "1 is solid and 0 invisible; used when the alpha mode is cut-out or blend."),
+    choice<&M::alphaMode>("material.alphaMode", "Alpha mode", "Transparency", kAlphaModes, kAlphaModeLabels, "Whether opacity is ignored, cuts holes with a hard edge, or lets the background shine through."),
+    number<&M::alphaCutoff>("material.alphaCutoff", "Alpha cutoff", "Transparency", kUnit, kUnit, 3, "", "In cut-out mode, points of lower opacity than this are left out."),
+    flag<&M::doubleSided>("material.doubleSided", "Double-sided", "Transparency", "Shows the back of thin surfaces such as leaves and cloth, with their normal turned to the viewer.", kUniform | Affects::Bakes),
+
+    environmentImage("environment.image", "Image", "Environment", "Lat-long image of the surroundings that light the scene."),
+    angle<&E::rotationDeg>("environment.rotationDeg", "Rotation", "Environment", "Turns the surroundings about the vertical axis, counter-clockwise seen from above."),
+    number<&E::exposureEv>("environment.exposureEv", "Brightness", "Environment", {-6.0f, 6.0f}, {-24.0f, 24.0f}, 2, "EV", "Brightens the surroundings; each step doubles their light."),
+    choice<&E::background>("environment.background", "Background", "Environment", kBackgrounds, kBackgroundLabels, "What is seen behind the model; the light on it stays the same."),
+    color<&E::backgroundColor>("environment.backgroundColor", "Background colour", "Environment", "Colour behind the model when the background is a colour."),
+
+    number<&View::exposureEv>("view.exposureEv", "Exposure", "View", {-6.0f, 6.0f}, {-24.0f, 24.0f}, 2, "EV", "Brightens the whole picture like a camera's exposure; each step doubles it."),
+    choice<&View::toneMap>("view.toneMap", "Tone mapping", "View", kToneMaps, kToneMapLabels, "How light that is brighter than the screen is brought into its range."),
+    number<&View::camera, &Camera::fovDeg>("view.fovDeg", "Field of view", "View", {10.0f, 90.0f}, {1.0f, 170.0f}, 1, "°", "Vertical angle that the camera sees: small like a telephoto lens, large like a wide-angle lens."),
+    choice<&View::lighting>("view.lighting", "Lighting", "View", kLightings, kLightingLabels, "Light from the environment with every reflection, or from a precomputed transfer bake with its soft shadows."),
+
+    text<&Light::name>("light.name", "Name", "Light", "What the light is called in lists, exports and scripts."),
+    choice<&Light::type>("light.type", "Type", "Light", kLightTypes, kLightTypeLabels, "A point shines from one place in all directions, a directional light like the sun from far away.", kUniform | Affects::Structure),
+    flag<&Light::enabled>("light.enabled", "On", "Light", "Switches the light on or off.", kUniform | Affects::Structure),
+    color<&Light::color>("light.color", "Colour", "Light", "Colour of the light; its brightness is set by the intensity."),
+    number<&Light::intensity>("light.intensity", "Intensity", "Light", {0.0f, 20.0f}, {0.0f, 1e6f}, 3, "", "Brightness: of a directional light what reaches a surface that faces it (W/m²), of a point what it sends into each direction (W/sr)."),
+    vector<&Light::position>("light.position", "Position", "Light", {-10.0f, 10.0f}, {-1e6f, 1e6f}, "m", "Where a point light stands: right, up and towards the viewer."),
+    angle<&Light::azimuthDeg>("light.azimuthDeg", "Azimuth", "Light", "The compass direction a directional light comes from; 0 is the model's front, positive values turn towards +X."),
+    number<&Light::elevationDeg>("light.elevationDeg", "Elevation", "Light", {-90.0f, 90.0f}, {-90.0f, 90.0f}, 1, "°", "How high a directional light stands above the horizon."),
+
+    text<&MeshInstance::name>("mesh.name", "Name", "Mesh", "What the mesh is called in lists, exports and scripts."),
+    flag<&MeshInstance::visible>("mesh.visible", "Visible", "Mesh", "Shows the mesh, and lets it take part in bakes.", kGeometry),
+    reference<&MeshInstance::material>("mesh.material", "Material", "Mesh", "The material that covers the mesh.", kGeometry),
+};
+// clang-format on
+
+} // namespace
+
+std::span<const ParameterInfo> parameters() {
+    return kParameters;
+}
+
+ParameterValue ParameterInfo::defaultValue() const {
+    Document document;
+    const Id only = document.takeId();
+    switch (scope) {
+    case Scope::Material:
+        document.materials.emplace_back().id = only;
+        break;
+    case Scope::Light:
+        document.lights.emplace_back().id = only;
+        break;
+    case Scope::Mesh:
+        document.meshes.emplace_back().id = only;
+        break;
+    case Scope::Environment:
+    case Scope::View:
+        break;
+    }
+    return get(document, only);
+}
+
+const ParameterInfo* findParameter(std::string_view idOrAlias) {
+    const auto found =
+        std::find_if(kParameters.begin(), kParameters.end(), [&](const ParameterInfo& info) {
+            return info.id == idOrAlias || (!info.alias.empty() && info.alias == idOrAlias);
+        });
+    return found == kParameters.end() ? nullptr : &*found;
+}
+
+const ParameterInfo* mapOf(const ParameterInfo& parameter) {
+    return findParameter(std::string(parameter.id) + ".map");
+}
+
+std::string_view scopeName(Scope scope) {
+    switch (scope) {
+    case Scope::Material:
+        return "material";
+    case Scope::Light:
+        return "light";
+    case Scope::Environment:
+        return "environment";
+    case Scope::View:
+        return "view";
+    case Scope::Mesh:
+        return "mesh";
+    }
+    CHECK(false);
+    return {};
+}
+
+} // namespace patina
