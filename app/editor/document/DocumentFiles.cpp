@@ -1,0 +1,266 @@
+// The part of DocumentController that reads and writes files, always in the background.
+
+#include "app/editor/document/Commands.h"
+#include "app/editor/document/DocumentController.h"
+#include "app/editor/document/FileKinds.h"
+#include "core/document/DocumentIO.h"
+#include "core/document/Scene.h"
+#include "core/library/Library.h"
+
+#include <QFileInfo>
+#include <algorithm>
+
+namespace patina::editor {
+namespace {
+
+// How a source is called in messages: "teapot.obj", "Shader Ball".
+QString shortName(const QString& source) {
+    const std::string name = source.toStdString();
+    if (!isBuiltin(name))
+        return QFileInfo(source).fileName();
+    const std::string key = name.substr(name.find(':') + 1);
+    for (const auto* entries :
+         {&library::models(), &library::environments(), &library::materials()})
+        for (const library::Entry& entry : *entries)
+            if (entry.name == key)
+                return QString::fromStdString(entry.title);
+    return QString::fromStdString(key);
+}
+
+std::filesystem::path toPath(const QString& file) {
+    return {QFile::encodeName(QFileInfo(file).absoluteFilePath()).toStdString()};
+}
+
+// Appends what `part` holds with ids that are free in `elements`.
+void appendScene(Elements& elements, const Document& part) {
+    std::map<Id, Id> materialIds;
+    for (Material material : part.materials) {
+        const Id old = material.id;
+        material.name = uniqueName(material.name, elements.materials);
+        material.id = materialIds[old] = elements.nextId++;
+        elements.materials.push_back(std::move(material));
+    }
+    for (MeshInstance mesh : part.meshes) {
+        mesh.name = uniqueName(mesh.name, elements.meshes);
+        mesh.id = elements.nextId++;
+        mesh.material = materialIds[mesh.material];
+        elements.meshes.push_back(std::move(mesh));
+    }
+    for (Light light : part.lights) {
+        light.name = uniqueName(light.name, elements.lights);
+        light.id = elements.nextId++;
+        elements.lights.push_back(std::move(light));
+    }
+}
+
+} // namespace
+
+void DocumentController::replaceDocument(Document document, const QString& filePath,
+                                         const QString& name, bool pristine) {
+    // Results that were on their way belong to elements of the document that goes.
+    m_tasks.cancelAll();
+    m_document = std::move(document);
+    m_undo.clear();
+    m_filePath = filePath;
+    m_name = name;
+    m_pristine = pristine;
+    Q_EMIT changed(Change::everything());
+    Q_EMIT fileChanged();
+}
+
+void DocumentController::newDocument() {
+    m_tasks.start(QStringLiteral("open"), tr("Preparing the start scene"),
+                  [this](const JobContext&) -> BackgroundTasks::Apply {
+                      auto document = std::make_shared<Document>(startDocument());
+                      return
+                          [this, document] { replaceDocument(std::move(*document), {}, {}, true); };
+                  });
+}
+
+void DocumentController::openScene(const QString& scene) {
+    const QString name = shortName(scene);
+    m_tasks.start(QStringLiteral("open"), tr("Opening %1").arg(name),
+                  [this, scene, name](const JobContext& job) -> BackgroundTasks::Apply {
+                      auto result = std::make_shared<Result<OpenedScene>>(
+                          patina::openScene(m_worker, scene.toStdString(), job));
+                      return [this, scene, name, result] {
+                          if (!result->ok()) {
+                              if (result->error().kind != ErrorKind::Cancelled)
+                                  Q_EMIT noticed(UserNotice::fromError(result->error()));
+                              Q_EMIT openFailed(scene);
+                              return;
+                          }
+                          OpenedScene& opened = result->value();
+                          const bool isProject = opened.isProject;
+                          const UserNotice notice =
+                              UserNotice::fromImport(name, opened.notices, opened.missingFiles);
+                          const QString file = QFileInfo(scene).absoluteFilePath();
+                          replaceDocument(std::move(opened.document), isProject ? file : QString(),
+                                          isProject ? name : QFileInfo(name).completeBaseName(),
+                                          false);
+                          if (!notice.text.isEmpty())
+                              Q_EMIT noticed(notice);
+                          Q_EMIT sceneOpened(isBuiltin(scene.toStdString()) ? scene : file);
+                      };
+                  });
+}
+
+void DocumentController::addModel(const QString& source) {
+    const QString name = shortName(source);
+    m_tasks.start(QStringLiteral("model:") + source, tr("Adding %1").arg(name),
+                  [this, source, name](const JobContext&) -> BackgroundTasks::Apply {
+                      // Read into a document of its own: the user's may change meanwhile.
+                      auto part = std::make_shared<Document>();
+                      auto result = std::make_shared<Result<std::vector<Notice>>>(
+                          patina::addModel(m_worker, *part, normalizeSource(source.toStdString())));
+                      return [this, name, part, result] {
+                          if (!result->ok()) {
+                              Q_EMIT noticed(UserNotice::fromError(result->error()));
+                              return;
+                          }
+                          replaceElements(tr("Add %1").arg(name), [&](Elements& elements) {
+                              appendScene(elements, *part);
+                          });
+                          const UserNotice notice =
+                              UserNotice::fromImport(name, result->value(), {});
+                          if (!notice.text.isEmpty())
+                              Q_EMIT noticed(notice);
+                      };
+                  });
+}
+
+void DocumentController::setMap(const ParameterInfo& map, Target target, const QString& source) {
+    const QString key = QStringLiteral("map:%1:%2")
+                            .arg(QString::fromUtf8(map.id.data(), static_cast<int>(map.id.size())))
+                            .arg(target.id);
+    m_tasks.start(key, tr("Reading %1").arg(shortName(source)),
+                  [this, &map, target, source](const JobContext&) -> BackgroundTasks::Apply {
+                      const std::string name = normalizeSource(source.toStdString());
+                      auto image = std::make_shared<Result<ImagePtr>>(
+                          loadMapImage(m_worker, name, map.mapEncoding));
+                      return [this, &map, target, name, image] {
+                          if (!image->ok()) {
+                              Q_EMIT noticed(UserNotice::fromError(image->error()));
+                              return;
+                          }
+                          if (target.scope == Scope::Material && !m_document.material(target.id))
+                              return;
+                          MapSlot slot = std::get<MapSlot>(map.get(m_document, target.id));
+                          slot.source = name;
+                          slot.image = image->value();
+                          slot.problem.clear();
+                          setParameter(map, target, slot);
+                      };
+                  });
+}
+
+void DocumentController::clearMap(const ParameterInfo& map, Target target) {
+    setParameter(map, target, MapSlot{});
+}
+
+void DocumentController::setEnvironment(const QString& source) {
+    const QString title = shortName(source);
+    m_tasks.start(QStringLiteral("environment"), tr("Reading %1").arg(title),
+                  [this, source, title](const JobContext&) -> BackgroundTasks::Apply {
+                      const std::string name = normalizeSource(source.toStdString());
+                      auto notices = std::make_shared<std::vector<Notice>>();
+                      auto image = std::make_shared<Result<ImagePtr>>(
+                          loadEnvironmentImage(m_worker, name, *notices));
+                      return [this, title, name, notices, image] {
+                          if (!image->ok()) {
+                              Q_EMIT noticed(UserNotice::fromError(image->error()));
+                              return;
+                          }
+                          if (name != m_document.environment.source ||
+                              image->value() != m_document.environment.image)
+                              push(new SetEnvironmentCommand(*this, tr("Light with %1").arg(title),
+                                                             name, image->value()));
+                          const UserNotice notice = UserNotice::fromImport(title, *notices, {});
+                          if (!notice.text.isEmpty())
+                              Q_EMIT noticed(notice);
+                      };
+                  });
+}
+
+void DocumentController::applyLibraryMaterial(Id id, const QString& name) {
+    const QString title = shortName(QStringLiteral("builtin:") + name);
+    m_tasks.start(
+        QStringLiteral("preset:%1").arg(id), tr("Making %1").arg(title),
+        [this, id, name, title](const JobContext&) -> BackgroundTasks::Apply {
+            auto result = std::make_shared<Result<Material>>(library::material(name.toStdString()));
+            return [this, id, title, result] {
+                const Material* old = m_document.material(id);
+                if (!result->ok()) {
+                    Q_EMIT noticed(UserNotice::fromError(result->error()));
+                    return;
+                }
+                if (!old)
+                    return;
+                Material material = result->value();
+                material.id = id;
+                material.name = old->name;
+                replaceElements(tr("Make %1 %2").arg(QString::fromStdString(old->name), title),
+                                [&](Elements& elements) {
+                                    for (Material& candidate : elements.materials)
+                                        if (candidate.id == id)
+                                            candidate = material;
+                                });
+            };
+        });
+}
+
+void DocumentController::addFiles(const QStringList& files, Id baseColorOf) {
+    for (const QString& file : files) {
+        switch (fileKind(file)) {
+        case FileKind::Model:
+            addModel(file);
+            break;
+        case FileKind::Environment:
+            setEnvironment(file);
+            break;
+        case FileKind::Image:
+            if (const ParameterInfo* map = findParameter("material.baseColor.map");
+                map && m_document.material(baseColorOf))
+                setMap(*map, {Scope::Material, baseColorOf}, file);
+            break;
+        case FileKind::Project:
+            openScene(file);
+            break;
+        case FileKind::Unknown:
+            Q_EMIT noticed({NoticeKind::Error,
+                            tr("%1 is neither a model, an image, an environment nor a project "
+                               "that Patina can read.")
+                                .arg(QFileInfo(file).fileName()),
+                            {file}});
+            break;
+        }
+    }
+}
+
+void DocumentController::saveAs(const QString& file, std::function<void(bool)> done) {
+    // A copy is a snapshot: editing goes on while it is written.
+    auto snapshot = std::make_shared<const Document>(m_document);
+    m_tasks.start(QStringLiteral("save"), tr("Saving %1").arg(QFileInfo(file).fileName()),
+                  [this, file, snapshot, done = std::move(done),
+                   step = m_undo.index()](const JobContext&) -> BackgroundTasks::Apply {
+                      auto result = std::make_shared<Result<void>>(
+                          saveProject(m_worker, *snapshot, toPath(file)));
+                      return [this, file, done, step, result] {
+                          if (result->ok()) {
+                              m_filePath = QFileInfo(file).absoluteFilePath();
+                              m_name = QFileInfo(file).fileName();
+                              m_pristine = false;
+                              if (m_undo.index() == step)
+                                  m_undo.setClean();
+                              Q_EMIT fileChanged();
+                              Q_EMIT saved(m_filePath);
+                          } else {
+                              Q_EMIT noticed(UserNotice::fromError(result->error()));
+                          }
+                          if (done)
+                              done(result->ok());
+                      };
+                  });
+}
+
+} // namespace patina::editor

@@ -1,0 +1,64 @@
+#include "app/editor/document/SelectionModel.h"
+
+#include "app/editor/document/DocumentController.h"
+
+namespace patina::editor {
+
+SelectionModel::SelectionModel(DocumentController& controller, QObject* parent)
+    : QObject(parent)
+    , m_controller(controller) {
+    connect(&controller, &DocumentController::changed, this, &SelectionModel::repair);
+}
+
+void SelectionModel::selectMesh(Id id) {
+    const MeshInstance* mesh = m_controller.document().mesh(id);
+    set(mesh ? id : 0, mesh ? mesh->material : m_material, m_light);
+}
+
+void SelectionModel::selectMaterial(Id id) {
+    if (!m_controller.document().material(id))
+        return;
+    // A mesh of another material would contradict what the panels show.
+    const MeshInstance* mesh = m_controller.document().mesh(m_mesh);
+    set(mesh && mesh->material == id ? m_mesh : 0, id, m_light);
+}
+
+void SelectionModel::selectLight(Id id) {
+    set(m_mesh, m_material, m_controller.document().light(id) ? id : 0);
+}
+
+void SelectionModel::repair(const Change& change) {
+    if (!touches(change.affects, Affects::Structure))
+        return;
+    const Document& document = m_controller.document();
+    const MeshInstance* mesh = document.mesh(m_mesh);
+    Id material = mesh ? mesh->material : m_material;
+    if (!document.material(material)) {
+        // There is always something to edit: the material of the largest mesh comes first to the
+        // eye.
+        material = document.materials.empty() ? 0 : document.materials.front().id;
+        std::size_t largest = 0;
+        for (const MeshInstance& candidate : document.meshes) {
+            const std::size_t triangles = candidate.mesh ? candidate.mesh->triangleCount() : 0;
+            if (triangles > largest && document.material(candidate.material)) {
+                largest = triangles;
+                material = candidate.material;
+            }
+        }
+    }
+    const Id light = document.light(m_light)   ? m_light
+                     : document.lights.empty() ? 0
+                                               : document.lights.front().id;
+    set(mesh ? m_mesh : 0, material, light);
+}
+
+void SelectionModel::set(Id mesh, Id material, Id light) {
+    if (mesh == m_mesh && material == m_material && light == m_light)
+        return;
+    m_mesh = mesh;
+    m_material = material;
+    m_light = light;
+    Q_EMIT selectionChanged();
+}
+
+} // namespace patina::editor

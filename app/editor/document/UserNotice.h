@@ -1,0 +1,29 @@
+// Something to tell the user without stopping them: shown as a bar above the viewport and kept in
+// the log.
+#pragma once
+
+#include "core/base/Result.h"
+#include "core/document/Scene.h"
+
+#include <QString>
+#include <QStringList>
+#include <vector>
+
+namespace patina::editor {
+
+enum class NoticeKind { Info, Warning, Error };
+
+struct UserNotice {
+    NoticeKind kind = NoticeKind::Info;
+    QString text;        // one sentence: what happened and what to do
+    QStringList details; // what "Details" unfolds: missing files, what a library said
+
+    [[nodiscard]] static UserNotice fromError(const Error& error);
+    // One notice that sums up what opening `name` reported; `details` lists everything. Empty text
+    // when there is nothing to say.
+    [[nodiscard]] static UserNotice fromImport(const QString& name,
+                                               const std::vector<Notice>& notices,
+                                               const std::vector<std::string>& missingFiles);
+};
+
+} // namespace patina::editor
