@@ -1,0 +1,177 @@
+#include "render/gl/Texture.h"
+
+#include "core/base/Check.h"
+
+#include <algorithm>
+#include <epoxy/gl.h>
+
+namespace patina::gl {
+
+namespace {
+
+GLenum target(TextureKind kind) {
+    switch (kind) {
+    case TextureKind::Flat:
+        return GL_TEXTURE_2D;
+    case TextureKind::Cube:
+        return GL_TEXTURE_CUBE_MAP;
+    case TextureKind::Multisample:
+        return GL_TEXTURE_2D_MULTISAMPLE;
+    }
+    return GL_TEXTURE_2D;
+}
+
+GLenum internalFormat(PixelFormat format) {
+    switch (format) {
+    case PixelFormat::R8:
+        return GL_R8;
+    case PixelFormat::Rg8:
+        return GL_RG8;
+    case PixelFormat::Rgba8:
+        return GL_RGBA8;
+    case PixelFormat::Srgb8Alpha8:
+        return GL_SRGB8_ALPHA8;
+    case PixelFormat::R16:
+        return GL_R16;
+    case PixelFormat::Rg16:
+        return GL_RG16;
+    case PixelFormat::Rgba16:
+        return GL_RGBA16;
+    case PixelFormat::R32f:
+        return GL_R32F;
+    case PixelFormat::Rg32f:
+        return GL_RG32F;
+    case PixelFormat::Rgba32f:
+        return GL_RGBA32F;
+    case PixelFormat::Rgba16f:
+        return GL_RGBA16F;
+    case PixelFormat::R32ui:
+        return GL_R32UI;
+    case PixelFormat::Depth32f:
+        return GL_DEPTH_COMPONENT32F;
+    }
+    return GL_RGBA8;
+}
+
+GLenum pixelLayout(PixelFormat format, int channels) {
+    if (format == PixelFormat::R32ui)
+        return GL_RED_INTEGER;
+    if (format == PixelFormat::Depth32f)
+        return GL_DEPTH_COMPONENT;
+    constexpr std::array<GLenum, 4> kLayouts{GL_RED, GL_RG, GL_RGB, GL_RGBA};
+    CHECK(channels >= 1 && channels <= 4);
+    return kLayouts[static_cast<std::size_t>(channels - 1)];
+}
+
+GLenum componentType(SampleType type) {
+    switch (type) {
+    case SampleType::U8:
+        return GL_UNSIGNED_BYTE;
+    case SampleType::U16:
+        return GL_UNSIGNED_SHORT;
+    case SampleType::F32:
+        return GL_FLOAT;
+    case SampleType::U32:
+        return GL_UNSIGNED_INT;
+    }
+    return GL_UNSIGNED_BYTE;
+}
+
+int fullChain(int width, int height) {
+    int levels = 1;
+    for (int side = std::max(width, height); side > 1; side /= 2)
+        ++levels;
+    return levels;
+}
+
+} // namespace
+
+void deleteTexture(unsigned id) {
+    glDeleteTextures(1, &id);
+}
+
+Texture::Texture(Context&, std::string_view label, const TextureSettings& settings)
+    : m_settings(settings) {
+    CHECK(settings.width > 0 && settings.height > 0);
+    if (m_settings.levels == 0)
+        m_settings.levels = fullChain(settings.width, settings.height);
+    GLuint name = 0;
+    glCreateTextures(target(settings.kind), 1, &name);
+    m_handle = Handle<deleteTexture>(name);
+    if (settings.kind == TextureKind::Multisample)
+        glTextureStorage2DMultisample(name, settings.samples, internalFormat(settings.format),
+                                      settings.width, settings.height, GL_TRUE);
+    else
+        glTextureStorage2D(name, m_settings.levels, internalFormat(settings.format), settings.width,
+                           settings.height);
+    glObjectLabel(GL_TEXTURE, name, static_cast<GLsizei>(label.size()), label.data());
+    if (settings.kind != TextureKind::Multisample)
+        setSampling(Filter::Nearest, Wrap::Clamp);
+}
+
+void Texture::upload(int level, int channels, SampleType type, const void* data) {
+    CHECK(m_settings.kind == TextureKind::Flat);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage2D(id(), level, 0, 0, std::max(1, width() >> level),
+                        std::max(1, height() >> level), pixelLayout(m_settings.format, channels),
+                        componentType(type), data);
+}
+
+void Texture::uploadFace(int face, int level, int channels, SampleType type, const void* data) {
+    CHECK(m_settings.kind == TextureKind::Cube);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    const int side = std::max(1, width() >> level);
+    glTextureSubImage3D(id(), level, 0, 0, face, side, side, 1,
+                        pixelLayout(m_settings.format, channels), componentType(type), data);
+}
+
+void Texture::generateMipmaps() {
+    glGenerateTextureMipmap(id());
+}
+
+void Texture::setSampling(Filter filter, Wrap wrap) {
+    const bool nearest = filter == Filter::Nearest;
+    glTextureParameteri(id(), GL_TEXTURE_MAG_FILTER, nearest ? GL_NEAREST : GL_LINEAR);
+    glTextureParameteri(id(), GL_TEXTURE_MIN_FILTER,
+                        nearest                       ? GL_NEAREST
+                        : filter == Filter::Trilinear ? GL_LINEAR_MIPMAP_LINEAR
+                                                      : GL_LINEAR);
+    glTextureParameteri(id(), GL_TEXTURE_WRAP_S,
+                        wrap == Wrap::Clamp ? GL_CLAMP_TO_EDGE : GL_REPEAT);
+    glTextureParameteri(id(), GL_TEXTURE_WRAP_T,
+                        wrap == Wrap::Repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+}
+
+void Texture::setAnisotropy(float degree) {
+    if (!epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic") &&
+        !epoxy_has_gl_extension("GL_ARB_texture_filter_anisotropic"))
+        return;
+    float most = 1.0f;
+    glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
+    glTextureParameterf(id(), GL_TEXTURE_MAX_ANISOTROPY_EXT, std::clamp(degree, 1.0f, most));
+}
+
+void Texture::setSwizzle(const std::array<Swizzle, 4>& swizzle) {
+    constexpr std::array<GLint, 6> kSources{GL_RED, GL_GREEN, GL_BLUE, GL_ALPHA, GL_ZERO, GL_ONE};
+    std::array<GLint, 4> sources{};
+    for (std::size_t i = 0; i < 4; ++i)
+        sources[i] = kSources[static_cast<std::size_t>(swizzle[i])];
+    glTextureParameteriv(id(), GL_TEXTURE_SWIZZLE_RGBA, sources.data());
+}
+
+void Texture::bind(unsigned unit) const {
+    glBindTextureUnit(unit, id());
+}
+
+std::vector<float> Texture::readFloats(int channels) const {
+    CHECK(m_settings.kind == TextureKind::Flat);
+    std::vector<float> result(static_cast<std::size_t>(width()) *
+                              static_cast<std::size_t>(height()) *
+                              static_cast<std::size_t>(channels));
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTextureImage(id(), 0, pixelLayout(m_settings.format, channels), GL_FLOAT,
+                      static_cast<GLsizei>(result.size() * sizeof(float)), result.data());
+    return result;
+}
+
+} // namespace patina::gl

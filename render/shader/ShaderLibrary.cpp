@@ -1,0 +1,95 @@
+#include "render/shader/ShaderLibrary.h"
+
+#include "core/base/Check.h"
+#include "core/base/Log.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace patina::render {
+
+namespace {
+
+gl::Stage stageOf(const std::string& file) {
+    if (file.ends_with(".vert"))
+        return gl::Stage::Vertex;
+    if (file.ends_with(".frag"))
+        return gl::Stage::Fragment;
+    CHECK(file.ends_with(".comp"));
+    return gl::Stage::Compute;
+}
+
+std::string labelOf(const ProgramKey& key) {
+    return fmt::format("{}", fmt::join(key.files, " + "));
+}
+
+} // namespace
+
+ShaderLibrary::ShaderLibrary(gl::Context& context, std::filesystem::path folder)
+    : m_context(context)
+    , m_sources(std::move(folder)) {}
+
+Result<gl::Program> ShaderLibrary::compile(const ShaderSources& sources, const ProgramKey& key,
+                                           std::vector<Stamped>& files) {
+    ++m_compilations;
+    ExpandedShader shader;
+    Result<void> expanded;
+    std::vector<gl::StageSource> stages;
+    for (const std::string& file : key.files) {
+        expanded = expandShader(sources, file, key.defines, shader);
+        if (!expanded)
+            break;
+        stages.push_back({stageOf(file), shader.text});
+    }
+    files.clear();
+    for (const std::string& file : shader.files)
+        files.push_back({file, sources.stamp(file)});
+    if (!expanded)
+        return expanded.error();
+
+    Result<gl::Program> program = gl::Program::create(m_context, labelOf(key), stages);
+    if (program)
+        return program;
+    Error error = program.error();
+    error.detail = mapCompilerLog(error.detail, shader.files);
+    return error;
+}
+
+Result<const gl::Program*> ShaderLibrary::program(const ProgramKey& key) {
+    if (const auto found = m_programs.find(key); found != m_programs.end())
+        return &found->second.program;
+    Entry entry;
+    Result<gl::Program> program = compile(m_sources, key, entry.files);
+    if (!program && m_sources.onDisk()) {
+        logWarning("{} The built-in version is used.", program.error().text());
+        std::vector<Stamped> builtIn;
+        program = compile(ShaderSources(), key, builtIn);
+    }
+    if (!program)
+        return program.error();
+    entry.program = std::move(*program);
+    return &m_programs.emplace(key, std::move(entry)).first->second.program;
+}
+
+std::vector<std::string> ShaderLibrary::reload() {
+    std::vector<std::string> messages;
+    for (auto& [key, entry] : m_programs) {
+        const bool changed =
+            std::any_of(entry.files.begin(), entry.files.end(),
+                        [&](const Stamped& s) { return m_sources.stamp(s.file) != s.stamp; });
+        if (!changed)
+            continue;
+        Result<gl::Program> program = compile(m_sources, key, entry.files);
+        if (program)
+            entry.program = std::move(*program);
+        else
+            messages.push_back(program.error().detail.empty() ? program.error().text()
+                                                              : program.error().detail);
+    }
+    // Variants of one broken file fail alike: say it once.
+    std::sort(messages.begin(), messages.end());
+    messages.erase(std::unique(messages.begin(), messages.end()), messages.end());
+    return messages;
+}
+
+} // namespace patina::render
