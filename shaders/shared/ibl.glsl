@@ -1,0 +1,87 @@
+// Image-based light: split-sum specular, SH irradiance, and the mappings of environments.
+#ifndef PT_IBL_GLSL
+#define PT_IBL_GLSL
+
+#include "brdf.glsl"
+#include "sh.glsl"
+
+// ---- Mappings ----------------------------------------------------------------------------------
+
+// Unit direction to lat-long uv: the image centre is -Z, its top row +Y, +X to the right of the
+// centre; u = 0.5 + atan2(x, -z) / 2pi, v = acos(y) / pi (the convention of USC's high-resolution
+// probes). atan2 instead of acos: it keeps its digits at the poles.
+PT_FN vec2 latLongFromDirection(vec3 d) {
+    float rho = sqrt(d.x * d.x + d.z * d.z);
+    float v = atan(rho, d.y) * kInvPi;
+    if (rho < 1e-12f) // straight up or down: every u is right, and atan(0, 0) is undefined in GLSL
+        return vec2(0.5f, v);
+    return vec2(0.5f + atan(d.x, -d.z) / kTwoPi, v);
+}
+
+PT_FN vec3 directionFromLatLong(vec2 uv) {
+    float phi = (uv.x - 0.5f) * kTwoPi;
+    float theta = uv.y * kPi;
+    float s = sin(theta);
+    return vec3(s * sin(phi), cos(theta), -s * cos(phi));
+}
+
+// Turns d about +Y, counter-clockwise as seen from above. Surroundings rotated by `a` are looked up
+// in the direction rotateY(d, -a).
+PT_FN vec3 rotateY(vec3 d, float angleRad) {
+    float c = cos(angleRad);
+    float s = sin(angleRad);
+    return vec3(c * d.x + s * d.z, d.y, c * d.z - s * d.x);
+}
+
+// Level of the prefiltered cubemap: level i holds perceptualRoughness i / (levels - 1).
+PT_FN float prefilteredLevel(float perceptualRoughness, int levels) {
+    return clamp(perceptualRoughness, 0.0f, 1.0f) * float(levels - 1);
+}
+
+// ---- Light -------------------------------------------------------------------------------------
+
+// Irradiance from irradiance coefficients (radiance coefficients times A_l).
+// Ramamoorthi & Hanrahan 2001, "An Efficient Representation for Irradiance Environment Maps",
+// equation 10. Nine coefficients may go slightly negative opposite a small strong light (up to 4 %
+// of its peak); irradiance cannot, so it is cut at zero here, where it is used.
+PT_FN vec3 irradianceFromSh9(PT_ARRAY(vec3, irradianceSh, 9), vec3 n) {
+    float y[9];
+    shBasis9(n, y);
+    vec3 sum = vec3(0.0f);
+    for (int i = 0; i < 9; ++i)
+        sum = sum + irradianceSh[i] * y[i];
+    return max(sum, vec3(0.0f));
+}
+
+// Where to look the specular light up.
+PT_FN vec3 reflectionDirection(SurfaceTerms s) {
+    return reflect(-s.v, s.n);
+}
+
+// How much of the specular lobe an ambient visibility of `ao` leaves open.
+// Lagarde & de Rousiers 2014, "Moving Frostbite to PBR", listing 26.
+PT_FN float specularOcclusion(float NoV, float ao, float alpha) {
+    return clamp(pow(NoV + ao, exp2(-16.0f * alpha - 1.0f)) - 1.0f + ao, 0.0f, 1.0f);
+}
+
+// ---- Shading -----------------------------------------------------------------------------------
+
+// Diffuse light of irradiance E.
+PT_FN vec3 shadeIrradiance(SurfaceTerms s, vec3 irradiance) {
+    return diffuseLobe(s) * irradiance;
+}
+
+// The split sum, Karis 2013, "Real Shading in Unreal Engine 4", equation 7: prefiltered radiance
+// times the lobe's albedo.
+PT_FN vec3 shadePrefiltered(SurfaceTerms s, vec3 prefilteredRadiance) {
+    return s.specularAlbedo * prefilteredRadiance;
+}
+
+PT_FN ShadedLight shadeEnvironment(SurfaceTerms s, vec3 irradiance, vec3 prefilteredRadiance) {
+    ShadedLight result;
+    result.diffuse = shadeIrradiance(s, irradiance);
+    result.specular = shadePrefiltered(s, prefilteredRadiance);
+    return result;
+}
+
+#endif
