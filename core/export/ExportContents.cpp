@@ -1,0 +1,88 @@
+#include "core/export/ExportContents.h"
+
+#include "core/bake/Bake.h"
+#include "core/export/Names.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace patina {
+namespace {
+
+void addInstances(const Document& document, const ExportSettings& settings,
+                  ExportContents& contents) {
+    for (const MeshInstance& instance : document.meshes) {
+        if (settings.visibleOnly && !instance.visible)
+            continue;
+        if (instance.mesh == nullptr || instance.mesh->triangleCount() == 0) {
+            contents.warnings.push_back(
+                fmt::format("{}: there are no triangles to export", instance.name));
+            continue;
+        }
+        ExportedInstance exported{&instance, decomposeMatrix(instance.transform), -1};
+        if (exported.transform.empty()) {
+            contents.warnings.push_back(fmt::format(
+                "{}: its transform flattens it to nothing and will be left out", instance.name));
+            continue;
+        }
+        if (const Material* material = document.material(instance.material)) {
+            const auto known =
+                std::find(contents.materials.begin(), contents.materials.end(), material);
+            exported.material = static_cast<int>(known - contents.materials.begin());
+            if (known == contents.materials.end())
+                contents.materials.push_back(material);
+        }
+        contents.instances.push_back(std::move(exported));
+    }
+}
+
+// Bakes that glTF cannot carry, and those that no longer fit.
+void warnAboutBakes(const Document& document, const ExportSettings& settings,
+                    std::vector<std::string>& warnings) {
+    for (const BakeArtifactPtr& bake : document.bakes) {
+        if (bake == nullptr)
+            continue;
+        if (bake->kind == BakeKind::AoVertex)
+            warnings.emplace_back("glTF has no place for ambient occlusion per vertex; bake it per "
+                                  "texel to take it along");
+        else if (bake->kind == BakeKind::PrtVertex)
+            warnings.emplace_back("glTF has no place for radiance transfer; it stays in the bake's "
+                                  "own EXR file");
+        else if (settings.includeBakedAo && bake->inputs != hashBakeInputs(bakeInputs(document)))
+            warnings.emplace_back("the baked ambient occlusion is older than the geometry; bake it "
+                                  "again to make it fit");
+    }
+}
+
+} // namespace
+
+std::filesystem::path ExportContents::texturePath(const ExportSettings& settings,
+                                                  const PackedTexture& texture) const {
+    const std::string name = texture.name + texture.extension();
+    if (settings.format == ExportFormat::Glb)
+        return settings.output.string() + "#" + name;
+    return settings.output.parent_path() / name;
+}
+
+ExportContents gatherContents(const Document& document, const ExportSettings& settings) {
+    ExportContents contents;
+    addInstances(document, settings, contents);
+    if (settings.includeLights)
+        for (const Light& light : document.lights)
+            if (light.enabled)
+                contents.lights.push_back(&light);
+
+    // The names of files beside the .gltf start with its own, in characters that need no escaping.
+    std::string stem;
+    if (settings.format == ExportFormat::Gltf) {
+        stem = fileSafeName(settings.output.stem().string(), "scene");
+        contents.buffer = settings.output.parent_path() / (stem + ".bin");
+    }
+    contents.textures = planTextures(document, contents.materials, settings, stem);
+    contents.warnings.insert(contents.warnings.end(), contents.textures.warnings.begin(),
+                             contents.textures.warnings.end());
+    warnAboutBakes(document, settings, contents.warnings);
+    return contents;
+}
+
+} // namespace patina

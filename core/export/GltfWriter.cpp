@@ -1,0 +1,291 @@
+#include "core/export/GltfWriter.h"
+
+#include "core/export/GltfGeometry.h"
+#include "core/export/Names.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/trigonometric.hpp>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+namespace patina {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Values of the glTF and GLB specifications.
+constexpr int kRepeat = 10497, kLinear = 9729, kLinearMipmapLinear = 9987;
+constexpr std::uint32_t kGlbMagic = 0x46546c67, kGlbJson = 0x4e4f534a, kGlbBinary = 0x004e4942;
+constexpr std::uint64_t kMaxBytes = 0xffffffffu;
+
+template <class Vector>
+Json toJson(const Vector& v) {
+    Json array = Json::array();
+    for (glm::length_t i = 0; i < v.length(); ++i)
+        array.push_back(v[i]);
+    return array;
+}
+
+class Writer {
+  public:
+    Writer(const ExportContents& contents, const ExportSettings& settings)
+        : m_contents(contents)
+        , m_settings(settings) {}
+
+    GltfOutput write(const std::vector<Bytes>& images) {
+        for (std::size_t i = 0; i < m_contents.materials.size(); ++i)
+            m_materials.push_back(
+                material(*m_contents.materials[i], m_contents.textures.materials[i]));
+        writeInstances();
+        writeLights();
+        writeTextures(images);
+        return {assemble(), m_geometry.takeBuffer()};
+    }
+
+  private:
+    void writeInstances() {
+        // A mesh is written once for each material it is seen with; its numbers only once.
+        std::map<std::pair<const Mesh*, int>, int> known;
+        std::set<const Mesh*> needTangents;
+        for (const ExportedInstance& exported : m_contents.instances)
+            if (exported.material >= 0 && textures(exported.material).normal.texture >= 0)
+                needTangents.insert(exported.instance->mesh.get());
+
+        UniqueNames nodeNames, meshNames;
+        for (const ExportedInstance& exported : m_contents.instances) {
+            const MeshInstance& instance = *exported.instance;
+            const Mesh& mesh = *instance.mesh;
+            const auto [entry, isNew] =
+                known.try_emplace({&mesh, exported.material}, static_cast<int>(m_meshes.size()));
+            if (isNew) {
+                Json primitive = m_geometry.primitive(mesh, needTangents.contains(&mesh));
+                if (exported.material >= 0)
+                    primitive["material"] = exported.material;
+                const std::string name = cleanName(mesh.name, cleanName(instance.name, "Mesh"));
+                m_meshes.push_back(
+                    {{"name", meshNames.take(name)}, {"primitives", Json::array({primitive})}});
+            }
+            Json node = {{"name", nodeNames.take(cleanName(instance.name, "Mesh"))}};
+            addNode(std::move(node), exported.transform, {{"mesh", entry->second}});
+        }
+        m_nodeNames = std::move(nodeNames);
+    }
+
+    // Nested nodes for a chain of transforms; `payload` belongs to the innermost.
+    void addNode(Json node, const std::vector<NodeTransform>& chain, const Json& payload) {
+        for (std::size_t i = 0; i < chain.size(); ++i) {
+            const NodeTransform& t = chain[i];
+            if (t.translation != glm::dvec3(0.0))
+                node["translation"] = toJson(t.translation);
+            if (t.rotation != glm::dquat(1.0, 0.0, 0.0, 0.0))
+                node["rotation"] = {t.rotation.x, t.rotation.y, t.rotation.z, t.rotation.w};
+            if (t.scale != glm::dvec3(1.0))
+                node["scale"] = toJson(t.scale);
+            const int index = static_cast<int>(m_nodes.size());
+            if (i == 0)
+                m_roots.push_back(index);
+            if (i + 1 < chain.size()) {
+                node["children"] = Json::array({index + 1});
+                m_nodes.push_back(std::move(node));
+                node = Json::object();
+            } else {
+                node.update(payload);
+                m_nodes.push_back(std::move(node));
+            }
+        }
+    }
+
+    void writeLights() {
+        UniqueNames names;
+        for (const Light* light : m_contents.lights) {
+            // The extension wants colours within 0…1: what is brighter goes into the intensity.
+            const float peak = std::max({light->color.r, light->color.g, light->color.b, 1.0f});
+            const std::string name = cleanName(light->name, "Light");
+            const bool directional = light->type == LightType::Directional;
+            NodeTransform transform;
+            if (directional)
+                transform.rotation = rotationFromMinusZ(-glm::dvec3(light->directionToLight()));
+            else
+                transform.translation = light->position;
+            const Json reference = {
+                {"KHR_lights_punctual", {{"light", static_cast<int>(m_lights.size())}}}};
+            m_lights.push_back({{"name", names.take(name)},
+                                {"type", directional ? "directional" : "point"},
+                                {"color", toJson(light->color / peak)},
+                                {"intensity", light->intensity * peak}});
+            addNode({{"name", m_nodeNames.take(name)}}, {transform}, {{"extensions", reference}});
+        }
+        if (!m_lights.empty())
+            m_extensions.insert("KHR_lights_punctual");
+    }
+
+    Json material(const Material& m, const MaterialTextures& t) {
+        Json pbr = {{"baseColorFactor", {m.baseColor.r, m.baseColor.g, m.baseColor.b, m.opacity}},
+                    {"metallicFactor", m.metallic},
+                    {"roughnessFactor", m.perceptualRoughness}};
+        addTexture(pbr, "baseColorTexture", t.baseColor);
+        addTexture(pbr, "metallicRoughnessTexture", t.metallicRoughness);
+
+        Json result = {{"name", m_materialNames.take(cleanName(m.name, "Material"))},
+                       {"pbrMetallicRoughness", std::move(pbr)}};
+        if (addTexture(result, "normalTexture", t.normal) && m.normalStrength != 1.0f)
+            result["normalTexture"]["scale"] = m.normalStrength;
+        if (addTexture(result, "occlusionTexture", t.occlusion) && m.occlusionStrength != 1.0f)
+            result["occlusionTexture"]["strength"] = m.occlusionStrength;
+        addEmission(result, m, t);
+        if (m.alphaMode == AlphaMode::Mask) {
+            result["alphaMode"] = "MASK";
+            result["alphaCutoff"] = m.alphaCutoff;
+        } else if (m.alphaMode == AlphaMode::Blend) {
+            result["alphaMode"] = "BLEND";
+        }
+        if (m.doubleSided)
+            result["doubleSided"] = true;
+        return result;
+    }
+
+    // emissiveFactor stays within 0…1; what is brighter is KHR_materials_emissive_strength's.
+    void addEmission(Json& result, const Material& m, const MaterialTextures& t) {
+        glm::vec3 factor = m.emissive;
+        float strength = m.emissiveStrength;
+        const float peak = std::max({factor.r, factor.g, factor.b});
+        if (peak > 1.0f || strength < 1.0f) {
+            const float brightest = std::max(peak * strength, 1.0f);
+            factor = factor * strength / brightest;
+            strength = brightest;
+        }
+        addTexture(result, "emissiveTexture", t.emissive);
+        if (factor == glm::vec3(0.0f))
+            return;
+        result["emissiveFactor"] = toJson(factor);
+        if (strength > 1.0f) {
+            result["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = strength;
+            m_extensions.insert("KHR_materials_emissive_strength");
+        }
+    }
+
+    bool addTexture(Json& parent, const char* key, const TextureUse& use) {
+        if (use.texture < 0)
+            return false;
+        Json info = {{"index", use.texture}};
+        Json transform = Json::object();
+        if (use.offset != glm::vec2(0.0f))
+            transform["offset"] = toJson(use.offset);
+        if (use.rotationDeg != 0.0f)
+            transform["rotation"] = glm::radians(use.rotationDeg);
+        if (use.scale != glm::vec2(1.0f))
+            transform["scale"] = toJson(use.scale);
+        if (!transform.empty()) {
+            info["extensions"]["KHR_texture_transform"] = std::move(transform);
+            m_extensions.insert("KHR_texture_transform");
+        }
+        parent[key] = std::move(info);
+        return true;
+    }
+
+    void writeTextures(const std::vector<Bytes>& images) {
+        for (std::size_t i = 0; i < m_contents.textures.textures.size(); ++i) {
+            const PackedTexture& texture = m_contents.textures.textures[i];
+            Json image = {{"name", texture.name}};
+            if (m_settings.format == ExportFormat::Glb) {
+                image["bufferView"] = m_geometry.addImage(images.at(i));
+                image["mimeType"] = texture.mimeType();
+            } else {
+                image["uri"] = texture.name + texture.extension();
+            }
+            m_images.push_back(std::move(image));
+            m_textures.push_back({{"sampler", 0}, {"source", static_cast<int>(i)}});
+        }
+    }
+
+    std::string assemble() {
+        Json root;
+        root["asset"] = {{"version", "2.0"}, {"generator", "Patina " PATINA_VERSION}};
+        if (!m_extensions.empty())
+            root["extensionsUsed"] = m_extensions;
+        root["scene"] = 0;
+        root["scenes"] = Json::array({{{"nodes", m_roots}}});
+        root["nodes"] = m_nodes;
+        root["meshes"] = m_meshes;
+        // Empty arrays are not allowed: what there is none of is left out.
+        if (!m_materials.empty())
+            root["materials"] = m_materials;
+        if (!m_textures.empty()) {
+            root["textures"] = m_textures;
+            root["images"] = m_images;
+            root["samplers"] = Json::array({{{"magFilter", kLinear},
+                                             {"minFilter", kLinearMipmapLinear},
+                                             {"wrapS", kRepeat},
+                                             {"wrapT", kRepeat}}});
+        }
+        root["accessors"] = m_geometry.accessors();
+        root["bufferViews"] = m_geometry.bufferViews();
+        Json buffer;
+        if (m_settings.format == ExportFormat::Gltf)
+            buffer["uri"] = m_contents.buffer.filename().string();
+        buffer["byteLength"] = m_geometry.byteLength();
+        root["buffers"] = Json::array({buffer});
+        if (!m_lights.empty())
+            root["extensions"]["KHR_lights_punctual"]["lights"] = m_lights;
+        return root.dump(m_settings.format == ExportFormat::Gltf ? 2 : -1);
+    }
+
+    [[nodiscard]] const MaterialTextures& textures(int material) const {
+        return m_contents.textures.materials[static_cast<std::size_t>(material)];
+    }
+
+    const ExportContents& m_contents;
+    const ExportSettings& m_settings;
+    GltfGeometry m_geometry;
+    UniqueNames m_nodeNames, m_materialNames;
+    std::set<std::string> m_extensions;
+    std::vector<int> m_roots;
+    std::vector<Json> m_nodes, m_meshes, m_materials, m_textures, m_images, m_lights;
+};
+
+void append(Bytes& out, std::uint32_t value) {
+    for (int shift = 0; shift < 32; shift += 8)
+        out.push_back(static_cast<std::byte>(value >> shift));
+}
+
+} // namespace
+
+Result<GltfOutput> writeGltf(const ExportContents& contents, const ExportSettings& settings,
+                             const std::vector<Bytes>& images) {
+    GltfOutput output = Writer(contents, settings).write(images);
+    // GLB counts in 32 bits, and few readers take larger buffers from a .gltf.
+    if (output.json.size() + output.buffer.size() + 64 > kMaxBytes)
+        return Error{ErrorKind::Usage,
+                     "the scene is larger than the 4 GiB a glTF file can hold; export fewer meshes "
+                     "or smaller textures",
+                     settings.output,
+                     {}};
+    return output;
+}
+
+Bytes packGlb(const GltfOutput& gltf) {
+    const auto padded = [](std::size_t size) { return (size + 3) / 4 * 4; };
+    const std::size_t jsonSize = padded(gltf.json.size());
+    const std::size_t bufferSize = padded(gltf.buffer.size());
+    Bytes out;
+    out.reserve(28 + jsonSize + bufferSize);
+    append(out, kGlbMagic);
+    append(out, 2);
+    append(out, static_cast<std::uint32_t>(28 + jsonSize + bufferSize));
+    append(out, static_cast<std::uint32_t>(jsonSize));
+    append(out, kGlbJson);
+    const auto json = std::as_bytes(std::span(gltf.json));
+    out.insert(out.end(), json.begin(), json.end());
+    out.resize(20 + jsonSize, std::byte{' '});
+    append(out, static_cast<std::uint32_t>(bufferSize));
+    append(out, kGlbBinary);
+    out.insert(out.end(), gltf.buffer.begin(), gltf.buffer.end());
+    out.resize(28 + jsonSize + bufferSize, std::byte{0});
+    return out;
+}
+
+} // namespace patina
