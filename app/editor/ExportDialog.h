@@ -1,7 +1,16 @@
 // The export dialog: shows exactly what planExport() returns, and runs it as a job.
 #pragma once
 
+#include "core/export/Export.h"
+
 #include <QDialog>
+
+class QCheckBox;
+class QComboBox;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QTableWidget;
 
 namespace patina::editor {
 
@@ -12,6 +21,31 @@ class ExportDialog : public QDialog {
     Q_OBJECT
   public:
     ExportDialog(DocumentController& controller, JobManager& jobs, QWidget* parent = nullptr);
+
+    [[nodiscard]] const ExportPlan& plan() const { return m_plan; } // what is shown
+
+  private:
+    QWidget* makeSettings();
+    void browse();
+    void formatChosen();
+    void refresh(); // plans anew and shows the plan
+    void run();
+    [[nodiscard]] ExportSettings settings() const;
+
+    DocumentController& m_controller;
+    JobManager& m_jobs;
+    ExportPlan m_plan;
+
+    QComboBox* m_format = nullptr;
+    QLineEdit* m_path = nullptr;
+    QComboBox* m_textures = nullptr;
+    QComboBox* m_size = nullptr;
+    QCheckBox* m_bakedAo = nullptr;
+    QCheckBox* m_lights = nullptr;
+    QCheckBox* m_visible = nullptr;
+    QTableWidget* m_files = nullptr;
+    QLabel* m_warnings = nullptr;
+    QPushButton* m_export = nullptr;
 };
 
 } // namespace patina::editor

@@ -18,7 +18,8 @@ struct JobState {
 };
 } // namespace detail
 
-JobContext::JobContext() : m_state(std::make_shared<detail::JobState>()) {}
+JobContext::JobContext()
+    : m_state(std::make_shared<detail::JobState>()) {}
 
 bool JobContext::cancelled() const {
     return m_state->cancelled.load(std::memory_order_relaxed);
@@ -42,7 +43,8 @@ void JobContext::addWork(double amount, const char* unit) const {
     m_state->unit.store(unit, std::memory_order_relaxed);
 }
 
-JobControl::JobControl() : m_state(std::make_shared<detail::JobState>()) {}
+JobControl::JobControl()
+    : m_state(std::make_shared<detail::JobState>()) {}
 
 JobProgress JobControl::progress() const {
     JobProgress result;

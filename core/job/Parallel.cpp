@@ -4,7 +4,10 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_scheduler_observer.h>
+#include <sys/resource.h>
 #include <thread>
+#include <unistd.h>
 
 namespace patina {
 
@@ -26,15 +29,42 @@ void parallelFor(const JobContext& job, std::size_t count, std::size_t grain,
         tbb::simple_partitioner{});
 }
 
-ThreadLimit::ThreadLimit(int threads) : m_control(nullptr) {
-    const std::size_t count =
-        threads > 0 ? static_cast<std::size_t>(threads)
-                    : std::max<std::size_t>(std::thread::hardware_concurrency(), 1);
+ThreadLimit::ThreadLimit(int threads)
+    : m_control(nullptr) {
+    const std::size_t count = threads > 0
+                                  ? static_cast<std::size_t>(threads)
+                                  : std::max<std::size_t>(std::thread::hardware_concurrency(), 1);
     m_control = new tbb::global_control(tbb::global_control::max_allowed_parallelism, count);
 }
 
 ThreadLimit::~ThreadLimit() {
     delete static_cast<tbb::global_control*>(m_control);
+}
+
+namespace {
+
+// Lowers each of the pool's threads as it starts to work.
+class PriorityObserver : public tbb::task_scheduler_observer {
+  public:
+    PriorityObserver() { observe(true); }
+    ~PriorityObserver() override { observe(false); }
+    PriorityObserver(const PriorityObserver&) = delete;
+    PriorityObserver& operator=(const PriorityObserver&) = delete;
+    void on_scheduler_entry(bool isWorker) override {
+        if (isWorker)
+            lowerThreadPriority();
+    }
+};
+
+} // namespace
+
+void lowerThreadPriority() {
+    // On Linux nice values belong to threads. Failing (a policy forbids it) costs only fluidity.
+    static_cast<void>(::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), 10));
+}
+
+void lowerPoolPriority() {
+    static PriorityObserver observer; // as long-lived as the pool, which belongs to the process
 }
 
 int threadCount() {

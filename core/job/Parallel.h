@@ -27,6 +27,11 @@ class ThreadLimit {
     void* m_control;
 };
 
+// From now on the pool's threads yield to everything else the user does (nice 10), so that a bake
+// leaves the editor fluid. Linux; elsewhere without effect.
+void lowerPoolPriority();
+void lowerThreadPriority(); // the same for the calling thread
+
 [[nodiscard]] int threadCount(); // threads the pool may use now
 
 } // namespace patina

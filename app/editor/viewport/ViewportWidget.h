@@ -1,11 +1,37 @@
 // The picture of the document, and the hand's way into it: orbit, pan, zoom, fly, pick.
+//
+//  left drag            orbit            wheel          zoom
+//  middle / Shift+left  pan              click          select
+//  right drag           look around, with W A S D Q E to fly; the wheel then sets the speed
+//  Shift+right drag     turn the environment (one undo step)
 #pragma once
 
+#include "app/editor/viewport/FramePacing.h"
+#include "core/math/Camera.h"
+
+#include <QElapsedTimer>
 #include <QOpenGLWidget>
+#include <QTimer>
+#include <memory>
+#include <set>
+
+class QOpenGLFramebufferObject;
+
+namespace patina {
+struct Change;
+}
+namespace patina::gl {
+class Context;
+}
+namespace patina::render {
+class Renderer;
+}
 
 namespace patina::editor {
 
 class DocumentController;
+class IblUpdater;
+class JobManager;
 class SelectionModel;
 
 class ViewportWidget : public QOpenGLWidget {
@@ -15,13 +41,72 @@ class ViewportWidget : public QOpenGLWidget {
                    QWidget* parent = nullptr);
     ~ViewportWidget() override;
 
-    void frameSelection(); // the selected mesh, or everything
-    void resetCamera();    // Home: the whole scene from the default side
+    void setJobs(JobManager& jobs); // whose live preview is shown
+
+    void frameSelection();                 // the selected mesh, or everything
+    void resetCamera();                    // Home: the whole scene from the default side
+    void setOverlaysVisible(bool visible); // ground grid, selection outline, light icons
+    [[nodiscard]] bool overlaysVisible() const { return m_overlays; }
+
+    // Milliseconds of the slowest frame since the last call (tests and the status bar).
+    [[nodiscard]] double takeSlowestFrameMs();
 
   Q_SIGNALS:
     void contextReady(const QString& gpu, const QString& glVersion); // after initializeGL
     void contextFailed(const QString& reason); // no OpenGL 4.5: the widget stays grey
     void frameRendered(double milliseconds);
+    void shaderProblems(const QStringList& messages); // a reload failed; the last good ones stay
+
+  protected:
+    void initializeGL() override;
+    void paintGL() override;
+    void mousePressEvent(QMouseEvent* event) override;
+    void mouseMoveEvent(QMouseEvent* event) override;
+    void mouseReleaseEvent(QMouseEvent* event) override;
+    void wheelEvent(QWheelEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+    void keyReleaseEvent(QKeyEvent* event) override;
+    void focusOutEvent(QFocusEvent* event) override;
+    bool event(QEvent* event) override;
+
+  private:
+    enum class Drag { None, Orbit, Pan, Look, TurnEnvironment };
+
+    void releaseGl();
+    void applyChange(const Change& change);
+    void setCamera(const Camera& camera);
+    void touch(); // the hand moved something: draw fast now, refine when it rests
+    void flyStep();
+    void pollPreview();
+    void turnEnvironment(float pixels);
+    void pickAt(const QPointF& position);
+    [[nodiscard]] float viewAspect() const;
+    [[nodiscard]] QSize frameSize() const; // in device pixels, reduced while moving
+
+    DocumentController& m_controller;
+    SelectionModel& m_selection;
+    JobManager* m_jobs = nullptr;
+    IblUpdater* m_ibl;
+
+    std::unique_ptr<gl::Context> m_context;
+    std::unique_ptr<render::Renderer> m_renderer;
+    std::unique_ptr<QOpenGLFramebufferObject> m_reduced; // target of reduced frames
+    bool m_iblPending = true;                            // m_ibl->maps() is not in the renderer yet
+    bool m_previewShown = false;
+
+    FramePacing m_pacing;
+    QTimer m_restTimer, m_flyTimer, m_previewTimer, m_shaderTimer;
+    QElapsedTimer m_flyClock;
+    double m_slowestFrameMs = 0.0;
+    QSize m_lastFrameSize;
+
+    Drag m_drag = Drag::None;
+    QPointF m_pressPosition, m_lastPosition;
+    bool m_pressIsClick = false; // no movement since the press
+    quint64 m_dragSession = 0;
+    std::set<int> m_flyKeys;
+    float m_flySpeed = 1.0f; // scene radii per second
+    bool m_overlays = true;
 };
 
 } // namespace patina::editor

@@ -1,0 +1,237 @@
+#include "app/editor/ExportDialog.h"
+
+#include "app/editor/document/DocumentController.h"
+#include "app/editor/job/JobManager.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QFormLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QStandardPaths>
+#include <QTableWidget>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+
+namespace patina::editor {
+namespace {
+
+QString fromPath(const std::filesystem::path& path) {
+    return QFile::decodeName(path.string().c_str());
+}
+
+std::filesystem::path toPath(const QString& text) {
+    return QFile::encodeName(text).toStdString();
+}
+
+QString suggestedPath(const DocumentController& controller) {
+    const QString name = QFileInfo(controller.displayName()).completeBaseName();
+    const QString folder = controller.filePath().isEmpty()
+                               ? QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)
+                               : QFileInfo(controller.filePath()).absolutePath();
+    return QDir(folder.isEmpty() ? QDir::homePath() : folder)
+        .filePath((name.isEmpty() ? QStringLiteral("scene") : name) + QStringLiteral(".glb"));
+}
+
+template <class Widget>
+Widget* withHelp(Widget* widget, const QString& help) {
+    widget->setToolTip(help);
+    widget->setAccessibleDescription(help);
+    return widget;
+}
+
+} // namespace
+
+ExportDialog::ExportDialog(DocumentController& controller, JobManager& jobs, QWidget* parent)
+    : QDialog(parent)
+    , m_controller(controller)
+    , m_jobs(jobs) {
+    setObjectName(QStringLiteral("exportDialog"));
+    setWindowTitle(tr("Export"));
+    resize(860, 560);
+    auto* layout = new QVBoxLayout(this);
+    layout->setSpacing(12);
+    layout->addWidget(makeSettings());
+
+    auto* heading = new QLabel(tr("Files that will be written"));
+    heading->setProperty("heading", true);
+    layout->addWidget(heading);
+    m_files = new QTableWidget(0, 5);
+    m_files->setObjectName(QStringLiteral("exportFiles"));
+    m_files->setAccessibleName(heading->text());
+    m_files->setHorizontalHeaderLabels(
+        {tr("File"), tr("Contents"), tr("Colour space"), tr("Format"), tr("Note")});
+    m_files->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+    m_files->horizontalHeader()->setSectionResizeMode(1, QHeaderView::Stretch);
+    m_files->verticalHeader()->hide();
+    m_files->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    m_files->setSelectionBehavior(QAbstractItemView::SelectRows);
+    m_files->setShowGrid(false);
+    m_files->setAlternatingRowColors(true);
+    layout->addWidget(m_files, 1);
+    m_warnings = new QLabel;
+    m_warnings->setObjectName(QStringLiteral("exportWarnings"));
+    m_warnings->setWordWrap(true);
+    layout->addWidget(m_warnings);
+
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
+    m_export = buttons->addButton(tr("Export"), QDialogButtonBox::AcceptRole);
+    m_export->setObjectName(QStringLiteral("exportRun"));
+    m_export->setProperty("primary", true);
+    m_export->setDefault(true);
+    layout->addWidget(buttons);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    connect(m_export, &QPushButton::clicked, this, &ExportDialog::run);
+    refresh();
+}
+
+QWidget* ExportDialog::makeSettings() {
+    auto* widget = new QWidget;
+    auto* form = new QFormLayout(widget);
+    form->setContentsMargins(0, 0, 0, 0);
+    form->setFieldGrowthPolicy(QFormLayout::ExpandingFieldsGrow);
+
+    m_format = withHelp(new QComboBox, tr("One binary file, or a .gltf with its files beside it"));
+    m_format->setObjectName(QStringLiteral("exportFormat"));
+    m_format->addItem(tr("GLB (one file)"), static_cast<int>(ExportFormat::Glb));
+    m_format->addItem(tr("glTF (separate files)"), static_cast<int>(ExportFormat::Gltf));
+    form->addRow(tr("&Format"), m_format);
+
+    m_path = withHelp(new QLineEdit(suggestedPath(m_controller)), tr("Where to write it"));
+    m_path->setObjectName(QStringLiteral("exportPath"));
+    auto* choose = withHelp(new QToolButton, tr("Choose the file"));
+    choose->setText(tr("Browse…"));
+    choose->setAccessibleName(tr("Browse for the export file"));
+    auto* pathRow = new QHBoxLayout;
+    pathRow->addWidget(m_path, 1);
+    pathRow->addWidget(choose);
+    form->addRow(tr("&File"), pathRow);
+
+    m_textures = withHelp(new QComboBox, tr("PNG loses nothing, JPEG is smaller"));
+    m_textures->addItem(tr("PNG"), static_cast<int>(ExportTextureFormat::Png));
+    m_textures->addItem(tr("JPEG"), static_cast<int>(ExportTextureFormat::Jpeg));
+    form->addRow(tr("&Textures"), m_textures);
+    m_size = withHelp(new QComboBox, tr("Larger textures are reduced to this side length"));
+    m_size->addItem(tr("As they are"), 0);
+    for (const int side : {512, 1024, 2048, 4096})
+        m_size->addItem(tr("At most %1 px").arg(side), side);
+    form->addRow(tr("&Size"), m_size);
+
+    m_bakedAo = withHelp(new QCheckBox(tr("Baked ambient occlusion as occlusion texture")),
+                         tr("Uses the attached ambient occlusion texture bake"));
+    m_lights = withHelp(new QCheckBox(tr("Lights (KHR_lights_punctual)")),
+                        tr("Writes point and directional lights"));
+    m_visible = withHelp(new QCheckBox(tr("Visible meshes only")), tr("Leaves hidden meshes out"));
+    for (QCheckBox* box : {m_bakedAo, m_lights, m_visible}) {
+        box->setChecked(true);
+        form->addRow(QString(), box);
+        connect(box, &QCheckBox::toggled, this, &ExportDialog::refresh);
+    }
+
+    connect(m_format, &QComboBox::currentIndexChanged, this, &ExportDialog::formatChosen);
+    connect(m_path, &QLineEdit::textChanged, this, &ExportDialog::refresh);
+    connect(m_textures, &QComboBox::currentIndexChanged, this, &ExportDialog::refresh);
+    connect(m_size, &QComboBox::currentIndexChanged, this, &ExportDialog::refresh);
+    connect(choose, &QToolButton::clicked, this, &ExportDialog::browse);
+    return widget;
+}
+
+ExportSettings ExportDialog::settings() const {
+    ExportSettings settings;
+    settings.output = toPath(m_path->text().trimmed());
+    settings.format = static_cast<ExportFormat>(m_format->currentData().toInt());
+    settings.textures = static_cast<ExportTextureFormat>(m_textures->currentData().toInt());
+    settings.maxTextureSize = m_size->currentData().toInt();
+    settings.includeBakedAo = m_bakedAo->isChecked();
+    settings.includeLights = m_lights->isChecked();
+    settings.visibleOnly = m_visible->isChecked();
+    return settings;
+}
+
+void ExportDialog::browse() {
+    const QString file = QFileDialog::getSaveFileName(
+        this, tr("Export to"), m_path->text(), tr("glTF binary (*.glb);;glTF (*.gltf)"), nullptr,
+        QFileDialog::DontConfirmOverwrite); // the table says what is overwritten
+    if (file.isEmpty())
+        return;
+    m_path->setText(file);
+    const bool text = file.endsWith(QStringLiteral(".gltf"), Qt::CaseInsensitive);
+    m_format->setCurrentIndex(
+        m_format->findData(static_cast<int>(text ? ExportFormat::Gltf : ExportFormat::Glb)));
+}
+
+// The extension follows the format.
+void ExportDialog::formatChosen() {
+    const QString extension =
+        settings().format == ExportFormat::Glb ? QStringLiteral(".glb") : QStringLiteral(".gltf");
+    const QFileInfo info(m_path->text());
+    const QString renamed = info.dir().filePath(info.completeBaseName() + extension);
+    if (renamed != m_path->text())
+        m_path->setText(renamed); // refreshes
+    else
+        refresh();
+}
+
+void ExportDialog::refresh() {
+    m_plan = planExport(m_controller.document(), settings());
+    const std::filesystem::path folder = m_plan.settings.output.parent_path();
+    m_files->setRowCount(static_cast<int>(m_plan.files.size()));
+    for (int row = 0; row < m_files->rowCount(); ++row) {
+        const PlannedFile& file = m_plan.files[static_cast<std::size_t>(row)];
+        const QString shown = fromPath(file.path.lexically_relative(folder));
+        const QStringList cells = {
+            shown.isEmpty() ? fromPath(file.path) : shown,
+            QString::fromStdString(file.contents),
+            QString::fromStdString(file.colorSpace),
+            QString::fromStdString(file.format),
+            file.overwrites ? tr("Overwrites")
+            : file.embedded ? tr("Inside the GLB")
+                            : tr("New"),
+        };
+        for (int column = 0; column < cells.size(); ++column) {
+            auto* item = new QTableWidgetItem(cells[column]);
+            item->setToolTip(column == 0 ? fromPath(file.path) : cells[column]);
+            if (file.overwrites && column == 4)
+                item->setForeground(QColor(0xe0, 0xa4, 0x58));
+            m_files->setItem(row, column, item);
+        }
+    }
+    QStringList warnings;
+    for (const std::string& warning : m_plan.warnings)
+        warnings << QStringLiteral("⚠ ") + QString::fromStdString(warning);
+    m_warnings->setText(warnings.join(QLatin1Char('\n')));
+    m_warnings->setVisible(!warnings.isEmpty());
+    m_export->setEnabled(!m_plan.files.empty() && !m_path->text().trimmed().isEmpty());
+    m_export->setText(std::any_of(m_plan.files.begin(), m_plan.files.end(),
+                                  [](const PlannedFile& file) { return file.overwrites; })
+                          ? tr("Export and overwrite")
+                          : tr("Export"));
+}
+
+void ExportDialog::run() {
+    // The job works on a snapshot: editing goes on meanwhile.
+    m_jobs.start(tr("Export: %1").arg(QFileInfo(m_path->text()).fileName()), false,
+                 [document = m_controller.document(), plan = m_plan,
+                  worker = &m_controller.worker(),
+                  controller = &m_controller](const JobContext& job) -> JobOutcome {
+                     const auto written = runExport(*worker, document, plan, job);
+                     if (!written)
+                         return {written.error(), {}, {}};
+                     const QString file = fromPath(plan.settings.output);
+                     return {std::nullopt, file, [controller, file] {
+                                 UserNotice notice;
+                                 notice.text = ExportDialog::tr("Exported to %1").arg(file);
+                                 Q_EMIT controller->noticed(notice);
+                             }};
+                 });
+    accept();
+}
+
+} // namespace patina::editor

@@ -1,0 +1,98 @@
+#include "app/editor/job/LivePreview.h"
+
+#include "core/math/SphericalHarmonics.h"
+
+#include <algorithm>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+namespace patina::editor {
+
+LivePreview::LivePreview(const BakeInputs& inputs, BakeKind kind, int prtOrder, int textureSize)
+    : m_kind(kind)
+    , m_textureSize(textureSize) {
+    for (const BakeMesh& mesh : inputs.meshes) {
+        if (kind == BakeKind::AoTexel) {
+            Surface& surface = m_texels[mesh.material];
+            surface.values.assign(static_cast<std::size_t>(textureSize) *
+                                      static_cast<std::size_t>(textureSize),
+                                  1.0f);
+            continue;
+        }
+        Surface& surface = m_vertices[mesh.id];
+        if (kind == BakeKind::AoVertex) {
+            surface.values.assign(mesh.mesh->vertexCount(), 1.0f);
+            continue;
+        }
+        surface.stride = prtOrder * prtOrder;
+        const glm::mat3 toWorld = glm::transpose(glm::inverse(glm::mat3(mesh.transform)));
+        surface.values = unshadowedTransfer(mesh.mesh->normals, toWorld, prtOrder);
+    }
+}
+
+void LivePreview::vertices(Id mesh, std::size_t first, int stride, std::span<const float> values) {
+    const std::lock_guard lock(m_mutex);
+    const auto found = m_vertices.find(mesh);
+    if (found == m_vertices.end() || found->second.stride != stride)
+        return;
+    const std::size_t offset = first * static_cast<std::size_t>(stride);
+    if (offset + values.size() > found->second.values.size())
+        return;
+    std::copy(values.begin(), values.end(),
+              found->second.values.begin() + static_cast<std::ptrdiff_t>(offset));
+    found->second.changed = true;
+}
+
+void LivePreview::texels(Id material, int imageSize, int x, int y, int width,
+                         std::span<const float> values) {
+    const std::lock_guard lock(m_mutex);
+    const auto found = m_texels.find(material);
+    if (found == m_texels.end() || imageSize != m_textureSize || width <= 0)
+        return;
+    const int rows = static_cast<int>(values.size()) / width;
+    if (x < 0 || y < 0 || x + width > imageSize || y + rows > imageSize)
+        return;
+    for (int row = 0; row < rows; ++row)
+        std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(row) * width, width,
+                    found->second.values.begin() +
+                        static_cast<std::ptrdiff_t>(y + row) * imageSize + x);
+    found->second.changed = true;
+}
+
+void LivePreview::passDone(int samples) {
+    const std::lock_guard lock(m_mutex);
+    m_samplesDone = samples;
+}
+
+int LivePreview::samplesDone() const {
+    const std::lock_guard lock(m_mutex);
+    return m_samplesDone;
+}
+
+bool LivePreview::collect(const VertexSink& vertices, const TexelSink& texels) {
+    const std::lock_guard lock(m_mutex);
+    bool any = false;
+    for (auto& [mesh, surface] : m_vertices)
+        if (surface.changed) {
+            vertices(mesh, surface.stride, surface.values);
+            surface.changed = false;
+            any = true;
+        }
+    for (auto& [material, surface] : m_texels)
+        if (surface.changed) {
+            texels(material, m_textureSize, surface.values);
+            surface.changed = false;
+            any = true;
+        }
+    return any;
+}
+
+void LivePreview::markAllChanged() {
+    const std::lock_guard lock(m_mutex);
+    for (auto& [mesh, surface] : m_vertices)
+        surface.changed = true;
+    for (auto& [material, surface] : m_texels)
+        surface.changed = true;
+}
+
+} // namespace patina::editor

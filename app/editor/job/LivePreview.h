@@ -1,0 +1,48 @@
+// Where a running bake pours its results so that the viewport can show them: written by the pool's
+// threads, read by the UI thread.
+#pragma once
+
+#include "core/bake/Bake.h"
+
+#include <functional>
+#include <map>
+#include <mutex>
+#include <vector>
+
+namespace patina::editor {
+
+class LivePreview : public TileSink {
+  public:
+    // Starts as if nothing cast a shadow: ambient visibility 1, or the transfer of an open sky
+    // (`prtOrder` bands), so that shadows grow into the picture while the bake converges.
+    LivePreview(const BakeInputs& inputs, BakeKind kind, int prtOrder, int textureSize);
+
+    void vertices(Id mesh, std::size_t first, int stride, std::span<const float> values) override;
+    void texels(Id material, int imageSize, int x, int y, int width,
+                std::span<const float> values) override;
+    void passDone(int samples) override;
+
+    [[nodiscard]] BakeKind kind() const { return m_kind; }
+    [[nodiscard]] int samplesDone() const; // rays per element of the last complete pass
+
+    // Hands over everything that changed since the last call; returns whether there was any.
+    // The calls happen under the lock: upload and return.
+    using VertexSink = std::function<void(Id mesh, int stride, std::span<const float> values)>;
+    using TexelSink = std::function<void(Id material, int size, std::span<const float> values)>;
+    bool collect(const VertexSink& vertices, const TexelSink& texels);
+    void markAllChanged(); // after the OpenGL context was made anew
+
+  private:
+    struct Surface {
+        int stride = 1;
+        std::vector<float> values;
+        bool changed = true;
+    };
+    BakeKind m_kind;
+    int m_textureSize;
+    mutable std::mutex m_mutex; // guards what follows
+    std::map<Id, Surface> m_vertices, m_texels;
+    int m_samplesDone = 0;
+};
+
+} // namespace patina::editor
