@@ -1,12 +1,31 @@
 #include "app/editor/job/LivePreview.h"
 
-#include "core/math/SphericalHarmonics.h"
+#include "core/math/Shading.h"
 
 #include <algorithm>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
 namespace patina::editor {
+namespace {
+
+// Transfer under an open sky: the clamped cosine about the normal, A_l / pi Y_lm(n)
+// (docs/prt-format.md).
+std::vector<float> openSkyTransfer(const BakeMesh& mesh, int order) {
+    const glm::mat3 toWorld = glm::transpose(glm::inverse(glm::mat3(mesh.transform)));
+    std::vector<float> result;
+    result.reserve(mesh.mesh->vertexCount() * static_cast<std::size_t>(order * order));
+    for (const glm::vec3& normal : mesh.mesh->normals) {
+        float basis[25];
+        shading::shBasis25(glm::normalize(toWorld * normal), basis);
+        for (int l = 0; l < order; ++l)
+            for (int i = l * l; i < (l + 1) * (l + 1); ++i)
+                result.push_back(basis[i] * shading::shCosineFactor(l) / shading::kPi);
+    }
+    return result;
+}
+
+} // namespace
 
 LivePreview::LivePreview(const BakeInputs& inputs, BakeKind kind, int prtOrder, int textureSize)
     : m_kind(kind)
@@ -25,8 +44,7 @@ LivePreview::LivePreview(const BakeInputs& inputs, BakeKind kind, int prtOrder, 
             continue;
         }
         surface.stride = prtOrder * prtOrder;
-        const glm::mat3 toWorld = glm::transpose(glm::inverse(glm::mat3(mesh.transform)));
-        surface.values = unshadowedTransfer(mesh.mesh->normals, toWorld, prtOrder);
+        surface.values = openSkyTransfer(mesh, prtOrder);
     }
 }
 

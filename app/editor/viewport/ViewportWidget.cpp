@@ -216,7 +216,8 @@ double ViewportWidget::takeSlowestFrameMs() {
 void ViewportWidget::applyChange(const Change& change) {
     if (touches(change.affects, Affects::EnvironmentMap))
         m_ibl->request(m_controller.document().environment.image);
-    if (m_renderer) {
+    // Camera moves affect nothing: the camera travels with each frame.
+    if (m_renderer && change.affects != Affects::Nothing) {
         makeCurrent();
         m_renderer->setDocument(m_controller.document(), change);
         doneCurrent();
