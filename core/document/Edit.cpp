@@ -1,0 +1,199 @@
+#include "core/document/Edit.h"
+
+#include "core/base/Check.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+
+namespace patina {
+namespace {
+
+// "Sun 2" → "Sun": the name that a number is appended to.
+std::string baseName(const std::string& name) {
+    const std::size_t last = name.find_last_not_of("0123456789");
+    if (last == std::string::npos || last + 1 == name.size() || name[last] != ' ' || last == 0)
+        return name;
+    return name.substr(0, last);
+}
+
+template <class Elements>
+std::string uniqueName(const Elements& elements, const std::string& name) {
+    const auto taken = [&](const std::string& candidate) {
+        return std::any_of(elements.begin(), elements.end(),
+                           [&](const auto& element) { return element.name == candidate; });
+    };
+    std::string candidate = name;
+    for (int number = 2; taken(candidate); ++number)
+        candidate = fmt::format("{} {}", baseName(name), number);
+    return candidate;
+}
+
+template <class Elements>
+auto findIn(Elements& elements, Id id) {
+    return std::find_if(elements.begin(), elements.end(),
+                        [&](const auto& element) { return element.id == id; });
+}
+
+template <class Elements>
+Id duplicate(Document& document, Elements& elements, Id id) {
+    const auto original = findIn(elements, id);
+    CHECK(original != elements.end());
+    auto copy = *original;
+    copy.id = document.takeId();
+    copy.name = uniqueName(elements, copy.name);
+    return elements.insert(std::next(original), std::move(copy))->id;
+}
+
+template <class Elements>
+bool removeFrom(Elements& elements, Id id) {
+    const auto found = findIn(elements, id);
+    if (found == elements.end())
+        return false;
+    elements.erase(found);
+    return true;
+}
+
+} // namespace
+
+bool targetExists(const Document& document, const Target& target) {
+    switch (target.scope) {
+    case Scope::Material:
+        return document.material(target.id) != nullptr;
+    case Scope::Light:
+        return document.light(target.id) != nullptr;
+    case Scope::Mesh:
+        return document.mesh(target.id) != nullptr;
+    case Scope::Environment:
+    case Scope::View:
+        return target.id == 0;
+    }
+    return false;
+}
+
+Change changeFor(const ParameterInfo& info, const Target& target) {
+    return {info.affects, target};
+}
+
+Result<Change> applyParameter(Document& document, const ParameterInfo& info, const Target& target,
+                              const ParameterValue& value) {
+    if (target.scope != info.scope || !targetExists(document, target))
+        return Error{
+            ErrorKind::Usage,
+            fmt::format("{} cannot be set: the {} does not exist", info.id, scopeName(info.scope)),
+            {},
+            {}};
+    const ParameterValue clamped = clampToRange(info, value);
+    if (info.type == ParameterType::Reference) {
+        const Id id = static_cast<Id>(std::get<int>(clamped));
+        if (id != 0 && document.material(id) == nullptr)
+            return Error{
+                ErrorKind::Usage,
+                fmt::format("{} cannot be set: there is no material with the id {}", info.id, id),
+                {},
+                {}};
+    }
+    info.set(document, target.id, clamped);
+    return changeFor(info, target);
+}
+
+std::vector<ParameterEdit> editsForMap(const Document& document, const ParameterInfo& map,
+                                       const Target& target, const MapSlot& slot) {
+    CHECK(map.type == ParameterType::Map && targetExists(document, target));
+    std::vector<ParameterEdit> edits;
+    const bool isFirst = !std::get<MapSlot>(map.get(document, target.id)).assigned();
+    const auto number =
+        std::find_if(parameters().begin(), parameters().end(),
+                     [&](const ParameterInfo& info) { return mapOf(info) == &map; });
+    if (isFirst && slot.assigned() && number != parameters().end()) {
+        ParameterValue neutral = 1.0f;
+        if (number->type == ParameterType::Color)
+            neutral = glm::vec3(1.0f);
+        if (number->get(document, target.id) != neutral)
+            edits.push_back({&*number, neutral});
+    }
+    edits.push_back({&map, slot});
+    return edits;
+}
+
+std::string uniqueMaterialName(const Document& document, const std::string& name) {
+    return uniqueName(document.materials, name);
+}
+std::string uniqueLightName(const Document& document, const std::string& name) {
+    return uniqueName(document.lights, name);
+}
+std::string uniqueMeshName(const Document& document, const std::string& name) {
+    return uniqueName(document.meshes, name);
+}
+
+Id addMaterial(Document& document, Material material) {
+    material.id = document.takeId();
+    material.name = uniqueMaterialName(document, material.name);
+    return document.materials.emplace_back(std::move(material)).id;
+}
+
+Id addLight(Document& document, Light light) {
+    light.id = document.takeId();
+    light.name = uniqueLightName(document, light.name);
+    return document.lights.emplace_back(std::move(light)).id;
+}
+
+Id duplicateMaterial(Document& document, Id material) {
+    return duplicate(document, document.materials, material);
+}
+Id duplicateLight(Document& document, Id light) {
+    return duplicate(document, document.lights, light);
+}
+
+bool removeMaterial(Document& document, Id material) {
+    if (!removeFrom(document.materials, material))
+        return false;
+    for (MeshInstance& mesh : document.meshes) {
+        if (mesh.material != material)
+            continue;
+        mesh.material =
+            document.materials.empty() ? addMaterial(document, {}) : document.materials.front().id;
+    }
+    return true;
+}
+
+bool removeLight(Document& document, Id light) {
+    return removeFrom(document.lights, light);
+}
+
+bool removeMesh(Document& document, Id mesh) {
+    return removeFrom(document.meshes, mesh);
+}
+
+void replaceLook(Document& document, Id material, const Material& look) {
+    Material* target = document.material(material);
+    CHECK(target != nullptr);
+    Material replaced = look;
+    replaced.id = target->id;
+    replaced.name = target->name;
+    *target = std::move(replaced);
+}
+
+void attachBake(Document& document, BakeArtifactPtr bake) {
+    CHECK(bake != nullptr);
+    for (BakeArtifactPtr& attached : document.bakes)
+        if (attached->kind == bake->kind) {
+            attached = std::move(bake);
+            return;
+        }
+    document.bakes.push_back(std::move(bake));
+}
+
+bool removeBake(Document& document, BakeKind kind) {
+    return std::erase_if(document.bakes,
+                         [&](const BakeArtifactPtr& bake) { return bake->kind == kind; }) > 0;
+}
+
+BakeArtifactPtr findBake(const Document& document, BakeKind kind) {
+    const auto found =
+        std::find_if(document.bakes.begin(), document.bakes.end(),
+                     [&](const BakeArtifactPtr& bake) { return bake->kind == kind; });
+    return found == document.bakes.end() ? nullptr : *found;
+}
+
+} // namespace patina

@@ -1,0 +1,240 @@
+// Every row of the table: does it keep its promises, and does it reach the member it names?
+#include "core/document/Document.h"
+#include "core/material/Parameters.h"
+
+#include <gtest/gtest.h>
+#include <set>
+
+using namespace patina;
+
+namespace {
+
+// A document with two elements of each kind, so that a write to the wrong one is seen.
+Document twoOfEach() {
+    Document document;
+    for (int i = 0; i < 2; ++i) {
+        document.materials.emplace_back().id = document.takeId();
+        document.lights.emplace_back().id = document.takeId();
+        document.meshes.emplace_back().id = document.takeId();
+    }
+    return document;
+}
+
+Id secondOf(const Document& document, Scope scope) {
+    switch (scope) {
+    case Scope::Material:
+        return document.materials[1].id;
+    case Scope::Light:
+        return document.lights[1].id;
+    case Scope::Mesh:
+        return document.meshes[1].id;
+    default:
+        return 0;
+    }
+}
+
+// A value in range that differs from the default.
+ParameterValue otherValue(const ParameterInfo& info) {
+    switch (info.type) {
+    case ParameterType::Bool:
+        return !std::get<bool>(info.defaultValue());
+    case ParameterType::Float:
+        return info.hardMin + 0.37f * (info.hardMax - info.hardMin);
+    case ParameterType::Color:
+        return glm::vec3(0.125f, 0.25f, 0.625f);
+    case ParameterType::Vector:
+        return glm::vec3(-1.5f, 2.25f, 100.0f);
+    case ParameterType::Choice:
+        return (std::get<int>(info.defaultValue()) + 1) % static_cast<int>(info.choices.size());
+    case ParameterType::Text:
+        return std::string("Grün [1].x");
+    case ParameterType::Map: {
+        MapSlot slot;
+        slot.source = "/somewhere/else.png";
+        slot.image = std::make_shared<Image>();
+        slot.problem = "none";
+        return slot;
+    }
+    case ParameterType::Reference:
+        return 7;
+    }
+    return false;
+}
+
+} // namespace
+
+TEST(ParameterTable, IdsAndAliasesAreUniqueAndBeginWithTheirScope) {
+    std::set<std::string_view> names;
+    for (const ParameterInfo& info : parameters()) {
+        EXPECT_TRUE(names.insert(info.id).second) << info.id;
+        EXPECT_TRUE(info.id.starts_with(std::string(scopeName(info.scope)) + ".")) << info.id;
+        EXPECT_EQ(findParameter(info.id), &info);
+        if (info.alias.empty())
+            continue;
+        EXPECT_TRUE(names.insert(info.alias).second) << info.alias;
+        EXPECT_EQ(findParameter(info.alias), &info);
+    }
+    EXPECT_EQ(findParameter("material.nothing"), nullptr);
+    EXPECT_EQ(findParameter(""), nullptr);
+}
+
+TEST(ParameterTable, LabelsAreUniqueWithinAScopeAndHelpIsASentence) {
+    std::set<std::pair<Scope, std::string_view>> labels;
+    for (const ParameterInfo& info : parameters()) {
+        EXPECT_FALSE(info.group.empty()) << info.id;
+        EXPECT_TRUE(labels.insert({info.scope, info.label}).second) << info.id;
+        EXPECT_GT(info.help.size(), 20u) << info.id;
+        EXPECT_TRUE(info.help.ends_with('.')) << info.id;
+        EXPECT_NE(info.affects, Affects::Nothing) << info.id;
+    }
+}
+
+// The names that scripts rely on, whatever else changes.
+TEST(ParameterTable, HoldsTheFixedNames) {
+    for (const char* name : {"material.baseColor",
+                             "material.baseColor.map",
+                             "material.metallic",
+                             "material.metallic.map",
+                             "material.perceptualRoughness",
+                             "material.perceptualRoughness.map",
+                             "material.normalStrength",
+                             "material.normalStrength.map",
+                             "material.normal.map",
+                             "material.occlusionStrength",
+                             "material.occlusionStrength.map",
+                             "material.occlusion.map",
+                             "material.roughness.map",
+                             "material.emissive",
+                             "material.emissive.map",
+                             "environment.image",
+                             "environment.rotationDeg",
+                             "environment.exposureEv",
+                             "view.exposureEv",
+                             "view.toneMap",
+                             "view.fovDeg",
+                             "view.lighting",
+                             "light.intensity",
+                             "light.color",
+                             "light.position",
+                             "mesh.visible",
+                             "mesh.material"})
+        EXPECT_NE(findParameter(name), nullptr) << name;
+}
+
+TEST(ParameterTable, RangesAreOrderedAndHoldTheDefault) {
+    for (const ParameterInfo& info : parameters()) {
+        EXPECT_LE(info.hardMin, info.softMin) << info.id;
+        EXPECT_LT(info.softMin, info.softMax) << info.id;
+        EXPECT_LE(info.softMax, info.hardMax) << info.id;
+        EXPECT_GE(info.decimals, 0) << info.id;
+        EXPECT_EQ(clampToRange(info, info.defaultValue()), info.defaultValue()) << info.id;
+    }
+}
+
+TEST(ParameterTable, ChoicesHaveNamesAndLabels) {
+    for (const ParameterInfo& info : parameters()) {
+        EXPECT_EQ(info.choices.empty(), info.type != ParameterType::Choice) << info.id;
+        EXPECT_EQ(info.choices.size(), info.choiceLabels.size()) << info.id;
+        EXPECT_NE(info.choices.size(), 1u) << info.id;
+    }
+}
+
+TEST(ParameterTable, SetReachesOneElementAndGetReadsItBack) {
+    for (const ParameterInfo& info : parameters()) {
+        const Document before = twoOfEach();
+        Document after = before;
+        const Id id = secondOf(before, info.scope);
+        const ParameterValue value = otherValue(info);
+        ASSERT_NE(info.get(before, id), value) << info.id;
+        info.set(after, id, value);
+        EXPECT_EQ(info.get(after, id), value) << info.id;
+        EXPECT_FALSE(after == before) << info.id;
+
+        // No other parameter of any element has moved.
+        for (const ParameterInfo& other : parameters()) {
+            if (&other == &info)
+                continue;
+            EXPECT_EQ(other.get(after, secondOf(after, other.scope)),
+                      other.get(before, secondOf(before, other.scope)))
+                << info.id << " changed " << other.id;
+        }
+        info.set(after, id, info.get(before, id));
+        EXPECT_TRUE(after == before) << info.id;
+    }
+}
+
+TEST(ParameterTable, RowsReachTheMembersTheyName) {
+    Document document = twoOfEach();
+    const Id material = document.materials[1].id, light = document.lights[1].id,
+             mesh = document.meshes[1].id;
+    const auto set = [&](const char* name, Id id, const ParameterValue& value) {
+        const ParameterInfo* info = findParameter(name);
+        ASSERT_NE(info, nullptr) << name;
+        info->set(document, id, value);
+    };
+    set("material.perceptualRoughness", material, 0.25f);
+    set("material.metallic", material, 0.75f);
+    set("material.normalConvention", material, 1);
+    set("material.alphaMode", material, 1);
+    set("view.fovDeg", 0, 50.0f);
+    set("view.exposureEv", 0, 1.0f);
+    set("view.toneMap", 0, 0);
+    set("environment.exposureEv", 0, -2.0f);
+    set("environment.background", 0, 2);
+    set("light.type", light, 0);
+    set("light.elevationDeg", light, 10.0f);
+    set("mesh.material", mesh, static_cast<int>(material));
+    MapSlot slot;
+    slot.source = "/sky.hdr";
+    set("environment.image", 0, slot);
+
+    EXPECT_EQ(document.materials[1].perceptualRoughness, 0.25f);
+    EXPECT_EQ(document.materials[1].metallic, 0.75f);
+    EXPECT_EQ(document.materials[1].normalConvention, NormalConvention::DirectX);
+    EXPECT_EQ(document.materials[1].alphaMode, AlphaMode::Mask);
+    EXPECT_EQ(document.view.camera.fovDeg, 50.0f);
+    EXPECT_EQ(document.view.exposureEv, 1.0f);
+    EXPECT_EQ(document.view.toneMap, ToneMap::Clamp);
+    EXPECT_EQ(document.environment.exposureEv, -2.0f);
+    EXPECT_EQ(document.environment.background, BackgroundMode::Color);
+    EXPECT_EQ(document.lights[1].type, LightType::Point);
+    EXPECT_EQ(document.lights[1].elevationDeg, 10.0f);
+    EXPECT_EQ(document.meshes[1].material, material);
+    EXPECT_EQ(document.environment.source, "/sky.hdr");
+}
+
+// The names of choices stand in files: their order must be the order of the enum.
+TEST(ParameterTable, ChoiceNamesFollowTheirEnums) {
+    const auto nameOf = [](const char* id, int index) {
+        return findParameter(id)->choices[static_cast<std::size_t>(index)];
+    };
+    EXPECT_EQ(nameOf("material.normalConvention", static_cast<int>(NormalConvention::DirectX)),
+              "directX");
+    EXPECT_EQ(nameOf("material.alphaMode", static_cast<int>(AlphaMode::Opaque)), "opaque");
+    EXPECT_EQ(nameOf("material.alphaMode", static_cast<int>(AlphaMode::Mask)), "mask");
+    EXPECT_EQ(nameOf("material.alphaMode", static_cast<int>(AlphaMode::Blend)), "blend");
+    EXPECT_EQ(nameOf("light.type", static_cast<int>(LightType::Point)), "point");
+    EXPECT_EQ(nameOf("light.type", static_cast<int>(LightType::Directional)), "directional");
+    EXPECT_EQ(nameOf("environment.background", static_cast<int>(BackgroundMode::Blurred)),
+              "blurred");
+    EXPECT_EQ(nameOf("view.toneMap", static_cast<int>(ToneMap::Clamp)), "clamp");
+    EXPECT_EQ(nameOf("view.toneMap", static_cast<int>(ToneMap::Reinhard)), "reinhard");
+    EXPECT_EQ(nameOf("view.lighting", static_cast<int>(LightingMode::Prt)), "prt");
+}
+
+TEST(ParameterTable, MapsBelongToTheirNumbersAndCarryTheColourPolicy) {
+    const auto mapFor = [](const char* id) { return mapOf(*findParameter(id)); };
+    EXPECT_EQ(mapFor("material.baseColor"), findParameter("material.baseColor.map"));
+    EXPECT_EQ(mapFor("material.normalStrength"), findParameter("material.normal.map"));
+    EXPECT_EQ(mapFor("material.opacity"), nullptr);
+    for (const ParameterInfo& info : parameters()) {
+        if (info.type != ParameterType::Map)
+            continue;
+        const bool isColor = info.id == "material.baseColor.map" ||
+                             info.id == "material.emissive.map" || info.id == "environment.image";
+        EXPECT_EQ(info.mapEncoding, isColor ? ColorEncoding::Srgb : ColorEncoding::Data) << info.id;
+        EXPECT_TRUE(touches(info.affects, Affects::Texture)) << info.id;
+    }
+    EXPECT_EQ(mapFor("material.metallic")->mapChannel, MapChannel::R);
+    EXPECT_EQ(mapFor("material.normalStrength")->mapChannel, MapChannel::Rgb);
+}
