@@ -1,0 +1,12 @@
+// UVs by projection along the nearest of the six axes, each axis in its own cell of a 3 × 2 grid.
+// Linear in time and memory; parts that lie behind each other overlap.
+#pragma once
+
+#include "core/mesh/Mesh.h"
+
+namespace patina {
+
+// Replaces uvs; vertices between two axes are split. For meshes too large for charts.
+void boxProjectUvs(Mesh& mesh);
+
+} // namespace patina
