@@ -1,0 +1,320 @@
+// The basis, its convolution, projection and rotation against independently computed values.
+#include "core/math/SphericalHarmonics.h"
+
+#include "core/math/Quadrature.h"
+#include "core/math/Sampling.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
+
+namespace patina {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// First 25 basis values with Condon-Shortley phase. Source: Green 2003 and DirectXMath's constants;
+// agree with scipy.special.sph_harm made real to 4e-16.
+const glm::dvec3 kD2 = glm::normalize(glm::dvec3(1, 2, 3));
+constexpr std::array<double, 25> kY2 = {
+    0.282094791774,  -0.261169028265,  0.391753542398,  -0.130584514133, 0.156078347227,
+    -0.468235041682, 0.292863596306,   -0.234117520841, -0.117058760421, 0.0225279689466,
+    0.331092173163,  -0.540952781035,  0.0641157236359, -0.270476390518, -0.248319129872,
+    0.123903829206,  -0.0766329471979, 0.0541876766259, 0.473087347879,  -0.43010134943,
+    -0.192680817596, -0.215050674715,  -0.354815510909, 0.298032221443,  -0.022351276266};
+const glm::dvec3 kD3 = glm::dvec3(-2, 1, -2) / 3.0;
+constexpr std::array<double, 25> kY3 = {
+    0.282094791774,  -0.162867503968,  -0.325735007935, 0.325735007935,   -0.242788540132,
+    0.242788540132,  0.105130521751,   -0.485577080263, 0.182091405099,   -0.240388129229,
+    0.428238732243,  -0.186203844226,  0.193498839121,  0.372407688453,   -0.321179049182,
+    0.0437069325872, -0.185432810503,  0.480776258459,  -0.44388442517,   0.0165196677422,
+    -0.361760450562, -0.0330393354843, 0.332913318878,  -0.0874138651743, -0.0540845697302};
+
+// Legendre polynomial by Bonnet's recursion.
+double legendre(int l, double x) {
+    double p = 1.0, previous = 0.0;
+    for (int k = 1; k <= l; ++k) {
+        const double next = ((2.0 * k - 1.0) * x * p - (k - 1.0) * previous) / k;
+        previous = p;
+        p = next;
+    }
+    return p;
+}
+
+TEST(ShBasis, MatchesTheTablesWithTheirSigns) {
+    std::array<double, 25> y{};
+    evaluateSh(5, kD2, y);
+    for (int i = 0; i < 25; ++i)
+        EXPECT_NEAR(y[i], kY2[i], 1e-11) << i;
+    evaluateSh(5, kD3, y);
+    for (int i = 0; i < 25; ++i)
+        EXPECT_NEAR(y[i], kY3[i], 1e-11) << i;
+}
+
+TEST(ShBasis, SharedShaderTermsAreTheSameFunctions) {
+    for (std::uint32_t i = 0; i < 500; ++i) {
+        const glm::vec3 d = uniformSphere(sobolOwen2D(i, 9));
+        std::array<double, 25> exact{};
+        evaluateSh(5, glm::dvec3(d), exact);
+        std::array<float, 25> single{};
+        evaluateSh(5, d, single);
+        float y9[9], y25[25];
+        shading::shBasis9(d, y9);
+        shading::shBasis25(d, y25);
+        for (int k = 0; k < 25; ++k) {
+            ASSERT_NEAR(y25[k], exact[k], 3e-6) << k;
+            ASSERT_NEAR(single[k], exact[k], 3e-6) << k;
+            if (k < 9) {
+                ASSERT_NEAR(y9[k], exact[k], 2e-6) << k;
+            }
+        }
+    }
+}
+
+TEST(ShBasis, AdditionTheorem) {
+    // Σ_m Y_lm(a) Y_lm(b) = (2l + 1) / 4pi P_l(a·b); literature values for l = 0 … 4.
+    constexpr std::array<double, 5> kKnown = {0.0795774715459, -0.127607843242, -0.0284205255521,
+                                              0.23394771261, -0.242995493471};
+    std::array<double, 64> a{}, b{};
+    evaluateSh(8, kD2, a);
+    evaluateSh(8, kD3, b);
+    for (int l = 0; l < 8; ++l) {
+        double sum = 0.0;
+        for (int m = -l; m <= l; ++m)
+            sum += a[shIndex(l, m)] * b[shIndex(l, m)];
+        EXPECT_NEAR(sum, (2 * l + 1) / (4.0 * kPi) * legendre(l, glm::dot(kD2, kD3)), 1e-12);
+        if (l < 5) {
+            EXPECT_NEAR(sum, kKnown[l], 1e-11);
+        }
+    }
+}
+
+TEST(ShBasis, IsOrthonormalUpToEightBands) {
+    std::array<double, 64 * 64> gram{};
+    const GaussLegendre rule(8);
+    for (int i = 0; i < 8; ++i)
+        for (int k = 0; k < 16; ++k) {
+            const double z = 2.0 * rule.node01(i) - 1.0, phi = 2.0 * kPi * k / 16.0;
+            const double r = std::sqrt(1.0 - z * z);
+            std::array<double, 64> y{};
+            evaluateSh(8, glm::dvec3(r * std::cos(phi), r * std::sin(phi), z), y);
+            for (int a = 0; a < 64; ++a)
+                for (int b = 0; b < 64; ++b)
+                    gram[a * 64 + b] += 2.0 * rule.weight01(i) * 2.0 * kPi / 16.0 * y[a] * y[b];
+        }
+    for (int a = 0; a < 64; ++a)
+        for (int b = 0; b < 64; ++b)
+            ASSERT_NEAR(gram[a * 64 + b], a == b ? 1.0 : 0.0, 1e-12) << a << " " << b;
+}
+
+TEST(GaussLegendre, IsExactToDegree2nMinus1) {
+    for (const int n : {1, 2, 5, 16, 64}) {
+        const GaussLegendre rule(n);
+        for (int degree = 0; degree < 2 * n; ++degree) {
+            double sum = 0.0;
+            for (int i = 0; i < n; ++i)
+                sum += rule.weight01(i) * std::pow(rule.node01(i), degree);
+            ASSERT_NEAR(sum, 1.0 / (degree + 1), 1e-13) << n << " " << degree;
+        }
+    }
+}
+
+TEST(CosineConvolution, ClosedFormValues) {
+    constexpr std::array<double, 11> kA = {3.14159265359,    2.09439510239, 0.785398163397,  0.0,
+                                           -0.1308996939,    0.0,           0.0490873852123, 0.0,
+                                           -0.0245436926062, 0.0,           0.0143171540203};
+    for (int l = 0; l <= 10; ++l)
+        EXPECT_NEAR(cosineConvolution(l), kA[l], 1e-11) << l;
+    for (int l = 0; l <= 4; ++l)
+        EXPECT_NEAR(shading::shCosineFactor(l), kA[l], 1e-6) << l;
+
+    std::vector<glm::vec3> c(25, glm::vec3(1.0f, 2.0f, 3.0f));
+    convolveWithCosine(c);
+    for (int l = 0; l < 5; ++l)
+        for (int m = -l; m <= l; ++m)
+            EXPECT_NEAR(c[shIndex(l, m)].y, 2.0 * kA[l], 1e-5) << l << " " << m;
+}
+
+template <class Radiance>
+Image latLong(int width, int height, Radiance&& radiance) {
+    Image image(width, height, 3, PixelType::F32, ColorEncoding::Linear);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const glm::vec3 d = shading::directionFromLatLong(
+                {(x + 0.5f) / static_cast<float>(width), (y + 0.5f) / static_cast<float>(height)});
+            const glm::vec3 value = radiance(glm::dvec3(d));
+            for (int c = 0; c < 3; ++c)
+                image.f32()[(static_cast<std::size_t>(y) * width + x) * 3 + c] = value[c];
+        }
+    return image;
+}
+
+TEST(Projection, ConstantIsExactAtAnySize) {
+    // c_00 = sqrt(4pi) c and nothing else: a sin(theta) weight would be off by 2.6 % at 4 rows.
+    for (const int height : {1, 3, 4, 64}) {
+        const Image image =
+            latLong(2 * height, height, [](const glm::dvec3&) { return glm::vec3(1, 2, 0.5); });
+        const auto c = projectLatLong(image, 5);
+        EXPECT_NEAR(c[0].x, 3.54490770181, 1e-5) << height;
+        EXPECT_NEAR(c[0].y, 2 * 3.54490770181, 2e-5) << height;
+        for (int i = 1; i < 25; ++i)
+            EXPECT_LT(glm::length(c[i]), 2e-6f) << height << " " << i;
+    }
+}
+
+TEST(Projection, RecoversEveryBasisFunctionInPlace) {
+    // Catches mirrored axes, swapped signs and wrong zonal axes, coefficient by coefficient.
+    for (int i = 0; i < 64; ++i) {
+        const Image image = latLong(256, 128, [&](const glm::dvec3& d) {
+            std::array<double, 64> y{};
+            evaluateSh(8, d, y);
+            return glm::vec3(static_cast<float>(y[i]));
+        });
+        const auto c = projectLatLong(image, 8);
+        for (int k = 0; k < 64; ++k)
+            ASSERT_NEAR(c[k].x, i == k ? 1.0 : 0.0, 2.5e-3) << i << " " << k;
+    }
+}
+
+TEST(Projection, HemisphereIsExact) {
+    // L = 1 above the horizon. About z the coefficients are 1.77245385, 1.53499006, 0,
+    // -0.58618401, 0; here the axis is +Y, so band l is c_l sqrt(4pi / (2l+1)) Y_lm(+Y).
+    constexpr std::array<double, 5> kZonal = {1.77245385091, 1.53499006192, 0.0, -0.586184012479,
+                                              0.0};
+    const Image image =
+        latLong(64, 32, [](const glm::dvec3& d) { return glm::vec3(d.y > 0.0 ? 1.0f : 0.0f); });
+    const auto c = projectLatLong(image, 5);
+    std::array<double, 25> y{};
+    evaluateSh(5, glm::dvec3(0, 1, 0), y);
+    for (int l = 0; l < 5; ++l)
+        for (int m = -l; m <= l; ++m)
+            EXPECT_NEAR(c[shIndex(l, m)].x,
+                        kZonal[l] * std::sqrt(4.0 * kPi / (2 * l + 1)) * y[shIndex(l, m)], 2e-6)
+                << l << " " << m;
+}
+
+TEST(Projection, OneTexelSunKeepsItsEnergyAndPlace) {
+    // Solid angles (2pi / W)(cos theta_j - cos theta_j+1), W = 128, H = 64: first row
+    // 5.91279052618e-5, middle row 2.40860383118e-3.
+    const struct {
+        int row;
+        double solidAngle;
+    } cases[] = {{0, 5.91279052618e-05}, {32, 0.00240860383118}};
+    for (const auto& [row, solidAngle] : cases)
+        for (const int column : {0, 17, 100}) {
+            Image image(128, 64, 3, PixelType::F32, ColorEncoding::Linear);
+            for (int c = 0; c < 3; ++c)
+                image.f32()[(row * 128 + column) * 3 + c] = 1e5f;
+            const auto c = projectLatLong(image, 5);
+            EXPECT_NEAR(c[0].x / (1e5 * solidAngle * 0.282094791774), 1.0, 1e-6);
+            // The mean of the basis over the patch, equal steps in height and azimuth.
+            std::array<double, 25> mean{};
+            constexpr int kSteps = 64;
+            for (int i = 0; i < kSteps * kSteps; ++i) {
+                const double top = std::cos(kPi * row / 64.0);
+                const double bottom = std::cos(kPi * (row + 1) / 64.0);
+                const double y = top + (bottom - top) * (i / kSteps + 0.5) / kSteps;
+                const double r = std::sqrt(1.0 - y * y);
+                const double u = (column + (i % kSteps + 0.5) / kSteps) / 128.0;
+                const double phi = 2.0 * kPi * (u - 0.5);
+                std::array<double, 25> basis{};
+                evaluateSh(5, glm::dvec3(r * std::sin(phi), y, -r * std::cos(phi)), basis);
+                for (int k = 0; k < 25; ++k)
+                    mean[k] += basis[k] / (kSteps * kSteps);
+            }
+            for (int i = 0; i < 25; ++i)
+                EXPECT_NEAR(c[i].x / (1e5 * solidAngle), mean[i], 2e-5) << row << " " << i;
+        }
+}
+
+// Active rotation by 40° about (1, 2, 2) / 3.
+ShRotation knownRotation(int order) {
+    return ShRotation::aboutAxis({1, 2, 2}, glm::radians(40.0), order);
+}
+
+TEST(Rotation, MatchesIndependentBandMatrices) {
+    // 24 × 48 product quadrature, M Mᵀ = I to 1e-12.
+    constexpr double kL1[3][3] = {{0.870024690622, 0.11028228906, 0.480515196876},
+                                  {-0.318242784065, 0.870024690622, 0.376534949373},
+                                  {-0.376534949373, -0.480515196876, 0.792039504995}};
+    constexpr double kL2[5][5] = {
+        {0.508163159965, -0.459585221629, -0.0917853834445, -0.143546924792, 0.708181721512},
+        {0.174674208797, 0.721846419588, 0.166187355476, 0.459585221629, 0.457809845077},
+        {-0.207550835222, -0.479568633677, 0.635414443437, 0.567410669603, 0.0350741141481},
+        {-0.393839425258, -0.174674208797, -0.724101308704, 0.508163159965, 0.178401024328},
+        {-0.716290640415, 0.0849824509085, 0.189428049852, -0.433579334515, 0.505798058618}};
+    const ShRotation rotation = knownRotation(5);
+    for (int row = -1; row <= 1; ++row)
+        for (int column = -1; column <= 1; ++column)
+            EXPECT_NEAR(rotation.element(1, row, column), kL1[row + 1][column + 1], 1e-11);
+    for (int row = -2; row <= 2; ++row)
+        for (int column = -2; column <= 2; ++column)
+            EXPECT_NEAR(rotation.element(2, row, column), kL2[row + 2][column + 2], 1e-11);
+    EXPECT_NEAR(rotation.element(3, -3, -2), -0.395806057075, 1e-11);
+    EXPECT_NEAR(rotation.element(3, 2, -1), 0.0618727822935, 1e-11);
+    EXPECT_NEAR(rotation.element(3, 3, 3), 0.116363000323, 1e-11);
+}
+
+TEST(Rotation, RotatesAKnownVector) {
+    const std::array<float, 9> c = {0.7f, -0.3f, 0.9f, 0.2f, 0.5f, -0.4f, 0.1f, 0.3f, -0.6f};
+    constexpr std::array<double, 9> kRotated = {0.7,
+                                                -0.0656503076578,
+                                                0.953802046654,
+                                                -0.161095291377,
+                                                -0.0392359800558,
+                                                -0.321593068447,
+                                                0.300772212596,
+                                                -0.154051826588,
+                                                -0.806748131111};
+    std::array<float, 9> out{};
+    knownRotation(3).apply(std::span<const float>(c), std::span<float>(out));
+    for (int i = 0; i < 9; ++i)
+        EXPECT_NEAR(out[i], kRotated[i], 1e-6) << i;
+}
+
+TEST(Rotation, EqualsEvaluationInTheRotatedDirection) {
+    const glm::dvec3 axis = glm::normalize(glm::dvec3(0.3, -0.8, 0.5));
+    const ShRotation rotation = ShRotation::aboutAxis(axis, 2.1, 8);
+    const glm::dmat3 r(glm::rotate(glm::dmat4(1.0), 2.1, axis));
+    for (std::uint32_t i = 0; i < 50; ++i) {
+        const glm::dvec3 d = glm::normalize(glm::dvec3(uniformSphere(sobolOwen2D(i, 1))));
+        std::array<double, 64> y{}, yRotated{};
+        evaluateSh(8, d, y);
+        evaluateSh(8, r * d, yRotated);
+        for (int l = 0; l < 8; ++l)
+            for (int row = -l; row <= l; ++row) {
+                double sum = 0.0;
+                for (int column = -l; column <= l; ++column)
+                    sum += rotation.element(l, row, column) * y[shIndex(l, column)];
+                ASSERT_NEAR(sum, yRotated[shIndex(l, row)], 1e-12);
+            }
+    }
+}
+
+TEST(Rotation, AboutYTurnsAnEnvironmentLikeItsImage) {
+    // Counter-clockwise as seen from above: what was at +Z is then at +X.
+    const auto scene = [](const glm::dvec3& d) {
+        return glm::vec3(static_cast<float>(1.0 + d.x + 2.0 * d.z * d.x + d.y * d.z),
+                         static_cast<float>(d.z * d.z * d.z), static_cast<float>(d.y));
+    };
+    const glm::dmat3 turn(glm::rotate(glm::dmat4(1.0), kPi / 2, glm::dvec3(0, 1, 0)));
+    EXPECT_NEAR((turn * glm::dvec3(0, 0, 1)).x, 1.0, 1e-12);
+    const auto original = projectLatLong(latLong(128, 64, scene), 5);
+    const auto expected = projectLatLong(
+        latLong(128, 64, [&](const glm::dvec3& d) { return scene(glm::transpose(turn) * d); }), 5);
+    std::vector<glm::vec3> rotated(25);
+    ShRotation::aboutY(kPi / 2, 5).apply(std::span<const glm::vec3>(original), rotated);
+    for (int i = 0; i < 25; ++i)
+        EXPECT_LT(glm::length(rotated[i] - expected[i]), 2e-6f) << i;
+
+    // The shared rotateY turns directions the same way.
+    const glm::vec3 turned = shading::rotateY({0, 0, 1}, shading::kPi / 2);
+    EXPECT_NEAR(turned.x, 1.0f, 1e-6f);
+}
+
+} // namespace
+} // namespace patina
