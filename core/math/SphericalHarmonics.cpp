@@ -177,19 +177,16 @@ std::vector<glm::vec3> projectLatLong(const Image& environment, int order, const
         }
     });
 
-    // Latitude: ∫ P(l, m) sin^m(theta) over the row in z = cos(theta), by Gauss-Legendre within the
-    // row. Azimuth: a texel's ∫ cos(m phi) dphi is its centre's value times the sinc below.
-    const GaussLegendre rule(4);
+    // Latitude: ∫ P(l, m) sin^m(theta) sin(theta) dtheta over the row, by Gauss-Legendre in theta,
+    // in which the integrand is smooth up to the pole; the error is below 1e-14 even for one row.
+    // Azimuth: a texel's ∫ cos(m phi) dphi is its centre's value times the sinc below.
+    const GaussLegendre rule(4 + 16 / height);
     std::vector<glm::dvec3> local(shCount(order), glm::dvec3(0.0));
     for (int y = 0; y < height; ++y) {
-        const double theta0 = kPi * y / height, theta1 = kPi * (y + 1) / height;
-        const double top = std::cos(theta0);
-        // cos(theta0) - cos(theta1) without cancellation: the row's exact extent in z
-        const double extent =
-            2.0 * std::sin(0.5 * (theta0 + theta1)) * std::sin(0.5 * (theta1 - theta0));
         for (int node = 0; node < rule.size(); ++node) {
-            const double z = top - extent * rule.node01(node);
-            const double sinTheta = std::sqrt(std::max(1.0 - z * z, 0.0));
+            const double theta = kPi * (y + rule.node01(node)) / height;
+            const double z = std::cos(theta), sinTheta = std::sin(theta);
+            const double extent = sinTheta * kPi / height;
             std::array<double, kMaxShOrder> sinPower{};
             sinPower[0] = 1.0;
             for (int m = 1; m < order; ++m)
