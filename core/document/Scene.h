@@ -37,16 +37,22 @@ Result<OpenedScene> openScene(WorkerClient& worker, const std::string& scene,
 // The editor's and README's first scene: the shader ball under the studio sky.
 [[nodiscard]] Document startDocument();
 
-// Appends a model's meshes, materials and lights to the document.
+// Appends a model's meshes, materials and lights to the document; on failure or cancel it is
+// untouched. `missingFiles` receives the textures that could not be found.
 Result<std::vector<Notice>> addModel(WorkerClient& worker, Document& document,
-                                     const std::string& source);
+                                     const std::string& source, const JobContext& job = {},
+                                     std::vector<std::string>* missingFiles = nullptr);
 
 // Reads an image for a map ("builtin:…" or a path). On failure returns the error; callers that
 // must go on store it in MapSlot::problem.
+// `notices` receives the count of repaired pixels.
 Result<ImagePtr> loadMapImage(WorkerClient& worker, const std::string& source,
-                              ColorEncoding integerEncoding);
+                              ColorEncoding integerEncoding,
+                              std::vector<Notice>* notices = nullptr);
 
-// Reads a lat-long environment as F32 RGB. `notices` receives the count of repaired pixels.
+// Reads a lat-long environment as F32 RGB, w = 2h, at most 4096 × 2048; pictures of other
+// proportions are stretched, integer files decoded from sRGB. `notices` receives such changes and
+// the count of repaired pixels.
 Result<ImagePtr> loadEnvironmentImage(WorkerClient& worker, const std::string& source,
                                       std::vector<Notice>& notices);
 

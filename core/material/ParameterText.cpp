@@ -3,6 +3,7 @@
 #include "core/base/Utf8.h"
 #include "core/document/Document.h"
 #include "core/document/Source.h"
+#include "core/image/Srgb.h"
 #include "core/material/Parameters.h"
 
 #include <algorithm>
@@ -63,11 +64,6 @@ std::optional<std::vector<float>> parseFloats(std::string_view text) {
             return values;
         text.remove_prefix(comma + 1);
     }
-}
-
-// IEC 61966-2-1.
-float srgbToLinear(float encoded) {
-    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
 // "#rrggbb": sRGB as in every paint program.
