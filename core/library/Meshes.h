@@ -1,0 +1,33 @@
+// The built-in meshes: shapes in metres that stand on y = 0, each with a UV layout in the unit
+// square without overlaps, so that bakes into textures work on all of them.
+#pragma once
+
+#include "core/library/Library.h"
+#include "core/mesh/Mesh.h"
+
+#include <span>
+
+namespace patina::library {
+
+struct ModelRecipe {
+    const char* name;
+    const char* title;
+    const char* help;
+    std::vector<ModelPart> (*make)();
+};
+
+[[nodiscard]] std::span<const ModelRecipe> modelRecipes();
+
+// A (2, 3) torus knot, 1.4 m high, with 2 * segments * sides triangles; for benchmarks as well.
+Mesh makeTorusKnot(int segments, int sides);
+Mesh makeSphere(int segments, int rings); // radius 0.5 m
+Mesh makeRoundedCube(int edgeSteps);      // 1 m, edges rounded with 0.12 m
+Mesh makePlane(int steps);                // 2 m × 2 m, facing up
+
+// A library material under another name, its maps repeated `repeat` times over the unit square.
+Material materialNamed(const char* partName, const char* materialName, glm::vec2 repeat);
+
+std::vector<ModelPart> shaderBall();
+std::vector<ModelPart> cornellBox();
+
+} // namespace patina::library

@@ -1,0 +1,263 @@
+// The shader ball: a hollow ball whose opening shows an inner core, on a stepped stand. Every edge
+// is rounded, so that it catches a highlight; grooves, the opening and the stand's overhangs show
+// self-shadowing. UV charts meet in the grooves and their poles lie where nobody looks.
+#include "core/library/Directions.h"
+#include "core/library/Lathe.h"
+#include "core/library/Meshes.h"
+#include "core/library/PortableMath.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace patina::library {
+
+namespace {
+
+constexpr double kRadius = 0.5, kShell = 0.044, kCoreRadius = 0.335;
+constexpr glm::dvec3 kCenter(0.0, 0.80, 0.0);
+constexpr double kFloorTop = 0.04, kFloorRadius = 0.90;
+// The opening faces the right-hand side of the default camera (azimuth 30°), tilted up.
+constexpr double kOpeningAzimuth = 72.0, kOpeningElevation = 28.0, kOpeningDeg = 35.0;
+
+struct Groove {
+    double deg, halfWidthDeg, depth; // from the opening's axis; metres
+};
+constexpr std::array<Groove, 4> kGrooves = {
+    {{44.0, 0.75, 0.009}, {60.0, 1.7, 0.018}, {124.0, 1.7, 0.018}, {140.0, 0.75, 0.009}}};
+constexpr double kFrontChartDeg = 60.0, kBackChartDeg = 124.0;
+
+double outerRadius(double deg) {
+    double radius = kRadius;
+    for (const Groove& g : kGrooves) {
+        const double t = std::fabs(deg - g.deg) / g.halfWidthDeg;
+        const double wall = std::clamp((1.0 - t) / 0.55, 0.0, 1.0);
+        radius -= g.depth * wall * wall * wall * (wall * (wall * 6.0 - 15.0) + 10.0);
+    }
+    return radius;
+}
+
+// Angles at which the outside is sampled: even steps, and fine ones across each groove.
+std::vector<double> outerAngles() {
+    std::vector<double> result;
+    const auto nearGroove = [](double deg) {
+        return std::any_of(kGrooves.begin(), kGrooves.end(), [deg](const Groove& g) {
+            return std::fabs(deg - g.deg) < g.halfWidthDeg * 1.3;
+        });
+    };
+    for (int i = 0; i <= 72; ++i)
+        if (const double deg = 180.0 + (kOpeningDeg - 180.0) * i / 72.0; !nearGroove(deg))
+            result.push_back(deg);
+    for (const Groove& g : kGrooves)
+        for (int i = -11; i <= 11; ++i)
+            result.push_back(g.deg + g.halfWidthDeg * 1.1 * i / 11.0);
+    std::sort(result.begin(), result.end(), std::greater<>());
+    return result;
+}
+
+// From the pole behind along the outside to the rim, around it, and back along the inside.
+Profile ballProfile() {
+    Profile profile;
+    const auto add = [&](double radius, double deg) {
+        const double turns = deg / 360.0;
+        profile.push_back(
+            {deg >= 180.0 ? 0.0 : radius * sinTurns(turns), radius * cosTurns(turns)});
+    };
+    for (const double deg : outerAngles())
+        add(outerRadius(deg), deg);
+    constexpr double kRim = 0.5 * kShell;
+    const double turns = kOpeningDeg / 360.0;
+    const glm::dvec2 radial(sinTurns(turns), cosTurns(turns)), inward(-radial.y, radial.x);
+    for (int i = 1; i < 20; ++i) {
+        const double a = 0.5 * i / 20.0;
+        const glm::dvec2 p =
+            radial * (kRadius - kRim) + (radial * cosTurns(a) + inward * sinTurns(a)) * kRim;
+        profile.push_back({p.x, p.y});
+    }
+    for (int i = 0; i <= 40; ++i)
+        add(kRadius - kShell, kOpeningDeg + (180.0 - kOpeningDeg) * i / 40.0);
+    finishSmoothProfile(profile);
+    return profile;
+}
+
+std::size_t nearest(const Profile& profile, double radius, double height) {
+    const auto distance = [&](const ProfilePoint& p) {
+        return (p.radius - radius) * (p.radius - radius) +
+               (p.height - height) * (p.height - height);
+    };
+    return static_cast<std::size_t>(
+        std::min_element(profile.begin(), profile.end(),
+                         [&](const ProfilePoint& a, const ProfilePoint& b) {
+                             return distance(a) < distance(b);
+                         }) -
+        profile.begin());
+}
+
+Chart strip(double u, double v, double width, double height) {
+    return {Chart::Kind::Strip, {u, v}, {width, height}, 1.0, 0.0};
+}
+Chart disc(double u, double v, double scale, double startDistance) {
+    return {Chart::Kind::Disc, {u, v}, {1.0, 1.0}, scale, startDistance};
+}
+
+// The lathe's Y axis becomes `axis`; its seam (+Z) turns away from the default camera.
+Placement placed(const glm::dvec3& axis, const glm::dvec3& offset) {
+    const glm::dvec3 x = glm::normalize(glm::cross(-directionFromAngles(30.0, 15.0), axis));
+    return {glm::dmat3(-x, axis, glm::cross(-x, axis)), offset};
+}
+
+Mesh ball() {
+    constexpr int kSegments = 224;
+    const Placement placement =
+        placed(directionFromAngles(kOpeningAzimuth, kOpeningElevation), kCenter);
+    const Profile profile = ballProfile();
+    const auto onOutside = [&](double deg) {
+        const double r = outerRadius(deg);
+        return nearest(profile, r * sinTurns(deg / 360.0), r * cosTurns(deg / 360.0));
+    };
+    const std::size_t back = onOutside(kBackChartDeg), front = onOutside(kFrontChartDeg);
+    const std::size_t rim = nearest(profile,
+                                    (kRadius - 0.5 * kShell) * sinTurns(kOpeningDeg / 360.0) -
+                                        0.5 * kShell * cosTurns(kOpeningDeg / 360.0),
+                                    (kRadius - 0.5 * kShell) * cosTurns(kOpeningDeg / 360.0) +
+                                        0.5 * kShell * sinTurns(kOpeningDeg / 360.0));
+
+    // The belt goes once around u; all charts seen from outside share its texel density.
+    const double scale = 1.0 / (2.0 * kPi * kRadius);
+    const double beltHeight = (profile[front].length - profile[back].length) * scale;
+    Mesh mesh;
+    addLathe(mesh, profile, back, front, kSegments, strip(0.0, 0.004, 1.0, beltHeight), placement);
+    addLathe(mesh, profile, front, rim, kSegments, disc(0.185, 0.42, scale, 0.27), placement);
+    addLathe(mesh, profile, 0, back, kSegments, disc(0.54, 0.42, scale, 0.0), placement);
+    addLathe(mesh, profile, rim, profile.size() - 1, kSegments, disc(0.86, 0.42, 0.11, 0.0),
+             placement);
+    return mesh;
+}
+
+// What the opening shows, and the ring that carries the ball.
+Mesh core() {
+    Mesh mesh;
+    Profile sphere;
+    constexpr int kRings = 64;
+    for (int i = 0; i <= kRings; ++i) {
+        const double turns = 0.5 * i / kRings;
+        const double r = i == 0 || i == kRings ? 0.0 : sinTurns(turns), h = -cosTurns(turns);
+        sphere.push_back({kCoreRadius * r, kCoreRadius * h, r, h, kCoreRadius * kPi * i / kRings});
+    }
+    // Its poles point sideways, where the shell hides them.
+    const glm::dvec3 opening = directionFromAngles(kOpeningAzimuth, kOpeningElevation);
+    const glm::dvec3 side = glm::normalize(glm::cross(opening, glm::dvec3(0.0, 1.0, 0.0)));
+    addLathe(mesh, sphere, 0, kRings, 2 * kRings, strip(0.0, 0.004, 1.0, 0.5),
+             {glm::dmat3(glm::cross(side, -opening), side, -opening), kCenter});
+
+    constexpr double kTube = 0.024;
+    constexpr double kContactTurns = 40.0 / 360.0; // from straight down
+    const double major = (kRadius + kTube) * sinTurns(kContactTurns);
+    const double height = kCenter.y - (kRadius + kTube) * cosTurns(kContactTurns);
+    Profile ring;
+    constexpr int kRingSteps = 24;
+    for (int i = 0; i <= kRingSteps; ++i) {
+        const double a = static_cast<double>(i % kRingSteps) / kRingSteps;
+        // Upwards on the outside: the seam lies inside.
+        const double r = -cosTurns(a), h = -sinTurns(a);
+        ring.push_back(
+            {major + kTube * r, height + kTube * h, r, h, 2.0 * kPi * kTube * i / kRingSteps});
+    }
+    addLathe(mesh, ring, 0, kRingSteps, 192, strip(0.0, 0.52, 1.0, 0.07),
+             placed({0.0, 1.0, 0.0}, {}));
+    return mesh;
+}
+
+Mesh stand() {
+    constexpr int kSegments = 192;
+    const double y = kFloorTop + 0.0005; // stands free of the floor by half a millimetre
+    const std::array<ProfileCorner, 23> corners = {{{0.0, y},
+                                                    {0.362, y, 0.006},
+                                                    {0.362, 0.062, 0.006},
+                                                    {0.342, 0.072, 0.005},
+                                                    {0.342, 0.104, 0.010},
+                                                    {0.318, 0.116, 0.008},
+                                                    {0.232, 0.116, 0.012},
+                                                    {0.232, 0.146, 0.010},
+                                                    {0.212, 0.158, 0.008},
+                                                    {0.150, 0.160, 0.030},
+                                                    {0.108, 0.200, 0.030},
+                                                    {0.108, 0.232, 0.020},
+                                                    {0.200, 0.290, 0.030},
+                                                    {0.366, 0.344, 0.010},
+                                                    {0.380, 0.352, 0.005},
+                                                    {0.380, 0.378, 0.006},
+                                                    {0.368, 0.388, 0.006},
+                                                    {0.300, 0.388, 0.006},
+                                                    {0.2887, 0.3555, 0.020},
+                                                    {0.1985, 0.3086, 0.100},
+                                                    {0.1011, 0.2797, 0.100},
+                                                    {0.0400, 0.2700, 0.050},
+                                                    {0.0, 0.2700}}};
+    const Profile profile = roundedProfile(corners, 0.025, 9.0);
+    const auto at = [&](double r, double h) { return nearest(profile, r, h); };
+    const std::size_t foot = at(0.362, y), tread = at(0.330, 0.110), riser = at(0.232, 0.116);
+    const std::size_t top = at(0.222, 0.152), neck = at(0.135, 0.174), cone = at(0.112, 0.235);
+    const std::size_t edge = at(0.376, 0.350), dish = at(0.372, 0.385);
+
+    const double scale = 0.41; // UV per metre
+    const auto height = [&](std::size_t a, std::size_t b) {
+        return (profile[b].length - profile[a].length) * scale;
+    };
+    const auto around = [&](double radius) { return std::min(1.0, 2.0 * kPi * radius * scale); };
+    const Placement placement = placed({0.0, 1.0, 0.0}, {});
+    Mesh mesh;
+    const auto add = [&](std::size_t a, std::size_t b, const Chart& chart) {
+        addLathe(mesh, profile, a, b, kSegments, chart, placement);
+    };
+    add(0, foot, disc(0.33, 0.68, 0.5 * scale, 0.0));
+    add(foot, tread, strip(0.01, 0.01, around(0.362), height(foot, tread)));
+    add(tread, riser, disc(0.15, 0.37, scale, 0.232));
+    add(riser, top, strip(0.01, 0.125, around(0.232), height(riser, top)));
+    add(top, neck, disc(0.11, 0.68, scale, 0.135));
+    add(neck, cone, strip(0.65, 0.125, around(0.115), height(neck, cone)));
+    add(cone, edge, disc(0.46, 0.37, scale, 0.112));
+    add(edge, dish, strip(0.01, 0.075, around(0.38), height(edge, dish)));
+    add(dish, profile.size() - 1, disc(0.815, 0.39, scale, 0.0));
+    return mesh;
+}
+
+Mesh floorDisc() {
+    const std::array<ProfileCorner, 5> corners = {{{0.0, 0.0},
+                                                   {kFloorRadius, 0.0, 0.006},
+                                                   {kFloorRadius, kFloorTop, 0.014},
+                                                   {0.30, kFloorTop, 0.0},
+                                                   {0.0, kFloorTop}}};
+    const Profile profile = roundedProfile(corners, 0.03, 9.0);
+    const std::size_t low = nearest(profile, kFloorRadius, 0.008);
+    const std::size_t high = nearest(profile, kFloorRadius, kFloorTop - 0.014);
+    Mesh mesh;
+    const Placement placement = placed({0.0, 1.0, 0.0}, {});
+    const double scale = 0.44 / kFloorRadius;
+    addLathe(mesh, profile, 0, low, 128, disc(0.945, 0.945, 0.045 / kFloorRadius, 0.0), placement);
+    addLathe(mesh, profile, low, high, 128, strip(0.0, 0.004, 1.0, 0.012), placement);
+    addLathe(mesh, profile, high, profile.size() - 1, 128, disc(0.47, 0.48, scale, 0.0), placement);
+    return mesh;
+}
+
+ModelPart part(const char* name, Mesh mesh, const Material& material) {
+    mesh.name = name;
+    computeTangents(mesh);
+    return {name, std::make_shared<const Mesh>(std::move(mesh)), material.name, material};
+}
+
+} // namespace
+
+std::vector<ModelPart> shaderBall() {
+    Material ground;
+    ground.name = "Floor";
+    ground.baseColor = glm::vec3(0.30f);
+    ground.perceptualRoughness = 0.55f;
+    return {part("Ball", ball(), materialNamed("Ball", "worn-painted-metal", {4.0f, 4.0f})),
+            part("Core", core(), materialNamed("Core", "gold", {3.0f, 3.0f})),
+            part("Stand", stand(), materialNamed("Stand", "rough-plastic", {5.0f, 5.0f})),
+            part("Floor", floorDisc(), ground)};
+}
+
+} // namespace patina::library
