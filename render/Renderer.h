@@ -10,6 +10,9 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace patina::render {
 
@@ -40,6 +43,9 @@ class Renderer {
     // Live bake preview: values of a running bake, drawn instead of an attached artifact's.
     void previewVertices(Id mesh, int stride,
                          std::span<const float> values); // all vertices of the mesh
+    // The same, saying whether the numbers are AoVertex or PrtVertex; the form above takes one
+    // number per vertex for visibility.
+    void previewVertices(BakeKind kind, Id mesh, int stride, std::span<const float> values);
     void previewTexels(Id material, int size, std::span<const float> values); // whole texture
     void clearPreview();
 
@@ -47,9 +53,11 @@ class Renderer {
     // (0: the window's), viewport 0,0 … width,height.
     Result<void> render(const FrameSettings& frame, unsigned targetFramebuffer);
 
-    // The last frame before tone mapping: linear RGBA floats, top row first.
+    // The last frame before tone mapping: linear RGBA floats, top row first, colour premultiplied
+    // by alpha (as OpenEXR wants it).
     [[nodiscard]] Image readLinear();
-    // The last frame as displayed: 8-bit RGBA sRGB, top row first.
+    // The last frame as displayed: 8-bit RGBA sRGB, top row first, straight alpha (as PNG wants
+    // it).
     [[nodiscard]] Image readDisplayed();
 
     // Recompiles shaders that changed on disk; a shader that does not compile keeps the last good

@@ -174,4 +174,15 @@ std::vector<float> Texture::readFloats(int channels) const {
     return result;
 }
 
+std::vector<std::uint8_t> Texture::readBytes(int channels) const {
+    CHECK(m_settings.kind == TextureKind::Flat);
+    std::vector<std::uint8_t> result(static_cast<std::size_t>(width()) *
+                                     static_cast<std::size_t>(height()) *
+                                     static_cast<std::size_t>(channels));
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTextureImage(id(), 0, pixelLayout(m_settings.format, channels), GL_UNSIGNED_BYTE,
+                      static_cast<GLsizei>(result.size()), result.data());
+    return result;
+}
+
 } // namespace patina::gl

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -75,6 +76,7 @@ class Texture {
 
     // Level 0 as interleaved samples, rows bottom to top as OpenGL stores them. Flat only.
     [[nodiscard]] std::vector<float> readFloats(int channels) const;
+    [[nodiscard]] std::vector<std::uint8_t> readBytes(int channels) const;
 
   private:
     Handle<deleteTexture> m_handle;

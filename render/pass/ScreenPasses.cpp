@@ -1,0 +1,86 @@
+#include "render/pass/ScreenPasses.h"
+
+#include <epoxy/gl.h>
+
+namespace patina::render {
+
+namespace {
+constexpr unsigned kEnvironmentUnit = 0, kPictureUnit = 0, kPrefilteredUnit = 7;
+}
+
+ScreenPasses::ScreenPasses(gl::Context& context, ShaderLibrary& shaders)
+    : m_shaders(shaders)
+    , m_noAttributes(context, "no attributes") {}
+
+Result<const gl::Program*> ScreenPasses::program(const char* fragment,
+                                                 std::vector<std::string> defines) {
+    return m_shaders.program({{"screen.vert", fragment}, std::move(defines)});
+}
+
+void ScreenPasses::drawTriangle() const {
+    glDisable(GL_CULL_FACE);
+    m_noAttributes.bind();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+Result<void> ScreenPasses::compile() {
+    for (const char* fragment : {"sky.frag", "tonemap.frag", "copy.frag"})
+        if (auto made = program(fragment); !made)
+            return made.error();
+    return {};
+}
+
+Result<void> ScreenPasses::drawSky(const EnvironmentLight& environment, BackgroundMode mode) {
+    if (mode == BackgroundMode::Color)
+        return {};
+    const bool blurred = mode == BackgroundMode::Blurred;
+    const auto shader = program("sky.frag", blurred ? std::vector<std::string>{"BLURRED"}
+                                                    : std::vector<std::string>{});
+    if (!shader)
+        return shader.error();
+    (*shader)->use();
+    environment.background().bind(kEnvironmentUnit);
+    environment.prefiltered().bind(kPrefilteredUnit);
+    glDisable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL); // the triangle lies on the far plane
+    glDepthMask(GL_FALSE);
+    drawTriangle();
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    return {};
+}
+
+Result<void> ScreenPasses::toneMap(const Targets& targets, const View& view) {
+    const auto shader = program("tonemap.frag");
+    if (!shader)
+        return shader.error();
+    (*shader)->use();
+    (*shader)->set("u_exposureEv", view.exposureEv);
+    (*shader)->set("u_curve", static_cast<int>(view.toneMap));
+    targets.linear().bind(kPictureUnit);
+    targets.display().bind();
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_BLEND);
+    drawTriangle();
+    return {};
+}
+
+Result<void> ScreenPasses::present(const Targets& targets, unsigned framebuffer) {
+    // A context without a surface has no window to show anything in.
+    if (glCheckNamedFramebufferStatus(framebuffer, GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_UNDEFINED)
+        return {};
+    const auto shader = program("copy.frag");
+    if (!shader)
+        return shader.error();
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, targets.width(), targets.height());
+    (*shader)->use();
+    targets.displayed().bind(kPictureUnit);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_BLEND);
+    drawTriangle();
+    return {};
+}
+
+} // namespace patina::render

@@ -1,0 +1,37 @@
+// Passes that cover the whole picture with one triangle: sky, tone map, copy to the window.
+#pragma once
+
+#include "render/gl/VertexArray.h"
+#include "render/pass/Targets.h"
+#include "render/scene/GpuScene.h"
+#include "render/shader/ShaderLibrary.h"
+
+namespace patina::render {
+
+class ScreenPasses {
+  public:
+    ScreenPasses(gl::Context& context, ShaderLibrary& shaders);
+
+    // Where nothing has been drawn yet (depth 1), into the bound scene target. Nothing for
+    // BackgroundMode::Color: that is the clear colour.
+    Result<void> drawSky(const EnvironmentLight& environment, BackgroundMode mode);
+
+    // linear() to display(): exposure, curve, sRGB.
+    Result<void> toneMap(const Targets& targets, const View& view);
+
+    // displayed() into a framebuffer of the window system, multisampled or not.
+    Result<void> present(const Targets& targets, unsigned framebuffer);
+
+    // Compiles the programs, so that a broken one is found when the renderer is made.
+    Result<void> compile();
+
+    void drawTriangle() const; // with the program in use
+
+  private:
+    Result<const gl::Program*> program(const char* fragment, std::vector<std::string> defines = {});
+
+    ShaderLibrary& m_shaders;
+    gl::VertexArray m_noAttributes;
+};
+
+} // namespace patina::render

@@ -1,0 +1,110 @@
+#include "render/pass/SurfacePass.h"
+
+#include <array>
+#include <epoxy/gl.h>
+
+namespace patina::render {
+
+namespace {
+
+// Bit i of SurfaceFeature.
+constexpr std::array<const char*, kSurfaceFeatureCount> kDefines{
+    "HAS_BASE_COLOR_MAP", "HAS_METALLIC_MAP", "HAS_ROUGHNESS_MAP",   "HAS_NORMAL_MAP",
+    "HAS_OCCLUSION_MAP",  "HAS_EMISSIVE_MAP", "ROUGHNESS_IS_PACKED", "OCCLUSION_IS_PACKED",
+    "ALPHA_MASK",         "ALPHA_BLEND",      "DOUBLE_SIDED",        "HAS_PLACEHOLDER",
+    "HAS_TEXEL_AO",       "HAS_VERTEX_AO",    "HAS_TRANSFER",        "HAS_LIGHTS"};
+
+constexpr unsigned kVisibilityUnit = 6, kPrefilteredUnit = 7, kDfgUnit = 8;
+
+} // namespace
+
+unsigned surfaceFeatures(const DrawItem& item, const SurfaceSettings& settings) {
+    unsigned features = item.material->features;
+    if (settings.hasLights)
+        features |= HasLights;
+    if (settings.lighting == LightingMode::Prt && item.transfer)
+        features |= HasTransfer;
+    // One source of ambient visibility is used; the others would only cost fetches.
+    if (item.texelAo)
+        features |= HasTexelAo;
+    else if (item.visibility)
+        features |= HasVertexAo;
+    if (features & (HasTexelAo | HasVertexAo))
+        features &= ~static_cast<unsigned>(HasOcclusionMap | OcclusionIsPacked);
+    return features;
+}
+
+std::vector<std::string> surfaceDefines(unsigned features) {
+    std::vector<std::string> defines;
+    for (std::size_t bit = 0; bit < kDefines.size(); ++bit)
+        if (features & (1u << bit))
+            defines.emplace_back(kDefines[bit]);
+    return defines;
+}
+
+void drawItem(const DrawItem& item, bool cull) {
+    (cull ? glEnable : glDisable)(GL_CULL_FACE);
+    glFrontFace(item.mirrored ? GL_CW : GL_CCW);
+    item.instanceBlock->bindUniform(kInstanceBinding);
+    item.material->block.bindUniform(kMaterialBinding);
+    item.mesh->array.bind();
+    glDrawElements(GL_TRIANGLES, item.mesh->indexCount, GL_UNSIGNED_INT, nullptr);
+}
+
+Result<const gl::Program*> SurfacePass::program(unsigned features) {
+    const auto known = m_programs.find(features);
+    if (known != m_programs.end())
+        return known->second;
+    auto made = m_shaders.program({{"surface.vert", "surface.frag"}, surfaceDefines(features)});
+    if (made)
+        m_programs.emplace(features, *made);
+    return made;
+}
+
+Result<void> SurfacePass::draw(const GpuScene& scene, const std::vector<const DrawItem*>& items,
+                               const SurfaceSettings& settings) {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    scene.environment().prefiltered().bind(kPrefilteredUnit);
+    scene.environment().dfg().bind(kDfgUnit);
+    for (const DrawItem* item : items) {
+        const unsigned features = surfaceFeatures(*item, settings);
+        const auto shader = program(features);
+        if (!shader)
+            return shader.error();
+        (*shader)->use();
+        for (unsigned unit = 0; unit < kMaterialMapCount; ++unit)
+            if (item->material->maps[unit])
+                item->material->maps[unit]->bind(unit);
+        if (features & HasTexelAo)
+            item->texelAo->bind(kVisibilityUnit);
+        if (features & HasVertexAo)
+            item->visibility->bindStorage(kVisibilityBinding);
+        if (features & HasTransfer)
+            item->transfer->bindStorage(kTransferBinding);
+        drawItem(*item, !item->material->doubleSided);
+    }
+    return {};
+}
+
+Result<void> SurfacePass::drawOpaque(const GpuScene& scene, const DrawList& list,
+                                     const SurfaceSettings& settings) {
+    glDisable(GL_BLEND);
+    glDepthMask(GL_TRUE);
+    return draw(scene, list.opaque, settings);
+}
+
+Result<void> SurfacePass::drawBlended(const GpuScene& scene, const DrawList& list,
+                                      const SurfaceSettings& settings) {
+    if (list.blended.empty())
+        return {};
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); // premultiplied
+    glDepthMask(GL_FALSE);
+    Result<void> done = draw(scene, list.blended, settings);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+    return done;
+}
+
+} // namespace patina::render

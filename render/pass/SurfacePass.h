@@ -1,0 +1,44 @@
+// Draws the meshes with their materials and light into the scene's target.
+#pragma once
+
+#include "render/scene/DrawList.h"
+#include "render/shader/ShaderLibrary.h"
+
+#include <map>
+
+namespace patina::render {
+
+// What is the same for all items of a frame.
+struct SurfaceSettings {
+    LightingMode lighting = LightingMode::Ibl;
+    bool hasLights = false;
+};
+
+class SurfacePass {
+  public:
+    explicit SurfacePass(ShaderLibrary& shaders)
+        : m_shaders(shaders) {}
+
+    // The opaque items write depth; the blended ones are added over what is there.
+    Result<void> drawOpaque(const GpuScene& scene, const DrawList& list,
+                            const SurfaceSettings& settings);
+    Result<void> drawBlended(const GpuScene& scene, const DrawList& list,
+                             const SurfaceSettings& settings);
+
+  private:
+    Result<void> draw(const GpuScene& scene, const std::vector<const DrawItem*>& items,
+                      const SurfaceSettings& settings);
+    Result<const gl::Program*> program(unsigned features);
+
+    ShaderLibrary& m_shaders;
+    std::map<unsigned, const gl::Program*> m_programs; // by features; owned by the library
+};
+
+// Bits of SurfaceFeature this item needs under these settings.
+[[nodiscard]] unsigned surfaceFeatures(const DrawItem& item, const SurfaceSettings& settings);
+[[nodiscard]] std::vector<std::string> surfaceDefines(unsigned features);
+
+// Binds blocks and buffers of an item and issues the draw call; front faces and culling included.
+void drawItem(const DrawItem& item, bool cull);
+
+} // namespace patina::render

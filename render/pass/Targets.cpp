@@ -1,0 +1,60 @@
+#include "render/pass/Targets.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace patina::render {
+
+Result<void> Targets::resize(gl::Context& context, int width, int height, int samples) {
+    const int limit = context.info().maxTextureSize;
+    if (width < 1 || height < 1 || width > limit || height > limit)
+        return Error{
+            ErrorKind::Usage,
+            fmt::format("A picture of {} × {} pixels cannot be drawn; this machine draws 1 × 1 to "
+                        "{} × {}.",
+                        width, height, limit, limit),
+            {},
+            {}};
+    samples = std::clamp(samples, 1, std::min(4, context.info().maxSamples));
+    if (width == m_width && height == m_height && samples == m_samples)
+        return {};
+    *this = {};
+
+    const auto texture = [&](const char* label, gl::PixelFormat format, int n) {
+        return gl::Texture(context, label,
+                           {.kind = n > 1 ? gl::TextureKind::Multisample : gl::TextureKind::Flat,
+                            .format = format,
+                            .width = width,
+                            .height = height,
+                            .samples = n});
+    };
+    m_linear = texture("linear", gl::PixelFormat::Rgba16f, 1);
+    m_depth = texture("depth", gl::PixelFormat::Depth32f, 1);
+    m_displayed = texture("displayed", gl::PixelFormat::Rgba8, 1);
+    auto resolved = gl::Framebuffer::create(context, "scene", {&m_linear}, &m_depth);
+    auto display = gl::Framebuffer::create(context, "display", {&m_displayed}, nullptr);
+    if (!resolved || !display)
+        return resolved ? display.error() : resolved.error();
+    m_resolved = std::move(*resolved);
+    m_display = std::move(*display);
+    if (samples > 1) {
+        m_linearSamples = texture("linear samples", gl::PixelFormat::Rgba16f, samples);
+        m_depthSamples = texture("depth samples", gl::PixelFormat::Depth32f, samples);
+        auto multisampled = gl::Framebuffer::create(context, "multisampled scene",
+                                                    {&m_linearSamples}, &m_depthSamples);
+        if (!multisampled)
+            return multisampled.error();
+        m_multisampled = std::move(*multisampled);
+    }
+    m_width = width;
+    m_height = height;
+    m_samples = samples;
+    return {};
+}
+
+void Targets::resolve() const {
+    if (m_samples > 1)
+        m_multisampled.resolveTo(m_resolved, true);
+}
+
+} // namespace patina::render

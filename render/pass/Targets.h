@@ -1,0 +1,35 @@
+// The images a frame is made of, all of one size: scene-linear colour with depth (multisampled and
+// resolved) and the displayed picture.
+#pragma once
+
+#include "render/gl/Framebuffer.h"
+
+namespace patina::render {
+
+class Targets {
+  public:
+    // Makes them anew when the size or the number of samples changed. `samples` is limited to what
+    // the context has. Errors: Usage for an impossible size, Internal from the driver.
+    Result<void> resize(gl::Context& context, int width, int height, int samples);
+
+    [[nodiscard]] int width() const { return m_width; }
+    [[nodiscard]] int height() const { return m_height; }
+
+    // Where the scene is drawn; resolve() makes linear() and depth() readable.
+    [[nodiscard]] const gl::Framebuffer& scene() const {
+        return m_samples > 1 ? m_multisampled : m_resolved;
+    }
+    void resolve() const;
+
+    [[nodiscard]] const gl::Texture& linear() const { return m_linear; } // premultiplied RGBA16F
+    [[nodiscard]] const gl::Texture& depth() const { return m_depth; }
+    [[nodiscard]] const gl::Framebuffer& display() const { return m_display; }
+    [[nodiscard]] const gl::Texture& displayed() const { return m_displayed; } // RGBA8, sRGB values
+
+  private:
+    int m_width = 0, m_height = 0, m_samples = 0;
+    gl::Texture m_linearSamples, m_depthSamples, m_linear, m_depth, m_displayed;
+    gl::Framebuffer m_multisampled, m_resolved, m_display;
+};
+
+} // namespace patina::render

@@ -1,0 +1,69 @@
+// Uniform blocks as the shaders see them (std140): shaders/include/frame.glsl, instance.glsl and
+// material.glsl have the other side. One line changes there, one here.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+namespace patina::render {
+
+inline constexpr unsigned kFrameBinding = 0, kInstanceBinding = 1, kMaterialBinding = 2;
+inline constexpr unsigned kVisibilityBinding = 0, kTransferBinding = 1; // storage blocks
+inline constexpr int kMaxLights = 16;
+inline constexpr int kMaxTransferCount = 25; // order 5
+
+struct LightBlock {
+    glm::vec4 place{0.0f};
+    glm::vec4 irradiance{0.0f};
+};
+
+struct FrameBlock {
+    glm::mat4 worldToClip{1.0f}, clipToWorld{1.0f}, worldToEnvironment{1.0f};
+    glm::vec4 cameraPosition{0.0f};
+    glm::vec4 viewport{0.0f};
+    float radianceScale = 1.0f;
+    std::int32_t prefilteredLevels = 1;
+    std::int32_t lightCount = 0;
+    std::int32_t reserved = 0;
+    std::array<glm::vec4, 9> irradianceSh{};
+    std::array<glm::vec4, kMaxTransferCount> radianceSh{};
+    std::array<LightBlock, kMaxLights> lights{};
+};
+static_assert(offsetof(FrameBlock, cameraPosition) == 192);
+static_assert(offsetof(FrameBlock, radianceScale) == 224);
+static_assert(offsetof(FrameBlock, irradianceSh) == 240);
+static_assert(sizeof(FrameBlock) == 240 + 34 * 16 + 16 * 32);
+
+struct InstanceBlock {
+    glm::mat4 model{1.0f}, normalToWorld{1.0f};
+    float handedness = 1.0f;
+    std::int32_t transferCount = 0;
+    std::uint32_t id = 0;
+    std::uint32_t reserved = 0;
+};
+static_assert(sizeof(InstanceBlock) == 144);
+
+struct MapBlock {
+    glm::vec4 uvMatrix{1.0f, 0.0f, 0.0f, 1.0f};
+    glm::vec4 uvOffset{0.0f};
+    glm::vec4 channel{-1.0f, 0.0f, 0.0f, 0.0f};
+};
+
+struct MaterialBlock {
+    glm::vec4 baseColor{1.0f};
+    glm::vec4 emissive{0.0f};
+    float metallic = 0.0f, perceptualRoughness = 0.5f;
+    float occlusionStrength = 1.0f, normalStrength = 1.0f;
+    glm::vec4 normalBasis{1.0f, 0.0f, 0.0f, 1.0f};
+    float normalGreenUp = 1.0f, placeholder = 0.0f;
+    float reserved0 = 0.0f, reserved1 = 0.0f;
+    MapBlock baseColorMap, metallicMap, roughnessMap, normalMap, occlusionMap, emissiveMap;
+};
+static_assert(offsetof(MaterialBlock, normalBasis) == 48);
+static_assert(offsetof(MaterialBlock, baseColorMap) == 80);
+static_assert(sizeof(MaterialBlock) == 80 + 6 * 48);
+
+} // namespace patina::render

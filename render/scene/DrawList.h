@@ -1,0 +1,22 @@
+// Which items a camera sees, and in which order they are drawn.
+#pragma once
+
+#include "render/scene/GpuScene.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace patina::render {
+
+// False only when the box lies wholly outside one of the six clip planes.
+[[nodiscard]] bool insideFrustum(const Bounds& bounds, const glm::mat4& worldToClip);
+
+struct DrawList {
+    std::vector<const DrawItem*> opaque;  // front to back: hidden fragments are not shaded
+    std::vector<const DrawItem*> blended; // back to front
+};
+[[nodiscard]] DrawList makeDrawList(const std::vector<DrawItem>& items,
+                                    const glm::mat4& worldToClip, const glm::vec3& eye);
+
+} // namespace patina::render

@@ -1,0 +1,41 @@
+// The surroundings on the GPU: prefiltered cubemap, DFG table, lat-long background, and the SH
+// coefficients turned and scaled for the frame.
+#pragma once
+
+#include "core/document/Document.h"
+#include "core/light/Ibl.h"
+#include "render/gl/Texture.h"
+#include "render/scene/Blocks.h"
+
+namespace patina::render {
+
+class EnvironmentLight {
+  public:
+    explicit EnvironmentLight(gl::Context& context); // a grey sky until setIbl()
+
+    void setIbl(const IblMaps& maps);
+    // The picture behind the scene; null: grey.
+    void setBackground(const ImagePtr& image);
+
+    // Rotation, exposure and coefficients of the environment for this frame.
+    void fill(const Environment& environment, FrameBlock& frame) const;
+
+    [[nodiscard]] const gl::Texture& prefiltered() const { return m_prefiltered; }
+    [[nodiscard]] const gl::Texture& dfg() const { return m_dfg; }
+    [[nodiscard]] const gl::Texture& background() const { return m_background; }
+    // Texels of the last setIbl() that exceeded 65504, the largest half float.
+    [[nodiscard]] std::size_t clampedTexels() const { return m_clampedTexels; }
+
+  private:
+    gl::Context& m_context;
+    gl::Texture m_prefiltered, m_dfg, m_background;
+    ImagePtr m_backgroundImage;
+    std::array<glm::vec3, 9> m_irradianceSh{};
+    std::array<glm::vec3, kMaxTransferCount> m_radianceSh{};
+    std::size_t m_clampedTexels = 0;
+};
+
+// Light of the same radiance from everywhere, as setIbl() takes it.
+[[nodiscard]] IblMaps uniformIbl(const glm::vec3& radiance);
+
+} // namespace patina::render

@@ -1,0 +1,148 @@
+#include "render/scene/GpuMaterial.h"
+
+#include "render/scene/TextureCache.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace patina::render {
+
+namespace {
+
+// u' = T · R · S · u as glTF's KHR_texture_transform is implemented everywhere (Khronos sample
+// viewer, three.js, Babylon.js): rows (c sx, s sy) and (-s sx, c sy).
+glm::vec4 uvMatrix(const MapSlot& map) {
+    const float angle = glm::radians(map.uvRotationDeg);
+    const float c = std::cos(angle), s = std::sin(angle);
+    return {c * map.uvScale.x, s * map.uvScale.y, -s * map.uvScale.x, c * map.uvScale.y};
+}
+
+// Colour maps: Rgb is the colour itself. Number maps read one channel; Rgb means red.
+glm::vec4 channelWeights(MapChannel channel, bool isColor) {
+    switch (channel) {
+    case MapChannel::Rgb:
+        return isColor ? glm::vec4(-1, 0, 0, 0) : glm::vec4(1, 0, 0, 0);
+    case MapChannel::R:
+        return {1, 0, 0, 0};
+    case MapChannel::G:
+        return {0, 1, 0, 0};
+    case MapChannel::B:
+        return {0, 0, 1, 0};
+    case MapChannel::A:
+        return {0, 0, 0, 1};
+    }
+    return {1, 0, 0, 0};
+}
+
+MapBlock packMap(const MapSlot& map, bool isColor) {
+    return {uvMatrix(map), glm::vec4(map.uvOffset, 0, 0), channelWeights(map.channel, isColor)};
+}
+
+// A map that is turned or mirrored on the surface takes its slopes along: its x points where u'
+// grows, its y where v' shrinks, in the frame (tangent, bitangent) = (growing u, shrinking v).
+glm::vec4 normalBasis(const MapSlot& map) {
+    const glm::vec4 m = uvMatrix(map);
+    const auto unit = [](glm::vec2 d, glm::vec2 fallback) {
+        const float length = glm::length(d);
+        return length > 0.0f ? d / length : fallback;
+    };
+    const glm::vec2 x = unit({m.x, -m.y}, {1, 0});
+    const glm::vec2 y = unit({-m.z, m.w}, {0, 1});
+    return {x.x, y.x, x.y, y.y};
+}
+
+bool missing(const MapSlot& map) {
+    return map.assigned() && !map.image;
+}
+
+bool sameTexels(const MapSlot& a, const MapSlot& b) {
+    return a.image && a.image == b.image && a.uvScale == b.uvScale && a.uvOffset == b.uvOffset &&
+           a.uvRotationDeg == b.uvRotationDeg;
+}
+
+// In the order of the texture units.
+std::array<const MapSlot*, kMaterialMapCount> slots(const Material& m) {
+    return {&m.baseColorMap, &m.metallicMap,  &m.perceptualRoughnessMap,
+            &m.normalMap,    &m.occlusionMap, &m.emissiveMap};
+}
+
+// How much of the surface the pattern covers: all of it for a missing colour, a hint for others,
+// so that the rest of the material can still be judged.
+float placeholderShare(const Material& m) {
+    if (missing(m.baseColorMap))
+        return 1.0f;
+    for (const MapSlot* map : slots(m))
+        if (missing(*map))
+            return 0.35f;
+    return 0.0f;
+}
+
+} // namespace
+
+MaterialBlock packMaterial(const Material& m) {
+    MaterialBlock block;
+    block.baseColor = glm::vec4(m.baseColor, m.opacity);
+    // A missing emissive map would set the whole surface aglow.
+    const float emission = missing(m.emissiveMap) ? 0.0f : m.emissiveStrength;
+    block.emissive = glm::vec4(m.emissive * emission, m.alphaCutoff);
+    block.metallic = m.metallic;
+    block.perceptualRoughness = m.perceptualRoughness;
+    block.occlusionStrength = m.occlusionStrength;
+    block.normalStrength = m.normalStrength;
+    block.normalBasis = normalBasis(m.normalMap);
+    block.normalGreenUp = m.normalConvention == NormalConvention::OpenGl ? 1.0f : -1.0f;
+    block.placeholder = placeholderShare(m);
+    block.baseColorMap = packMap(m.baseColorMap, true);
+    block.metallicMap = packMap(m.metallicMap, false);
+    block.roughnessMap = packMap(m.perceptualRoughnessMap, false);
+    block.normalMap = packMap(m.normalMap, true);
+    block.occlusionMap = packMap(m.occlusionMap, false);
+    block.emissiveMap = packMap(m.emissiveMap, true);
+    return block;
+}
+
+unsigned materialFeatures(const Material& m) {
+    unsigned features = 0;
+    const auto maps = slots(m);
+    for (std::size_t i = 0; i < maps.size(); ++i)
+        if (maps[i]->image)
+            features |= 1u << i; // HasBaseColorMap … HasEmissiveMap
+    if (sameTexels(m.metallicMap, m.perceptualRoughnessMap))
+        features |= RoughnessIsPacked;
+    if (sameTexels(m.metallicMap, m.occlusionMap))
+        features |= OcclusionIsPacked;
+    if (m.alphaMode == AlphaMode::Mask)
+        features |= AlphaMasked;
+    if (m.alphaMode == AlphaMode::Blend)
+        features |= AlphaBlended;
+    if (m.doubleSided)
+        features |= DoubleSided;
+    if (placeholderShare(m) > 0.0f)
+        features |= HasPlaceholder;
+    return features;
+}
+
+std::set<ImagePtr> materialImages(const Material& material) {
+    std::set<ImagePtr> images;
+    for (const MapSlot* map : slots(material))
+        if (map->image)
+            images.insert(map->image);
+    return images;
+}
+
+void updateGpuMaterial(gl::Context& context, TextureCache& textures, const Material& material,
+                       GpuMaterial& gpu) {
+    gpu.values = packMaterial(material);
+    if (gpu.block.empty())
+        gpu.block = gl::Buffer(context, "material", sizeof(MaterialBlock));
+    gpu.block.writeValue(gpu.values);
+    const auto maps = slots(material);
+    for (std::size_t i = 0; i < maps.size(); ++i)
+        gpu.maps[i] = maps[i]->image ? textures.texture(maps[i]->image) : nullptr;
+    gpu.features = materialFeatures(material);
+    gpu.alphaMode = material.alphaMode;
+    gpu.doubleSided = material.doubleSided;
+}
+
+} // namespace patina::render

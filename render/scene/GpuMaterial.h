@@ -1,0 +1,59 @@
+// A material as the surface shader wants it: numbers in a uniform block, maps as textures, and
+// which variant of the shader they need.
+#pragma once
+
+#include "core/material/Material.h"
+#include "render/gl/Buffer.h"
+#include "render/gl/Texture.h"
+#include "render/scene/Blocks.h"
+
+#include <array>
+#include <set>
+
+namespace patina::render {
+
+class TextureCache;
+
+// Bits of a surface variant; the names of the defines are in render/pass/SurfacePass.cpp.
+enum SurfaceFeature : unsigned {
+    HasBaseColorMap = 1u << 0,
+    HasMetallicMap = 1u << 1,
+    HasRoughnessMap = 1u << 2,
+    HasNormalMap = 1u << 3,
+    HasOcclusionMap = 1u << 4,
+    HasEmissiveMap = 1u << 5,
+    RoughnessIsPacked = 1u << 6, // in the same texel as metallic
+    OcclusionIsPacked = 1u << 7,
+    AlphaMasked = 1u << 8,
+    AlphaBlended = 1u << 9,
+    DoubleSided = 1u << 10,
+    HasPlaceholder = 1u << 11,
+    HasTexelAo = 1u << 12,
+    HasVertexAo = 1u << 13,
+    HasTransfer = 1u << 14,
+    HasLights = 1u << 15,
+};
+inline constexpr int kSurfaceFeatureCount = 16;
+
+inline constexpr std::size_t kMaterialMapCount = 6; // texture units 0…5, order of the block
+
+struct GpuMaterial {
+    MaterialBlock values;
+    gl::Buffer block;
+    std::array<const gl::Texture*, kMaterialMapCount> maps{}; // null: none; owned by the cache
+    unsigned features = 0;
+    AlphaMode alphaMode = AlphaMode::Opaque;
+    bool doubleSided = false;
+};
+
+// The numbers alone; no OpenGL.
+[[nodiscard]] MaterialBlock packMaterial(const Material& material);
+// Which maps are usable, shared, missing; no OpenGL.
+[[nodiscard]] unsigned materialFeatures(const Material& material);
+[[nodiscard]] std::set<ImagePtr> materialImages(const Material& material);
+
+// Rewrites `gpu` after an edit, creating the block on first use.
+void updateGpuMaterial(gl::Context& context, TextureCache& textures, const Material& material,
+                       GpuMaterial& gpu);
+
+} // namespace patina::render

@@ -1,0 +1,45 @@
+#include "render/scene/GpuMesh.h"
+
+#include "core/base/Check.h"
+
+namespace patina::render {
+
+namespace {
+
+struct Vertex {
+    glm::vec3 position, normal;
+    glm::vec4 tangent;
+    glm::vec2 uv;
+};
+static_assert(sizeof(Vertex) == 48);
+
+} // namespace
+
+GpuMesh makeGpuMesh(gl::Context& context, const Mesh& mesh) {
+    GpuMesh result;
+    result.vertexCount = mesh.vertexCount();
+    result.indexCount = static_cast<int>(mesh.indices.size());
+    if (mesh.indices.empty())
+        return result;
+    CHECK_EQ(mesh.normals.size(), mesh.vertexCount());
+    CHECK_EQ(mesh.tangents.size(), mesh.vertexCount());
+    CHECK_EQ(mesh.uvs.size(), mesh.vertexCount());
+
+    // Interleaved: one vertex is one cache line.
+    std::vector<Vertex> vertices(mesh.vertexCount());
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        vertices[i] = {mesh.positions[i], mesh.normals[i], mesh.tangents[i], mesh.uvs[i]};
+        result.bounds.add(mesh.positions[i]);
+    }
+    result.vertices = gl::Buffer::of<Vertex>(context, "vertices", vertices);
+    result.indices = gl::Buffer::of<std::uint32_t>(context, "indices", mesh.indices);
+    result.array = gl::VertexArray(context, "mesh");
+    result.array.setFloats(0, 3, result.vertices, offsetof(Vertex, position), sizeof(Vertex));
+    result.array.setFloats(1, 3, result.vertices, offsetof(Vertex, normal), sizeof(Vertex));
+    result.array.setFloats(2, 4, result.vertices, offsetof(Vertex, tangent), sizeof(Vertex));
+    result.array.setFloats(3, 2, result.vertices, offsetof(Vertex, uv), sizeof(Vertex));
+    result.array.setIndices(result.indices);
+    return result;
+}
+
+} // namespace patina::render

@@ -1,0 +1,199 @@
+#include "render/scene/GpuScene.h"
+
+#include "core/base/Check.h"
+#include "core/base/Log.h"
+
+#include <algorithm>
+#include <glm/gtc/matrix_inverse.hpp>
+#include <glm/matrix.hpp>
+
+namespace patina::render {
+
+namespace {
+
+// A document may name a material that is not there (a damaged project): such meshes show in the
+// default material.
+constexpr Id kFallbackMaterial = 0;
+
+InstanceBlock packInstance(const MeshInstance& mesh, int transferCount) {
+    const glm::mat3 linear(mesh.transform);
+    InstanceBlock block;
+    block.model = mesh.transform;
+    block.handedness = glm::determinant(linear) < 0.0f ? -1.0f : 1.0f;
+    // A flat transform (a scale of zero) has no inverse; its normals stay as they are.
+    const bool invertible = glm::determinant(linear) != 0.0f;
+    block.normalToWorld = glm::mat4(invertible ? glm::inverseTranspose(linear) : linear);
+    block.transferCount = transferCount;
+    block.id = mesh.id;
+    return block;
+}
+
+LightBlock packLight(const Light& light) {
+    const glm::vec3 color = light.color * light.intensity;
+    if (light.type == LightType::Directional)
+        return {glm::vec4(light.directionToLight(), 0.0f), glm::vec4(color, 0.0f)};
+    return {glm::vec4(light.position, 1.0f), glm::vec4(color, 0.0f)};
+}
+
+} // namespace
+
+GpuScene::GpuScene(gl::Context& context)
+    : m_context(context)
+    , m_environment(context)
+    , m_textures(context)
+    , m_visibility(context, BakeKind::AoVertex)
+    , m_transfer(context, BakeKind::PrtVertex) {}
+
+void GpuScene::update(const Document& document, const Change& change) {
+    m_document = document;
+    const auto touched = [&](Affects part) { return touches(change.affects, part); };
+
+    // One number of one material is the change of a dragged slider: nothing else is looked at.
+    if (change.affects == Affects::Uniform && change.target &&
+        change.target->scope == Scope::Material) {
+        const Material* material = m_document.material(change.target->id);
+        const auto known = m_materials.find(change.target->id);
+        if (material && known != m_materials.end()) {
+            const unsigned before = known->second.features;
+            updateGpuMaterial(m_context, m_textures, *material, known->second);
+            if (before == known->second.features)
+                return;
+        }
+    }
+
+    if (touched(Affects::Structure) &&
+        std::count_if(m_document.lights.begin(), m_document.lights.end(),
+                      [](const Light& light) { return light.enabled; }) > kMaxLights)
+        logWarning("Only the first {} enabled lights are drawn; disable some.", kMaxLights);
+
+    if (touched(Affects::EnvironmentMap))
+        m_environment.setBackground(m_document.environment.image);
+    if (touched(Affects::Geometry) || touched(Affects::Structure))
+        updateMeshes();
+    updateMaterials();
+    m_visibility.update(m_document);
+    m_transfer.update(m_document);
+    updateTexelBakes();
+    rebuildItems();
+}
+
+void GpuScene::updateMeshes() {
+    std::set<MeshPtr> used;
+    for (const MeshInstance& instance : m_document.meshes)
+        if (instance.mesh)
+            used.insert(instance.mesh);
+    std::erase_if(m_meshes, [&](const auto& entry) { return !used.contains(entry.first); });
+    for (const MeshPtr& mesh : used)
+        if (!m_meshes.contains(mesh))
+            m_meshes.emplace(mesh, makeGpuMesh(m_context, *mesh));
+}
+
+void GpuScene::updateMaterials() {
+    std::set<Id> ids{kFallbackMaterial};
+    for (const Material& material : m_document.materials) {
+        ids.insert(material.id);
+        updateGpuMaterial(m_context, m_textures, material, m_materials[material.id]);
+    }
+    updateGpuMaterial(m_context, m_textures, Material{}, m_materials[kFallbackMaterial]);
+    std::erase_if(m_materials, [&](const auto& entry) { return !ids.contains(entry.first); });
+}
+
+void GpuScene::updateTexelBakes() {
+    std::set<ImagePtr> used;
+    for (const Material& material : m_document.materials)
+        used.merge(materialImages(material));
+    m_texelBakes.clear();
+    for (const BakeArtifactPtr& bake : m_document.bakes)
+        if (bake->kind == BakeKind::AoTexel)
+            for (const TexelBake& texels : bake->texels)
+                if (texels.image) {
+                    m_texelBakes[texels.material] = m_textures.texture(texels.image);
+                    used.insert(texels.image);
+                }
+    m_textures.keepOnly(used);
+}
+
+void GpuScene::rebuildItems() {
+    m_items.clear();
+    m_bounds = {};
+    std::set<Id> ids;
+    for (const MeshInstance& instance : m_document.meshes) {
+        ids.insert(instance.id);
+        const auto mesh = m_meshes.find(instance.mesh);
+        if (!instance.visible || mesh == m_meshes.end() || mesh->second.indexCount == 0)
+            continue;
+        DrawItem item;
+        item.id = instance.id;
+        item.mesh = &mesh->second;
+        const auto material = m_materials.find(instance.material);
+        item.material =
+            material != m_materials.end() ? &material->second : &m_materials.at(kFallbackMaterial);
+
+        const auto count = item.mesh->vertexCount;
+        if (const auto* ao = m_visibility.find(instance.id, count); ao && ao->stride == 1)
+            item.visibility = &ao->buffer;
+        int transferCount = 0;
+        if (const auto* prt = m_transfer.find(instance.id, count);
+            prt && prt->stride <= kMaxTransferCount) {
+            item.transfer = &prt->buffer;
+            transferCount = prt->stride;
+        }
+        if (const auto live = m_texelPreviews.find(instance.material);
+            live != m_texelPreviews.end())
+            item.texelAo = &live->second;
+        else if (const auto baked = m_texelBakes.find(instance.material);
+                 baked != m_texelBakes.end())
+            item.texelAo = baked->second;
+
+        const InstanceBlock block = packInstance(instance, transferCount);
+        gl::Buffer& buffer = m_instanceBlocks[instance.id];
+        if (buffer.empty())
+            buffer = gl::Buffer(m_context, "instance", sizeof(InstanceBlock));
+        buffer.writeValue(block);
+        item.instanceBlock = &buffer;
+        item.mirrored = block.handedness < 0.0f;
+        item.bounds = item.mesh->bounds.transformed(instance.transform);
+        m_bounds.add(item.bounds);
+        m_items.push_back(item);
+    }
+    std::erase_if(m_instanceBlocks, [&](const auto& entry) { return !ids.contains(entry.first); });
+}
+
+void GpuScene::previewVertices(BakeKind kind, Id mesh, int stride, std::span<const float> values) {
+    CHECK(kind == BakeKind::AoVertex || kind == BakeKind::PrtVertex);
+    (kind == BakeKind::AoVertex ? m_visibility : m_transfer).preview(mesh, stride, values);
+    rebuildItems();
+}
+
+void GpuScene::previewTexels(Id material, int size, std::span<const float> values) {
+    const auto side = static_cast<std::size_t>(size);
+    CHECK_EQ(values.size(), side * side);
+    gl::Texture& texture = m_texelPreviews[material];
+    if (texture.width() != size) {
+        texture = gl::Texture(m_context, "AO preview",
+                              {.format = gl::PixelFormat::R32f, .width = size, .height = size});
+        texture.setSampling(gl::Filter::Linear, gl::Wrap::Repeat);
+    }
+    texture.upload(0, 1, gl::SampleType::F32, values.data());
+    rebuildItems();
+}
+
+void GpuScene::clearPreview() {
+    m_visibility.clearPreview();
+    m_transfer.clearPreview();
+    m_texelPreviews.clear();
+    rebuildItems();
+}
+
+void GpuScene::fill(FrameBlock& frame) const {
+    m_environment.fill(m_document.environment, frame);
+    for (const Light& light : m_document.lights) {
+        if (!light.enabled)
+            continue;
+        if (frame.lightCount == kMaxLights)
+            break; // update() has said so
+        frame.lights[static_cast<std::size_t>(frame.lightCount++)] = packLight(light);
+    }
+}
+
+} // namespace patina::render

@@ -1,0 +1,75 @@
+// The document on the GPU. This is the only way data gets there: a snapshot and what changed go in,
+// things to draw come out.
+#pragma once
+
+#include "core/document/Change.h"
+#include "core/document/Document.h"
+#include "render/scene/EnvironmentLight.h"
+#include "render/scene/GpuMaterial.h"
+#include "render/scene/GpuMesh.h"
+#include "render/scene/TextureCache.h"
+#include "render/scene/VertexValues.h"
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace patina::render {
+
+// One mesh instance, ready to be drawn.
+struct DrawItem {
+    Id id = 0;
+    const GpuMesh* mesh = nullptr;
+    const GpuMaterial* material = nullptr;
+    const gl::Buffer* instanceBlock = nullptr;
+    const gl::Buffer* visibility = nullptr; // per-vertex AO, or null
+    const gl::Buffer* transfer = nullptr;   // per-vertex PRT, or null
+    const gl::Texture* texelAo = nullptr;   // baked AO texture, or null
+    bool mirrored = false;
+    Bounds bounds; // in the world
+};
+
+class GpuScene {
+  public:
+    explicit GpuScene(gl::Context& context);
+
+    void update(const Document& document, const Change& change);
+    void setIbl(const IblMaps& maps) { m_environment.setIbl(maps); }
+
+    // AoVertex or PrtVertex.
+    void previewVertices(BakeKind kind, Id mesh, int stride, std::span<const float> values);
+    void previewTexels(Id material, int size, std::span<const float> values);
+    void clearPreview();
+
+    [[nodiscard]] const Document& document() const { return m_document; }
+    [[nodiscard]] const EnvironmentLight& environment() const { return m_environment; }
+    // Visible instances with geometry, in document order.
+    [[nodiscard]] const std::vector<DrawItem>& items() const { return m_items; }
+    [[nodiscard]] const Bounds& bounds() const { return m_bounds; } // of the items
+    [[nodiscard]] std::size_t meshCount() const { return m_meshes.size(); }
+    [[nodiscard]] std::size_t textureCount() const { return m_textures.size(); }
+
+    // The frame's uniforms that follow from the document: environment and lights.
+    void fill(FrameBlock& frame) const;
+
+  private:
+    void updateMeshes();
+    void updateMaterials();
+    void updateTexelBakes();
+    void rebuildItems();
+
+    gl::Context& m_context;
+    Document m_document;
+    EnvironmentLight m_environment;
+    TextureCache m_textures;
+    std::map<MeshPtr, GpuMesh> m_meshes; // holds the mesh: an address is never reused
+    std::map<Id, GpuMaterial> m_materials;
+    std::map<Id, gl::Buffer> m_instanceBlocks;
+    VertexValues m_visibility, m_transfer;
+    std::map<Id, gl::Texture> m_texelPreviews; // by material
+    std::map<Id, const gl::Texture*> m_texelBakes;
+    std::vector<DrawItem> m_items;
+    Bounds m_bounds;
+};
+
+} // namespace patina::render

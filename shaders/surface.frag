@@ -1,0 +1,162 @@
+#version 450 core
+// The metallic-roughness surface under image-based light and analytic lights. Every term of the
+// reflection comes from shaders/shared; this file fetches maps and adds up. What a material does
+// not use is left out by the HAS_… defines (render/pass/SurfacePass.cpp).
+#include "include/frame.glsl"
+#include "include/instance.glsl"
+#include "include/material.glsl"
+#include "shared/ibl.glsl"
+#include "shared/normalmap.glsl"
+
+in vec3 v_position;
+in vec3 v_normal;
+in vec4 v_tangent;
+in vec2 v_uv;
+#ifdef HAS_VERTEX_AO
+in float v_visibility;
+#endif
+#ifdef HAS_TRANSFER
+in vec3 v_exitRadiance;
+#endif
+
+layout(binding = 0) uniform sampler2D u_baseColorTexture;
+layout(binding = 1) uniform sampler2D u_metallicTexture;
+layout(binding = 2) uniform sampler2D u_roughnessTexture;
+layout(binding = 3) uniform sampler2D u_normalTexture;
+layout(binding = 4) uniform sampler2D u_occlusionTexture;
+layout(binding = 5) uniform sampler2D u_emissiveTexture;
+layout(binding = 6) uniform sampler2D u_visibilityTexture; // baked
+layout(binding = 7) uniform samplerCube u_prefiltered;
+layout(binding = 8) uniform sampler2D u_dfg;
+
+layout(location = 0) out vec4 o_radiance; // premultiplied by alpha
+
+vec4 baseColorAt(vec2 uv) {
+    vec4 color = u_baseColor;
+#ifdef HAS_BASE_COLOR_MAP
+    vec4 texel = texture(u_baseColorTexture, mapUv(u_baseColorMap, uv));
+    color *= vec4(mapColor(u_baseColorMap, texel), texel.a);
+#endif
+#ifdef HAS_PLACEHOLDER
+    color.rgb = mix(color.rgb, placeholderPattern(uv), u_placeholder);
+#endif
+    return color;
+}
+
+vec3 shadingNormal() {
+    vec3 n = normalize(v_normal);
+#ifdef HAS_NORMAL_MAP
+    vec3 texel = texture(u_normalTexture, mapUv(u_normalMap, v_uv)).rgb;
+    vec3 m = decodeNormalTs(texel, u_normalStrength, u_normalGreenUp);
+    vec3 normalTs = vec3(dot(u_normalBasis.xy, m.xy), dot(u_normalBasis.zw, m.xy), m.z);
+    n = normalTsToWorld(normalTs, n, v_tangent);
+#endif
+#ifdef DOUBLE_SIDED
+    if (!gl_FrontFacing)
+        n = -n;
+#endif
+    return n;
+}
+
+// Half floats end at 65504, and one NaN would spread over its pixel in the resolve.
+vec3 storable(vec3 c) {
+    return vec3(isnan(c.x) ? 0.0 : clamp(c.x, 0.0, 65504.0),
+                isnan(c.y) ? 0.0 : clamp(c.y, 0.0, 65504.0),
+                isnan(c.z) ? 0.0 : clamp(c.z, 0.0, 65504.0));
+}
+
+void main() {
+    vec4 baseColor = baseColorAt(v_uv);
+#ifdef ALPHA_MASK
+    if (baseColor.a < u_emissive.a)
+        discard;
+#endif
+
+    // Metallic, roughness and occlusion often share one image: it is fetched once.
+    float metallic = u_metallic;
+    float perceptualRoughness = u_perceptualRoughness;
+#ifdef HAS_METALLIC_MAP
+    vec4 packedTexel = texture(u_metallicTexture, mapUv(u_metallicMap, v_uv));
+    metallic *= dot(u_metallicMap.channel, packedTexel);
+#endif
+#ifdef HAS_ROUGHNESS_MAP
+#ifdef ROUGHNESS_IS_PACKED
+    perceptualRoughness *= dot(u_roughnessMap.channel, packedTexel);
+#else
+    perceptualRoughness *=
+        dot(u_roughnessMap.channel, texture(u_roughnessTexture, mapUv(u_roughnessMap, v_uv)));
+#endif
+#endif
+
+    // Ambient visibility: a texel bake, else a vertex bake, else the material's map. A bake has
+    // been made for this very scene, so it replaces the map instead of darkening twice.
+#if defined(HAS_TEXEL_AO) || defined(HAS_VERTEX_AO) || defined(HAS_OCCLUSION_MAP)
+    float visible;
+#if defined(HAS_TEXEL_AO)
+    visible = texture(u_visibilityTexture, v_uv).r;
+#elif defined(HAS_VERTEX_AO)
+    visible = v_visibility;
+#elif defined(HAS_OCCLUSION_MAP)
+#ifdef OCCLUSION_IS_PACKED
+    visible = dot(u_occlusionMap.channel, packedTexel);
+#else
+    visible =
+        dot(u_occlusionMap.channel, texture(u_occlusionTexture, mapUv(u_occlusionMap, v_uv)));
+#endif
+#endif
+    float ao = mix(1.0, clamp(visible, 0.0, 1.0), u_occlusionStrength);
+#else
+    const float ao = 1.0;
+#endif
+
+    // The surface.
+    vec3 n = shadingNormal();
+    vec3 v = normalize(u_cameraPosition.xyz - v_position);
+    float NoV = max(dot(n, v), kMinNoV);
+    perceptualRoughness = clamp(perceptualRoughness, 0.0, 1.0);
+    vec2 dfg = textureLod(u_dfg, vec2(NoV, perceptualRoughness), 0.0).rg;
+    SurfaceTerms s = makeSurface(clamp(baseColor.rgb, 0.0, 1.0), clamp(metallic, 0.0, 1.0),
+                                 perceptualRoughness, n, v, dfg);
+
+    // Light from the surroundings. Transfer coefficients know the shadows already.
+    vec3 r = mat3(u_worldToEnvironment) * reflectionDirection(s);
+    vec3 prefiltered =
+        u_radianceScale *
+        textureLod(u_prefiltered, r, prefilteredLevel(s.perceptualRoughness, u_prefilteredLevels))
+            .rgb;
+#ifdef HAS_TRANSFER
+    vec3 irradiance = kPi * max(v_exitRadiance, vec3(0.0));
+#else
+    vec3 irradiance = ao * irradianceFromSh9(u_irradianceSh, n);
+#endif
+    ShadedLight ambient = shadeEnvironment(s, irradiance, prefiltered);
+    vec3 radiance =
+        ambient.diffuse + ambient.specular * specularOcclusion(s.NoV, ao, s.alpha);
+
+    // Analytic lights.
+#ifdef HAS_LIGHTS
+    for (int i = 0; i < u_lightCount; ++i) {
+        vec4 place = u_lights[i].place;
+        vec3 toLight = place.xyz - place.w * v_position;
+        float distance2 = max(dot(toLight, toLight), 1e-8);
+        vec3 l = toLight * inversesqrt(distance2);
+        vec3 E = u_lights[i].irradiance.rgb / mix(1.0, distance2, place.w);
+        ShadedLight light = shadeDirect(s, l, E);
+        radiance += light.diffuse + light.specular;
+    }
+#endif
+
+    // Emission.
+    vec3 emission = u_emissive.rgb;
+#ifdef HAS_EMISSIVE_MAP
+    emission *= mapColor(u_emissiveMap, texture(u_emissiveTexture, mapUv(u_emissiveMap, v_uv)));
+#endif
+    radiance += emission;
+
+#ifdef ALPHA_BLEND
+    float alpha = clamp(baseColor.a, 0.0, 1.0);
+#else
+    float alpha = 1.0;
+#endif
+    o_radiance = vec4(storable(radiance) * alpha, alpha);
+}

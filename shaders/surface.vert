@@ -1,0 +1,49 @@
+#version 450 core
+// Meshes of the scene. HAS_TRANSFER: exit radiance of unit albedo from transfer coefficients.
+#include "include/frame.glsl"
+#include "include/instance.glsl"
+
+layout(location = 0) in vec3 a_position;
+layout(location = 1) in vec3 a_normal;
+layout(location = 2) in vec4 a_tangent;
+layout(location = 3) in vec2 a_uv;
+
+out vec3 v_position;
+out vec3 v_normal;
+out vec4 v_tangent;
+out vec2 v_uv;
+
+#ifdef HAS_VERTEX_AO
+layout(std430, binding = 0) readonly buffer VertexVisibility {
+    float b_visibility[];
+};
+out float v_visibility;
+#endif
+
+#ifdef HAS_TRANSFER
+layout(std430, binding = 1) readonly buffer VertexTransfer {
+    float b_transfer[];
+};
+out vec3 v_exitRadiance;
+#endif
+
+void main() {
+    vec4 position = u_model * vec4(a_position, 1.0);
+    v_position = position.xyz;
+    v_normal = mat3(u_normalToWorld) * a_normal;
+    v_tangent = vec4(mat3(u_model) * a_tangent.xyz, a_tangent.w * u_handedness);
+    v_uv = a_uv;
+    gl_Position = u_worldToClip * position;
+
+#ifdef HAS_VERTEX_AO
+    v_visibility = b_visibility[gl_VertexID];
+#endif
+#ifdef HAS_TRANSFER
+    // Sloan, Kautz & Snyder 2002, "Precomputed Radiance Transfer", equation 1: a dot product.
+    vec3 sum = vec3(0.0);
+    int first = gl_VertexID * u_transferCount;
+    for (int i = 0; i < u_transferCount; ++i)
+        sum += u_radianceSh[i] * b_transfer[first + i];
+    v_exitRadiance = sum;
+#endif
+}
