@@ -2,8 +2,80 @@
 
 #include "core/base/Check.h"
 #include "core/mesh/BoxProjection.h"
+#include "core/mesh/RectanglePacking.h"
+#include "core/mesh/SplitVertices.h"
+#include "core/mesh/UvCharts.h"
+#include "core/mesh/UvRaster.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/trigonometric.hpp>
+#include <limits>
 
 namespace patina {
+namespace {
+
+// Above this, charts of a texture's size would hold less than a texel per triangle, and the user
+// would wait for them: such meshes get a box projection.
+constexpr std::size_t kMaxChartedTriangles = 2'000'000;
+
+struct Box2 {
+    glm::dvec2 min{std::numeric_limits<double>::max()};
+    glm::dvec2 max{std::numeric_limits<double>::lowest()};
+    void add(const glm::dvec2& p) {
+        min = glm::min(min, p);
+        max = glm::max(max, p);
+    }
+    [[nodiscard]] glm::dvec2 size() const { return glm::max(max - min, glm::dvec2(0.0)); }
+};
+
+// Positions moved and scaled to a box of size 1, so that every scale of mesh is treated alike.
+std::vector<glm::dvec3> normalizedPoints(const Mesh& mesh) {
+    const Bounds bounds = mesh.bounds();
+    const glm::dvec3 low(bounds.min), extent = glm::dvec3(bounds.max) - low;
+    const double side = std::max({extent.x, extent.y, extent.z});
+    std::vector<glm::dvec3> points(mesh.vertexCount());
+    for (std::size_t i = 0; i < points.size(); ++i)
+        points[i] = (glm::dvec3(mesh.positions[i]) - low) / side;
+    return points;
+}
+
+// Turns each chart so that its box is smallest and lies on its longer side.
+void turnCharts(const Mesh& mesh, std::vector<glm::dvec2>& local,
+                const std::vector<std::uint32_t>& chartOfVertex, std::vector<Box2>& boxes) {
+    constexpr int kAngles = 16; // over 90 degrees
+    std::vector<double> bestArea(boxes.size(), std::numeric_limits<double>::max());
+    std::vector<int> bestAngle(boxes.size(), 0);
+    const auto turned = [](const glm::dvec2& p, double angle) {
+        return glm::dvec2(p.x * std::cos(angle) - p.y * std::sin(angle),
+                          p.x * std::sin(angle) + p.y * std::cos(angle));
+    };
+    const auto radians = [](int step) { return glm::radians(90.0) * step / kAngles; };
+    std::vector<Box2> trial(boxes.size());
+    for (int step = 0; step < kAngles; ++step) {
+        std::fill(trial.begin(), trial.end(), Box2{});
+        const double cosine = std::cos(radians(step)), sine = std::sin(radians(step));
+        for (const std::uint32_t i : mesh.indices)
+            trial[chartOfVertex[i]].add(
+                {local[i].x * cosine - local[i].y * sine, local[i].x * sine + local[i].y * cosine});
+        for (std::size_t c = 0; c < boxes.size(); ++c) {
+            const glm::dvec2 size = trial[c].size();
+            // Upright charts win ties and near ties.
+            const double area = size.x * size.y * (step == 0 ? 0.95 : 1.0);
+            if (area < bestArea[c]) {
+                bestArea[c] = area;
+                bestAngle[c] = size.y > size.x ? step - kAngles : step;
+            }
+        }
+    }
+    for (std::size_t i = 0; i < local.size(); ++i)
+        local[i] = turned(local[i], radians(bestAngle[chartOfVertex[i]]));
+    for (const std::uint32_t i : mesh.indices) // a vertex without triangles must not stretch a box
+        boxes[chartOfVertex[i]].add(local[i]);
+}
+
+} // namespace
 
 void unwrapUvs(Mesh& mesh, const UnwrapSettings& settings) {
     CHECK_LT(0, settings.resolution);
@@ -11,12 +83,90 @@ void unwrapUvs(Mesh& mesh, const UnwrapSettings& settings) {
         mesh.uvs.assign(mesh.positions.size(), glm::vec2(0.0f));
         return;
     }
-    boxProjectUvs(mesh);
+    if (mesh.triangleCount() > kMaxChartedTriangles) {
+        boxProjectUvs(mesh);
+        return;
+    }
+    UvChartSettings chartSettings;
+    chartSettings.maxDeviationDeg = settings.maxNormalDeviationDeg;
+    std::vector<glm::dvec3> points = normalizedPoints(mesh);
+    // A hundredth of a texel, if the mesh's box had the image's size: overlap that no texel sees.
+    chartSettings.overlapTolerance = 0.01 / settings.resolution;
+    const UvCharts charts = cutUvCharts(mesh, points, chartSettings);
+    const std::vector<std::uint32_t> chartOfVertex = splitVertices(mesh, charts.chartOfTriangle);
+
+    // Project along the charts' axes.
+    points = normalizedPoints(mesh);
+    std::vector<ChartFrame> frames(charts.axes.size());
+    std::transform(charts.axes.begin(), charts.axes.end(), frames.begin(), chartFrame);
+    std::vector<glm::dvec2> local(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const ChartFrame& frame = frames[chartOfVertex[i]];
+        local[i] = {glm::dot(points[i], frame.x), glm::dot(points[i], frame.y)};
+    }
+    std::vector<Box2> boxes(charts.axes.size());
+    turnCharts(mesh, local, chartOfVertex, boxes);
+
+    // Pack, and write UVs: v grows downwards, so the image shows each chart as seen from outside.
+    std::vector<glm::dvec2> sizes(boxes.size());
+    std::transform(boxes.begin(), boxes.end(), sizes.begin(),
+                   [](const Box2& box) { return box.size(); });
+    const int margin = static_cast<int>(std::ceil(std::max(settings.marginTexels, 0.0f)));
+    const RectanglePacking packing = packRectangles(sizes, settings.resolution, margin);
+    mesh.uvs.resize(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Box2& box = boxes[chartOfVertex[i]];
+        const glm::dvec2 inBox(local[i].x - box.min.x, box.max.y - local[i].y);
+        const glm::dvec2 texel = glm::dvec2(packing.positions[chartOfVertex[i]]) +
+                                 static_cast<double>(margin) + inBox * packing.scale;
+        mesh.uvs[i] = glm::vec2(glm::clamp(texel / static_cast<double>(packing.side), 0.0, 1.0));
+    }
 }
 
 bool hasOverlappingUvs(const Mesh& mesh, int resolution) {
     CHECK_LT(0, resolution);
-    return mesh.uvs.empty();
+    CHECK_EQ(mesh.uvs.size(), mesh.positions.size());
+    // Shared borders of charts whose numbers differ by rounding do not count.
+    constexpr double kBorderTexels = 0.05;
+    constexpr double kMaxTiles = 16.0; // a triangle that spans more repeats the image
+    constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
+
+    const auto triangleAt = [&](std::size_t t) {
+        std::array<glm::dvec2, 3> triangle;
+        for (std::size_t corner = 0; corner < 3; ++corner)
+            triangle[corner] =
+                glm::dvec2(mesh.uvs[mesh.indices[3 * t + corner]]) * double(resolution);
+        return triangle;
+    };
+    struct Cover {
+        std::uint32_t triangle;
+        bool inside; // by more than the border
+    };
+    const auto side = static_cast<std::size_t>(resolution);
+    std::vector<Cover> covers(side * side, {kFree, false});
+    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+        const std::array<glm::dvec2, 3> triangle = triangleAt(t);
+        const glm::dvec2 size = glm::max(glm::max(triangle[0], triangle[1]), triangle[2]) -
+                                glm::min(glm::min(triangle[0], triangle[1]), triangle[2]);
+        if (std::max(size.x, size.y) > kMaxTiles * resolution)
+            return true;
+        bool overlaps = false;
+        forEachCoveredTexel(triangle, [&](std::int64_t x, std::int64_t y) {
+            const auto wrap = [&](std::int64_t i) {
+                return static_cast<std::size_t>((i % resolution + resolution) % resolution);
+            };
+            Cover& cover = covers[wrap(y) * side + wrap(x)];
+            const glm::dvec2 centre(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5);
+            const bool inside = insideDistance(triangle, centre) > kBorderTexels;
+            if (cover.triangle != kFree && cover.inside && inside)
+                overlaps = true;
+            if (cover.triangle == kFree || inside)
+                cover = {static_cast<std::uint32_t>(t), inside || cover.inside};
+        });
+        if (overlaps)
+            return true;
+    }
+    return false;
 }
 
 } // namespace patina

@@ -1,0 +1,220 @@
+#include "core/mesh/UvCharts.h"
+
+#include "core/mesh/OverlapGrid.h"
+#include "core/mesh/TriangleAdjacency.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <numeric>
+#include <queue>
+
+namespace patina {
+namespace {
+
+constexpr std::uint32_t kNoLabel = kNoTriangle;
+
+// Triangles of like direction get one label ("region"); regions may still overlap in projection.
+class Regions {
+  public:
+    Regions(const Mesh& mesh, const std::vector<glm::dvec3>& points,
+            const std::vector<std::array<std::uint32_t, 3>>& adjacency, double cosLimit)
+        : m_adjacency(adjacency)
+        , m_cosLimit(cosLimit)
+        , m_label(mesh.triangleCount(), kNoLabel)
+        , m_normal(mesh.triangleCount())
+        , m_area(mesh.triangleCount()) {
+        for (std::size_t t = 0; t < m_normal.size(); ++t) {
+            const std::uint32_t* index = mesh.indices.data() + 3 * t;
+            const glm::dvec3 cross = glm::cross(points[index[1]] - points[index[0]],
+                                                points[index[2]] - points[index[0]]);
+            m_area[t] = 0.5 * glm::length(cross);
+            m_normal[t] = m_area[t] > 0.0 ? glm::normalize(cross) : glm::dvec3(0.0, 1.0, 0.0);
+        }
+    }
+
+    void build() {
+        growFromFreeTriangles();
+        relax();
+        growFromFreeTriangles();
+    }
+
+    [[nodiscard]] const std::vector<std::uint32_t>& labels() const { return m_label; }
+    [[nodiscard]] const glm::dvec3& axis(std::uint32_t label) const { return m_axis[label]; }
+
+  private:
+    // Labels every free triangle. A region follows its mean normal while it grows; members that
+    // ended up beyond the limit are set free again for the next round.
+    void growFromFreeTriangles() {
+        constexpr int kRounds = 4; // then axes stay with their seed, so that the end is certain
+        for (int round = 0; round <= kRounds; ++round) {
+            bool anyFree = false;
+            for (std::uint32_t seed = 0; seed < m_label.size(); ++seed)
+                if (m_label[seed] == kNoLabel)
+                    anyFree |= growRegion(seed, round < kRounds);
+            if (!anyFree)
+                return;
+        }
+    }
+
+    // Best first: the triangle that deviates least comes next. Returns true if members were freed.
+    bool growRegion(std::uint32_t seed, bool moveAxis) {
+        const auto label = static_cast<std::uint32_t>(m_axis.size());
+        glm::dvec3 axis = m_normal[seed], sum(0.0);
+        std::vector<std::uint32_t> members;
+        Queue queue;
+        queue.push({0.0, m_order++, seed, label});
+        while (!queue.empty()) {
+            const std::uint32_t t = queue.top().triangle;
+            queue.pop();
+            if (m_label[t] != kNoLabel || glm::dot(m_normal[t], axis) < m_cosLimit)
+                continue;
+            m_label[t] = label;
+            members.push_back(t);
+            sum += m_normal[t] * m_area[t];
+            if (moveAxis && glm::length(sum) > 0.0)
+                axis = glm::normalize(sum);
+            pushNeighbours(queue, t, label, axis);
+        }
+        const auto fits = [&](std::uint32_t t) {
+            return glm::dot(m_normal[t], axis) >= m_cosLimit;
+        };
+        if (std::none_of(members.begin(), members.end(), fits)) {
+            axis = m_normal[seed];
+        }
+        m_axis.push_back(axis);
+        bool freed = false;
+        for (const std::uint32_t t : members) {
+            if (fits(t))
+                continue;
+            m_label[t] = kNoLabel;
+            freed = true;
+        }
+        return freed;
+    }
+
+    // All regions grow again at once from their best triangles with fixed axes, so that borders
+    // settle where two axes suit equally well. Crumbs are left to their neighbours.
+    void relax() {
+        const std::size_t count = m_axis.size();
+        std::vector<double> area(count, 0.0);
+        std::vector<std::uint32_t> best(count, kNoTriangle);
+        const double total = std::accumulate(m_area.begin(), m_area.end(), 0.0);
+        for (std::uint32_t t = 0; t < m_label.size(); ++t) {
+            const std::uint32_t label = m_label[t];
+            area[label] += m_area[t];
+            if (best[label] == kNoTriangle || glm::dot(m_normal[t], m_axis[label]) >
+                                                  glm::dot(m_normal[best[label]], m_axis[label]))
+                best[label] = t;
+        }
+        std::fill(m_label.begin(), m_label.end(), kNoLabel);
+        Queue queue;
+        for (std::uint32_t label = 0; label < count; ++label)
+            if (best[label] != kNoTriangle && area[label] > 1e-4 * total)
+                queue.push({0.0, m_order++, best[label], label});
+        while (!queue.empty()) {
+            const Candidate next = queue.top();
+            queue.pop();
+            if (m_label[next.triangle] != kNoLabel)
+                continue;
+            m_label[next.triangle] = next.label;
+            pushNeighbours(queue, next.triangle, next.label, m_axis[next.label]);
+        }
+    }
+
+    struct Candidate {
+        double deviation; // 1 - cos
+        std::uint64_t order;
+        std::uint32_t triangle, label;
+        friend bool operator>(const Candidate& a, const Candidate& b) {
+            return a.deviation != b.deviation ? a.deviation > b.deviation : a.order > b.order;
+        }
+    };
+    using Queue = std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>>;
+
+    void pushNeighbours(Queue& queue, std::uint32_t t, std::uint32_t label,
+                        const glm::dvec3& axis) {
+        for (const std::uint32_t neighbour : m_adjacency[t]) {
+            if (neighbour == kNoTriangle || m_label[neighbour] != kNoLabel)
+                continue;
+            const double cosine = glm::dot(m_normal[neighbour], axis);
+            if (cosine >= m_cosLimit)
+                queue.push({1.0 - cosine, m_order++, neighbour, label});
+        }
+    }
+
+    const std::vector<std::array<std::uint32_t, 3>>& m_adjacency;
+    double m_cosLimit;
+    std::vector<std::uint32_t> m_label;
+    std::vector<glm::dvec3> m_normal;
+    std::vector<double> m_area;
+    std::vector<glm::dvec3> m_axis;
+    std::uint64_t m_order = 0;
+};
+
+// About one cell per triangle, and no more than some thousand along a side, so that long needles
+// cost little.
+double gridCell(const Mesh& mesh, const std::vector<glm::dvec3>& points,
+                const UvChartSettings& settings) {
+    double area = 0.0;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const glm::dvec3& a = points[mesh.indices[i]];
+        area += 0.5 * glm::length(glm::cross(points[mesh.indices[i + 1]] - a,
+                                             points[mesh.indices[i + 2]] - a));
+    }
+    const double mean = std::sqrt(area / static_cast<double>(mesh.triangleCount()));
+    return std::max({mean, settings.overlapTolerance, 1.0 / 4096.0});
+}
+
+} // namespace
+
+ChartFrame chartFrame(const glm::dvec3& axis) {
+    // World up stays up in the chart where there is one, so that textures stand upright.
+    const glm::dvec3 up = std::abs(axis.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1);
+    const glm::dvec3 x = glm::normalize(glm::cross(up, axis));
+    return {x, glm::cross(axis, x)};
+}
+
+UvCharts cutUvCharts(const Mesh& mesh, const std::vector<glm::dvec3>& points,
+                     const UvChartSettings& settings) {
+    const auto adjacency = triangleAdjacency(mesh);
+    Regions regions(mesh, points, adjacency, std::cos(glm::radians(settings.maxDeviationDeg)));
+    regions.build();
+
+    // Within a region, grow connected charts that leave out what would overlap; what is left out
+    // starts further charts.
+    UvCharts charts;
+    charts.chartOfTriangle.assign(mesh.triangleCount(), kNoLabel);
+    OverlapGrid grid(gridCell(mesh, points, settings), settings.overlapTolerance);
+    for (std::uint32_t seed = 0; seed < mesh.triangleCount(); ++seed) {
+        if (charts.chartOfTriangle[seed] != kNoLabel)
+            continue;
+        const std::uint32_t region = regions.labels()[seed];
+        const auto chart = static_cast<std::uint32_t>(charts.axes.size());
+        const ChartFrame frame = chartFrame(regions.axis(region));
+        charts.axes.push_back(regions.axis(region));
+        std::queue<std::uint32_t> front;
+        front.push(seed);
+        while (!front.empty()) {
+            const std::uint32_t t = front.front();
+            front.pop();
+            if (charts.chartOfTriangle[t] != kNoLabel)
+                continue;
+            Triangle2 triangle;
+            for (std::size_t corner = 0; corner < 3; ++corner) {
+                const glm::dvec3& point = points[mesh.indices[3 * t + corner]];
+                triangle[corner] = {glm::dot(point, frame.x), glm::dot(point, frame.y)};
+            }
+            if (!grid.add(chart, triangle))
+                continue;
+            charts.chartOfTriangle[t] = chart;
+            for (const std::uint32_t neighbour : adjacency[t])
+                if (neighbour != kNoTriangle && regions.labels()[neighbour] == region &&
+                    charts.chartOfTriangle[neighbour] == kNoLabel)
+                    front.push(neighbour);
+        }
+    }
+    return charts;
+}
+
+} // namespace patina

@@ -1,0 +1,193 @@
+#include "core/mesh/UvUnwrap.h"
+#include "tests/core/mesh/Shapes.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <map>
+#include <random>
+#include <set>
+#include <tuple>
+
+using namespace patina;
+using namespace patina::test;
+
+namespace {
+
+Mesh withNormals(Mesh mesh) {
+    mesh.uvs.assign(mesh.positions.size(), glm::vec2(0.0f)); // so that none are generated
+    mesh = sanitized(std::move(mesh));
+    mesh.uvs.clear();
+    return mesh;
+}
+
+// A sphere whose vertices are pushed about at random: what a scanner without smoothing delivers.
+Mesh noisySphere(int columns, int rows, double noise) {
+    std::mt19937 random(7);
+    Mesh mesh = sphereMesh(1.0, columns, rows);
+    std::map<std::tuple<float, float, float>, float> factor;
+    for (glm::vec3& p : mesh.positions) {
+        const auto [at, isNew] = factor.try_emplace({p.x, p.y, p.z}, 0.0f);
+        if (isNew)
+            at->second = float(1.0 + noise * (random() / 4294967296.0 - 0.5));
+        p *= at->second;
+    }
+    return mesh;
+}
+
+// A ribbon that winds up around the y axis; its turns hide each other in every projection.
+Mesh spiralStair(int turns) {
+    return gridMesh(2, 32 * turns, [=](double u, double v) {
+        const double angle = 2 * kPi * turns * v;
+        const double r = 0.5 + 0.5 * u;
+        return glm::dvec3(r * std::sin(angle), 0.2 * turns * v, r * std::cos(angle));
+    });
+}
+
+double signedUvArea(const Mesh& mesh, std::size_t t) {
+    const glm::dvec2 a(mesh.uvs[mesh.indices[3 * t]]), b(mesh.uvs[mesh.indices[3 * t + 1]]),
+        c(mesh.uvs[mesh.indices[3 * t + 2]]);
+    return -0.5 * ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)); // v points down
+}
+
+double area(const Mesh& mesh, std::size_t t) {
+    const glm::dvec3 a(mesh.positions[mesh.indices[3 * t]]),
+        b(mesh.positions[mesh.indices[3 * t + 1]]), c(mesh.positions[mesh.indices[3 * t + 2]]);
+    return 0.5 * glm::length(glm::cross(b - a, c - a));
+}
+
+void expectGoodLayout(const Mesh& mesh, int resolution) {
+    ASSERT_EQ(mesh.uvs.size(), mesh.positions.size());
+    for (const glm::vec2& uv : mesh.uvs)
+        ASSERT_TRUE(uv.x >= 0.0f && uv.x <= 1.0f && uv.y >= 0.0f && uv.y <= 1.0f);
+    EXPECT_FALSE(hasOverlappingUvs(mesh, resolution));
+    EXPECT_FALSE(hasOverlappingUvs(mesh, resolution / 2));
+    EXPECT_FALSE(hasOverlappingUvs(mesh, resolution + 37)); // other texel centres
+
+    // One texel density; projection shortens by at most the cosine of the limit (55 degrees:
+    // 0.574), and nothing is mirrored.
+    double least = 1e300, most = 0.0;
+    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+        if (area(mesh, t) < 1e-7) // float UVs cannot say more about such a triangle
+            continue;
+        const double ratio = signedUvArea(mesh, t) / area(mesh, t);
+        least = std::min(least, ratio);
+        most = std::max(most, ratio);
+    }
+    EXPECT_GT(least, 0.56 * most);
+}
+
+} // namespace
+
+TEST(UnwrapUvs, LayoutsDoNotOverlapKeepDensityAndOrientation) {
+    const std::map<std::string, Mesh> meshes = {
+        {"cube", cubeMesh()},
+        {"plane", planeMesh(1.0, 8)},
+        {"sphere", sphereMesh(1.0)},
+        {"torus", torusMesh(1.0, 0.35, 96, 48)},
+        {"noisy sphere", noisySphere(96, 48, 0.05)},
+        {"very noisy sphere", noisySphere(40, 20, 0.5)},
+        {"spiral stair", spiralStair(5)},
+    };
+    for (const auto& [name, given] : meshes) {
+        SCOPED_TRACE(name);
+        Mesh mesh = withNormals(given);
+        const std::size_t triangles = mesh.triangleCount();
+        unwrapUvs(mesh);
+        EXPECT_EQ(mesh.triangleCount(), triangles);
+        expectGoodLayout(mesh, 1024);
+    }
+}
+
+TEST(UnwrapUvs, SplitsVerticesOnlyWhereChartsMeet) {
+    const Mesh before = withNormals(torusMesh(1.0, 0.35, 64, 32));
+    Mesh after = before;
+    unwrapUvs(after);
+    ASSERT_EQ(after.normals.size(), after.positions.size());
+    ASSERT_EQ(after.tangents.size(), after.positions.size());
+    for (std::size_t corner = 0; corner < before.indices.size(); ++corner) {
+        ASSERT_EQ(after.positions[after.indices[corner]], before.positions[before.indices[corner]]);
+        ASSERT_EQ(after.normals[after.indices[corner]], before.normals[before.indices[corner]]);
+    }
+    // Copies of one original vertex never have the same UV: then the split was for nothing.
+    std::map<std::uint32_t, std::set<std::uint32_t>> copies;
+    for (std::size_t corner = 0; corner < before.indices.size(); ++corner)
+        copies[before.indices[corner]].insert(after.indices[corner]);
+    std::size_t split = 0;
+    for (const auto& [original, vertices] : copies) {
+        std::set<std::pair<float, float>> uvs;
+        for (const std::uint32_t vertex : vertices)
+            uvs.insert({after.uvs[vertex].x, after.uvs[vertex].y});
+        EXPECT_EQ(uvs.size(), vertices.size());
+        split += vertices.size() - 1;
+    }
+    EXPECT_GT(split, 0u);
+    EXPECT_LT(split, before.vertexCount() / 3);
+}
+
+TEST(UnwrapUvs, FlatPiecesAreOneChartAndFillTheSquare) {
+    Mesh plane = withNormals(planeMesh(1.0, 8));
+    const std::size_t vertices = plane.vertexCount();
+    unwrapUvs(plane);
+    EXPECT_EQ(plane.vertexCount(), vertices);
+    double covered = 0.0;
+    for (std::size_t t = 0; t < plane.triangleCount(); ++t)
+        covered += signedUvArea(plane, t);
+    EXPECT_GT(covered, 0.97);
+    Mesh cube = withNormals(cubeMesh());
+    unwrapUvs(cube);
+    EXPECT_LE(cube.vertexCount(), 24u);
+    double used = 0.0;
+    for (std::size_t t = 0; t < cube.triangleCount(); ++t)
+        used += signedUvArea(cube, t);
+    EXPECT_GT(used, 0.5);
+}
+
+TEST(UnwrapUvs, ChartsKeepTheirMargin) {
+    // With a margin of 4 texels no two charts come closer than 8 texels.
+    Mesh cube = withNormals(cubeMesh());
+    UnwrapSettings settings;
+    settings.resolution = 256;
+    settings.marginTexels = 4.0f;
+    unwrapUvs(cube, settings);
+    for (std::size_t i = 0; i < cube.vertexCount(); ++i) {
+        EXPECT_GE(std::min(cube.uvs[i].x, cube.uvs[i].y) * 256.0f, 3.99f);
+        EXPECT_LE(std::max(cube.uvs[i].x, cube.uvs[i].y) * 256.0f, 252.01f);
+        for (std::size_t j = 0; j < i; ++j) {
+            if (cube.positions[i] == cube.positions[j]) {
+                EXPECT_GE(glm::distance(cube.uvs[i], cube.uvs[j]) * 256.0f, 7.99f);
+            }
+        }
+    }
+}
+
+TEST(UnwrapUvs, IsDeterministicAndIndependentOfScale) {
+    Mesh a = withNormals(noisySphere(48, 24, 0.1)), b = a, large = a;
+    for (glm::vec3& p : large.positions)
+        p *= 1024.0f * 1024.0f;
+    unwrapUvs(a);
+    unwrapUvs(b);
+    unwrapUvs(large);
+    EXPECT_EQ(a, b);
+    EXPECT_EQ(a.uvs, large.uvs);
+}
+
+TEST(HasOverlappingUvs, FindsMirroredTiledAndStackedUvs) {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    mesh.uvs = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    EXPECT_FALSE(hasOverlappingUvs(mesh));
+    for (glm::vec2& uv : mesh.uvs) // another tile of the same image: each texel is still met once
+        uv += glm::vec2(3.0f, -2.0f);
+    EXPECT_FALSE(hasOverlappingUvs(mesh));
+    for (glm::vec2& uv : mesh.uvs) // tiled
+        uv = uv * 1.5f;
+    EXPECT_TRUE(hasOverlappingUvs(mesh));
+    for (glm::vec2& uv : mesh.uvs) // tiled beyond reason
+        uv = uv * 1e6f;
+    EXPECT_TRUE(hasOverlappingUvs(mesh));
+    mesh.uvs = {{0, 1}, {1, 1}, {1, 0}, {1, 0.9f}}; // folded over the diagonal
+    EXPECT_TRUE(hasOverlappingUvs(mesh));
+    mesh.uvs.assign(4, glm::vec2(0.5f)); // no area covers no texel
+    EXPECT_FALSE(hasOverlappingUvs(mesh));
+}
