@@ -1,6 +1,7 @@
 #include "render/Renderer.h"
 
 #include "core/base/Log.h"
+#include "render/pass/OverlayPass.h"
 #include "render/pass/PickPass.h"
 #include "render/pass/ScreenPasses.h"
 #include "render/pass/SurfacePass.h"
@@ -21,6 +22,7 @@ struct Renderer::Impl {
         , scene(c)
         , surface(shaders)
         , screen(c, shaders)
+        , overlay(c, shaders, screen)
         , picking(c, shaders)
         , frameBlock(c, "frame", sizeof(FrameBlock)) {}
 
@@ -29,6 +31,7 @@ struct Renderer::Impl {
     GpuScene scene;
     SurfacePass surface;
     ScreenPasses screen;
+    OverlayPass overlay;
     PickPass picking;
     gl::Buffer frameBlock;
     Targets targets;
@@ -138,6 +141,8 @@ Result<void> Renderer::render(const FrameSettings& frame, unsigned targetFramebu
     Result<void> done = r.drawScene(frame, block);
     if (done)
         done = r.screen.toneMap(r.targets, r.scene.document().view);
+    if (done && frame.showOverlays)
+        done = r.overlay.draw(r.targets, r.scene, block, frame.camera, frame.selectedMesh);
     if (done)
         done = r.screen.present(r.targets, targetFramebuffer);
 
