@@ -2,6 +2,7 @@
 
 #include "core/base/Limits.h"
 #include "core/worker/Codec.h"
+#include "core/worker/DracoMesh.h"
 #include "core/worker/GltfBuffers.h"
 #include "core/worker/GltfMaterials.h"
 
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -23,6 +25,11 @@ using nlohmann::json;
 constexpr std::uint32_t kGlbMagic = 0x46546C67;  // "glTF"
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A; // "JSON"
 constexpr std::uint32_t kBinChunk = 0x004E4942;  // "BIN"
+
+// Primitive modes.
+constexpr int kTriangles = 4;
+constexpr int kStrip = 5;
+constexpr int kFan = 6;
 
 struct Container {
     std::string_view text;
@@ -63,11 +70,14 @@ Container openContainer(const MemoryFile& file) {
 }
 
 void checkExtensions(const json& root) {
-    static constexpr std::array<std::string_view, 7> kKnown{
-        "KHR_texture_transform", "KHR_materials_emissive_strength",
-        "KHR_lights_punctual",   "KHR_mesh_quantization",
-        "EXT_texture_webp",      "KHR_materials_pbrSpecularGlossiness",
-        "KHR_materials_unlit"};
+    static constexpr std::array<std::string_view, 8> kKnown{"KHR_draco_mesh_compression",
+                                                            "KHR_texture_transform",
+                                                            "KHR_materials_emissive_strength",
+                                                            "KHR_lights_punctual",
+                                                            "KHR_mesh_quantization",
+                                                            "EXT_texture_webp",
+                                                            "KHR_materials_pbrSpecularGlossiness",
+                                                            "KHR_materials_unlit"};
     for (const json& required : root.value("extensionsRequired", json::array())) {
         const auto name = required.get<std::string>();
         const bool material = name.starts_with("KHR_materials_");
@@ -80,8 +90,6 @@ void checkExtensions(const json& root) {
 
 // Strips and fans become triangles with the winding of glTF 2.0, section 3.7.2.1.
 std::vector<std::uint32_t> triangulate(const std::vector<std::uint32_t>& source, int mode) {
-    constexpr int kStrip = 5;
-    constexpr int kFan = 6;
     std::vector<std::uint32_t> result;
     if (mode != kStrip && mode != kFan) {
         result.assign(source.begin(),
@@ -105,6 +113,49 @@ std::vector<T> regroup(const std::vector<float>& values) {
         std::memcpy(result.data(), values.data(), result.size() * sizeof(T));
     return result;
 }
+
+// The arrays of a primitive, from accessors or from a Draco stream.
+class PrimitiveArrays {
+  public:
+    PrimitiveArrays(const json& source, const GltfBuffers& buffers)
+        : m_source(source)
+        , m_buffers(buffers) {
+        const auto extensions = source.find("extensions");
+        if (extensions == source.end() || !extensions->contains("KHR_draco_mesh_compression"))
+            return;
+        const json& draco = (*extensions)["KHR_draco_mesh_compression"];
+        m_dracoIds = draco.at("attributes");
+        m_draco.emplace(buffers.view(draco.at("bufferView").get<std::size_t>()));
+    }
+
+    // Draco always yields single triangles.
+    [[nodiscard]] bool compressed() const { return m_draco.has_value(); }
+
+    // Empty when the primitive has no such attribute.
+    [[nodiscard]] std::vector<float> floats(const char* name, int components) const {
+        if (m_draco && m_dracoIds.contains(name))
+            return m_draco->floats(m_dracoIds.at(name).get<std::uint32_t>(), components);
+        const json& attributes = m_source.at("attributes");
+        const auto it = attributes.find(name);
+        if (it == attributes.end())
+            return {};
+        return m_buffers.floats(it->get<std::size_t>(), components);
+    }
+
+    [[nodiscard]] std::vector<std::uint32_t> indices() const {
+        if (m_draco)
+            return m_draco->indices();
+        const auto it = m_source.find("indices");
+        return it == m_source.end() ? std::vector<std::uint32_t>()
+                                    : m_buffers.indices(it->get<std::size_t>());
+    }
+
+  private:
+    const json& m_source;
+    const GltfBuffers& m_buffers;
+    json m_dracoIds;
+    std::optional<DracoMesh> m_draco;
+};
 
 class Reader {
   public:
@@ -147,29 +198,24 @@ int Reader::defaultMaterial() {
 }
 
 std::optional<Mesh> Reader::primitive(const json& source, const std::string& name) {
-    const int mode = source.value("mode", 4);
+    const int mode = source.value("mode", kTriangles);
     const json& attributes = source.at("attributes");
-    if (mode < 4 || mode > 6) {
+    if (mode < kTriangles || mode > kFan) {
         ++m_linesAndPoints;
         return std::nullopt;
     }
     if (!attributes.contains("POSITION"))
         return std::nullopt;
-    if (const json& extensions = source.value("extensions", json::object());
-        extensions.contains("KHR_draco_mesh_compression"))
-        throw Refusal("the file uses Draco compression, which is not supported; export it without");
     m_animated = m_animated || source.contains("targets") || attributes.contains("JOINTS_0");
 
     Mesh mesh;
     mesh.name = name;
-    mesh.positions =
-        regroup<glm::vec3>(m_buffers.floats(attributes["POSITION"].get<std::size_t>(), 3));
+    const PrimitiveArrays arrays(source, m_buffers);
+    mesh.positions = regroup<glm::vec3>(arrays.floats("POSITION", 3));
     const auto optional = [&](const char* key, int components) {
-        const auto it = attributes.find(key);
-        if (it == attributes.end())
-            return std::vector<float>();
-        auto values = m_buffers.floats(it->get<std::size_t>(), components);
-        if (values.size() != mesh.positions.size() * static_cast<std::size_t>(components))
+        auto values = arrays.floats(key, components);
+        if (!values.empty() &&
+            values.size() != mesh.positions.size() * static_cast<std::size_t>(components))
             throw Refusal("the file is damaged; export it again",
                           fmt::format("{} and POSITION differ in length", key));
         return values;
@@ -177,15 +223,12 @@ std::optional<Mesh> Reader::primitive(const json& source, const std::string& nam
     mesh.normals = regroup<glm::vec3>(optional("NORMAL", 3));
     mesh.uvs = regroup<glm::vec2>(optional("TEXCOORD_0", 2));
     mesh.tangents = regroup<glm::vec4>(optional("TANGENT", 4));
-
-    std::vector<std::uint32_t> indices;
-    if (const auto it = source.find("indices"); it != source.end()) {
-        indices = m_buffers.indices(it->get<std::size_t>());
-    } else {
+    std::vector<std::uint32_t> indices = arrays.indices();
+    if (indices.empty() && !source.contains("indices")) {
         indices.resize(mesh.positions.size());
         std::iota(indices.begin(), indices.end(), 0u);
     }
-    mesh.indices = triangulate(indices, mode);
+    mesh.indices = triangulate(indices, arrays.compressed() ? kTriangles : mode);
 
     // Without normals a mesh is flat-shaded (glTF 2.0, section 3.7.2.1): each triangle gets
     // vertices of its own. Tangents without normals are to be ignored.
