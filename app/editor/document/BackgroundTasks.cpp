@@ -4,9 +4,9 @@
 
 namespace patina::editor {
 
-BackgroundTasks::BackgroundTasks(QObject* parent)
+BackgroundTasks::BackgroundTasks(int threads, QObject* parent)
     : QObject(parent) {
-    m_pool.setMaxThreadCount(4); // most of the work waits for the worker process or for the disk
+    m_pool.setMaxThreadCount(threads);
 }
 
 BackgroundTasks::~BackgroundTasks() {

@@ -19,7 +19,7 @@ class BackgroundTasks : public QObject {
     using Apply = std::function<void()>;
     using Work = std::function<Apply(const JobContext&)>;
 
-    explicit BackgroundTasks(QObject* parent = nullptr);
+    explicit BackgroundTasks(int threads, QObject* parent = nullptr);
     ~BackgroundTasks() override; // cancels everything and waits
 
     // The newest wins: a task of the same `key` that still runs is cancelled and applies nothing.

@@ -32,60 +32,47 @@ std::map<const void*, std::size_t> payloads(const Elements& elements) {
     return result;
 }
 
-std::string* nameIn(Document& document, Target target) {
-    switch (target.scope) {
-    case Scope::Mesh:
-        if (MeshInstance* mesh = document.mesh(target.id))
-            return &mesh->name;
-        break;
-    case Scope::Material:
-        if (Material* material = document.material(target.id))
-            return &material->name;
-        break;
-    case Scope::Light:
-        if (Light* light = document.light(target.id))
-            return &light->name;
-        break;
-    case Scope::Environment:
-    case Scope::View:
-        break;
-    }
-    return nullptr;
-}
-
 } // namespace
 
-SetParameterCommand::SetParameterCommand(DocumentController& controller, const QString& text,
-                                         const ParameterInfo& info, Target target,
-                                         ParameterValue after, DragSession session)
+SetParametersCommand::SetParametersCommand(DocumentController& controller, const QString& text,
+                                           Target target, std::vector<ParameterEdit> after,
+                                           DragSession session)
     : DocumentCommand(controller, text)
-    , m_info(info)
     , m_target(target)
-    , m_before(info.get(controller.document(), target.id))
     , m_after(std::move(after))
-    , m_session(session) {}
+    , m_session(session) {
+    for (const ParameterEdit& edit : m_after)
+        m_before.push_back({edit.info, edit.info->get(controller.document(), target.id)});
+}
 
-bool SetParameterCommand::mergeWith(const QUndoCommand* other) {
-    const auto* next = dynamic_cast<const SetParameterCommand*>(other);
-    if (!next || next->m_session != m_session || &next->m_info != &m_info ||
-        next->m_target != m_target)
+bool SetParametersCommand::mergeWith(const QUndoCommand* other) {
+    const auto* next = dynamic_cast<const SetParametersCommand*>(other);
+    if (!next || next->m_session != m_session || next->m_target != m_target ||
+        !std::equal(m_after.begin(), m_after.end(), next->m_after.begin(), next->m_after.end(),
+                    [](const auto& a, const auto& b) { return a.info == b.info; }))
         return false;
     m_after = next->m_after;
-    setObsolete(m_after == m_before);
+    setObsolete(std::equal(m_before.begin(), m_before.end(), m_after.begin(),
+                           [](const auto& a, const auto& b) { return a.value == b.value; }));
     return true;
 }
 
-std::size_t SetParameterCommand::payloadBytes() const {
-    const auto* before = std::get_if<MapSlot>(&m_before);
-    const auto* after = std::get_if<MapSlot>(&m_after);
-    if (!before || !after || before->image == after->image)
-        return 0;
-    return imageBytes(before->image) + imageBytes(after->image);
+std::size_t SetParametersCommand::payloadBytes() const {
+    std::size_t bytes = 0;
+    for (const auto* edits : {&m_before, &m_after})
+        for (const ParameterEdit& edit : *edits)
+            if (const auto* slot = std::get_if<MapSlot>(&edit.value))
+                bytes += imageBytes(slot->image);
+    return bytes;
 }
 
-Change SetParameterCommand::swap(Document& document, bool forward) {
-    m_info.set(document, m_target.id, forward ? m_after : m_before);
-    return {m_info.affects, m_target};
+Change SetParametersCommand::swap(Document& document, bool forward) {
+    Change change{Affects::Nothing, m_target};
+    for (const ParameterEdit& edit : forward ? m_after : m_before) {
+        edit.info->set(document, m_target.id, edit.value);
+        change.affects = change.affects | edit.info->affects;
+    }
+    return change;
 }
 
 ReplaceElementsCommand::ReplaceElementsCommand(DocumentController& controller, const QString& text,
@@ -118,40 +105,6 @@ Change ReplaceElementsCommand::swap(Document& document, bool forward) {
             std::nullopt};
 }
 
-RenameCommand::RenameCommand(DocumentController& controller, const QString& text, Target target,
-                             std::string after)
-    : DocumentCommand(controller, text)
-    , m_target(target)
-    , m_before(nameOf(controller.document(), target))
-    , m_after(std::move(after)) {}
-
-Change RenameCommand::swap(Document& document, bool forward) {
-    std::string* name = nameIn(document, m_target);
-    CHECK(name != nullptr);
-    *name = forward ? m_after : m_before;
-    return {Affects::Structure, m_target};
-}
-
-SetEnvironmentCommand::SetEnvironmentCommand(DocumentController& controller, const QString& text,
-                                             std::string source, ImagePtr image)
-    : DocumentCommand(controller, text)
-    , m_after{std::move(source), std::move(image), {}} {
-    const Environment& environment = controller.document().environment;
-    m_before = {environment.source, environment.image, environment.problem};
-}
-
-std::size_t SetEnvironmentCommand::payloadBytes() const {
-    return imageBytes(m_before.image) + imageBytes(m_after.image);
-}
-
-Change SetEnvironmentCommand::swap(Document& document, bool forward) {
-    const Sky& sky = forward ? m_after : m_before;
-    document.environment.source = sky.source;
-    document.environment.image = sky.image;
-    document.environment.problem = sky.problem;
-    return {Affects::EnvironmentMap | Affects::Uniform, Target{Scope::Environment, 0}};
-}
-
 SetBakesCommand::SetBakesCommand(DocumentController& controller, const QString& text,
                                  std::vector<BakeArtifactPtr> after)
     : DocumentCommand(controller, text)
@@ -179,10 +132,31 @@ Change SetBakesCommand::swap(Document& document, bool forward) {
     return {Affects::Bakes, std::nullopt};
 }
 
+const ParameterInfo& parameter(const char* id) {
+    const ParameterInfo* info = findParameter(id);
+    CHECK(info != nullptr);
+    return *info;
+}
+
 std::string nameOf(const Document& document, Target target) {
-    // nameIn() only looks; the const_cast spares a second switch.
-    const std::string* name = nameIn(const_cast<Document&>(document), target);
-    return name ? *name : std::string();
+    switch (target.scope) {
+    case Scope::Mesh:
+        if (const MeshInstance* mesh = document.mesh(target.id))
+            return mesh->name;
+        break;
+    case Scope::Material:
+        if (const Material* material = document.material(target.id))
+            return material->name;
+        break;
+    case Scope::Light:
+        if (const Light* light = document.light(target.id))
+            return light->name;
+        break;
+    case Scope::Environment:
+    case Scope::View:
+        break;
+    }
+    return {};
 }
 
 } // namespace patina::editor

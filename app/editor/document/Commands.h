@@ -31,13 +31,12 @@ class DocumentCommand : public QUndoCommand {
     DocumentController& m_controller;
 };
 
-// One parameter of one element. Merges within a drag; a drag that returns to its start leaves no
-// step behind.
-class SetParameterCommand : public DocumentCommand {
+// Parameters of one element: one, or the few that belong together. Merges within a drag; a drag
+// that returns to its start leaves no step behind.
+class SetParametersCommand : public DocumentCommand {
   public:
-    SetParameterCommand(DocumentController& controller, const QString& text,
-                        const ParameterInfo& info, Target target, ParameterValue after,
-                        DragSession session);
+    SetParametersCommand(DocumentController& controller, const QString& text, Target target,
+                         std::vector<ParameterEdit> after, DragSession session);
     [[nodiscard]] int id() const override { return m_session == 0 ? -1 : 1; }
     bool mergeWith(const QUndoCommand* other) override;
     [[nodiscard]] std::size_t payloadBytes() const override;
@@ -46,9 +45,8 @@ class SetParameterCommand : public DocumentCommand {
     Change swap(Document& document, bool forward) override;
 
   private:
-    const ParameterInfo& m_info; // of the static table
     Target m_target;
-    ParameterValue m_before, m_after;
+    std::vector<ParameterEdit> m_before, m_after; // of the same parameters, in the same order
     DragSession m_session;
 };
 
@@ -63,37 +61,6 @@ class ReplaceElementsCommand : public DocumentCommand {
 
   private:
     Elements m_before, m_after;
-};
-
-class RenameCommand : public DocumentCommand {
-  public:
-    RenameCommand(DocumentController& controller, const QString& text, Target target,
-                  std::string after);
-
-  protected:
-    Change swap(Document& document, bool forward) override;
-
-  private:
-    Target m_target;
-    std::string m_before, m_after;
-};
-
-class SetEnvironmentCommand : public DocumentCommand {
-  public:
-    SetEnvironmentCommand(DocumentController& controller, const QString& text, std::string source,
-                          ImagePtr image);
-    [[nodiscard]] std::size_t payloadBytes() const override;
-
-  protected:
-    Change swap(Document& document, bool forward) override;
-
-  private:
-    struct Sky {
-        std::string source;
-        ImagePtr image;
-        std::string problem;
-    };
-    Sky m_before, m_after;
 };
 
 class SetBakesCommand : public DocumentCommand {
@@ -111,5 +78,8 @@ class SetBakesCommand : public DocumentCommand {
 
 // The name of a mesh, material or light.
 [[nodiscard]] std::string nameOf(const Document& document, Target target);
+
+// A parameter that is known to be in the table.
+[[nodiscard]] const ParameterInfo& parameter(const char* id);
 
 } // namespace patina::editor

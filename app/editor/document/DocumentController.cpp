@@ -16,26 +16,12 @@ QString fromText(std::string_view text) {
     return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
 }
 
-bool exists(const Document& document, Target target) {
-    switch (target.scope) {
-    case Scope::Mesh:
-        return document.mesh(target.id) != nullptr;
-    case Scope::Material:
-        return document.material(target.id) != nullptr;
-    case Scope::Light:
-        return document.light(target.id) != nullptr;
-    case Scope::Environment:
-    case Scope::View:
-        return target.id == 0;
-    }
-    return false;
-}
-
 } // namespace
 
 DocumentController::DocumentController(WorkerClient& worker, QObject* parent)
     : QObject(parent)
-    , m_worker(worker) {
+    , m_worker(worker)
+    , m_tasks(4) { // most of them wait for the worker process or for the disk
     m_undo.setUndoLimit(kUndoSteps);
     connect(&m_undo, &QUndoStack::cleanChanged, this, &DocumentController::fileChanged);
     connect(&m_tasks, &BackgroundTasks::failed, this,
@@ -87,17 +73,25 @@ void DocumentController::push(DocumentCommand* command) {
 void DocumentController::setParameter(const ParameterInfo& info, Target target,
                                       const ParameterValue& value, DragSession session) {
     CHECK(info.scope == target.scope);
-    if (!exists(m_document, target))
-        return;
-    ParameterValue after = clampToRange(info, value);
-    if (after == info.get(m_document, target.id))
-        return;
     const QString label = fromText(info.label);
     const std::string name = nameOf(m_document, target);
-    const QString text = name.empty()
-                             ? tr("Change %1").arg(label)
-                             : tr("Change %1 of %2").arg(label, QString::fromStdString(name));
-    push(new SetParameterCommand(*this, text, info, target, std::move(after), session));
+    pushParameters(target, {{&info, value}}, session,
+                   name.empty() ? tr("Change %1").arg(label)
+                                : tr("Change %1 of %2").arg(label, QString::fromStdString(name)));
+}
+
+void DocumentController::pushParameters(Target target, const std::vector<ParameterEdit>& edits,
+                                        DragSession session, const QString& text) {
+    if (!targetExists(m_document, target))
+        return;
+    std::vector<ParameterEdit> after;
+    for (const ParameterEdit& edit : edits) {
+        ParameterValue value = clampToRange(*edit.info, edit.value);
+        if (value != edit.info->get(m_document, target.id))
+            after.push_back({edit.info, std::move(value)});
+    }
+    if (!after.empty())
+        push(new SetParametersCommand(*this, text, target, std::move(after), session));
 }
 
 void DocumentController::resetParameter(const ParameterInfo& info, Target target) {
@@ -106,100 +100,89 @@ void DocumentController::resetParameter(const ParameterInfo& info, Target target
 
 // --- Structure -----------------------------------------------------------------------------------
 
-void DocumentController::replaceElements(const QString& undoText,
-                                         const std::function<void(Elements&)>& edit) {
-    Elements elements{m_document.meshes, m_document.materials, m_document.lights,
-                      m_document.nextId};
-    edit(elements);
-    push(new ReplaceElementsCommand(*this, undoText, std::move(elements)));
+void DocumentController::editStructure(const QString& undoText,
+                                       const std::function<void(Document&)>& edit) {
+    Document copy = m_document; // payloads are shared, so this is cheap
+    edit(copy);
+    push(new ReplaceElementsCommand(
+        *this, undoText,
+        {std::move(copy.meshes), std::move(copy.materials), std::move(copy.lights), copy.nextId}));
 }
 
 void DocumentController::rename(Target target, const QString& name) {
     const QString trimmed = name.trimmed();
-    const std::string before = nameOf(m_document, target);
-    if (!exists(m_document, target) || trimmed.isEmpty() || trimmed.toStdString() == before)
+    if (trimmed.isEmpty() || !targetExists(m_document, target))
         return;
-    push(new RenameCommand(*this, tr("Rename %1").arg(QString::fromStdString(before)), target,
-                           trimmed.toStdString()));
+    pushParameters(target,
+                   {{&parameter(target.scope == Scope::Mesh       ? "mesh.name"
+                                : target.scope == Scope::Material ? "material.name"
+                                                                  : "light.name"),
+                     trimmed.toStdString()}},
+                   0, tr("Rename %1").arg(nameText(target)));
+}
+
+QString DocumentController::nameText(Target target) const {
+    return QString::fromStdString(nameOf(m_document, target));
 }
 
 Id DocumentController::addLight(LightType type) {
-    Id id = 0;
     const bool point = type == LightType::Point;
-    const QString base = point ? tr("Point") : tr("Sun");
-    replaceElements(point ? tr("Add Point Light") : tr("Add Directional Light"),
-                    [&](Elements& elements) {
-                        Light light;
-                        light.id = id = elements.nextId++;
-                        light.type = type;
-                        light.name = uniqueName(base.toStdString(), elements.lights);
-                        if (point)
-                            light.intensity = 20.0f;
-                        elements.lights.push_back(light);
-                    });
+    Light light;
+    light.type = type;
+    light.name = (point ? tr("Point") : tr("Sun")).toStdString();
+    if (point)
+        light.intensity = 20.0f; // as bright as the default sun at the default distance
+    Id id = 0;
+    editStructure(point ? tr("Add Point Light") : tr("Add Directional Light"),
+                  [&](Document& document) { id = patina::addLight(document, light); });
     return id;
 }
 
 void DocumentController::removeLight(Id id) {
-    const Light* light = m_document.light(id);
-    if (!light)
-        return;
-    replaceElements(tr("Remove %1").arg(QString::fromStdString(light->name)),
-                    [id](Elements& elements) {
-                        std::erase_if(elements.lights, [id](const Light& l) { return l.id == id; });
-                    });
+    if (m_document.light(id))
+        editStructure(tr("Remove %1").arg(nameText({Scope::Light, id})),
+                      [id](Document& document) { patina::removeLight(document, id); });
 }
 
-Id DocumentController::addMaterial(Id copyOf) {
+Id DocumentController::addMaterial() {
     Id id = 0;
-    const Material* original = m_document.material(copyOf);
-    replaceElements(original ? tr("Duplicate %1").arg(QString::fromStdString(original->name))
-                             : tr("Add Material"),
-                    [&](Elements& elements) {
-                        Material material = original ? *original : Material{};
-                        material.name = uniqueName(material.name, elements.materials);
-                        material.id = id = elements.nextId++;
-                        elements.materials.push_back(std::move(material));
-                    });
+    editStructure(tr("Add Material"),
+                  [&](Document& document) { id = patina::addMaterial(document, Material{}); });
+    return id;
+}
+
+Id DocumentController::duplicateMaterial(Id original) {
+    Id id = 0;
+    if (m_document.material(original))
+        editStructure(
+            tr("Duplicate %1").arg(nameText({Scope::Material, original})),
+            [&](Document& document) { id = patina::duplicateMaterial(document, original); });
     return id;
 }
 
 void DocumentController::removeMaterial(Id id) {
-    const Material* material = m_document.material(id);
-    if (!material || m_document.materials.size() < 2)
-        return;
-    replaceElements(
-        tr("Remove %1").arg(QString::fromStdString(material->name)), [id](Elements& elements) {
-            std::erase_if(elements.materials, [id](const Material& m) { return m.id == id; });
-            for (MeshInstance& mesh : elements.meshes)
-                if (mesh.material == id)
-                    mesh.material = elements.materials.front().id;
-        });
+    if (m_document.material(id) && m_document.materials.size() > 1)
+        editStructure(tr("Remove %1").arg(nameText({Scope::Material, id})),
+                      [id](Document& document) { patina::removeMaterial(document, id); });
 }
 
-void DocumentController::assignMaterial(Id meshId, Id materialId) {
-    const MeshInstance* mesh = m_document.mesh(meshId);
-    const Material* material = m_document.material(materialId);
-    if (!mesh || !material || mesh->material == materialId)
-        return;
-    replaceElements(
-        tr("Assign %1 to %2")
-            .arg(QString::fromStdString(material->name), QString::fromStdString(mesh->name)),
-        [=](Elements& elements) {
-            for (MeshInstance& candidate : elements.meshes)
-                if (candidate.id == meshId)
-                    candidate.material = materialId;
-        });
+void DocumentController::assignMaterial(Id mesh, Id material) {
+    if (m_document.material(material))
+        pushParameters(
+            {Scope::Mesh, mesh}, {{&parameter("mesh.material"), static_cast<int>(material)}}, 0,
+            tr("Assign %1 to %2")
+                .arg(nameText({Scope::Material, material}), nameText({Scope::Mesh, mesh})));
+}
+
+void DocumentController::setMeshVisible(Id mesh, bool visible) {
+    pushParameters({Scope::Mesh, mesh}, {{&parameter("mesh.visible"), visible}}, 0,
+                   (visible ? tr("Show %1") : tr("Hide %1")).arg(nameText({Scope::Mesh, mesh})));
 }
 
 void DocumentController::removeMesh(Id id) {
-    const MeshInstance* mesh = m_document.mesh(id);
-    if (!mesh)
-        return;
-    replaceElements(
-        tr("Remove %1").arg(QString::fromStdString(mesh->name)), [id](Elements& elements) {
-            std::erase_if(elements.meshes, [id](const MeshInstance& m) { return m.id == id; });
-        });
+    if (m_document.mesh(id))
+        editStructure(tr("Remove %1").arg(nameText({Scope::Mesh, id})),
+                      [id](Document& document) { patina::removeMesh(document, id); });
 }
 
 // --- Bakes and view ------------------------------------------------------------------------------

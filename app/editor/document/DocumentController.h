@@ -9,14 +9,13 @@
 #include "app/editor/document/UserNotice.h"
 #include "core/document/Change.h"
 #include "core/document/Document.h"
+#include "core/document/Edit.h"
 
 #include <QObject>
 #include <QString>
 #include <QStringList>
 #include <QUndoStack>
-#include <algorithm>
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace patina {
@@ -37,19 +36,6 @@ struct Elements {
     std::vector<Light> lights;
     Id nextId = 1;
 };
-
-// `wanted`, or "wanted 2" … when another of `elements` has that name: names are unique so that
-// scripts can tell elements apart.
-template <class Element>
-[[nodiscard]] std::string uniqueName(const std::string& wanted,
-                                     const std::vector<Element>& elements) {
-    std::string name = wanted;
-    for (int number = 2; std::any_of(elements.begin(), elements.end(),
-                                     [&](const Element& other) { return other.name == name; });
-         ++number)
-        name = wanted + " " + std::to_string(number);
-    return name;
-}
 
 class DocumentController : public QObject {
     Q_OBJECT
@@ -86,13 +72,16 @@ class DocumentController : public QObject {
     void rename(Target target, const QString& name);
     Id addLight(LightType type);
     void removeLight(Id light);
-    Id addMaterial(Id copyOf = 0);    // 0: a default one
+    Id addMaterial();
+    Id duplicateMaterial(Id material);
     void removeMaterial(Id material); // its meshes get the first of the others; the last one stays
     void assignMaterial(Id mesh, Id material);
     void applyLibraryMaterial(Id material, const QString& name); // keeps id and name
+    void setMeshVisible(Id mesh, bool visible);
     void removeMesh(Id mesh);
     void addModel(const QString& source); // a file or "builtin:NAME"
-    void replaceElements(const QString& undoText, const std::function<void(Elements&)>& edit);
+    // Any edit of the lists of meshes, materials and lights (core/document/Edit.h) as one step.
+    void editStructure(const QString& undoText, const std::function<void(Document&)>& edit);
 
     // --- Bakes -----------------------------------------------------------------------------------
     void attachBake(BakeArtifactPtr artifact); // replaces the one of the same kind
@@ -103,12 +92,13 @@ class DocumentController : public QObject {
     void setCamera(const Camera& camera);
 
     // --- Files -----------------------------------------------------------------------------------
-    void newDocument();                   // the start scene
-    void openScene(const QString& scene); // project, model file or "builtin:NAME"
+    // `done` runs on the UI thread with whether it worked; not when something newer was opened.
+    void newDocument(std::function<void(bool)> done = {}); // the start scene
+    // A project, a model file or "builtin:NAME".
+    void openScene(const QString& scene, std::function<void(bool)> done = {});
     // Models are added, HDRs light the scene, images become the base colour of a material, projects
     // are opened.
     void addFiles(const QStringList& files, Id baseColorOf = 0);
-    // `done` runs on the UI thread with whether it worked.
     void saveAs(const QString& file, std::function<void(bool)> done = {});
 
   Q_SIGNALS:
@@ -121,8 +111,12 @@ class DocumentController : public QObject {
 
   private:
     friend class DocumentCommand;
+    [[nodiscard]] QString nameText(Target target) const;
     void apply(const std::function<Change(Document&)>& edit); // for commands only
     void push(DocumentCommand* command);
+    void pushParameters(Target target, const std::vector<ParameterEdit>& edits, DragSession session,
+                        const QString& text);
+    void takeOpened(OpenedScene opened, const QString& scene, const QString& name);
     void replaceDocument(Document document, const QString& filePath, const QString& name,
                          bool pristine);
 

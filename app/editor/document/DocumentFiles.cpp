@@ -3,6 +3,7 @@
 #include "app/editor/document/Commands.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/FileKinds.h"
+#include "core/base/Check.h"
 #include "core/document/DocumentIO.h"
 #include "core/document/Scene.h"
 #include "core/library/Library.h"
@@ -27,30 +28,27 @@ QString shortName(const QString& source) {
     return QString::fromStdString(key);
 }
 
+QString labelOf(const ParameterInfo& info) {
+    return QString::fromUtf8(info.label.data(), static_cast<qsizetype>(info.label.size()));
+}
+
 std::filesystem::path toPath(const QString& file) {
     return {QFile::encodeName(QFileInfo(file).absoluteFilePath()).toStdString()};
 }
 
-// Appends what `part` holds with ids that are free in `elements`.
-void appendScene(Elements& elements, const Document& part) {
-    std::map<Id, Id> materialIds;
-    for (Material material : part.materials) {
-        const Id old = material.id;
-        material.name = uniqueName(material.name, elements.materials);
-        material.id = materialIds[old] = elements.nextId++;
-        elements.materials.push_back(std::move(material));
-    }
+// Appends what `part` holds under ids and names that are free in `document`.
+void appendScene(Document& document, const Document& part) {
+    std::map<Id, Id> materials;
+    for (const Material& material : part.materials)
+        materials[material.id] = addMaterial(document, material);
     for (MeshInstance mesh : part.meshes) {
-        mesh.name = uniqueName(mesh.name, elements.meshes);
-        mesh.id = elements.nextId++;
-        mesh.material = materialIds[mesh.material];
-        elements.meshes.push_back(std::move(mesh));
+        mesh.name = uniqueMeshName(document, mesh.name);
+        mesh.id = document.takeId();
+        mesh.material = materials.at(mesh.material);
+        document.meshes.push_back(std::move(mesh));
     }
-    for (Light light : part.lights) {
-        light.name = uniqueName(light.name, elements.lights);
-        light.id = elements.nextId++;
-        elements.lights.push_back(std::move(light));
-    }
+    for (const Light& light : part.lights)
+        addLight(document, light);
 }
 
 } // namespace
@@ -68,41 +66,47 @@ void DocumentController::replaceDocument(Document document, const QString& fileP
     Q_EMIT fileChanged();
 }
 
-void DocumentController::newDocument() {
-    m_tasks.start(QStringLiteral("open"), tr("Preparing the start scene"),
-                  [this](const JobContext&) -> BackgroundTasks::Apply {
-                      auto document = std::make_shared<Document>(startDocument());
-                      return
-                          [this, document] { replaceDocument(std::move(*document), {}, {}, true); };
-                  });
+void DocumentController::newDocument(std::function<void(bool)> done) {
+    const auto work = [this, done](const JobContext&) -> BackgroundTasks::Apply {
+        auto document = std::make_shared<Document>(startDocument());
+        return [this, document, done] {
+            replaceDocument(std::move(*document), {}, {}, true);
+            if (done)
+                done(true);
+        };
+    };
+    m_tasks.start(QStringLiteral("open"), tr("Preparing the start scene"), work);
 }
 
-void DocumentController::openScene(const QString& scene) {
+void DocumentController::openScene(const QString& scene, std::function<void(bool)> done) {
     const QString name = shortName(scene);
-    m_tasks.start(QStringLiteral("open"), tr("Opening %1").arg(name),
-                  [this, scene, name](const JobContext& job) -> BackgroundTasks::Apply {
-                      auto result = std::make_shared<Result<OpenedScene>>(
-                          patina::openScene(m_worker, scene.toStdString(), job));
-                      return [this, scene, name, result] {
-                          if (!result->ok()) {
-                              if (result->error().kind != ErrorKind::Cancelled)
-                                  Q_EMIT noticed(UserNotice::fromError(result->error()));
-                              Q_EMIT openFailed(scene);
-                              return;
-                          }
-                          OpenedScene& opened = result->value();
-                          const bool isProject = opened.isProject;
-                          const UserNotice notice =
-                              UserNotice::fromImport(name, opened.notices, opened.missingFiles);
-                          const QString file = QFileInfo(scene).absoluteFilePath();
-                          replaceDocument(std::move(opened.document), isProject ? file : QString(),
-                                          isProject ? name : QFileInfo(name).completeBaseName(),
-                                          false);
-                          if (!notice.text.isEmpty())
-                              Q_EMIT noticed(notice);
-                          Q_EMIT sceneOpened(isBuiltin(scene.toStdString()) ? scene : file);
-                      };
-                  });
+    const auto work = [this, scene, name, done](const JobContext& job) -> BackgroundTasks::Apply {
+        auto result = std::make_shared<Result<OpenedScene>>(
+            patina::openScene(m_worker, scene.toStdString(), job));
+        return [this, scene, name, done, result] {
+            if (result->ok()) {
+                takeOpened(std::move(result->value()), scene, name);
+            } else {
+                if (result->error().kind != ErrorKind::Cancelled)
+                    Q_EMIT noticed(UserNotice::fromError(result->error()));
+                Q_EMIT openFailed(scene);
+            }
+            if (done)
+                done(result->ok());
+        };
+    };
+    m_tasks.start(QStringLiteral("open"), tr("Opening %1").arg(name), work);
+}
+
+void DocumentController::takeOpened(OpenedScene opened, const QString& scene, const QString& name) {
+    const UserNotice notice = UserNotice::fromImport(name, opened.notices, opened.missingFiles);
+    const QString file =
+        isBuiltin(scene.toStdString()) ? scene : QFileInfo(scene).absoluteFilePath();
+    replaceDocument(std::move(opened.document), opened.isProject ? file : QString(),
+                    opened.isProject ? name : QFileInfo(name).completeBaseName(), false);
+    if (!notice.text.isEmpty())
+        Q_EMIT noticed(notice);
+    Q_EMIT sceneOpened(file);
 }
 
 void DocumentController::addModel(const QString& source) {
@@ -118,9 +122,8 @@ void DocumentController::addModel(const QString& source) {
                               Q_EMIT noticed(UserNotice::fromError(result->error()));
                               return;
                           }
-                          replaceElements(tr("Add %1").arg(name), [&](Elements& elements) {
-                              appendScene(elements, *part);
-                          });
+                          editStructure(tr("Add %1").arg(name),
+                                        [&](Document& document) { appendScene(document, *part); });
                           const UserNotice notice =
                               UserNotice::fromImport(name, result->value(), {});
                           if (!notice.text.isEmpty())
@@ -143,43 +146,46 @@ void DocumentController::setMap(const ParameterInfo& map, Target target, const Q
                               Q_EMIT noticed(UserNotice::fromError(image->error()));
                               return;
                           }
-                          if (target.scope == Scope::Material && !m_document.material(target.id))
+                          if (!targetExists(m_document, target))
                               return;
                           MapSlot slot = std::get<MapSlot>(map.get(m_document, target.id));
                           slot.source = name;
                           slot.image = image->value();
                           slot.problem.clear();
-                          setParameter(map, target, slot);
+                          pushParameters(target, editsForMap(m_document, map, target, slot), 0,
+                                         tr("Set %1").arg(labelOf(map)));
                       };
                   });
 }
 
 void DocumentController::clearMap(const ParameterInfo& map, Target target) {
-    setParameter(map, target, MapSlot{});
+    pushParameters(target, {{&map, map.defaultValue()}}, 0, tr("Remove %1").arg(labelOf(map)));
 }
 
 void DocumentController::setEnvironment(const QString& source) {
     const QString title = shortName(source);
-    m_tasks.start(QStringLiteral("environment"), tr("Reading %1").arg(title),
-                  [this, source, title](const JobContext&) -> BackgroundTasks::Apply {
-                      const std::string name = normalizeSource(source.toStdString());
-                      auto notices = std::make_shared<std::vector<Notice>>();
-                      auto image = std::make_shared<Result<ImagePtr>>(
-                          loadEnvironmentImage(m_worker, name, *notices));
-                      return [this, title, name, notices, image] {
-                          if (!image->ok()) {
-                              Q_EMIT noticed(UserNotice::fromError(image->error()));
-                              return;
-                          }
-                          if (name != m_document.environment.source ||
-                              image->value() != m_document.environment.image)
-                              push(new SetEnvironmentCommand(*this, tr("Light with %1").arg(title),
-                                                             name, image->value()));
-                          const UserNotice notice = UserNotice::fromImport(title, *notices, {});
-                          if (!notice.text.isEmpty())
-                              Q_EMIT noticed(notice);
-                      };
-                  });
+    m_tasks.start(
+        QStringLiteral("environment"), tr("Reading %1").arg(title),
+        [this, source, title](const JobContext&) -> BackgroundTasks::Apply {
+            const std::string name = normalizeSource(source.toStdString());
+            auto notices = std::make_shared<std::vector<Notice>>();
+            auto image =
+                std::make_shared<Result<ImagePtr>>(loadEnvironmentImage(m_worker, name, *notices));
+            return [this, title, name, notices, image] {
+                if (!image->ok()) {
+                    Q_EMIT noticed(UserNotice::fromError(image->error()));
+                    return;
+                }
+                MapSlot sky;
+                sky.source = name;
+                sky.image = image->value();
+                pushParameters({Scope::Environment, 0}, {{&parameter("environment.image"), sky}}, 0,
+                               tr("Light with %1").arg(title));
+                const UserNotice notice = UserNotice::fromImport(title, *notices, {});
+                if (!notice.text.isEmpty())
+                    Q_EMIT noticed(notice);
+            };
+        });
 }
 
 void DocumentController::applyLibraryMaterial(Id id, const QString& name) {
@@ -189,22 +195,12 @@ void DocumentController::applyLibraryMaterial(Id id, const QString& name) {
         [this, id, name, title](const JobContext&) -> BackgroundTasks::Apply {
             auto result = std::make_shared<Result<Material>>(library::material(name.toStdString()));
             return [this, id, title, result] {
-                const Material* old = m_document.material(id);
-                if (!result->ok()) {
+                if (!result->ok())
                     Q_EMIT noticed(UserNotice::fromError(result->error()));
-                    return;
-                }
-                if (!old)
-                    return;
-                Material material = result->value();
-                material.id = id;
-                material.name = old->name;
-                replaceElements(tr("Make %1 %2").arg(QString::fromStdString(old->name), title),
-                                [&](Elements& elements) {
-                                    for (Material& candidate : elements.materials)
-                                        if (candidate.id == id)
-                                            candidate = material;
-                                });
+                else if (m_document.material(id))
+                    editStructure(
+                        tr("Make %1 %2").arg(nameText({Scope::Material, id}), title),
+                        [&](Document& document) { replaceLook(document, id, result->value()); });
             };
         });
 }
@@ -219,9 +215,8 @@ void DocumentController::addFiles(const QStringList& files, Id baseColorOf) {
             setEnvironment(file);
             break;
         case FileKind::Image:
-            if (const ParameterInfo* map = findParameter("material.baseColor.map");
-                map && m_document.material(baseColorOf))
-                setMap(*map, {Scope::Material, baseColorOf}, file);
+            if (m_document.material(baseColorOf))
+                setMap(parameter("material.baseColor.map"), {Scope::Material, baseColorOf}, file);
             break;
         case FileKind::Project:
             openScene(file);

@@ -1,0 +1,84 @@
+#include "app/editor/Actions.h"
+
+#include "app/editor/style/Icons.h"
+
+#include <QActionGroup>
+#include <QUndoStack>
+
+namespace patina::editor {
+
+Actions::Actions(QUndoStack& undoStack, QObject* parent)
+    : QObject(parent)
+    , newScene(make(tr("&New"), QStringLiteral("new"), {QKeySequence::New},
+                    tr("Start over with the built-in scene")))
+    , open(make(tr("&Open…"), QStringLiteral("open"), {QKeySequence::Open},
+                tr("Open a project or a model in place of the scene")))
+    , addModel(make(tr("&Add Model…"), QStringLiteral("add-model"), {tr("Ctrl+I")},
+                    tr("Add the meshes and materials of a model file to the scene")))
+    , save(make(tr("&Save"), QStringLiteral("save"), {QKeySequence::Save}, tr("Save the project")))
+    , saveAs(make(tr("Save &As…"), QStringLiteral("save-as"), {tr("Ctrl+Shift+S")},
+                  tr("Save the project under another name")))
+    , exportScene(make(tr("&Export…"), QStringLiteral("export"), {tr("Ctrl+E")},
+                       tr("Write the scene as glTF or GLB for other programs")))
+    , quit(make(tr("&Quit"), QStringLiteral("quit"), {tr("Ctrl+Q")}, tr("Leave Patina")))
+    , undo(undoStack.createUndoAction(this, tr("&Undo")))
+    , redo(undoStack.createRedoAction(this, tr("&Redo")))
+    , frame(make(tr("&Frame"), QStringLiteral("frame"), {tr("F")},
+                 tr("Bring the selected mesh, or the whole scene, into view")))
+    , home(make(tr("&Reset Camera"), QStringLiteral("home"), {tr("Home")},
+                tr("Show the whole scene from where the camera began")))
+    , overlays(make(tr("&Grid and Outlines"), QStringLiteral("tiling"), {tr("G")},
+                    tr("Show the ground grid, the outline of the selection and the lights")))
+    , lightingIbl(make(tr("&Image-Based Light"), {}, {tr("Ctrl+L")},
+                       tr("Light from the environment, with every reflection")))
+    , lightingPrt(make(tr("&Precomputed Transfer"), {}, {tr("Ctrl+Shift+L")},
+                       tr("Light through the baked transfer, with its soft shadows")))
+    , fullScreen(make(tr("F&ull Screen"), QStringLiteral("full-screen"), {tr("F11")},
+                      tr("Fill the screen with the window")))
+    , resetLayout(make(tr("Reset &Layout"), QStringLiteral("layout"), {},
+                       tr("Put all docks back where they were at first")))
+    , shortcuts(make(tr("&Keyboard and Mouse"), QStringLiteral("keyboard"), {tr("F1")},
+                     tr("List every shortcut and what the mouse does")))
+    , about(make(tr("&About Patina"), QStringLiteral("info"), {},
+                 tr("Version, licence and libraries"))) {
+    undo->setIcon(icon(QStringLiteral("undo")));
+    undo->setShortcut(QKeySequence::Undo);
+    describe(undo, tr("Take back the last change"));
+    redo->setIcon(icon(QStringLiteral("redo")));
+    redo->setShortcuts({tr("Ctrl+Shift+Z"), tr("Ctrl+Y")});
+    describe(redo, tr("Make the change again that was taken back"));
+    overlays->setCheckable(true);
+    overlays->setChecked(true);
+    fullScreen->setCheckable(true);
+    auto* lighting = new QActionGroup(this);
+    for (QAction* action : {lightingIbl, lightingPrt}) {
+        action->setCheckable(true);
+        lighting->addAction(action);
+    }
+    quit->setMenuRole(QAction::QuitRole);
+    about->setMenuRole(QAction::AboutRole);
+}
+
+QAction* Actions::make(const QString& text, const QString& iconName,
+                       const QList<QKeySequence>& keys, const QString& sentence) {
+    auto* action = new QAction(text, this);
+    if (!iconName.isEmpty())
+        action->setIcon(icon(iconName));
+    action->setShortcuts(keys);
+    describe(action, sentence);
+    return action;
+}
+
+void Actions::describe(QAction* action, const QString& sentence) {
+    action->setStatusTip(sentence);
+    const QString keys = action->shortcut().toString(QKeySequence::NativeText);
+    action->setToolTip(keys.isEmpty() ? sentence : tr("%1 (%2)").arg(sentence, keys));
+}
+
+QList<QAction*> Actions::all() const {
+    return {newScene,    open,        addModel,   save,        saveAs,    exportScene,
+            quit,        undo,        redo,       frame,       home,      overlays,
+            lightingIbl, lightingPrt, fullScreen, resetLayout, shortcuts, about};
+}
+
+} // namespace patina::editor

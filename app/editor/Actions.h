@@ -1,0 +1,35 @@
+// Every action of the main window, made in one place: text, icon, shortcut, what it does in a
+// sentence. Menus, tool bar and the page of shortcuts are filled from here.
+#pragma once
+
+#include <QAction>
+#include <QKeySequence>
+#include <QList>
+#include <QObject>
+#include <QString>
+
+class QUndoStack;
+
+namespace patina::editor {
+
+class Actions : public QObject {
+    Q_OBJECT
+  public:
+    Actions(QUndoStack& undoStack, QObject* parent);
+
+    QAction *newScene, *open, *addModel, *save, *saveAs, *exportScene, *quit;
+    QAction *undo, *redo;
+    QAction *frame, *home, *overlays, *lightingIbl, *lightingPrt;
+    QAction *fullScreen, *resetLayout;
+    QAction *shortcuts, *about;
+
+    [[nodiscard]] QList<QAction*> all() const;
+    // The usual completion: a tool tip that names the shortcut, and a status tip.
+    static void describe(QAction* action, const QString& sentence);
+
+  private:
+    QAction* make(const QString& text, const QString& iconName, const QList<QKeySequence>& keys,
+                  const QString& sentence);
+};
+
+} // namespace patina::editor

@@ -1,0 +1,263 @@
+#include "app/editor/FileFlow.h"
+
+#include "app/editor/Session.h"
+#include "app/editor/document/FileKinds.h"
+#include "core/document/Scene.h"
+
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMenu>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QSettings>
+
+namespace patina::editor {
+namespace {
+
+constexpr int kMaxRecent = 10;
+
+QString recentKey() {
+    return QStringLiteral("recentFiles");
+}
+QString folderKey() {
+    return QStringLiteral("folders/scenes");
+}
+
+} // namespace
+
+FileFlow::FileFlow(Session& session, QWidget& window)
+    : QObject(&window)
+    , m_session(session)
+    , m_window(window) {
+    const auto remembers = [this](const QString& scene) {
+        if (!isBuiltin(scene.toStdString()))
+            remember(scene);
+    };
+    connect(&session.controller, &DocumentController::sceneOpened, this, remembers);
+    connect(&session.controller, &DocumentController::saved, this, remembers);
+    connect(&session.controller, &DocumentController::openFailed, this,
+            [this](const QString& file) {
+                if (!QFileInfo::exists(file))
+                    forget(file);
+            });
+}
+
+// --- Opening -------------------------------------------------------------------------------------
+
+void FileFlow::newScene() {
+    guard([this] { m_session.controller.newDocument(); });
+}
+
+void FileFlow::open(const QString& scene) {
+    guard([this, scene] { m_session.controller.openScene(scene); });
+}
+
+void FileFlow::openWithDialog() {
+    guard([this] {
+        auto* dialog = new QFileDialog(&m_window, tr("Open"), startFolder(), sceneFilter());
+        dialog->setAttribute(Qt::WA_DeleteOnClose);
+        dialog->setFileMode(QFileDialog::ExistingFile);
+        connect(dialog, &QFileDialog::fileSelected, this,
+                [this](const QString& file) { m_session.controller.openScene(file); });
+        dialog->open();
+    });
+}
+
+void FileFlow::addModelWithDialog() {
+    auto* dialog = new QFileDialog(&m_window, tr("Add Model"), startFolder(), modelFilter());
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setFileMode(QFileDialog::ExistingFiles);
+    connect(dialog, &QFileDialog::filesSelected, this, [this](const QStringList& files) {
+        for (const QString& file : files)
+            m_session.controller.addModel(file);
+    });
+    dialog->open();
+}
+
+void FileFlow::dropped(const QStringList& files, const QPoint& globalPosition) {
+    QStringList models, others;
+    for (const QString& file : files) {
+        const FileKind kind = fileKind(file);
+        if (kind == FileKind::Project) {
+            open(file); // replaces everything, so the rest would be lost anyway
+            return;
+        }
+        (kind == FileKind::Model ? models : others) << file;
+    }
+    m_session.controller.addFiles(others, m_session.selection.material());
+    if (models.isEmpty())
+        return;
+
+    const auto openModels = [this, models] {
+        m_session.controller.openScene(
+            models.first(), [this, models](bool) { m_session.controller.addFiles(models.mid(1)); });
+    };
+    if (m_session.controller.isPristine()) {
+        openModels();
+        return;
+    }
+    // With work on the table, only the user knows.
+    auto* menu = new QMenu(&m_window);
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    menu->setObjectName(QStringLiteral("dropMenu"));
+    menu->addAction(tr("Add to the Scene"), this,
+                    [this, models] { m_session.controller.addFiles(models); });
+    menu->addAction(tr("Replace the Scene"), this, [this, openModels] { guard(openModels); });
+    menu->addSeparator();
+    menu->addAction(tr("Cancel"), menu, &QMenu::close);
+    menu->popup(globalPosition);
+}
+
+void FileFlow::openFromCommandLine(const QStringList& files, const QString& environment) {
+    QString scene;
+    QStringList rest;
+    for (const QString& file : files) {
+        const FileKind kind = fileKind(file);
+        const bool opens = kind == FileKind::Project || kind == FileKind::Model ||
+                           kind == FileKind::Unknown || isBuiltin(file.toStdString());
+        if (opens && scene.isEmpty())
+            scene = file;
+        else
+            rest << file;
+    }
+    const auto then = [this, rest, environment](bool) {
+        m_session.controller.addFiles(rest, m_session.selection.material());
+        if (!environment.isEmpty())
+            m_session.controller.setEnvironment(environment);
+    };
+    if (scene.isEmpty()) {
+        m_session.controller.newDocument(then);
+        return;
+    }
+    m_session.controller.openScene(scene, [this, then](bool opened) {
+        if (opened)
+            then(true);
+        else
+            m_session.controller.newDocument(then); // an empty window would help nobody
+    });
+}
+
+// --- Saving --------------------------------------------------------------------------------------
+
+void FileFlow::save() {
+    save({});
+}
+
+void FileFlow::saveAs() {
+    saveAs({});
+}
+
+void FileFlow::save(const std::function<void()>& then) {
+    const QString file = m_session.controller.filePath();
+    if (file.isEmpty()) {
+        saveAs(then);
+        return;
+    }
+    m_session.controller.saveAs(file, [then](bool ok) {
+        if (ok && then)
+            then();
+    });
+}
+
+void FileFlow::saveAs(const std::function<void()>& then) {
+    const QString file = m_session.controller.filePath();
+    auto* dialog = new QFileDialog(&m_window, tr("Save As"), startFolder(), projectFilter());
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setAcceptMode(QFileDialog::AcceptSave);
+    dialog->setDefaultSuffix(QStringLiteral("patina"));
+    dialog->selectFile(
+        file.isEmpty() ? m_session.controller.displayName() + QStringLiteral(".patina") : file);
+    connect(dialog, &QFileDialog::fileSelected, this, [this, then](const QString& chosen) {
+        m_session.controller.saveAs(chosen, [then](bool ok) {
+            if (ok && then)
+                then();
+        });
+    });
+    dialog->open();
+}
+
+void FileFlow::guard(const std::function<void()>& proceed) {
+    if (!m_session.controller.isModified()) {
+        proceed();
+        return;
+    }
+    if (m_question) {
+        m_question->raise();
+        return;
+    }
+    m_question =
+        new QMessageBox(QMessageBox::Warning, tr("Unsaved Changes"),
+                        tr("Save the changes to %1?").arg(m_session.controller.displayName()),
+                        QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &m_window);
+    m_question->setInformativeText(tr("Otherwise the changes since the last save are lost."));
+    m_question->setDefaultButton(QMessageBox::Save);
+    m_question->button(QMessageBox::Discard)->setText(tr("&Don't Save"));
+    m_question->setAttribute(Qt::WA_DeleteOnClose);
+    connect(m_question, &QMessageBox::finished, this, [this, proceed](int answer) {
+        m_question = nullptr;
+        if (answer == QMessageBox::Save)
+            save(proceed);
+        else if (answer == QMessageBox::Discard)
+            proceed();
+    });
+    m_question->open();
+}
+
+void FileFlow::guardQuit(const std::function<void()>& proceed) {
+    const int running = m_session.jobs.runningCount();
+    if (running == 0) {
+        guard(proceed);
+        return;
+    }
+    if (m_question) {
+        m_question->raise();
+        return;
+    }
+    m_question = new QMessageBox(QMessageBox::Question, tr("Jobs Are Running"),
+                                 tr("Quit although %n job(s) are still running?", nullptr, running),
+                                 QMessageBox::Cancel, &m_window);
+    m_question->setInformativeText(tr("Their results would be lost."));
+    QPushButton* quit = m_question->addButton(tr("&Quit"), QMessageBox::DestructiveRole);
+    m_question->setDefaultButton(QMessageBox::Cancel);
+    m_question->setAttribute(Qt::WA_DeleteOnClose);
+    connect(quit, &QPushButton::clicked, this, [this, proceed] {
+        m_question = nullptr;
+        guard(proceed);
+    });
+    m_question->open();
+}
+
+// --- Recent files --------------------------------------------------------------------------------
+
+QStringList FileFlow::recentFiles() const {
+    return QSettings().value(recentKey()).toStringList();
+}
+
+void FileFlow::remember(const QString& file) {
+    QStringList files = recentFiles();
+    files.removeAll(file);
+    files.prepend(file);
+    QSettings settings;
+    settings.setValue(recentKey(), files.mid(0, kMaxRecent));
+    settings.setValue(folderKey(), QFileInfo(file).absolutePath());
+    Q_EMIT recentFilesChanged();
+}
+
+void FileFlow::forget(const QString& file) {
+    QStringList files = recentFiles();
+    if (files.removeAll(file) == 0)
+        return;
+    QSettings().setValue(recentKey(), files);
+    Q_EMIT recentFilesChanged();
+}
+
+void FileFlow::clearRecentFiles() {
+    QSettings().remove(recentKey());
+    Q_EMIT recentFilesChanged();
+}
+
+QString FileFlow::startFolder() const {
+    return QSettings().value(folderKey()).toString();
+}
+
+} // namespace patina::editor

@@ -1,0 +1,132 @@
+#include "app/editor/HelpDialogs.h"
+
+#include "app/editor/style/Tokens.h"
+
+#include <QAction>
+#include <QCoreApplication>
+#include <QDialog>
+#include <QDialogButtonBox>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QIcon>
+#include <QLabel>
+#include <QVBoxLayout>
+
+namespace patina::editor {
+namespace {
+
+QString tr(const char* text) {
+    return QCoreApplication::translate("HelpDialogs", text);
+}
+
+QLabel* keyLabel(const QString& keys) {
+    auto* label = new QLabel(keys);
+    label->setObjectName(QStringLiteral("key"));
+    return label;
+}
+
+using Lines = QList<QPair<QString, QString>>; // keys, what they do
+
+QWidget* page(const QString& title, const Lines& lines) {
+    auto* widget = new QWidget;
+    auto* grid = new QGridLayout(widget);
+    grid->setContentsMargins(0, 0, 0, 0);
+    grid->setHorizontalSpacing(2 * tokens::kMargin);
+    grid->setVerticalSpacing(6);
+    auto* heading = new QLabel(title);
+    heading->setObjectName(QStringLiteral("heading"));
+    grid->addWidget(heading, 0, 0, 1, 2);
+    int row = 1;
+    for (const auto& [keys, text] : lines) {
+        grid->addWidget(keyLabel(keys), row, 0, Qt::AlignLeft);
+        grid->addWidget(new QLabel(text), row, 1);
+        ++row;
+    }
+    grid->setRowStretch(row, 1);
+    grid->setColumnStretch(1, 1);
+    return widget;
+}
+
+QDialogButtonBox* closeButton(QDialog* dialog) {
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
+    QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
+    return buttons;
+}
+
+} // namespace
+
+QDialog* makeShortcutsDialog(const QList<QAction*>& actions, QWidget* parent) {
+    auto* dialog = new QDialog(parent);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setWindowTitle(tr("Keyboard and Mouse"));
+
+    Lines keys;
+    for (const QAction* action : actions) {
+        QString text = action->text();
+        text.remove(QLatin1Char('&'));
+        const QString shortcuts =
+            QKeySequence::listToString(action->shortcuts(), QKeySequence::NativeText);
+        if (!shortcuts.isEmpty())
+            keys << qMakePair(shortcuts.split(QStringLiteral("; ")).first(), text);
+    }
+    const Lines viewport = {
+        {tr("Left drag"), tr("Orbit")},
+        {tr("Middle drag"), tr("Pan (also Shift + left drag)")},
+        {tr("Wheel"), tr("Zoom")},
+        {tr("Click"), tr("Select a mesh and its material")},
+        {tr("Right drag"), tr("Look around")},
+        {tr("W A S D Q E"), tr("Fly while the right button is held")},
+        {tr("Shift + right drag"), tr("Turn the environment")},
+    };
+    const Lines fields = {
+        {tr("Drag a number"), tr("Change it; Shift is fine, Ctrl is coarse")},
+        {tr("Click a number"), tr("Type it; Enter takes it, Esc does not")},
+        {tr("Wheel, ↑, ↓"), tr("Step the focused number")},
+        {tr("Double-click a label"), tr("Reset to the default")},
+    };
+    auto* right = new QVBoxLayout;
+    right->setSpacing(2 * tokens::kMargin);
+    right->addWidget(page(tr("Viewport"), viewport));
+    right->addWidget(page(tr("Panels"), fields));
+    right->addStretch(1);
+    auto* columns = new QHBoxLayout;
+    columns->setSpacing(4 * tokens::kMargin);
+    columns->addWidget(page(tr("Commands"), keys), 0, Qt::AlignTop);
+    columns->addLayout(right);
+    auto* layout = new QVBoxLayout(dialog);
+    layout->setContentsMargins(2 * tokens::kMargin, 2 * tokens::kMargin, 2 * tokens::kMargin,
+                               tokens::kMargin);
+    layout->setSpacing(2 * tokens::kMargin);
+    layout->addLayout(columns);
+    layout->addWidget(closeButton(dialog));
+    return dialog;
+}
+
+QDialog* makeAboutDialog(QWidget* parent) {
+    auto* dialog = new QDialog(parent);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setWindowTitle(tr("About Patina"));
+    auto* picture = new QLabel;
+    picture->setPixmap(QIcon(QStringLiteral(":/icons/patina.svg"))
+                           .pixmap(QSize(72, 72), dialog->devicePixelRatioF()));
+    auto* text = new QLabel(
+        tr("<h2>Patina %1</h2>"
+           "<p>Author physically based materials and trust what you see.</p>"
+           "<p>Apache License 2.0. Built with Qt, Embree, oneTBB, Assimp, OpenImageIO, OpenEXR, "
+           "GLM, libepoxy, fmt, spdlog and JSON for Modern C++.</p>")
+            .arg(QCoreApplication::applicationVersion()));
+    text->setWordWrap(true);
+    text->setMinimumWidth(360);
+    auto* row = new QHBoxLayout;
+    row->setSpacing(2 * tokens::kMargin);
+    row->addWidget(picture, 0, Qt::AlignTop);
+    row->addWidget(text, 1);
+    auto* layout = new QVBoxLayout(dialog);
+    layout->setContentsMargins(2 * tokens::kMargin, 2 * tokens::kMargin, 2 * tokens::kMargin,
+                               tokens::kMargin);
+    layout->addLayout(row);
+    layout->addWidget(closeButton(dialog));
+    return dialog;
+}
+
+} // namespace patina::editor

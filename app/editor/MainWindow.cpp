@@ -1,0 +1,406 @@
+#include "app/editor/MainWindow.h"
+
+#include "app/editor/Actions.h"
+#include "app/editor/ExportDialog.h"
+#include "app/editor/FileFlow.h"
+#include "app/editor/HelpDialogs.h"
+#include "app/editor/Session.h"
+#include "app/editor/document/Commands.h"
+#include "app/editor/panel/BakePanel.h"
+#include "app/editor/panel/EnvironmentPanel.h"
+#include "app/editor/panel/JobsPanel.h"
+#include "app/editor/panel/LightsPanel.h"
+#include "app/editor/panel/LogPanel.h"
+#include "app/editor/panel/MaterialPanel.h"
+#include "app/editor/panel/ParameterList.h"
+#include "app/editor/panel/ScenePanel.h"
+#include "app/editor/style/Icons.h"
+#include "app/editor/viewport/ViewportWidget.h"
+#include "app/editor/widget/BusyIndicator.h"
+#include "app/editor/widget/NoticeArea.h"
+#include "app/editor/widget/PanelScroll.h"
+#include "core/base/Log.h"
+#include "core/library/Library.h"
+
+#include <QCloseEvent>
+#include <QDockWidget>
+#include <QFileInfo>
+#include <QLabel>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QSettings>
+#include <QStatusBar>
+#include <QToolBar>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+namespace patina::editor {
+namespace {
+
+constexpr int kLayoutVersion = 1;    // raise when docks come or go: older layouts are ignored
+constexpr qint64 kFrameTimeMs = 250; // how often the number changes, so that it can be read
+
+QStringList droppedFiles(const QMimeData* data) {
+    QStringList files;
+    for (const QUrl& url : data->urls())
+        if (url.isLocalFile())
+            files << url.toLocalFile();
+    return files;
+}
+
+} // namespace
+
+MainWindow::MainWindow(Session& session)
+    : m_session(session)
+    , m_actions(new Actions(session.controller.undoStack(), this))
+    , m_files(new FileFlow(session, *this))
+    , m_notices(new NoticeArea)
+    , m_viewport(new ViewportWidget(session.controller, session.selection)) {
+    setObjectName(QStringLiteral("mainWindow"));
+    setAcceptDrops(true);
+    setDockNestingEnabled(true);
+    setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
+    setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
+    setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+    m_viewport->setJobs(session.jobs);
+
+    auto* centre = new QWidget;
+    auto* layout = new QVBoxLayout(centre);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(m_notices);
+    layout->addWidget(m_viewport, 1);
+    setCentralWidget(centre);
+
+    makeDocks();
+    makeMenus();
+    makeToolBar();
+    makeStatusBar();
+    connectActions();
+    refreshTitle();
+}
+
+MainWindow::~MainWindow() = default;
+
+// --- Docks ---------------------------------------------------------------------------------------
+
+QDockWidget* MainWindow::addDock(const QString& name, const QString& title, const QString& iconName,
+                                 const QString& help, QWidget* panel) {
+    auto* dock = new QDockWidget(title, this);
+    dock->setObjectName(name); // saveState() finds it by this
+    dock->setWidget(panel);
+    QAction* toggle = dock->toggleViewAction();
+    toggle->setIcon(icon(iconName));
+    toggle->setStatusTip(help);
+    toggle->setToolTip(help);
+    m_docks << dock;
+    return dock;
+}
+
+void MainWindow::makeDocks() {
+    DocumentController& controller = m_session.controller;
+    auto* scene = new ScenePanel(controller, m_session.selection);
+    connect(scene, &ScenePanel::frameRequested, m_viewport, &ViewportWidget::frameSelection);
+    addDock(QStringLiteral("scene"), tr("Scene"), QStringLiteral("scene"),
+            tr("Show or hide the list of meshes and materials"), scene);
+    addDock(QStringLiteral("material"), tr("Material"), QStringLiteral("material"),
+            tr("Show or hide the parameters of the material"),
+            new MaterialPanel(controller, m_session.selection, m_session.thumbnails));
+    addDock(QStringLiteral("environment"), tr("Environment"), QStringLiteral("environment"),
+            tr("Show or hide what surrounds and lights the scene"),
+            new EnvironmentPanel(controller, m_session.thumbnails));
+    addDock(QStringLiteral("lights"), tr("Lights"), QStringLiteral("light-sun"),
+            tr("Show or hide the list of lights"),
+            new LightsPanel(controller, m_session.selection, m_session.thumbnails));
+    auto* view = new PanelScroll;
+    ParameterListSpec viewSpec;
+    viewSpec.scope = Scope::View;
+    viewSpec.target = [] { return std::optional(Target{Scope::View, 0}); };
+    view->contents()->addWidget(
+        new ParameterList(controller, m_session.thumbnails, std::move(viewSpec)));
+    view->contents()->addStretch(1);
+    addDock(QStringLiteral("view"), tr("View"), QStringLiteral("view"),
+            tr("Show or hide exposure, tone mapping and field of view"), view);
+    addDock(QStringLiteral("bake"), tr("Bake"), QStringLiteral("bake"),
+            tr("Show or hide the baking of light"), new BakePanel(controller, m_session.jobs));
+    addDock(QStringLiteral("jobs"), tr("Jobs"), QStringLiteral("jobs"),
+            tr("Show or hide what runs in the background"), new JobsPanel(m_session.jobs));
+    addDock(QStringLiteral("log"), tr("Log"), QStringLiteral("log"),
+            tr("Show or hide the messages of this session"), new LogPanel);
+    resetLayout();
+}
+
+void MainWindow::resetLayout() {
+    enum { Scene, MaterialDock, EnvironmentDock, Lights, ViewDock, Bake, Jobs, Log };
+    for (QDockWidget* dock : std::as_const(m_docks)) {
+        dock->setFloating(false);
+        removeDockWidget(dock);
+    }
+    addDockWidget(Qt::LeftDockWidgetArea, m_docks[Scene]);
+    addDockWidget(Qt::LeftDockWidgetArea, m_docks[EnvironmentDock]);
+    tabifyDockWidget(m_docks[EnvironmentDock], m_docks[Lights]);
+    tabifyDockWidget(m_docks[Lights], m_docks[ViewDock]);
+    addDockWidget(Qt::RightDockWidgetArea, m_docks[MaterialDock]);
+    tabifyDockWidget(m_docks[MaterialDock], m_docks[Bake]);
+    addDockWidget(Qt::BottomDockWidgetArea, m_docks[Jobs]);
+    tabifyDockWidget(m_docks[Jobs], m_docks[Log]);
+    for (QDockWidget* dock : std::as_const(m_docks))
+        dock->setVisible(dock != m_docks[Jobs] && dock != m_docks[Log]);
+    m_docks[EnvironmentDock]->raise();
+    m_docks[MaterialDock]->raise();
+    resizeDocks({m_docks[Scene], m_docks[MaterialDock]}, {304, 348}, Qt::Horizontal);
+    resizeDocks({m_docks[Scene], m_docks[EnvironmentDock]}, {300, 460}, Qt::Vertical);
+}
+
+void MainWindow::restoreLayout() {
+    QSettings settings;
+    resize(1440, 900);
+    if (!restoreGeometry(settings.value(QStringLiteral("window/geometry")).toByteArray()) ||
+        !restoreState(settings.value(QStringLiteral("window/state")).toByteArray(), kLayoutVersion))
+        resetLayout();
+}
+
+// --- Menus, tool bar, status bar -----------------------------------------------------------------
+
+void MainWindow::makeMenus() {
+    Actions& a = *m_actions;
+    QMenu* file = menuBar()->addMenu(tr("&File"));
+    file->addActions({a.newScene, a.open});
+    m_recentMenu = file->addMenu(tr("Open &Recent"));
+    m_recentMenu->setToolTipsVisible(true);
+    file->addSeparator();
+    file->addAction(a.addModel);
+    QMenu* builtin = file->addMenu(icon(QStringLiteral("library")), tr("Add &Built-in Model"));
+    for (const library::Entry& entry : library::models()) {
+        QAction* action = builtin->addAction(
+            QString::fromStdString(entry.title), this, [this, name = entry.name] {
+                m_session.controller.addModel(QStringLiteral("builtin:") +
+                                              QString::fromStdString(name));
+            });
+        Actions::describe(action, QString::fromStdString(entry.help));
+    }
+    file->addSeparator();
+    file->addActions({a.save, a.saveAs, a.exportScene});
+    file->addSeparator();
+    file->addAction(a.quit);
+
+    QMenu* edit = menuBar()->addMenu(tr("&Edit"));
+    edit->addActions({a.undo, a.redo});
+
+    QMenu* view = menuBar()->addMenu(tr("&View"));
+    view->addActions({a.frame, a.home, a.overlays});
+    view->addSeparator();
+    view->addActions({a.lightingIbl, a.lightingPrt});
+    view->addSeparator();
+    for (const QDockWidget* dock : std::as_const(m_docks))
+        view->addAction(dock->toggleViewAction());
+    view->addAction(a.resetLayout);
+    view->addSeparator();
+    view->addAction(a.fullScreen);
+
+    QMenu* help = menuBar()->addMenu(tr("&Help"));
+    help->addActions({a.shortcuts, a.about});
+
+    // Shortcuts go on in full screen, where the menu bar may be hidden.
+    addActions(a.all());
+}
+
+void MainWindow::makeToolBar() {
+    QToolBar* bar = addToolBar(tr("Tools"));
+    bar->setObjectName(QStringLiteral("tools"));
+    bar->setMovable(false);
+    bar->setIconSize({20, 20});
+    bar->toggleViewAction()->setStatusTip(tr("Show or hide the tool bar"));
+    bar->toggleViewAction()->setToolTip(tr("Show or hide the tool bar"));
+    Actions& a = *m_actions;
+    bar->addActions({a.newScene, a.open, a.save});
+    bar->addSeparator();
+    bar->addActions({a.undo, a.redo});
+    bar->addSeparator();
+    bar->addActions({a.frame, a.home, a.overlays});
+    bar->addSeparator();
+    bar->addAction(a.exportScene);
+    for (QToolButton* button : bar->findChildren<QToolButton*>()) {
+        if (const QAction* action = button->defaultAction()) {
+            QString name = action->text();
+            button->setAccessibleName(name.remove(QLatin1Char('&')));
+        }
+    }
+}
+
+void MainWindow::makeStatusBar() {
+    m_busy = new BusyIndicator;
+    m_triangles = new QLabel;
+    m_frameTime = new QLabel;
+    m_gpu = new QLabel(tr("Starting OpenGL…"));
+    m_triangles->setStatusTip(tr("Triangles of the visible meshes"));
+    m_frameTime->setStatusTip(tr("Time that the last frame took, and the frames per second that "
+                                 "this allows"));
+    m_frameTime->setMinimumWidth(
+        fontMetrics().horizontalAdvance(QStringLiteral("000.0 ms  00 fps")));
+    m_frameTime->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    m_gpu->setStatusTip(tr("The graphics processor and its version of OpenGL"));
+    for (QWidget* widget : {static_cast<QWidget*>(m_busy), static_cast<QWidget*>(m_triangles),
+                            static_cast<QWidget*>(m_frameTime), static_cast<QWidget*>(m_gpu)})
+        statusBar()->addPermanentWidget(widget);
+    statusBar()->setSizeGripEnabled(false);
+}
+
+void MainWindow::refreshTriangles() {
+    m_triangles->setText(tr("%L1 triangles").arg(m_session.controller.document().triangleCount()));
+}
+
+void MainWindow::showFrameTime(double milliseconds) {
+    if (m_frameTimeShown.isValid() && m_frameTimeShown.elapsed() < kFrameTimeMs)
+        return;
+    m_frameTimeShown.start();
+    m_frameTime->setText(tr("%1 ms  %2 fps")
+                             .arg(milliseconds, 0, 'f', 1)
+                             .arg(qRound(1000.0 / std::max(milliseconds, 1.0))));
+}
+
+// --- Connections ---------------------------------------------------------------------------------
+
+void MainWindow::connectActions() {
+    Actions& a = *m_actions;
+    DocumentController& controller = m_session.controller;
+    connect(a.newScene, &QAction::triggered, m_files, &FileFlow::newScene);
+    connect(a.open, &QAction::triggered, m_files, &FileFlow::openWithDialog);
+    connect(a.addModel, &QAction::triggered, m_files, &FileFlow::addModelWithDialog);
+    connect(a.save, &QAction::triggered, m_files, qOverload<>(&FileFlow::save));
+    connect(a.saveAs, &QAction::triggered, m_files, qOverload<>(&FileFlow::saveAs));
+    connect(a.exportScene, &QAction::triggered, this, &MainWindow::openExportDialog);
+    connect(a.quit, &QAction::triggered, this, &QWidget::close);
+    connect(a.frame, &QAction::triggered, m_viewport, &ViewportWidget::frameSelection);
+    connect(a.home, &QAction::triggered, m_viewport, &ViewportWidget::resetCamera);
+    connect(a.overlays, &QAction::toggled, m_viewport, &ViewportWidget::setOverlaysVisible);
+    const auto lighting = [this](LightingMode mode) {
+        m_session.controller.setParameter(parameter("view.lighting"), {Scope::View, 0},
+                                          static_cast<int>(mode));
+        refreshView();
+    };
+    connect(a.lightingIbl, &QAction::triggered, this, [=] { lighting(LightingMode::Ibl); });
+    connect(a.lightingPrt, &QAction::triggered, this, [=] { lighting(LightingMode::Prt); });
+    connect(a.fullScreen, &QAction::toggled, this,
+            [this](bool on) { setWindowState(windowState().setFlag(Qt::WindowFullScreen, on)); });
+    connect(a.resetLayout, &QAction::triggered, this, &MainWindow::resetLayout);
+    connect(a.shortcuts, &QAction::triggered, this,
+            [this] { makeShortcutsDialog(m_actions->all(), this)->show(); });
+    connect(a.about, &QAction::triggered, this, [this] { makeAboutDialog(this)->show(); });
+
+    connect(m_files, &FileFlow::recentFilesChanged, this, &MainWindow::fillRecentMenu);
+    connect(&controller, &DocumentController::fileChanged, this, &MainWindow::refreshTitle);
+    connect(&controller, &DocumentController::noticed, this, &MainWindow::notice);
+    connect(&controller.tasks(), &BackgroundTasks::busyChanged, this,
+            [this] { m_busy->setActivity(m_session.controller.tasks().activity()); });
+    connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
+        if (touches(change.affects, Affects::Geometry | Affects::Structure))
+            refreshTriangles();
+        if (!change.target || change.target->scope == Scope::View)
+            refreshView();
+    });
+    connect(m_viewport, &ViewportWidget::frameRendered, this, &MainWindow::showFrameTime);
+    connect(m_viewport, &ViewportWidget::contextReady, this,
+            [this](const QString& gpu, const QString& version) {
+                m_gpu->setText(
+                    tr("%1   OpenGL %2").arg(gpu, version.section(QLatin1Char(' '), 0, 0)));
+                m_gpu->setToolTip(tr("%1\nOpenGL %2").arg(gpu, version));
+            });
+    connect(m_viewport, &ViewportWidget::contextFailed, this, [this](const QString& reason) {
+        m_gpu->setText(tr("No OpenGL 4.5"));
+        notice({NoticeKind::Error, reason, {}});
+    });
+    connect(m_viewport, &ViewportWidget::shaderProblems, this, [this](const QStringList& messages) {
+        notice({NoticeKind::Error, tr("A shader does not compile; the last good one stays in use."),
+                messages});
+    });
+    fillRecentMenu();
+    refreshTriangles();
+    refreshView();
+}
+
+void MainWindow::fillRecentMenu() {
+    m_recentMenu->clear();
+    const QStringList files = m_files->recentFiles();
+    for (const QString& file : files) {
+        QAction* action = m_recentMenu->addAction(QFileInfo(file).fileName(), this,
+                                                  [this, file] { m_files->open(file); });
+        Actions::describe(action, file);
+    }
+    if (!files.isEmpty()) {
+        m_recentMenu->addSeparator();
+        Actions::describe(
+            m_recentMenu->addAction(tr("&Clear List"), m_files, &FileFlow::clearRecentFiles),
+            tr("Forget the files that were opened"));
+    }
+    m_recentMenu->setEnabled(!files.isEmpty());
+}
+
+void MainWindow::refreshTitle() {
+    setWindowTitle(tr("%1[*] — Patina").arg(m_session.controller.displayName()));
+    setWindowModified(m_session.controller.isModified());
+    setWindowFilePath(m_session.controller.filePath());
+}
+
+void MainWindow::refreshView() {
+    const LightingMode mode = m_session.controller.document().view.lighting;
+    m_actions->lightingIbl->setChecked(mode == LightingMode::Ibl);
+    m_actions->lightingPrt->setChecked(mode == LightingMode::Prt);
+}
+
+void MainWindow::notice(const UserNotice& notice) {
+    m_notices->add(notice);
+    const std::string text =
+        notice.details.isEmpty()
+            ? notice.text.toStdString()
+            : (notice.text + QStringLiteral(" ") + notice.details.join(QStringLiteral("; ")))
+                  .toStdString();
+    switch (notice.kind) {
+    case NoticeKind::Info:
+        logMessage(LogLevel::Info, text);
+        break;
+    case NoticeKind::Warning:
+        logMessage(LogLevel::Warning, text);
+        break;
+    case NoticeKind::Error:
+        logMessage(LogLevel::Error, text);
+        break;
+    }
+}
+
+void MainWindow::openExportDialog() {
+    auto* dialog = new ExportDialog(m_session.controller, m_session.jobs, this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->open();
+}
+
+// --- Window events -------------------------------------------------------------------------------
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+    if (!m_mayClose) {
+        event->ignore();
+        m_files->guardQuit([this] {
+            m_mayClose = true;
+            close();
+        });
+        return;
+    }
+    QSettings settings;
+    settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
+    settings.setValue(QStringLiteral("window/state"), saveState(kLayoutVersion));
+    m_session.jobs.cancelAll();
+    event->accept();
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+    if (!droppedFiles(event->mimeData()).isEmpty())
+        event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+    event->acceptProposedAction();
+    m_files->dropped(droppedFiles(event->mimeData()), mapToGlobal(event->position().toPoint()));
+}
+
+} // namespace patina::editor

@@ -1,0 +1,69 @@
+// The editor's window: it assembles panels, menus and status bar, and decides nothing.
+#pragma once
+
+#include <QElapsedTimer>
+#include <QMainWindow>
+
+class QLabel;
+class QMenu;
+
+namespace patina::editor {
+
+class Actions;
+class BusyIndicator;
+class FileFlow;
+class MaterialPanel;
+class NoticeArea;
+class ViewportWidget;
+struct Session;
+struct UserNotice;
+
+class MainWindow : public QMainWindow {
+    Q_OBJECT
+  public:
+    explicit MainWindow(Session& session);
+    ~MainWindow() override;
+
+    [[nodiscard]] Actions& actions() { return *m_actions; }
+    [[nodiscard]] FileFlow& files() { return *m_files; }
+    [[nodiscard]] NoticeArea& notices() { return *m_notices; }
+    [[nodiscard]] ViewportWidget& viewport() { return *m_viewport; }
+
+    void restoreLayout(); // of the last time, or the first one
+    void resetLayout();
+
+  protected:
+    void closeEvent(QCloseEvent* event) override;
+    void dragEnterEvent(QDragEnterEvent* event) override;
+    void dropEvent(QDropEvent* event) override;
+
+  private:
+    void makeDocks();
+    QDockWidget* addDock(const QString& name, const QString& title, const QString& iconName,
+                         const QString& help, QWidget* panel);
+    void makeMenus();
+    void makeToolBar();
+    void makeStatusBar();
+    void connectActions();
+    void fillRecentMenu();
+    void refreshTitle();
+    void refreshView();
+    void refreshTriangles();
+    void showFrameTime(double milliseconds);
+    void notice(const UserNotice& notice);
+    void openExportDialog();
+
+    Session& m_session;
+    Actions* m_actions;
+    FileFlow* m_files;
+    NoticeArea* m_notices;
+    ViewportWidget* m_viewport;
+    QList<QDockWidget*> m_docks;
+    QMenu* m_recentMenu = nullptr;
+    BusyIndicator* m_busy = nullptr;
+    QLabel *m_gpu = nullptr, *m_frameTime = nullptr, *m_triangles = nullptr;
+    QElapsedTimer m_frameTimeShown;
+    bool m_mayClose = false;
+};
+
+} // namespace patina::editor

@@ -1,0 +1,20 @@
+// What one run of the editor is made of, apart from its window: who lives longer stands first.
+#pragma once
+
+#include "app/editor/document/DocumentController.h"
+#include "app/editor/document/SelectionModel.h"
+#include "app/editor/job/JobManager.h"
+#include "app/editor/widget/Thumbnails.h"
+#include "core/worker/WorkerClient.h"
+
+namespace patina::editor {
+
+struct Session {
+    WorkerClient worker;
+    DocumentController controller{worker};
+    SelectionModel selection{controller};
+    Thumbnails thumbnails;
+    JobManager jobs{controller};
+};
+
+} // namespace patina::editor

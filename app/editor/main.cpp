@@ -1,0 +1,88 @@
+// patina-editor: the window.
+
+#include "app/editor/FileFlow.h"
+#include "app/editor/MainWindow.h"
+#include "app/editor/Session.h"
+#include "app/editor/style/Style.h"
+
+#include <QApplication>
+#include <QCommandLineParser>
+#include <QIcon>
+#include <QSettings>
+#include <QSurfaceFormat>
+#include <QTimer>
+#include <cstdlib>
+
+namespace {
+
+// Files that are still being read when the user leaves get this long to come to an end.
+constexpr int kPatienceMs = 1500;
+
+QSurfaceFormat surfaceFormat() {
+    QSurfaceFormat format;
+    format.setRenderableType(QSurfaceFormat::OpenGL);
+    format.setVersion(4, 5);
+    format.setProfile(QSurfaceFormat::CoreProfile);
+    format.setDepthBufferSize(0); // the renderer brings its own targets
+    format.setStencilBufferSize(0);
+#ifndef NDEBUG
+    format.setOption(QSurfaceFormat::DebugContext);
+#endif
+    return format;
+}
+
+} // namespace
+
+int main(int argc, char* argv[]) {
+    using namespace patina::editor;
+    // Without shared contexts, floating a dock would destroy the viewport's.
+    QApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
+    QSurfaceFormat::setDefaultFormat(surfaceFormat());
+    QApplication::setOrganizationName(QStringLiteral("Patina"));
+    QApplication::setApplicationName(QStringLiteral("Patina"));
+    QApplication::setApplicationVersion(QStringLiteral(PATINA_VERSION));
+    QApplication::setDesktopFileName(QStringLiteral("patina"));
+    QApplication application(argc, argv);
+    QApplication::setWindowIcon(QIcon(QStringLiteral(":/icons/patina.svg")));
+    applyStyle(application);
+
+    QCommandLineParser parser;
+    parser.setApplicationDescription(QApplication::translate(
+        "main", "Author physically based materials and trust what you see."));
+    parser.addHelpOption();
+    parser.addVersionOption();
+    const QCommandLineOption environment(
+        QStringLiteral("environment"),
+        QApplication::translate("main", "Light the scene with this panorama or builtin:NAME."),
+        QStringLiteral("HDR"));
+    const QCommandLineOption resetLayout(
+        QStringLiteral("reset-layout"),
+        QApplication::translate("main", "Put all docks back where they were at first."));
+    parser.addOptions({environment, resetLayout});
+    parser.addPositionalArgument(
+        QStringLiteral("FILE"),
+        QApplication::translate("main", "Projects, models, environments, images; or builtin:NAME."),
+        QStringLiteral("[FILE …]"));
+    parser.process(application);
+
+    Session session;
+    session.worker.warmUp();
+    int status = 0;
+    {
+        MainWindow window(session);
+        if (parser.isSet(resetLayout))
+            QSettings().remove(QStringLiteral("window"));
+        window.restoreLayout();
+        window.show();
+        // The window comes first, its content as soon as it is ready.
+        QTimer::singleShot(0, &window, [&] {
+            window.files().openFromCommandLine(parser.positionalArguments(),
+                                               parser.value(environment));
+        });
+        status = QApplication::exec();
+    }
+    session.controller.tasks().cancelAll();
+    if (!session.controller.tasks().waitForDone(kPatienceMs))
+        std::_Exit(status); // a hostile file may keep its decoder busy for a minute
+    return status;
+}

@@ -1,0 +1,37 @@
+// The Lights dock: the list with a switch for each, and the parameters of the selected one.
+#pragma once
+
+#include <QWidget>
+
+class QLabel;
+class QListWidget;
+class QToolButton;
+
+namespace patina::editor {
+
+class DocumentController;
+class ParameterList;
+class SelectionModel;
+class Thumbnails;
+
+class LightsPanel : public QWidget {
+    Q_OBJECT
+  public:
+    LightsPanel(DocumentController& controller, SelectionModel& selection, Thumbnails& thumbnails,
+                QWidget* parent = nullptr);
+
+    [[nodiscard]] QListWidget* list() { return m_list; }
+
+  private:
+    void refreshList();
+
+    DocumentController& m_controller;
+    SelectionModel& m_selection;
+    QListWidget* m_list;
+    QLabel* m_empty;
+    QToolButton* m_remove;
+    ParameterList* m_parameters;
+    bool m_refreshing = false;
+};
+
+} // namespace patina::editor

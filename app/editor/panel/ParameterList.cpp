@@ -1,0 +1,81 @@
+#include "app/editor/panel/ParameterList.h"
+
+#include "app/editor/style/Tokens.h"
+#include "app/editor/widget/Section.h"
+
+#include <QVBoxLayout>
+#include <algorithm>
+#include <set>
+
+namespace patina::editor {
+
+ParameterList::ParameterList(DocumentController& controller, Thumbnails& thumbnails,
+                             ParameterListSpec spec, QWidget* parent)
+    : QWidget(parent)
+    , m_controller(controller)
+    , m_spec(std::move(spec)) {
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(4);
+
+    std::vector<const ParameterInfo*> infos;
+    std::set<std::string_view> groups;
+    int labelWidth = 0;
+    for (const ParameterInfo& info : parameters()) {
+        if (info.scope != m_spec.scope || info.type == ParameterType::Reference ||
+            std::count(m_spec.without.begin(), m_spec.without.end(), info.id) > 0)
+            continue;
+        infos.push_back(&info);
+        groups.insert(info.group);
+        labelWidth = std::max(labelWidth, fontMetrics().horizontalAdvance(toQString(info.label)));
+    }
+
+    const RowContext context{controller, thumbnails, m_spec.target, labelWidth + 2};
+    std::string_view group;
+    Section* section = nullptr;
+    for (const ParameterInfo* info : infos) {
+        ParameterRow* row = makeParameterRow(*info, context);
+        m_rows.push_back(row);
+        // A lone group needs no heading: the dock has one.
+        if (groups.size() > 1 && info->group != group) {
+            section = new Section(toQString(info->group));
+            layout->addWidget(section);
+            group = info->group;
+        }
+        if (section)
+            section->add(row);
+        else
+            layout->addWidget(row);
+    }
+    connect(&controller, &DocumentController::changed, this, &ParameterList::documentChanged);
+    refresh();
+}
+
+ParameterRow* ParameterList::row(std::string_view id) const {
+    const auto found = std::find_if(m_rows.begin(), m_rows.end(),
+                                    [&](const ParameterRow* row) { return row->info().id == id; });
+    return found == m_rows.end() ? nullptr : *found;
+}
+
+void ParameterList::documentChanged(const Change& change) {
+    // An edit of another element concerns no row here.
+    if (change.target && change.target != m_spec.target())
+        return;
+    refresh();
+}
+
+void ParameterList::refresh() {
+    for (ParameterRow* row : m_rows)
+        row->refresh();
+    refreshVisibility();
+}
+
+void ParameterList::refreshVisibility() {
+    const auto target = m_spec.target();
+    if (!m_spec.applies || !target || !targetExists(m_controller.document(), *target))
+        return;
+    for (ParameterRow* row : m_rows)
+        row->setVisible(m_spec.applies(row->info(), m_controller.document(), target->id));
+}
+
+} // namespace patina::editor

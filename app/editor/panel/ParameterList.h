@@ -1,0 +1,42 @@
+// The rows of one scope, generated from the parameter table and grouped under its headings.
+#pragma once
+
+#include "app/editor/panel/ParameterRow.h"
+
+#include <QWidget>
+#include <functional>
+#include <vector>
+
+namespace patina::editor {
+
+class Section;
+
+// Which parameters a list shows.
+struct ParameterListSpec {
+    Scope scope = Scope::View;
+    std::function<std::optional<Target>()> target; // nothing: no element is selected
+    std::vector<std::string_view> without;         // ids that the panel shows in another way
+    // Whether a row makes sense for this element now ("position" only for point lights). Empty:
+    // always.
+    std::function<bool(const ParameterInfo&, const Document&, Id)> applies;
+};
+
+class ParameterList : public QWidget {
+    Q_OBJECT
+  public:
+    ParameterList(DocumentController& controller, Thumbnails& thumbnails, ParameterListSpec spec,
+                  QWidget* parent = nullptr);
+
+    void refresh(); // everything, e.g. when another element is selected
+    [[nodiscard]] ParameterRow* row(std::string_view id) const;
+
+  private:
+    void documentChanged(const Change& change);
+    void refreshVisibility();
+
+    DocumentController& m_controller;
+    ParameterListSpec m_spec;
+    std::vector<ParameterRow*> m_rows;
+};
+
+} // namespace patina::editor

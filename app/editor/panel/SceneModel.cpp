@@ -1,0 +1,224 @@
+#include "app/editor/panel/SceneModel.h"
+
+#include "app/editor/document/DocumentController.h"
+#include "app/editor/style/Icons.h"
+#include "app/editor/style/Tokens.h"
+#include "app/editor/widget/ColorConversion.h"
+
+#include <QColor>
+#include <QFont>
+#include <QIcon>
+#include <QPainter>
+#include <QPixmap>
+#include <algorithm>
+
+namespace patina::editor {
+namespace {
+
+constexpr quintptr kBranch = 0; // internal id of the branches; their children carry branch + 1
+
+template <class List>
+int rowOf(const List& list, Id id) {
+    const auto found =
+        std::find_if(list.begin(), list.end(), [id](const auto& e) { return e.id == id; });
+    return found == list.end() ? -1 : static_cast<int>(found - list.begin());
+}
+
+QIcon swatch(const Material& material) {
+    constexpr int kSize = 32; // painted at twice the size for high-density screens
+    QPixmap pixmap(kSize, kSize);
+    pixmap.fill(Qt::transparent);
+    QPainter painter(&pixmap);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const QColor color = toDisplay(material.baseColor);
+    QRadialGradient gradient(QPointF(12, 11), 20);
+    gradient.setColorAt(0, color.lighter(material.metallic > 0.5f ? 170 : 125));
+    gradient.setColorAt(1, color.darker(material.metallic > 0.5f ? 260 : 160));
+    painter.setBrush(gradient);
+    painter.setPen(Qt::NoPen);
+    painter.drawEllipse(QRectF(3, 3, kSize - 6, kSize - 6));
+    return QIcon(pixmap);
+}
+
+} // namespace
+
+SceneModel::SceneModel(DocumentController& controller, QObject* parent)
+    : QAbstractItemModel(parent)
+    , m_controller(controller) {
+    connect(&controller, &DocumentController::changed, this, &SceneModel::documentChanged);
+}
+
+void SceneModel::documentChanged(const Change& change) {
+    const Document& document = m_controller.document();
+    const int counts[2] = {static_cast<int>(document.meshes.size()),
+                           static_cast<int>(document.materials.size())};
+    if (touches(change.affects, Affects::Structure) &&
+        (counts[0] != m_counts[0] || counts[1] != m_counts[1] || !change.target)) {
+        beginResetModel();
+        std::copy(std::begin(counts), std::end(counts), std::begin(m_counts));
+        endResetModel();
+        return;
+    }
+    for (int branch = 0; branch < 2; ++branch) {
+        const bool concerned =
+            !change.target ||
+            change.target->scope == (branch == Meshes ? Scope::Mesh : Scope::Material) ||
+            change.target->scope == Scope::Material; // meshes show the material's name
+        if (concerned && m_counts[branch] > 0) {
+            const QModelIndex above = branchIndex(static_cast<Branch>(branch));
+            Q_EMIT dataChanged(index(0, 0, above),
+                               index(m_counts[branch] - 1, ColumnCount - 1, above));
+        }
+    }
+}
+
+QModelIndex SceneModel::branchIndex(Branch branch) const {
+    return createIndex(branch, 0, kBranch);
+}
+
+QModelIndex SceneModel::indexOf(Target target) const {
+    const bool mesh = target.scope == Scope::Mesh;
+    if (!mesh && target.scope != Scope::Material)
+        return {};
+    const Document& document = m_controller.document();
+    const int row = mesh ? rowOf(document.meshes, target.id) : rowOf(document.materials, target.id);
+    return row < 0 ? QModelIndex() : index(row, 0, branchIndex(mesh ? Meshes : Materials));
+}
+
+std::optional<Target> SceneModel::targetAt(const QModelIndex& index) const {
+    if (!index.isValid() || index.internalId() == kBranch)
+        return std::nullopt;
+    const auto row = static_cast<std::size_t>(index.row());
+    const Document& document = m_controller.document();
+    if (index.internalId() == Meshes + 1)
+        return row < document.meshes.size()
+                   ? std::optional(Target{Scope::Mesh, document.meshes[row].id})
+                   : std::nullopt;
+    return row < document.materials.size()
+               ? std::optional(Target{Scope::Material, document.materials[row].id})
+               : std::nullopt;
+}
+
+QModelIndex SceneModel::index(int row, int column, const QModelIndex& parent) const {
+    if (row < 0 || column < 0 || column >= ColumnCount || row >= rowCount(parent))
+        return {};
+    if (!parent.isValid())
+        return createIndex(row, column, kBranch);
+    return createIndex(row, column, static_cast<quintptr>(parent.row() + 1));
+}
+
+QModelIndex SceneModel::parent(const QModelIndex& index) const {
+    if (!index.isValid() || index.internalId() == kBranch)
+        return {};
+    return createIndex(static_cast<int>(index.internalId()) - 1, 0, kBranch);
+}
+
+int SceneModel::rowCount(const QModelIndex& parent) const {
+    if (!parent.isValid())
+        return 2;
+    if (parent.internalId() != kBranch || parent.column() != 0)
+        return 0;
+    return m_counts[parent.row()];
+}
+
+int SceneModel::columnCount(const QModelIndex&) const {
+    return ColumnCount;
+}
+
+QVariant SceneModel::data(const QModelIndex& index, int role) const {
+    if (!index.isValid())
+        return {};
+    if (index.internalId() == kBranch) {
+        if (index.column() != NameColumn)
+            return {};
+        if (role == Qt::DisplayRole)
+            return index.row() == Meshes ? tr("Meshes") : tr("Materials");
+        if (role == Qt::ForegroundRole)
+            return QColor(tokens::kTextDim);
+        return {};
+    }
+    const auto row = static_cast<std::size_t>(index.row());
+    if (!targetAt(index))
+        return {};
+    return index.internalId() == Meshes + 1 ? meshData(row, index.column(), role)
+                                            : materialData(row, index.column(), role);
+}
+
+QVariant SceneModel::meshData(std::size_t row, int column, int role) const {
+    const MeshInstance& mesh = m_controller.document().meshes[row];
+    const Material* material = m_controller.document().material(mesh.material);
+    switch (role) {
+    case Qt::DisplayRole:
+    case Qt::EditRole:
+        if (column == NameColumn)
+            return QString::fromStdString(mesh.name);
+        if (column == MaterialColumn && material)
+            return QString::fromStdString(material->name);
+        break;
+    case Qt::DecorationRole:
+        if (column == NameColumn)
+            return icon(QStringLiteral("mesh"));
+        if (column == EyeColumn)
+            return mesh.visible ? icon(QStringLiteral("eye"))
+                                : icon(QStringLiteral("eye-off"), tokens::kTextOff);
+        break;
+    case Qt::ForegroundRole:
+        if (!mesh.visible)
+            return QColor(tokens::kTextOff);
+        if (column == MaterialColumn)
+            return QColor(tokens::kTextDim);
+        break;
+    case Qt::ToolTipRole:
+        if (column == EyeColumn)
+            return mesh.visible ? tr("Hide the mesh") : tr("Show the mesh");
+        if (mesh.mesh)
+            return tr("%1: %L2 triangles, material %3")
+                .arg(QString::fromStdString(mesh.name))
+                .arg(mesh.mesh->triangleCount())
+                .arg(material ? QString::fromStdString(material->name) : QString());
+        break;
+    case Qt::AccessibleTextRole:
+        if (column == EyeColumn)
+            return mesh.visible ? tr("Visible") : tr("Hidden");
+        break;
+    default:
+        break;
+    }
+    return {};
+}
+
+QVariant SceneModel::materialData(std::size_t row, int column, int role) const {
+    const Material& material = m_controller.document().materials[row];
+    if (column != NameColumn)
+        return {};
+    switch (role) {
+    case Qt::DisplayRole:
+    case Qt::EditRole:
+        return QString::fromStdString(material.name);
+    case Qt::DecorationRole:
+        return swatch(material);
+    case Qt::ToolTipRole:
+        return tr("%1: double-click or F2 to rename").arg(QString::fromStdString(material.name));
+    default:
+        return {};
+    }
+}
+
+bool SceneModel::setData(const QModelIndex& index, const QVariant& value, int role) {
+    const auto target = targetAt(index);
+    if (!target || role != Qt::EditRole || index.column() != NameColumn)
+        return false;
+    m_controller.rename(*target, value.toString());
+    return true;
+}
+
+Qt::ItemFlags SceneModel::flags(const QModelIndex& index) const {
+    if (!index.isValid() || index.internalId() == kBranch)
+        return Qt::ItemIsEnabled;
+    Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemNeverHasChildren;
+    if (index.column() == NameColumn)
+        flags |= Qt::ItemIsEditable;
+    return flags;
+}
+
+} // namespace patina::editor

@@ -1,0 +1,43 @@
+// The document's meshes and materials as a tree of two branches. Reads the document, stores
+// nothing but the shape of the tree it last told its views about.
+#pragma once
+
+#include "core/document/Change.h"
+
+#include <QAbstractItemModel>
+
+namespace patina::editor {
+
+class DocumentController;
+
+class SceneModel : public QAbstractItemModel {
+    Q_OBJECT
+  public:
+    enum Branch { Meshes = 0, Materials = 1 };
+    enum Column { NameColumn = 0, MaterialColumn = 1, EyeColumn = 2, ColumnCount = 3 };
+
+    explicit SceneModel(DocumentController& controller, QObject* parent = nullptr);
+
+    [[nodiscard]] QModelIndex branchIndex(Branch branch) const;
+    [[nodiscard]] QModelIndex indexOf(Target target) const; // invalid when it is gone
+    [[nodiscard]] std::optional<Target> targetAt(const QModelIndex& index) const;
+
+    [[nodiscard]] QModelIndex index(int row, int column,
+                                    const QModelIndex& parent = {}) const override;
+    [[nodiscard]] QModelIndex parent(const QModelIndex& index) const override;
+    [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
+    [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
+    [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override;
+    bool setData(const QModelIndex& index, const QVariant& value, int role) override;
+    [[nodiscard]] Qt::ItemFlags flags(const QModelIndex& index) const override;
+
+  private:
+    void documentChanged(const Change& change);
+    [[nodiscard]] QVariant meshData(std::size_t row, int column, int role) const;
+    [[nodiscard]] QVariant materialData(std::size_t row, int column, int role) const;
+
+    DocumentController& m_controller;
+    int m_counts[2] = {0, 0};
+};
+
+} // namespace patina::editor

@@ -1,0 +1,78 @@
+#include "app/editor/style/Style.h"
+
+#include "app/editor/style/Tokens.h"
+
+#include <QApplication>
+#include <QColor>
+#include <QFile>
+#include <QFont>
+#include <QPalette>
+#include <QStyleFactory>
+#include <iterator>
+
+namespace patina::editor {
+namespace {
+
+using namespace tokens;
+
+QPalette palette() {
+    QPalette palette;
+    const auto set = [&](QPalette::ColorRole role, QRgb normal, QRgb disabled) {
+        palette.setColor(QPalette::Active, role, QColor(normal));
+        palette.setColor(QPalette::Inactive, role, QColor(normal));
+        palette.setColor(QPalette::Disabled, role, QColor(disabled));
+    };
+    set(QPalette::Window, kWindow, kWindow);
+    set(QPalette::WindowText, kText, kTextOff);
+    set(QPalette::Base, kWell, kPanel);
+    set(QPalette::AlternateBase, kPanel, kPanel);
+    set(QPalette::Text, kText, kTextOff);
+    set(QPalette::PlaceholderText, kTextOff, kTextOff);
+    set(QPalette::Button, kRaised, kPanel);
+    set(QPalette::ButtonText, kText, kTextOff);
+    set(QPalette::BrightText, kDanger, kDanger);
+    set(QPalette::Highlight, kAccentDeep, kRaised);
+    set(QPalette::HighlightedText, kText, kTextOff);
+    set(QPalette::ToolTipBase, kRaised, kRaised);
+    set(QPalette::ToolTipText, kText, kText);
+    set(QPalette::Link, kAccent, kTextOff);
+    set(QPalette::LinkVisited, kAccent, kTextOff);
+    set(QPalette::Light, kHover, kHover);
+    set(QPalette::Midlight, kRaised, kRaised);
+    set(QPalette::Mid, kLine, kLine);
+    set(QPalette::Dark, kWell, kWell);
+    set(QPalette::Shadow, 0xff0c0d0e, 0xff0c0d0e);
+    return palette;
+}
+
+// The style sheet with every @name replaced by its token.
+QString styleSheet() {
+    QFile file(QStringLiteral(":/style/patina.qss"));
+    if (!file.open(QIODevice::ReadOnly))
+        return {};
+    QString sheet = QString::fromUtf8(file.readAll());
+    const struct {
+        const char* name;
+        QRgb color;
+    } table[] = {{"@well", kWell},       {"@window", kWindow},
+                 {"@panel", kPanel},     {"@raised", kRaised},
+                 {"@hover", kHover},     {"@line", kLine},
+                 {"@textDim", kTextDim}, {"@textOff", kTextOff},
+                 {"@text", kText},       {"@accentDeep", kAccentDeep},
+                 {"@accent", kAccent},   {"@copper", kCopper},
+                 {"@danger", kDanger}};
+    for (const auto& [name, color] : table)
+        sheet.replace(QLatin1String(name), QColor(color).name());
+    sheet.replace(QLatin1String("@radius"), QStringLiteral("%1px").arg(kRadius));
+    return sheet;
+}
+
+} // namespace
+
+void applyStyle(QApplication& application) {
+    QApplication::setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
+    QApplication::setPalette(palette());
+    application.setStyleSheet(styleSheet());
+}
+
+} // namespace patina::editor

@@ -1,0 +1,26 @@
+// A turning arc beside what is going on; invisible when nothing is.
+#pragma once
+
+#include <QTimer>
+#include <QWidget>
+
+class QLabel;
+
+namespace patina::editor {
+
+class BusyIndicator : public QWidget {
+    Q_OBJECT
+  public:
+    explicit BusyIndicator(QWidget* parent = nullptr);
+    void setActivity(const QString& activity); // empty: idle
+
+  protected:
+    void paintEvent(QPaintEvent* event) override;
+
+  private:
+    QLabel* m_text;
+    QTimer m_timer;
+    int m_angleDeg = 0;
+};
+
+} // namespace patina::editor

@@ -1,0 +1,21 @@
+// The label of a row: brighter when the value is not the default, and a double-click resets it.
+#pragma once
+
+#include <QLabel>
+
+namespace patina::editor {
+
+class RowLabel : public QLabel {
+    Q_OBJECT
+  public:
+    explicit RowLabel(const QString& text, QWidget* parent = nullptr);
+    void setAtDefault(bool atDefault);
+
+  Q_SIGNALS:
+    void resetRequested();
+
+  protected:
+    void mouseDoubleClickEvent(QMouseEvent* event) override;
+};
+
+} // namespace patina::editor

@@ -1,0 +1,68 @@
+#include "app/editor/widget/Thumbnails.h"
+
+#include "core/math/Shading.h"
+
+#include <algorithm>
+
+namespace patina::editor {
+namespace {
+constexpr int kMaxEntries = 256;
+}
+
+QImage displayImage(const Image& image, int maxSide) {
+    if (image.empty())
+        return {};
+    const Image small = shrinkImage(image, maxSide);
+    QImage picture(small.width(), small.height(), QImage::Format_RGB32);
+    const bool data = small.encoding() == ColorEncoding::Data;
+    const bool highRange = small.type() == PixelType::F32;
+    for (int y = 0; y < small.height(); ++y) {
+        auto* row = reinterpret_cast<QRgb*>(picture.scanLine(y));
+        for (int x = 0; x < small.width(); ++x) {
+            glm::vec3 color(small.linear(x, y));
+            if (highRange && !data)
+                color = color / (color + glm::vec3(1.0f)) * 1.6f; // Reinhard, a little brighter
+            if (!data)
+                color = shading::srgbEncode(color);
+            const glm::vec3 byte = glm::clamp(color, 0.0f, 1.0f) * 255.0f + 0.5f;
+            row[x] =
+                qRgb(static_cast<int>(byte.x), static_cast<int>(byte.y), static_cast<int>(byte.z));
+        }
+    }
+    return picture;
+}
+
+Thumbnails::Thumbnails(QObject* parent)
+    : QObject(parent) {
+    m_pool.setMaxThreadCount(1); // never in the way of anything else
+}
+
+Thumbnails::~Thumbnails() {
+    m_pool.clear();
+    m_pool.waitForDone();
+}
+
+QImage Thumbnails::thumbnail(const ImagePtr& image, int side) {
+    if (!image)
+        return {};
+    const QPair<quintptr, int> key(reinterpret_cast<quintptr>(image.get()), side);
+    const auto found = m_entries.constFind(key);
+    if (found != m_entries.constEnd() && found->image.lock() == image)
+        return found->picture;
+    if (m_entries.size() >= kMaxEntries)
+        m_entries.clear();
+    m_entries.insert(key, {image, {}});
+    m_pool.start([this, image, key, side] {
+        const QImage picture = displayImage(*image, side);
+        QMetaObject::invokeMethod(
+            this,
+            [this, image, key, picture] {
+                m_entries.insert(key, {image, picture});
+                Q_EMIT ready();
+            },
+            Qt::QueuedConnection);
+    });
+    return {};
+}
+
+} // namespace patina::editor

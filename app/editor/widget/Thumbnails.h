@@ -1,0 +1,38 @@
+// Small pictures of images, made in the background and kept while there is room.
+#pragma once
+
+#include "core/image/Image.h"
+
+#include <QHash>
+#include <QImage>
+#include <QObject>
+#include <QThreadPool>
+#include <memory>
+
+namespace patina::editor {
+
+// An image as a screen shows it: Data as it is, high dynamic range tone mapped, alpha ignored.
+[[nodiscard]] QImage displayImage(const Image& image, int maxSide);
+
+class Thumbnails : public QObject {
+    Q_OBJECT
+  public:
+    explicit Thumbnails(QObject* parent = nullptr);
+    ~Thumbnails() override;
+
+    // At most `side` pixels; null until ready() comes.
+    [[nodiscard]] QImage thumbnail(const ImagePtr& image, int side);
+
+  Q_SIGNALS:
+    void ready();
+
+  private:
+    struct Entry {
+        std::weak_ptr<const Image> image; // an address may be used again when the image is gone
+        QImage picture;                   // null while it is being made
+    };
+    QThreadPool m_pool;
+    QHash<QPair<quintptr, int>, Entry> m_entries;
+};
+
+} // namespace patina::editor
