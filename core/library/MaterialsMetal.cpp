@@ -65,7 +65,7 @@ Surface wornPaintedMetal() {
             color = glm::mix(color, glm::mix(steel, rusty, rust), bare);
             s.setColor(x, y, color);
 
-            const float paintRough = 0.27f + 0.16f * smoothstep(-0.1f, 0.4f, smudge.row(y)[x]) +
+            const float paintRough = 0.17f + 0.20f * smoothstep(0.0f, 0.45f, smudge.row(y)[x]) +
                                      0.20f * hairline + 0.30f * primerEdge + 0.25f * stain;
             const float bareRough = mix(0.34f + 0.18f * c, 0.86f + 0.1f * c, rust);
             s.roughness.row(y)[x] = mix(paintRough, bareRough, bare);
@@ -73,7 +73,7 @@ Surface wornPaintedMetal() {
 
             // 0.5 mm of paint on a tile of 0.7 m, orange peel, blistered rust, scratches.
             const float thickness = (1.0f - bare) * (1.0f - 0.35f * primerEdge);
-            s.height.row(y)[x] = 0.0016f * thickness + 0.0003f * c * (1.0f - bare) +
+            s.height.row(y)[x] = 0.0016f * thickness + 0.00016f * c * (1.0f - bare) +
                                  rust * (0.0014f * (c + 0.35f) + 0.0008f * b) +
                                  0.0012f * stain * (1.0f - bare) * (0.3f + b) - 0.00025f * hairline;
         }
@@ -94,8 +94,8 @@ Surface copperPatina() {
     const VoronoiCells dents = voronoi(n, 7, 7, 0.9f, 25);
     const Field scratch = strokes(n, {90, 20, 110, 0.6f, 0, 360, 26});
 
-    const glm::vec3 brown(0.20f, 0.085f, 0.045f), darkBrown(0.07f, 0.032f, 0.022f);
-    const glm::vec3 verdigris(0.115f, 0.345f, 0.280f), pale(0.33f, 0.56f, 0.47f);
+    const glm::vec3 brown(0.26f, 0.105f, 0.058f), darkBrown(0.075f, 0.036f, 0.026f);
+    const glm::vec3 verdigris(0.065f, 0.255f, 0.205f), pale(0.285f, 0.51f, 0.425f);
 
     forRows(n, [&](int y) {
         for (int x = 0; x < n; ++x) {
@@ -104,16 +104,16 @@ Surface copperPatina() {
             const float hammered = 0.5f * dent * dent; // shallow bowls
             const float growth =
                 1.0f * a + 0.55f * b + 0.55f * runs.row(y)[x] + 0.35f * (0.32f - hammered) - 0.05f;
-            const float green = smoothstep(-0.02f, 0.16f, growth + 0.16f * p);
-            const float oxide = smoothstep(-0.42f, -0.08f, growth + 0.10f * p);
+            const float green = smoothstep(0.00f, 0.20f, growth + 0.20f * p);
+            const float oxide = smoothstep(-0.75f, -0.30f, growth + 0.25f * p);
             const float rubbed = scratch.row(y)[x] * (1.0f - green);
 
             const glm::vec3 copper = kCopper * (0.92f + 0.2f * b);
             const glm::vec3 tarnish = glm::mix(brown, darkBrown, smoothstep(-0.2f, 0.4f, b + p));
-            glm::vec3 color = glm::mix(copper, glm::mix(tarnish, kCopper * 0.5f, 0.25f),
+            glm::vec3 color = glm::mix(copper, glm::mix(tarnish, kCopper * 0.5f, 0.3f),
                                        oxide * (1.0f - 0.7f * rubbed));
             const glm::vec3 salt =
-                glm::mix(verdigris, pale, smoothstep(0.0f, 0.5f, growth + 0.5f * p));
+                glm::mix(verdigris, pale, smoothstep(0.05f, 0.65f, growth + 0.6f * p));
             color = glm::mix(color, salt, green);
             s.setColor(x, y, color);
 
@@ -134,7 +134,7 @@ Surface gold() {
     Surface s(n);
     const Field warpX = fbm(n, {6, 6, 3, 0.5f, 31}), warpY = fbm(n, {6, 6, 3, 0.5f, 32});
     const VoronoiCells cells = voronoi(n, 9, 9, 0.95f, 33);
-    const Field bowls = warp(cells.nearest, warpX, warpY, 9.0f);
+    const Field bowls = blur(warp(cells.nearest, warpX, warpY, 9.0f), 2);
     const Field smudge = fbm(n, {4, 4, 5, 0.6f, 34});
     const Field hair = strokes(n, {160, 20, 120, 0.55f, 0, 360, 35});
     const Field grain = fbm(n, {64, 64, 2, 0.6f, 36});

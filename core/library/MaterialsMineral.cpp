@@ -28,16 +28,18 @@ Surface ceramic() {
     forRows(n, [&](int y) {
         for (int x = 0; x < n; ++x) {
             const float p = pool.row(y)[x];
-            const float major = smoothstep(0.030f, 0.006f, edgeLarge.row(y)[x]);
-            const float minor = smoothstep(0.055f, 0.012f, edgeSmall.row(y)[x]) *
+            const float major = smoothstep(0.016f, 0.003f, edgeLarge.row(y)[x]) *
+                                smoothstep(-0.45f, 0.05f, presence.row(y)[x]);
+            const float minor = smoothstep(0.036f, 0.006f, edgeSmall.row(y)[x]) *
                                 smoothstep(-0.1f, 0.35f, presence.row(y)[x]);
-            const float line = std::max(major * 0.9f, minor * 0.55f);
-            const float speck = smoothstep(0.26f, 0.12f, specks.nearest.row(y)[x]) *
-                                smoothstep(0.90f, 0.93f, specks.random.row(y)[x]);
+            const float line = std::max(major * 0.75f, minor * 0.45f);
+            const float size = 0.26f * smoothstep(0.90f, 1.0f, specks.random.row(y)[x]);
+            const float speck =
+                size > 0.03f ? smoothstep(size, 0.4f * size, specks.nearest.row(y)[x]) : 0.0f;
             glm::vec3 color = glm::mix(glaze, thick, smoothstep(0.0f, 0.6f, p));
             color = glm::mix(color, thin, smoothstep(0.0f, 0.6f, -p));
             color = glm::mix(color, crack, 0.55f * line);
-            color = glm::mix(color, iron, 0.75f * speck);
+            color = glm::mix(color, iron, 0.6f * speck);
             s.setColor(x, y, color);
             s.roughness.row(y)[x] = 0.085f + 0.16f * line + 0.03f * smoothstep(0.0f, 0.5f, p);
             s.height.row(y)[x] = 0.0030f * p + 0.0006f * warpX.row(y)[x] - 0.00035f * major -
@@ -61,8 +63,8 @@ Surface concrete() {
     forRows(n, [&](int y) {
         for (int x = 0; x < n; ++x) {
             // A bubble's radius varies with its cell; most cells have none.
-            const float big = 0.30f * smoothstep(0.62f, 1.0f, bubbles.random.row(y)[x]);
-            const float small = 0.42f * smoothstep(0.55f, 1.0f, pores.random.row(y)[x]);
+            const float big = 0.24f * smoothstep(0.72f, 1.0f, bubbles.random.row(y)[x]);
+            const float small = 0.40f * smoothstep(0.68f, 1.0f, pores.random.row(y)[x]);
             const float hole =
                 big > 0.02f ? smoothstep(big, 0.55f * big, bubbles.nearest.row(y)[x]) : 0.0f;
             const float pore =
@@ -71,9 +73,9 @@ Surface concrete() {
                                 smoothstep(-0.15f, 0.2f, wave.row(y)[x]);
             const float damp = smoothstep(0.0f, 0.45f, stain.row(y)[x]);
             float tone =
-                0.40f + 0.10f * stain.row(y)[x] + 0.09f * blotch.row(y)[x] + 0.07f * sand.row(y)[x];
+                0.40f + 0.16f * stain.row(y)[x] + 0.12f * blotch.row(y)[x] + 0.07f * sand.row(y)[x];
             tone *= 1.0f - 0.25f * damp;
-            tone *= (1.0f - 0.5f * hole) * (1.0f - 0.35f * pore) * (1.0f - 0.5f * crack);
+            tone *= (1.0f - 0.4f * hole) * (1.0f - 0.35f * pore) * (1.0f - 0.5f * crack);
             s.setColor(x, y,
                        tone * glm::mix(glm::vec3(1.0f, 0.975f, 0.93f),
                                        glm::vec3(1.0f, 0.96f, 0.89f), damp));

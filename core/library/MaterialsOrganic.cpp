@@ -12,10 +12,10 @@ namespace {
 constexpr int n = kMapSize;
 }
 
-// Oiled oak boards along u, four to a tile, each with two lengths butted at a random place. Growth
+// Oiled oak boards along u, five to a tile, each butted against the next at its own place. Growth
 // rings are cut at a shallow angle (cathedral grain), pores follow the fibres.
 Surface wood() {
-    constexpr int kBoards = 4;
+    constexpr int kBoards = 5;
     Surface s(n);
     const Field bend = fbm(n, {3, 12, 4, 0.45f, 91});
     const Field fibre = fbm(n, {8, 128, 2, 0.6f, 92});
@@ -32,20 +32,16 @@ Surface wood() {
             const float joint = hashToFloat(hashInt(static_cast<std::uint32_t>(board), 7u, 96u));
             float along = u - joint;
             along -= along < 0.0f ? -1.0f : 0.0f;
-            const int piece = along < 0.55f ? 0 : 1;
-            const auto id = static_cast<std::uint32_t>(board * 2 + piece);
+            const auto id = static_cast<std::uint32_t>(board);
             const float random = hashToFloat(hashInt(id, 3u, 97u));
             const float random2 = hashToFloat(hashInt(id, 5u, 98u));
 
             // Rings: parabolas opening along the board, bent by the tree's irregularity.
-            const float start = piece == 0 ? 0.0f : 0.55f;
-            const float length = piece == 0 ? 0.55f : 0.45f;
-            const float t = (along - start) / length;
             const float heart = across - mix(0.2f, 0.8f, random);
             const int shift = static_cast<int>(random * 512.0f);
             const float irregular = bend.at(x + shift, y + shift);
-            const float ring = (random2 > 0.5f ? t : 1.0f - t) * 2.2f + heart * heart * 16.0f +
-                               1.3f * irregular + random * 7.0f;
+            const float ring = (random2 > 0.5f ? along : 1.0f - along) * 3.0f +
+                               heart * heart * 16.0f + 1.3f * irregular + random * 7.0f;
             const float phase =
                 ring * 2.2f - static_cast<float>(static_cast<int>(ring * 2.2f + 64.0f) - 64);
             const float late = smoothstep(0.25f, 0.85f, phase) * smoothstep(1.0f, 0.92f, phase);
@@ -55,10 +51,9 @@ Surface wood() {
 
             // Gaps between boards and at butt joints, in pixels.
             const float edgeV = std::min(across, 1.0f - across) * (static_cast<float>(n) / kBoards);
-            const float endU = std::min(std::min(along, 1.0f - along), std::fabs(along - 0.55f)) *
-                               static_cast<float>(n);
+            const float endU = std::min(along, 1.0f - along) * static_cast<float>(n);
             const float edge = std::min(edgeV, endU);
-            const float gap = smoothstep(1.9f, 0.6f, edge);
+            const float gap = smoothstep(1.5f, 0.4f, edge);
             const float bevel = smoothstep(5.0f, 1.0f, edge);
 
             glm::vec3 color = glm::mix(
@@ -82,7 +77,7 @@ Surface wood() {
 Surface leather() {
     Surface s(n);
     const Field warpX = fbm(n, {7, 7, 4, 0.55f, 101}), warpY = fbm(n, {7, 7, 4, 0.55f, 102});
-    const VoronoiCells pebbles = voronoi(n, 26, 26, 1.0f, 103);
+    const VoronoiCells pebbles = voronoi(n, 30, 30, 1.0f, 103);
     const VoronoiCells grains = voronoi(n, 58, 58, 1.0f, 104);
     const Field crease = warp(pebbles.edge, warpX, warpY, 22.0f);
     const Field fineCrease = warp(grains.edge, warpY, warpX, 14.0f);
@@ -92,12 +87,13 @@ Surface leather() {
     const glm::vec3 rubbed(0.37f, 0.165f, 0.068f);
     forRows(n, [&](int y) {
         for (int x = 0; x < n; ++x) {
-            const float dome = smoothstep(0.0f, 0.30f, crease.row(y)[x]);
-            const float fine = smoothstep(0.0f, 0.28f, fineCrease.row(y)[x]);
-            const float top = 0.72f * dome + 0.28f * fine * dome;
+            const float e = saturate(crease.row(y)[x] * 2.6f);
+            const float dome = e * (2.0f - e);
+            const float fine = smoothstep(0.0f, 0.30f, fineCrease.row(y)[x]);
+            const float top = 0.78f * dome + 0.22f * fine * dome;
             const float t = tint.row(y)[x];
             const float wear = smoothstep(0.05f, 0.6f, t) * dome;
-            glm::vec3 color = glm::mix(deep, brown, 0.25f + 0.75f * top);
+            glm::vec3 color = glm::mix(deep, brown, 0.42f + 0.58f * smoothstep(0.0f, 0.7f, top));
             color = glm::mix(color, rubbed, 0.6f * wear);
             color *= 1.0f + 0.35f * t;
             s.setColor(x, y, color);

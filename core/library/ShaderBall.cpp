@@ -15,9 +15,9 @@ namespace patina::library {
 
 namespace {
 
-constexpr double kRadius = 0.5, kShell = 0.044, kCoreRadius = 0.335;
-constexpr glm::dvec3 kCenter(0.0, 0.80, 0.0);
-constexpr double kFloorTop = 0.04, kFloorRadius = 0.90;
+constexpr double kRadius = 0.55, kShell = 0.048, kCoreRadius = 0.37;
+constexpr glm::dvec3 kCenter(0.0, 0.765, 0.0);
+constexpr double kFloorTop = 0.04, kFloorRadius = 0.64;
 // The opening faces the right-hand side of the default camera (azimuth 30°), tilted up.
 constexpr double kOpeningAzimuth = 72.0, kOpeningElevation = 28.0, kOpeningDeg = 35.0;
 
@@ -46,12 +46,12 @@ std::vector<double> outerAngles() {
             return std::fabs(deg - g.deg) < g.halfWidthDeg * 1.3;
         });
     };
-    for (int i = 0; i <= 72; ++i)
-        if (const double deg = 180.0 + (kOpeningDeg - 180.0) * i / 72.0; !nearGroove(deg))
+    for (int i = 0; i <= 54; ++i)
+        if (const double deg = 180.0 + (kOpeningDeg - 180.0) * i / 54.0; !nearGroove(deg))
             result.push_back(deg);
     for (const Groove& g : kGrooves)
-        for (int i = -11; i <= 11; ++i)
-            result.push_back(g.deg + g.halfWidthDeg * 1.1 * i / 11.0);
+        for (int i = -7; i <= 7; ++i)
+            result.push_back(g.deg + g.halfWidthDeg * 1.1 * i / 7.0);
     std::sort(result.begin(), result.end(), std::greater<>());
     return result;
 }
@@ -69,14 +69,14 @@ Profile ballProfile() {
     constexpr double kRim = 0.5 * kShell;
     const double turns = kOpeningDeg / 360.0;
     const glm::dvec2 radial(sinTurns(turns), cosTurns(turns)), inward(-radial.y, radial.x);
-    for (int i = 1; i < 20; ++i) {
-        const double a = 0.5 * i / 20.0;
+    for (int i = 1; i < 12; ++i) {
+        const double a = 0.5 * i / 12.0;
         const glm::dvec2 p =
             radial * (kRadius - kRim) + (radial * cosTurns(a) + inward * sinTurns(a)) * kRim;
         profile.push_back({p.x, p.y});
     }
-    for (int i = 0; i <= 40; ++i)
-        add(kRadius - kShell, kOpeningDeg + (180.0 - kOpeningDeg) * i / 40.0);
+    for (int i = 0; i <= 24; ++i)
+        add(kRadius - kShell, kOpeningDeg + (180.0 - kOpeningDeg) * i / 24.0);
     finishSmoothProfile(profile);
     return profile;
 }
@@ -108,7 +108,7 @@ Placement placed(const glm::dvec3& axis, const glm::dvec3& offset) {
 }
 
 Mesh ball() {
-    constexpr int kSegments = 224;
+    constexpr int kSegments = 176;
     const Placement placement =
         placed(directionFromAngles(kOpeningAzimuth, kOpeningElevation), kCenter);
     const Profile profile = ballProfile();
@@ -128,7 +128,7 @@ Mesh ball() {
     const double beltHeight = (profile[front].length - profile[back].length) * scale;
     Mesh mesh;
     addLathe(mesh, profile, back, front, kSegments, strip(0.0, 0.004, 1.0, beltHeight), placement);
-    addLathe(mesh, profile, front, rim, kSegments, disc(0.185, 0.42, scale, 0.27), placement);
+    addLathe(mesh, profile, front, rim, kSegments, disc(0.185, 0.42, scale, 0.297), placement);
     addLathe(mesh, profile, 0, back, kSegments, disc(0.54, 0.42, scale, 0.0), placement);
     addLathe(mesh, profile, rim, profile.size() - 1, kSegments, disc(0.86, 0.42, 0.11, 0.0),
              placement);
@@ -139,7 +139,7 @@ Mesh ball() {
 Mesh core() {
     Mesh mesh;
     Profile sphere;
-    constexpr int kRings = 64;
+    constexpr int kRings = 48;
     for (int i = 0; i <= kRings; ++i) {
         const double turns = 0.5 * i / kRings;
         const double r = i == 0 || i == kRings ? 0.0 : sinTurns(turns), h = -cosTurns(turns);
@@ -156,7 +156,7 @@ Mesh core() {
     const double major = (kRadius + kTube) * sinTurns(kContactTurns);
     const double height = kCenter.y - (kRadius + kTube) * cosTurns(kContactTurns);
     Profile ring;
-    constexpr int kRingSteps = 24;
+    constexpr int kRingSteps = 16;
     for (int i = 0; i <= kRingSteps; ++i) {
         const double a = static_cast<double>(i % kRingSteps) / kRingSteps;
         // Upwards on the outside: the seam lies inside.
@@ -164,44 +164,50 @@ Mesh core() {
         ring.push_back(
             {major + kTube * r, height + kTube * h, r, h, 2.0 * kPi * kTube * i / kRingSteps});
     }
-    addLathe(mesh, ring, 0, kRingSteps, 192, strip(0.0, 0.52, 1.0, 0.07),
+    addLathe(mesh, ring, 0, kRingSteps, 160, strip(0.0, 0.52, 1.0, 0.07),
              placed({0.0, 1.0, 0.0}, {}));
     return mesh;
 }
 
 Mesh stand() {
-    constexpr int kSegments = 192;
+    constexpr int kSegments = 144;
     const double y = kFloorTop + 0.0005; // stands free of the floor by half a millimetre
+    // The collar's seat follows the ball from below at a distance of 12 mm.
+    const auto seat = [](double deg, double fillet) {
+        const double distance = kRadius + 0.012, turns = deg / 360.0;
+        return ProfileCorner{distance * sinTurns(turns), kCenter.y - distance * cosTurns(turns),
+                             fillet};
+    };
     const std::array<ProfileCorner, 23> corners = {{{0.0, y},
-                                                    {0.362, y, 0.006},
-                                                    {0.362, 0.062, 0.006},
-                                                    {0.342, 0.072, 0.005},
-                                                    {0.342, 0.104, 0.010},
-                                                    {0.318, 0.116, 0.008},
-                                                    {0.232, 0.116, 0.012},
-                                                    {0.232, 0.146, 0.010},
-                                                    {0.212, 0.158, 0.008},
-                                                    {0.150, 0.160, 0.030},
-                                                    {0.108, 0.200, 0.030},
-                                                    {0.108, 0.232, 0.020},
-                                                    {0.200, 0.290, 0.030},
-                                                    {0.366, 0.344, 0.010},
-                                                    {0.380, 0.352, 0.005},
-                                                    {0.380, 0.378, 0.006},
-                                                    {0.368, 0.388, 0.006},
-                                                    {0.300, 0.388, 0.006},
-                                                    {0.2887, 0.3555, 0.020},
-                                                    {0.1985, 0.3086, 0.100},
-                                                    {0.1011, 0.2797, 0.100},
-                                                    {0.0400, 0.2700, 0.050},
-                                                    {0.0, 0.2700}}};
-    const Profile profile = roundedProfile(corners, 0.025, 9.0);
+                                                    {0.400, y, 0.006},
+                                                    {0.400, 0.062, 0.006},
+                                                    {0.380, 0.073, 0.006},
+                                                    {0.380, 0.098, 0.010},
+                                                    {0.352, 0.112, 0.010},
+                                                    {0.262, 0.112, 0.012},
+                                                    {0.262, 0.134, 0.008},
+                                                    {0.246, 0.144, 0.008},
+                                                    {0.170, 0.146, 0.022},
+                                                    {0.138, 0.168, 0.016},
+                                                    {0.140, 0.192, 0.010},
+                                                    {0.230, 0.212, 0.030},
+                                                    {0.388, 0.284, 0.012},
+                                                    {0.402, 0.292, 0.005},
+                                                    {0.402, 0.316, 0.007},
+                                                    {0.388, 0.327, 0.007},
+                                                    {0.336, 0.327, 0.006},
+                                                    seat(34.0, 0.010),
+                                                    seat(24.0, 0.100),
+                                                    seat(14.0, 0.100),
+                                                    seat(5.0, 0.050),
+                                                    {0.0, kCenter.y - kRadius - 0.0115}}};
+    const Profile profile = roundedProfile(corners, 0.03, 15.0);
     const auto at = [&](double r, double h) { return nearest(profile, r, h); };
-    const std::size_t foot = at(0.362, y), tread = at(0.330, 0.110), riser = at(0.232, 0.116);
-    const std::size_t top = at(0.222, 0.152), neck = at(0.135, 0.174), cone = at(0.112, 0.235);
-    const std::size_t edge = at(0.376, 0.350), dish = at(0.372, 0.385);
+    const std::size_t foot = at(0.400, y), tread = at(0.366, 0.105), riser = at(0.262, 0.112);
+    const std::size_t top = at(0.254, 0.140), neck = at(0.160, 0.150), cone = at(0.143, 0.194);
+    const std::size_t edge = at(0.397, 0.290), dish = at(0.392, 0.323);
 
-    const double scale = 0.41; // UV per metre
+    const double scale = 0.39; // UV per metre
     const auto height = [&](std::size_t a, std::size_t b) {
         return (profile[b].length - profile[a].length) * scale;
     };
@@ -211,15 +217,15 @@ Mesh stand() {
     const auto add = [&](std::size_t a, std::size_t b, const Chart& chart) {
         addLathe(mesh, profile, a, b, kSegments, chart, placement);
     };
-    add(0, foot, disc(0.33, 0.68, 0.5 * scale, 0.0));
-    add(foot, tread, strip(0.01, 0.01, around(0.362), height(foot, tread)));
-    add(tread, riser, disc(0.15, 0.37, scale, 0.232));
-    add(riser, top, strip(0.01, 0.125, around(0.232), height(riser, top)));
-    add(top, neck, disc(0.11, 0.68, scale, 0.135));
-    add(neck, cone, strip(0.65, 0.125, around(0.115), height(neck, cone)));
-    add(cone, edge, disc(0.46, 0.37, scale, 0.112));
-    add(edge, dish, strip(0.01, 0.075, around(0.38), height(edge, dish)));
-    add(dish, profile.size() - 1, disc(0.815, 0.39, scale, 0.0));
+    add(0, foot, disc(0.36, 0.70, 0.5 * scale, 0.0));
+    add(foot, tread, strip(0.005, 0.01, around(0.400), height(foot, tread)));
+    add(tread, riser, disc(0.155, 0.36, scale, 0.262));
+    add(riser, top, strip(0.01, 0.125, around(0.262), height(riser, top)));
+    add(top, neck, disc(0.12, 0.70, scale, 0.160));
+    add(neck, cone, strip(0.66, 0.125, around(0.135), height(neck, cone)));
+    add(cone, edge, disc(0.48, 0.36, scale, 0.142));
+    add(edge, dish, strip(0.005, 0.075, around(0.402), height(edge, dish)));
+    add(dish, profile.size() - 1, disc(0.82, 0.38, 0.95 * scale, 0.0));
     return mesh;
 }
 
@@ -252,10 +258,12 @@ ModelPart part(const char* name, Mesh mesh, const Material& material) {
 std::vector<ModelPart> shaderBall() {
     Material ground;
     ground.name = "Floor";
-    ground.baseColor = glm::vec3(0.30f);
-    ground.perceptualRoughness = 0.55f;
+    ground.baseColor = glm::vec3(0.22f);
+    ground.perceptualRoughness = 0.42f;
+    Material coreGold = materialNamed("Core", "gold", {4.0f, 4.0f});
+    coreGold.normalStrength = 0.35f; // the core is small: its hammering would look like facets
     return {part("Ball", ball(), materialNamed("Ball", "worn-painted-metal", {4.0f, 4.0f})),
-            part("Core", core(), materialNamed("Core", "gold", {3.0f, 3.0f})),
+            part("Core", core(), coreGold),
             part("Stand", stand(), materialNamed("Stand", "rough-plastic", {5.0f, 5.0f})),
             part("Floor", floorDisc(), ground)};
 }

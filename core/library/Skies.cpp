@@ -17,7 +17,7 @@ std::span<const SkyRecipe> skyRecipes() {
         {"studio", "Studio",
          "A dark room with soft boxes: a key, rim strips, a fill and a bank "
          "overhead.",
-         0.75, studioSky},
+         0.95, studioSky},
         {"sunset", "Sunset",
          "A low sun behind thin clouds, warm on one side and blue on the other.", 0.60, sunsetSky},
         {"night", "Night", "A city after dark: small lamps in many colours over a dark blue sky.",

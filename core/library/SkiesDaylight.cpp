@@ -77,8 +77,8 @@ ImagePtr clearSky(double whiteFacingUp) {
 
     SkyCanvas canvas;
     forRows(kSkyHeight / 2, [&](int row) {
-        // Preetham's model grows without bound towards the horizon: held at 1°.
-        const double cosTheta = std::max(0.0175, static_cast<double>(canvas.direction(0, row).y));
+        // Preetham's model grows without bound towards the horizon: held at 3°.
+        const double cosTheta = std::max(0.052, static_cast<double>(canvas.direction(0, row).y));
         const auto factor = [&](const Perez& p, double zenith) {
             return zenith * p.zenithPart(cosTheta) /
                    (p.zenithPart(1.0) * p.sunPart(thetaSun, cosSun));

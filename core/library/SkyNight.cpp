@@ -79,12 +79,12 @@ ImagePtr nightSky(double whiteFacingUp) {
         blue(0.12f, 0.24f, 1.0f);
     std::vector<Lamp> lamps = {
         // Above the camera's left shoulder a lit sign and the moon; strong lamps around.
-        {-30.0, 26.0, 1.6, white * 22.0f},   {-62.0, 12.0, 2.4, cyan * 11.0f},
-        {-70.0, 8.0, 1.4, magenta * 16.0f},  {118.0, 14.0, 2.2, magenta * 11.0f},
-        {100.0, 30.0, 1.2, sodium * 30.0f},  {62.0, 20.0, 1.1, sodium * 34.0f},
-        {8.0, 34.0, 1.0, white * 40.0f},     {160.0, 24.0, 1.1, sodium * 32.0f},
-        {-118.0, 22.0, 1.2, sodium * 30.0f}, {-150.0, 10.0, 1.8, blue * 22.0f},
-        {-100.0, 6.0, 1.2, green * 9.0f},    {80.0, 7.0, 1.3, cyan * 9.0f},
+        {-30.0, 26.0, 0.96, white * 48.4f},   {-62.0, 12.0, 1.44, cyan * 24.2f},
+        {-70.0, 8.0, 0.84, magenta * 35.2f},  {118.0, 14.0, 1.32, magenta * 24.2f},
+        {100.0, 30.0, 0.72, sodium * 66.0f},  {62.0, 20.0, 0.66, sodium * 74.8f},
+        {8.0, 34.0, 0.60, white * 88.0f},     {160.0, 24.0, 0.66, sodium * 70.4f},
+        {-118.0, 22.0, 0.72, sodium * 66.0f}, {-150.0, 10.0, 1.08, blue * 48.4f},
+        {-100.0, 6.0, 0.72, green * 19.8f},   {80.0, 7.0, 0.78, cyan * 19.8f},
     };
     for (std::uint32_t i = 0; i < 44; ++i) { // distant street lamps
         const std::uint32_t h = hashInt(i, 3u, 224u);

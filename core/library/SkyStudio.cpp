@@ -66,16 +66,16 @@ class SoftBox {
 ImagePtr studioSky(double whiteFacingUp) {
     const std::array boxes = {
         // Key, left of the camera and above it.
-        SoftBox(-28.0, 42.0, 8.0, {0.42f, 0.42f}, 0.03f, 0.45f, {13.0f, 12.4f, 11.6f}),
+        SoftBox(-28.0, 42.0, 8.0, {0.40f, 0.40f}, 0.03f, 0.45f, {19.0f, 18.2f, 17.2f}),
         // Overhead bank, leaning to the back.
-        SoftBox(205.0, 78.0, 0.0, {0.75f, 0.32f}, 0.05f, 0.35f, {6.4f, 6.5f, 6.7f}),
+        SoftBox(205.0, 78.0, 0.0, {0.70f, 0.26f}, 0.05f, 0.35f, {6.0f, 6.1f, 6.3f}),
         // Rim strips behind the object, cool on the right, neutral on the left.
         SoftBox(146.0, 22.0, -4.0, {0.10f, 0.62f}, 0.02f, 0.30f, {11.0f, 12.4f, 14.5f}),
         SoftBox(-88.0, 18.0, 3.0, {0.085f, 0.55f}, 0.02f, 0.30f, {9.5f, 9.5f, 9.8f}),
         // A large dim fill on the right.
         SoftBox(98.0, 24.0, 0.0, {0.60f, 0.52f}, 0.16f, 0.60f, {1.10f, 1.16f, 1.28f}),
     };
-    const glm::vec3 cyclorama = directionFromAngles(210.0, 8.0);
+    const glm::vec3 cyclorama = directionFromAngles(210.0, -9.0);
 
     SkyCanvas canvas;
     canvas.fill(0, kSkyHeight, [&](const glm::vec3& d) {
@@ -83,11 +83,11 @@ ImagePtr studioSky(double whiteFacingUp) {
         const float ceiling = smoothstep(0.05f, 0.85f, d.y);
         const float floor = smoothstep(0.10f, -0.75f, d.y);
         glm::vec3 color =
-            glm::mix(glm::vec3(0.135f, 0.140f, 0.150f), glm::vec3(0.030f, 0.031f, 0.034f), ceiling);
-        color = glm::mix(color, glm::vec3(0.090f, 0.088f, 0.086f), floor);
+            glm::mix(glm::vec3(0.060f, 0.063f, 0.069f), glm::vec3(0.030f, 0.031f, 0.034f), ceiling);
+        color = glm::mix(color, glm::vec3(0.045f, 0.044f, 0.043f), floor);
         const float toBackdrop = std::max(0.0f, glm::dot(d, cyclorama));
         const float glow = toBackdrop * toBackdrop * toBackdrop;
-        color += glm::vec3(0.135f, 0.142f, 0.155f) * glow * glow;
+        color += glm::vec3(0.20f, 0.21f, 0.228f) * glow * glow * glow * glow;
         for (const SoftBox& box : boxes)
             color += box.radiance(d);
         return color;
