@@ -112,7 +112,8 @@ void addLathe(Mesh& mesh, const Profile& profile, std::size_t first, std::size_t
 
     struct Row {
         std::uint32_t start = 0;
-        std::uint32_t count = 0; // 1: the axis of a disc; segments: no seam; segments + 1: a seam
+        // 1: the axis of a disc; segments: the axis of a strip, or no seam; segments + 1: a seam
+        std::uint32_t count = 0;
         bool axis = false;
         [[nodiscard]] std::uint32_t at(int i) const {
             return start + (count == 1 ? 0 : static_cast<std::uint32_t>(i) % count);
@@ -125,7 +126,7 @@ void addLathe(Mesh& mesh, const Profile& profile, std::size_t first, std::size_t
         row.start = static_cast<std::uint32_t>(mesh.positions.size());
         row.axis = p.radius < 1e-9;
         row.count = disc ? (row.axis ? 1u : static_cast<std::uint32_t>(segments))
-                         : static_cast<std::uint32_t>(segments) + 1u;
+                         : static_cast<std::uint32_t>(segments) + (row.axis ? 0u : 1u);
         for (std::uint32_t i = 0; i < row.count; ++i) {
             // The seam's two columns share one angle, so that they share positions exactly.
             const double turns =

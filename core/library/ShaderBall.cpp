@@ -50,8 +50,10 @@ std::vector<double> outerAngles() {
         if (const double deg = 180.0 + (kOpeningDeg - 180.0) * i / 54.0; !nearGroove(deg))
             result.push_back(deg);
     for (const Groove& g : kGrooves)
-        for (int i = -7; i <= 7; ++i)
-            result.push_back(g.deg + g.halfWidthDeg * 1.1 * i / 7.0);
+        for (const double t : {0.0, 0.45, 0.52, 0.58, 0.64, 0.70, 0.76, 0.82, 0.88, 0.95, 1.08})
+            for (const double side : {-1.0, 1.0})
+                if (t > 0.0 || side > 0.0)
+                    result.push_back(g.deg + side * t * g.halfWidthDeg);
     std::sort(result.begin(), result.end(), std::greater<>());
     return result;
 }
@@ -108,7 +110,7 @@ Placement placed(const glm::dvec3& axis, const glm::dvec3& offset) {
 }
 
 Mesh ball() {
-    constexpr int kSegments = 176;
+    constexpr int kSegments = 160;
     const Placement placement =
         placed(directionFromAngles(kOpeningAzimuth, kOpeningElevation), kCenter);
     const Profile profile = ballProfile();
@@ -130,7 +132,7 @@ Mesh ball() {
     addLathe(mesh, profile, back, front, kSegments, strip(0.0, 0.004, 1.0, beltHeight), placement);
     addLathe(mesh, profile, front, rim, kSegments, disc(0.185, 0.42, scale, 0.297), placement);
     addLathe(mesh, profile, 0, back, kSegments, disc(0.54, 0.42, scale, 0.0), placement);
-    addLathe(mesh, profile, rim, profile.size() - 1, kSegments, disc(0.86, 0.42, 0.11, 0.0),
+    addLathe(mesh, profile, rim, profile.size() - 1, kSegments, disc(0.86, 0.42, 0.10, 0.0),
              placement);
     return mesh;
 }
@@ -170,7 +172,7 @@ Mesh core() {
 }
 
 Mesh stand() {
-    constexpr int kSegments = 144;
+    constexpr int kSegments = 128;
     const double y = kFloorTop + 0.0005; // stands free of the floor by half a millimetre
     // The collar's seat follows the ball from below at a distance of 12 mm.
     const auto seat = [](double deg, double fillet) {

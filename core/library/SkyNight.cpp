@@ -20,6 +20,8 @@ constexpr int kBlocks = 64; // buildings around the horizon
 
 // Height in degrees of the roof line at u; neighbouring blocks differ.
 float roofElevation(float u) {
+    u += 0.5f / kBlocks; // no wall exactly at the picture's border
+    u -= u >= 1.0f ? 1.0f : 0.0f;
     const float position = u * kBlocks;
     const auto block = static_cast<std::uint32_t>(position) % kBlocks;
     const float near = hashToFloat(hashInt(block, 1u, 221u));

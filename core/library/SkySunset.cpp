@@ -167,7 +167,8 @@ ImagePtr sunsetSky(double whiteFacingUp) {
     for (int i = 0; i < 64; ++i)
         toSun.add(glm::length(origin + s * (end * (i + 0.5) / 64)) - kGroundRadius, end / 64);
     const double solidAngle = 2.0 * kPi * (1.0 - cosTurns(kSunRadiusDeg / 360.0));
-    canvas.addDisc(sun, kSunRadiusDeg, glm::vec3(toSun.transmittance() / solidAngle));
+    constexpr double kVeil = 0.18; // a thin cloud before the disc
+    canvas.addDisc(sun, kSunRadiusDeg, glm::vec3(toSun.transmittance() * (kVeil / solidAngle)));
     canvas.fillGround({0.165f, 0.135f, 0.115f}, 0.35f);
     canvas.expose(whiteFacingUp);
     return canvas.finish();
