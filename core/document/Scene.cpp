@@ -2,9 +2,7 @@
 
 #include "core/base/Check.h"
 #include "core/document/DocumentIO.h"
-#include "core/document/Edit.h"
 #include "core/document/SceneLoader.h"
-#include "core/library/Library.h"
 
 #include <algorithm>
 #include <cctype>
@@ -59,12 +57,6 @@ Document startDocument() {
     Document document;
     const bool read = appendModel(loader, document, "builtin:shader-ball");
     CHECK(read);
-    Result<Material> look = library::material("worn-painted-metal");
-    CHECK(look.ok());
-    for (const Material& material : document.materials)
-        if (material.name == "Ball")
-            replaceLook(document, material.id, *look);
-    loader.loadMaps(document.materials);
     loader.loadEnvironment(document.environment);
     frame(document);
     return document;

@@ -196,8 +196,12 @@ void SceneLoader::loadMaps(std::span<Material> materials) {
 }
 
 void SceneLoader::loadEnvironment(Environment& environment) {
-    if (environment.image || environment.source.empty())
+    if (environment.image)
         return;
+    if (environment.source.empty()) {
+        environment.image = neutralEnvironment();
+        return;
+    }
     m_job.setActivity("reading " + fileName(environment.source));
     Result<ImagePtr> image = readEnvironmentImage(m_worker, environment.source, m_notices);
     if (image.ok()) {

@@ -6,6 +6,7 @@
 #include "core/job/JobContext.h"
 
 #include <array>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -26,8 +27,11 @@ struct IblMaps {
 };
 
 struct IblSettings {
-    int cubeSize = 256; // of level 0
-    int levels = 7;     // 256 128 64 32 16 8 4
+    int cubeSize = 256; // of level 0, a power of two
+    int levels = 7;     // 256 128 64 32 16 8 4; at least 2
+
+    // For a first picture while the full maps are computed.
+    static IblSettings quick() { return {128, 6}; }
 };
 
 // `environment`: lat-long, F32, 3 channels, conventions of patina::Environment; rotation and
@@ -38,5 +42,9 @@ Result<IblMaps> computeIbl(const Image& environment, const IblSettings& settings
 // The DFG table: size × size, F32, 3 channels; u = N·V, v = perceptualRoughness, texel centres at
 // (i + 0.5) / size; R: scale on F0, G: bias (Smith height-correlated GGX), B: reserved, 0.
 [[nodiscard]] Image computeDfgTable(int size = 128);
+
+// One entry of it: (scale, bias) by Gauss-Legendre quadrature over the visible normals, within 1e-3
+// of the exact integral for N·V >= 0.01.
+[[nodiscard]] glm::vec2 integrateDfg(float NoV, float perceptualRoughness);
 
 } // namespace patina

@@ -13,6 +13,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace patina {
 
@@ -44,6 +45,15 @@ class WorkerClient {
     };
     Result<Reply> request(const std::string& header, std::span<const std::byte> payload,
                           const std::filesystem::path& fileForMessages);
+    // The same with an open file as payload: the child reads it through the descriptor, which stays
+    // the caller's.
+    Result<Reply> request(const std::string& header, int payloadFd,
+                          const std::filesystem::path& fileForMessages);
+
+    // For tests and diagnosis: the process id of the worker (-1 when none runs) and those of the
+    // children at work.
+    [[nodiscard]] int workerProcess() const;
+    [[nodiscard]] std::vector<int> childProcesses() const;
 
   private:
     struct Impl;

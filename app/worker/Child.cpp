@@ -1,0 +1,95 @@
+#include "app/worker/Child.h"
+
+#include "app/worker/Sandbox.h"
+#include "app/worker/SelfTest.h"
+#include "core/worker/Codec.h"
+
+#include <array>
+#include <cstring>
+#include <fmt/format.h>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace patina::worker {
+
+namespace {
+
+using nlohmann::json;
+
+codec::Reply dispatch(const json& header, const protocol::Request& request,
+                      FileDescriptor& payload) {
+    const auto op = header.at("op").get<std::string>();
+    if (op == "decodeImage")
+        return codec::decodeImage(header, payload.get());
+    if (op == "importModel")
+        return codec::importModel(header, payload.get());
+    if (op == "encodeImage") {
+        const auto bytes = MemoryFile::open(std::move(payload), request.payloadSize);
+        if (!bytes)
+            throw codec::Refusal("the image cannot be encoded", "payload");
+        return codec::encodeImage(header, bytes->bytes());
+    }
+    if (op == "selfTest")
+        return selfTest(header);
+    throw codec::Refusal("unknown request", op);
+}
+
+void answer(int socket, protocol::Event event, const std::string& header, MemoryFile payload) {
+    protocol::Report report;
+    report.event = event;
+    report.headerSize = header.size();
+    report.payloadSize = payload.bytes().size();
+    auto text = MemoryFile::copyOf(std::as_bytes(std::span(header)));
+    if (!text || !text->seal() || !payload.seal())
+        ::_exit(2);
+    const std::array<int, 2> descriptors{text->fd(), payload.fd()};
+    if (!protocol::send(socket, report, descriptors))
+        ::_exit(3);
+}
+
+void refuse(int socket, const std::string& message, const std::string& detail, bool ours = false) {
+    json error = {{"message", message}, {"detail", detail}};
+    if (ours)
+        error["kind"] = "internal";
+    auto empty = MemoryFile::create(0);
+    if (!empty)
+        ::_exit(2);
+    answer(socket, protocol::Event::Failed, codec::toJsonText(error), std::move(*empty));
+}
+
+} // namespace
+
+void runChild(const protocol::Request& request, std::vector<FileDescriptor> descriptors) {
+    const FileDescriptor socket = std::move(descriptors[0]);
+    const FileDescriptor log = std::move(descriptors[2]);
+    ::dup2(log.get(), STDOUT_FILENO);
+    ::dup2(log.get(), STDERR_FILENO);
+    try {
+        if (const std::string failure = confine(request.memoryBytes, request.cpuSeconds);
+            !failure.empty()) {
+            refuse(socket.get(), "the sandbox for reading files cannot be set up on this system",
+                   failure, true);
+            ::_exit(0);
+        }
+        const auto header = MemoryFile::open(std::move(descriptors[1]), request.headerSize);
+        if (!header)
+            ::_exit(2);
+        codec::Reply reply = dispatch(json::parse(header->text()), request, descriptors[3]);
+        answer(socket.get(), protocol::Event::Answered, reply.header, std::move(reply.payload));
+    } catch (const codec::Refusal& refusal) {
+        refuse(socket.get(), refusal.what(), refusal.detail);
+    } catch (const std::bad_alloc&) {
+        refuse(socket.get(),
+               fmt::format("reading the file needs more than {} MiB of memory; it is damaged or "
+                           "too large",
+                           request.memoryBytes >> 20),
+               "out of memory");
+    } catch (const std::exception& exception) {
+        refuse(socket.get(), "the file is damaged or uses a feature that is not supported",
+               exception.what());
+    }
+    ::_exit(0);
+}
+
+} // namespace patina::worker

@@ -1,0 +1,19 @@
+// patina-worker: started by Patina itself (core/worker/WorkerClient.h), never by hand.
+#include "app/worker/Zygote.h"
+#include "core/worker/Codec.h"
+#include "core/worker/WorkerProtocol.h"
+
+#include <cstdio>
+#include <sys/socket.h>
+
+int main() {
+    int type = 0;
+    socklen_t size = sizeof type;
+    if (::getsockopt(patina::protocol::kControlFd, SOL_SOCKET, SO_TYPE, &type, &size) != 0 ||
+        type != SOCK_SEQPACKET) {
+        std::fputs("patina-worker reads files for Patina and is started by it.\n", stderr);
+        return 2;
+    }
+    patina::codec::prepareImageCodec();
+    return patina::worker::serve(patina::protocol::kControlFd);
+}

@@ -1,0 +1,58 @@
+#include "core/light/Ibl.h"
+
+#include "core/base/Check.h"
+#include "core/light/Cubemap.h"
+#include "core/light/Prefilter.h"
+#include "core/math/SphericalHarmonics.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace patina {
+
+Result<IblMaps> computeIbl(const Image& environment, const IblSettings& settings,
+                           const JobContext& job) {
+    CHECK(environment.type() == PixelType::F32);
+    CHECK_LE(3, environment.channels());
+    CHECK(settings.cubeSize > 0 && std::has_single_bit(static_cast<unsigned>(settings.cubeSize)));
+    CHECK(settings.levels >= 2 && settings.cubeSize >> (settings.levels - 1) >= 1);
+    const Error cancelled{ErrorKind::Cancelled, "The image-based light was cancelled.", {}, {}};
+
+    IblMaps maps;
+
+    // Spherical harmonics straight from the lat-long image: no resampling error.
+    job.setActivity("projecting the environment");
+    const std::vector<glm::vec3> radiance = projectLatLong(environment, 5, job);
+    std::ranges::copy(radiance, maps.radianceSh.begin());
+    std::copy_n(radiance.begin(), 9, maps.irradianceSh.begin());
+    convolveWithCosine(maps.irradianceSh);
+    if (job.cancelled())
+        return cancelled;
+    job.setProgress(0.05);
+
+    // Level 0 is the environment itself.
+    job.setActivity("building the cubemap");
+    maps.prefiltered.push_back(cubeFromLatLong(environment, settings.cubeSize, job));
+    if (job.cancelled())
+        return cancelled;
+    job.setProgress(0.2);
+
+    job.setActivity("filtering reflections");
+    const CubePyramid pyramid(maps.prefiltered.front());
+    double done = 0.0, total = 0.0; // texels
+    for (int i = 1; i < settings.levels; ++i)
+        total += 1.0 / (1 << (2 * i));
+    for (int i = 1; i < settings.levels; ++i) {
+        const float perceptualRoughness =
+            static_cast<float>(i) / static_cast<float>(settings.levels - 1);
+        maps.prefiltered.push_back(prefilterGGX(
+            pyramid, settings.cubeSize >> i, perceptualRoughness * perceptualRoughness, {}, job));
+        if (job.cancelled())
+            return cancelled;
+        done += 1.0 / (1 << (2 * i));
+        job.setProgress(0.2 + 0.8 * done / total);
+    }
+    return maps;
+}
+
+} // namespace patina

@@ -1,0 +1,35 @@
+#include "core/worker/AssimpReader.h"
+#include "core/worker/Codec.h"
+#include "core/worker/GltfReader.h"
+#include "core/worker/ModelWire.h"
+
+#include <nlohmann/json.hpp>
+
+namespace patina::codec {
+
+Reply importModel(const nlohmann::json& request, int payloadFd) {
+    const auto format = request.at("format").get<std::string>();
+    // The path travels as numbers: it is bytes, not text.
+    std::string bytes;
+    for (const int byte : request.at("path"))
+        bytes += static_cast<char>(byte);
+    const std::filesystem::path path(bytes);
+    const ModelFolder folder(path.parent_path(), path.stem().string() + "." + format, payloadFd);
+
+    ImportedModel model = format == "gltf" ? readGltf(folder) : readWithAssimp(folder, format);
+    if (model.materials.empty()) {
+        model.materials.emplace_back();
+        model.materials.back().name = "default";
+    }
+    if (model.meshes.empty() || model.instances.empty())
+        throw Refusal("the model has no faces; export it with geometry");
+
+    Reply reply;
+    std::size_t size = 0;
+    reply.header = writeModelHeader(model, size);
+    reply.payload = allocate(size);
+    writeModelPayload(model, reply.payload.writable());
+    return reply;
+}
+
+} // namespace patina::codec

@@ -1,0 +1,309 @@
+#include "core/worker/ModelWire.h"
+
+#include "core/base/Limits.h"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+namespace patina {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kAlignment = 16;
+
+std::size_t aligned(std::size_t size) {
+    return (size + kAlignment - 1) / kAlignment * kAlignment;
+}
+
+// Paths are bytes in any encoding; in JSON they travel as hexadecimal digits.
+std::string toHex(std::string_view bytes) {
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    std::string hex;
+    hex.reserve(bytes.size() * 2);
+    for (const char c : bytes) {
+        hex += kDigits[static_cast<unsigned char>(c) >> 4];
+        hex += kDigits[static_cast<unsigned char>(c) & 15];
+    }
+    return hex;
+}
+
+std::string fromHex(const std::string& hex) {
+    std::string bytes;
+    for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
+        bytes += static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16));
+    return bytes;
+}
+
+template <int N>
+json array(const glm::vec<N, float>& v) {
+    json result = json::array();
+    for (int i = 0; i < N; ++i)
+        result.push_back(v[i]);
+    return result;
+}
+
+// JSON has no NaN: nlohmann writes null for it, and reading null as a number throws.
+float number(const json& value) {
+    const float f = value.get<float>();
+    if (!std::isfinite(f))
+        throw std::runtime_error("a number is not finite");
+    return f;
+}
+
+template <int N>
+glm::vec<N, float> vector(const json& value) {
+    if (value.size() != N)
+        throw std::runtime_error("a vector has the wrong size");
+    glm::vec<N, float> v(0.0f);
+    for (int i = 0; i < N; ++i)
+        v[i] = number(value.at(static_cast<std::size_t>(i)));
+    return v;
+}
+
+struct MapSlotOf {
+    const char* key;
+    std::optional<ImportedTexture> ImportedMaterial::*map;
+};
+constexpr std::array<MapSlotOf, 6> kMaps{{{"baseColorMap", &ImportedMaterial::baseColorMap},
+                                          {"metallicMap", &ImportedMaterial::metallicMap},
+                                          {"roughnessMap", &ImportedMaterial::roughnessMap},
+                                          {"normalMap", &ImportedMaterial::normalMap},
+                                          {"occlusionMap", &ImportedMaterial::occlusionMap},
+                                          {"emissiveMap", &ImportedMaterial::emissiveMap}}};
+
+json write(const ImportedTexture& texture) {
+    return {{"file", toHex(texture.file.native())},
+            {"embedded", texture.embedded},
+            {"channel", std::string(texture.channel != 0 ? 1 : 0, texture.channel)},
+            {"scale", array<2>(texture.uvScale)},
+            {"offset", array<2>(texture.uvOffset)},
+            {"rotationDeg", texture.uvRotationDeg}};
+}
+
+ImportedTexture readTexture(const json& value) {
+    ImportedTexture texture;
+    texture.file = fromHex(value.at("file"));
+    texture.embedded = value.at("embedded");
+    const std::string channel = value.at("channel");
+    if (!channel.empty() && std::string_view("rgba").find(channel[0]) == std::string_view::npos)
+        throw std::runtime_error("a texture names no channel");
+    texture.channel = channel.empty() ? '\0' : channel[0];
+    texture.uvScale = vector<2>(value.at("scale"));
+    texture.uvOffset = vector<2>(value.at("offset"));
+    texture.uvRotationDeg = number(value.at("rotationDeg"));
+    return texture;
+}
+
+json write(const ImportedMaterial& material) {
+    json result = {{"name", material.name},
+                   {"baseColor", array<4>(material.baseColor)},
+                   {"metallic", material.metallic},
+                   {"perceptualRoughness", material.perceptualRoughness},
+                   {"normalStrength", material.normalStrength},
+                   {"occlusionStrength", material.occlusionStrength},
+                   {"emissive", array<3>(material.emissive)},
+                   {"doubleSided", material.doubleSided},
+                   {"alphaMask", material.alphaMask},
+                   {"alphaBlend", material.alphaBlend},
+                   {"alphaCutoff", material.alphaCutoff}};
+    for (const MapSlotOf& slot : kMaps)
+        if (const auto& map = material.*slot.map)
+            result[slot.key] = write(*map);
+    return result;
+}
+
+ImportedMaterial readMaterial(const json& value) {
+    ImportedMaterial material;
+    material.name = value.at("name");
+    material.baseColor = glm::clamp(vector<4>(value.at("baseColor")), 0.0f, 1.0f);
+    material.metallic = glm::clamp(number(value.at("metallic")), 0.0f, 1.0f);
+    material.perceptualRoughness = glm::clamp(number(value.at("perceptualRoughness")), 0.0f, 1.0f);
+    material.normalStrength = number(value.at("normalStrength"));
+    material.occlusionStrength = glm::clamp(number(value.at("occlusionStrength")), 0.0f, 1.0f);
+    material.emissive = glm::max(vector<3>(value.at("emissive")), glm::vec3(0.0f));
+    material.doubleSided = value.at("doubleSided");
+    material.alphaMask = value.at("alphaMask");
+    material.alphaBlend = value.at("alphaBlend");
+    material.alphaCutoff = glm::clamp(number(value.at("alphaCutoff")), 0.0f, 1.0f);
+    for (const MapSlotOf& slot : kMaps)
+        if (const auto it = value.find(slot.key); it != value.end())
+            material.*slot.map = readTexture(*it);
+    return material;
+}
+
+// The arrays of a mesh in the order in which they travel.
+template <class MeshType, class Visit>
+void forEachArray(MeshType& mesh, Visit visit) {
+    visit(mesh.positions);
+    visit(mesh.normals);
+    visit(mesh.tangents);
+    visit(mesh.uvs);
+    visit(mesh.indices);
+}
+
+class PayloadReader {
+  public:
+    explicit PayloadReader(std::span<const std::byte> payload)
+        : m_rest(payload) {}
+
+    template <class T>
+    void take(std::vector<T>& values, std::size_t count) {
+        if (count > m_rest.size() / sizeof(T))
+            throw std::runtime_error("an array is longer than the answer");
+        values.resize(count);
+        if (count > 0)
+            std::memcpy(values.data(), m_rest.data(), count * sizeof(T));
+        m_rest = m_rest.subspan(std::min(m_rest.size(), aligned(count * sizeof(T))));
+    }
+    [[nodiscard]] bool atEnd() const { return m_rest.empty(); }
+
+  private:
+    std::span<const std::byte> m_rest;
+};
+
+void checkIndex(int index, std::size_t size) {
+    if (index < 0 || static_cast<std::size_t>(index) >= size)
+        throw std::runtime_error("an index points nowhere");
+}
+
+Mesh readMesh(const json& value, PayloadReader& payload) {
+    Mesh mesh;
+    mesh.name = value.at("name");
+    const std::size_t vertices = value.at("vertices");
+    const std::size_t indices = value.at("indices");
+    if (indices % 3 != 0)
+        throw std::runtime_error("the triangles are incomplete");
+    payload.take(mesh.positions, vertices);
+    payload.take(mesh.normals, value.at("normals").get<bool>() ? vertices : 0);
+    payload.take(mesh.tangents, value.at("tangents").get<bool>() ? vertices : 0);
+    payload.take(mesh.uvs, value.at("uvs").get<bool>() ? vertices : 0);
+    payload.take(mesh.indices, indices);
+    return mesh;
+}
+
+ImportedModel readUnchecked(const json& header, std::span<const std::byte> bytes) {
+    ImportedModel model;
+    PayloadReader payload(bytes);
+    model.format = header.at("format");
+    const json& meshes = header.at("meshes");
+    if (meshes.size() > limits::kMaxMeshes)
+        throw std::runtime_error("too many meshes");
+    for (const json& mesh : meshes)
+        model.meshes.push_back(std::make_shared<const Mesh>(readMesh(mesh, payload)));
+    for (const json& size : header.at("embedded"))
+        payload.take(model.embeddedImages.emplace_back(), size.get<std::size_t>());
+    if (!payload.atEnd())
+        throw std::runtime_error("the answer is longer than announced");
+
+    for (const json& material : header.at("materials"))
+        model.materials.push_back(readMaterial(material));
+    for (const ImportedMaterial& material : model.materials)
+        for (const MapSlotOf& slot : kMaps)
+            if (const auto& map = material.*slot.map; map && map->embedded != -1)
+                checkIndex(map->embedded, model.embeddedImages.size());
+    for (const json& value : header.at("instances")) {
+        ImportedInstance instance;
+        instance.name = value.at("name");
+        instance.mesh = value.at("mesh");
+        instance.material = value.at("material");
+        checkIndex(instance.mesh, model.meshes.size());
+        checkIndex(instance.material, model.materials.size());
+        const json& transform = value.at("transform");
+        if (transform.size() != 16)
+            throw std::runtime_error("a transform has no 16 numbers");
+        for (int i = 0; i < 16; ++i)
+            instance.transform[i / 4][i % 4] = number(transform[static_cast<std::size_t>(i)]);
+        model.instances.push_back(std::move(instance));
+    }
+    for (const json& value : header.at("lights")) {
+        ImportedLight light;
+        light.name = value.at("name");
+        light.directional = value.at("directional");
+        light.position = vector<3>(value.at("position"));
+        light.direction = vector<3>(value.at("direction"));
+        light.color = glm::max(vector<3>(value.at("color")), glm::vec3(0.0f));
+        model.lights.push_back(light);
+    }
+    for (const json& warning : header.at("warnings"))
+        model.warnings.push_back(warning);
+    return model;
+}
+
+} // namespace
+
+std::string writeModelHeader(const ImportedModel& model, std::size_t& payloadSize) {
+    payloadSize = 0;
+    json header;
+    header["format"] = model.format;
+    json& meshes = header["meshes"] = json::array();
+    for (const MeshPtr& mesh : model.meshes) {
+        meshes.push_back({{"name", mesh->name},
+                          {"vertices", mesh->positions.size()},
+                          {"indices", mesh->indices.size()},
+                          {"normals", !mesh->normals.empty()},
+                          {"tangents", !mesh->tangents.empty()},
+                          {"uvs", !mesh->uvs.empty()}});
+        forEachArray(*mesh, [&](const auto& values) {
+            payloadSize += aligned(values.size() * sizeof(values[0]));
+        });
+    }
+    json& embedded = header["embedded"] = json::array();
+    for (const Bytes& image : model.embeddedImages) {
+        embedded.push_back(image.size());
+        payloadSize += aligned(image.size());
+    }
+    json& materials = header["materials"] = json::array();
+    for (const ImportedMaterial& material : model.materials)
+        materials.push_back(write(material));
+    json& instances = header["instances"] = json::array();
+    for (const ImportedInstance& instance : model.instances) {
+        json transform = json::array();
+        for (int i = 0; i < 16; ++i)
+            transform.push_back(instance.transform[i / 4][i % 4]);
+        instances.push_back({{"name", instance.name},
+                             {"mesh", instance.mesh},
+                             {"material", instance.material},
+                             {"transform", std::move(transform)}});
+    }
+    json& lights = header["lights"] = json::array();
+    for (const ImportedLight& light : model.lights)
+        lights.push_back({{"name", light.name},
+                          {"directional", light.directional},
+                          {"position", array<3>(light.position)},
+                          {"direction", array<3>(light.direction)},
+                          {"color", array<3>(light.color)}});
+    header["warnings"] = model.warnings;
+    return header.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+void writeModelPayload(const ImportedModel& model, std::span<std::byte> payload) {
+    const auto put = [&](const auto& values) {
+        const std::size_t size = values.size() * sizeof(values[0]);
+        if (size > 0)
+            std::memcpy(payload.data(), values.data(), size);
+        payload = payload.subspan(aligned(size));
+    };
+    for (const MeshPtr& mesh : model.meshes)
+        forEachArray(*mesh, put);
+    for (const Bytes& image : model.embeddedImages)
+        put(image);
+}
+
+Result<ImportedModel> readModel(const std::string& header, std::span<const std::byte> payload) {
+    try {
+        return readUnchecked(json::parse(header), payload);
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorKind::Internal, "there is not enough memory for the model", {}, {}};
+    } catch (const std::exception& exception) {
+        return Error{ErrorKind::InputBroken,
+                     "the decoder gave an answer that makes no sense; the file is damaged",
+                     {},
+                     exception.what()};
+    }
+}
+
+} // namespace patina

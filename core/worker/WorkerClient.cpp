@@ -1,0 +1,343 @@
+#include "core/worker/WorkerClient.h"
+
+#include "core/base/Limits.h"
+#include "core/base/Log.h"
+#include "core/worker/MemoryFile.h"
+#include "core/worker/WorkerProcess.h"
+#include "core/worker/WorkerProtocol.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <poll.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+namespace patina {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+Error died(const std::filesystem::path& file, std::string cause, std::string detail) {
+    return {ErrorKind::InputBroken, std::move(cause), file, std::move(detail)};
+}
+
+Error timedOut(const std::filesystem::path& file, double seconds, std::string detail) {
+    return died(file,
+                fmt::format("reading the file took longer than {:g} seconds and was given up; it "
+                            "is damaged or too large",
+                            seconds),
+                std::move(detail));
+}
+
+// How a child that gave no answer ended, in the user's words.
+Error endedWithoutAnswer(int status, const WorkerLimits& limits, const std::filesystem::path& file,
+                         const std::string& log) {
+    if (WIFSIGNALED(status)) {
+        const int signal = WTERMSIG(status);
+        if (signal == SIGXCPU)
+            return timedOut(file, limits.cpuSeconds, "processor time limit");
+        const char* name = ::sigabbrev_np(signal);
+        std::string detail = fmt::format("decoder killed by SIG{}", name != nullptr ? name : "?");
+        if (!log.empty())
+            detail += ": " + log;
+        return died(file,
+                    "the file made its decoder crash; it is damaged or uses a feature that is not "
+                    "supported",
+                    std::move(detail));
+    }
+    return died(
+        file,
+        "the decoder ended without an answer; the file is damaged or uses a feature that "
+        "is not supported",
+        fmt::format("exit status {}{}{}", WEXITSTATUS(status), log.empty() ? "" : ": ", log));
+}
+
+// The child's standard output and error: a memory file that cannot grow, so that a decoder that
+// prints without end only loses its words.
+FileDescriptor createLog() {
+    FileDescriptor log(::memfd_create("patina-log", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+    if (log.valid() && (::ftruncate(log.get(), static_cast<off_t>(protocol::kLogBytes)) != 0 ||
+                        ::fcntl(log.get(), F_ADD_SEALS, F_SEAL_GROW | F_SEAL_SHRINK) != 0))
+        log.reset();
+    return log;
+}
+
+// The last line or so of the log, printable.
+std::string readLog(int log) {
+    constexpr off_t kTail = 400;
+    const off_t end = ::lseek(log, 0, SEEK_CUR); // the offset is shared with the child
+    if (end <= 0)
+        return {};
+    const off_t begin = std::max<off_t>(0, end - kTail);
+    std::string text(static_cast<std::size_t>(std::min(end, kTail)), '\0');
+    const ssize_t size = ::pread(log, text.data(), text.size(), begin);
+    text.resize(static_cast<std::size_t>(std::max<ssize_t>(0, size)));
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 32 || static_cast<unsigned char>(c) == 127)
+            c = ' ';
+    const std::size_t last = text.find_last_not_of(' ');
+    text.resize(last == std::string::npos ? 0 : last + 1);
+    return text;
+}
+
+Error refusedByDecoder(std::string_view header, const std::filesystem::path& file) {
+    Error error{ErrorKind::InputBroken, "the file could not be decoded", file, {}};
+    const auto json = nlohmann::json::parse(header, nullptr, false);
+    if (json.is_object()) {
+        if (const auto it = json.find("message"); it != json.end() && it->is_string())
+            error.message = it->get<std::string>();
+        if (const auto it = json.find("detail"); it != json.end() && it->is_string())
+            error.detail = it->get<std::string>();
+        if (const auto it = json.find("kind"); it != json.end() && *it == "internal")
+            error.kind = ErrorKind::Internal;
+    }
+    return error;
+}
+
+Error noMemory(const std::filesystem::path& file) {
+    return {ErrorKind::Internal, "there is not enough memory to read the file", file,
+            std::strerror(errno)};
+}
+
+} // namespace
+
+struct WorkerClient::Impl {
+    explicit Impl(std::filesystem::path worker)
+        : program(std::move(worker)) {}
+
+    // One attempt; nothing when the worker died before it took the request, so that trying again is
+    // safe.
+    std::optional<Result<Reply>> attempt(const protocol::Request& request, const WorkerLimits& used,
+                                         Clock::time_point deadline, int headerFd, int payloadFd,
+                                         const std::filesystem::path& file);
+    Result<Reply> run(const std::string& header, int payloadFd, std::size_t payloadSize,
+                      bool payloadIsFile, const std::filesystem::path& file);
+
+    std::filesystem::path program;
+    mutable std::mutex mutex; // guards everything below
+    WorkerLimits limits{limits::kWorkerMemoryBytes, limits::kWorkerCpuSeconds,
+                        limits::kWorkerWallSeconds};
+    WorkerProcess process;
+    std::vector<int> children;
+};
+
+WorkerClient::WorkerClient(std::filesystem::path program)
+    : m_impl(std::make_unique<Impl>(std::move(program))) {}
+
+WorkerClient::~WorkerClient() = default;
+
+std::filesystem::path WorkerClient::defaultProgram() {
+    constexpr const char* kName = "patina-worker";
+    std::error_code ignored;
+    const auto self = std::filesystem::read_symlink("/proc/self/exe", ignored);
+    for (const auto& candidate :
+         {self.parent_path() / kName, self.parent_path().parent_path() / "bin" / kName})
+        if (std::filesystem::exists(candidate, ignored))
+            return candidate;
+    if (const char* folder = std::getenv("PATINA_BIN_DIR"))
+        return std::filesystem::path(folder) / kName;
+    return self.parent_path() / kName; // named in the message when it is missing
+}
+
+void WorkerClient::warmUp() {
+    const std::lock_guard lock(m_impl->mutex);
+    if (const auto started = m_impl->process.ensureRunning(m_impl->program); !started)
+        logWarning("{}", started.error().text());
+}
+
+void WorkerClient::setLimits(const WorkerLimits& limits) {
+    const std::lock_guard lock(m_impl->mutex);
+    m_impl->limits = limits;
+}
+
+int WorkerClient::workerProcess() const {
+    const std::lock_guard lock(m_impl->mutex);
+    return m_impl->process.pid();
+}
+
+std::vector<int> WorkerClient::childProcesses() const {
+    const std::lock_guard lock(m_impl->mutex);
+    return m_impl->children;
+}
+
+Result<WorkerClient::Reply> WorkerClient::request(const std::string& header,
+                                                  std::span<const std::byte> payload,
+                                                  const std::filesystem::path& fileForMessages) {
+    auto copy = MemoryFile::copyOf(payload);
+    if (!copy || !copy->seal())
+        return noMemory(fileForMessages);
+    return m_impl->run(header, copy->fd(), payload.size(), false, fileForMessages);
+}
+
+Result<WorkerClient::Reply> WorkerClient::request(const std::string& header, int payloadFd,
+                                                  const std::filesystem::path& fileForMessages) {
+    struct stat status {};
+    if (::fstat(payloadFd, &status) != 0)
+        return Error{ErrorKind::InputMissing, "the file cannot be read", fileForMessages,
+                     std::strerror(errno)};
+    return m_impl->run(header, payloadFd, static_cast<std::size_t>(status.st_size), true,
+                       fileForMessages);
+}
+
+Result<WorkerClient::Reply> WorkerClient::Impl::run(const std::string& header, int payloadFd,
+                                                    std::size_t payloadSize, bool payloadIsFile,
+                                                    const std::filesystem::path& file) {
+    auto headerCopy = MemoryFile::copyOf(std::as_bytes(std::span(header)));
+    if (!headerCopy || !headerCopy->seal())
+        return noMemory(file);
+
+    const WorkerLimits used = [this] {
+        const std::lock_guard lock(mutex);
+        return limits;
+    }();
+    protocol::Request request;
+    request.payloadIsFile = payloadIsFile ? 1 : 0;
+    request.headerSize = header.size();
+    request.payloadSize = payloadSize;
+    request.memoryBytes = used.memoryBytes;
+    request.cpuSeconds = used.cpuSeconds;
+
+    const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                             std::chrono::duration<double>(used.wallSeconds));
+    constexpr int kAttempts = 3;
+    for (int i = 0; i < kAttempts; ++i)
+        if (auto result = attempt(request, used, deadline, headerCopy->fd(), payloadFd, file))
+            return std::move(*result);
+    return Error{ErrorKind::Internal,
+                 "the program that reads files does not start; reinstall Patina", program,
+                 "it ended before it took a request"};
+}
+
+std::optional<Result<WorkerClient::Reply>>
+WorkerClient::Impl::attempt(const protocol::Request& request, const WorkerLimits& used,
+                            Clock::time_point deadline, int headerFd, int payloadFd,
+                            const std::filesystem::path& file) {
+    std::array<int, 2> pair{};
+    if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, pair.data()) != 0)
+        return noMemory(file);
+    const FileDescriptor mine(pair[0]);
+    FileDescriptor theirs(pair[1]);
+    const FileDescriptor log = createLog();
+    if (!log.valid())
+        return noMemory(file);
+
+    // Hand the request over.
+    int worker = -1;
+    {
+        const std::lock_guard lock(mutex);
+        if (const auto started = process.ensureRunning(program); !started)
+            return started.error();
+        worker = process.pid();
+        const std::array<int, 4> descriptors{theirs.get(), headerFd, log.get(), payloadFd};
+        if (!protocol::send(process.control(), request, descriptors)) {
+            process.kill();
+            return std::nullopt;
+        }
+    }
+    theirs.reset(); // so that the death of all others reads as the end of the stream
+
+    // The child is forgotten, and killed by the closing of `mine`, whichever way this ends.
+    struct Guard {
+        Impl& impl;
+        int child = -1;
+        ~Guard() {
+            const std::lock_guard lock(impl.mutex);
+            std::erase(impl.children, child);
+        }
+    } guard{*this};
+
+    while (true) {
+        const auto left =
+            std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
+        pollfd waiting{mine.get(), POLLIN, 0};
+        const int ready =
+            left <= 0 ? 0
+                      : ::poll(&waiting, 1, static_cast<int>(std::min<long long>(left, 1 << 30)));
+        if (ready < 0 && errno == EINTR)
+            continue;
+        if (ready <= 0) {
+            // A worker that has not even forked by now hangs itself: the next request gets a new
+            // one.
+            if (guard.child < 0) {
+                const std::lock_guard lock(mutex);
+                if (process.pid() == worker)
+                    process.kill();
+            }
+            return timedOut(file, used.wallSeconds, "wall clock limit");
+        }
+
+        protocol::Report report;
+        auto received =
+            protocol::receive(mine.get(), std::as_writable_bytes(std::span(&report, 1)));
+        if (!received && errno == EAGAIN)
+            continue;
+        if (!received || received->size == 0) {
+            {
+                const std::lock_guard lock(mutex);
+                if (process.pid() == worker)
+                    process.reapIfEnded();
+            }
+            if (guard.child < 0)
+                return std::nullopt;
+            return Error{ErrorKind::Internal,
+                         "the program that reads files was ended from outside; try again", file,
+                         readLog(log.get())};
+        }
+        if (received->size != sizeof report || report.magic != protocol::kMagic)
+            return died(file, "the decoder gave an answer that makes no sense; the file is damaged",
+                        "malformed message");
+
+        switch (report.event) {
+        case protocol::Event::Started: {
+            const std::lock_guard lock(mutex);
+            guard.child = static_cast<int>(report.value);
+            children.push_back(guard.child);
+            break;
+        }
+        case protocol::Event::CannotFork:
+            return Error{ErrorKind::Internal,
+                         "the system refuses to start another process; close some programs", file,
+                         std::strerror(static_cast<int>(report.value))};
+        case protocol::Event::Ended:
+            return endedWithoutAnswer(static_cast<int>(report.value), used, file,
+                                      readLog(log.get()));
+        case protocol::Event::Answered:
+        case protocol::Event::Failed: {
+            // Believed only when sealed and as large as announced.
+            if (received->descriptors.size() != 2 || report.headerSize > protocol::kMaxHeaderBytes)
+                return died(file, "the decoder gave an answer that makes no sense", "malformed");
+            const auto header =
+                MemoryFile::open(std::move(received->descriptors[0]), report.headerSize);
+            const auto payload =
+                MemoryFile::open(std::move(received->descriptors[1]), report.payloadSize);
+            if (!header || !payload)
+                return died(file, "the decoder gave an answer that makes no sense", "not sealed");
+            if (report.event == protocol::Event::Failed)
+                return refusedByDecoder(header->text(), file);
+            Reply reply;
+            try {
+                reply.header = header->text();
+                reply.payload.assign(payload->bytes().begin(), payload->bytes().end());
+            } catch (const std::bad_alloc&) {
+                return noMemory(file);
+            }
+            return reply;
+        }
+        default:
+            return died(file, "the decoder gave an answer that makes no sense", "unknown event");
+        }
+    }
+}
+
+} // namespace patina

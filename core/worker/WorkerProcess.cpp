@@ -1,0 +1,84 @@
+#include "core/worker/WorkerProcess.h"
+
+#include "core/worker/WorkerProtocol.h"
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <fcntl.h>
+#include <spawn.h>
+#include <string>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace patina {
+
+Result<void> WorkerProcess::ensureRunning(const std::filesystem::path& program) {
+    reapIfEnded();
+    if (m_pid > 0)
+        return {};
+
+    std::array<int, 2> pair{};
+    if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, pair.data()) != 0)
+        return Error{ErrorKind::Internal, "no socket for the program that reads files", program,
+                     std::strerror(errno)};
+    FileDescriptor mine(pair[0]);
+    const FileDescriptor theirs(pair[1]);
+
+    // Nothing but the control socket and standard error is inherited; signal handling starts from
+    // the defaults; the worker leaves the terminal's process group so that Ctrl+C reaches Patina
+    // first, which may still want to write what has been computed.
+    posix_spawn_file_actions_t files{};
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_adddup2(&files, theirs.get(), protocol::kControlFd);
+    posix_spawn_file_actions_addclosefrom_np(&files, protocol::kControlFd + 1);
+    posix_spawnattr_t attributes{};
+    posix_spawnattr_init(&attributes);
+    sigset_t none;
+    sigset_t all;
+    sigemptyset(&none);
+    sigfillset(&all);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setsigdefault(&attributes, &all);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setflags(
+        &attributes,
+        static_cast<short>(POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP));
+    std::string name = program.string();
+    std::array<char*, 2> arguments{name.data(), nullptr};
+    pid_t pid = -1;
+    const int failure =
+        ::posix_spawn(&pid, name.c_str(), &files, &attributes, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&files);
+    posix_spawnattr_destroy(&attributes);
+    if (failure != 0)
+        return Error{ErrorKind::Internal,
+                     "the program that reads files cannot be started; reinstall Patina", program,
+                     std::strerror(failure)};
+    m_pid = pid;
+    m_control = std::move(mine);
+    return {};
+}
+
+void WorkerProcess::kill() {
+    if (m_pid <= 0)
+        return;
+    m_control.reset();
+    ::kill(m_pid, SIGKILL); // not reaped yet, so the id is still the worker's
+    while (::waitpid(m_pid, nullptr, 0) < 0 && errno == EINTR) {
+    }
+    m_pid = -1;
+}
+
+void WorkerProcess::reapIfEnded() {
+    if (m_pid > 0 && ::waitpid(m_pid, nullptr, WNOHANG) != 0) {
+        m_pid = -1;
+        m_control.reset();
+    }
+}
+
+} // namespace patina

@@ -1,0 +1,192 @@
+#include "core/document/Edit.h"
+#include "RandomDocument.h"
+
+#include <gtest/gtest.h>
+#include <set>
+
+using namespace patina;
+
+namespace {
+
+std::set<Id> allIds(const Document& document) {
+    std::set<Id> ids;
+    std::size_t count = 0;
+    const auto collect = [&](const auto& elements) {
+        for (const auto& element : elements) {
+            ids.insert(element.id);
+            ++count;
+        }
+    };
+    collect(document.materials);
+    collect(document.lights);
+    collect(document.meshes);
+    EXPECT_EQ(ids.size(), count) << "ids are not unique";
+    return ids;
+}
+
+BakeArtifactPtr bake(BakeKind kind, int samples) {
+    BakeArtifact artifact;
+    artifact.kind = kind;
+    artifact.samplesDone = samples;
+    return std::make_shared<const BakeArtifact>(artifact);
+}
+
+} // namespace
+
+TEST(Edit, RandomEditsKeepThePromisesOfADocument) {
+    for (std::uint32_t seed = 1; seed <= 60; ++seed) {
+        RandomDocument random(seed);
+        Document document = random.make();
+        for (int step = 0; step < 60; ++step) {
+            const auto pick = [&](const auto& elements) {
+                return elements.empty() ? Id{0} : elements[random.below(elements.size())].id;
+            };
+            const Id material = pick(document.materials), light = pick(document.lights),
+                     mesh = pick(document.meshes);
+            switch (random.below(8)) {
+            case 0:
+                addMaterial(document, {});
+                break;
+            case 1:
+                addLight(document, {});
+                break;
+            case 2:
+                if (material != 0)
+                    duplicateMaterial(document, material);
+                break;
+            case 3:
+                EXPECT_EQ(removeMaterial(document, material), material != 0);
+                break;
+            case 4:
+                EXPECT_EQ(removeLight(document, light), light != 0);
+                break;
+            case 5:
+                EXPECT_EQ(removeMesh(document, mesh), mesh != 0);
+                break;
+            default: {
+                const ParameterInfo& info = parameters()[random.below(parameters().size())];
+                const Target target{info.scope, info.scope == Scope::Material ? material
+                                                : info.scope == Scope::Light  ? light
+                                                : info.scope == Scope::Mesh   ? mesh
+                                                                              : 0};
+                const bool exists = targetExists(document, target);
+                const ParameterValue value = random.value(info, document);
+                const Result<Change> change = applyParameter(document, info, target, value);
+                ASSERT_EQ(change.ok(), exists) << "seed " << seed;
+                if (!exists)
+                    break;
+                EXPECT_EQ(change->target, target);
+                EXPECT_EQ(change->affects, info.affects);
+                EXPECT_EQ(info.get(document, target.id), value) << info.id << " seed " << seed;
+            }
+            }
+            for (const Id id : allIds(document))
+                ASSERT_LT(id, document.nextId) << "seed " << seed;
+            for (const MeshInstance& instance : document.meshes)
+                ASSERT_TRUE(instance.material == 0 || document.material(instance.material))
+                    << "seed " << seed;
+        }
+    }
+}
+
+TEST(Edit, ARefusedEditChangesNothing) {
+    Document document = RandomDocument(3).make();
+    addMaterial(document, {});
+    MeshInstance& mesh = document.meshes.emplace_back();
+    mesh.id = document.takeId();
+    const Document before = document;
+    const ParameterInfo& metallic = *findParameter("material.metallic");
+    const Id light = document.lights.empty() ? 0 : document.lights[0].id;
+    EXPECT_FALSE(applyParameter(document, metallic, {Scope::Material, 999'999}, 1.0f).ok());
+    EXPECT_FALSE(applyParameter(document, metallic, {Scope::Light, light}, 1.0f).ok());
+    EXPECT_FALSE(applyParameter(document, *findParameter("mesh.material"),
+                                {Scope::Mesh, document.meshes.back().id}, 999'999)
+                     .ok());
+    EXPECT_TRUE(document == before);
+}
+
+TEST(Edit, NamesStayUnique) {
+    Document document;
+    Light sun;
+    sun.name = "Sun";
+    const Id first = addLight(document, sun), second = addLight(document, sun);
+    EXPECT_NE(first, second);
+    EXPECT_EQ(document.light(second)->name, "Sun 2");
+    const Id third = duplicateLight(document, second);
+    EXPECT_EQ(document.light(third)->name, "Sun 3");
+    EXPECT_EQ(document.lights[2].id, third); // directly below its original
+    const Id fourth = duplicateLight(document, first);
+    EXPECT_EQ(document.light(fourth)->name, "Sun 4");
+    EXPECT_EQ(document.lights[1].id, fourth);
+    EXPECT_EQ(uniqueLightName(document, "Moon"), "Moon");
+    EXPECT_EQ(uniqueMaterialName(document, "2001"), "2001");
+}
+
+TEST(Edit, MeshesOfARemovedMaterialTakeAnother) {
+    Document document;
+    const Id a = addMaterial(document, {}), b = addMaterial(document, {});
+    MeshInstance& mesh = document.meshes.emplace_back();
+    mesh.id = document.takeId();
+    mesh.material = b;
+    EXPECT_TRUE(removeMaterial(document, b));
+    EXPECT_EQ(document.meshes[0].material, a);
+    EXPECT_TRUE(removeMaterial(document, a));
+    ASSERT_EQ(document.materials.size(), 1u);
+    EXPECT_EQ(document.meshes[0].material, document.materials[0].id);
+    EXPECT_GT(document.materials[0].id, b);
+    EXPECT_FALSE(removeMaterial(document, a));
+}
+
+TEST(Edit, TheFirstMapSetsItsNumberToNeutral) {
+    Document document;
+    const Id id = addMaterial(document, {});
+    const Target target{Scope::Material, id};
+    MapSlot slot;
+    slot.source = "/metal.png";
+    const ParameterInfo& map = *findParameter("material.metallic.map");
+    const auto apply = [&](const std::vector<ParameterEdit>& edits) {
+        for (const ParameterEdit& edit : edits)
+            EXPECT_TRUE(applyParameter(document, *edit.info, target, edit.value).ok());
+    };
+    apply(editsForMap(document, map, target, slot));
+    EXPECT_EQ(document.material(id)->metallic, 1.0f);
+    EXPECT_EQ(document.material(id)->metallicMap.source, "/metal.png");
+    // Another map in its place, or none, leaves the number as the artist set it.
+    document.material(id)->metallic = 0.5f;
+    slot.source = "/other.png";
+    apply(editsForMap(document, map, target, slot));
+    apply(editsForMap(document, map, target, {}));
+    EXPECT_EQ(document.material(id)->metallic, 0.5f);
+    EXPECT_FALSE(document.material(id)->metallicMap.assigned());
+    apply(editsForMap(document, *findParameter("material.baseColor.map"), target, slot));
+    EXPECT_EQ(document.material(id)->baseColor, glm::vec3(1.0f));
+    const ParameterInfo& environment = *findParameter("environment.image");
+    EXPECT_EQ(editsForMap(document, environment, {Scope::Environment, 0}, slot).size(), 1u);
+}
+
+TEST(Edit, ALookComesWithoutItsNameAndId) {
+    Document document;
+    Material body;
+    body.name = "Body";
+    const Id id = addMaterial(document, body);
+    Material gold;
+    gold.id = 77;
+    gold.name = "Gold";
+    gold.metallic = 1.0f;
+    replaceLook(document, id, gold);
+    EXPECT_EQ(document.material(id)->name, "Body");
+    EXPECT_EQ(document.material(id)->metallic, 1.0f);
+}
+
+TEST(Edit, OneBakeOfEachKind) {
+    Document document;
+    attachBake(document, bake(BakeKind::AoTexel, 1));
+    attachBake(document, bake(BakeKind::PrtVertex, 2));
+    attachBake(document, bake(BakeKind::AoTexel, 3));
+    ASSERT_EQ(document.bakes.size(), 2u);
+    EXPECT_EQ(findBake(document, BakeKind::AoTexel)->samplesDone, 3);
+    EXPECT_EQ(findBake(document, BakeKind::AoVertex), nullptr);
+    EXPECT_TRUE(removeBake(document, BakeKind::AoTexel));
+    EXPECT_FALSE(removeBake(document, BakeKind::AoTexel));
+    EXPECT_EQ(document.bakes.size(), 1u);
+}

@@ -1,0 +1,242 @@
+// The project's text: nothing is lost, nothing is believed.
+#include "RandomDocument.h"
+#include "core/document/DocumentIO.h"
+
+#include <chrono>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+using namespace patina;
+using testing::HasSubstr;
+using testing::Not;
+
+namespace {
+
+const std::filesystem::path kProject = "/home/artist/project/chair.patina";
+
+// A small document with one of everything, and its text.
+Document small() {
+    Document document;
+    Material& material = document.materials.emplace_back();
+    material.id = document.takeId();
+    material.name = "Body";
+    material.baseColorMap.source = "/home/artist/project/maps/body.png";
+    document.lights.emplace_back().id = document.takeId();
+    MeshInstance& mesh = document.meshes.emplace_back();
+    mesh.id = document.takeId();
+    mesh.source = "/home/artist/models/chair.obj";
+    mesh.material = material.id;
+    return document;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from << " in\n" << text;
+    return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+void expectBroken(const std::string& json, const std::string& part) {
+    const Result<Document> document = documentFromJson(json, kProject);
+    ASSERT_FALSE(document.ok()) << part;
+    EXPECT_EQ(document.error().kind, ErrorKind::InputBroken);
+    EXPECT_EQ(document.error().file, kProject);
+    EXPECT_THAT(document.error().text(), HasSubstr(part));
+    EXPECT_LT(document.error().text().size(), 1000u);
+}
+
+std::string mutated(std::string text, RandomDocument& random) {
+    for (std::size_t count = 1 + random.below(4); count > 0 && !text.empty(); --count) {
+        const std::size_t at = random.below(text.size());
+        const std::size_t length = 1 + random.below(40);
+        switch (random.below(6)) {
+        case 0:
+            text[at] = static_cast<char>(random.below(256));
+            break;
+        case 1:
+            text.erase(at, length);
+            break;
+        case 2:
+            text.insert(at, text.substr(random.below(text.size()), length));
+            break;
+        case 3:
+            text.resize(at);
+            break;
+        case 4: {
+            const char* pieces[] = {"[",
+                                    "{",
+                                    "}",
+                                    "]",
+                                    "\"",
+                                    "-1",
+                                    "1e39",
+                                    "1e-50",
+                                    "null",
+                                    "0",
+                                    "\"\"",
+                                    "[[[[[",
+                                    "999999999999999999999"};
+            text.insert(at, pieces[random.below(std::size(pieces))]);
+            break;
+        }
+        default:
+            text[at] = static_cast<char>(text[at] ^ (1 << random.below(8)));
+        }
+    }
+    return text;
+}
+
+} // namespace
+
+TEST(ProjectJson, ReadsBackWhatItWrites) {
+    for (std::uint32_t seed = 1; seed <= 300; ++seed) {
+        const Document document = RandomDocument(seed).make();
+        const std::string json = documentToJson(document, kProject);
+        const Result<Document> back = documentFromJson(json, kProject);
+        ASSERT_TRUE(back.ok()) << "seed " << seed << ": " << back.error().text();
+        EXPECT_TRUE(*back == document) << "seed " << seed << "\n" << json;
+        EXPECT_EQ(documentToJson(*back, kProject), json) << "seed " << seed;
+    }
+}
+
+TEST(ProjectJson, AMovedProjectFindsItsFilesBesideIt) {
+    const std::string json = documentToJson(small(), kProject);
+    EXPECT_THAT(json, HasSubstr("\"maps/body.png\""));
+    EXPECT_THAT(json, HasSubstr("\"../models/chair.obj\""));
+    EXPECT_THAT(json, Not(HasSubstr("/home")));
+    const Result<Document> moved = documentFromJson(json, "/mnt/usb/p/chair.patina");
+    ASSERT_TRUE(moved.ok());
+    EXPECT_EQ(moved->materials[0].baseColorMap.source, "/mnt/usb/p/maps/body.png");
+    EXPECT_EQ(moved->meshes[0].source, "/mnt/usb/models/chair.obj");
+}
+
+TEST(ProjectJson, IsReadable) {
+    const std::string json = documentToJson(small(), kProject);
+    EXPECT_TRUE(json.starts_with("{\n  \"format\": \"patina\",\n  \"version\": 1,\n")) << json;
+    EXPECT_THAT(json, HasSubstr("\n      \"baseColor\": [0.8, 0.8, 0.8],\n"));
+    EXPECT_THAT(json, HasSubstr("\"perceptualRoughness\": 0.5"));
+    EXPECT_THAT(json, HasSubstr("\"metallic.map\": null"));
+    EXPECT_THAT(json, HasSubstr("\"normalConvention\": \"openGl\""));
+}
+
+TEST(ProjectJson, ValuesOutOfRangeAreSavedSoThatTheProjectOpensAgain) {
+    Document document = small();
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    document.materials[0].metallic = nan;
+    document.materials[0].baseColor = {-1.0f, 2.0f, std::numeric_limits<float>::infinity()};
+    document.materials[0].name = "broken \xff";
+    document.materials[0].baseColorMap.uvScale = {nan, 2.0f};
+    document.meshes[0].transform[3][1] = nan;
+    document.view.camera.distance = nan;
+    const Result<Document> back = documentFromJson(documentToJson(document, kProject), kProject);
+    ASSERT_TRUE(back.ok()) << back.error().text();
+    EXPECT_EQ(back->materials[0].metallic, 0.0f);
+    EXPECT_EQ(back->materials[0].baseColor, glm::vec3(0.0f, 1.0f, 1.0f));
+    EXPECT_EQ(back->materials[0].baseColorMap.uvScale, glm::vec2(1.0f, 2.0f));
+    EXPECT_EQ(back->meshes[0].transform, glm::mat4(1.0f));
+}
+
+TEST(ProjectJson, AnAbsentParameterKeepsItsDefault) {
+    const std::string json = replaced(documentToJson(small(), kProject), "\"metallic\": 0.0,", "");
+    const Result<Document> document = documentFromJson(json, kProject);
+    ASSERT_TRUE(document.ok()) << document.error().text();
+    EXPECT_TRUE(*document == small());
+}
+
+TEST(ProjectJson, NamesTheKeyThatIsWrong) {
+    const std::string json = documentToJson(small(), kProject);
+    const auto change = [&](const std::string& from, const std::string& to) {
+        return replaced(json, from, to);
+    };
+    expectBroken(change("\"metallic\": 0.0", "\"metallic\": \"x\""), "materials[0].metallic");
+    expectBroken(change("\"metallic\": 0.0", "\"metallic\": 1.5"), "a number from 0 to 1");
+    expectBroken(change("\"metallic\": 0.0", "\"metallic\": null"), "materials[0].metallic");
+    expectBroken(change("\"metallic\": 0.0", "\"metallic\": -1e30"), "materials[0].metallic");
+    expectBroken(change("[0.8, 0.8, 0.8]", "[0.8, 0.8]"), "materials[0].baseColor");
+    expectBroken(change("[0.8, 0.8, 0.8]", "[0.8, true, 0.8]"), "materials[0].baseColor[1]");
+    expectBroken(change("\"openGl\"", "\"vulkan\""), "openGl, directX");
+    expectBroken(change("\"openGl\"", "7"), "materials[0].normalConvention");
+    expectBroken(change("\"doubleSided\": false", "\"doubleSided\": 0"), "true or false");
+    expectBroken(change("\"doubleSided\": false", "\"sheen\": 1"), "materials[0].sheen");
+    expectBroken(change("\"maps/body.png\"", "\"a\\u0000b\""), "materials[0].baseColor.map.source");
+    expectBroken(change("\"maps/body.png\"", "\"a%00b\""), "materials[0].baseColor.map.source");
+    expectBroken(change("\"channel\": \"rgb\"", "\"channel\": \"x\""), "baseColor.map.channel");
+    expectBroken(change("\"uvScale\": [1.0, 1.0]", "\"uvScale\": 1"), "baseColor.map.uvScale");
+    expectBroken(change("\"id\": 1", "\"id\": 0"), "materials[0].id");
+    expectBroken(change("\"id\": 1", "\"id\": 2.5"), "materials[0].id");
+    expectBroken(change("\"id\": 1", "\"id\": 18446744073709551615"), "materials[0].id");
+    expectBroken(change("\"id\": 1", "\"id\": -1"), "materials[0].id");
+    expectBroken(change("\"id\": 2", "\"id\": 1"), "lights[0].id");
+    expectBroken(change("\"nextId\": 4", "\"nextId\": 3"), "nextId");
+    expectBroken(change("\"nextId\": 4", "\"nextId\": 4294967295"), "nextId");
+    expectBroken(change("\"material\": 1", "\"material\": 2"), "meshes[0].material");
+    expectBroken(change("\"material\": 1", "\"material\": -7"), "meshes[0].material");
+    expectBroken(change("\"sourceIndex\": 0", "\"sourceIndex\": 1e3"), "meshes[0].sourceIndex");
+    expectBroken(change("\"transform\": [1.0,", "\"transform\": ["), "meshes[0].transform");
+    expectBroken(change("\"distance\": 4.0", "\"distance\": 0"), "view.camera");
+    expectBroken(change("\"materials\": [", "\"materials\": [7, "), "materials[0]");
+    expectBroken(change("\"lights\": [", "\"lamps\": ["), "lights is missing");
+    expectBroken(change("\"bakes\": []", "\"bakes\": [{\"kind\": \"x\", \"file\": \"y\"}]"),
+                 "bakes[0].kind");
+    expectBroken(change("\"bakes\": []", "\"bakes\": {}"), "bakes");
+    expectBroken(change("\"version\": 1", "\"version\": 2"), "newer");
+    expectBroken(change("\"version\": 1", "\"version\": \"1\""), "version");
+    expectBroken(change("\"format\": \"patina\"", "\"format\": \"glTF\""), "format");
+}
+
+TEST(ProjectJson, RefusesWhatIsNoProject) {
+    for (const std::string& text :
+         {std::string(), std::string("{}"), std::string("[]"), std::string("null"),
+          std::string("7"), std::string("\"patina\""), std::string("{\"format\": 3}"),
+          std::string("\xff\xd8\xff\xe0 JFIF"), std::string(1000, '\0'),
+          std::string("{\"format\": \"patina\", \"version\": 1}"),
+          std::string("{\"format\": \"patina\", \"version\": 1e999}")}) {
+        const Result<Document> document = documentFromJson(text, kProject);
+        ASSERT_FALSE(document.ok()) << text;
+        EXPECT_EQ(document.error().kind, ErrorKind::InputBroken);
+    }
+}
+
+TEST(ProjectJson, HostileSizesAreRefusedBeforeTheyAreParsed) {
+    expectBroken(std::string(100'000, '['), "nested more than 64");
+    expectBroken("{\"a\":" + std::string(65, '['), "nested more than 64");
+    expectBroken(std::string(9'000'000, ','), "values");
+    // Many keys in one object, and more materials than there ever are.
+    std::string keys = "{\"format\": \"patina\"";
+    for (int i = 0; i < 100'000; ++i)
+        keys += ",\"k" + std::to_string(i) + "\":0";
+    expectBroken(keys + "}", "version");
+    std::string materials = "\"materials\": [0";
+    for (int i = 0; i < 1'000'000; ++i)
+        materials += ",0";
+    expectBroken(replaced(documentToJson(small(), kProject), "\"materials\": [", materials + ","),
+                 "more than");
+}
+
+TEST(ProjectJson, ManyMaterialsTakeLinearTime) {
+    Document document;
+    for (int i = 0; i < 20'000; ++i)
+        document.materials.emplace_back().id = document.takeId();
+    const Result<Document> back = documentFromJson(documentToJson(document, kProject), kProject);
+    ASSERT_TRUE(back.ok());
+    EXPECT_EQ(back->materials.size(), document.materials.size());
+}
+
+TEST(ProjectJson, MutantsNeverCrashAndWhatOpensSavesAgain) {
+    std::size_t opened = 0;
+    for (std::uint32_t seed = 1; seed <= 4000; ++seed) {
+        RandomDocument random(seed);
+        const std::string text = mutated(documentToJson(random.make(), kProject), random);
+        const Result<Document> document = documentFromJson(text, kProject);
+        if (!document.ok()) {
+            ASSERT_EQ(document.error().kind, ErrorKind::InputBroken) << "seed " << seed;
+            ASSERT_FALSE(document.error().message.empty()) << "seed " << seed;
+            continue;
+        }
+        ++opened;
+        const Result<Document> again =
+            documentFromJson(documentToJson(*document, kProject), kProject);
+        ASSERT_TRUE(again.ok()) << "seed " << seed << ": " << again.error().text();
+        ASSERT_TRUE(*again == *document) << "seed " << seed;
+    }
+    EXPECT_GT(opened, 50u); // the mutations are not all fatal
+}
