@@ -51,12 +51,12 @@ Result<void> OverlayPass::drawGrid(const Targets& targets, const View& view, con
     const auto shader = m_shaders.program({{"screen.vert", "grid.frag"}, {}});
     if (!shader)
         return shader.error();
-    // Fine lines a tenth of the order of magnitude of what is seen.
-    const float spacing = std::pow(10.0f, std::floor(std::log10(camera.distance))) * 0.1f;
+    // The power of ten that gives a handful of cells across the picture.
+    const float spacing = std::pow(10.0f, std::round(std::log10(camera.distance / 6.0f)));
     (*shader)->use();
     (*shader)->set("u_exposureEv", view.exposureEv);
     (*shader)->set("u_spacing", spacing);
-    (*shader)->set("u_fadeRadius", 4.0f * camera.distance);
+    (*shader)->set("u_fadeRadius", 3.0f * camera.distance);
     (*shader)->set("u_center", glm::vec3(camera.target.x, 0.0f, camera.target.z));
     targets.depth().bind(0);
     targets.linear().bind(1);

@@ -61,9 +61,12 @@ Result<const gl::Program*> ShaderLibrary::program(const ProgramKey& key) {
     Entry entry;
     Result<gl::Program> program = compile(m_sources, key, entry.files);
     if (!program && m_sources.onDisk()) {
-        logWarning("{} The built-in version is used.", program.error().text());
-        std::vector<Stamped> builtIn;
-        program = compile(ShaderSources(), key, builtIn);
+        std::vector<Stamped> builtInFiles;
+        Result<gl::Program> builtIn = compile(ShaderSources(), key, builtInFiles);
+        if (builtIn) {
+            logWarning("{} The built-in version is used.", program.error().text());
+            program = std::move(builtIn);
+        }
     }
     if (!program)
         return program.error();

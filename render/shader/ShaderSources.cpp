@@ -14,6 +14,14 @@ namespace {
 
 constexpr std::size_t kMaxShaderBytes = std::size_t{1} << 20;
 
+// #line carries the file in the line number, too: Mesa forgets the file's number in every message
+// but those about syntax.
+constexpr std::size_t kLinesPerFile = 100'000;
+
+std::string lineDirective(std::size_t line, std::size_t file) {
+    return fmt::format("#line {} {}\n", file * kLinesPerFile + line, file);
+}
+
 // The name between the quotes of an #include line.
 std::optional<std::string> includedName(std::string_view line) {
     const auto skipBlanks = [&] {
@@ -55,15 +63,15 @@ class Expander {
             return text.error();
         m_open.push_back(name);
         if (number > m_first)
-            m_result.text += fmt::format("#line 1 {}\n", number);
+            m_result.text += lineDirective(1, number);
 
         std::istringstream lines(*text);
         std::string line;
-        for (int lineNumber = 1; std::getline(lines, line); ++lineNumber) {
+        for (std::size_t lineNumber = 1; std::getline(lines, line); ++lineNumber) {
             if (const auto wanted = includedName(line)) {
                 if (Result<void> done = include(*wanted, name, lineNumber); !done)
                     return done;
-                m_result.text += fmt::format("#line {} {}\n", lineNumber + 1, number);
+                m_result.text += lineDirective(lineNumber + 1, number);
                 continue;
             }
             m_result.text += line + '\n';
@@ -71,7 +79,7 @@ class Expander {
             if (number == m_first && line.starts_with("#version")) {
                 for (const std::string& define : m_defines)
                     m_result.text += "#define " + define + '\n';
-                m_result.text += fmt::format("#line {} {}\n", lineNumber + 1, number);
+                m_result.text += lineDirective(lineNumber + 1, number);
             }
         }
         m_open.pop_back();
@@ -79,7 +87,8 @@ class Expander {
     }
 
   private:
-    Result<void> include(const std::string& wanted, const std::string& from, int lineNumber) {
+    Result<void> include(const std::string& wanted, const std::string& from,
+                         std::size_t lineNumber) {
         const std::filesystem::path folder = std::filesystem::path(from).parent_path();
         std::string name = (folder / wanted).lexically_normal().generic_string();
         if (m_sources.stamp(name) < 0)
@@ -126,16 +135,14 @@ std::string mapLine(std::string_view line, std::span<const std::string> files) {
     for (std::string_view prefix : {"ERROR: ", "WARNING: "})
         if (rest.starts_with(prefix))
             rest.remove_prefix(prefix.size());
-    const auto file = takeNumber(rest);
-    if (!file || *file >= files.size() || rest.empty() ||
-        (rest.front() != ':' && rest.front() != '('))
+    if (!takeNumber(rest) || rest.empty() || (rest.front() != ':' && rest.front() != '('))
         return std::string(line);
     rest.remove_prefix(1);
     const auto number = takeNumber(rest);
-    if (!number)
+    if (!number || *number / kLinesPerFile >= files.size())
         return std::string(line);
     const auto message = rest.find(": ");
-    return fmt::format("{}:{}: {}", files[*file], *number,
+    return fmt::format("{}:{}: {}", files[*number / kLinesPerFile], *number % kLinesPerFile,
                        message == std::string_view::npos ? rest : rest.substr(message + 2));
 }
 

@@ -39,8 +39,8 @@ class ShaderSources {
 // A shader with its includes pasted in.
 struct ExpandedShader {
     std::string text;
-    // Every file met so far, also by earlier calls; the index is the file's number in #line and in
-    // compiler logs. After a failure it also holds the file that is missing.
+    // Every file met so far, also by earlier calls; the index is the file's number in #line. After
+    // a failure it also holds the file that is missing.
     std::vector<std::string> files;
 };
 
@@ -52,8 +52,8 @@ struct ExpandedShader {
 Result<void> expandShader(const ShaderSources& sources, const std::string& name,
                           std::span<const std::string> defines, ExpandedShader& result);
 
-// Rewrites "0:12(5): error: …" (Mesa), "0(12) : error …" (NVIDIA) and "ERROR: 0:12: …" (others) to
-// "surface.frag:12: error: …".
+// Rewrites the places of messages to files and their lines: "0:100012(5): error: …" (Mesa), "0(12)
+// : error …" (NVIDIA) and "ERROR: 0:12: …" (others) to "include/frame.glsl:12: error: …".
 [[nodiscard]] std::string mapCompilerLog(const std::string& log,
                                          std::span<const std::string> files);
 

@@ -1,0 +1,156 @@
+#include "tests/render/SharedTermCases.h"
+
+#include "core/math/Shading.h"
+
+#include <cmath>
+
+namespace patina::render {
+
+void InputMaker::direction(std::span<float> in) {
+    const float z = uniform(-1.0f, 1.0f), phi = uniform(0.0f, 6.2831853f);
+    const float r = std::sqrt(1.0f - z * z);
+    in[0] = r * std::cos(phi);
+    in[1] = r * std::sin(phi);
+    in[2] = z;
+}
+
+void InputMaker::directionAbove(std::span<const float> n, std::span<float> in) {
+    direction(in);
+    if (n[0] * in[0] + n[1] * in[1] + n[2] * in[2] < 0.0f)
+        for (float& value : in)
+            value = -value;
+}
+
+namespace {
+
+using namespace shading; // NOLINT: the bodies are GLSL, too
+
+using In = std::span<float>;
+
+void unit(InputMaker& make, In in) {
+    make.numbers(in, 0.0f, 1.0f);
+}
+// cosines and alpha above zero, as the terms ask for
+void aboveZero(InputMaker& make, In in) {
+    make.numbers(in, 0.01f, 1.0f);
+}
+void hdr(InputMaker& make, In in) {
+    for (float& value : in)
+        value = std::exp2(make.uniform(-8.0f, 8.0f));
+}
+void signedNumbers(InputMaker& make, In in) {
+    make.numbers(in, -2.0f, 2.0f);
+}
+void directions(InputMaker& make, In in) {
+    for (std::size_t i = 0; i + 3 <= in.size(); i += 3)
+        make.direction(in.subspan(i, 3));
+}
+// n, v, l, then base colour, metallic, roughness, dfg, light.
+void surface(InputMaker& make, In in) {
+    make.numbers(in, 0.0f, 1.0f);
+    make.direction(in.subspan(0, 3));
+    make.directionAbove(in.subspan(0, 3), in.subspan(3, 3));
+    make.direction(in.subspan(6, 3));
+    in[14] = make.uniform(0.3f, 0.9f);
+    in[15] = make.uniform(0.0f, 0.1f);
+}
+
+#define I(k) in[k]
+#define O(k) out[k]
+#define CASE(name, prepare, scale, ...)                                                            \
+    SharedTermCase {                                                                               \
+        name, #__VA_ARGS__, []([[maybe_unused]] const float* in, float* out) { __VA_ARGS__ },      \
+            prepare, scale                                                                         \
+    }
+#define SURFACE                                                                                    \
+    makeSurface(vec3(I(9), I(10), I(11)), I(12), I(13), vec3(I(0), I(1), I(2)),                    \
+                vec3(I(3), I(4), I(5)), vec2(I(14), I(15)))
+#define OUT3(k, v)                                                                                 \
+    {                                                                                              \
+        vec3 value = v;                                                                            \
+        O(k) = value.x;                                                                            \
+        O(k + 1) = value.y;                                                                        \
+        O(k + 2) = value.z;                                                                        \
+    }
+
+std::vector<SharedTermCase> makeCases() {
+    return {
+        CASE("distribution", aboveZero, 1e-3f, O(0) = D_GGX(I(0), I(1));
+             O(1) = D_GGX_Sin2(I(0), 1.0f - I(0) * I(0), I(1));
+             O(2) = distribution(I(0), 1.0f - I(0) * I(0), I(1));),
+            CASE("visibility", aboveZero, 1e-3f, O(0) = V_SmithGGXCorrelated(I(0), I(1), I(2));
+                 O(1) = visibility(I(0), I(1), I(2)); O(2) = G1_SmithGGX(I(0), I(2));),
+            CASE("fresnel", unit, 1e-2f, OUT3(0, F_Schlick(vec3(I(0), I(1), I(2)), I(3), I(4)));
+                 OUT3(3, fresnel(vec3(I(0), I(1), I(2)), I(4)));),
+            CASE("lambert", unit, 1.0f, O(0) = Fd_Lambert(); O(1) = diffuse();),
+            CASE("parameters", unit, 1e-2f, O(0) = alphaFromPerceptualRoughness(I(0));
+                 OUT3(1, f0FromBaseColor(vec3(I(1), I(2), I(3)), I(4)));
+                 OUT3(4, diffuseColorFromBaseColor(vec3(I(1), I(2), I(3)), I(4)));
+                 OUT3(7, energyCompensationTurquin(vec3(I(1), I(2), I(3)), vec2(I(5), I(6))));
+                 OUT3(10, specularAlbedoFromDfg(vec3(I(1), I(2), I(3)), vec2(I(5), I(6))));),
+            CASE("surface", surface, 1e-2f, SurfaceTerms s = SURFACE; O(0) = s.NoV; O(1) = s.alpha;
+                 O(2) = s.perceptualRoughness; OUT3(3, s.diffuseColor); OUT3(6, s.f0);
+                 OUT3(9, s.energyCompensation); OUT3(12, s.specularAlbedo);
+                 OUT3(15, s.diffuseAlbedo);),
+            CASE("lobes", surface, 1e-2f, SurfaceTerms s = SURFACE;
+                 OUT3(0, specularLobe(s, I(16), 1.0f - I(16) * I(16), I(17), I(18)));
+                 OUT3(3, diffuseLobe(s));),
+            CASE("shade direct", surface, 1e-2f, SurfaceTerms s = SURFACE;
+                 ShadedLight light =
+                     shadeDirect(s, vec3(I(6), I(7), I(8)), vec3(I(16), I(17), I(18)));
+                 OUT3(0, light.diffuse); OUT3(3, light.specular);),
+            CASE("shade environment", surface, 1e-2f, SurfaceTerms s = SURFACE;
+                 ShadedLight light =
+                     shadeEnvironment(s, vec3(I(16), I(17), I(18)), vec3(I(19), I(20), I(21)));
+                 OUT3(0, light.diffuse); OUT3(3, light.specular);
+                 OUT3(6, shadeIrradiance(s, vec3(I(16), I(17), I(18))));
+                 OUT3(9, shadePrefiltered(s, vec3(I(19), I(20), I(21))));
+                 OUT3(12, reflectionDirection(s)); O(15) = specularOcclusion(I(22), I(23), I(24));
+                 O(16) = prefilteredLevel(I(25), 7);),
+            CASE("lat-long", directions, 1e-2f,
+                 vec2 uv = latLongFromDirection(vec3(I(0), I(1), I(2)));
+                 O(0) = uv.x; O(1) = uv.y; OUT3(2, directionFromLatLong(uv));
+                 OUT3(5, rotateY(vec3(I(0), I(1), I(2)), 3.0f * I(3)));),
+            CASE("spherical harmonics", directions, 1e-1f, float y9[9]; float y25[25];
+                 shBasis9(vec3(I(0), I(1), I(2)), y9); shBasis25(vec3(I(0), I(1), I(2)), y25);
+                 for (int i = 0; i < 25; ++i) O(i) = y25[i];
+                 for (int i = 0; i < 9; ++i) O(i) = O(i) + y9[i];),
+            CASE("cosine factor", unit, 1.0f,
+                 for (int l = 0; l < 5; ++l) O(l) = shCosineFactor(l);),
+            CASE("irradiance", directions, 1.0f, vec3 sh[9];
+                 for (int i = 0; i < 9; ++i) sh[i] = vec3(I(3 + i), I(12 + i), I(21 + i));
+                 OUT3(0, irradianceFromSh9(sh, vec3(I(0), I(1), I(2))));),
+            CASE("normal map", unit, 1e-2f,
+                 OUT3(0, decodeNormalTs(vec3(I(0), I(1), I(2)), 2.0f * I(3),
+                                        I(4) < 0.5f ? -1.0f : 1.0f));),
+            CASE("tangent space", directions, 1e-2f,
+                 OUT3(0, normalTsToWorld(vec3(I(0), I(1), abs(I(2))), vec3(I(3), I(4), I(5)),
+                                         vec4(I(6), I(7), I(8), I(9) < 0.0f ? -1.0f : 1.0f)));),
+            CASE("tone map", hdr, 1e-2f, vec3 c = vec3(I(0), I(1), I(2));
+                 OUT3(0, applyExposure(c, log2(I(3)))); OUT3(3, toneMapClamp(c));
+                 O(6) = reinhard(I(4)); O(7) = reinhardExtended(I(4), I(5));
+                 OUT3(8, toneMapReinhard(c)); OUT3(11, toneMap(c, kToneMapClamp));
+                 OUT3(14, toneMap(c, kToneMapReinhard)); O(17) = luminance(c);),
+            CASE("sRGB", signedNumbers, 1e-2f, O(0) = srgbEncode(I(0)); O(1) = srgbDecode(I(1));
+                 OUT3(2, srgbEncode(vec3(I(2), I(3), I(4))));
+                 OUT3(5, srgbDecode(vec3(I(2), I(3), I(4))));),
+            CASE("sampling", unit, 1e-1f, vec2 u = vec2(I(0), I(1)); vec2 disc = concentricDisc(u);
+                 O(0) = disc.x; O(1) = disc.y; OUT3(2, cosineHemisphere(u));
+                 O(5) = cosineHemispherePdf(I(2)); OUT3(6, uniformSphere(u));),
+            CASE("basis", directions, 1e-1f, vec3 t; vec3 b;
+                 orthonormalBasis(vec3(I(0), I(1), I(2)), t, b); OUT3(0, t); OUT3(3, b);),
+            CASE("visible normals", surface, 1e-1f,
+                 OUT3(0, sampleVndfGGX(vec2(I(16), I(17)), vec3(I(6), I(7), abs(I(8)) + 1e-3f),
+                                       0.01f + I(18)));
+                 O(3) = vndfReflectionPdf(0.01f + I(19), I(20), 0.01f + 0.9f * I(18));),
+    };
+}
+
+} // namespace
+
+const std::vector<SharedTermCase>& sharedTermCases() {
+    static const std::vector<SharedTermCase> cases = makeCases();
+    return cases;
+}
+
+} // namespace patina::render

@@ -1,0 +1,47 @@
+// Every function of shaders/shared as a case that is run in both languages: CASE keeps its body as
+// C++ and, as text, as GLSL. I(k) are the inputs, O(k) the outputs.
+#pragma once
+
+#include <functional>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace patina::render {
+
+inline constexpr int kCaseInputs = 32, kCaseOutputs = 28;
+
+// Fills one set of inputs.
+class InputMaker {
+  public:
+    explicit InputMaker(unsigned seed)
+        : m_random(seed) {}
+    float uniform(float low = 0.0f, float high = 1.0f) {
+        // Built from bits: std::uniform_real_distribution differs between libraries.
+        return low + (high - low) * static_cast<float>(m_random() >> 8) * 0x1p-24f;
+    }
+    void numbers(std::span<float> in, float low, float high) {
+        for (float& value : in)
+            value = uniform(low, high);
+    }
+    void direction(std::span<float> in);
+    // A direction in the hemisphere of `n`.
+    void directionAbove(std::span<const float> n, std::span<float> in);
+
+  private:
+    std::mt19937 m_random;
+};
+
+struct SharedTermCase {
+    std::string name;
+    std::string body; // as GLSL
+    void (*run)(const float* in, float* out);
+    std::function<void(InputMaker&, std::span<float>)> prepare;
+    // Sums with cancelling terms are compared relative to the size of the terms.
+    float scale;
+};
+
+[[nodiscard]] const std::vector<SharedTermCase>& sharedTermCases();
+
+} // namespace patina::render
