@@ -95,7 +95,7 @@ std::vector<Notice> SceneLoader::takeNotices(const fs::path& file) {
         if (names.size() < kShownFiles)
             names.push_back(fileName(missing));
     std::string text =
-        fmt::format("{} missing: {}", m_missing.size() == 1 ? "a file is" : "files are",
+        fmt::format("{} missing or empty: {}", m_missing.size() == 1 ? "a file is" : "files are",
                     fmt::join(names, ", "));
     if (m_missing.size() > kShownFiles)
         text += fmt::format(" and {} more", m_missing.size() - kShownFiles);
@@ -176,7 +176,9 @@ void SceneLoader::loadMaps(std::span<Material> materials) {
     // Note what went wrong, in the order of the materials.
     for (const Request& request : requests) {
         const Result<MapImage>& result = *request.result;
-        if (!result.ok() && result.error().kind == ErrorKind::InputMissing)
+        // The importer counts empty files among the missing ones.
+        if (!result.ok() &&
+            (result.error().kind == ErrorKind::InputMissing || m_known.contains(request.source)))
             addMissing(request.source);
         else if (!result.ok())
             addNotice(result.error().message + "; a placeholder stands in", request.source);

@@ -82,6 +82,32 @@ TEST_F(SceneFixture, AModelOpensWithItsMaterialsMapsAndAListOfWhatIsMissing) {
     EXPECT_TRUE(mentions(opened.notices, "lost.png"));
 }
 
+// A download that was cut off at once is as good as missing: one notice names all such files.
+TEST_F(SceneFixture, EmptyTexturesAreListedWithTheMissingOnes) {
+    const std::string file = writeModel();
+    m_folder.write("models/red.png", "");
+    const OpenedScene opened = open(file);
+    EXPECT_THAT(opened.missingFiles,
+                testing::UnorderedElementsAre((m_folder / "models/red.png").string(),
+                                              (m_folder / "models/lost.png").string()));
+    EXPECT_FALSE(materialNamed(opened.document, "Red")->baseColorMap.problem.empty());
+    const auto concerned = [](const Notice& notice) {
+        return notice.message.find("red.png") != std::string::npos ||
+               notice.file.filename() == "red.png";
+    };
+    EXPECT_EQ(std::ranges::count_if(opened.notices, concerned), 1);
+}
+
+// Readable but broken textures each have a notice of their own.
+TEST_F(SceneFixture, BrokenTexturesAreReportedOneByOne) {
+    const std::string file = writeModel();
+    m_folder.write("models/red.png", "this is no picture");
+    const OpenedScene opened = open(file);
+    EXPECT_EQ(opened.missingFiles.size(), 1u);
+    const auto concerned = [](const Notice& notice) { return notice.file.filename() == "red.png"; };
+    EXPECT_EQ(std::ranges::count_if(opened.notices, concerned), 1);
+}
+
 TEST_F(SceneFixture, AModelAddedTwiceKeepsIdsAndNamesUnique) {
     const std::string file = writeModel();
     Document document = startDocument();
