@@ -9,14 +9,14 @@
 #include "shared/normalmap.glsl"
 
 in vec3 v_position;
-in vec3 v_normal;
+centroid in vec3 v_normal;
 in vec4 v_tangent;
 in vec2 v_uv;
 #ifdef HAS_VERTEX_AO
-in float v_visibility;
+centroid in float v_visibility;
 #endif
 #ifdef HAS_TRANSFER
-in vec3 v_exitRadiance;
+centroid in vec3 v_exitRadiance;
 #endif
 
 layout(binding = 0) uniform sampler2D u_baseColorTexture;

@@ -8,8 +8,10 @@ layout(location = 1) in vec3 a_normal;
 layout(location = 2) in vec4 a_tangent;
 layout(location = 3) in vec2 a_uv;
 
+// At a silhouette the pixel's centre may lie outside the triangle, where interpolation would run
+// away: centroid keeps to the covered part. Not for v_uv, whose derivatives choose mipmaps.
 out vec3 v_position;
-out vec3 v_normal;
+centroid out vec3 v_normal;
 out vec4 v_tangent;
 out vec2 v_uv;
 
@@ -17,14 +19,14 @@ out vec2 v_uv;
 layout(std430, binding = 0) readonly buffer VertexVisibility {
     float b_visibility[];
 };
-out float v_visibility;
+centroid out float v_visibility;
 #endif
 
 #ifdef HAS_TRANSFER
 layout(std430, binding = 1) readonly buffer VertexTransfer {
     float b_transfer[];
 };
-out vec3 v_exitRadiance;
+centroid out vec3 v_exitRadiance;
 #endif
 
 void main() {
