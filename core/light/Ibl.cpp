@@ -45,8 +45,14 @@ Result<IblMaps> computeIbl(const Image& environment, const IblSettings& settings
     for (int i = 1; i < settings.levels; ++i) {
         const float perceptualRoughness =
             static_cast<float>(i) / static_cast<float>(settings.levels - 1);
-        maps.prefiltered.push_back(prefilterGGX(
-            pyramid, settings.cubeSize >> i, perceptualRoughness * perceptualRoughness, {}, job));
+        // The largest level costs four fifths of the time; its narrow lobe gains least from finer
+        // cells far away.
+        PrefilterQuality quality;
+        if (i == 1)
+            quality.relative = 0.3f;
+        maps.prefiltered.push_back(prefilterGGX(pyramid, settings.cubeSize >> i,
+                                                perceptualRoughness * perceptualRoughness, quality,
+                                                job));
         if (job.cancelled())
             return cancelled;
         done += 1.0 / (1 << (2 * i));

@@ -15,7 +15,7 @@ namespace patina {
 // How far a cell may be from a point: its width at most `relative` · (angle to the tile + 2 alpha)
 // and at most `widest` radians.
 struct PrefilterQuality {
-    float relative = 0.3f;
+    float relative = 0.2f;
     float widest = 0.1f;
 };
 
