@@ -109,31 +109,46 @@ Placement placed(const glm::dvec3& axis, const glm::dvec3& offset) {
     return {glm::dmat3(-x, axis, glm::cross(-x, axis)), offset};
 }
 
+constexpr int kBallSegments = 160;
+
+Placement ballPlacement() {
+    return placed(directionFromAngles(kOpeningAzimuth, kOpeningElevation), kCenter);
+}
+
+// The innermost point of the rim: outside it is painted, inside it is lined.
+std::size_t rimOf(const Profile& profile) {
+    const double turns = kOpeningDeg / 360.0, middle = kRadius - 0.5 * kShell;
+    return nearest(profile, middle * sinTurns(turns) - 0.5 * kShell * cosTurns(turns),
+                   middle * cosTurns(turns) + 0.5 * kShell * sinTurns(turns));
+}
+
 Mesh ball() {
-    constexpr int kSegments = 160;
-    const Placement placement =
-        placed(directionFromAngles(kOpeningAzimuth, kOpeningElevation), kCenter);
     const Profile profile = ballProfile();
     const auto onOutside = [&](double deg) {
         const double r = outerRadius(deg);
         return nearest(profile, r * sinTurns(deg / 360.0), r * cosTurns(deg / 360.0));
     };
     const std::size_t back = onOutside(kBackChartDeg), front = onOutside(kFrontChartDeg);
-    const std::size_t rim = nearest(profile,
-                                    (kRadius - 0.5 * kShell) * sinTurns(kOpeningDeg / 360.0) -
-                                        0.5 * kShell * cosTurns(kOpeningDeg / 360.0),
-                                    (kRadius - 0.5 * kShell) * cosTurns(kOpeningDeg / 360.0) +
-                                        0.5 * kShell * sinTurns(kOpeningDeg / 360.0));
 
-    // The belt goes once around u; all charts seen from outside share its texel density.
+    // The belt goes once around u; all charts share its texel density.
     const double scale = 1.0 / (2.0 * kPi * kRadius);
     const double beltHeight = (profile[front].length - profile[back].length) * scale;
     Mesh mesh;
-    addLathe(mesh, profile, back, front, kSegments, strip(0.0, 0.004, 1.0, beltHeight), placement);
-    addLathe(mesh, profile, front, rim, kSegments, disc(0.185, 0.42, scale, 0.297), placement);
-    addLathe(mesh, profile, 0, back, kSegments, disc(0.54, 0.42, scale, 0.0), placement);
-    addLathe(mesh, profile, rim, profile.size() - 1, kSegments, disc(0.86, 0.42, 0.10, 0.0),
-             placement);
+    const auto add = [&](std::size_t first, std::size_t last, const Chart& chart) {
+        addLathe(mesh, profile, first, last, kBallSegments, chart, ballPlacement());
+    };
+    add(back, front, strip(0.0, 0.004, 1.0, beltHeight));
+    add(front, rimOf(profile), disc(0.185, 0.42, scale, 0.297));
+    add(0, back, disc(0.54, 0.42, scale, 0.0));
+    return mesh;
+}
+
+// The inside of the shell, from the rim to the pole; it closes the ball.
+Mesh liner() {
+    const Profile profile = ballProfile();
+    Mesh mesh;
+    addLathe(mesh, profile, rimOf(profile), profile.size() - 1, kBallSegments,
+             disc(0.76, 0.80, 0.13, 0.0), ballPlacement());
     return mesh;
 }
 
@@ -260,14 +275,15 @@ ModelPart part(const char* name, Mesh mesh, const Material& material) {
 std::vector<ModelPart> shaderBall() {
     Material ground;
     ground.name = "Floor";
-    ground.baseColor = glm::vec3(0.22f);
-    ground.perceptualRoughness = 0.42f;
+    ground.baseColor = glm::vec3(0.055f);
+    ground.perceptualRoughness = 0.34f;
     Material coreGold = materialNamed("Core", "gold", {4.0f, 4.0f});
     coreGold.normalStrength = 0.35f; // the core is small: its hammering would look like facets
+    // Stand and liner are of one material and share its texture.
+    const Material dark = materialNamed("Stand", "rough-plastic", {5.0f, 5.0f});
     return {part("Ball", ball(), materialNamed("Ball", "worn-painted-metal", {4.0f, 4.0f})),
-            part("Core", core(), coreGold),
-            part("Stand", stand(), materialNamed("Stand", "rough-plastic", {5.0f, 5.0f})),
-            part("Floor", floorDisc(), ground)};
+            part("Core", core(), coreGold), part("Stand", stand(), dark),
+            part("Liner", liner(), dark), part("Floor", floorDisc(), ground)};
 }
 
 } // namespace patina::library

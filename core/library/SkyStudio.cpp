@@ -68,10 +68,10 @@ ImagePtr studioSky(double whiteFacingUp) {
         // Key, left of the camera and above it.
         SoftBox(-28.0, 42.0, 8.0, {0.40f, 0.40f}, 0.03f, 0.45f, {19.0f, 18.2f, 17.2f}),
         // Overhead bank, leaning to the back.
-        SoftBox(205.0, 78.0, 0.0, {0.70f, 0.26f}, 0.05f, 0.35f, {6.0f, 6.1f, 6.3f}),
+        SoftBox(205.0, 78.0, 0.0, {0.70f, 0.26f}, 0.05f, 0.35f, {3.9f, 3.97f, 4.1f}),
         // Rim strips behind the object, cool on the right, neutral on the left.
-        SoftBox(146.0, 22.0, -4.0, {0.10f, 0.62f}, 0.02f, 0.30f, {11.0f, 12.4f, 14.5f}),
-        SoftBox(-88.0, 18.0, 3.0, {0.085f, 0.55f}, 0.02f, 0.30f, {9.5f, 9.5f, 9.8f}),
+        SoftBox(146.0, 22.0, -4.0, {0.10f, 0.62f}, 0.02f, 0.30f, {13.0f, 14.6f, 17.2f}),
+        SoftBox(-88.0, 18.0, 3.0, {0.085f, 0.55f}, 0.02f, 0.30f, {13.5f, 13.5f, 14.0f}),
         // A large dim fill on the right.
         SoftBox(98.0, 24.0, 0.0, {0.60f, 0.52f}, 0.16f, 0.60f, {1.10f, 1.16f, 1.28f}),
     };

@@ -62,6 +62,20 @@ std::vector<library::ModelPart> partsOf(const char* model) {
     return library::model(model).value();
 }
 
+void append(Mesh& all, const Mesh& mesh) {
+    const auto start = static_cast<std::uint32_t>(all.positions.size());
+    all.positions.insert(all.positions.end(), mesh.positions.begin(), mesh.positions.end());
+    all.uvs.insert(all.uvs.end(), mesh.uvs.begin(), mesh.uvs.end());
+    for (const std::uint32_t index : mesh.indices)
+        all.indices.push_back(start + index);
+}
+Mesh joined(const std::vector<library::ModelPart>& parts) {
+    Mesh all;
+    for (const library::ModelPart& p : parts)
+        append(all, *p.mesh);
+    return all;
+}
+
 const library::ModelPart& part(const std::vector<library::ModelPart>& parts, const char* name) {
     for (const library::ModelPart& p : parts)
         if (p.name == name)
@@ -132,13 +146,7 @@ TEST_P(EveryModel, StandsOnTheGroundAndHasAnObjectsSize) {
 TEST_P(EveryModel, HasRoomForABakeInItsTexture) {
     std::map<std::string, Mesh> byMaterial;
     for (const library::ModelPart& p : partsOf(GetParam())) {
-        Mesh& all = byMaterial[p.materialName];
-        const auto start = static_cast<std::uint32_t>(all.positions.size());
-        all.positions.insert(all.positions.end(), p.mesh->positions.begin(),
-                             p.mesh->positions.end());
-        all.uvs.insert(all.uvs.end(), p.mesh->uvs.begin(), p.mesh->uvs.end());
-        for (const std::uint32_t index : p.mesh->indices)
-            all.indices.push_back(start + index);
+        append(byMaterial[p.materialName], *p.mesh);
     }
     for (const auto& [name, mesh] : byMaterial) {
         SCOPED_TRACE(name);
@@ -150,12 +158,16 @@ TEST_P(EveryModel, HasRoomForABakeInItsTexture) {
 }
 
 TEST(LibraryMesh, SolidsAreClosed) {
-    for (const char* name : {"sphere", "rounded-cube", "torus-knot", "shader-ball"})
+    for (const char* name : {"sphere", "rounded-cube", "torus-knot", "shader-ball"}) {
         for (const library::ModelPart& p : partsOf(name)) {
             SCOPED_TRACE(p.name);
-            EXPECT_EQ(openEdges(*p.mesh), 0u);
-            EXPECT_GT(volume(*p.mesh), 0.0);
+            // The liner closes the ball.
+            EXPECT_EQ(openEdges(*p.mesh) == 0, p.name != "Ball" && p.name != "Liner");
         }
+        const Mesh all = joined(partsOf(name));
+        EXPECT_EQ(openEdges(all), 0u);
+        EXPECT_GT(volume(all), 0.0);
+    }
 }
 
 TEST(LibraryMesh, SizesAreWhatTheFormulasSay) {
@@ -190,14 +202,14 @@ TEST(LibraryMesh, SizesAreWhatTheFormulasSay) {
 TEST(LibraryMesh, ShaderBallHasItsPartsAtAModestCost) {
     const auto parts = partsOf("shader-ball");
     std::size_t triangles = 0;
-    for (const char* name : {"Ball", "Core", "Stand", "Floor"})
+    for (const char* name : {"Ball", "Core", "Stand", "Liner", "Floor"})
         triangles += part(parts, name).mesh->triangleCount();
-    EXPECT_EQ(parts.size(), 4u);
+    EXPECT_EQ(parts.size(), 5u);
     EXPECT_GE(triangles, 60'000u);
     EXPECT_LE(triangles, 120'000u);
     // The ball is hollow: a shell of about 5 cm, less than half of the full ball's volume.
     const double full = 4.0 / 3.0 * 3.14159 * std::pow(0.55, 3);
-    EXPECT_LT(volume(*part(parts, "Ball").mesh), 0.5 * full);
+    EXPECT_LT(volume(joined({part(parts, "Ball"), part(parts, "Liner")})), 0.5 * full);
     // Nothing sinks into the floor.
     EXPECT_GT(part(parts, "Stand").mesh->bounds().min.y, part(parts, "Floor").mesh->bounds().max.y);
     EXPECT_GT(part(parts, "Ball").mesh->bounds().min.y, part(parts, "Floor").mesh->bounds().max.y);
