@@ -59,7 +59,7 @@ Surface wornPaintedMetal() {
             paint *= 1.0f - 0.22f * smoothstep(0.0f, 0.45f, smudge.row(y)[x]);
             glm::vec3 color = glm::mix(paint, primer, primerEdge * 0.85f);
             color = glm::mix(color, rustDark * 1.3f, stain * 0.55f);
-            const glm::vec3 steel = kSteel * (0.86f + 0.25f * c + 0.12f * hairline);
+            const glm::vec3 steel = kSteel * (0.78f + 0.35f * c + 0.12f * hairline);
             const glm::vec3 rusty =
                 glm::mix(rustDark, rustBright, smoothstep(-0.25f, 0.3f, b + 0.7f * c));
             color = glm::mix(color, glm::mix(steel, rusty, rust), bare);
@@ -147,7 +147,7 @@ Surface gold() {
             s.roughness.row(y)[x] =
                 0.17f + 0.10f * dirt + 0.10f * hair.row(y)[x] + 0.03f * grain.row(y)[x];
             s.metallic.row(y)[x] = 1.0f;
-            s.height.row(y)[x] = 0.011f * soft + 0.0002f * grain.row(y)[x] +
+            s.height.row(y)[x] = 0.0075f * soft + 0.0002f * grain.row(y)[x] +
                                  0.0006f * smudge.row(y)[x] - 0.00012f * hair.row(y)[x];
         }
     });

@@ -39,7 +39,7 @@ Surface roughPlastic() {
 // 2 × 2 twill: each tow passes over two and under two, shifted by one from row to row. Tows are
 // rounded and their fibres make the weave shimmer.
 Surface carbonFibre() {
-    constexpr int kTows = 16; // per tile, a multiple of the weave's period 4
+    constexpr int kTows = 24; // per tile, a multiple of the weave's period 4
     Surface s(n);
     const Field fibresAlongU = fbm(n, {8, 256, 1, 0.5f, 61});
     const Field fibresAlongV = fbm(n, {256, 8, 1, 0.5f, 62});
@@ -71,7 +71,7 @@ Surface carbonFibre() {
                            (1.0f + 0.5f * fibre));
             s.roughness.row(y)[x] = 0.26f + 0.08f * fibre + 0.1f * (1.0f - gap) +
                                     0.05f * smoothstep(0.0f, 0.5f, smudge.row(y)[x]);
-            s.height.row(y)[x] = 0.0085f * arch * rise + 0.0005f * fibre;
+            s.height.row(y)[x] = 0.0024f * arch * rise + 0.00016f * fibre;
         }
     });
     s.cavityRadius = 10;

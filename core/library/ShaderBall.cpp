@@ -25,7 +25,7 @@ struct Groove {
     double deg, halfWidthDeg, depth; // from the opening's axis; metres
 };
 constexpr std::array<Groove, 4> kGrooves = {
-    {{44.0, 0.75, 0.009}, {60.0, 1.7, 0.018}, {124.0, 1.7, 0.018}, {140.0, 0.75, 0.009}}};
+    {{44.0, 0.9, 0.008}, {60.0, 1.7, 0.018}, {124.0, 1.7, 0.018}, {140.0, 0.9, 0.008}}};
 constexpr double kFrontChartDeg = 60.0, kBackChartDeg = 124.0;
 
 double outerRadius(double deg) {
@@ -148,7 +148,7 @@ Mesh liner() {
     const Profile profile = ballProfile();
     Mesh mesh;
     addLathe(mesh, profile, rimOf(profile), profile.size() - 1, kBallSegments,
-             disc(0.76, 0.80, 0.13, 0.0), ballPlacement());
+             disc(0.5, 0.5, 0.385, 0.0), ballPlacement());
     return mesh;
 }
 
@@ -279,11 +279,11 @@ std::vector<ModelPart> shaderBall() {
     ground.perceptualRoughness = 0.34f;
     Material coreGold = materialNamed("Core", "gold", {4.0f, 4.0f});
     coreGold.normalStrength = 0.35f; // the core is small: its hammering would look like facets
-    // Stand and liner are of one material and share its texture.
-    const Material dark = materialNamed("Stand", "rough-plastic", {5.0f, 5.0f});
     return {part("Ball", ball(), materialNamed("Ball", "worn-painted-metal", {4.0f, 4.0f})),
-            part("Core", core(), coreGold), part("Stand", stand(), dark),
-            part("Liner", liner(), dark), part("Floor", floorDisc(), ground)};
+            part("Core", core(), coreGold),
+            part("Stand", stand(), materialNamed("Stand", "rough-plastic", {5.0f, 5.0f})),
+            part("Liner", liner(), materialNamed("Liner", "rough-plastic", {5.0f, 5.0f})),
+            part("Floor", floorDisc(), ground)};
 }
 
 } // namespace patina::library

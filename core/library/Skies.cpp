@@ -11,7 +11,7 @@ std::span<const SkyRecipe> skyRecipes() {
          "the material (a furnace test).",
          1.0, whiteSky},
         {"clear-sky", "Clear Sky",
-         "A cloudless morning with a sharp sun (Preetham's daylight model).", 0.90, clearSky},
+         "A cloudless morning with a sharp sun (Preetham's daylight model).", 1.00, clearSky},
         {"overcast", "Overcast", "Soft light from a closed cloud cover (CIE overcast sky).", 0.80,
          overcastSky},
         {"studio", "Studio",

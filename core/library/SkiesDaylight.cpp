@@ -70,6 +70,7 @@ ImagePtr whiteSky(double whiteFacingUp) {
 // A clear morning, turbidity 2.6, sun 44° high; two thirds of the light come from the sun's disc.
 ImagePtr clearSky(double whiteFacingUp) {
     constexpr double kTurbidity = 2.6, kSunRadiusDeg = 0.2666;
+    const glm::dvec3 kHaze(0.925, 1.0, 1.22); // of luminance 1
     const glm::vec3 sun = directionFromAngles(-22.0, 43.8);
     const double thetaSun = acosPortable(sun.y);
     const PreethamSky sky(kTurbidity, thetaSun);
@@ -85,12 +86,16 @@ ImagePtr clearSky(double whiteFacingUp) {
         };
         const double fY = factor(sky.luminance, sky.zenithLuminance);
         const double fx = factor(sky.x, sky.zenithX), fy = factor(sky.y, sky.zenithY);
+        // Its horizon is purple at low turbidity: there the colour, not the luminance, gives way to
+        // that of distant haze.
+        const double haze = 0.85 * expPortable(-(cosTheta - 0.052) / 0.11);
         for (int x = 0; x < kSkyWidth; ++x) {
             const double cosGamma = glm::dot(canvas.direction(x, row), sun);
             const double gamma = acosPortable(cosGamma);
-            canvas.pixel(x, row) = linearSrgbFromXyY(fx * sky.x.sunPart(gamma, cosGamma),
-                                                     fy * sky.y.sunPart(gamma, cosGamma),
-                                                     fY * sky.luminance.sunPart(gamma, cosGamma));
+            const double bigY = fY * sky.luminance.sunPart(gamma, cosGamma);
+            const glm::dvec3 color = linearSrgbFromXyY(fx * sky.x.sunPart(gamma, cosGamma),
+                                                       fy * sky.y.sunPart(gamma, cosGamma), bigY);
+            canvas.pixel(x, row) = glm::vec3(glm::mix(color, kHaze * bigY, haze));
         }
     });
 

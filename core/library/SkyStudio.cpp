@@ -73,7 +73,9 @@ ImagePtr studioSky(double whiteFacingUp) {
         SoftBox(146.0, 22.0, -4.0, {0.10f, 0.62f}, 0.02f, 0.30f, {13.0f, 14.6f, 17.2f}),
         SoftBox(-88.0, 18.0, 3.0, {0.085f, 0.55f}, 0.02f, 0.30f, {13.5f, 13.5f, 14.0f}),
         // A large dim fill on the right.
-        SoftBox(98.0, 24.0, 0.0, {0.60f, 0.52f}, 0.16f, 0.60f, {1.10f, 1.16f, 1.28f}),
+        SoftBox(98.0, 24.0, 0.0, {0.60f, 0.52f}, 0.16f, 0.60f, {1.50f, 1.58f, 1.72f}),
+        // A white reflector on the floor before the object, so that metals have an underside.
+        SoftBox(12.0, -42.0, 0.0, {0.85f, 0.45f}, 0.30f, 0.55f, {1.15f, 1.10f, 1.04f}),
     };
     const glm::vec3 cyclorama = directionFromAngles(210.0, -9.0);
 

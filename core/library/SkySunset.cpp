@@ -20,8 +20,9 @@ namespace {
 
 constexpr double kGroundRadius = 6360e3, kTopRadius = 6420e3; // metres
 constexpr double kRayleighHeight = 8000.0, kMieHeight = 1200.0;
-const glm::dvec3 kRayleigh(5.8e-6, 13.5e-6, 33.1e-6);  // per metre at sea level, R G B
-const glm::dvec3 kOzone(0.650e-6, 1.881e-6, 0.085e-6); // per metre at 25 km
+const glm::dvec3 kRayleigh(5.8e-6, 13.5e-6, 33.1e-6); // per metre at sea level, R G B
+// Per metre at 25 km, twice the average amount: it takes the green out of the yellow horizon.
+const glm::dvec3 kOzone(1.30e-6, 3.76e-6, 0.17e-6);
 constexpr double kMie = 6.0e-6, kMieExtinction = 6.7e-6, kMieG = 0.78;
 
 glm::dvec3 expNegative(const glm::dvec3& depth) {
