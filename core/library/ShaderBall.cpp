@@ -148,7 +148,7 @@ Mesh liner() {
     const Profile profile = ballProfile();
     Mesh mesh;
     addLathe(mesh, profile, rimOf(profile), profile.size() - 1, kBallSegments,
-             disc(0.5, 0.5, 0.385, 0.0), ballPlacement());
+             disc(0.5, 0.5, 0.375, 0.0), ballPlacement());
     return mesh;
 }
 
