@@ -15,6 +15,16 @@ function(patina_test name)
     ENVIRONMENT "PATINA_BIN_DIR=${CMAKE_BINARY_DIR}/bin;LP_NUM_THREADS=2;XDG_RUNTIME_DIR=${CMAKE_BINARY_DIR}/run;TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/cmake/tsan.supp;LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/cmake/lsan.supp")
 endfunction()
 
+# patina_golden(NAME): the test NAME compares pictures with tests/golden/*.png (through patina-worker)
+# and leaves what differs in build/<preset>/golden. PATINA_UPDATE_GOLDEN=1 in the environment
+# accepts the new pictures.
+function(patina_golden name)
+  target_compile_definitions(${name} PRIVATE
+    PATINA_GOLDEN_DIR="${CMAKE_SOURCE_DIR}/tests/golden"
+    PATINA_GOLDEN_OUTPUT_DIR="${CMAKE_BINARY_DIR}/golden")
+  add_dependencies(${name} patina-worker)
+endfunction()
+
 # patina_benchmark(NAME SOURCES … LIBRARIES …): a Google Benchmark program; never run by ctest.
 function(patina_benchmark name)
   if(NOT PATINA_BENCHMARKS)

@@ -74,7 +74,7 @@ float placeholderShare(const Material& m) {
         return 1.0f;
     for (const MapSlot* map : slots(m))
         if (missing(*map))
-            return 0.35f;
+            return 0.15f;
     return 0.0f;
 }
 

@@ -1,0 +1,71 @@
+// Frame time of the built-in start scene at 1280 × 720 on whatever draws here (llvmpipe without a
+// GPU), with and without image-based light, multisampling and overlays.
+#include "core/document/Scene.h"
+#include "core/math/Camera.h"
+#include "render/Renderer.h"
+#include "render/scene/EnvironmentLight.h"
+
+#include <benchmark/benchmark.h>
+#include <memory>
+
+namespace patina::render {
+namespace {
+
+struct Stage {
+    std::unique_ptr<gl::Context> context;
+    std::unique_ptr<Renderer> renderer;
+    Document document;
+};
+
+// Null when there is no OpenGL.
+std::unique_ptr<Stage> makeStage(bool withIbl) {
+    auto stage = std::make_unique<Stage>();
+    auto context = gl::Context::createHeadless();
+    if (!context)
+        return nullptr;
+    stage->context = std::move(*context);
+    auto renderer = Renderer::create(*stage->context);
+    if (!renderer)
+        return nullptr;
+    stage->renderer = std::move(*renderer);
+    stage->document = startDocument();
+    stage->renderer->setDocument(stage->document, Change::everything());
+    if (withIbl && stage->document.environment.image) {
+        const auto maps = computeIbl(*stage->document.environment.image, {}, JobContext());
+        if (!maps)
+            return nullptr;
+        stage->renderer->setIbl(*maps);
+    } else {
+        stage->renderer->setIbl(uniformIbl(glm::vec3(0.5f)));
+    }
+    return stage;
+}
+
+void drawFrames(benchmark::State& state, bool withIbl, int samples, bool overlays) {
+    const auto stage = makeStage(withIbl);
+    if (!stage) {
+        state.SkipWithError("no OpenGL 4.5");
+        return;
+    }
+    FrameSettings frame;
+    frame.width = 1280;
+    frame.height = 720;
+    frame.samples = samples;
+    frame.camera =
+        frameBounds(stage->document.view.camera, stage->document.bounds(), 1280.0f / 720.0f);
+    frame.showOverlays = overlays;
+    for (auto _ : state) {
+        if (!stage->renderer->render(frame, 0))
+            state.SkipWithError("rendering failed");
+        benchmark::DoNotOptimize(stage->renderer->pick(0, 0)); // waits for the frame
+    }
+    state.SetLabel(stage->context->info().renderer);
+}
+
+BENCHMARK_CAPTURE(drawFrames, uniform_light_1x, false, 1, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(drawFrames, ibl_1x, true, 1, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(drawFrames, ibl_4x, true, 4, false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(drawFrames, ibl_4x_overlays, true, 4, true)->Unit(benchmark::kMillisecond);
+
+} // namespace
+} // namespace patina::render
