@@ -1,0 +1,33 @@
+#include "core/bake/AoSettingsCheck.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace patina {
+
+Result<PassSettings> aoPassSettings(const AoSettings& settings) {
+    const Result<int> samples = roundSamples(settings.samples);
+    if (!samples)
+        return samples.error();
+    if (!std::isfinite(settings.maxDistance) || settings.maxDistance < 0.0f)
+        return Error{
+            ErrorKind::Usage,
+            fmt::format("The distance of ambient occlusion is 0 (unlimited) or a number of "
+                        "metres, not {}.",
+                        settings.maxDistance),
+            {},
+            {}};
+    PassSettings passes;
+    passes.samples = *samples;
+    passes.maxDistance = settings.maxDistance;
+    passes.seed = settings.seed;
+    return passes;
+}
+
+std::map<std::string, std::string> aoSettingsText(const AoSettings& settings, int samples) {
+    return {{"samples", std::to_string(samples)},
+            {"maxDistance", fmt::format("{}", settings.maxDistance)},
+            {"seed", std::to_string(settings.seed)}};
+}
+
+} // namespace patina

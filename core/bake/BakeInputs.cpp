@@ -1,0 +1,37 @@
+#include "core/bake/Bake.h"
+
+#include "core/document/Document.h"
+
+#include <map>
+
+namespace patina {
+
+BakeInputs bakeInputs(const Document& document) {
+    BakeInputs inputs;
+    for (const MeshInstance& instance : document.meshes) {
+        if (!instance.visible || !instance.mesh)
+            continue;
+        const Material* material = document.material(instance.material);
+        inputs.meshes.push_back({instance.id, instance.material, instance.mesh, instance.transform,
+                                 material != nullptr && material->doubleSided});
+    }
+    return inputs;
+}
+
+// Materials count by the order of their first use: which meshes share a texture matters, ids do
+// not, so that a scene opened again finds its bakes fresh.
+Hash hashBakeInputs(const BakeInputs& inputs) {
+    Hasher hasher;
+    std::map<Id, std::uint32_t> materials;
+    for (const BakeMesh& mesh : inputs.meshes) {
+        const auto next = static_cast<std::uint32_t>(materials.size());
+        hasher.value(materials.try_emplace(mesh.material, next).first->second);
+        hasher.value(mesh.mesh ? hashMesh(*mesh.mesh) : Hash{});
+        for (int column = 0; column < 4; ++column)
+            for (int row = 0; row < 4; ++row)
+                hasher.value(mesh.transform[column][row]);
+    }
+    return hasher.finish();
+}
+
+} // namespace patina

@@ -1,0 +1,101 @@
+// Ambient occlusion and radiance transfer per vertex.
+
+#include "core/bake/AoSettingsCheck.h"
+#include "core/bake/Bake.h"
+#include "core/bake/BakePoints.h"
+#include "core/bake/Passes.h"
+#include "core/bake/RayScene.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace patina {
+namespace {
+
+constexpr std::size_t kPointsPerRange = 64;
+
+// Everything the two vertex bakes share; `artifact` arrives with kind, order and settings.
+Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings settings,
+                                  BakeArtifact artifact, TileSink& sink, const JobContext& job) {
+    job.setActivity("preparing the scene");
+    const Result<BakeGeometry> geometry = makeBakeGeometry(inputs, job);
+    if (!geometry)
+        return geometry.error();
+    const Result<RayScene> scene = RayScene::build(*geometry, job);
+    if (!scene)
+        return scene.error();
+    settings.maxDistance *= static_cast<float>(geometry->unitsPerMetre);
+
+    const std::vector<BakePoint> points = vertexPoints(*geometry, job);
+    const std::vector<PointRange> ranges = vertexRanges(*geometry, kPointsPerRange);
+    std::vector<std::size_t> firstOfMesh; // and the end
+    for (const BakeGeometryMesh& mesh : geometry->meshes)
+        firstOfMesh.push_back((firstOfMesh.empty() ? 0 : firstOfMesh.back()) +
+                              mesh.positions.size());
+    firstOfMesh.insert(firstOfMesh.begin(), 0);
+
+    PassCallbacks callbacks;
+    callbacks.range = [&](const PointRange& range, std::span<const float> values) {
+        const auto next = std::upper_bound(firstOfMesh.begin(), firstOfMesh.end(), range.first);
+        const auto mesh = static_cast<std::size_t>(next - firstOfMesh.begin()) - 1;
+        sink.vertices(geometry->meshes[mesh].id, range.first - firstOfMesh[mesh], settings.stride(),
+                      values);
+    };
+    callbacks.passDone = [&](int samples) { sink.passDone(samples); };
+    Result<PassResult> passes = runPasses(*scene, points, ranges, settings, callbacks, job);
+    if (!passes)
+        return passes.error();
+
+    artifact.inputs = hashBakeInputs(inputs);
+    artifact.samplesDone = passes->samplesDone;
+    const auto stride = static_cast<std::size_t>(settings.stride());
+    for (std::size_t m = 0; m < geometry->meshes.size(); ++m) {
+        const auto values = passes->values.begin();
+        artifact.vertices.push_back(
+            {geometry->meshes[m].id, settings.stride(),
+             std::vector<float>(values + static_cast<std::ptrdiff_t>(firstOfMesh[m] * stride),
+                                values +
+                                    static_cast<std::ptrdiff_t>(firstOfMesh[m + 1] * stride))});
+    }
+    job.setProgress(1.0);
+    return artifact;
+}
+
+} // namespace
+
+Result<BakeArtifact> bakeAoVertex(const BakeInputs& inputs, const AoSettings& settings,
+                                  TileSink& sink, const JobContext& job) {
+    const Result<PassSettings> passes = aoPassSettings(settings);
+    if (!passes)
+        return passes.error();
+    BakeArtifact artifact;
+    artifact.kind = BakeKind::AoVertex;
+    artifact.settings = aoSettingsText(settings, passes->samples);
+    return bakeVertices(inputs, *passes, std::move(artifact), sink, job);
+}
+
+Result<BakeArtifact> bakePrtVertex(const BakeInputs& inputs, const PrtSettings& settings,
+                                   TileSink& sink, const JobContext& job) {
+    const Result<int> samples = roundSamples(settings.samples);
+    if (!samples)
+        return samples.error();
+    if (settings.order < 1 || settings.order > 5)
+        return Error{
+            ErrorKind::Usage,
+            fmt::format("The order of a radiance transfer bake is 1 to 5, not {}.", settings.order),
+            {},
+            {}};
+    PassSettings passes;
+    passes.samples = *samples;
+    passes.shOrder = settings.order;
+    passes.seed = settings.seed;
+    BakeArtifact artifact;
+    artifact.kind = BakeKind::PrtVertex;
+    artifact.order = settings.order;
+    artifact.settings = {{"samples", std::to_string(*samples)},
+                         {"order", std::to_string(settings.order)},
+                         {"seed", std::to_string(settings.seed)}};
+    return bakeVertices(inputs, passes, std::move(artifact), sink, job);
+}
+
+} // namespace patina

@@ -1,0 +1,179 @@
+#include "core/bake/RayScene.h"
+
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+#include <new>
+
+#if defined(__SSE2__)
+#include <pmmintrin.h>
+#include <xmmintrin.h>
+#endif
+
+namespace patina {
+
+static_assert(sizeof(OcclusionRay) == sizeof(RTCRay) && alignof(OcclusionRay) == alignof(RTCRay));
+static_assert(offsetof(OcclusionRay, minDistance) == offsetof(RTCRay, tnear));
+static_assert(offsetof(OcclusionRay, direction) == offsetof(RTCRay, dir_x));
+static_assert(offsetof(OcclusionRay, maxDistance) == offsetof(RTCRay, tfar));
+static_assert(offsetof(OcclusionRay, flags) == offsetof(RTCRay, flags));
+
+struct RayScene::Impl {
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+    std::size_t maxBytes = 0;
+    std::atomic<std::ptrdiff_t> bytes{0};
+    JobContext job;
+
+    Impl() = default;
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+    ~Impl() {
+        if (scene)
+            rtcReleaseScene(scene);
+        if (device)
+            rtcReleaseDevice(device);
+    }
+};
+
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// Below this many rays Embree's stream code costs more than it saves (measured).
+constexpr std::size_t kMinStream = 32;
+
+Error refused(const BakeGeometry& geometry, RTCDevice device) {
+    const RTCError code = device ? rtcGetDeviceError(device) : rtcGetDeviceError(nullptr);
+    return {
+        ErrorKind::Internal,
+        fmt::format("There is not enough memory to trace rays through {} triangles; close other "
+                    "programs or hide meshes, then bake again.",
+                    geometry.triangleCount()),
+        {},
+        fmt::format("Embree error {}", static_cast<int>(code))};
+}
+
+Error cancelledError() {
+    return {ErrorKind::Cancelled, "The bake was cancelled.", {}, {}};
+}
+
+// Coordinates are within 2 of the origin by construction; anything far outside is a fault.
+bool traceable(const OcclusionRay& ray) {
+    constexpr float kFar = 1e6f;
+    const auto within = [](const glm::vec3& v) {
+        return std::abs(v.x) < kFar && std::abs(v.y) < kFar && std::abs(v.z) < kFar; // NaN: false
+    };
+    return within(ray.origin) && within(ray.direction) &&
+           (ray.direction.x != 0.0f || ray.direction.y != 0.0f || ray.direction.z != 0.0f) &&
+           ray.minDistance >= 0.0f && ray.maxDistance >= 0.0f;
+}
+
+} // namespace
+
+RayScene::RayScene(std::unique_ptr<Impl> impl)
+    : m_impl(std::move(impl)) {}
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+RayScene::~RayScene() = default;
+
+Result<RayScene> RayScene::build(const BakeGeometry& geometry, const JobContext& job,
+                                 std::size_t maxBytes) {
+    auto impl = std::make_unique<Impl>();
+    impl->maxBytes = maxBytes;
+    impl->job = job;
+    impl->device = rtcNewDevice(nullptr);
+    if (!impl->device)
+        return refused(geometry, nullptr);
+    rtcSetDeviceMemoryMonitorFunction(
+        impl->device,
+        [](void* user, ssize_t bytes, bool) {
+            auto* self = static_cast<Impl*>(user);
+            const std::ptrdiff_t total = self->bytes.fetch_add(bytes) + bytes;
+            // Embree reports what it takes and what it gives back; only taking can be refused.
+            return bytes <= 0 || self->maxBytes == 0 ||
+                   total <= static_cast<std::ptrdiff_t>(self->maxBytes);
+        },
+        impl.get());
+    impl->scene = rtcNewScene(impl->device);
+    if (!impl->scene)
+        return refused(geometry, impl->device);
+    rtcSetSceneBuildQuality(impl->scene, RTC_BUILD_QUALITY_MEDIUM);
+    rtcSetSceneProgressMonitorFunction(
+        impl->scene, [](void* user, double) { return !static_cast<Impl*>(user)->job.cancelled(); },
+        impl.get());
+
+    for (const BakeGeometryMesh& mesh : geometry.meshes) {
+        RTCGeometry triangles = rtcNewGeometry(impl->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        if (!triangles)
+            return refused(geometry, impl->device);
+        rtcSetGeometryBuildQuality(triangles, RTC_BUILD_QUALITY_MEDIUM);
+        rtcSetSharedGeometryBuffer(triangles, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                   mesh.positions.data(), 0, sizeof(glm::vec3),
+                                   mesh.positions.size());
+        rtcSetSharedGeometryBuffer(triangles, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                   mesh.mesh->indices.data(), 0, 3 * sizeof(std::uint32_t),
+                                   mesh.mesh->triangleCount());
+        rtcCommitGeometry(triangles);
+        rtcAttachGeometry(impl->scene, triangles);
+        rtcReleaseGeometry(triangles);
+    }
+    rtcCommitScene(impl->scene);
+    if (job.cancelled())
+        return cancelledError();
+    const RTCError code = rtcGetDeviceError(impl->device);
+    if (code == RTC_ERROR_CANCELLED)
+        return cancelledError();
+    if (code != RTC_ERROR_NONE)
+        return Error{ErrorKind::Internal,
+                     refused(geometry, impl->device).message,
+                     {},
+                     fmt::format("Embree error {}", static_cast<int>(code))};
+    return RayScene(std::move(impl));
+}
+
+std::size_t RayScene::occlude(std::span<OcclusionRay> rays) const {
+    std::size_t leftOut = 0;
+    for (OcclusionRay& ray : rays) {
+        if (traceable(ray))
+            continue;
+        // A ray whose end lies before its start is valid for Embree and hits nothing.
+        ray = OcclusionRay{};
+        ray.maxDistance = -1.0f;
+        ++leftOut;
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    auto* embreeRays = reinterpret_cast<RTCRay*>(rays.data());
+    if (rays.size() >= kMinStream)
+        rtcOccluded1M(m_impl->scene, &context, embreeRays, static_cast<unsigned>(rays.size()),
+                      sizeof(RTCRay));
+    else
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            rtcOccluded1(m_impl->scene, &context, embreeRays + i);
+    return leftOut;
+}
+
+std::size_t RayScene::memoryBytes() const {
+    return static_cast<std::size_t>(std::max<std::ptrdiff_t>(m_impl->bytes.load(), 0));
+}
+
+#if defined(__SSE2__)
+FlushDenormals::FlushDenormals()
+    : m_previous(_mm_getcsr()) {
+    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+    _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+}
+FlushDenormals::~FlushDenormals() {
+    _mm_setcsr(m_previous);
+}
+#else
+FlushDenormals::FlushDenormals()
+    : m_previous(0) {}
+FlushDenormals::~FlushDenormals() = default;
+#endif
+
+} // namespace patina
