@@ -104,7 +104,11 @@ BakePoint pointOn(const BakeGeometryMesh& mesh, const SurfacePoint& at) {
     for (int i = 0; i < 3; ++i)
         lift -=
             weights[i] * std::min(glm::dot(position - corners[i], normals[i]), 0.0f) * normals[i];
-    return {position + lift + kRayOffset * face, normal};
+    // Off the edges: a point on the border of a wall would else lie in the wall next to it.
+    glm::vec3 inwards = (corners[0] + corners[1] + corners[2]) / 3.0f - position;
+    if (const float length = glm::length(inwards); length > kRayOffset)
+        inwards *= kRayOffset / length;
+    return {position + lift + inwards + kRayOffset * face, normal};
 }
 
 // What is known about every texel while triangles are drawn.

@@ -1,0 +1,164 @@
+#include "core/bake/GutterFill.h"
+#include "core/mesh/UvUnwrap.h"
+#include "tests/core/bake/BakeTestScene.h"
+
+#include <gtest/gtest.h>
+#include <set>
+
+using namespace patina;
+using namespace patina::test;
+
+namespace {
+
+// A square floor of side 2 whose UVs run from 0 to `repeats`.
+Mesh uvFloor(float repeats = 1.0f) {
+    Mesh mesh = planeMesh(1.0, 4);
+    for (const glm::vec3& p : mesh.positions)
+        mesh.uvs.push_back(repeats * glm::vec2(0.5f * (p.x + 1), 0.5f * (p.z + 1)));
+    return mesh;
+}
+
+BakeArtifact texelAo(const BakeInputs& inputs, int size, int samples, TileSink& sink) {
+    AoSettings settings;
+    settings.size = size;
+    settings.samples = samples;
+    Result<BakeArtifact> artifact = bakeAoTexel(inputs, settings, sink, {});
+    EXPECT_TRUE(artifact.ok());
+    return artifact ? std::move(*artifact) : BakeArtifact{};
+}
+
+} // namespace
+
+// AO = 1 - r³ / (x² + r²)^1.5 around the foot of a resting sphere.
+TEST(TexelBake, FloorUnderASphereIsExactPerTexel) {
+    BakeInputs inputs = sceneOf({uvFloor(), sphereMesh(0.4, 96, 48, {0, 0.4, 0})});
+    inputs.meshes[1].material = 2;
+    TileSink sink;
+    constexpr int kSize = 48;
+    const BakeArtifact artifact = texelAo(inputs, kSize, 1024, sink);
+    ASSERT_EQ(artifact.texels.size(), 2u);
+    EXPECT_EQ(artifact.texels[0].material, 1u);
+    EXPECT_EQ(artifact.texels[1].material, 2u);
+    EXPECT_FALSE(artifact.settings.contains("note"));
+    const Image& image = *artifact.texels[0].image;
+    ASSERT_EQ(image.width(), kSize);
+    EXPECT_EQ(image.channels(), 1);
+    EXPECT_EQ(image.encoding(), ColorEncoding::Data);
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x) {
+            const double px = 2 * (x + 0.5) / kSize - 1, pz = 2 * (y + 0.5) / kSize - 1;
+            const double expected =
+                1.0 - std::pow(0.4, 3.0) / std::pow(px * px + pz * pz + 0.16, 1.5);
+            ASSERT_NEAR(image.sample(x, y, 0), expected, 0.02) << x << ' ' << y;
+        }
+}
+
+TEST(TexelBake, CoarseSmoothMeshesDoNotShadowThemselves) {
+    TileSink sink;
+    const BakeArtifact artifact = texelAo(sceneOf({sphereMesh(1.0, 12, 8)}), 128, 64, sink);
+    const std::span<const float> values = artifact.texels.at(0).image->f32();
+    EXPECT_GT(*std::min_element(values.begin(), values.end()), 0.97f);
+}
+
+TEST(TexelBake, ClosedRoomsAreDarkAlsoAlongTheirEdges) {
+    // Inside a closed room everything is dark, also along its edges and in the gutters.
+    Mesh room = cubeMesh();
+    for (std::size_t i = 0; i < room.indices.size(); i += 3)
+        std::swap(room.indices[i + 1], room.indices[i + 2]);
+    TileSink sink;
+    const BakeArtifact artifact = texelAo(sceneOf({room}), 64, 64, sink);
+    for (const float value : artifact.texels.at(0).image->f32())
+        ASSERT_LT(value, 0.02f);
+}
+
+TEST(TexelBake, SinkGetsEveryBakedTexelAndTheImageAgrees) {
+    const BakeInputs inputs = sceneOf({torusMesh(1.0, 0.4, 32, 16)});
+    Recorder recorder;
+    const BakeArtifact artifact = texelAo(inputs, 64, 64, recorder);
+    EXPECT_EQ(recorder.m_passes, (std::vector<int>{32, 64}));
+    const Image& image = *artifact.texels.at(0).image;
+    const std::map<int, float>& sent = recorder.m_texels.at(1);
+    EXPECT_GT(sent.size(), 64u * 64u / 4u);
+    EXPECT_LT(sent.size(), 64u * 64u);
+    for (const auto& [texel, value] : sent)
+        EXPECT_EQ(image.sample(texel % 64, texel / 64, 0), value);
+    for (const float value : image.f32()) { // gutters are filled with something like the surface
+        EXPECT_GE(value, 0.3f);
+        EXPECT_LE(value, 1.0f);
+    }
+}
+
+TEST(TexelBake, OverlappingUvsGiveTheMeanAndANote) {
+    // Two floors share one UV square: one is open, the other lies under a lid.
+    BakeInputs inputs = sceneOf({uvFloor(), uvFloor(), planeMesh(50.0)});
+    inputs.meshes[1].transform = glm::translate(glm::mat4(1.0f), {0, -10, 0});
+    inputs.meshes[2].transform = glm::translate(glm::mat4(1.0f), {0, -9.99f, 0});
+    inputs.meshes[2].material = 2;
+    TileSink sink;
+    const BakeArtifact artifact = texelAo(inputs, 32, 32, sink);
+    ASSERT_TRUE(artifact.settings.contains("note"));
+    EXPECT_NE(artifact.settings.at("note").find("overlap"), std::string::npos);
+    EXPECT_NEAR(artifact.texels.at(0).image->sample(16, 16, 0), 0.5f, 0.01f);
+    EXPECT_NEAR(artifact.texels.at(0).image->sample(2, 29, 0), 0.5f, 0.01f);
+}
+
+TEST(TexelBake, TiledAndAbsurdUvsAreBoundedAndNoted) {
+    TileSink sink;
+    const BakeArtifact tiled = texelAo(sceneOf({uvFloor(8.0f)}), 32, 32, sink);
+    EXPECT_TRUE(tiled.settings.contains("note"));
+    for (const float value : tiled.texels.at(0).image->f32())
+        EXPECT_EQ(value, 1.0f);
+    const BakeArtifact absurd = texelAo(sceneOf({uvFloor(1e7f)}), 32, 32, sink);
+    ASSERT_TRUE(absurd.settings.contains("note"));
+    EXPECT_NE(absurd.settings.at("note").find("32 triangles"), std::string::npos);
+    for (const float value : absurd.texels.at(0).image->f32())
+        EXPECT_EQ(value, 1.0f);
+}
+
+TEST(TexelBake, OtherTilesOfTheImageAreTheSameTexels) {
+    Mesh shifted = uvFloor();
+    for (glm::vec2& uv : shifted.uvs)
+        uv += glm::vec2(3.0f, -2.0f);
+    TileSink sink;
+    const Mesh lid = planeMesh(0.3, 1, 0.2);
+    BakeInputs a = sceneOf({uvFloor(), lid}), b = sceneOf({shifted, lid});
+    a.meshes[1].material = b.meshes[1].material = 2;
+    const BakeArtifact one = texelAo(a, 32, 64, sink), other = texelAo(b, 32, 64, sink);
+    EXPECT_EQ(one.texels[0].image->f32()[16 * 32 + 16], other.texels[0].image->f32()[16 * 32 + 16]);
+    EXPECT_FALSE(other.settings.contains("note"));
+}
+
+TEST(TexelBake, TinyTrianglesGetTheirTexelToo) {
+    // All UVs within one texel that covers no centre: the nearest point stands for it.
+    Mesh mesh = uvFloor();
+    for (glm::vec2& uv : mesh.uvs)
+        uv = glm::vec2(5.1f / 16, 7.1f / 16) + uv * 1e-4f;
+    Recorder recorder;
+    (void)texelAo(sceneOf({mesh}), 16, 32, recorder);
+    EXPECT_TRUE(recorder.m_texels.at(1).contains(7 * 16 + 5));
+}
+
+TEST(FillGutters, KeepsKnownValuesAndFillsFromTheNearest) {
+    constexpr int kSide = 37;
+    std::vector<float> values(kSide * kSide, -1.0f);
+    std::vector<std::uint8_t> known(values.size(), 0);
+    for (int y = 10; y < 14; ++y)
+        for (int x = 10; x < 14; ++x) {
+            values[std::size_t(y * kSide + x)] = 0.25f;
+            known[std::size_t(y * kSide + x)] = 1;
+        }
+    values[30 * kSide + 30] = 0.75f;
+    known[30 * kSide + 30] = 1;
+    fillGutters(values, known, kSide, 0.0f);
+    EXPECT_EQ(values[12 * kSide + 12], 0.25f);
+    EXPECT_EQ(values[30 * kSide + 30], 0.75f);
+    EXPECT_EQ(values[12 * kSide + 16], 0.25f);
+    EXPECT_EQ(values[31 * kSide + 31], 0.75f);
+    for (const float value : values) {
+        EXPECT_GE(value, 0.25f);
+        EXPECT_LE(value, 0.75f);
+    }
+    std::vector<float> nothing(9, -1.0f);
+    fillGutters(nothing, std::vector<std::uint8_t>(9, 0), 3, 1.0f);
+    EXPECT_EQ(nothing, std::vector<float>(9, 1.0f));
+}
