@@ -66,16 +66,20 @@ void runChild(const protocol::Request& request, std::vector<FileDescriptor> desc
     ::dup2(log.get(), STDOUT_FILENO);
     ::dup2(log.get(), STDERR_FILENO);
     try {
-        if (const std::string failure = confine(request.memoryBytes, request.cpuSeconds);
+        // The header is the client's own; what is to be distrusted is the payload.
+        const auto text = MemoryFile::open(std::move(descriptors[1]), request.headerSize);
+        if (!text)
+            ::_exit(2);
+        const json header = json::parse(text->text());
+        const bool encodes = header.at("op") == "encodeImage";
+        if (const std::string failure = confine(request.memoryBytes, request.cpuSeconds,
+                                                encodes ? Files::Writable : Files::ReadOnly);
             !failure.empty()) {
             refuse(socket.get(), "the sandbox for reading files cannot be set up on this system",
                    failure, true);
             ::_exit(0);
         }
-        const auto header = MemoryFile::open(std::move(descriptors[1]), request.headerSize);
-        if (!header)
-            ::_exit(2);
-        codec::Reply reply = dispatch(json::parse(header->text()), request, descriptors[3]);
+        codec::Reply reply = dispatch(header, request, descriptors[3]);
         answer(socket.get(), protocol::Event::Answered, reply.header, std::move(reply.payload));
     } catch (const codec::Refusal& refusal) {
         refuse(socket.get(), refusal.what(), refusal.detail);

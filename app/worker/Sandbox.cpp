@@ -144,7 +144,7 @@ class Filter {
     Filter& operator=(const Filter&) = delete;
 
     // What failed, or nothing.
-    std::string load();
+    std::string load(Files files);
 
   private:
     template <class... Conditions>
@@ -166,13 +166,14 @@ bool Filter::forbidWriting(int call, unsigned flagsArgument) {
            with(O_TRUNC, O_TRUNC);
 }
 
-std::string Filter::load() {
+std::string Filter::load(Files files) {
     if (m_context == nullptr)
         return "seccomp_init";
     for (const int call : kForbidden)
         if (!forbid(call))
             return "seccomp rule " + std::to_string(call);
-    if (!forbidWriting(SCMP_SYS(open), 1) || !forbidWriting(SCMP_SYS(openat), 2))
+    if (files == Files::ReadOnly &&
+        (!forbidWriting(SCMP_SYS(open), 1) || !forbidWriting(SCMP_SYS(openat), 2)))
         return "seccomp rule for open";
 
     // Threads are allowed, processes are not. clone3 hides its flags in memory: without it the C
@@ -190,7 +191,7 @@ std::string Filter::load() {
 
 } // namespace
 
-std::string confine(std::uint64_t memoryBytes, double cpuSeconds) {
+std::string confine(std::uint64_t memoryBytes, double cpuSeconds, Files files) {
     // One second after the soft limit's SIGXCPU, which names the cause, the kernel kills.
     const auto seconds = static_cast<rlim_t>(std::max(1.0, std::ceil(cpuSeconds)));
     if (!limit(RLIMIT_CORE, 0, 0) || !limit(RLIMIT_CPU, seconds, seconds + 1) ||
@@ -199,7 +200,7 @@ std::string confine(std::uint64_t memoryBytes, double cpuSeconds) {
         return std::string("setrlimit: ") + std::strerror(errno);
     if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
         return std::string("prctl: ") + std::strerror(errno);
-    return Filter().load();
+    return Filter().load(files);
 }
 
 } // namespace patina::worker

@@ -6,9 +6,14 @@
 
 namespace patina::worker {
 
+enum class Files {
+    ReadOnly, // for decoding what somebody else has made
+    Writable  // for encoding our own pixels: OpenEXR opens its memory file by name
+};
+
 // Limits memory, processor time, file size and core dumps, and forbids (seccomp) sockets, other
-// programs, other processes, and opening or changing files for writing. Returns what failed, or
-// nothing.
-std::string confine(std::uint64_t memoryBytes, double cpuSeconds);
+// programs, other processes, changing the file system and, when `ReadOnly`, opening files for
+// writing. Returns what failed, or nothing.
+std::string confine(std::uint64_t memoryBytes, double cpuSeconds, Files files);
 
 } // namespace patina::worker

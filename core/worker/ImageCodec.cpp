@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
@@ -56,6 +57,10 @@ Sample sampleNamed(const std::string& name) {
     return {"f32", OIIO::TypeDesc::FLOAT, 4};
 }
 
+// All parts of an OpenEXR file share one display window. Parts of different sizes are marked with
+// this attribute: each has its data window's size.
+constexpr const char* kOwnSize = "patina:size";
+
 // The picture as it is to be shown: the display window where it differs from the data window.
 struct Frame {
     int width = 0, height = 0;
@@ -65,6 +70,8 @@ struct Frame {
 
 Frame frameOf(const OIIO::ImageSpec& spec) {
     Frame frame{spec.width, spec.height, 0, 0, false};
+    if (!spec.get_string_attribute(kOwnSize).empty())
+        return frame;
     if (spec.full_width > 0 && spec.full_height > 0 &&
         (spec.full_width != spec.width || spec.full_height != spec.height ||
          spec.full_x != spec.x || spec.full_y != spec.y)) {
@@ -104,7 +111,7 @@ json attributesOf(const OIIO::ImageSpec& spec) {
         const std::string name = attribute.name().string();
         const bool storage = name.starts_with("oiio:") || name.starts_with("openexr:") ||
                              name == "name" || name == "compression" || name == "textureformat" ||
-                             name == "wrapmodes" || name == "ICCProfile";
+                             name == "wrapmodes" || name == "ICCProfile" || name == kOwnSize;
         if (!storage && attribute.type() == OIIO::TypeDesc::STRING)
             result[name] = attribute.get_string();
     }
@@ -160,9 +167,10 @@ void requireJpegEnd(int fd) {
                   "jpeg: no end-of-image marker");
 }
 
+// The first line of what the library says: some repeat themselves for each row.
 std::string libraryText(const std::string& format, std::string error) {
-    while (!error.empty() && (error.back() == '\n' || error.back() == ' '))
-        error.pop_back();
+    constexpr std::size_t kLongest = 300;
+    error.resize(std::min({error.size(), error.find('\n'), kLongest}));
     return error.empty() ? format : format + ": " + error;
 }
 
@@ -175,21 +183,23 @@ struct PartLayout {
 
 void readPart(OIIO::ImageInput& input, const std::string& format, int index, const PartLayout& part,
               std::span<std::byte> target) {
-    const auto refuse = [&] {
-        throw Refusal("the file is damaged or cut short; save or download it again",
-                      libraryText(format, input.geterror()));
+    // OpenImageIO 2.4 says of a TIFF with missing strips that it was read, but keeps the error.
+    const auto read = [&](std::byte* pixels) {
+        const bool ok =
+            input.read_image(index, 0, 0, part.spec.nchannels, part.sample.type, pixels);
+        if (!ok || input.has_error())
+            throw Refusal("the file is damaged or cut short; save or download it again",
+                          libraryText(format, input.geterror()));
     };
     const std::size_t pixelSize = static_cast<std::size_t>(part.spec.nchannels) * part.sample.size;
     if (!part.frame.cropped) {
-        if (!input.read_image(index, 0, 0, part.spec.nchannels, part.sample.type, target.data()))
-            refuse();
+        read(target.data());
         return;
     }
     checkSize(part.spec.width, part.spec.height, part.spec.nchannels, part.sample.size);
     std::vector<std::byte> data(static_cast<std::size_t>(part.spec.width) *
                                 static_cast<std::size_t>(part.spec.height) * pixelSize);
-    if (!input.read_image(index, 0, 0, part.spec.nchannels, part.sample.type, data.data()))
-        refuse();
+    read(data.data());
     const long long left = std::max(0, part.frame.left);
     const long long right = std::min<long long>(
         part.frame.width, static_cast<long long>(part.frame.left) + part.spec.width);
@@ -203,6 +213,24 @@ void readPart(OIIO::ImageInput& input, const std::string& format, int index, con
             static_cast<std::size_t>(static_cast<long long>(y) * part.frame.width + left);
         std::memcpy(target.data() + to * pixelSize, data.data() + from * pixelSize,
                     static_cast<std::size_t>(right - left) * pixelSize);
+    }
+}
+
+void shareDisplayWindow(std::vector<OIIO::ImageSpec>& specs) {
+    int width = 0;
+    int height = 0;
+    bool differ = false;
+    for (const OIIO::ImageSpec& spec : specs) {
+        differ = differ || spec.width != specs[0].width || spec.height != specs[0].height;
+        width = std::max(width, spec.width);
+        height = std::max(height, spec.height);
+    }
+    if (!differ)
+        return;
+    for (OIIO::ImageSpec& spec : specs) {
+        spec.full_width = width;
+        spec.full_height = height;
+        spec.attribute(kOwnSize, "data window");
     }
 }
 
@@ -307,6 +335,7 @@ Reply encodeImage(const json& request, std::span<const std::byte> payload) {
         if (!part.at("channelNames").empty())
             spec.channelnames = part.at("channelNames").get<std::vector<std::string>>();
         spec.attribute("oiio:UnassociatedAlpha", 1);
+        spec.attribute("DateTime", ""); // or the time of writing: the same picture, other bytes
         if (part.at("srgb").get<bool>())
             spec.attribute("oiio:ColorSpace", "sRGB");
         if (format == "openexr") {
@@ -328,13 +357,24 @@ Reply encodeImage(const json& request, std::span<const std::byte> payload) {
         samples.push_back(sample);
     }
 
+    shareDisplayWindow(specs);
+
     auto output = OIIO::ImageOutput::create(format);
     if (!output)
         throw Refusal("this image format cannot be written", OIIO::geterror());
+    // OpenImageIO writes into memory, except OpenEXR files of several parts: those it opens by name
+    // only, which here is the name of a memory file.
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput proxy(bytes);
-    output->set_ioproxy(&proxy);
-    const std::string name = "memory." + format;
+    const bool byName = specs.size() > 1;
+    FileDescriptor named;
+    std::string name = "memory." + format;
+    if (byName) {
+        named = FileDescriptor(::memfd_create("patina-exr", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+        name = fmt::format("/proc/self/fd/{}", named.get());
+    } else {
+        output->set_ioproxy(&proxy);
+    }
     const auto check = [&](bool ok) {
         if (!ok)
             throw Refusal("the image cannot be encoded", libraryText(format, output->geterror()));
@@ -359,6 +399,17 @@ Reply encodeImage(const json& request, std::span<const std::byte> payload) {
 
     Reply reply;
     reply.header = "{}";
+    if (byName) {
+        struct stat status {};
+        if (::fstat(named.get(), &status) != 0)
+            throw std::bad_alloc();
+        auto file =
+            MemoryFile::open(std::move(named), static_cast<std::size_t>(status.st_size), false);
+        if (!file)
+            throw std::bad_alloc();
+        reply.payload = std::move(*file);
+        return reply;
+    }
     reply.payload = allocate(bytes.size());
     if (!bytes.empty())
         std::memcpy(reply.payload.writable().data(), bytes.data(), bytes.size());

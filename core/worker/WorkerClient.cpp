@@ -34,7 +34,7 @@ Error died(const std::filesystem::path& file, std::string cause, std::string det
 
 Error timedOut(const std::filesystem::path& file, double seconds, std::string detail) {
     return died(file,
-                fmt::format("reading the file took longer than {:g} seconds and was given up; it "
+                fmt::format("reading the file took longer than {:g} s and was given up; it "
                             "is damaged or too large",
                             seconds),
                 std::move(detail));
