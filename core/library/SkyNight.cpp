@@ -37,6 +37,32 @@ glm::vec3 windowColor(std::uint32_t h) {
     return colors[h & 3u];
 }
 
+void addGlow(SkyCanvas& canvas, const glm::vec3& center, const glm::vec3& radiance) {
+    forRows(kSkyHeight, [&](int y) {
+        for (int x = 0; x < kSkyWidth; ++x) {
+            const float cosine = glm::dot(canvas.direction(x, y), center);
+            if (cosine < 0.97f) // 14°
+                continue;
+            // 1 - cos is half the angle's square: a tail that falls with the square and ends
+            // softly.
+            const float t = (1.0f - cosine) / 0.03f;
+            const float fall = (1.0f - t) * (1.0f - t) / (1.0f + 90.0f * t);
+            canvas.pixel(x, y) += radiance * fall;
+        }
+    });
+}
+
+// A few hundred dim stars, each less than a texel wide.
+void addStars(SkyCanvas& canvas) {
+    for (std::uint32_t i = 0; i < 420; ++i) {
+        const std::uint32_t h = hashInt(i, 11u, 225u);
+        const double elevation = 8.0 + 76.0 * hashToFloat(hashInt(h));
+        const float rank = hashToFloat(hashInt(h ^ 21u));
+        canvas.addDisc(glm::vec3(directionFromAngles(360.0 * hashToFloat(h), elevation)), 0.12,
+                       glm::vec3(0.85f, 0.92f, 1.0f) * (0.04f + 0.30f * rank * rank * rank * rank));
+    }
+}
+
 } // namespace
 
 ImagePtr nightSky(double whiteFacingUp) {
@@ -77,17 +103,21 @@ ImagePtr nightSky(double whiteFacingUp) {
         glm::vec3 radiance;
     };
     const glm::vec3 sodium(1.0f, 0.48f, 0.11f), white(1.0f, 0.93f, 0.82f), cyan(0.08f, 0.75f, 1.0f);
-    const glm::vec3 magenta(1.0f, 0.06f, 0.48f), green(0.12f, 1.0f, 0.36f),
-        blue(0.12f, 0.24f, 1.0f);
+    const glm::vec3 moon(0.90f, 0.95f, 1.0f), magenta(1.0f, 0.06f, 0.48f),
+        green(0.12f, 1.0f, 0.36f), blue(0.12f, 0.24f, 1.0f);
     std::vector<Lamp> lamps = {
-        // Above the camera's left shoulder a lit sign and the moon; strong lamps around.
-        {-30.0, 26.0, 0.96, white * 48.4f},   {-62.0, 12.0, 1.44, cyan * 24.2f},
-        {-70.0, 8.0, 0.84, magenta * 35.2f},  {118.0, 14.0, 1.32, magenta * 24.2f},
-        {100.0, 30.0, 0.72, sodium * 66.0f},  {62.0, 20.0, 0.66, sodium * 74.8f},
-        {8.0, 34.0, 0.60, white * 88.0f},     {160.0, 24.0, 0.66, sodium * 70.4f},
-        {-118.0, 22.0, 0.72, sodium * 66.0f}, {-150.0, 10.0, 1.08, blue * 48.4f},
-        {-100.0, 6.0, 0.72, green * 19.8f},   {80.0, 7.0, 0.78, cyan * 19.8f},
+        // The moon stands behind the camera's left shoulder; lamps and signs all around.
+        {-24.0, 47.0, 0.80, moon * 52.0f},    {-62.0, 13.0, 1.40, cyan * 24.0f},
+        {-72.0, 9.0, 0.85, magenta * 35.0f},  {118.0, 14.0, 1.30, magenta * 24.0f},
+        {100.0, 18.0, 0.70, sodium * 66.0f},  {62.0, 15.0, 0.66, sodium * 75.0f},
+        {8.0, 20.0, 0.60, white * 88.0f},     {160.0, 15.0, 0.66, sodium * 70.0f},
+        {-118.0, 14.0, 0.72, sodium * 66.0f}, {-150.0, 10.0, 1.10, blue * 48.0f},
+        {-100.0, 7.0, 0.72, green * 20.0f},   {80.0, 8.0, 0.78, cyan * 20.0f},
     };
+    // Damp air spreads a little of each strong light around it.
+    for (const Lamp& lamp : lamps)
+        addGlow(canvas, glm::vec3(directionFromAngles(lamp.azimuthDeg, lamp.elevationDeg)),
+                lamp.radiance * static_cast<float>(lamp.radiusDeg * lamp.radiusDeg * 0.010));
     for (std::uint32_t i = 0; i < 44; ++i) { // distant street lamps
         const std::uint32_t h = hashInt(i, 3u, 224u);
         const glm::vec3 colors[4] = {sodium, sodium, white, i % 3 == 0 ? green : cyan};
@@ -98,6 +128,7 @@ ImagePtr nightSky(double whiteFacingUp) {
         canvas.addDisc(directionFromAngles(lamp.azimuthDeg, lamp.elevationDeg), lamp.radiusDeg,
                        lamp.radiance);
 
+    addStars(canvas);
     canvas.expose(whiteFacingUp);
     return canvas.finish();
 }
