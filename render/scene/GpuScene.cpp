@@ -48,16 +48,17 @@ void GpuScene::update(const Document& document, const Change& change) {
     m_document = document;
     const auto touched = [&](Affects part) { return touches(change.affects, part); };
 
-    // One number of one material is the change of a dragged slider: nothing else is looked at.
-    if (change.affects == Affects::Uniform && change.target &&
-        change.target->scope == Scope::Material) {
+    // One number is the change of a dragged slider: nothing else is looked at. Those of the view,
+    // the lights and the environment are read anew for each frame.
+    if (change.affects == Affects::Uniform && change.target) {
+        const Scope scope = change.target->scope;
+        if (scope == Scope::View || scope == Scope::Light || scope == Scope::Environment)
+            return;
         const Material* material = m_document.material(change.target->id);
         const auto known = m_materials.find(change.target->id);
-        if (material && known != m_materials.end()) {
-            const unsigned before = known->second.features;
+        if (scope == Scope::Material && material && known != m_materials.end()) {
             updateGpuMaterial(m_context, m_textures, *material, known->second);
-            if (before == known->second.features)
-                return;
+            return;
         }
     }
 

@@ -1,0 +1,180 @@
+// What reaches the GPU, and how it reads there.
+#include "render/scene/GpuScene.h"
+#include "render/scene/DrawList.h"
+#include "tests/render/RenderTest.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace patina::render {
+namespace {
+
+TEST(DrawListTest, BoxesOutsideTheViewAreLeftOut) {
+    Camera camera;
+    camera.yawDeg = 0.0f;
+    camera.pitchDeg = 0.0f;
+    camera.distance = 10.0f;
+    camera.fovDeg = 40.0f;
+    Bounds scene{glm::vec3(-20.0f), glm::vec3(20.0f)};
+    const glm::mat4 worldToClip = camera.projectionMatrix(1.5f, scene) * camera.viewMatrix();
+    const auto inside = [&](const glm::vec3& center, float half) {
+        return insideFrustum({center - half, center + half}, worldToClip);
+    };
+    EXPECT_TRUE(inside({0, 0, 0}, 1.0f));
+    EXPECT_TRUE(inside({0, 0, 0}, 100.0f)) << "the camera is inside the box";
+    EXPECT_FALSE(inside({0, 0, 14}, 1.0f)) << "behind the camera";
+    // At distance 10 the picture is 2 · 10 · tan(20°) = 7.28 high and 10.92 wide.
+    EXPECT_FALSE(inside({7.5f, 0, 0}, 1.0f));
+    EXPECT_TRUE(inside({6.0f, 0, 0}, 1.0f)) << "reaches in";
+    EXPECT_FALSE(inside({0, -5.5f, 0}, 1.0f));
+    EXPECT_TRUE(inside({0, 4.5f, 0}, 1.0f));
+    EXPECT_FALSE(inside({-7.5f, 0, 0}, 1.0f));
+    EXPECT_FALSE(inside({0, 5.5f, 0}, 1.0f));
+}
+
+TEST(DrawListTest, OpaqueFromTheFrontBlendedFromTheBack) {
+    GpuMaterial opaque, blended;
+    blended.alphaMode = AlphaMode::Blend;
+    std::vector<DrawItem> items;
+    for (const float z : {-2.0f, 3.0f, 0.0f}) {
+        for (const GpuMaterial* material : {&opaque, &blended}) {
+            DrawItem item;
+            item.id = static_cast<Id>(items.size() + 1);
+            item.material = material;
+            item.bounds = {glm::vec3(-0.1f, -0.1f, z), glm::vec3(0.1f, 0.1f, z)};
+            items.push_back(item);
+        }
+    }
+    const glm::mat4 projection = glm::perspective(1.0f, 1.0f, 0.1f, 100.0f);
+    const glm::vec3 eye(0, 0, 10);
+    const DrawList list =
+        makeDrawList(items, projection * glm::translate(glm::mat4(1.0f), -eye), eye);
+    const auto ids = [](const std::vector<const DrawItem*>& drawn) {
+        std::vector<Id> result;
+        for (const DrawItem* item : drawn)
+            result.push_back(item->id);
+        return result;
+    };
+    EXPECT_EQ(ids(list.opaque), (std::vector<Id>{3, 5, 1}));
+    EXPECT_EQ(ids(list.blended), (std::vector<Id>{2, 6, 4}));
+}
+
+TEST(MaterialPacking, SharedImagesAreFetchedOnce) {
+    const ImagePtr orm =
+        makeImage(1, 1, 3, PixelType::U8, ColorEncoding::Data, [](int, int, int) { return 0.5f; });
+    Material m;
+    m.metallicMap.image = m.perceptualRoughnessMap.image = m.occlusionMap.image = orm;
+    EXPECT_TRUE(materialFeatures(m) & RoughnessIsPacked);
+    EXPECT_TRUE(materialFeatures(m) & OcclusionIsPacked);
+    m.perceptualRoughnessMap.uvScale.x = 2.0f;
+    EXPECT_FALSE(materialFeatures(m) & RoughnessIsPacked) << "another place in the same image";
+    m.occlusionMap.image =
+        makeImage(1, 1, 3, PixelType::U8, ColorEncoding::Data, [](int, int, int) { return 0.5f; });
+    EXPECT_FALSE(materialFeatures(m) & OcclusionIsPacked) << "another image of the same content";
+}
+
+class GpuSceneTest : public gl::GlTest {};
+
+TEST_F(GpuSceneTest, UploadsEachPayloadOnceAndDropsWhatIsUnused) {
+    GpuScene scene(context());
+    Document document = makeScene(makeSphere(8));
+    document.meshes.push_back(document.meshes[0]);
+    document.meshes.back().id = 9;
+    Material& m = document.materials[0];
+    m.baseColorMap.image = m.emissiveMap.image =
+        makeImage(4, 4, 3, PixelType::U8, ColorEncoding::Srgb, [](int, int, int) { return 0.5f; });
+    scene.update(document, Change::everything());
+    EXPECT_EQ(scene.items().size(), 2u);
+    EXPECT_EQ(scene.meshCount(), 1u);
+    EXPECT_EQ(scene.textureCount(), 1u);
+    const unsigned buffer = scene.items()[0].mesh->vertices.id();
+
+    m.normalMap.image =
+        makeImage(4, 4, 3, PixelType::U8, ColorEncoding::Data, [](int, int, int) { return 0.5f; });
+    scene.update(document, {Affects::Texture, Target{Scope::Material, 2}});
+    EXPECT_EQ(scene.textureCount(), 2u);
+    EXPECT_EQ(scene.items()[0].mesh->vertices.id(), buffer) << "the mesh was not touched";
+
+    m = Material{};
+    m.id = 2;
+    scene.update(document, {Affects::Texture, Target{Scope::Material, 2}});
+    EXPECT_EQ(scene.textureCount(), 0u);
+
+    // A material that is not there, a mesh that was not resolved: shown, and left out.
+    document.meshes[0].material = 77;
+    document.meshes[1].mesh = nullptr;
+    scene.update(document, Change::everything());
+    ASSERT_EQ(scene.items().size(), 1u);
+    EXPECT_EQ(scene.items()[0].material->values.baseColor, glm::vec4(Material{}.baseColor, 1.0f));
+
+    document.meshes.clear();
+    scene.update(document, Change::everything());
+    EXPECT_EQ(scene.meshCount(), 0u);
+    EXPECT_TRUE(scene.bounds().empty());
+}
+
+TEST_F(GpuSceneTest, HalfFloatsAreLimitedAndCounted) {
+    EnvironmentLight light(context());
+    EXPECT_EQ(light.clampedTexels(), 0u);
+    light.setIbl(uniformIbl(glm::vec3(1.0f, 70'000.0f, 2.0f)));
+    EXPECT_EQ(light.clampedTexels(), 6u);
+    light.setIbl(uniformIbl(glm::vec3(65'504.0f)));
+    EXPECT_EQ(light.clampedTexels(), 0u);
+}
+
+// Every kind of image reads in the shader as Image::linear() says.
+using Formats = RenderTest;
+
+TEST_F(Formats, EveryImageReadsAsItsLinearValue) {
+    Document document = makeScene(makePlane());
+    document.view.camera = cameraAbove();
+    Material& m = document.materials[0];
+    m.baseColor = glm::vec3(0.0f);
+    m.perceptualRoughness = 1.0f;
+    m.emissive = glm::vec3(1.0f);
+    const float values[6] = {0.2f, 0.5f, 0.8f, 0.6f, 0.1f, 0.9f};
+    for (const PixelType type : {PixelType::U8, PixelType::U16, PixelType::F32})
+        for (const ColorEncoding encoding :
+             {ColorEncoding::Linear, ColorEncoding::Srgb, ColorEncoding::Data})
+            for (const int channels : {1, 2, 3, 4, 6}) {
+                if (type == PixelType::F32 && encoding == ColorEncoding::Srgb)
+                    continue; // floating-point images are never encoded
+                SCOPED_TRACE(fmt::format("type {} encoding {} channels {}", static_cast<int>(type),
+                                         static_cast<int>(encoding), channels));
+                m.emissiveMap.image = makeImage(3, 5, channels, type, encoding,
+                                                [&](int, int, int c) { return values[c]; });
+                const glm::vec3 seen(centerPixel(draw(document, 8)));
+                // Beyond four channels (bake files) the first three are shown as a colour.
+                glm::vec4 expected;
+                if (channels <= 4)
+                    expected = m.emissiveMap.image->linear(1, 1);
+                else
+                    expected = makeImage(1, 1, 4, type, encoding, [&](int, int, int c) {
+                                   return values[c];
+                               })->linear(0, 0);
+                for (int c = 0; c < 3; ++c)
+                    EXPECT_NEAR(seen[c], expected[c], 2e-3f) << "channel " << c;
+            }
+}
+
+TEST_F(Formats, EveryChannelCanBeChosen) {
+    Document document = makeScene(makePlane());
+    document.view.camera = cameraAbove();
+    Material& m = document.materials[0];
+    m.baseColor = glm::vec3(0.0f);
+    m.emissive = glm::vec3(1.0f);
+    m.emissiveMap.image =
+        makeImage(2, 2, 4, PixelType::U8, ColorEncoding::Data,
+                  [](int, int, int c) { return 0.2f * static_cast<float>(c + 1); });
+    const MapChannel channels[] = {MapChannel::R, MapChannel::G, MapChannel::B, MapChannel::A};
+    for (int c = 0; c < 4; ++c) {
+        m.emissiveMap.channel = channels[c];
+        const glm::vec3 seen(centerPixel(draw(document, 8)));
+        for (int k = 0; k < 3; ++k)
+            EXPECT_NEAR(seen[k], 0.2f * static_cast<float>(c + 1), 2e-3f) << c;
+    }
+}
+
+} // namespace
+} // namespace patina::render
