@@ -1,3 +1,4 @@
+#include "core/document/Edit.h"
 #include "core/export/Names.h"
 #include "core/export/TexturePacking.h"
 
@@ -35,20 +36,21 @@ class Planner {
         uses.emissive = addColor(material, material.emissiveMap, "emissive", "emissive");
         uses.normal = addNormal(material);
         addChannels(material, uses);
+        for (const auto& [source, maps] : std::exchange(m_missing, {}))
+            m_plan.warnings.push_back(
+                fmt::format("{}: “{}” could not be read and will be left out ({})", material.name,
+                            source, fmt::join(maps, ", ")));
     }
 
     TexturePlan take() { return std::move(m_plan); }
 
   private:
-    // The slot without its image's failure: a map that could not be read is named and left out.
-    MapSlot readable(const Material& material, const MapSlot& slot, const char* what) {
-        if (slot.assigned() && (slot.image == nullptr || slot.image->empty())) {
-            m_plan.warnings.push_back(
-                fmt::format("{}: the {} map “{}” is missing and will be left out", material.name,
-                            what, slot.source));
-            return {};
-        }
-        return slot;
+    // The slot, or an empty one when its image could not be read.
+    MapSlot readable(const MapSlot& slot, const char* what) {
+        if (!slot.assigned() || (slot.image != nullptr && !slot.image->empty()))
+            return slot;
+        m_missing[slot.source].emplace_back(what);
+        return {};
     }
 
     TextureUse addBaseColor(const Material& material) {
@@ -61,7 +63,7 @@ class Planner {
 
     TextureUse addColor(const Material& material, const MapSlot& map, const char* suffix,
                         const char* what, bool alpha = false) {
-        const MapSlot slot = readable(material, map, alpha ? "base colour" : what);
+        const MapSlot slot = readable(map, alpha ? "base colour" : what);
         if (slot.image == nullptr)
             return {};
         PackedTexture texture;
@@ -81,7 +83,7 @@ class Planner {
     }
 
     TextureUse addNormal(const Material& material) {
-        const MapSlot slot = readable(material, material.normalMap, "normal");
+        const MapSlot slot = readable(material.normalMap, "normal");
         if (slot.image == nullptr)
             return {};
         PackedTexture texture;
@@ -99,10 +101,10 @@ class Planner {
     void addChannels(const Material& material, MaterialTextures& uses) {
         PackedTexture texture;
         texture.kind = PackKind::Channels;
-        texture.occlusion = readable(material, material.occlusionMap, "occlusion");
+        texture.occlusion = readable(material.occlusionMap, "occlusion");
         texture.bakedOcclusion = bakedOcclusion(material);
-        texture.roughness = readable(material, material.perceptualRoughnessMap, "roughness");
-        texture.metallic = readable(material, material.metallicMap, "metallic");
+        texture.roughness = readable(material.perceptualRoughnessMap, "roughness");
+        texture.metallic = readable(material.metallicMap, "metallic");
         const bool occludes =
             texture.occlusion.image != nullptr || texture.bakedOcclusion != nullptr;
         const bool reflects =
@@ -167,11 +169,10 @@ class Planner {
     ImagePtr bakedOcclusion(const Material& material) const {
         if (!m_settings.includeBakedAo)
             return nullptr;
-        for (const BakeArtifactPtr& bake : m_document.bakes)
-            if (bake != nullptr && bake->kind == BakeKind::AoTexel)
-                for (const TexelBake& texel : bake->texels)
-                    if (texel.material == material.id)
-                        return texel.image;
+        if (const BakeArtifactPtr bake = findBake(m_document, BakeKind::AoTexel))
+            for (const TexelBake& texel : bake->texels)
+                if (texel.material == material.id)
+                    return texel.image;
         return nullptr;
     }
 
@@ -251,6 +252,7 @@ class Planner {
     UniqueNames m_names;
     std::map<std::string, int> m_known;
     std::map<const Image*, Hash> m_hashes;
+    std::map<std::string, std::vector<std::string>> m_missing; // of one material, by source
 };
 
 } // namespace

@@ -1,0 +1,234 @@
+// What is planned is what is written, and what was written is read back the same.
+#include "ExportScene.h"
+#include "core/image/ImageIO.h"
+#include "core/mesh/MeshImport.h"
+#include "core/worker/WorkerClient.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gmock/gmock.h>
+#include <set>
+
+using namespace patina;
+using namespace patina::test;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+class ExportRun : public testing::Test {
+  protected:
+    ExportRun() {
+        std::string name = (fs::temp_directory_path() / "patina-export-XXXXXX").string();
+        EXPECT_NE(::mkdtemp(name.data()), nullptr);
+        m_folder = name;
+
+        Material& paint = addMaterial(m_document, "Paint");
+        paint.baseColor = {0.5f, 0.25f, 0.75f};
+        paint.metallic = 0.5f;
+        paint.perceptualRoughness = 0.25f;
+        paint.baseColorMap = map(codes(8, 4, 3, {200, 100, 50, 10}, ColorEncoding::Srgb));
+        paint.perceptualRoughnessMap = map(codes(4, 4, 1, {40, 80, 120}));
+        paint.metallicMap = map(codes(8, 8, 1, {255, 0}));
+        paint.normalMap = map(codes(4, 4, 3, {128, 128, 255}));
+        paint.normalMap.uvScale = {2, 3};
+        paint.occlusionMap = map(codes(4, 4, 1, {90}));
+        const Id first = paint.id;
+        Material& lamp = addMaterial(m_document, "Lamp");
+        lamp.emissive = {1, 0.5f, 0.25f};
+        lamp.emissiveStrength = 4;
+        lamp.emissiveMap = map(codes(2, 2, 3, {255, 128, 0}, ColorEncoding::Srgb));
+        lamp.doubleSided = true;
+        addSquare(m_document, first).transform =
+            glm::translate(glm::mat4(1.0f), {0.5f, 0.25f, -2.0f});
+        addSquare(m_document, lamp.id, squareMesh("lamp"));
+    }
+    ~ExportRun() override {
+        std::error_code ignored;
+        fs::remove_all(m_folder, ignored);
+    }
+
+    ExportSettings settings(const std::string& name) const {
+        ExportSettings result;
+        result.output = m_folder / name;
+        result.format =
+            result.output.extension() == ".glb" ? ExportFormat::Glb : ExportFormat::Gltf;
+        return result;
+    }
+    std::set<fs::path> folderContents() const {
+        std::set<fs::path> result;
+        for (const auto& entry : fs::directory_iterator(m_folder))
+            result.insert(entry.path());
+        return result;
+    }
+    std::string formatOf(const Image& image, const char* type) const {
+        return fmt::format("{} {}-bit {} {} × {}", type, image.type() == PixelType::U16 ? 16 : 8,
+                           image.channels() == 1   ? "grey"
+                           : image.channels() == 3 ? "RGB"
+                                                   : "RGBA",
+                           image.width(), image.height());
+    }
+
+    fs::path m_folder;
+    Document m_document;
+    WorkerClient m_worker;
+};
+
+} // namespace
+
+TEST_F(ExportRun, TheFolderHoldsWhatThePlanSays) {
+    const ExportPlan plan = planExport(m_document, settings("scene.gltf"));
+    const Result<std::vector<fs::path>> written =
+        runExport(m_worker, m_document, plan, JobContext());
+    ASSERT_TRUE(written.ok()) << written.error().text();
+
+    std::set<fs::path> planned;
+    for (const PlannedFile& file : plan.files) {
+        EXPECT_FALSE(file.embedded);
+        EXPECT_FALSE(file.overwrites);
+        planned.insert(file.path);
+        if (file.path.extension() != ".png")
+            continue;
+        const Result<LoadedImage> image = loadImage(m_worker, file.path);
+        ASSERT_TRUE(image.ok()) << image.error().text();
+        EXPECT_EQ(formatOf(image->image(), "PNG"), file.format) << file.path;
+    }
+    EXPECT_EQ(planned.size(), plan.files.size());
+    EXPECT_EQ(folderContents(), planned);
+    EXPECT_EQ(std::set<fs::path>(written->begin(), written->end()), planned);
+    EXPECT_EQ(written->back(), m_folder / "scene.gltf"); // what refers to the others comes last
+
+    for (const PlannedFile& file : planExport(m_document, settings("scene.gltf")).files)
+        EXPECT_TRUE(file.overwrites) << file.path;
+}
+
+TEST_F(ExportRun, TheGlbHoldsWhatThePlanSays) {
+    ExportSettings glb = settings("scene.glb");
+    glb.textures = ExportTextureFormat::Jpeg;
+    const ExportPlan plan = planExport(m_document, glb);
+    ASSERT_TRUE(runExport(m_worker, m_document, plan, JobContext()).ok());
+    EXPECT_EQ(folderContents(), std::set<fs::path>{m_folder / "scene.glb"});
+
+    const Result<Bytes> bytes = readFile(m_folder / "scene.glb", 1 << 20);
+    ASSERT_TRUE(bytes.ok());
+    std::uint32_t jsonSize = 0;
+    std::memcpy(&jsonSize, bytes->data() + 12, 4);
+    const char* text = reinterpret_cast<const char*>(bytes->data()) + 20;
+    Json json = Json::parse(text, text + jsonSize);
+    ASSERT_EQ(json["images"].size() + 1, plan.files.size());
+    for (std::size_t i = 0; i < json["images"].size(); ++i) {
+        Json& image = json["images"][i];
+        Json& view = json["bufferViews"][image["bufferView"].get<std::size_t>()];
+        const bool jpeg = image["mimeType"] == "image/jpeg";
+        const PlannedFile& file = plan.files[i + 1];
+        EXPECT_TRUE(file.embedded);
+        EXPECT_FALSE(file.overwrites);
+        EXPECT_EQ(file.path.string(),
+                  fmt::format("{}#{}{}", (m_folder / "scene.glb").string(),
+                              image["name"].get<std::string>(), jpeg ? ".jpg" : ".png"));
+        const Result<LoadedImage> loaded = loadImageFromMemory(
+            m_worker,
+            std::span(*bytes).subspan(28 + jsonSize + view["byteOffset"].get<std::size_t>(),
+                                      view["byteLength"].get<std::size_t>()),
+            "image");
+        ASSERT_TRUE(loaded.ok()) << loaded.error().text();
+        EXPECT_EQ(formatOf(loaded->image(), jpeg ? "JPEG" : "PNG"), file.format);
+    }
+}
+
+TEST_F(ExportRun, ReadBackItIsTheSameScene) {
+    for (const char* name : {"scene.glb", "scene.gltf"}) {
+        const ExportPlan plan = planExport(m_document, settings(name));
+        ASSERT_TRUE(runExport(m_worker, m_document, plan, JobContext()).ok());
+        const Result<ImportedModel> model = importModel(m_worker, m_folder / name);
+        ASSERT_TRUE(model.ok()) << model.error().text();
+        EXPECT_THAT(model->missingTextures, IsEmpty());
+        ASSERT_EQ(model->instances.size(), 2u);
+        const ImportedInstance& square = model->instances[0];
+        EXPECT_EQ(square.name, "square");
+        EXPECT_EQ(square.transform, m_document.meshes[0].transform);
+        const Mesh& mesh = *model->meshes[static_cast<std::size_t>(square.mesh)];
+        EXPECT_EQ(mesh.positions, squareMesh()->positions);
+        EXPECT_EQ(mesh.normals, squareMesh()->normals);
+        EXPECT_EQ(mesh.tangents, squareMesh()->tangents);
+        EXPECT_EQ(mesh.uvs, squareMesh()->uvs);
+        EXPECT_EQ(mesh.indices, squareMesh()->indices);
+
+        const ImportedMaterial& paint = model->materials[static_cast<std::size_t>(square.material)];
+        EXPECT_EQ(paint.name, "Paint");
+        EXPECT_EQ(paint.baseColor, glm::vec4(0.5f, 0.25f, 0.75f, 1.0f));
+        EXPECT_EQ(paint.metallic, 0.5f);
+        EXPECT_EQ(paint.perceptualRoughness, 0.25f);
+        ASSERT_TRUE(paint.baseColorMap && paint.roughnessMap && paint.metallicMap &&
+                    paint.normalMap && paint.occlusionMap);
+        EXPECT_EQ(paint.roughnessMap->channel, 'g');
+        EXPECT_EQ(paint.metallicMap->channel, 'b');
+        EXPECT_EQ(paint.normalMap->uvScale, glm::vec2(2, 3));
+        const ImportedMaterial& lamp =
+            model->materials[static_cast<std::size_t>(model->instances[1].material)];
+        EXPECT_NEAR(lamp.emissive.r, 4.0f, 1e-5f);
+        EXPECT_NEAR(lamp.emissive.b, 1.0f, 1e-5f);
+        EXPECT_TRUE(lamp.doubleSided);
+    }
+}
+
+TEST_F(ExportRun, ACancelLeavesNothing) {
+    for (const char* name : {"scene.glb", "scene.gltf"}) {
+        JobControl control;
+        control.cancel();
+        const Result<std::vector<fs::path>> written = runExport(
+            m_worker, m_document, planExport(m_document, settings(name)), control.context());
+        ASSERT_FALSE(written.ok());
+        EXPECT_EQ(written.error().kind, ErrorKind::Cancelled);
+        EXPECT_THAT(folderContents(), IsEmpty());
+    }
+}
+
+TEST_F(ExportRun, AFailureTakesItsNewFilesAway) {
+    fs::create_directory(m_folder / "scene.bin"); // the geometry cannot be written
+    const ExportPlan plan = planExport(m_document, settings("scene.gltf"));
+    const Result<std::vector<fs::path>> written =
+        runExport(m_worker, m_document, plan, JobContext());
+    ASSERT_FALSE(written.ok());
+    EXPECT_EQ(written.error().kind, ErrorKind::CannotCreate);
+    EXPECT_EQ(folderContents(), std::set<fs::path>{m_folder / "scene.bin"});
+}
+
+TEST_F(ExportRun, AChangedSceneNeedsANewPlan) {
+    const ExportPlan plan = planExport(m_document, settings("scene.glb"));
+    m_document.materials[0].normalMap = {};
+    const Result<std::vector<fs::path>> written =
+        runExport(m_worker, m_document, plan, JobContext());
+    ASSERT_FALSE(written.ok());
+    EXPECT_EQ(written.error().kind, ErrorKind::Usage);
+}
+
+TEST_F(ExportRun, HiddenMeshesStayBehind) {
+    m_document.meshes[0].visible = false;
+    ExportSettings visible = settings("scene.glb");
+    EXPECT_EQ(planExport(m_document, visible).files.size(), 2u); // the lamp and its one texture
+    visible.visibleOnly = false;
+    EXPECT_GT(planExport(m_document, visible).files.size(), 2u);
+    m_document.meshes[1].visible = false;
+    const Result<std::vector<fs::path>> nothing = runExport(
+        m_worker, m_document, planExport(m_document, settings("scene.glb")), JobContext());
+    ASSERT_FALSE(nothing.ok());
+    EXPECT_EQ(nothing.error().kind, ErrorKind::Usage);
+}
+
+TEST_F(ExportRun, ThePlanTellsWhatIsLost) {
+    BakeArtifact prt, stale;
+    prt.kind = BakeKind::PrtVertex;
+    stale.kind = BakeKind::AoTexel;
+    stale.inputs = {1, 2};
+    stale.texels.push_back({m_document.materials[0].id, codes(2, 2, 1, {9})});
+    m_document.bakes = {std::make_shared<const BakeArtifact>(prt),
+                        std::make_shared<const BakeArtifact>(stale)};
+    EXPECT_THAT(planExport(m_document, settings("scene.glb")).warnings,
+                ElementsAre(HasSubstr("radiance transfer"), HasSubstr("older than the geometry")));
+}
