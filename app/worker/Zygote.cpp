@@ -4,12 +4,11 @@
 #include "core/worker/FileDescriptor.h"
 #include "core/worker/WorkerProtocol.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <poll.h>
 #include <sys/prctl.h>
-#include <sys/signalfd.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,7 +18,8 @@ namespace {
 
 struct Running {
     pid_t pid = -1;
-    FileDescriptor socket; // the request's; invalid once the client has hung up
+    FileDescriptor process; // readable when the child has ended
+    FileDescriptor socket;  // the request's; invalid once the client has hung up
 };
 
 void report(int socket, protocol::Event event, std::int64_t value) {
@@ -29,46 +29,54 @@ void report(int socket, protocol::Event event, std::int64_t value) {
     protocol::send(socket, message); // a client that is gone needs no report
 }
 
+// Children are watched through descriptors (pidfd) and not through SIGCHLD: the libraries have
+// threads of their own, which may swallow the signal.
 class Zygote {
   public:
     explicit Zygote(int control)
-        : m_control(control) {
-        sigset_t children;
-        sigemptyset(&children);
-        sigaddset(&children, SIGCHLD);
-        sigprocmask(SIG_BLOCK, &children, nullptr);
-        m_signals = FileDescriptor(::signalfd(-1, &children, SFD_CLOEXEC | SFD_NONBLOCK));
-    }
+        : m_control(control) {}
 
     int run();
 
   private:
     bool accept(); // false: the client is gone
     void start(const protocol::Request& request, std::vector<FileDescriptor> descriptors);
-    void reap();
 
     FileDescriptor m_control;
-    FileDescriptor m_signals;
     std::vector<Running> m_running;
 };
+
+// True when the child has ended and its client knows.
+bool reap(const Running& child) {
+    int status = 0;
+    if (::waitpid(child.pid, &status, WNOHANG) == 0)
+        return false;
+    if (child.socket.valid())
+        report(child.socket.get(), protocol::Event::Ended, status);
+    return true;
+}
 
 int Zygote::run() {
     std::vector<pollfd> waiting;
     while (true) {
-        waiting.assign({{m_control.get(), POLLIN, 0}, {m_signals.get(), POLLIN, 0}});
-        for (const Running& child : m_running) // a negative descriptor is skipped by poll
+        waiting.assign({{m_control.get(), POLLIN, 0}});
+        for (const Running& child : m_running) { // a negative descriptor is skipped by poll
+            waiting.push_back({child.process.get(), POLLIN, 0});
             waiting.push_back({child.socket.get(), 0, 0});
+        }
         if (::poll(waiting.data(), waiting.size(), -1) < 0 && errno != EINTR)
             return 1;
 
         // The client has closed its end: nobody waits for this child any more.
-        for (std::size_t i = 2; i < waiting.size(); ++i)
-            if ((waiting[i].revents & (POLLHUP | POLLERR)) != 0) {
-                ::kill(m_running[i - 2].pid, SIGKILL);
-                m_running[i - 2].socket.reset();
+        for (std::size_t i = 0; i < m_running.size(); ++i)
+            if ((waiting[2 + 2 * i].revents & (POLLHUP | POLLERR)) != 0) {
+                ::kill(m_running[i].pid, SIGKILL);
+                m_running[i].socket.reset();
             }
-        if ((waiting[1].revents & POLLIN) != 0)
-            reap();
+        std::size_t index = 0;
+        std::erase_if(m_running, [&](const Running& child) {
+            return waiting[1 + 2 * index++].revents != 0 && reap(child);
+        });
         if (waiting[0].revents != 0 && !accept())
             return 0; // the kernel kills the children with us (PR_SET_PDEATHSIG)
     }
@@ -100,31 +108,19 @@ void Zygote::start(const protocol::Request& request, std::vector<FileDescriptor>
         if (::getppid() != zygote)
             ::_exit(1); // it died in between
         m_control.reset();
-        m_signals.reset();
         m_running.clear(); // the descriptors of the siblings
-        sigset_t none;
-        sigemptyset(&none);
-        sigprocmask(SIG_SETMASK, &none, nullptr);
         runChild(request, std::move(descriptors));
     }
+    // (The C library of Debian 12 declares pidfd_open for C only.)
+    FileDescriptor process(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
+    if (!process.valid()) {
+        report(descriptors[0].get(), protocol::Event::CannotFork, errno);
+        ::kill(pid, SIGKILL);
+        ::waitpid(pid, nullptr, 0);
+        return;
+    }
     report(descriptors[0].get(), protocol::Event::Started, pid);
-    m_running.push_back({pid, std::move(descriptors[0])});
-}
-
-void Zygote::reap() {
-    signalfd_siginfo ignored{};
-    while (::read(m_signals.get(), &ignored, sizeof ignored) > 0) {
-    }
-    int status = 0;
-    for (pid_t pid = 0; (pid = ::waitpid(-1, &status, WNOHANG)) > 0;) {
-        const auto child = std::find_if(m_running.begin(), m_running.end(),
-                                        [&](const Running& c) { return c.pid == pid; });
-        if (child == m_running.end())
-            continue;
-        if (child->socket.valid())
-            report(child->socket.get(), protocol::Event::Ended, status);
-        m_running.erase(child);
-    }
+    m_running.push_back({pid, std::move(process), std::move(descriptors[0])});
 }
 
 } // namespace

@@ -111,7 +111,8 @@ json attributesOf(const OIIO::ImageSpec& spec) {
         const std::string name = attribute.name().string();
         const bool storage = name.starts_with("oiio:") || name.starts_with("openexr:") ||
                              name == "name" || name == "compression" || name == "textureformat" ||
-                             name == "wrapmodes" || name == "ICCProfile" || name == kOwnSize;
+                             name == "wrapmodes" || name == "ICCProfile" || name == "DateTime" ||
+                             name == kOwnSize;
         if (!storage && attribute.type() == OIIO::TypeDesc::STRING)
             result[name] = attribute.get_string();
     }
@@ -335,8 +336,11 @@ Reply encodeImage(const json& request, std::span<const std::byte> payload) {
         if (!part.at("channelNames").empty())
             spec.channelnames = part.at("channelNames").get<std::vector<std::string>>();
         spec.attribute("oiio:UnassociatedAlpha", 1);
-        spec.attribute("DateTime", ""); // or the time of writing: the same picture, other bytes
-        if (part.at("srgb").get<bool>())
+        // Or it would be the time of writing: the same picture in other bytes.
+        spec.attribute("DateTime", format == "tiff" ? "1970:01:01 00:00:00" : "");
+        // PNG marks sRGB in a chunk. (In TIFF it would become an Exif directory, over which readers
+        // stumble.)
+        if (format == "png" && part.at("srgb").get<bool>())
             spec.attribute("oiio:ColorSpace", "sRGB");
         if (format == "openexr") {
             spec.attribute("compression", "zip");

@@ -1,6 +1,7 @@
 // What each format stores of a picture it cannot hold as it is.
 #include "tests/core/image/TestImages.h"
 
+#include <ctime>
 #include <gmock/gmock.h>
 
 namespace patina {
@@ -85,7 +86,10 @@ TEST_F(Encode, TheTimeOfWritingIsNotStored) {
     for (const auto format : {ImageFileFormat::Exr, ImageFileFormat::Tiff}) {
         const Bytes bytes = encode(grey(0.5f, ColorEncoding::Linear), format);
         const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-        EXPECT_EQ(text.find("capDate"), std::string::npos);
+        const std::time_t now = std::time(nullptr);
+        std::string year(8, ' ');
+        year.resize(std::strftime(year.data(), year.size(), "%Y:", std::localtime(&now)));
+        EXPECT_EQ(text.find(year), std::string::npos);
         EXPECT_EQ(decode(bytes).parts[0].attributes.count("DateTime"), 0u);
     }
 }
