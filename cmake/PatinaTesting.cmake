@@ -25,6 +25,26 @@ function(patina_golden name)
   add_dependencies(${name} patina-worker)
 endfunction()
 
+# patina_gui_test(NAME SOURCES … LIBRARIES …): a GoogleTest program with a window, on an X server of
+# its own (tests/support/with-xvfb). Brings its main() from tests/support/GuiTestMain.cpp. Pictures
+# that a test takes are kept in tests/screenshots of the build folder.
+function(patina_gui_test name)
+  cmake_parse_arguments(T "" "TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
+  if(NOT T_TIMEOUT)
+    set(T_TIMEOUT 300)
+  endif()
+  patina_executable(${name})
+  target_sources(${name} PRIVATE ${T_SOURCES} ${CMAKE_SOURCE_DIR}/tests/support/GuiTestMain.cpp)
+  target_link_libraries(${name} PRIVATE ${T_LIBRARIES} patina_editor_lib Qt6::Test GTest::gmock)
+  add_dependencies(${name} patina-worker)
+  set_target_properties(${name} PROPERTIES AUTOMOC ON
+    RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  add_test(NAME ${name} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-xvfb $<TARGET_FILE:${name}>)
+  set_tests_properties(${name} PROPERTIES LABELS "app" TIMEOUT ${T_TIMEOUT}
+    FAIL_REGULAR_EXPRESSION "\\[  SKIPPED \\]"
+    ENVIRONMENT "PATINA_BIN_DIR=${CMAKE_BINARY_DIR}/bin;LP_NUM_THREADS=2;XDG_RUNTIME_DIR=${CMAKE_BINARY_DIR}/run;PATINA_SCREENSHOTS=${CMAKE_BINARY_DIR}/tests/screenshots")
+endfunction()
+
 # patina_benchmark(NAME SOURCES … LIBRARIES …): a Google Benchmark program; never run by ctest.
 function(patina_benchmark name)
   if(NOT PATINA_BENCHMARKS)

@@ -13,7 +13,7 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
                     tr("Start over with the built-in scene")))
     , open(make(tr("&Open…"), QStringLiteral("open"), {QKeySequence::Open},
                 tr("Open a project or a model in place of the scene")))
-    , addModel(make(tr("&Add Model…"), QStringLiteral("add-model"), {tr("Ctrl+I")},
+    , addModel(make(tr("Add &Model…"), QStringLiteral("add-model"), {tr("Ctrl+I")},
                     tr("Add the meshes and materials of a model file to the scene")))
     , save(make(tr("&Save"), QStringLiteral("save"), {QKeySequence::Save}, tr("Save the project")))
     , saveAs(make(tr("Save &As…"), QStringLiteral("save-as"), {tr("Ctrl+Shift+S")},

@@ -95,12 +95,17 @@ QDockWidget* MainWindow::addDock(const QString& name, const QString& title, cons
     toggle->setStatusTip(help);
     toggle->setToolTip(help);
     m_docks << dock;
+    // In a group of tabs the tab is title enough.
+    for (auto signal : {&QDockWidget::topLevelChanged, &QDockWidget::visibilityChanged})
+        connect(dock, signal, this, &MainWindow::refreshDockTitles, Qt::QueuedConnection);
+    connect(dock, &QDockWidget::dockLocationChanged, this, &MainWindow::refreshDockTitles,
+            Qt::QueuedConnection);
     return dock;
 }
 
 void MainWindow::makeDocks() {
     DocumentController& controller = m_session.controller;
-    auto* scene = new ScenePanel(controller, m_session.selection);
+    auto* scene = new ScenePanel(controller, m_session.selection, m_session.thumbnails);
     connect(scene, &ScenePanel::frameRequested, m_viewport, &ViewportWidget::frameSelection);
     addDock(QStringLiteral("scene"), tr("Scene"), QStringLiteral("scene"),
             tr("Show or hide the list of meshes and materials"), scene);
@@ -129,6 +134,21 @@ void MainWindow::makeDocks() {
     addDock(QStringLiteral("log"), tr("Log"), QStringLiteral("log"),
             tr("Show or hide the messages of this session"), new LogPanel);
     resetLayout();
+}
+
+void MainWindow::refreshDockTitles() {
+    for (QDockWidget* dock : std::as_const(m_docks)) {
+        const bool tabbed = !dock->isFloating() && !tabifiedDockWidgets(dock).isEmpty();
+        QWidget* custom = dock->titleBarWidget();
+        if (tabbed && !custom) {
+            auto* none = new QWidget;
+            none->setFixedHeight(0);
+            dock->setTitleBarWidget(none);
+        } else if (!tabbed && custom) {
+            dock->setTitleBarWidget(nullptr);
+            delete custom;
+        }
+    }
 }
 
 void MainWindow::resetLayout() {

@@ -41,6 +41,7 @@ class MainWindow : public QMainWindow {
     void makeDocks();
     QDockWidget* addDock(const QString& name, const QString& title, const QString& iconName,
                          const QString& help, QWidget* panel);
+    void refreshDockTitles();
     void makeMenus();
     void makeToolBar();
     void makeStatusBar();

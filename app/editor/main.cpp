@@ -3,13 +3,13 @@
 #include "app/editor/FileFlow.h"
 #include "app/editor/MainWindow.h"
 #include "app/editor/Session.h"
+#include "app/editor/Startup.h"
 #include "app/editor/style/Style.h"
 
 #include <QApplication>
 #include <QCommandLineParser>
 #include <QIcon>
 #include <QSettings>
-#include <QSurfaceFormat>
 #include <QTimer>
 #include <cstdlib>
 
@@ -18,30 +18,11 @@ namespace {
 // Files that are still being read when the user leaves get this long to come to an end.
 constexpr int kPatienceMs = 1500;
 
-QSurfaceFormat surfaceFormat() {
-    QSurfaceFormat format;
-    format.setRenderableType(QSurfaceFormat::OpenGL);
-    format.setVersion(4, 5);
-    format.setProfile(QSurfaceFormat::CoreProfile);
-    format.setDepthBufferSize(0); // the renderer brings its own targets
-    format.setStencilBufferSize(0);
-#ifndef NDEBUG
-    format.setOption(QSurfaceFormat::DebugContext);
-#endif
-    return format;
-}
-
 } // namespace
 
 int main(int argc, char* argv[]) {
     using namespace patina::editor;
-    // Without shared contexts, floating a dock would destroy the viewport's.
-    QApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
-    QSurfaceFormat::setDefaultFormat(surfaceFormat());
-    QApplication::setOrganizationName(QStringLiteral("Patina"));
-    QApplication::setApplicationName(QStringLiteral("Patina"));
-    QApplication::setApplicationVersion(QStringLiteral(PATINA_VERSION));
-    QApplication::setDesktopFileName(QStringLiteral("patina"));
+    prepareApplication();
     QApplication application(argc, argv);
     QApplication::setWindowIcon(QIcon(QStringLiteral(":/icons/patina.svg")));
     applyStyle(application);

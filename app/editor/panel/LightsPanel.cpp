@@ -28,6 +28,7 @@ bool applies(const ParameterInfo& info, const Document& document, Id id) {
 
 QToolButton* textButton(const QString& iconName, const QString& text, const QString& tip) {
     auto* button = new QToolButton;
+    button->setObjectName(QStringLiteral("raised"));
     button->setIcon(icon(iconName));
     button->setText(text);
     button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);

@@ -50,6 +50,7 @@ MaterialPanel::MaterialPanel(DocumentController& controller, SelectionModel& sel
     m_choice->setStatusTip(m_choice->toolTip());
     m_choice->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     m_library->setText(tr("Library"));
+    m_library->setObjectName(QStringLiteral("raised"));
     m_library->setIcon(icon(QStringLiteral("library")));
     m_library->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     m_library->setPopupMode(QToolButton::InstantPopup);

@@ -4,6 +4,7 @@
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/ColorConversion.h"
+#include "app/editor/widget/Thumbnails.h"
 
 #include <QColor>
 #include <QFont>
@@ -24,16 +25,15 @@ int rowOf(const List& list, Id id) {
     return found == list.end() ? -1 : static_cast<int>(found - list.begin());
 }
 
-QIcon swatch(const Material& material) {
+QIcon swatch(const QColor& color, bool metal) {
     constexpr int kSize = 32; // painted at twice the size for high-density screens
     QPixmap pixmap(kSize, kSize);
     pixmap.fill(Qt::transparent);
     QPainter painter(&pixmap);
     painter.setRenderHint(QPainter::Antialiasing);
-    const QColor color = toDisplay(material.baseColor);
     QRadialGradient gradient(QPointF(12, 11), 20);
-    gradient.setColorAt(0, color.lighter(material.metallic > 0.5f ? 170 : 125));
-    gradient.setColorAt(1, color.darker(material.metallic > 0.5f ? 260 : 160));
+    gradient.setColorAt(0, color.lighter(metal ? 170 : 125));
+    gradient.setColorAt(1, color.darker(metal ? 260 : 160));
     painter.setBrush(gradient);
     painter.setPen(Qt::NoPen);
     painter.drawEllipse(QRectF(3, 3, kSize - 6, kSize - 6));
@@ -42,9 +42,16 @@ QIcon swatch(const Material& material) {
 
 } // namespace
 
-SceneModel::SceneModel(DocumentController& controller, QObject* parent)
+SceneModel::SceneModel(DocumentController& controller, Thumbnails& thumbnails, QObject* parent)
     : QAbstractItemModel(parent)
-    , m_controller(controller) {
+    , m_controller(controller)
+    , m_thumbnails(thumbnails) {
+    connect(&thumbnails, &Thumbnails::ready, this, [this] {
+        if (m_counts[Materials] > 0)
+            Q_EMIT dataChanged(index(0, 0, branchIndex(Materials)),
+                               index(m_counts[Materials] - 1, 0, branchIndex(Materials)),
+                               {Qt::DecorationRole});
+    });
     connect(&controller, &DocumentController::changed, this, &SceneModel::documentChanged);
 }
 
@@ -196,12 +203,21 @@ QVariant SceneModel::materialData(std::size_t row, int column, int role) const {
     case Qt::EditRole:
         return QString::fromStdString(material.name);
     case Qt::DecorationRole:
-        return swatch(material);
+        return swatch(colorOf(material), material.metallic > 0.5f && !material.metallicMap.image);
     case Qt::ToolTipRole:
         return tr("%1: double-click or F2 to rename").arg(QString::fromStdString(material.name));
     default:
         return {};
     }
+}
+
+// What the eye takes for the material's colour: its number times the mean of its map.
+QColor SceneModel::colorOf(const Material& material) const {
+    glm::vec3 color = material.baseColor;
+    const QImage mean = m_thumbnails.thumbnail(material.baseColorMap.image, 1);
+    if (!mean.isNull())
+        color *= toLinear(mean.pixelColor(0, 0));
+    return toDisplay(color);
 }
 
 bool SceneModel::setData(const QModelIndex& index, const QVariant& value, int role) {

@@ -5,10 +5,12 @@
 #include "core/document/Change.h"
 
 #include <QAbstractItemModel>
+#include <QColor>
 
 namespace patina::editor {
 
 class DocumentController;
+class Thumbnails;
 
 class SceneModel : public QAbstractItemModel {
     Q_OBJECT
@@ -16,7 +18,7 @@ class SceneModel : public QAbstractItemModel {
     enum Branch { Meshes = 0, Materials = 1 };
     enum Column { NameColumn = 0, MaterialColumn = 1, EyeColumn = 2, ColumnCount = 3 };
 
-    explicit SceneModel(DocumentController& controller, QObject* parent = nullptr);
+    SceneModel(DocumentController& controller, Thumbnails& thumbnails, QObject* parent = nullptr);
 
     [[nodiscard]] QModelIndex branchIndex(Branch branch) const;
     [[nodiscard]] QModelIndex indexOf(Target target) const; // invalid when it is gone
@@ -36,7 +38,10 @@ class SceneModel : public QAbstractItemModel {
     [[nodiscard]] QVariant meshData(std::size_t row, int column, int role) const;
     [[nodiscard]] QVariant materialData(std::size_t row, int column, int role) const;
 
+    [[nodiscard]] QColor colorOf(const Material& material) const;
+
     DocumentController& m_controller;
+    Thumbnails& m_thumbnails;
     int m_counts[2] = {0, 0};
 };
 

@@ -13,11 +13,12 @@
 
 namespace patina::editor {
 
-ScenePanel::ScenePanel(DocumentController& controller, SelectionModel& selection, QWidget* parent)
+ScenePanel::ScenePanel(DocumentController& controller, SelectionModel& selection,
+                       Thumbnails& thumbnails, QWidget* parent)
     : QWidget(parent)
     , m_controller(controller)
     , m_selection(selection)
-    , m_model(new SceneModel(controller, this))
+    , m_model(new SceneModel(controller, thumbnails, this))
     , m_tree(new QTreeView) {
     m_tree->setModel(m_model);
     m_tree->setHeaderHidden(true);

@@ -10,11 +10,12 @@ namespace patina::editor {
 class DocumentController;
 class SceneModel;
 class SelectionModel;
+class Thumbnails;
 
 class ScenePanel : public QWidget {
     Q_OBJECT
   public:
-    ScenePanel(DocumentController& controller, SelectionModel& selection,
+    ScenePanel(DocumentController& controller, SelectionModel& selection, Thumbnails& thumbnails,
                QWidget* parent = nullptr);
 
     [[nodiscard]] QTreeView* tree() { return m_tree; }

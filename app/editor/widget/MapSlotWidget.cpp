@@ -5,6 +5,7 @@
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Thumbnails.h"
+#include "core/library/Library.h"
 
 #include <QComboBox>
 #include <QDragEnterEvent>
@@ -62,9 +63,12 @@ MapSlotWidget::MapSlotWidget(Thumbnails& thumbnails, const QString& name, bool w
     setAccessibleName(name);
     m_title->setTextInteractionFlags(Qt::NoTextInteraction);
     m_title->setMinimumWidth(30);
+    m_title->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     m_facts->setObjectName(QStringLiteral("dim"));
+    m_facts->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred); // gives way first
     for (const QString& channel : {tr("RGB"), tr("Red"), tr("Green"), tr("Blue"), tr("Alpha")})
         m_channel->addItem(channel);
+    m_channel->setObjectName(QStringLiteral("small"));
     m_channel->setToolTip(tr("Which channel of the image is read"));
     m_channel->setAccessibleName(tr("Channel of %1").arg(name));
     m_channel->setFocusPolicy(Qt::TabFocus);
@@ -248,8 +252,14 @@ void MapSlotWidget::dropEvent(QDropEvent* event) {
 
 QString MapSlotWidget::sourceTitle(const std::string& source) {
     const QString text = QString::fromStdString(source);
-    if (text.startsWith(QLatin1String("builtin:")))
-        return text.mid(8).replace(QLatin1Char('/'), QStringLiteral(": "));
+    if (text.startsWith(QLatin1String("builtin:"))) {
+        const QString name = text.mid(8).section(QLatin1Char('/'), 0, 0);
+        for (const auto* entries : {&library::materials(), &library::environments()})
+            for (const library::Entry& entry : *entries)
+                if (name == QString::fromStdString(entry.name))
+                    return QString::fromStdString(entry.title);
+        return name;
+    }
     const qsizetype embedded = text.lastIndexOf(QLatin1String("#embedded:"));
     if (embedded >= 0)
         return tr("image %1 of %2")

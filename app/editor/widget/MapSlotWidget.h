@@ -25,7 +25,7 @@ class MapSlotWidget : public QFrame {
                   QWidget* parent = nullptr);
     void setSlot(const MapSlot& slot); // shows, emits nothing
 
-    // "bricks_diffuse.png", "Wood: base colour", "image 2 of chair.glb".
+    // "bricks_diffuse.png", "Worn Painted Metal", "image 2 of chair.glb".
     [[nodiscard]] static QString sourceTitle(const std::string& source);
 
   Q_SIGNALS:

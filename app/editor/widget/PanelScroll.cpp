@@ -2,6 +2,7 @@
 
 #include "app/editor/style/Tokens.h"
 
+#include <QEvent>
 #include <QScrollBar>
 #include <QVBoxLayout>
 
@@ -19,6 +20,13 @@ PanelScroll::PanelScroll(QWidget* parent)
     setFrameShape(QFrame::NoFrame);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     setFocusPolicy(Qt::NoFocus);
+    body->installEventFilter(this);
+}
+
+bool PanelScroll::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() == QEvent::LayoutRequest)
+        updateGeometry();
+    return QScrollArea::eventFilter(watched, event);
 }
 
 QSize PanelScroll::sizeHint() const {

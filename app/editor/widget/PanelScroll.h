@@ -15,6 +15,9 @@ class PanelScroll : public QScrollArea {
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override;
 
+  protected:
+    bool eventFilter(QObject* watched, QEvent* event) override; // the body's width may grow
+
   private:
     QVBoxLayout* m_layout;
 };

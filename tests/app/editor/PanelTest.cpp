@@ -1,0 +1,313 @@
+// Panels and document together, by real events on the widgets of the window.
+
+#include "tests/app/editor/EditorFixture.h"
+
+#include "app/editor/document/Commands.h"
+#include "app/editor/panel/LightsPanel.h"
+#include "app/editor/panel/MaterialPanel.h"
+#include "app/editor/panel/ParameterList.h"
+#include "app/editor/panel/SceneModel.h"
+#include "app/editor/panel/ScenePanel.h"
+#include "app/editor/widget/ColorButton.h"
+#include "app/editor/widget/ColorPicker.h"
+#include "app/editor/widget/MapSlotWidget.h"
+#include "app/editor/widget/NumberField.h"
+#include "app/editor/widget/RowLabel.h"
+#include "app/editor/widget/SkyGallery.h"
+#include "app/editor/widget/Slider.h"
+#include "core/image/ImageIO.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDropEvent>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QMimeData>
+#include <QToolButton>
+#include <QTreeView>
+
+namespace patina::editor {
+namespace {
+
+struct PanelTest : EditorTest {
+    static ParameterRow& row(std::string_view id) {
+        ParameterRow* found = nullptr;
+        for (ParameterList* list : window->findChildren<ParameterList*>())
+            if (ParameterRow* candidate = list->row(id))
+                found = candidate;
+        EXPECT_NE(found, nullptr) << id;
+        return *found;
+    }
+    template <class Widget>
+    static Widget& in(std::string_view id) {
+        auto* widget = row(id).findChild<Widget*>();
+        EXPECT_NE(widget, nullptr) << id;
+        return *widget;
+    }
+    static void drag(QWidget& widget, QPoint from, std::initializer_list<int> way) {
+        QTest::mousePress(&widget, Qt::LeftButton, {}, from);
+        for (const int pixels : way)
+            QTest::mouseMove(&widget, from + QPoint(pixels, 0));
+        QTest::mouseRelease(&widget, Qt::LeftButton, {}, from + QPoint(*(way.end() - 1), 0));
+    }
+    static void drop(QWidget& widget, const QString& file) {
+        QMimeData data;
+        data.setUrls({QUrl::fromLocalFile(file)});
+        QDragEnterEvent enter(widget.rect().center(), Qt::CopyAction, &data, Qt::LeftButton, {});
+        QApplication::sendEvent(&widget, &enter);
+        EXPECT_TRUE(enter.isAccepted());
+        QDropEvent event(QPointF(widget.rect().center()), Qt::CopyAction, &data, Qt::LeftButton,
+                         {});
+        QApplication::sendEvent(&widget, &event);
+        EXPECT_TRUE(event.isAccepted());
+    }
+    QString writeImage(const QString& name) {
+        Image image(8, 8, 3, PixelType::U8, ColorEncoding::Srgb);
+        std::fill(image.u8().begin(), image.u8().end(), std::uint8_t{77});
+        const QString file = folder.filePath(name);
+        EXPECT_TRUE(saveImage(session->worker, image, file.toStdString()).ok());
+        return file;
+    }
+    static constexpr const char* kRough = "material.perceptualRoughness";
+    static float roughness() { return selectedMaterial().perceptualRoughness; }
+};
+
+TEST_F(PanelTest, ScrubbingRoughnessIsOneUndoStep) {
+    const float before = roughness();
+    drag(in<NumberField>(kRough), {30, 12}, {-20, -40, -60, -90});
+    EXPECT_NEAR(roughness(), before - 0.3f, 0.002f);
+    EXPECT_EQ(undoCount(), 1);
+    window->actions().undo->trigger();
+    EXPECT_EQ(roughness(), before);
+    EXPECT_EQ(in<NumberField>(kRough).value(), before);
+    window->actions().redo->trigger();
+    EXPECT_NEAR(in<NumberField>(kRough).value(), before - 0.3f, 0.002f);
+}
+
+TEST_F(PanelTest, AScrubThatReturnsLeavesNoStep) {
+    const float before = roughness();
+    drag(in<NumberField>(kRough), {30, 12}, {-20, -70, -5, 0});
+    EXPECT_EQ(roughness(), before);
+    EXPECT_EQ(undoCount(), 0);
+    EXPECT_FALSE(controller().isModified());
+}
+
+TEST_F(PanelTest, TwoScrubsAreTwoSteps) {
+    drag(in<NumberField>(kRough), {30, 12}, {-20, -40});
+    drag(in<NumberField>(kRough), {30, 12}, {-20, -40});
+    EXPECT_EQ(undoCount(), 2);
+}
+
+TEST_F(PanelTest, TheSliderIsOneStepToo) {
+    Slider& slider = in<Slider>(kRough);
+    const float before = roughness();
+    drag(slider, {slider.handleX(), 12}, {-10, -25, -30});
+    EXPECT_LT(roughness(), before);
+    EXPECT_EQ(undoCount(), 1);
+    EXPECT_EQ(in<NumberField>(kRough).value(), roughness());
+}
+
+TEST_F(PanelTest, TypingSetsTheValueAndClamps) {
+    NumberField& field = in<NumberField>(kRough);
+    QTest::mouseClick(&field, Qt::LeftButton, {}, {20, 12});
+    QTest::keyClicks(&field, QStringLiteral("0.25"));
+    QTest::keyClick(&field, Qt::Key_Return);
+    EXPECT_EQ(roughness(), 0.25f);
+    QTest::mouseClick(&field, Qt::LeftButton, {}, {20, 12});
+    QTest::keyClicks(&field, QStringLiteral("4"));
+    QTest::keyClick(&field, Qt::Key_Return);
+    EXPECT_EQ(roughness(), 1.0f);
+    EXPECT_EQ(field.text().toStdString(), "1.00");
+    EXPECT_EQ(undoCount(), 2);
+}
+
+TEST_F(PanelTest, ADoubleClickOnTheLabelResets) {
+    controller().setParameter(parameter(kRough), {Scope::Material, selectedMaterial().id}, 0.9f);
+    QTest::mouseDClick(&in<RowLabel>(kRough), Qt::LeftButton);
+    EXPECT_EQ(roughness(), Material{}.perceptualRoughness);
+    EXPECT_EQ(undoCount(), 2);
+}
+
+TEST_F(PanelTest, RowsShowTheSelectedMaterialOnly) {
+    const Material& first = document().materials.front();
+    const Material& last = document().materials.back();
+    ASSERT_NE(first.id, last.id);
+    session->selection.selectMaterial(first.id);
+    controller().setParameter(parameter(kRough), {Scope::Material, first.id}, 0.21f);
+    EXPECT_FLOAT_EQ(in<NumberField>(kRough).value(), 0.21f);
+    controller().setParameter(parameter(kRough), {Scope::Material, last.id}, 0.87f);
+    EXPECT_FLOAT_EQ(in<NumberField>(kRough).value(), 0.21f);
+    session->selection.selectMaterial(last.id);
+    EXPECT_FLOAT_EQ(in<NumberField>(kRough).value(), 0.87f);
+    EXPECT_EQ(find<QComboBox>(*window, QStringLiteral("Material"))->currentText().toStdString(),
+              last.name);
+}
+
+TEST_F(PanelTest, EveryParameterOfAPanelHasARow) {
+    for (const ParameterInfo& info : parameters()) {
+        if (info.scope == Scope::Mesh || info.type == ParameterType::Text ||
+            info.id == "environment.image" || info.id == "light.enabled")
+            continue; // in the tree, the lists and the gallery
+        ParameterRow& found = row(info.id);
+        EXPECT_EQ(&found.info(), findParameter(info.id));
+    }
+}
+
+TEST_F(PanelTest, RowsThatMakeNoSenseAreHidden) {
+    const Target target{Scope::Material, selectedMaterial().id};
+    EXPECT_TRUE(row("material.alphaCutoff").isHidden());
+    QComboBox& mode = in<QComboBox>("material.alphaMode");
+    mode.setCurrentIndex(static_cast<int>(AlphaMode::Mask));
+    Q_EMIT mode.activated(mode.currentIndex());
+    EXPECT_EQ(selectedMaterial().alphaMode, AlphaMode::Mask);
+    EXPECT_FALSE(row("material.alphaCutoff").isHidden());
+    controller().undoStack().undo();
+    EXPECT_TRUE(row("material.alphaCutoff").isHidden());
+    EXPECT_EQ(mode.currentIndex(), 0);
+    EXPECT_EQ(target.id, selectedMaterial().id);
+}
+
+TEST_F(PanelTest, ADragInThePickerIsOneStepAndItsValuesAreLinear) {
+    auto& button = in<ColorButton>("material.baseColor");
+    button.click();
+    ColorPicker* picker = button.picker();
+    ASSERT_TRUE(eventually([&] { return picker->isVisible(); }));
+    auto* square = picker->findChild<SaturationValueSquare*>();
+    drag(*square, {20, 80}, {30, 60, 90});
+    EXPECT_EQ(undoCount(), 1);
+    auto* hex = picker->findChild<QLineEdit*>(QString(), Qt::FindDirectChildrenOnly);
+    ASSERT_NE(hex, nullptr);
+    hex->selectAll();
+    QTest::keyClicks(hex, QStringLiteral("#808080"));
+    QTest::keyClick(hex, Qt::Key_Return);
+    EXPECT_EQ(undoCount(), 2);
+    EXPECT_NEAR(selectedMaterial().baseColor.x, 0.2158605f, 1e-5);
+    picker->hide();
+}
+
+TEST_F(PanelTest, AnImageDroppedOnAMapSlotGoesThere) {
+    const QString file = writeImage(QStringLiteral("rough.png"));
+    drop(in<MapSlotWidget>("material.perceptualRoughness.map"), file);
+    ASSERT_TRUE(settled(*session));
+    const MapSlot& slot = selectedMaterial().perceptualRoughnessMap;
+    EXPECT_EQ(slot.source, file.toStdString());
+    ASSERT_NE(slot.image, nullptr);
+    EXPECT_EQ(slot.image->encoding(), ColorEncoding::Data);
+    EXPECT_EQ(undoCount(), 1);
+    find<QToolButton>(row("material.perceptualRoughness.map"),
+                      QStringLiteral("Remove Roughness map"))
+        ->click();
+    EXPECT_FALSE(selectedMaterial().perceptualRoughnessMap.assigned());
+}
+
+TEST_F(PanelTest, AnImageDroppedElsewhereBecomesTheBaseColour) {
+    const QString file = writeImage(QStringLiteral("color.png"));
+    drop(*window, file);
+    ASSERT_TRUE(settled(*session));
+    EXPECT_EQ(selectedMaterial().baseColorMap.source, file.toStdString());
+    ASSERT_NE(selectedMaterial().baseColorMap.image, nullptr);
+    EXPECT_EQ(selectedMaterial().baseColorMap.image->encoding(), ColorEncoding::Srgb);
+}
+
+TEST_F(PanelTest, TilingIsEditedPerMap) {
+    const Target target{Scope::Material, selectedMaterial().id};
+    controller().setMap(parameter("material.baseColor.map"), target,
+                        QStringLiteral("builtin:wood/baseColor"));
+    ASSERT_TRUE(settled(*session));
+    const int steps = undoCount();
+    auto& slot = in<MapSlotWidget>("material.baseColor.map");
+    find<QToolButton>(slot, QStringLiteral("Tiling of Base colour map"))->click();
+    auto* scale = find<NumberField>(slot, QStringLiteral("Base colour map: Scale U"));
+    ASSERT_NE(scale, nullptr);
+    QTest::mouseClick(scale, Qt::LeftButton, {}, {20, 12});
+    QTest::keyClicks(scale, QStringLiteral("3"));
+    QTest::keyClick(scale, Qt::Key_Return);
+    EXPECT_EQ(selectedMaterial().baseColorMap.uvScale.x, 3.0f);
+    EXPECT_EQ(selectedMaterial().baseColorMap.uvScale.y, 1.0f);
+    EXPECT_EQ(undoCount(), steps + 1);
+}
+
+TEST_F(PanelTest, TheTreeShowsRenamesHidesAndSelects) {
+    QTreeView* tree = window->findChild<ScenePanel*>()->tree();
+    auto* model = qobject_cast<SceneModel*>(tree->model());
+    ASSERT_NE(model, nullptr);
+    ASSERT_EQ(model->rowCount(model->branchIndex(SceneModel::Meshes)),
+              static_cast<int>(document().meshes.size()));
+    const Id mesh = document().meshes[1].id;
+    const QModelIndex index = model->indexOf({Scope::Mesh, mesh});
+    tree->setCurrentIndex(index);
+    EXPECT_EQ(session->selection.mesh(), mesh);
+    EXPECT_EQ(session->selection.material(), document().mesh(mesh)->material);
+
+    const QRect eye = tree->visualRect(index.siblingAtColumn(SceneModel::EyeColumn));
+    QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, eye.center());
+    EXPECT_FALSE(document().mesh(mesh)->visible);
+    EXPECT_EQ(controller().undoStack().undoText().toStdString(),
+              "Hide " + document().mesh(mesh)->name);
+    QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, eye.center());
+    EXPECT_TRUE(document().mesh(mesh)->visible);
+
+    tree->setCurrentIndex(index);
+    tree->edit(index);
+    auto* editor = tree->viewport()->findChild<QLineEdit*>();
+    ASSERT_NE(editor, nullptr);
+    editor->setText(QStringLiteral("Handle"));
+    QTest::keyClick(editor, Qt::Key_Return);
+    EXPECT_TRUE(eventually([&] { return document().mesh(mesh)->name == "Handle"; }));
+    EXPECT_EQ(model->data(index, Qt::DisplayRole).toString(), QStringLiteral("Handle"));
+}
+
+TEST_F(PanelTest, LightsAreAddedSwitchedRenamedAndRemoved) {
+    auto* panel = window->findChild<LightsPanel*>();
+    const std::size_t before = document().lights.size();
+    find<QToolButton>(*panel, QStringLiteral("Add a point light"))->click();
+    ASSERT_EQ(document().lights.size(), before + 1);
+    const Id id = document().lights.back().id;
+    EXPECT_EQ(session->selection.light(), id);
+    EXPECT_FALSE(row("light.position").isHidden());
+    EXPECT_TRUE(row("light.azimuthDeg").isHidden());
+
+    QListWidgetItem* item = panel->list()->item(panel->list()->count() - 1);
+    item->setCheckState(Qt::Unchecked);
+    EXPECT_FALSE(document().light(id)->enabled);
+    item->setText(QStringLiteral("Lamp"));
+    EXPECT_EQ(document().light(id)->name, "Lamp");
+    EXPECT_FALSE(document().light(id)->enabled);
+    EXPECT_EQ(undoCount(), 3);
+
+    find<QToolButton>(*panel, QStringLiteral("Add a directional light"))->click();
+    EXPECT_TRUE(row("light.position").isHidden());
+    EXPECT_FALSE(row("light.azimuthDeg").isHidden());
+    find<QToolButton>(*panel, QStringLiteral("Remove the selected light"))->click();
+    EXPECT_EQ(document().lights.size(), before + 1);
+    while (controller().undoStack().canUndo())
+        controller().undoStack().undo();
+    EXPECT_EQ(document().lights.size(), before);
+    EXPECT_EQ(panel->list()->count(), static_cast<int>(before));
+}
+
+TEST_F(PanelTest, TheGalleryLightsTheScene) {
+    auto* gallery = window->findChild<SkyGallery*>();
+    auto* sunset = find<QToolButton>(*gallery, QStringLiteral("Environment Sunset"));
+    ASSERT_NE(sunset, nullptr);
+    EXPECT_FALSE(sunset->isChecked());
+    sunset->click();
+    ASSERT_TRUE(settled(*session));
+    EXPECT_EQ(document().environment.source, "builtin:sunset");
+    EXPECT_TRUE(sunset->isChecked());
+    EXPECT_EQ(undoCount(), 1);
+    controller().undoStack().undo();
+    EXPECT_FALSE(sunset->isChecked());
+}
+
+TEST_F(PanelTest, TheLibraryChangesTheLookAndKeepsTheName) {
+    const std::string name = selectedMaterial().name;
+    controller().applyLibraryMaterial(selectedMaterial().id, QStringLiteral("gold"));
+    ASSERT_TRUE(settled(*session));
+    EXPECT_EQ(selectedMaterial().name, name);
+    EXPECT_EQ(selectedMaterial().metallic, 1.0f);
+    EXPECT_EQ(undoCount(), 1);
+}
+
+} // namespace
+} // namespace patina::editor

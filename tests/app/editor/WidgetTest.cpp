@@ -1,0 +1,319 @@
+// The numeric field, the slider and the colour picker by real mouse and key events.
+
+#include "app/editor/widget/ColorConversion.h"
+#include "app/editor/widget/ColorPicker.h"
+#include "app/editor/widget/MapSlotWidget.h"
+#include "app/editor/widget/NoticeArea.h"
+#include "app/editor/widget/NumberField.h"
+#include "app/editor/widget/Slider.h"
+#include "app/editor/widget/Thumbnails.h"
+
+#include <QApplication>
+#include <QLineEdit>
+#include <QSignalSpy>
+#include <QTest>
+#include <QToolButton>
+#include <QWheelEvent>
+#include <gmock/gmock.h>
+
+namespace patina::editor {
+namespace {
+
+struct NumberFieldTest : ::testing::Test {
+    NumberFieldTest() {
+        field.resize(80, 24);
+        field.setValue(0.5);
+        field.show();
+        other.show(); // somewhere for the focus to go
+        EXPECT_TRUE(QTest::qWaitForWindowExposed(&field));
+    }
+    void drag(int pixels, Qt::KeyboardModifiers modifiers = {}) {
+        move(pixels, modifiers);
+        QTest::mouseRelease(&field, Qt::LeftButton, modifiers, from + QPoint(pixels, 0));
+    }
+    void move(int pixels, Qt::KeyboardModifiers modifiers = {}) {
+        QTest::mousePress(&field, Qt::LeftButton, modifiers, from);
+        moveTo(pixels, modifiers);
+    }
+    void moveTo(int pixels, Qt::KeyboardModifiers modifiers = {}) {
+        // QTest::mouseMove() knows no modifiers.
+        const QPointF at = from + QPointF(pixels, 0);
+        QMouseEvent event(QEvent::MouseMove, at, field.mapToGlobal(at), Qt::NoButton,
+                          Qt::LeftButton, modifiers);
+        QApplication::sendEvent(&field, &event);
+    }
+    void type(const char* keys) {
+        QTest::mouseClick(&field, Qt::LeftButton, {}, from);
+        QTest::keyClicks(&field, QString::fromLatin1(keys));
+    }
+
+    const QPoint from{20, 12};
+    NumberField field{{0, 3, -10, 10, 3, false, {}}}; // 100 pixels are 1
+    QLineEdit other;
+    QSignalSpy started{&field, &NumberField::dragStarted};
+    QSignalSpy dragged{&field, &NumberField::dragged};
+    QSignalSpy finished{&field, &NumberField::dragFinished};
+    QSignalSpy edited{&field, &NumberField::edited};
+    QSignalSpy stepped{&field, &NumberField::stepped};
+};
+
+TEST_F(NumberFieldTest, ScrubsByTheDistance) {
+    drag(50);
+    EXPECT_DOUBLE_EQ(field.value(), 1.0);
+    EXPECT_EQ(started.count(), 1);
+    EXPECT_EQ(finished.count(), 1);
+    EXPECT_EQ(dragged.last().at(0).toDouble(), 1.0);
+    EXPECT_EQ(edited.count(), 0);
+    EXPECT_FALSE(field.isEditing());
+}
+
+TEST_F(NumberFieldTest, ShiftIsFineAndControlIsCoarse) {
+    drag(50, Qt::ShiftModifier);
+    EXPECT_DOUBLE_EQ(field.value(), 0.55);
+    field.setValue(0.5);
+    drag(50, Qt::ControlModifier);
+    EXPECT_DOUBLE_EQ(field.value(), 5.5);
+}
+
+TEST_F(NumberFieldTest, ChangingTheSpeedOnTheWayDoesNotJump) {
+    move(50);
+    EXPECT_DOUBLE_EQ(field.value(), 1.0);
+    moveTo(50, Qt::ShiftModifier);
+    EXPECT_DOUBLE_EQ(field.value(), 1.0);
+    moveTo(60, Qt::ShiftModifier);
+    EXPECT_DOUBLE_EQ(field.value(), 1.01);
+}
+
+TEST_F(NumberFieldTest, GoingBackEndsExactlyWhereItBegan) {
+    field.setValue(0.123456789);
+    move(77);
+    ASSERT_NE(field.value(), 0.123456789);
+    moveTo(0);
+    EXPECT_EQ(field.value(), 0.123456789);
+    EXPECT_EQ(dragged.last().at(0).toDouble(), 0.123456789);
+}
+
+TEST_F(NumberFieldTest, StopsAtTheHardRange) {
+    drag(5000);
+    EXPECT_EQ(field.value(), 10);
+    drag(-9000);
+    EXPECT_EQ(field.value(), -10);
+}
+
+TEST_F(NumberFieldTest, EscapeDuringAScrubRestores) {
+    move(50);
+    QTest::keyClick(&field, Qt::Key_Escape);
+    EXPECT_EQ(field.value(), 0.5);
+    EXPECT_EQ(dragged.last().at(0).toDouble(), 0.5);
+    EXPECT_EQ(finished.count(), 1);
+    moveTo(90); // the button is still down
+    EXPECT_EQ(field.value(), 0.5);
+}
+
+TEST_F(NumberFieldTest, AClickTypesAndEnterTakesIt) {
+    type("0,75");
+    EXPECT_TRUE(field.isEditing());
+    EXPECT_EQ(edited.count(), 0);
+    QTest::keyClick(&field, Qt::Key_Return);
+    EXPECT_EQ(field.value(), 0.75);
+    ASSERT_EQ(edited.count(), 1);
+    EXPECT_EQ(edited[0][0].toDouble(), 0.75);
+    EXPECT_EQ(started.count(), 0);
+}
+
+TEST_F(NumberFieldTest, EscapeWhileTypingKeepsTheOldValue) {
+    type("0.9");
+    QTest::keyClick(&field, Qt::Key_Escape);
+    EXPECT_EQ(field.value(), 0.5);
+    EXPECT_EQ(edited.count(), 0);
+    EXPECT_EQ(field.text().toStdString(), "0.50");
+}
+
+TEST_F(NumberFieldTest, NonsenseAndUnchangedTextsAreNoEdit) {
+    type("abc");
+    QTest::keyClick(&field, Qt::Key_Return);
+    EXPECT_EQ(field.value(), 0.5);
+    QTest::mouseClick(&field, Qt::LeftButton, {}, from);
+    QTest::keyClick(&field, Qt::Key_Return);
+    EXPECT_EQ(edited.count(), 0);
+}
+
+TEST_F(NumberFieldTest, TypedValuesKeepTheirDigitsAndTheHardRange) {
+    type("0.1234567");
+    QTest::keyClick(&field, Qt::Key_Return);
+    EXPECT_EQ(field.value(), 0.1234567);
+    type("1e9");
+    QTest::keyClick(&field, Qt::Key_Return);
+    EXPECT_EQ(field.value(), 10);
+}
+
+TEST_F(NumberFieldTest, WheelOnlyWithTheFocus) {
+    const auto wheel = [&](int angle) {
+        QWheelEvent event(QPointF(from), field.mapToGlobal(QPointF(from)), {}, {0, angle},
+                          Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+        QApplication::sendEvent(&field, &event);
+        return event.isAccepted();
+    };
+    other.activateWindow();
+    other.setFocus();
+    field.clearFocus();
+    EXPECT_FALSE(wheel(120));
+    EXPECT_EQ(field.value(), 0.5);
+    field.activateWindow();
+    ASSERT_TRUE(QTest::qWaitFor([&] {
+        field.setFocus();
+        return field.hasFocus();
+    }));
+    EXPECT_TRUE(wheel(120));
+    EXPECT_DOUBLE_EQ(field.value(), 0.52); // a hundredth of the range, as a round number: 0.02
+    EXPECT_TRUE(wheel(-240));
+    EXPECT_DOUBLE_EQ(field.value(), 0.48);
+    EXPECT_EQ(stepped.count(), 2);
+}
+
+TEST(NumberField, ParsesUnitsAndCommas) {
+    EXPECT_EQ(NumberField::parse(QStringLiteral("45°"), QStringLiteral("°")), 45.0);
+    EXPECT_EQ(NumberField::parse(QStringLiteral(" -0,5 ev"), QStringLiteral(" EV")), -0.5);
+    EXPECT_EQ(NumberField::parse(QStringLiteral("1e-3"), {}), 1e-3);
+    for (const char* bad : {"", "x", "nan", "inf", "1.2.3", "--1"})
+        EXPECT_EQ(NumberField::parse(QString::fromLatin1(bad), {}), std::nullopt) << bad;
+}
+
+TEST(NumberField, FormatsWithoutNoise) {
+    EXPECT_EQ(NumberField::format(0.5, 3).toStdString(), "0.50");
+    EXPECT_EQ(NumberField::format(0.125, 3).toStdString(), "0.125");
+    EXPECT_EQ(NumberField::format(-0.0001, 3).toStdString(), "0.00");
+    EXPECT_EQ(NumberField::format(100, 0).toStdString(), "100");
+    EXPECT_EQ(NumberField::format(45, 1).toStdString(), "45.0");
+}
+
+TEST(NumberField, AnglesGoAround) {
+    NumberField field({-180, 180, -180, 180, 1, true, QStringLiteral("°")});
+    field.resize(80, 24);
+    field.setValue(170);
+    field.show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&field));
+    QTest::mousePress(&field, Qt::LeftButton, {}, {20, 12});
+    QTest::mouseMove(&field, {20 + 25, 12}); // 360° are 300 pixels, so 30°
+    QTest::mouseRelease(&field, Qt::LeftButton, {}, {20 + 25, 12});
+    EXPECT_DOUBLE_EQ(field.value(), -160);
+    EXPECT_EQ(field.text(), QStringLiteral("-160.0°"));
+}
+
+TEST(SliderTest, TheHandleGoesAlongAndBackToItsExactStart) {
+    Slider slider(0, 1, 0);
+    slider.resize(214, 24); // 200 pixels of way
+    slider.setValue(0.123456);
+    slider.show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&slider));
+    QSignalSpy dragged(&slider, &Slider::dragged);
+    const QPoint at(slider.handleX(), 12);
+    QTest::mousePress(&slider, Qt::LeftButton, {}, at);
+    EXPECT_EQ(dragged.count(), 0); // taking the handle changes nothing
+    QTest::mouseMove(&slider, at + QPoint(100, 0));
+    EXPECT_NEAR(dragged.last().at(0).toDouble(), 0.623456, 0.006);
+    QTest::mouseMove(&slider, at);
+    EXPECT_EQ(dragged.last().at(0).toDouble(), 0.123456);
+    QTest::mouseMove(&slider, at + QPoint(5000, 0));
+    EXPECT_EQ(dragged.last().at(0).toDouble(), 1.0);
+    QTest::mouseRelease(&slider, Qt::LeftButton, {}, at);
+}
+
+TEST(SliderTest, APressElsewhereJumps) {
+    Slider slider(0, 1, 0);
+    slider.resize(214, 24);
+    slider.setValue(0);
+    slider.show();
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&slider));
+    QSignalSpy dragged(&slider, &Slider::dragged);
+    QTest::mouseClick(&slider, Qt::LeftButton, {}, {107, 12});
+    ASSERT_EQ(dragged.count(), 1);
+    EXPECT_NEAR(dragged[0][0].toDouble(), 0.5, 0.006);
+}
+
+// 0.5 linear is 188 on the display, not 128: IEC 61966-2-1.
+TEST(Color, IsLinearInsideAndEncodedOutside) {
+    EXPECT_EQ(hexOf(glm::vec3(0.5f)).toStdString(), "#bcbcbc");
+    EXPECT_EQ(hexOf(glm::vec3(1, 0, 0.21404114f)).toStdString(), "#ff0080");
+    const auto color = parseHex(QStringLiteral("#808080"));
+    ASSERT_TRUE(color);
+    EXPECT_NEAR(color->x, 0.2158605f, 1e-5);
+    EXPECT_EQ(parseHex(QStringLiteral("c84")), parseHex(QStringLiteral("#cc8844")));
+    for (const char* bad : {"", "#12", "#12345", "red", "#gggggg"})
+        EXPECT_EQ(parseHex(QString::fromLatin1(bad)), std::nullopt) << bad;
+}
+
+TEST(Color, HsvGoesThereAndBack) {
+    for (float r = 0; r <= 1; r += 0.25f)
+        for (float g = 0; g <= 1; g += 0.25f)
+            for (float b = 0; b <= 1; b += 0.25f) {
+                const glm::vec3 back = linearOf(hsvOf({r, g, b}));
+                EXPECT_NEAR(back.x, r, 1e-4);
+                EXPECT_NEAR(back.y, g, 1e-4);
+                EXPECT_NEAR(back.z, b, 1e-4);
+            }
+}
+
+TEST(ColorPickerTest, KeepsTheHueOfWhatBecomesGrey) {
+    ColorPicker picker;
+    picker.setColor(linearOf({0.6f, 0.8f, 0.9f}));
+    picker.show();
+    auto* square = picker.findChild<SaturationValueSquare*>();
+    QSignalSpy dragged(&picker, &ColorPicker::dragged);
+    const auto drag = [&](QPoint at) {
+        QTest::mousePress(square, Qt::LeftButton, {}, at);
+        QTest::mouseRelease(square, Qt::LeftButton, {}, at);
+    };
+    drag({-1, -1}); // no saturation: white
+    const auto white = qvariant_cast<glm::vec3>(dragged.last().at(0));
+    EXPECT_NEAR(white.x, 1, 1e-5);
+    picker.setColor(white); // as the document says it back
+    drag({square->width() - 1, 0});
+    const auto back = hsvOf(qvariant_cast<glm::vec3>(dragged.last().at(0)));
+    EXPECT_NEAR(back.hue, 0.6f, 1e-3);
+    EXPECT_NEAR(back.saturation, 1.0f, 1e-3);
+}
+
+TEST(MapSlotTest, SourcesHaveReadableNames) {
+    EXPECT_EQ(MapSlotWidget::sourceTitle("/home/ann/tex/bricks_d.png").toStdString(),
+              "bricks_d.png");
+    EXPECT_EQ(MapSlotWidget::sourceTitle("builtin:wood/baseColor").toStdString(), "Wood");
+    EXPECT_EQ(MapSlotWidget::sourceTitle("/a/chair.glb#embedded:1").toStdString(),
+              "image 2 of chair.glb");
+}
+
+TEST(ThumbnailsTest, ShowsWhatTheEncodingMeans) {
+    Image data(2, 2, 1, PixelType::U8, ColorEncoding::Data);
+    std::fill(data.u8().begin(), data.u8().end(), std::uint8_t{128});
+    EXPECT_EQ(qRed(displayImage(data, 8).pixel(0, 0)), 128); // numbers as they are
+    Image color(2, 2, 3, PixelType::U8, ColorEncoding::Srgb);
+    std::fill(color.u8().begin(), color.u8().end(), std::uint8_t{200});
+    EXPECT_EQ(qGreen(displayImage(color, 8).pixel(1, 1)), 200); // decoded and encoded again
+    Image large(64, 16, 3, PixelType::U8, ColorEncoding::Srgb);
+    EXPECT_EQ(displayImage(large, 8).size(), QSize(8, 2));
+    EXPECT_TRUE(displayImage(Image(), 8).isNull());
+}
+
+TEST(NoticeAreaTest, StacksCountsAndDismisses) {
+    NoticeArea area;
+    const UserNotice missing{NoticeKind::Warning,
+                             QStringLiteral("2 files are missing"),
+                             {QStringLiteral("Missing: a.png"), QStringLiteral("Missing: b.png")}};
+    area.add(missing);
+    area.add({NoticeKind::Error, QStringLiteral("x.png is damaged"), {}});
+    ASSERT_EQ(area.bars().size(), 2);
+    EXPECT_EQ(area.bars()[0]->notice().text, QStringLiteral("x.png is damaged"));
+    area.add(missing); // the same again: counted, not stacked
+    EXPECT_EQ(area.bars().size(), 2);
+    EXPECT_TRUE(area.isVisible());
+    for (QToolButton* button : area.bars()[0]->findChildren<QToolButton*>())
+        if (button->toolTip() == QStringLiteral("Dismiss"))
+            button->click();
+    EXPECT_EQ(area.bars().size(), 1);
+    for (int i = 0; i < 20; ++i)
+        area.add({NoticeKind::Error, QString::number(i), {}});
+    EXPECT_LE(area.bars().size(), 4);
+}
+
+} // namespace
+} // namespace patina::editor

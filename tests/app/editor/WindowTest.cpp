@@ -1,0 +1,350 @@
+// The window as a whole: files, guard, drops, actions, layout, pictures of it.
+
+#include "tests/app/editor/EditorFixture.h"
+
+#include "app/editor/Actions.h"
+#include "app/editor/HelpDialogs.h"
+#include "app/editor/document/Commands.h"
+#include "app/editor/widget/NoticeArea.h"
+
+#include <QAbstractButton>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialog>
+#include <QDir>
+#include <QDockWidget>
+#include <QDropEvent>
+#include <QFile>
+#include <QLineEdit>
+#include <QMenu>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QSettings>
+#include <QToolBar>
+#include <map>
+
+namespace patina::editor {
+namespace {
+
+struct WindowTest : EditorTest {
+    void TearDown() override {
+        for (QMessageBox* box : window->findChildren<QMessageBox*>())
+            box->done(QMessageBox::Cancel);
+    }
+    static void modify() {
+        controller().setParameter(parameter("material.perceptualRoughness"),
+                                  {Scope::Material, selectedMaterial().id}, 0.123f);
+        ASSERT_TRUE(controller().isModified());
+    }
+    static QMessageBox* question() {
+        for (QMessageBox* box : window->findChildren<QMessageBox*>())
+            if (box->isVisible())
+                return box;
+        return nullptr;
+    }
+    static void answer(QMessageBox::StandardButton button) {
+        ASSERT_NE(question(), nullptr);
+        QTest::mouseClick(question()->button(button), Qt::LeftButton);
+    }
+    static void dropOnWindow(const QStringList& files) {
+        QMimeData data;
+        QList<QUrl> urls;
+        for (const QString& file : files)
+            urls << QUrl::fromLocalFile(file);
+        data.setUrls(urls);
+        QDragEnterEvent enter({300, 300}, Qt::CopyAction, &data, Qt::LeftButton, {});
+        QApplication::sendEvent(window.get(), &enter);
+        ASSERT_TRUE(enter.isAccepted());
+        QDropEvent event({300, 300}, Qt::CopyAction, &data, Qt::LeftButton, {});
+        QApplication::sendEvent(window.get(), &event);
+    }
+    QString saveProjectFile(const QString& name) {
+        const QString file = folder.filePath(name);
+        bool worked = false;
+        controller().saveAs(file, [&](bool ok) { worked = ok; });
+        EXPECT_TRUE(settled(*session));
+        EXPECT_TRUE(worked);
+        return file;
+    }
+    QString writeObj(const QString& name) {
+        QFile file(folder.filePath(name));
+        EXPECT_TRUE(file.open(QIODevice::WriteOnly));
+        file.write("o Triangle\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+        return file.fileName();
+    }
+};
+
+TEST_F(WindowTest, TheTitleNamesTheFileAndItsState) {
+    EXPECT_EQ(window->windowTitle().toStdString(), "Untitled[*] — Patina");
+    EXPECT_FALSE(window->isWindowModified());
+    modify();
+    EXPECT_TRUE(window->isWindowModified());
+    saveProjectFile(QStringLiteral("chair.patina"));
+    EXPECT_EQ(window->windowTitle().toStdString(), "chair.patina[*] — Patina");
+    EXPECT_FALSE(window->isWindowModified());
+}
+
+TEST_F(WindowTest, NothingAsksWhenNothingIsLost) {
+    bool proceeded = false;
+    window->files().guard([&] { proceeded = true; });
+    EXPECT_TRUE(proceeded);
+    EXPECT_EQ(question(), nullptr);
+}
+
+TEST_F(WindowTest, TheGuardStaysOnCancelAndGoesOnDiscard) {
+    modify();
+    int proceeded = 0;
+    window->files().guard([&] { ++proceeded; });
+    ASSERT_TRUE(eventually([] { return question() != nullptr; }));
+    answer(QMessageBox::Cancel);
+    EXPECT_EQ(proceeded, 0);
+    EXPECT_TRUE(controller().isModified());
+    window->files().guard([&] { ++proceeded; });
+    ASSERT_TRUE(eventually([] { return question() != nullptr; }));
+    answer(QMessageBox::Discard);
+    EXPECT_EQ(proceeded, 1);
+}
+
+TEST_F(WindowTest, TheGuardSavesFirstWhenAsked) {
+    const QString file = saveProjectFile(QStringLiteral("a.patina"));
+    modify();
+    bool proceeded = false;
+    window->files().guard([&] { proceeded = true; });
+    ASSERT_TRUE(eventually([] { return question() != nullptr; }));
+    answer(QMessageBox::Save);
+    ASSERT_TRUE(eventually([&] { return proceeded; }));
+    EXPECT_FALSE(controller().isModified());
+    QFile saved(file);
+    ASSERT_TRUE(saved.open(QIODevice::ReadOnly));
+    EXPECT_TRUE(saved.readAll().contains("0.123"));
+}
+
+TEST_F(WindowTest, ClosingAsksAndStaysOnCancel) {
+    modify();
+    EXPECT_FALSE(window->close());
+    ASSERT_TRUE(eventually([] { return question() != nullptr; }));
+    answer(QMessageBox::Cancel);
+    EXPECT_TRUE(window->isVisible());
+}
+
+TEST_F(WindowTest, AProjectDroppedOpensBehindTheGuard) {
+    controller().rename({Scope::Material, selectedMaterial().id}, QStringLiteral("Glaze"));
+    const QString file = saveProjectFile(QStringLiteral("dropped.patina"));
+    controller().newDocument();
+    ASSERT_TRUE(settled(*session));
+    modify();
+    dropOnWindow({file});
+    ASSERT_TRUE(eventually([] { return question() != nullptr; }));
+    EXPECT_NE(controller().filePath(), file);
+    answer(QMessageBox::Discard);
+    ASSERT_TRUE(eventually([&] { return controller().filePath() == file; }));
+    EXPECT_TRUE(std::any_of(document().materials.begin(), document().materials.end(),
+                            [](const Material& m) { return m.name == "Glaze"; }));
+    EXPECT_EQ(window->files().recentFiles().value(0), file);
+}
+
+TEST_F(WindowTest, AModelDroppedOnTheStartSceneReplacesIt) {
+    dropOnWindow({writeObj(QStringLiteral("triangle.obj"))});
+    ASSERT_TRUE(settled(*session));
+    ASSERT_EQ(document().meshes.size(), 1u);
+    EXPECT_EQ(document().meshes[0].mesh->triangleCount(), 1u);
+    EXPECT_EQ(controller().displayName(), QStringLiteral("triangle"));
+}
+
+TEST_F(WindowTest, AModelDroppedOnWorkAsksWhatToDo) {
+    modify();
+    const std::size_t before = document().meshes.size();
+    dropOnWindow({writeObj(QStringLiteral("triangle.obj"))});
+    QMenu* menu = nullptr;
+    ASSERT_TRUE(eventually([&] {
+        menu = window->findChild<QMenu*>(QStringLiteral("dropMenu"));
+        return menu && menu->isVisible();
+    }));
+    EXPECT_EQ(document().meshes.size(), before);
+    menu->actions().first()->trigger();
+    menu->close();
+    ASSERT_TRUE(settled(*session));
+    EXPECT_EQ(document().meshes.size(), before + 1);
+    EXPECT_EQ(undoCount(), 2);
+}
+
+TEST_F(WindowTest, AnEnvironmentDroppedLightsTheScene) {
+    QFile hdr(folder.filePath(QStringLiteral("sky.hdr")));
+    ASSERT_TRUE(hdr.open(QIODevice::WriteOnly));
+    hdr.write("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n");
+    for (int pixel = 0; pixel < 8; ++pixel)
+        hdr.write("\x80\x40\x20\x82", 4); // flat RGBE
+    hdr.close();
+    dropOnWindow({hdr.fileName()});
+    ASSERT_TRUE(settled(*session));
+    EXPECT_EQ(document().environment.source, hdr.fileName().toStdString());
+    ASSERT_NE(document().environment.image, nullptr);
+    EXPECT_EQ(document().environment.image->type(), PixelType::F32);
+}
+
+TEST_F(WindowTest, ABrokenFileIsANoticeAndNothingIsLost) {
+    QFile file(folder.filePath(QStringLiteral("broken.glb")));
+    ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+    file.write("this is no GLB");
+    file.close();
+    const Document before = document();
+    dropOnWindow({file.fileName(), folder.filePath(QStringLiteral("notes.txt"))});
+    ASSERT_TRUE(settled(*session));
+    EXPECT_EQ(document(), before);
+    QStringList texts;
+    for (const NoticeBar* bar : window->notices().bars())
+        texts << bar->notice().text;
+    EXPECT_TRUE(texts.join(QLatin1Char('\n')).contains(QStringLiteral("broken.glb")));
+    EXPECT_TRUE(texts.join(QLatin1Char('\n')).contains(QStringLiteral("notes.txt")));
+}
+
+TEST_F(WindowTest, RecentFilesForgetWhatIsGone) {
+    const QString file = saveProjectFile(QStringLiteral("gone.patina"));
+    EXPECT_EQ(window->files().recentFiles().value(0), file);
+    ASSERT_TRUE(QFile::remove(file));
+    window->files().open(file);
+    ASSERT_TRUE(settled(*session));
+    EXPECT_FALSE(window->files().recentFiles().contains(file));
+}
+
+// --- Actions and accessibility -------------------------------------------------------------------
+
+void collect(const QList<QAction*>& actions, QList<QAction*>& all) {
+    for (QAction* action : actions) {
+        if (action->isSeparator())
+            continue;
+        if (action->menu())
+            collect(action->menu()->actions(), all);
+        else
+            all << action;
+    }
+}
+
+QList<QAction*> everyAction(const MainWindow& window) {
+    QList<QAction*> all;
+    collect(window.menuBar()->actions(), all);
+    for (const QToolBar* bar : window.findChildren<QToolBar*>())
+        collect(bar->actions(), all);
+    return all;
+}
+
+TEST_F(WindowTest, EveryActionSaysWhatItDoes) {
+    const QList<QAction*> actions = everyAction(*window);
+    EXPECT_GT(actions.size(), 25);
+    for (const QAction* action : actions) {
+        const std::string name = action->text().toStdString();
+        EXPECT_FALSE(name.empty());
+        EXPECT_GT(action->statusTip().size(), 3) << name;
+        EXPECT_GT(action->toolTip().size(), 3) << name;
+    }
+}
+
+TEST_F(WindowTest, NoShortcutIsTakenTwice) {
+    std::map<QString, std::set<const QAction*>> owners;
+    for (const QAction* action : everyAction(*window))
+        for (const QKeySequence& keys : action->shortcuts())
+            owners[keys.toString()].insert(action);
+    EXPECT_GT(owners.size(), 12u);
+    for (const auto& [keys, actions] : owners)
+        EXPECT_EQ(actions.size(), 1u) << keys.toStdString();
+}
+
+TEST_F(WindowTest, NoMnemonicIsTakenTwiceInAMenu) {
+    QList<QMenu*> menus;
+    for (QAction* action : window->menuBar()->actions())
+        menus << action->menu();
+    for (const QMenu* menu : menus) {
+        std::map<QChar, int> count;
+        for (const QAction* action : menu->actions()) {
+            const qsizetype at = action->text().indexOf(QLatin1Char('&'));
+            if (at >= 0)
+                ++count[action->text().at(at + 1).toLower()];
+        }
+        for (const auto& [letter, times] : count)
+            EXPECT_EQ(times, 1) << menu->title().toStdString() << ' ' << char(letter.toLatin1());
+    }
+}
+
+TEST_F(WindowTest, EveryControlHasAnAccessibleName) {
+    for (const QDockWidget* dock : window->findChildren<QDockWidget*>()) {
+        for (const QWidget* widget : dock->widget()->findChildren<QWidget*>()) {
+            if (widget->objectName().startsWith(QLatin1String("qt_")))
+                continue; // parts of a control, such as the editor of a spin box
+            const auto* button = qobject_cast<const QAbstractButton*>(widget);
+            const bool control = button || qobject_cast<const QComboBox*>(widget) ||
+                                 qobject_cast<const QLineEdit*>(widget);
+            const bool named =
+                !widget->accessibleName().isEmpty() || (button && !button->text().isEmpty());
+            EXPECT_TRUE(!control || named)
+                << dock->objectName().toStdString() << ": " << widget->metaObject()->className()
+                << ' ' << widget->toolTip().toStdString();
+        }
+    }
+}
+
+TEST_F(WindowTest, LightingFollowsTheDocument) {
+    Actions& actions = window->actions();
+    EXPECT_TRUE(actions.lightingIbl->isChecked());
+    actions.lightingPrt->trigger();
+    EXPECT_EQ(document().view.lighting, LightingMode::Prt);
+    EXPECT_TRUE(actions.lightingPrt->isChecked());
+    actions.undo->trigger();
+    EXPECT_EQ(document().view.lighting, LightingMode::Ibl);
+    EXPECT_TRUE(actions.lightingIbl->isChecked());
+}
+
+// --- Layout and pictures -------------------------------------------------------------------------
+
+TEST_F(WindowTest, TheLayoutIsRememberedAndReset) {
+    auto* log = window->findChild<QDockWidget*>(QStringLiteral("log"));
+    auto* scene = window->findChild<QDockWidget*>(QStringLiteral("scene"));
+    ASSERT_TRUE(log->isHidden());
+    scene->hide();
+    log->show();
+    const QByteArray state = window->saveState(1);
+    window->resetLayout();
+    EXPECT_FALSE(scene->isHidden());
+    EXPECT_TRUE(log->isHidden());
+    ASSERT_TRUE(window->restoreState(state, 1));
+    EXPECT_TRUE(scene->isHidden());
+    EXPECT_FALSE(log->isHidden());
+    EXPECT_FALSE(window->restoreState(state, 999)); // another version's layout is not for us
+    window->resetLayout();
+}
+
+TEST_F(WindowTest, PicturesOfTheWindowAreKept) {
+    const QString target = qEnvironmentVariable("PATINA_SCREENSHOTS", folder.path());
+    ASSERT_TRUE(QDir().mkpath(target));
+    const auto keep = [&](QWidget* widget, const QString& name) {
+        const QImage picture = widget->grab().toImage();
+        EXPECT_FALSE(picture.isNull());
+        EXPECT_TRUE(picture.save(QDir(target).filePath(name + QStringLiteral(".png"))));
+    };
+    controller().addLight(LightType::Directional);
+    for (QDockWidget* dock : window->findChildren<QDockWidget*>()) {
+        dock->show();
+        dock->raise();
+        QTest::qWait(30);
+        keep(dock, QStringLiteral("dock-") + dock->objectName());
+    }
+    window->resetLayout();
+    Q_EMIT controller().noticed(
+        {NoticeKind::Warning,
+         QStringLiteral("helmet.gltf refers to 2 files that are missing; a checkered placeholder "
+                        "stands in for them."),
+         {QStringLiteral("Missing: a.png"), QStringLiteral("Missing: b.png")}});
+    QTest::qWait(50);
+    keep(window.get(), QStringLiteral("window"));
+    QDialog* shortcuts = makeShortcutsDialog(window->actions().all(), window.get());
+    shortcuts->show();
+    keep(shortcuts, QStringLiteral("shortcuts"));
+    shortcuts->close();
+    QDialog* about = makeAboutDialog(window.get());
+    about->show();
+    keep(about, QStringLiteral("about"));
+    about->close();
+}
+
+} // namespace
+} // namespace patina::editor

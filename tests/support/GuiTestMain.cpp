@@ -1,0 +1,42 @@
+// main() of the tests with a window: a QApplication in the editor's style, settings in a folder of
+// their own, and every warning of Qt a failure.
+
+#include "app/editor/Startup.h"
+#include "app/editor/style/Style.h"
+
+#include <QApplication>
+#include <QSettings>
+#include <QTemporaryDir>
+#include <cstdio>
+#include <gmock/gmock.h>
+#include <mutex>
+#include <vector>
+
+namespace {
+
+std::mutex warningsMutex;
+std::vector<QString> warnings;
+
+void takeMessage(QtMsgType type, const QMessageLogContext&, const QString& message) {
+    std::fprintf(stderr, "Qt: %s\n", qPrintable(message));
+    if (type == QtWarningMsg || type == QtCriticalMsg) {
+        const std::lock_guard lock(warningsMutex);
+        warnings.push_back(message);
+    }
+}
+
+} // namespace
+
+int main(int argc, char* argv[]) {
+    ::testing::InitGoogleMock(&argc, argv);
+    qInstallMessageHandler(takeMessage);
+    patina::editor::prepareApplication();
+    QTemporaryDir settings;
+    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, settings.path());
+    QApplication application(argc, argv);
+    patina::editor::applyStyle(application);
+    const int status = RUN_ALL_TESTS();
+    for (const QString& warning : warnings)
+        std::fprintf(stderr, "FAILED: Qt warned: %s\n", qPrintable(warning));
+    return warnings.empty() ? status : 1;
+}
