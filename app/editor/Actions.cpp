@@ -43,9 +43,11 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
                  tr("Version, licence and libraries"))) {
     undo->setIcon(icon(QStringLiteral("undo")));
     undo->setShortcut(QKeySequence::Undo);
+    undo->setIconText(tr("Undo"));
     describe(undo, tr("Take back the last change"));
     redo->setIcon(icon(QStringLiteral("redo")));
     redo->setShortcuts({tr("Ctrl+Shift+Z"), tr("Ctrl+Y")});
+    redo->setIconText(tr("Redo"));
     describe(redo, tr("Make the change again that was taken back"));
     overlays->setCheckable(true);
     overlays->setChecked(true);

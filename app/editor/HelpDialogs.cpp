@@ -62,8 +62,7 @@ QDialog* makeShortcutsDialog(const QList<QAction*>& actions, QWidget* parent) {
 
     Lines keys;
     for (const QAction* action : actions) {
-        QString text = action->text();
-        text.remove(QLatin1Char('&'));
+        QString text = action->iconText();
         const QString shortcuts =
             QKeySequence::listToString(action->shortcuts(), QKeySequence::NativeText);
         if (!shortcuts.isEmpty())

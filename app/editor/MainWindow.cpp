@@ -89,6 +89,7 @@ QDockWidget* MainWindow::addDock(const QString& name, const QString& title, cons
                                  const QString& help, QWidget* panel) {
     auto* dock = new QDockWidget(title, this);
     dock->setObjectName(name); // saveState() finds it by this
+    panel->setAttribute(Qt::WA_StyledBackground);
     dock->setWidget(panel);
     QAction* toggle = dock->toggleViewAction();
     toggle->setIcon(icon(iconName));
@@ -169,8 +170,8 @@ void MainWindow::resetLayout() {
         dock->setVisible(dock != m_docks[Jobs] && dock != m_docks[Log]);
     m_docks[EnvironmentDock]->raise();
     m_docks[MaterialDock]->raise();
-    resizeDocks({m_docks[Scene], m_docks[MaterialDock]}, {304, 348}, Qt::Horizontal);
-    resizeDocks({m_docks[Scene], m_docks[EnvironmentDock]}, {300, 460}, Qt::Vertical);
+    resizeDocks({m_docks[Scene], m_docks[MaterialDock]}, {304, 356}, Qt::Horizontal);
+    resizeDocks({m_docks[Scene], m_docks[EnvironmentDock]}, {340, 420}, Qt::Vertical);
 }
 
 void MainWindow::restoreLayout() {

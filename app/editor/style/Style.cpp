@@ -7,8 +7,7 @@
 #include <QFile>
 #include <QFont>
 #include <QPalette>
-#include <QStyleFactory>
-#include <iterator>
+#include <QProxyStyle>
 
 namespace patina::editor {
 namespace {
@@ -67,10 +66,26 @@ QString styleSheet() {
     return sheet;
 }
 
+class PatinaStyle : public QProxyStyle {
+  public:
+    PatinaStyle()
+        : QProxyStyle(QStringLiteral("Fusion")) {}
+    int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
+                  QStyleHintReturn* data) const override {
+        switch (hint) {
+        case SH_DialogButtonBox_ButtonsHaveIcons: // words are enough
+        case SH_EtchDisabledText:
+            return 0;
+        default:
+            return QProxyStyle::styleHint(hint, option, widget, data);
+        }
+    }
+};
+
 } // namespace
 
 void applyStyle(QApplication& application) {
-    QApplication::setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
+    QApplication::setStyle(new PatinaStyle);
     QApplication::setPalette(palette());
     application.setStyleSheet(styleSheet());
 }

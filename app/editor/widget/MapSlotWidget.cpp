@@ -79,7 +79,7 @@ MapSlotWidget::MapSlotWidget(Thumbnails& thumbnails, const QString& name, bool w
 
     auto* grid = new QGridLayout(this);
     grid->setContentsMargins(kThumbnail + kGap, 0, 0, 0);
-    grid->setHorizontalSpacing(2);
+    grid->setHorizontalSpacing(3);
     grid->setVerticalSpacing(0);
     grid->addWidget(m_title, 0, 0, 1, 5);
     grid->addWidget(m_channel, 1, 0);
