@@ -84,12 +84,6 @@ Material plainMaterial(const char* name, const glm::vec3& color) {
     return m;
 }
 
-ModelPart part(const char* name, Mesh mesh, const Material& material) {
-    mesh.name = name;
-    computeTangents(mesh);
-    return {name, std::make_shared<const Mesh>(std::move(mesh)), material.name, material};
-}
-
 } // namespace
 
 std::vector<ModelPart> cornellBox() {
@@ -115,12 +109,12 @@ std::vector<ModelPart> cornellBox() {
     addQuad(redWall, kLeftWall, kWallSteps, 1, 0);
     addQuad(greenWall, kRightWall, kWallSteps, 1, 0);
     addQuad(lamp, kLight, kLightSteps, 1, 0);
-    return {part("Room", std::move(room), white),
-            part("Left Wall", std::move(redWall), red),
-            part("Right Wall", std::move(greenWall), green),
-            part("Short Block", std::move(shortBlock), white),
-            part("Tall Block", std::move(tallBlock), white),
-            part("Light", std::move(lamp), light)};
+    return {makePart("Room", std::move(room), white),
+            makePart("Left Wall", std::move(redWall), red),
+            makePart("Right Wall", std::move(greenWall), green),
+            makePart("Short Block", std::move(shortBlock), white),
+            makePart("Tall Block", std::move(tallBlock), white),
+            makePart("Light", std::move(lamp), light)};
 }
 
 } // namespace patina::library

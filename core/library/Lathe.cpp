@@ -75,6 +75,16 @@ Profile roundedProfile(std::span<const ProfileCorner> corners, double maxStep, d
     return profile;
 }
 
+Profile sphereProfile(double radius, int rings) {
+    Profile profile;
+    for (int i = 0; i <= rings; ++i) {
+        const double turns = 0.5 * i / rings;
+        const double r = i == 0 || i == rings ? 0.0 : sinTurns(turns), h = -cosTurns(turns);
+        profile.push_back({radius * r, radius * h, r, h, radius * kPi * i / rings});
+    }
+    return profile;
+}
+
 void finishSmoothProfile(Profile& profile) {
     fillLengths(profile);
     for (std::size_t i = 0; i < profile.size(); ++i) {

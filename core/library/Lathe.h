@@ -29,6 +29,9 @@ struct ProfileCorner {
 // are not rounded; all others need a fillet.
 Profile roundedProfile(std::span<const ProfileCorner> corners, double maxStep, double arcStepDeg);
 
+// A half circle around the origin, from the south pole to the north pole.
+Profile sphereProfile(double radius, int rings);
+
 // Fills normals (outside to the right) and lengths from the positions of a smooth, dense profile.
 void finishSmoothProfile(Profile& profile);
 

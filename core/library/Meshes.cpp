@@ -26,13 +26,13 @@ void addGridIndices(Mesh& mesh, std::uint32_t start, int columns, int rows) {
         }
 }
 
-ModelPart part(const char* name, Mesh mesh, Material material) {
+} // namespace
+
+ModelPart makePart(const char* name, Mesh mesh, const Material& material) {
     mesh.name = name;
     computeTangents(mesh);
     return {name, std::make_shared<const Mesh>(std::move(mesh)), material.name, material};
 }
-
-} // namespace
 
 Material materialNamed(const char* partName, const char* materialName, glm::vec2 repeat) {
     Result<Material> result = material(materialName);
@@ -47,13 +47,7 @@ Material materialNamed(const char* partName, const char* materialName, glm::vec2
 
 Mesh makeSphere(int segments, int rings) {
     constexpr double kRadius = 0.5;
-    Profile profile;
-    for (int i = 0; i <= rings; ++i) {
-        const double turns = 0.5 * i / rings; // from the south pole
-        const double r = i == 0 || i == rings ? 0.0 : sinTurns(turns);
-        const double h = -cosTurns(turns);
-        profile.push_back({kRadius * r, kRadius * h, r, h, kRadius * kPi * i / rings});
-    }
+    const Profile profile = sphereProfile(kRadius, rings);
     Mesh mesh;
     addLathe(mesh, profile, 0, profile.size() - 1, segments, {},
              {glm::dmat3(1.0), {0, kRadius, 0}});
@@ -178,19 +172,19 @@ std::span<const ModelRecipe> modelRecipes() {
     static constexpr std::array<ModelRecipe, 6> kRecipes = {{
         {"sphere", "Sphere", "A ball of 1 m.",
          [] {
-             return std::vector{part("Sphere", makeSphere(128, 64),
-                                     materialNamed("Sphere", "copper-patina", {4.0f, 2.0f}))};
+             return std::vector{makePart("Sphere", makeSphere(128, 64),
+                                         materialNamed("Sphere", "copper-patina", {4.0f, 2.0f}))};
          }},
         {"rounded-cube", "Rounded Cube", "A cube of 1 m with rounded edges.",
          [] {
-             return std::vector{part("Rounded Cube", makeRoundedCube(10),
-                                     materialNamed("Rounded Cube", "wood", {3.0f, 3.0f}))};
+             return std::vector{makePart("Rounded Cube", makeRoundedCube(10),
+                                         materialNamed("Rounded Cube", "wood", {3.0f, 3.0f}))};
          }},
         {"torus-knot", "Torus Knot",
          "A knotted tube of 100,000 triangles: cavities and contact everywhere, for bakes.",
          [] {
-             return std::vector{part("Torus Knot", makeTorusKnot(512, 98),
-                                     materialNamed("Torus Knot", "gold", {1.0f, 12.0f}))};
+             return std::vector{makePart("Torus Knot", makeTorusKnot(512, 98),
+                                         materialNamed("Torus Knot", "gold", {1.0f, 12.0f}))};
          }},
         {"shader-ball", "Shader Ball",
          "A hollow ball with grooves and an inner core on a stepped stand: shows a material's "
@@ -200,8 +194,8 @@ std::span<const ModelRecipe> modelRecipes() {
          cornellBox},
         {"plane", "Plane", "A square of 2 m, lying flat.",
          [] {
-             return std::vector{
-                 part("Plane", makePlane(64), materialNamed("Plane", "concrete", {2.0f, 2.0f}))};
+             return std::vector{makePart("Plane", makePlane(64),
+                                         materialNamed("Plane", "concrete", {2.0f, 2.0f}))};
          }},
     }};
     return kRecipes;

@@ -24,6 +24,9 @@ Mesh makeSphere(int segments, int rings); // radius 0.5 m
 Mesh makeRoundedCube(int edgeSteps);      // 1 m, edges rounded with 0.12 m
 Mesh makePlane(int steps);                // 2 m × 2 m, facing up
 
+// Completes the mesh with its name and tangents.
+ModelPart makePart(const char* name, Mesh mesh, const Material& material);
+
 // A library material under another name, its maps repeated `repeat` times over the unit square.
 Material materialNamed(const char* partName, const char* materialName, glm::vec2 repeat);
 

@@ -155,13 +155,8 @@ Mesh liner() {
 // What the opening shows, and the ring that carries the ball.
 Mesh core() {
     Mesh mesh;
-    Profile sphere;
     constexpr int kRings = 48;
-    for (int i = 0; i <= kRings; ++i) {
-        const double turns = 0.5 * i / kRings;
-        const double r = i == 0 || i == kRings ? 0.0 : sinTurns(turns), h = -cosTurns(turns);
-        sphere.push_back({kCoreRadius * r, kCoreRadius * h, r, h, kCoreRadius * kPi * i / kRings});
-    }
+    const Profile sphere = sphereProfile(kCoreRadius, kRings);
     // Its poles point sideways, where the shell hides them.
     const glm::dvec3 opening = directionFromAngles(kOpeningAzimuth, kOpeningElevation);
     const glm::dvec3 side = glm::normalize(glm::cross(opening, glm::dvec3(0.0, 1.0, 0.0)));
@@ -264,12 +259,6 @@ Mesh floorDisc() {
     return mesh;
 }
 
-ModelPart part(const char* name, Mesh mesh, const Material& material) {
-    mesh.name = name;
-    computeTangents(mesh);
-    return {name, std::make_shared<const Mesh>(std::move(mesh)), material.name, material};
-}
-
 } // namespace
 
 std::vector<ModelPart> shaderBall() {
@@ -279,11 +268,11 @@ std::vector<ModelPart> shaderBall() {
     ground.perceptualRoughness = 0.34f;
     Material coreGold = materialNamed("Core", "gold", {4.0f, 4.0f});
     coreGold.normalStrength = 0.35f; // the core is small: its hammering would look like facets
-    return {part("Ball", ball(), materialNamed("Ball", "worn-painted-metal", {4.0f, 4.0f})),
-            part("Core", core(), coreGold),
-            part("Stand", stand(), materialNamed("Stand", "rough-plastic", {5.0f, 5.0f})),
-            part("Liner", liner(), materialNamed("Liner", "rough-plastic", {5.0f, 5.0f})),
-            part("Floor", floorDisc(), ground)};
+    return {makePart("Ball", ball(), materialNamed("Ball", "worn-painted-metal", {4.0f, 4.0f})),
+            makePart("Core", core(), coreGold),
+            makePart("Stand", stand(), materialNamed("Stand", "rough-plastic", {5.0f, 5.0f})),
+            makePart("Liner", liner(), materialNamed("Liner", "rough-plastic", {5.0f, 5.0f})),
+            makePart("Floor", floorDisc(), ground)};
 }
 
 } // namespace patina::library
