@@ -62,7 +62,7 @@ void SkyCanvas::fillGround(const glm::vec3& albedo, float roughness) {
 void SkyCanvas::addDisc(const glm::vec3& center, double radiusDeg, const glm::vec3& radiance) {
     constexpr int kSub = 8;
     const double cosRadius = cosTurns(radiusDeg / 360.0);
-    const double cosReach = cosTurns((radiusDeg + 1.0) / 360.0); // the disc and two texels
+    const double cosReach = cosTurns((radiusDeg + 0.5) / 360.0); // and a texel's diagonal
     const double centerElevation = 90.0 - acosPortable(center.y) * 180.0 / kPi;
     struct Covered {
         int x, y;
@@ -79,15 +79,15 @@ void SkyCanvas::addDisc(const glm::vec3& center, double radiusDeg, const glm::ve
             if (glm::dot(direction(x, y), center) < cosReach)
                 continue;
             int inside = 0;
-            for (int j = 0; j < kSub; ++j)
+            for (int j = 0; j < kSub; ++j) {
+                const double pol = (y + (j + 0.5) / kSub) / kSkyHeight * 0.5;
+                const double s = sinTurns(pol), up = cosTurns(pol) * center.y;
                 for (int i = 0; i < kSub; ++i) {
                     const double az = (x + (i + 0.5) / kSub) / kSkyWidth - 0.5;
-                    const double pol = (y + (j + 0.5) / kSub) / kSkyHeight * 0.5;
-                    const double s = sinTurns(pol);
-                    const double dot = s * sinTurns(az) * center.x + cosTurns(pol) * center.y -
-                                       s * cosTurns(az) * center.z;
-                    inside += dot >= cosRadius;
+                    inside +=
+                        s * (sinTurns(az) * center.x - cosTurns(az) * center.z) + up >= cosRadius;
                 }
+            }
             if (inside > 0) {
                 covered.push_back({x, y, inside / double(kSub * kSub)});
                 sum += covered.back().part * texelSolidAngle(y);

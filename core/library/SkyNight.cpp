@@ -38,7 +38,11 @@ glm::vec3 windowColor(std::uint32_t h) {
 }
 
 void addGlow(SkyCanvas& canvas, const glm::vec3& center, const glm::vec3& radiance) {
+    const double centerElevation = 90.0 - acosPortable(center.y) * 180.0 / kPi;
     forRows(kSkyHeight, [&](int y) {
+        const double elevation = 90.0 - (y + 0.5) * 180.0 / kSkyHeight;
+        if (std::fabs(elevation - centerElevation) > 15.0)
+            return;
         for (int x = 0; x < kSkyWidth; ++x) {
             const float cosine = glm::dot(canvas.direction(x, y), center);
             if (cosine < 0.97f) // 14°
