@@ -1,0 +1,48 @@
+#include "app/editor/viewport/FramePacing.h"
+
+#include <gtest/gtest.h>
+
+using patina::editor::FramePacing;
+
+TEST(FramePacing, RestIsAlwaysFullQuality) {
+    FramePacing pacing;
+    pacing.beginMoving();
+    for (int i = 0; i < 10; ++i)
+        pacing.frameTook(500.0);
+    EXPECT_LT(pacing.scale(), 0.5f);
+    EXPECT_EQ(pacing.samples(), 1);
+    pacing.rest();
+    EXPECT_EQ(pacing.scale(), 1.0f);
+    EXPECT_EQ(pacing.samples(), 4);
+}
+
+// A frame's time is proportional to its pixels plus a fixed part. The pacing must find a scale
+// that is fast enough where there is one, and stay there instead of flickering.
+TEST(FramePacing, SettlesOnAScaleThatHoldsTheRate) {
+    for (const double fullFrameMs : {5.0, 20.0, 60.0, 150.0, 240.0}) {
+        FramePacing pacing;
+        pacing.beginMoving();
+        const auto frame = [&] {
+            const double scale = static_cast<double>(pacing.scale());
+            const double ms = 2.0 + fullFrameMs * scale * scale;
+            pacing.frameTook(ms);
+            return ms;
+        };
+        for (int i = 0; i < 100; ++i)
+            frame();
+        int changes = 0;
+        for (int i = 0; i < 200; ++i) {
+            const float before = pacing.scale();
+            EXPECT_LE(frame(), 42.0) << fullFrameMs;
+            changes += before != pacing.scale();
+        }
+        EXPECT_EQ(changes, 0) << fullFrameMs;
+    }
+}
+
+TEST(FramePacing, RestingFramesDoNotSteer) {
+    FramePacing pacing;
+    pacing.frameTook(1000.0);
+    pacing.beginMoving();
+    EXPECT_EQ(pacing.scale(), 1.0f);
+}
