@@ -5,6 +5,7 @@
 #include "app/editor/Session.h"
 #include "app/editor/Startup.h"
 #include "app/editor/style/Style.h"
+#include "app/editor/viewport/ViewportWidget.h"
 
 #include <QApplication>
 #include <QCommandLineParser>
@@ -39,7 +40,11 @@ int main(int argc, char* argv[]) {
     const QCommandLineOption resetLayout(
         QStringLiteral("reset-layout"),
         QApplication::translate("main", "Put all docks back where they were at first."));
-    parser.addOptions({environment, resetLayout});
+    QCommandLineOption quitAfterFirstFrame(
+        QStringLiteral("quit-after-first-frame"),
+        QApplication::translate("main", "Quit once the scene is on screen (to time the start)."));
+    quitAfterFirstFrame.setFlags(QCommandLineOption::HiddenFromHelp);
+    parser.addOptions({environment, resetLayout, quitAfterFirstFrame});
     parser.addPositionalArgument(
         QStringLiteral("FILE"),
         QApplication::translate("main", "Projects, models, environments, images; or builtin:NAME."),
@@ -55,6 +60,14 @@ int main(int argc, char* argv[]) {
             QSettings().remove(QStringLiteral("window"));
         window.restoreLayout();
         window.show();
+        if (parser.isSet(quitAfterFirstFrame))
+            QObject::connect(
+                &window.viewport(), &ViewportWidget::frameRendered, &application,
+                [&] {
+                    if (!session.controller.document().meshes.empty())
+                        QApplication::quit();
+                },
+                Qt::QueuedConnection); // not in the middle of painting
         // The window comes first, its content as soon as it is ready.
         QTimer::singleShot(0, &window, [&] {
             window.files().openFromCommandLine(parser.positionalArguments(),
