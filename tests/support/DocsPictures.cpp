@@ -1,0 +1,114 @@
+// Renders the documentation's pictures of the editor from the editor itself: docs-pictures FOLDER.
+// Run by scripts/docs-pictures on a display of its own.
+
+#include "app/editor/Actions.h"
+#include "app/editor/FileFlow.h"
+#include "app/editor/MainWindow.h"
+#include "app/editor/Session.h"
+#include "app/editor/style/Style.h"
+
+#include <QApplication>
+#include <QDialog>
+#include <QDir>
+#include <QDockWidget>
+#include <QElapsedTimer>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSettings>
+#include <QStandardPaths>
+#include <QSurfaceFormat>
+#include <cstdio>
+#include <functional>
+
+namespace {
+
+using namespace patina::editor;
+
+// Lets the program run until `done` or the time is over; returns whether it was done.
+bool runUntil(const std::function<bool()>& done, int milliseconds) {
+    QElapsedTimer clock;
+    clock.start();
+    while (clock.elapsed() < milliseconds) {
+        if (done())
+            return true;
+        QApplication::processEvents(QEventLoop::AllEvents, 20);
+    }
+    return done();
+}
+
+void settle(int milliseconds) {
+    runUntil([] { return false; }, milliseconds);
+}
+
+bool save(QWidget& widget, const QString& file) {
+    if (widget.grab().save(file))
+        return true;
+    std::fprintf(stderr, "%s: cannot be written\n", qPrintable(file));
+    return false;
+}
+
+void raiseDock(const MainWindow& window, const QString& name) {
+    if (auto* dock = window.findChild<QDockWidget*>(name))
+        dock->raise();
+}
+
+} // namespace
+
+int main(int argc, char* argv[]) {
+    if (argc != 2) {
+        std::fprintf(stderr, "usage: docs-pictures FOLDER\n");
+        return 2;
+    }
+    QStandardPaths::setTestModeEnabled(true); // the user's settings stay as they are
+    QApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
+    QSurfaceFormat format;
+    format.setVersion(4, 5);
+    format.setProfile(QSurfaceFormat::CoreProfile);
+    QSurfaceFormat::setDefaultFormat(format);
+    QApplication application(argc, argv);
+    QApplication::setOrganizationName(QStringLiteral("PatinaDocs"));
+    QApplication::setApplicationName(QStringLiteral("PatinaDocs"));
+    applyStyle(application);
+    const QDir folder(QString::fromLocal8Bit(argv[1]));
+
+    Session session;
+    MainWindow window(session);
+    window.resetLayout();
+    window.resize(1600, 1000);
+    window.show();
+    window.files().openFromCommandLine({}, {});
+    if (!runUntil([&] { return !session.controller.document().meshes.empty(); }, 30'000))
+        return 1;
+    settle(6000); // image-based light at full resolution, then the refined frame
+    bool ok = save(window, folder.filePath(QStringLiteral("start.png")));
+
+    raiseDock(window, QStringLiteral("bake"));
+    raiseDock(window, QStringLiteral("jobs"));
+    auto* start = window.findChild<QPushButton*>(QStringLiteral("bakeStart"));
+    if (!start)
+        return 1;
+    start->click();
+    runUntil(
+        [&] {
+            const auto jobs = session.jobs.jobs();
+            return jobs.empty() || jobs.back().state != JobState::Running ||
+                   jobs.back().progress.fraction > 0.3;
+        },
+        60'000);
+    ok &= save(window, folder.filePath(QStringLiteral("bake.png")));
+    runUntil([&] { return session.jobs.runningCount() == 0; }, 300'000);
+    settle(3000);
+    ok &= save(window, folder.filePath(QStringLiteral("prt.png")));
+
+    window.actions().exportScene->trigger();
+    settle(800);
+    if (auto* dialog = window.findChild<QDialog*>(QStringLiteral("exportDialog"))) {
+        ok &= save(*dialog, folder.filePath(QStringLiteral("export.png")));
+        dialog->reject();
+    } else {
+        ok = false;
+    }
+    session.jobs.cancelAll();
+    session.controller.tasks().cancelAll();
+    return ok ? 0 : 1;
+}
