@@ -77,6 +77,8 @@ ImagePtr texelImage(const MaterialTexels& part, int size, std::span<const float>
         known[part.texels.texels[t]] = 1;
     }
     fillGutters(pixels, std::move(known), size, 1.0f);
+    for (float& pixel : pixels) // means of ones may round to a little more
+        pixel = std::clamp(pixel, 0.0f, 1.0f);
     return image;
 }
 

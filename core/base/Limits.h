@@ -10,7 +10,7 @@ namespace patina::limits {
 inline constexpr int kMaxImageSide = 32768;                                // pixels
 inline constexpr std::size_t kMaxImageBytes = std::size_t{2} << 30;        // decoded
 inline constexpr int kMaxImageChannels = 1024;                             // bake files have many
-inline constexpr int kMaxImageParts = 256;                                 // EXR parts
+inline constexpr int kMaxImageParts = 4096;                                // of an EXR file
 inline constexpr std::size_t kMaxTriangles = 50'000'000;                   // per file
 inline constexpr std::size_t kMaxMeshes = 100'000;                         // per file
 inline constexpr std::size_t kMaxModelFileBytes = std::size_t{4} << 30;    // on disk
