@@ -69,33 +69,30 @@ class Writer {
                 m_meshes.push_back(
                     {{"name", meshNames.take(name)}, {"primitives", Json::array({primitive})}});
             }
-            Json node = {{"name", nodeNames.take(cleanName(instance.name, "Mesh"))}};
-            addNode(std::move(node), exported.transform, {{"mesh", entry->second}});
+            const Json node = {{"name", nodeNames.take(cleanName(instance.name, "Mesh"))}};
+            addNode(node, exported.transform, {{"mesh", entry->second}});
         }
         m_nodeNames = std::move(nodeNames);
     }
 
     // Nested nodes for a chain of transforms; `payload` belongs to the innermost.
-    void addNode(Json node, const std::vector<NodeTransform>& chain, const Json& payload) {
+    void addNode(const Json& outermost, const std::vector<NodeTransform>& chain,
+                 const Json& payload) {
+        m_roots.push_back(static_cast<int>(m_nodes.size()));
         for (std::size_t i = 0; i < chain.size(); ++i) {
             const NodeTransform& t = chain[i];
+            Json node = i == 0 ? outermost : Json::object();
             if (t.translation != glm::dvec3(0.0))
                 node["translation"] = toJson(t.translation);
             if (t.rotation != glm::dquat(1.0, 0.0, 0.0, 0.0))
                 node["rotation"] = {t.rotation.x, t.rotation.y, t.rotation.z, t.rotation.w};
             if (t.scale != glm::dvec3(1.0))
                 node["scale"] = toJson(t.scale);
-            const int index = static_cast<int>(m_nodes.size());
-            if (i == 0)
-                m_roots.push_back(index);
-            if (i + 1 < chain.size()) {
-                node["children"] = Json::array({index + 1});
-                m_nodes.push_back(std::move(node));
-                node = Json::object();
-            } else {
+            if (i + 1 < chain.size())
+                node["children"] = Json::array({m_nodes.size() + 1});
+            else
                 node.update(payload);
-                m_nodes.push_back(std::move(node));
-            }
+            m_nodes.push_back(std::move(node));
         }
     }
 

@@ -1,0 +1,296 @@
+#include "app/cli/CommandLine.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fmt/format.h>
+#include <functional>
+#include <map>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace patina::cli {
+namespace {
+
+constexpr std::array kCommands = {"info", "render", "bake", "export", "compare", "parameters"};
+
+constexpr const char* kAbout =
+    "Patina: a desktop editor for physically based materials you can trust.\n\n"
+    "  patina [FILE …] [--environment HDR]   start the editor (also: patina edit …)\n"
+    "  patina COMMAND …                      do one thing without a window\n\n"
+    "SCENE is a model (glTF, GLB, OBJ, FBX, COLLADA, PLY, STL), a .patina project or\n"
+    "builtin:NAME; HDR is a lat-long image or builtin:NAME. `patina info builtin:list`\n"
+    "prints the built-in names.";
+constexpr const char* kFooter =
+    "Exit status: 0 done, 2 wrong usage, 65 an input is broken, 66 an input is missing, 69 no\n"
+    "OpenGL, 70 a fault of ours, 73 an output cannot be created, 74 I/O error or disk full,\n"
+    "130/143 interrupted.";
+constexpr const char* kScene = "Model, .patina project or builtin:NAME";
+
+// A check whose bounds the help does not repeat in its own notation; errors still name them.
+template <class Check>
+CLI::Validator plain(const Check& check) {
+    return check.description("");
+}
+
+class Parser {
+  public:
+    Parser()
+        : m_app(kAbout, "patina") {
+        m_app.set_version_flag("--version", "patina " PATINA_VERSION, "Print the version");
+        m_app.footer(kFooter);
+        m_app.require_subcommand(1);
+        addInfo();
+        addRender();
+        addBakes();
+        addExport();
+        addCompare();
+        addParameters();
+    }
+
+    Result<std::variant<Invocation, HelpText>> parse(int argc, const char* const* argv) {
+        if (argc > 1 && argv[1][0] != '-' &&
+            std::find(kCommands.begin(), kCommands.end(), std::string_view(argv[1])) ==
+                kCommands.end())
+            return Error{ErrorKind::Usage,
+                         fmt::format("there is no command or file \"{}\"; commands are {}", argv[1],
+                                     fmt::join(kCommands, ", ")),
+                         {},
+                         {}};
+        try {
+            m_app.parse(argc, argv);
+        } catch (const CLI::CallForHelp&) {
+            return {HelpText{m_app.help()}};
+        } catch (const CLI::CallForVersion&) {
+            return {HelpText{m_app.version() + "\n"}};
+        } catch (const CLI::ParseError& error) {
+            return Error{ErrorKind::Usage,
+                         fmt::format("{}; see {} --help", error.what(), innermostName()),
+                         {},
+                         {}};
+        }
+        m_invocation.common.command = innermostName().substr(std::string_view("patina ").size());
+        m_invocation.options = m_select.at(innermost())();
+        return {std::move(m_invocation)};
+    }
+
+  private:
+    // The most specific command that was named.
+    CLI::App* innermost() {
+        CLI::App* app = &m_app;
+        while (!app->get_subcommands().empty())
+            app = app->get_subcommands().front();
+        return app;
+    }
+    std::string innermostName() {
+        std::string name = "patina";
+        for (CLI::App* app = &m_app; !app->get_subcommands().empty();) {
+            app = app->get_subcommands().front();
+            name += " " + app->get_name();
+        }
+        return name;
+    }
+
+    template <class Options>
+    CLI::App* addCommand(CLI::App& parent, const char* name, const char* help, Options& options) {
+        CLI::App* command = parent.add_subcommand(name, help);
+        m_select[command] = [&options] { return decltype(m_invocation.options)(options); };
+        CommonOptions& common = m_invocation.common;
+        command->add_flag("--json", common.json, "Print one JSON object, also on failure");
+        command->footer("");
+        command->add_flag("--quiet", common.quiet, "No progress and no notices");
+        return command;
+    }
+
+    void addThreads(CLI::App* command) {
+        command
+            ->add_option("--threads", m_invocation.common.threads,
+                         "Threads to use; the result does not depend on it (default: all cores)")
+            ->check(plain(CLI::Range(1, 1024)))
+            ->type_name("N");
+    }
+    void addSets(CLI::App* command) {
+        command
+            ->add_option("--set", m_invocation.common.sets,
+                         "Set a parameter, e.g. material[Body].metallic=1; see patina parameters")
+            ->type_name("NAME=VALUE")
+            ->expected(1)
+            ->take_all()
+            ->allow_extra_args(false);
+    }
+    template <class Options>
+    void addSceneAndOutput(CLI::App* command, Options& options, const char* outputHelp) {
+        command->add_option("SCENE", options.scene, kScene)->required()->type_name("");
+        command->add_option("-o,--output", options.output, outputHelp)
+            ->required()
+            ->type_name("OUT");
+    }
+    void addBakeFiles(CLI::App* command, const char* name, std::vector<std::string>& bakes,
+                      const char* help) {
+        command->add_option(name, bakes, help)
+            ->type_name("FILE")
+            ->expected(1)
+            ->take_all()
+            ->allow_extra_args(false);
+    }
+    void addRays(CLI::App* command, int& samples, unsigned& seed, const char* per) {
+        command
+            ->add_option("--samples", samples,
+                         fmt::format("Rays per {}, up to 65536; rounded up to a power of two", per))
+            ->check(plain(CLI::Range(1, 65536)))
+            ->capture_default_str()
+            ->type_name("N");
+        command->add_option("--seed", seed, "Seed of the sample pattern")
+            ->capture_default_str()
+            ->type_name("N");
+        command->add_flag("--keep-partial", m_invocation.common.keepPartial,
+                          "When interrupted, write what has converged so far");
+    }
+
+    void addInfo() {
+        CLI::App* command = addCommand(
+            m_app, "info", "What a model, image, environment, project or bake holds", m_info);
+        command->add_option("FILE", m_info.file, "File, builtin:NAME or builtin:list")
+            ->required()
+            ->type_name("");
+    }
+
+    void addRender() {
+        RenderOptions& o = m_render;
+        CLI::App* c = addCommand(m_app, "render", "One picture, without a window", o);
+        addSceneAndOutput(c, o,
+                          "Picture: .png, .jpg, .tif, .tga as displayed, .exr or .hdr linear");
+        c->add_option("--environment", o.environment, "Surroundings that light the scene")
+            ->type_name("HDR");
+        c->add_option("--size", o.size, "Pixels")->capture_default_str()->type_name("WxH");
+        c->add_option("--samples", o.samples, "Samples per pixel against jagged edges (MSAA)")
+            ->check(plain(CLI::IsMember({1, 2, 4, 8, 16})))
+            ->capture_default_str()
+            ->type_name("N");
+        c->add_option("--camera", o.camera,
+                      "Orbit in degrees and metres; without DISTANCE the scene fills the picture")
+            ->type_name("YAW,PITCH[,DISTANCE]");
+        c->add_option("--fov", o.fov, "Vertical field of view in degrees")->type_name("DEG");
+        c->add_option("--exposure", o.exposure, "Brightens the picture, in stops")->type_name("EV");
+        c->add_option("--tone-map", o.toneMap, "clamp or reinhard")->type_name("NAME");
+        c->add_option("--background", o.background,
+                      "visible, blurred, transparent, or a colour as R,G,B or #rrggbb")
+            ->type_name("NAME");
+        c->add_option("--lighting", o.lighting, "ibl, or prt with a radiance transfer bake")
+            ->type_name("NAME");
+        addBakeFiles(c, "--bake", o.bakes, "Bake file to light with (repeatable)");
+        addSets(c);
+        addThreads(c);
+    }
+
+    void addBakes() {
+        CLI::App* bake = m_app.add_subcommand("bake", "One bake, without a window");
+        bake->require_subcommand(1);
+
+        CLI::App* ao = addCommand(*bake, "ao", "Ambient occlusion", m_ao);
+        addSceneAndOutput(ao, m_ao,
+                          ".png (one for each material) or .exr (for --bake of the others)");
+        ao->add_option("--target", m_ao.target, "Where the values live")
+            ->transform(plain(CLI::CheckedTransformer(std::map<std::string, BakeTarget>{
+                {"texel", BakeTarget::Texel}, {"vertex", BakeTarget::Vertex}})))
+            ->default_str("texel")
+            ->type_name("texel|vertex");
+        ao->add_option("--size", m_ao.size, "Side of the square texture in texels")
+            ->check(plain(CLI::Range(1, 16384)))
+            ->capture_default_str()
+            ->type_name("N");
+        ao->add_option("--distance", m_ao.distance,
+                       "How far geometry occludes, in metres (default: unlimited)")
+            ->check(plain(CLI::NonNegativeNumber))
+            ->type_name("METRES");
+        addRays(ao, m_ao.samples, m_ao.seed, "texel or vertex");
+        addSets(ao);
+        addThreads(ao);
+
+        CLI::App* prt =
+            addCommand(*bake, "prt", "Self-shadowed diffuse radiance transfer per vertex", m_prt);
+        addSceneAndOutput(prt, m_prt, ".exr");
+        prt->add_option("--order", m_prt.order, "Spherical harmonic bands")
+            ->check(plain(CLI::Range(1, 5)))
+            ->capture_default_str()
+            ->type_name("1…5");
+        addRays(prt, m_prt.samples, m_prt.seed, "vertex");
+        addSets(prt);
+        addThreads(prt);
+    }
+
+    void addExport() {
+        ExportOptions& o = m_export;
+        CLI::App* c = addCommand(m_app, "export", "A package for another program", o);
+        addSceneAndOutput(c, o, ".glb or .gltf");
+        c->add_option("--textures", o.jpeg,
+                      "Format of colours; data and transparent textures are always png")
+            ->transform(plain(CLI::CheckedTransformer(
+                std::map<std::string, bool>{{"png", false}, {"jpg", true}})))
+            ->default_str("png")
+            ->type_name("png|jpg");
+        c->add_option("--texture-size", o.textureSize,
+                      "Longest side of a texture in texels (default: as they are)")
+            ->check(plain(CLI::Range(1, 32768)))
+            ->type_name("N");
+        addBakeFiles(c, "--bakes", o.bakes,
+                     "Bake file to take along: occlusion per texel (repeatable)");
+        c->add_flag("--no-baked-ao", o.noBakedAo, "Leave a project's baked occlusion out");
+        c->add_flag("--no-lights", o.noLights, "Leave the lights out");
+        c->add_flag("--dry-run", o.dryRun, "Say what would be written, and write nothing");
+        addSets(c);
+        addThreads(c);
+    }
+
+    void addCompare() {
+        CLI::App* c = addCommand(m_app, "compare",
+                                 "Distance of two images: rmse, relmse, psnr, max", m_compare);
+        c->add_option("A", m_compare.image, "Image")->required()->type_name("");
+        c->add_option("B", m_compare.reference, "Reference")->required()->type_name("");
+        c->add_option("-o,--output", m_compare.difference, "Write the absolute difference")
+            ->type_name("DIFF");
+    }
+
+    void addParameters() {
+        CLI::App* c = addCommand(m_app, "parameters",
+                                 "All parameters: names, ranges, defaults, meaning", m_parameters);
+        c->add_flag("--markdown", m_parameters.markdown, "As a Markdown page");
+    }
+
+    CLI::App m_app;
+    Invocation m_invocation;
+    InfoOptions m_info;
+    RenderOptions m_render;
+    BakeAoOptions m_ao;
+    BakePrtOptions m_prt;
+    ExportOptions m_export;
+    CompareOptions m_compare;
+    ParametersOptions m_parameters;
+    std::map<const CLI::App*, std::function<decltype(m_invocation.options)()>> m_select;
+};
+
+} // namespace
+
+Result<std::variant<Invocation, HelpText>> parseCommandLine(int argc, const char* const* argv) {
+    return Parser().parse(argc, argv);
+}
+
+bool isForEditor(int argc, const char* const* argv) {
+    if (argc < 2)
+        return true;
+    const std::string_view first = argv[1];
+    if (first == "edit" || first.starts_with("--environment"))
+        return true;
+    if (first.starts_with("-") ||
+        std::find(kCommands.begin(), kCommands.end(), first) != kCommands.end())
+        return false;
+    std::error_code ignored;
+    return first.find_first_of("./:") != std::string_view::npos ||
+           std::filesystem::exists(first, ignored);
+}
+
+} // namespace patina::cli

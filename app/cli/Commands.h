@@ -1,0 +1,16 @@
+// The subcommands. Each works through the session and leaves its result in the session's report.
+#pragma once
+
+#include "app/cli/Session.h"
+
+namespace patina::cli {
+
+Result<void> run(Session& session, const InfoOptions& options);
+Result<void> run(Session& session, const RenderOptions& options);
+Result<void> run(Session& session, const BakeAoOptions& options);
+Result<void> run(Session& session, const BakePrtOptions& options);
+Result<void> run(Session& session, const ExportOptions& options);
+Result<void> run(Session& session, const CompareOptions& options);
+Result<void> run(Session& session, const ParametersOptions& options);
+
+} // namespace patina::cli

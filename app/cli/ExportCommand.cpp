@@ -1,0 +1,84 @@
+#include "app/cli/Commands.h"
+#include "app/cli/SceneSetup.h"
+#include "core/export/Export.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+namespace patina::cli {
+namespace {
+
+void describe(Report& report, const ExportPlan& plan, bool dryRun) {
+    nlohmann::ordered_json files = nlohmann::ordered_json::array();
+    std::vector<std::pair<std::string, std::string>> rows;
+    for (const PlannedFile& file : plan.files) {
+        files.push_back({{"path", file.path.string()},
+                         {"contents", file.contents},
+                         {"colorSpace", file.colorSpace},
+                         {"format", file.format},
+                         {"embedded", file.embedded},
+                         {"overwrites", file.overwrites}});
+        rows.emplace_back(file.path.filename().string(),
+                          fmt::format("{}, {}{}{}", file.contents, file.format,
+                                      file.colorSpace.empty() ? "" : ", " + file.colorSpace,
+                                      file.overwrites && dryRun ? " (overwrites)" : ""));
+    }
+    report.json()["files"] = std::move(files);
+    report.table({}, rows);
+}
+
+} // namespace
+
+Result<void> run(Session& session, const ExportOptions& options) {
+    ExportSettings settings;
+    settings.output = options.output;
+    const std::string extension = extensionOf(settings.output);
+    if (extension != ".glb" && extension != ".gltf")
+        return Error{ErrorKind::Usage,
+                     "the extension decides the format; name the output .glb or .gltf",
+                     settings.output,
+                     {}};
+    if (Result<void> output = checkOutput(settings.output); !output)
+        return output;
+    settings.format = extension == ".glb" ? ExportFormat::Glb : ExportFormat::Gltf;
+    settings.textures = options.jpeg ? ExportTextureFormat::Jpeg : ExportTextureFormat::Png;
+    settings.maxTextureSize = options.textureSize;
+    settings.includeBakedAo = !options.noBakedAo;
+    settings.includeLights = !options.noLights;
+
+    Report& report = session.report();
+    report.json()["settings"] = {{"scene", options.scene},
+                                 {"textures", options.jpeg ? "jpg" : "png"},
+                                 {"textureSize", options.textureSize},
+                                 {"bakedAo", settings.includeBakedAo},
+                                 {"lights", settings.includeLights}};
+    session.beginPhase();
+    SceneRequest request{options.scene, {}, options.bakes};
+    Result<Document> document = openSceneFor(session, request);
+    if (!document)
+        return document.error();
+
+    const ExportPlan plan = planExport(*document, settings);
+    for (const std::string& warning : plan.warnings)
+        report.warn(warning);
+    if (!options.dryRun) {
+        session.beginPhase();
+        Result<std::vector<std::filesystem::path>> written =
+            runExport(session.worker(), *document, plan, session.job());
+        if (!written)
+            return written.error();
+        for (const std::filesystem::path& file : *written) {
+            std::error_code unknown;
+            const std::uintmax_t size = std::filesystem::file_size(file, unknown);
+            report.output(file, unknown ? "" : bytesText(size));
+        }
+    }
+    report.json()["counts"] = {{"meshes", document->meshes.size()},
+                               {"materials", document->materials.size()},
+                               {"triangles", document->triangleCount()}};
+    describe(report, plan, options.dryRun);
+    return {};
+}
+
+} // namespace patina::cli

@@ -1,0 +1,252 @@
+#include "app/cli/Commands.h"
+#include "app/cli/SceneSetup.h"
+#include "core/document/Scene.h"
+#include "core/document/Source.h"
+#include "core/image/ImageIO.h"
+#include "core/library/Library.h"
+#include "core/mesh/MeshImport.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+namespace patina::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Rows = std::vector<std::pair<std::string, std::string>>;
+
+Json vectorJson(const glm::vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+void listBuiltins(Report& report) {
+    const auto list = [&](const char* key, const char* title,
+                          const std::vector<library::Entry>& entries) {
+        Rows rows;
+        for (const library::Entry& entry : entries) {
+            report.json()["builtin"][key].push_back(
+                {{"name", "builtin:" + entry.name}, {"title", entry.title}, {"help", entry.help}});
+            rows.emplace_back("builtin:" + entry.name, entry.help);
+        }
+        report.table(title, rows);
+    };
+    list("models", "Models", library::models());
+    list("environments", "Environments", library::environments());
+    list("materials", "Materials", library::materials());
+}
+
+std::string imageText(const Image& image) {
+    return fmt::format("{} × {}, {} channel{}, {}", image.width(), image.height(), image.channels(),
+                       image.channels() == 1 ? "" : "s",
+                       image.type() == PixelType::U8    ? "8 bit"
+                       : image.type() == PixelType::U16 ? "16 bit"
+                                                        : "float");
+}
+
+Json imageJson(const Image& image) {
+    return {{"width", image.width()},
+            {"height", image.height()},
+            {"channels", image.channels()},
+            {"type", image.type() == PixelType::U8    ? "uint8"
+                     : image.type() == PixelType::U16 ? "uint16"
+                                                      : "float"}};
+}
+
+void describeMeshes(Report& report, const Document& document) {
+    Rows rows;
+    for (const MeshInstance& mesh : document.meshes) {
+        const Material* material = document.material(mesh.material);
+        const std::string materialName = material != nullptr ? material->name : "";
+        report.json()["meshes"].push_back({{"name", mesh.name},
+                                           {"vertices", mesh.mesh->vertexCount()},
+                                           {"triangles", mesh.mesh->triangleCount()},
+                                           {"material", materialName},
+                                           {"visible", mesh.visible}});
+        rows.emplace_back(mesh.name, fmt::format("{} triangles, {} vertices, {}{}",
+                                                 countText(mesh.mesh->triangleCount()),
+                                                 countText(mesh.mesh->vertexCount()), materialName,
+                                                 mesh.visible ? "" : " (hidden)"));
+    }
+    report.table(fmt::format("Meshes ({})", rows.size()), rows);
+}
+
+void describeMaterials(Report& report, const Document& document) {
+    report.line(fmt::format("Materials ({})", document.materials.size()));
+    for (const Material& material : document.materials) {
+        Json json = {{"name", material.name},
+                     {"baseColor", vectorJson(material.baseColor)},
+                     {"metallic", material.metallic},
+                     {"perceptualRoughness", material.perceptualRoughness},
+                     {"emissive", vectorJson(material.emissive * material.emissiveStrength)},
+                     {"opacity", material.opacity},
+                     {"maps", Json::object()}};
+        report.line(fmt::format("  {}  base colour {:.3g} {:.3g} {:.3g}, metallic {:.3g}, "
+                                "roughness {:.3g}",
+                                material.name, material.baseColor.r, material.baseColor.g,
+                                material.baseColor.b, material.metallic,
+                                material.perceptualRoughness));
+        Rows rows;
+        for (const auto& [key, slot] :
+             std::initializer_list<std::pair<const char*, const MapSlot&>>{
+                 {"baseColor", material.baseColorMap},
+                 {"metallic", material.metallicMap},
+                 {"perceptualRoughness", material.perceptualRoughnessMap},
+                 {"normal", material.normalMap},
+                 {"occlusion", material.occlusionMap},
+                 {"emissive", material.emissiveMap}}) {
+            if (!slot.assigned())
+                continue;
+            Json map = {{"source", slot.source}};
+            if (slot.image != nullptr)
+                map.update(imageJson(*slot.image));
+            else
+                map["problem"] = slot.problem;
+            json["maps"][key] = std::move(map);
+            rows.emplace_back(fmt::format("    {}", key),
+                              fmt::format("{}  {}", slot.source,
+                                          slot.image != nullptr ? imageText(*slot.image)
+                                                                : "missing: " + slot.problem));
+        }
+        report.json()["materials"].push_back(std::move(json));
+        report.table({}, rows);
+    }
+}
+
+const char* kindText(BakeKind kind) {
+    return kind == BakeKind::AoTexel    ? "ambient occlusion per texel"
+           : kind == BakeKind::AoVertex ? "ambient occlusion per vertex"
+                                        : "radiance transfer per vertex";
+}
+
+void describeScene(Report& report, const OpenedScene& scene) {
+    const Document& document = scene.document;
+    const Bounds bounds = document.bounds();
+    Json& json = report.json();
+    json["kind"] = scene.isProject ? "project" : "model";
+    json["counts"] = {{"meshes", document.meshes.size()},
+                      {"materials", document.materials.size()},
+                      {"lights", document.lights.size()},
+                      {"triangles", document.triangleCount()}};
+    json["bounds"] = {{"min", vectorJson(bounds.min)}, {"max", vectorJson(bounds.max)}};
+    const glm::vec3 size = bounds.size();
+    report.table({}, {{"kind", scene.isProject ? "Patina project" : "model"},
+                      {"triangles", countText(document.triangleCount())},
+                      {"size", fmt::format("{:.4g} × {:.4g} × {:.4g} m", size.x, size.y, size.z)}});
+    describeMeshes(report, document);
+    describeMaterials(report, document);
+
+    Rows lights;
+    for (const Light& light : document.lights) {
+        const char* type = light.type == LightType::Point ? "point" : "directional";
+        json["lights"].push_back(
+            {{"name", light.name}, {"type", type}, {"intensity", light.intensity}});
+        lights.emplace_back(light.name, fmt::format("{}, intensity {:.4g}", type, light.intensity));
+    }
+    if (!lights.empty())
+        report.table(fmt::format("Lights ({})", lights.size()), lights);
+    if (scene.isProject) {
+        json["environment"] = document.environment.source;
+        report.table("Environment", {{document.environment.source, ""}});
+    }
+    Rows bakes;
+    for (const BakeArtifactPtr& bake : document.bakes) {
+        json["bakes"].push_back({{"kind", kindText(bake->kind)}, {"samples", bake->samplesDone}});
+        bakes.emplace_back(kindText(bake->kind),
+                           fmt::format("{} rays per element", bake->samplesDone));
+    }
+    if (!bakes.empty())
+        report.table(fmt::format("Bakes ({})", bakes.size()), bakes);
+
+    Rows missing;
+    for (const std::string& file : scene.missingFiles)
+        missing.emplace_back(file, "");
+    if (!missing.empty())
+        report.table(fmt::format("Missing files ({})", missing.size()), missing);
+}
+
+// Images, environments and bakes: everything that is pixels.
+Result<void> describeImage(Session& session, const std::string& file) {
+    Result<ImageInfo> info = inspectImage(session.worker(), file);
+    if (!info)
+        return info.error();
+    const bool bake = std::any_of(info->attributes.begin(), info->attributes.end(),
+                                  [](auto& a) { return a.first.starts_with("patina:"); });
+    // Float pictures twice as wide as high are lat-long surroundings, by the field's convention.
+    const bool surroundings = !bake && info->width == 2 * info->height &&
+                              (info->pixelType == "float" || info->pixelType == "half");
+    const char* kind = bake ? "bake" : surroundings ? "environment" : "image";
+    Report& report = session.report();
+    Json& json = report.json();
+    json["kind"] = kind;
+    json["format"] = info->format;
+    json["width"] = info->width;
+    json["height"] = info->height;
+    json["channels"] = info->channels;
+    json["pixelType"] = info->pixelType;
+    json["channelNames"] = info->channelNames;
+    if (!info->partNames.empty())
+        json["parts"] = info->partNames;
+    if (!info->attributes.empty())
+        json["attributes"] = info->attributes;
+
+    Rows rows = {{"kind", bake           ? "Patina bake"
+                          : surroundings ? "lat-long environment"
+                                         : "image"},
+                 {"format", info->format},
+                 {"size", fmt::format("{} × {} pixels", info->width, info->height)},
+                 {"channels", fmt::format("{} ({}), {}", info->channels,
+                                          fmt::join(info->channelNames, " "), info->pixelType)}};
+    if (info->partNames.size() > 1)
+        rows.emplace_back("parts", fmt::format("{}", fmt::join(info->partNames, ", ")));
+    for (const auto& [key, value] : info->attributes)
+        if (value.size() <= 200)
+            rows.emplace_back(key, value);
+    report.table({}, rows);
+    return {};
+}
+
+bool isScene(const std::string& file) {
+    const std::vector<std::string>& models = modelExtensions();
+    const std::string extension = extensionOf(file);
+    return extension == ".patina" ||
+           std::find(models.begin(), models.end(), extension) != models.end();
+}
+
+bool isBuiltinEnvironment(const std::string& name) {
+    const std::vector<library::Entry>& all = library::environments();
+    return std::any_of(all.begin(), all.end(), [&](auto& entry) { return entry.name == name; });
+}
+
+} // namespace
+
+Result<void> run(Session& session, const InfoOptions& options) {
+    Report& report = session.report();
+    report.json()["settings"] = {{"file", options.file}};
+    if (options.file == "builtin:list") {
+        listBuiltins(report);
+        return {};
+    }
+    if (isBuiltin(options.file) && isBuiltinEnvironment(builtinName(options.file))) {
+        Result<ImagePtr> image = library::environment(builtinName(options.file));
+        if (!image)
+            return image.error();
+        report.json()["kind"] = "environment";
+        report.json().update(imageJson(**image));
+        report.table({}, {{"kind", "lat-long environment"}, {"size", imageText(**image)}});
+        return {};
+    }
+    if (!isBuiltin(options.file) && !isScene(options.file))
+        return describeImage(session, options.file);
+
+    Result<OpenedScene> scene = openScene(session.worker(), options.file, session.job());
+    if (!scene)
+        return scene.error();
+    report.add(*scene);
+    describeScene(report, *scene);
+    return {};
+}
+
+} // namespace patina::cli

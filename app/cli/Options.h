@@ -1,0 +1,75 @@
+// What the user asked for on the command line, as plain structs with their defaults.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace patina::cli {
+
+struct CommonOptions {
+    std::string command;           // "bake ao"
+    std::vector<std::string> sets; // NAME=VALUE
+    bool json = false;
+    bool quiet = false;
+    bool keepPartial = false; // bakes: an interrupt writes what has converged
+    int threads = 0;          // 0: all cores
+};
+
+struct InfoOptions {
+    std::string file;
+};
+
+struct RenderOptions {
+    std::string scene, output;
+    std::string environment;
+    std::string size = "1280x720";
+    std::string camera;                           // YAW,PITCH,DISTANCE
+    std::string exposure, toneMap, fov, lighting; // as for --set; empty: as the scene has it
+    std::string background;                       // visible, blurred, transparent or a colour
+    std::vector<std::string> bakes;
+    int samples = 4;
+};
+
+enum class BakeTarget { Texel, Vertex };
+
+struct BakeAoOptions {
+    std::string scene, output;
+    int size = 1024;
+    int samples = 256;
+    float distance = 0.0f; // metres; 0: unlimited
+    unsigned seed = 0;
+    BakeTarget target = BakeTarget::Texel;
+};
+
+struct BakePrtOptions {
+    std::string scene, output;
+    int order = 3;
+    int samples = 256;
+    unsigned seed = 0;
+};
+
+struct ExportOptions {
+    std::string scene, output;
+    std::vector<std::string> bakes;
+    bool jpeg = false;
+    int textureSize = 0; // 0: as they are
+    bool noLights = false, noBakedAo = false, dryRun = false;
+};
+
+struct CompareOptions {
+    std::string image, reference, difference;
+};
+
+struct ParametersOptions {
+    bool markdown = false;
+};
+
+struct Invocation {
+    CommonOptions common;
+    std::variant<InfoOptions, RenderOptions, BakeAoOptions, BakePrtOptions, ExportOptions,
+                 CompareOptions, ParametersOptions>
+        options;
+};
+
+} // namespace patina::cli

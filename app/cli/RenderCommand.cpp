@@ -1,0 +1,203 @@
+#include "app/cli/Commands.h"
+#include "app/cli/SceneSetup.h"
+#include "core/document/Edit.h"
+#include "core/image/ImageIO.h"
+#include "core/light/Ibl.h"
+#include "render/Renderer.h"
+#include "render/gl/Context.h"
+
+#include <charconv>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+namespace patina::cli {
+namespace {
+
+Error usage(std::string message) {
+    return {ErrorKind::Usage, std::move(message), {}, {}};
+}
+
+// Numbers between separators; false when anything else is there.
+template <class Number>
+bool parseNumbers(std::string_view text, char separator, std::vector<Number>& numbers) {
+    while (true) {
+        const std::string_view part = text.substr(0, text.find(separator));
+        Number number{};
+        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
+        if (error != std::errc() || end != part.data() + part.size())
+            return false;
+        numbers.push_back(number);
+        if (part.size() == text.size())
+            return true;
+        text.remove_prefix(part.size() + 1);
+    }
+}
+
+Result<render::FrameSettings> frameSettings(const RenderOptions& options) {
+    render::FrameSettings frame;
+    std::vector<int> size;
+    if (!parseNumbers(options.size, 'x', size) || size.size() != 2 || size[0] < 1 || size[1] < 1)
+        return usage(fmt::format("--size wants WIDTHxHEIGHT in pixels, for example 1920x1080, not "
+                                 "\"{}\"",
+                                 options.size));
+    frame.width = size[0];
+    frame.height = size[1];
+    frame.samples = options.samples;
+    return frame;
+}
+
+// The camera frames the scene as the editor does, unless a project has one of its own.
+Result<Camera> chooseCamera(const RenderOptions& options, const Document& document, bool isProject,
+                            float aspect) {
+    Camera camera = document.view.camera;
+    std::vector<float> orbit;
+    if (!options.camera.empty()) {
+        if (!parseNumbers(options.camera, ',', orbit) || orbit.size() < 2 || orbit.size() > 3 ||
+            !(std::abs(orbit[1]) <= 89.0f) || (orbit.size() == 3 && !(orbit[2] > 0.0f)))
+            return usage(fmt::format("--camera wants YAW,PITCH[,DISTANCE] with a pitch within "
+                                     "±89° and a distance above 0, not \"{}\"",
+                                     options.camera));
+        camera.yawDeg = orbit[0];
+        camera.pitchDeg = orbit[1];
+    }
+    if (!isProject || !options.camera.empty())
+        camera = frameBounds(camera, document.bounds(), aspect);
+    if (orbit.size() == 3)
+        camera.distance = orbit[2];
+    return camera;
+}
+
+Result<void> applyView(Session& session, const RenderOptions& options, Document& document,
+                       render::FrameSettings& frame) {
+    const auto set = [&](const char* name, const std::string& value) {
+        return value.empty() ? Result<void>() : setParameter(session, document, name, value);
+    };
+    for (const auto& [name, value] : {std::pair{"view.fovDeg", options.fov},
+                                      {"view.exposureEv", options.exposure},
+                                      {"view.toneMap", options.toneMap},
+                                      {"view.lighting", options.lighting}})
+        if (Result<void> result = set(name, value); !result)
+            return result;
+
+    Environment& environment = document.environment;
+    if (options.background == "visible")
+        environment.background = BackgroundMode::Environment;
+    else if (options.background == "blurred")
+        environment.background = BackgroundMode::Blurred;
+    else if (options.background == "transparent")
+        frame.transparentBackground = true;
+    else if (!options.background.empty()) {
+        environment.background = BackgroundMode::Color;
+        if (Result<void> result = set("environment.backgroundColor", options.background); !result)
+            return usage(fmt::format("--background wants visible, blurred, transparent or a "
+                                     "colour as R,G,B or #rrggbb, not \"{}\"",
+                                     options.background));
+    }
+    if (document.view.lighting == LightingMode::Prt &&
+        findBake(document, BakeKind::PrtVertex) == nullptr)
+        return usage("--lighting prt needs a radiance transfer bake; make one with patina bake prt "
+                     "and give it with --bake");
+    return {};
+}
+
+// Opaque pictures carry no alpha.
+Image withoutAlpha(const Image& image) {
+    Image result(image.width(), image.height(), 3, image.type(), image.encoding());
+    const std::size_t pixels =
+        static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height());
+    const std::size_t bytes = result.bytesPerPixel();
+    for (std::size_t i = 0; i < pixels; ++i)
+        std::copy_n(image.bytes().begin() + static_cast<std::ptrdiff_t>(i * image.bytesPerPixel()),
+                    bytes, result.bytes().begin() + static_cast<std::ptrdiff_t>(i * bytes));
+    return result;
+}
+
+Result<Image> draw(Session& session, const Document& document, const render::FrameSettings& frame,
+                   bool linear) {
+    Result<std::unique_ptr<gl::Context>> context = gl::Context::createHeadless();
+    if (!context)
+        return context.error();
+    const gl::ContextInfo& info = (*context)->info();
+    session.report().json()["openGl"] = {
+        {"vendor", info.vendor}, {"renderer", info.renderer}, {"version", info.version}};
+    if (std::max(frame.width, frame.height) > info.maxTextureSize)
+        return usage(fmt::format("{} can draw at most {} pixels a side; choose a smaller --size",
+                                 info.renderer, info.maxTextureSize));
+    if (frame.samples > info.maxSamples)
+        return usage(fmt::format("{} takes at most {} samples per pixel; choose fewer --samples",
+                                 info.renderer, info.maxSamples));
+
+    Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(**context);
+    if (!renderer)
+        return renderer.error();
+    session.beginPhase();
+    session.job().setActivity("preparing light");
+    if (document.environment.image != nullptr) {
+        Result<IblMaps> ibl = computeIbl(*document.environment.image, {}, session.job());
+        if (!ibl)
+            return ibl.error();
+        (*renderer)->setIbl(*ibl);
+    }
+    session.job().setActivity("drawing");
+    (*renderer)->setDocument(document, Change::everything());
+    if (Result<void> drawn = (*renderer)->render(frame, 0); !drawn)
+        return drawn.error();
+    return linear ? (*renderer)->readLinear() : (*renderer)->readDisplayed();
+}
+
+} // namespace
+
+Result<void> run(Session& session, const RenderOptions& options) {
+    Result<ImageFileFormat> format = imageFormatForPath(options.output);
+    if (!format)
+        return format.error();
+    Result<render::FrameSettings> frame = frameSettings(options);
+    if (!frame)
+        return frame.error();
+    if (Result<void> output = checkOutput(options.output); !output)
+        return output;
+
+    nlohmann::ordered_json& json = session.report().json();
+    json["settings"] = {{"scene", options.scene},
+                        {"size", {frame->width, frame->height}},
+                        {"samples", options.samples}};
+    session.beginPhase();
+    SceneRequest request{options.scene, options.environment, options.bakes};
+    Result<Document> document = openSceneFor(session, request);
+    if (!document)
+        return document.error();
+    if (Result<void> view = applyView(session, options, *document, *frame); !view)
+        return view;
+    const float aspect = static_cast<float>(frame->width) / static_cast<float>(frame->height);
+    Result<Camera> camera = chooseCamera(options, *document, request.isProject, aspect);
+    if (!camera)
+        return camera.error();
+    document->view.camera = frame->camera = *camera;
+    json["settings"]["environment"] = document->environment.source;
+    json["settings"]["camera"] = {
+        {"yawDeg", camera->yawDeg},
+        {"pitchDeg", camera->pitchDeg},
+        {"distance", camera->distance},
+        {"fovDeg", camera->fovDeg},
+        {"target", {camera->target.x, camera->target.y, camera->target.z}}};
+    json["settings"]["lighting"] = document->view.lighting == LightingMode::Prt ? "prt" : "ibl";
+
+    const bool linear = *format == ImageFileFormat::Exr || *format == ImageFileFormat::Hdr;
+    Result<Image> picture = draw(session, *document, *frame, linear);
+    if (!picture)
+        return picture.error();
+    if (!frame->transparentBackground)
+        picture = withoutAlpha(*picture);
+    if (session.job().cancelled())
+        return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
+    if (Result<void> saved = saveImage(session.worker(), *picture, options.output); !saved)
+        return saved;
+    session.report().output(options.output,
+                            fmt::format("{} × {} pixels", frame->width, frame->height));
+    json["counts"] = {{"meshes", document->meshes.size()},
+                      {"triangles", document->triangleCount()}};
+    return {};
+}
+
+} // namespace patina::cli

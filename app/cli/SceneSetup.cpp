@@ -1,0 +1,152 @@
+#include "app/cli/SceneSetup.h"
+
+#include "core/bake/BakeIO.h"
+#include "core/base/AtomicFile.h"
+#include "core/document/Edit.h"
+#include "core/document/Scene.h"
+#include "core/document/Source.h"
+#include "core/material/Parameters.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace patina::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// NAME=VALUE at the first '=' behind the brackets, which may hold any name.
+Result<std::pair<std::string, std::string>> splitAssignment(const std::string& text) {
+    std::size_t from = 0;
+    if (const std::size_t open = text.find('['); open < text.find('='))
+        from = std::min(text.find("].", open), text.size());
+    const std::size_t equals = text.find('=', from);
+    if (equals == std::string::npos || equals == 0)
+        return Error{ErrorKind::Usage,
+                     fmt::format("--set wants NAME=VALUE, not \"{}\"; patina parameters lists the "
+                                 "names",
+                                 text),
+                     {},
+                     {}};
+    return std::pair{text.substr(0, equals), text.substr(equals + 1)};
+}
+
+Result<void> setEnvironment(Session& session, Document& document, const std::string& source) {
+    std::vector<Notice> notices;
+    Environment& environment = document.environment;
+    const std::string normalized = normalizeSource(source);
+    Result<ImagePtr> image = loadEnvironmentImage(session.worker(), normalized, notices);
+    if (!image)
+        return image.error();
+    for (const Notice& notice : notices)
+        session.report().add(notice);
+    environment.source = normalized;
+    environment.image = *image;
+    environment.problem.clear();
+    return {};
+}
+
+Result<void> setMap(Session& session, Document& document, const ParameterSelection& selection,
+                    MapSlot slot) {
+    if (slot.assigned()) {
+        slot.source = normalizeSource(slot.source);
+        Result<ImagePtr> image =
+            loadMapImage(session.worker(), slot.source, selection.info->mapEncoding);
+        if (!image)
+            return image.error();
+        slot.image = *image;
+    }
+    for (const Target& target : selection.targets)
+        for (const ParameterEdit& edit : editsForMap(document, *selection.info, target, slot))
+            if (Result<Change> change = applyParameter(document, *edit.info, target, edit.value);
+                !change)
+                return change.error();
+    return {};
+}
+
+} // namespace
+
+Result<void> setParameter(Session& session, Document& document, const std::string& name,
+                          const std::string& value) {
+    Result<ParameterSelection> selection = selectParameter(document, name);
+    if (!selection)
+        return selection.error();
+    Result<ParameterValue> parsed = parseParameterValue(*selection->info, value);
+    if (!parsed)
+        return parsed.error();
+    if (const MapSlot* slot = std::get_if<MapSlot>(&*parsed)) {
+        if (selection->info->scope == Scope::Environment)
+            return setEnvironment(session, document, slot->source);
+        return setMap(session, document, *selection, *slot);
+    }
+    for (const Target& target : selection->targets)
+        if (Result<Change> change = applyParameter(document, *selection->info, target, *parsed);
+            !change)
+            return change.error();
+    return {};
+}
+
+Result<Document> openSceneFor(Session& session, SceneRequest& request) {
+    Result<OpenedScene> opened = openScene(session.worker(), request.scene, session.job());
+    if (!opened)
+        return opened.error();
+    session.report().add(*opened);
+    request.isProject = opened->isProject;
+    Document document = std::move(opened->document);
+
+    if (!request.environment.empty())
+        if (Result<void> set = setEnvironment(session, document, request.environment); !set)
+            return set.error();
+
+    // Maps first: putting one on raises its number to 1, and numbers given should win.
+    std::vector<std::pair<std::string, std::string>> assignments;
+    for (const std::string& text : session.options().sets) {
+        Result<std::pair<std::string, std::string>> assignment = splitAssignment(text);
+        if (!assignment)
+            return assignment.error();
+        assignments.push_back(*assignment);
+        session.report().json()["settings"]["set"][assignment->first] = assignment->second;
+    }
+    std::stable_partition(assignments.begin(), assignments.end(),
+                          [](const auto& a) { return a.first.ends_with(".map"); });
+    for (const auto& [name, value] : assignments)
+        if (Result<void> set = setParameter(session, document, name, value); !set)
+            return set.error();
+
+    for (const std::string& file : request.bakes) {
+        Result<BakeArtifact> bake = loadBake(session.worker(), file, document);
+        if (!bake)
+            return bake.error();
+        attachBake(document, std::make_shared<const BakeArtifact>(std::move(*bake)));
+    }
+    return document;
+}
+
+Result<void> checkOutput(const fs::path& output) {
+    const fs::path folder = output.has_parent_path() ? output.parent_path() : ".";
+    std::error_code ignored;
+    const auto refuse = [&](const char* why) {
+        return Error{ErrorKind::CannotCreate, why, output, {}};
+    };
+    if (fs::is_directory(output, ignored))
+        return refuse("this is a folder; name a file in it");
+    if (!fs::is_directory(folder, ignored))
+        return refuse("its folder does not exist; create it first");
+    if (::access(folder.c_str(), W_OK) != 0 && !fs::exists(output, ignored))
+        return refuse("its folder is not writable; choose another one");
+    return {};
+}
+
+std::string extensionOf(const fs::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+} // namespace patina::cli

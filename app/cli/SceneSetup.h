@@ -1,0 +1,33 @@
+// What the commands that work on a scene share: opening it with its --set and --bake options, and
+// refusing an output that could not be written before any work is done.
+#pragma once
+
+#include "app/cli/Session.h"
+#include "core/document/Document.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace patina::cli {
+
+struct SceneRequest {
+    std::string scene;
+    std::string environment;        // empty: the scene's own
+    std::vector<std::string> bakes; // files to attach
+    bool isProject = false;         // set by openSceneFor(): the scene has a camera of its own
+};
+
+// Opens the scene, reports its notices, and applies environment, --set and bakes in this order.
+Result<Document> openSceneFor(Session& session, SceneRequest& request);
+
+// Sets one parameter from its text, as --set does; maps and environments are loaded.
+Result<void> setParameter(Session& session, Document& document, const std::string& name,
+                          const std::string& value);
+
+// CannotCreate when the folder is missing or not writable, or the path is a folder.
+Result<void> checkOutput(const std::filesystem::path& output);
+// The extension in lower case, with the dot.
+[[nodiscard]] std::string extensionOf(const std::filesystem::path& path);
+
+} // namespace patina::cli

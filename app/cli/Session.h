@@ -1,0 +1,49 @@
+// One run of a command: its worker process, its job with progress on standard error, and what
+// SIGINT and SIGTERM do to it.
+#pragma once
+
+#include "app/cli/Options.h"
+#include "app/cli/Report.h"
+#include "core/job/JobContext.h"
+#include "core/job/Parallel.h"
+#include "core/worker/WorkerClient.h"
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+namespace patina::cli {
+
+class Watcher;
+
+class Session {
+  public:
+    explicit Session(const CommonOptions& options);
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    [[nodiscard]] const CommonOptions& options() const { return m_options; }
+    [[nodiscard]] WorkerClient& worker(); // its process starts with the first file
+    [[nodiscard]] JobContext job() const; // of the current phase
+    [[nodiscard]] Report& report() { return m_report; }
+
+    // From here on standard error shows the job's progress, which starts anew.
+    void beginPhase();
+    // With --keep-partial: from here on the first signal means "finish with what there is".
+    void allowPartialResult();
+    [[nodiscard]] bool interrupted() const;
+
+    // Ends the run: adds time, work and memory, prints the report. Returns the exit status.
+    int finish(const Result<void>& result);
+
+  private:
+    CommonOptions m_options;
+    std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
+    Report m_report;
+    std::optional<ThreadLimit> m_threads;
+    std::unique_ptr<WorkerClient> m_worker;
+    std::unique_ptr<Watcher> m_watcher;
+};
+
+} // namespace patina::cli

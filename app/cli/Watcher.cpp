@@ -1,0 +1,185 @@
+#include "app/cli/Watcher.h"
+
+#include "core/base/Check.h"
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+namespace patina::cli {
+namespace {
+
+constexpr int kFrameMs = 100;
+// Work that polls for a cancel ends within this time; what does not (a decoder, a driver) is left
+// behind. Nothing has its final name before it is complete, so leaving is safe.
+constexpr int kPatienceMs = 400;
+constexpr char kEnd = 0; // through the pipe: the watcher's work is done
+
+// The only thing a signal handler may touch: where to send the signal's number.
+std::atomic<int> signalPipe = -1; // NOLINT: signal handlers have no other way to their object
+
+void handleSignal(int signal) {
+    const int savedErrno = errno;
+    const char number = static_cast<char>(signal);
+    if (::write(signalPipe.load(), &number, 1) < 0) {
+        // The pipe is full of signals already.
+    }
+    errno = savedErrno;
+}
+
+std::string timeText(double seconds) {
+    const auto whole = static_cast<long>(std::ceil(seconds));
+    if (whole < 100)
+        return fmt::format("{} s", whole);
+    return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+}
+
+// "12.3 Mrays/s"
+std::string rateText(const JobProgress& progress) {
+    if (progress.workUnit.empty() || progress.secondsSoFar <= 0)
+        return {};
+    double rate = progress.workDone / progress.secondsSoFar;
+    const char* prefix = "";
+    for (const char* larger : {"k", "M", "G"}) {
+        if (rate < 1000)
+            break;
+        rate /= 1000;
+        prefix = larger;
+    }
+    return fmt::format("{:.3g} {}{}/s", rate, prefix, progress.workUnit);
+}
+
+std::string statusText(const JobProgress& progress, double secondsLeft) {
+    std::string text = fmt::format("{:3.0f} %", progress.fraction * 100);
+    if (!progress.activity.empty())
+        text += "  " + progress.activity;
+    if (const std::string rate = rateText(progress); !rate.empty())
+        text += "  " + rate;
+    if (secondsLeft >= 0 && progress.fraction < 1)
+        text += "  " + timeText(secondsLeft) + " left";
+    return text;
+}
+
+} // namespace
+
+Watcher::Watcher(const CommonOptions& options)
+    : m_options(options)
+    , m_terminal(::isatty(STDERR_FILENO) == 1) {
+    CHECK_EQ(::pipe2(m_pipe, O_CLOEXEC | O_NONBLOCK), 0);
+    signalPipe = m_pipe[1];
+    struct sigaction action {};
+    action.sa_handler = handleSignal;
+    action.sa_flags = SA_RESTART;
+    ::sigaction(SIGINT, &action, &m_previousInt);
+    ::sigaction(SIGTERM, &action, &m_previousTerm);
+    m_thread = std::thread([this] { run(); });
+}
+
+Watcher::~Watcher() {
+    end();
+    ::sigaction(SIGINT, &m_previousInt, nullptr);
+    ::sigaction(SIGTERM, &m_previousTerm, nullptr);
+    signalPipe = -1;
+    ::close(m_pipe[0]);
+    ::close(m_pipe[1]);
+}
+
+void Watcher::beginPhase() {
+    const std::lock_guard lock(m_mutex);
+    const bool cancelled = m_control.cancelled();
+    m_control = JobControl();
+    m_lastStep = -1;
+    if (cancelled)
+        m_control.cancel();
+}
+
+JobControl Watcher::control() const {
+    const std::lock_guard lock(m_mutex);
+    return m_control;
+}
+
+void Watcher::end() {
+    if (!m_thread.joinable())
+        return;
+    while (::write(m_pipe[1], &kEnd, 1) < 0 && errno == EAGAIN)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    m_thread.join();
+    clearBar();
+}
+
+void Watcher::run() {
+    pollfd ready{m_pipe[0], POLLIN, 0};
+    while (true) {
+        const int count = ::poll(&ready, 1, kFrameMs);
+        char what = kEnd;
+        if (count > 0 && ::read(m_pipe[0], &what, 1) == 1) {
+            if (what == kEnd)
+                return;
+            onSignal(what);
+            if (control().cancelled()) {
+                // Give the work its time to end in order.
+                ready.revents = 0;
+                while (::poll(&ready, 1, kPatienceMs) > 0 && ::read(m_pipe[0], &what, 1) == 1)
+                    if (what == kEnd)
+                        return;
+                clearBar();
+                if (m_options.json)
+                    fmt::print("{{\"command\": \"{}\", \"error\": {{\"kind\": \"cancelled\", "
+                               "\"message\": \"interrupted; nothing was written\", \"file\": "
+                               "\"\", \"exitStatus\": {}}}}}\n",
+                               m_options.command, 128 + m_signal);
+                fmt::print(stderr, "patina: interrupted; nothing was written\n");
+                std::fflush(stdout);
+                ::_exit(128 + m_signal);
+            }
+        }
+        update();
+    }
+}
+
+void Watcher::onSignal(int signal) {
+    const std::lock_guard lock(m_mutex);
+    int none = 0;
+    const bool first = m_signal.compare_exchange_strong(none, signal);
+    if (first && m_partialAllowed) {
+        m_stoppedEarly = true;
+        m_control.stop();
+    } else {
+        m_stoppedEarly = false;
+        m_control.cancel();
+    }
+}
+
+void Watcher::update() {
+    if (!m_showsProgress || m_options.quiet)
+        return;
+    const JobControl job = control();
+    const JobProgress progress = job.progress();
+    if (progress.fraction <= 0)
+        return;
+    const std::string status = statusText(progress, job.secondsLeft());
+    if (m_terminal) {
+        constexpr int kBarWidth = 24;
+        const int full = static_cast<int>(progress.fraction * kBarWidth);
+        fmt::print(stderr, "\r\x1b[K[{}{}] {}", std::string(static_cast<std::size_t>(full), '#'),
+                   std::string(static_cast<std::size_t>(kBarWidth - full), '-'), status);
+        std::fflush(stderr);
+        m_barShown = true;
+    } else if (const int step = static_cast<int>(progress.fraction * 20); step > m_lastStep) {
+        fmt::print(stderr, "patina {}: {}\n", m_options.command, status);
+        m_lastStep = step;
+    }
+}
+
+void Watcher::clearBar() {
+    if (m_barShown)
+        fmt::print(stderr, "\r\x1b[K");
+    m_barShown = false;
+}
+
+} // namespace patina::cli

@@ -1,0 +1,246 @@
+// The commands themselves, on built-in scenes.
+#include "CommandRunner.h"
+#include "core/image/ImageIO.h"
+#include "core/worker/WorkerClient.h"
+
+#include <cmath>
+#include <csignal>
+#include <gmock/gmock.h>
+
+using namespace patina;
+using namespace patina::test;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+namespace {
+
+// The program's own decoder, beside it in $PATINA_BIN_DIR.
+class Commands : public testing::Test {
+  protected:
+    Image load(const std::string& file) {
+        Result<LoadedImage> image = loadImage(m_worker, file);
+        EXPECT_TRUE(image.ok()) << image.error().text();
+        return image->image();
+    }
+    void save(const std::string& file, int width, int height, int channels,
+              const std::vector<int>& values) {
+        Image image(width, height, channels, PixelType::U8, ColorEncoding::Srgb);
+        for (std::size_t i = 0; i < image.u8().size(); ++i)
+            image.u8()[i] = static_cast<std::uint8_t>(values[i % values.size()]);
+        const Result<void> saved = saveImage(m_worker, image, file);
+        EXPECT_TRUE(saved.ok());
+    }
+
+    TemporaryFolder m_folder;
+    WorkerClient m_worker;
+};
+
+} // namespace
+
+TEST_F(Commands, CompareGivesExactNumbers) {
+    save(m_folder / "a.png", 2, 1, 3, {255, 0, 0, 10, 20, 30});
+    save(m_folder / "b.png", 2, 1, 3, {0, 0, 0, 10, 20, 30});
+    const Outcome outcome = runPatina(
+        {"compare", m_folder / "a.png", m_folder / "b.png", "--json", "-o", m_folder / "d.png"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    nlohmann::json json = outcome.json();
+    EXPECT_EQ(json["command"], "compare");
+    EXPECT_NEAR(json["rmse"].get<double>(), std::sqrt(1.0 / 6), 1e-9);
+    EXPECT_NEAR(json["psnr"].get<double>(), 10 * std::log10(6.0), 1e-9);
+    EXPECT_NEAR(json["relmse"].get<double>(), 1 / 0.01 / 6, 1e-9);
+    EXPECT_EQ(json["max"], 1.0);
+    EXPECT_EQ(json["samples"], 6);
+    EXPECT_EQ(json["different"], 1);
+    EXPECT_EQ(json["identical"], false);
+    const Image difference = load(m_folder / "d.png");
+    EXPECT_THAT(difference.u8(), ElementsAre(255, 0, 0, 0, 0, 0));
+}
+
+TEST_F(Commands, CompareSaysThatImagesAreIdentical) {
+    save(m_folder / "a.png", 2, 2, 3, {1, 2, 3, 4});
+    const Outcome human = runPatina({"compare", m_folder / "a.png", m_folder / "a.png"});
+    EXPECT_EQ(human.status, 0);
+    EXPECT_THAT(human.out, HasSubstr("rmse    0\n"));
+    EXPECT_THAT(human.out, HasSubstr("identical"));
+    nlohmann::json json =
+        runPatina({"compare", m_folder / "a.png", m_folder / "a.png", "--json"}).json();
+    EXPECT_EQ(json["identical"], true);
+    EXPECT_TRUE(json["psnr"].is_null());
+    save(m_folder / "b.png", 1, 2, 3, {1});
+    EXPECT_EQ(runPatina({"compare", m_folder / "a.png", m_folder / "b.png"}).status, 2);
+}
+
+TEST_F(Commands, InfoListsTheBuiltins) {
+    const Outcome human = runPatina({"info", "builtin:list"});
+    EXPECT_THAT(human.out, HasSubstr("\n  builtin:shader-ball  "));
+    nlohmann::json json = runPatina({"info", "builtin:list", "--json"}).json();
+    for (const char* kind : {"models", "environments", "materials"})
+        EXPECT_GE(json["builtin"][kind].size(), 6u) << kind;
+}
+
+TEST_F(Commands, InfoTellsWhatAnImageHolds) {
+    save(m_folder / "a.png", 3, 2, 4, {1, 2, 3, 4});
+    nlohmann::json json = runPatina({"info", m_folder / "a.png", "--json"}).json();
+    EXPECT_EQ(json["kind"], "image");
+    EXPECT_EQ(json["format"], "png");
+    EXPECT_EQ(json["width"], 3);
+    EXPECT_EQ(json["height"], 2);
+    EXPECT_EQ(json["channels"], 4);
+    EXPECT_EQ(json["pixelType"], "uint8");
+    EXPECT_GT(json["peakMemoryBytes"].get<double>(), 1e6);
+    EXPECT_THAT(runPatina({"info", m_folder / "a.png"}).out, HasSubstr("3 × 2 pixels"));
+}
+
+TEST_F(Commands, InfoReadsTheExportedModelBack) {
+    const Outcome exported =
+        runPatina({"export", "builtin:sphere", "-o", m_folder / "ball.glb", "--json", "--set",
+                   "material.metallic=0.25", "--set", "material.baseColor=0.5,0.25,0.125"});
+    ASSERT_EQ(exported.status, 0) << exported.err;
+    EXPECT_THAT(exported.json()["outputs"], ElementsAre(m_folder / "ball.glb"));
+    EXPECT_EQ(exported.json()["settings"]["set"]["material.metallic"], "0.25");
+
+    nlohmann::json built = runPatina({"info", "builtin:sphere", "--json"}).json();
+    nlohmann::json read = runPatina({"info", m_folder / "ball.glb", "--json"}).json();
+    EXPECT_EQ(read["kind"], "model");
+    EXPECT_EQ(read["counts"]["triangles"], built["counts"]["triangles"]);
+    EXPECT_EQ(read["bounds"], built["bounds"]);
+    EXPECT_EQ(read["meshes"][0]["name"], built["meshes"][0]["name"]);
+    EXPECT_EQ(read["materials"][0]["metallic"], 0.25);
+    EXPECT_EQ(read["materials"][0]["baseColor"], nlohmann::json({0.5, 0.25, 0.125}));
+    EXPECT_THAT(runPatina({"info", m_folder / "ball.glb"}).out, HasSubstr("\nMeshes (1)\n"));
+}
+
+TEST_F(Commands, ExportPlansWithoutWriting) {
+    const Outcome outcome = runPatina(
+        {"export", "builtin:sphere", "-o", m_folder / "ball.gltf", "--dry-run", "--json"});
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_THAT(m_folder.files(), IsEmpty());
+    EXPECT_EQ(outcome.json()["files"][1]["path"], m_folder / "ball.bin");
+}
+
+TEST_F(Commands, RenderDrawsTheSphereOnTransparency) {
+    const Outcome outcome =
+        runPatina({"render", "builtin:sphere", "-o", m_folder / "ball.png", "--size", "96x64",
+                   "--background", "transparent", "--environment", "builtin:white", "--json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    nlohmann::json json = outcome.json();
+    EXPECT_EQ(json["settings"]["size"], nlohmann::json({96, 64}));
+    EXPECT_EQ(json["settings"]["environment"], "builtin:white");
+    EXPECT_GT(json["counts"]["triangles"], 100);
+    EXPECT_GT(json["seconds"], 0.0);
+    const Image image = load(m_folder / "ball.png");
+    ASSERT_EQ(image.width(), 96);
+    ASSERT_EQ(image.height(), 64);
+    ASSERT_EQ(image.channels(), 4);
+    EXPECT_EQ(image.sample(48, 32, 3), 1.0f); // the ball
+    EXPECT_GT(image.sample(48, 32, 1), 0.2f);
+    for (const auto& [x, y] : {std::pair{0, 0}, {95, 0}, {0, 63}, {95, 63}})
+        EXPECT_EQ(image.sample(x, y, 3), 0.0f);
+}
+
+// The background has the radiance it was given: no tone curve, no rounding to 8 bits.
+TEST_F(Commands, RenderWritesLinearFloats) {
+    const Outcome outcome =
+        runPatina({"render", "builtin:sphere", "-o", m_folder / "a.exr", "--size", "32x32",
+                   "--environment", "builtin:white", "--background", "0.5,0.25,1", "--tone-map",
+                   "reinhard", "--camera", "180,20,5", "--json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    nlohmann::json camera = outcome.json()["settings"]["camera"];
+    EXPECT_EQ(camera["yawDeg"], 180.0);
+    EXPECT_EQ(camera["pitchDeg"], 20.0);
+    EXPECT_EQ(camera["distance"], 5.0);
+    const Image image = load(m_folder / "a.exr");
+    EXPECT_EQ(image.type(), PixelType::F32);
+    ASSERT_EQ(image.channels(), 3);
+    EXPECT_NEAR(image.sample(0, 0, 0), 0.5f, 1e-3f);
+    EXPECT_NEAR(image.sample(0, 0, 1), 0.25f, 1e-3f);
+    EXPECT_NEAR(image.sample(0, 0, 2), 1.0f, 1e-3f);
+}
+
+TEST_F(Commands, BakesDoNotDependOnTheThreadCount) {
+    for (const char* threads : {"1", "2"})
+        ASSERT_EQ(runPatina({"bake", "prt", "builtin:rounded-cube", "-o",
+                             m_folder / (std::string(threads) + ".exr"), "--samples", "32",
+                             "--threads", threads})
+                      .status,
+                  0);
+    EXPECT_EQ(readBytes(m_folder / "1.exr"), readBytes(m_folder / "2.exr"));
+}
+
+TEST_F(Commands, BakeReportsItsWorkAndInfoReadsIt) {
+    const Outcome outcome = runPatina({"bake", "prt", "builtin:sphere", "-o", m_folder / "p.exr",
+                                       "--order", "2", "--samples", "64", "--json"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    nlohmann::json json = outcome.json();
+    EXPECT_EQ(json["command"], "bake prt");
+    EXPECT_EQ(json["settings"]["order"], 2);
+    EXPECT_EQ(json["samplesDone"], 64);
+    EXPECT_EQ(json["partial"], false);
+    EXPECT_GE(json["rays"].get<double>(), 64.0);
+    EXPECT_GT(json["counts"]["vertices"], 100);
+    nlohmann::json info = runPatina({"info", m_folder / "p.exr", "--json"}).json();
+    EXPECT_EQ(info["kind"], "bake");
+    EXPECT_EQ(info["channels"], 4); // order 2: four coefficients
+
+    // The bake lights the scene it was made from, and no other.
+    EXPECT_EQ(runPatina({"render", "builtin:sphere", "-o", m_folder / "p.png", "--size", "32x32",
+                         "--lighting", "prt", "--bake", m_folder / "p.exr"})
+                  .status,
+              0);
+    EXPECT_EQ(runPatina({"render", "builtin:torus-knot", "-o", m_folder / "q.png", "--size",
+                         "32x32", "--lighting", "prt", "--bake", m_folder / "p.exr"})
+                  .status,
+              65);
+}
+
+TEST_F(Commands, TexelBakesBecomeOnePictureForEachMaterial) {
+    const Outcome one = runPatina({"bake", "ao", "builtin:sphere", "-o", m_folder / "one.png",
+                                   "--size", "32", "--samples", "32"});
+    ASSERT_EQ(one.status, 0) << one.err;
+    EXPECT_THAT(m_folder.files(), ElementsAre("one.png"));
+    const Image image = load(m_folder / "one.png");
+    EXPECT_EQ(image.width(), 32);
+    EXPECT_EQ(image.channels(), 1);
+
+    const Outcome several =
+        runPatina({"bake", "ao", "builtin:shader-ball", "-o", m_folder / "ball.png", "--size", "16",
+                   "--samples", "32", "--json"});
+    ASSERT_EQ(several.status, 0) << several.err;
+    EXPECT_GE(several.json()["outputs"].size(), 2u);
+    for (const nlohmann::json& file : several.json()["outputs"]) {
+        EXPECT_THAT(file.get<std::string>(), HasSubstr("/ball-"));
+        EXPECT_THAT(several.err, HasSubstr(file.get<std::string>()));
+    }
+}
+
+TEST_F(Commands, SignalsStopABakeAndLeaveNothing) {
+    for (const auto& [signal, status] : {std::pair{SIGINT, 130}, std::pair{SIGTERM, 143}}) {
+        RunOptions options;
+        options.signal = signal;
+        options.signalWhen = "%";
+        const Outcome outcome =
+            runPatina({"bake", "ao", "builtin:torus-knot", "--target", "vertex", "-o",
+                       m_folder / "x.exr", "--samples", "65536", "--json"},
+                      options);
+        EXPECT_EQ(outcome.status, status) << outcome.err;
+        EXPECT_EQ(outcome.json()["error"]["kind"], "cancelled");
+        EXPECT_EQ(outcome.json()["error"]["exitStatus"], status);
+        EXPECT_THAT(m_folder.files(), IsEmpty());
+    }
+}
+
+TEST_F(Commands, KeepPartialWritesWhatHasConverged) {
+    RunOptions options;
+    options.signal = SIGINT;
+    options.signalWhen = "%";
+    const Outcome outcome =
+        runPatina({"bake", "ao", "builtin:torus-knot", "--target", "vertex", "-o",
+                   m_folder / "x.exr", "--samples", "65536", "--keep-partial", "--json"},
+                  options);
+    EXPECT_EQ(outcome.status, 130) << outcome.err;
+    EXPECT_EQ(outcome.json()["partial"], true);
+    EXPECT_LT(outcome.json()["samplesDone"], 65536);
+    EXPECT_THAT(m_folder.files(), ElementsAre("x.exr"));
+    EXPECT_EQ(runPatina({"info", m_folder / "x.exr"}).status, 0);
+}

@@ -1,0 +1,28 @@
+#include "app/cli/Report.h"
+
+#include <gtest/gtest.h>
+
+using namespace patina;
+using namespace patina::cli;
+
+TEST(Report, EveryKindOfErrorHasItsExitStatus) {
+    EXPECT_EQ(exitStatus(ErrorKind::Usage), 2);
+    EXPECT_EQ(exitStatus(ErrorKind::InputBroken), 65);
+    EXPECT_EQ(exitStatus(ErrorKind::InputMissing), 66);
+    EXPECT_EQ(exitStatus(ErrorKind::NoOpenGl), 69);
+    EXPECT_EQ(exitStatus(ErrorKind::Internal), 70);
+    EXPECT_EQ(exitStatus(ErrorKind::CannotCreate), 73);
+    EXPECT_EQ(exitStatus(ErrorKind::Io), 74);
+    EXPECT_EQ(exitStatus(ErrorKind::Cancelled), 130);
+}
+
+TEST(Report, NumbersAreWrittenForPeople) {
+    EXPECT_EQ(countText(0), "0");
+    EXPECT_EQ(countText(999), "999");
+    EXPECT_EQ(countText(1000), "1,000");
+    EXPECT_EQ(countText(12345678), "12,345,678");
+    EXPECT_EQ(bytesText(1023), "1023 bytes");
+    EXPECT_EQ(bytesText(1536), "1.5 KiB");
+    EXPECT_EQ(bytesText(std::size_t{5} << 20), "5.0 MiB");
+    EXPECT_EQ(bytesText(std::size_t{3} << 40), "3072.0 GiB");
+}
