@@ -1,4 +1,5 @@
 #include "core/mesh/UvUnwrap.h"
+#include "core/mesh/BoxProjection.h"
 #include "tests/core/mesh/Shapes.h"
 
 #include <algorithm>
@@ -190,4 +191,24 @@ TEST(HasOverlappingUvs, FindsMirroredTiledAndStackedUvs) {
     EXPECT_TRUE(hasOverlappingUvs(mesh));
     mesh.uvs.assign(4, glm::vec2(0.5f)); // no area covers no texel
     EXPECT_FALSE(hasOverlappingUvs(mesh));
+}
+
+// What meshes of many millions of triangles get.
+TEST(BoxProjection, KeepsOrientationAndCellsApart) {
+    Mesh mesh = withNormals(noisySphere(48, 24, 0.05));
+    const std::size_t triangles = mesh.triangleCount();
+    boxProjectUvs(mesh);
+    ASSERT_EQ(mesh.triangleCount(), triangles);
+    ASSERT_EQ(mesh.uvs.size(), mesh.positions.size());
+    ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
+    for (std::size_t t = 0; t < triangles; ++t) {
+        EXPECT_GT(signedUvArea(mesh, t), 0.0);
+        std::set<std::pair<int, int>> cells; // of the 3 × 2 grid
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const glm::vec2 uv = mesh.uvs[mesh.indices[3 * t + corner]];
+            cells.insert({int(uv.x * 3), int(uv.y * 2)});
+            ASSERT_TRUE(uv.x > 0 && uv.x < 1 && uv.y > 0 && uv.y < 1);
+        }
+        EXPECT_EQ(cells.size(), 1u);
+    }
 }
