@@ -1,5 +1,5 @@
-// UVs by projection along the nearest of the six axes, each axis in its own cell of a 3 × 2 grid.
-// Linear in time and memory; parts that lie behind each other overlap.
+// UVs by projection along the nearest of the six axes, each axis in a square cell of its own (three
+// by two). Linear in time and memory; parts that lie behind each other overlap.
 #pragma once
 
 #include "core/mesh/Mesh.h"

@@ -203,10 +203,10 @@ TEST(BoxProjection, KeepsOrientationAndCellsApart) {
     ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
     for (std::size_t t = 0; t < triangles; ++t) {
         EXPECT_GT(signedUvArea(mesh, t), 0.0);
-        std::set<std::pair<int, int>> cells; // of the 3 × 2 grid
+        std::set<std::pair<int, int>> cells; // square, in three columns
         for (std::size_t corner = 0; corner < 3; ++corner) {
             const glm::vec2 uv = mesh.uvs[mesh.indices[3 * t + corner]];
-            cells.insert({int(uv.x * 3), int(uv.y * 2)});
+            cells.insert({int(uv.x * 3), int(uv.y * 3)});
             ASSERT_TRUE(uv.x > 0 && uv.x < 1 && uv.y > 0 && uv.y < 1);
         }
         EXPECT_EQ(cells.size(), 1u);
