@@ -62,10 +62,18 @@ void drawFrames(benchmark::State& state, bool withIbl, int samples, bool overlay
     state.SetLabel(stage->context->info().renderer);
 }
 
-BENCHMARK_CAPTURE(drawFrames, uniform_light_1x, false, 1, false)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(drawFrames, ibl_1x, true, 1, false)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(drawFrames, ibl_4x, true, 4, false)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(drawFrames, ibl_4x_overlays, true, 4, true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(drawFrames, uniform_light_1x, false, 1, false)
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(drawFrames, ibl_1x, true, 1, false)
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(drawFrames, ibl_4x, true, 4, false)
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(drawFrames, ibl_4x_overlays, true, 4, true)
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
 
 } // namespace
 } // namespace patina::render
