@@ -7,7 +7,6 @@
 #include "core/document/ProjectJson.h"
 #include "core/document/SceneLoader.h"
 
-#include <fmt/format.h>
 #include <set>
 #include <system_error>
 
@@ -60,10 +59,13 @@ void loadBakes(SceneLoader& loader, WorkerClient& worker, Document& document,
         Result<BakeArtifact> bake = loadBake(worker, reference.file, document);
         if (bake.ok() && bake->kind == reference.kind)
             document.bakes.push_back(std::make_shared<const BakeArtifact>(*std::move(bake)));
+        else if (!bake.ok() && bake.error().kind == ErrorKind::InputMissing)
+            loader.addNotice("a bake of this project is missing; put the file back or bake it anew",
+                             reference.file);
         else
-            loader.addNotice(fmt::format("a bake of this project cannot be used, bake it anew: {}",
-                                         bake.ok() ? "the file holds a bake of another kind"
-                                                   : bake.error().message),
+            loader.addNotice("a bake of this project is left out: " +
+                                 (bake.ok() ? "the file holds a bake of another kind; bake it anew"
+                                            : bake.error().message),
                              reference.file);
     }
 }

@@ -45,6 +45,14 @@ void expectBroken(const std::string& json, const std::string& part) {
 }
 
 std::string mutated(std::string text, RandomDocument& random) {
+    // Every second mutant only has other digits, and so reaches the checks behind the parser.
+    if (random.below(2) == 0) {
+        for (std::size_t count = 1 + random.below(8); count > 0; --count)
+            if (const std::size_t at = text.find_first_of("0123456789", random.below(text.size()));
+                at != std::string::npos)
+                text[at] = static_cast<char>('0' + random.below(10));
+        return text;
+    }
     for (std::size_t count = 1 + random.below(4); count > 0 && !text.empty(); --count) {
         const std::size_t at = random.below(text.size());
         const std::size_t length = 1 + random.below(40);
@@ -214,7 +222,7 @@ TEST(ProjectJson, HostileSizesAreRefusedBeforeTheyAreParsed) {
 
 TEST(ProjectJson, ManyMaterialsTakeLinearTime) {
     Document document;
-    for (int i = 0; i < 20'000; ++i)
+    for (int i = 0; i < 10'000; ++i)
         document.materials.emplace_back().id = document.takeId();
     const Result<Document> back = documentFromJson(documentToJson(document, kProject), kProject);
     ASSERT_TRUE(back.ok());
@@ -222,14 +230,15 @@ TEST(ProjectJson, ManyMaterialsTakeLinearTime) {
 }
 
 TEST(ProjectJson, MutantsNeverCrashAndWhatOpensSavesAgain) {
-    std::size_t opened = 0;
-    for (std::uint32_t seed = 1; seed <= 4000; ++seed) {
+    std::size_t opened = 0, refused = 0;
+    for (std::uint32_t seed = 1; seed <= 2000; ++seed) {
         RandomDocument random(seed);
         const std::string text = mutated(documentToJson(random.make(), kProject), random);
         const Result<Document> document = documentFromJson(text, kProject);
         if (!document.ok()) {
             ASSERT_EQ(document.error().kind, ErrorKind::InputBroken) << "seed " << seed;
             ASSERT_FALSE(document.error().message.empty()) << "seed " << seed;
+            ++refused;
             continue;
         }
         ++opened;
@@ -238,5 +247,7 @@ TEST(ProjectJson, MutantsNeverCrashAndWhatOpensSavesAgain) {
         ASSERT_TRUE(again.ok()) << "seed " << seed << ": " << again.error().text();
         ASSERT_TRUE(*again == *document) << "seed " << seed;
     }
-    EXPECT_GT(opened, 50u); // the mutations are not all fatal
+    // The mutants are of both sorts.
+    EXPECT_GT(opened, 200u);
+    EXPECT_GT(refused, 200u);
 }

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <gtest/gtest.h>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,10 @@ namespace patina {
 
 class SceneFixture : public testing::Test {
   protected:
+    // One worker for all tests of a suite: starting it takes longer than most of them.
+    static void SetUpTestSuite() { s_worker = std::make_unique<WorkerClient>(); }
+    static void TearDownTestSuite() { s_worker.reset(); }
+
     // Two triangles with two materials; the second names a texture that nobody writes.
     std::string writeModel(const std::string& folder = "models") {
         m_folder.write(folder + "/pair.mtl", "newmtl Red\nKd 0.5 0.25 0.125\nmap_Kd red.png\n"
@@ -67,8 +72,9 @@ class SceneFixture : public testing::Test {
         });
     }
 
+    static inline std::unique_ptr<WorkerClient> s_worker;
     TemporaryFolder m_folder;
-    WorkerClient m_worker;
+    WorkerClient& m_worker = *s_worker;
 };
 
 } // namespace patina
