@@ -2,6 +2,7 @@
 
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/job/JobManager.h"
+#include "app/editor/style/Tokens.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -57,11 +58,12 @@ ExportDialog::ExportDialog(DocumentController& controller, JobManager& jobs, QWi
     setWindowTitle(tr("Export"));
     resize(860, 560);
     auto* layout = new QVBoxLayout(this);
-    layout->setSpacing(12);
+    layout->setContentsMargins(20, 20, 20, 20);
+    layout->setSpacing(tokens::kMargin);
     layout->addWidget(makeSettings());
 
     auto* heading = new QLabel(tr("Files that will be written"));
-    heading->setProperty("heading", true);
+    heading->setObjectName(QStringLiteral("heading"));
     layout->addWidget(heading);
     m_files = new QTableWidget(0, 5);
     m_files->setObjectName(QStringLiteral("exportFiles"));
@@ -70,7 +72,10 @@ ExportDialog::ExportDialog(DocumentController& controller, JobManager& jobs, QWi
         {tr("File"), tr("Contents"), tr("Colour space"), tr("Format"), tr("Note")});
     m_files->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
     m_files->horizontalHeader()->setSectionResizeMode(1, QHeaderView::Stretch);
+    m_files->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     m_files->verticalHeader()->hide();
+    m_files->setWordWrap(false); // a tool tip holds what does not fit
+    m_files->setFocusPolicy(Qt::ClickFocus);
     m_files->setEditTriggers(QAbstractItemView::NoEditTriggers);
     m_files->setSelectionBehavior(QAbstractItemView::SelectRows);
     m_files->setShowGrid(false);
@@ -79,6 +84,7 @@ ExportDialog::ExportDialog(DocumentController& controller, JobManager& jobs, QWi
     m_warnings = new QLabel;
     m_warnings->setObjectName(QStringLiteral("exportWarnings"));
     m_warnings->setWordWrap(true);
+    m_warnings->setStyleSheet(QStringLiteral("color: %1").arg(QColor(tokens::kCopper).name()));
     layout->addWidget(m_warnings);
 
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
@@ -96,6 +102,8 @@ QWidget* ExportDialog::makeSettings() {
     auto* widget = new QWidget;
     auto* form = new QFormLayout(widget);
     form->setContentsMargins(0, 0, 0, 0);
+    form->setHorizontalSpacing(20);
+    form->setVerticalSpacing(tokens::kGap);
     form->setFieldGrowthPolicy(QFormLayout::ExpandingFieldsGrow);
 
     m_format = withHelp(new QComboBox, tr("One binary file, or a .gltf with its files beside it"));
@@ -108,11 +116,14 @@ QWidget* ExportDialog::makeSettings() {
     m_path->setObjectName(QStringLiteral("exportPath"));
     auto* choose = withHelp(new QToolButton, tr("Choose the file"));
     choose->setText(tr("Browse…"));
+    choose->setObjectName(QStringLiteral("raised"));
     choose->setAccessibleName(tr("Browse for the export file"));
     auto* pathRow = new QHBoxLayout;
     pathRow->addWidget(m_path, 1);
     pathRow->addWidget(choose);
-    form->addRow(tr("&File"), pathRow);
+    auto* pathLabel = new QLabel(tr("Fi&le"));
+    pathLabel->setBuddy(m_path);
+    form->addRow(pathLabel, pathRow);
 
     m_textures = withHelp(new QComboBox, tr("PNG loses nothing, JPEG is smaller"));
     m_textures->addItem(tr("PNG"), static_cast<int>(ExportTextureFormat::Png));
@@ -199,13 +210,13 @@ void ExportDialog::refresh() {
             auto* item = new QTableWidgetItem(cells[column]);
             item->setToolTip(column == 0 ? fromPath(file.path) : cells[column]);
             if (file.overwrites && column == 4)
-                item->setForeground(QColor(0xe0, 0xa4, 0x58));
+                item->setForeground(QColor(tokens::kCopper));
             m_files->setItem(row, column, item);
         }
     }
     QStringList warnings;
     for (const std::string& warning : m_plan.warnings)
-        warnings << QStringLiteral("⚠ ") + QString::fromStdString(warning);
+        warnings << QString::fromStdString(warning);
     m_warnings->setText(warnings.join(QLatin1Char('\n')));
     m_warnings->setVisible(!warnings.isEmpty());
     m_export->setEnabled(!m_plan.files.empty() && !m_path->text().trimmed().isEmpty());

@@ -3,6 +3,9 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/job/JobManager.h"
 #include "app/editor/panel/JobTexts.h"
+#include "app/editor/style/Tokens.h"
+#include "app/editor/widget/PanelScroll.h"
+#include "app/editor/widget/Section.h"
 #include "core/material/Parameters.h"
 
 #include <QButtonGroup>
@@ -34,9 +37,11 @@ QComboBox* makeChoice(std::initializer_list<int> values, int current, const QStr
     return box;
 }
 
-QLabel* makeHeading(const QString& text) {
+// Secondary facts, wrapped.
+QLabel* makeHint(const QString& text = {}) {
     auto* label = new QLabel(text);
-    label->setProperty("heading", true);
+    label->setObjectName(QStringLiteral("dim"));
+    label->setWordWrap(true);
     return label;
 }
 
@@ -64,9 +69,15 @@ BakePanel::BakePanel(DocumentController& controller, JobManager& jobs, QWidget* 
     , m_jobs(jobs)
     , m_runner(controller, jobs) {
     setObjectName(QStringLiteral("bakePanel"));
-    auto* layout = new QVBoxLayout(this);
-    layout->addWidget(makeHeading(tr("New bake")));
-    layout->addWidget(makeSettings());
+    auto* outer = new QVBoxLayout(this);
+    outer->setContentsMargins(0, 0, 0, 0);
+    auto* scroll = new PanelScroll;
+    outer->addWidget(scroll);
+    QVBoxLayout* layout = scroll->contents();
+
+    auto* newBake = new Section(tr("New bake"));
+    layout->addWidget(newBake);
+    newBake->add(makeSettings());
     m_actions = new QStackedWidget;
     m_start = makeButton(tr("Start bake"),
                          tr("Computes in the background; you can go on editing meanwhile"));
@@ -75,14 +86,22 @@ BakePanel::BakePanel(DocumentController& controller, JobManager& jobs, QWidget* 
     m_actions->addWidget(m_start);
     m_actions->addWidget(makeProgress());
     m_actions->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
-    layout->addWidget(m_actions);
+    newBake->add(m_actions);
 
-    layout->addWidget(makeHeading(tr("Attached bakes")));
-    m_attached = new QVBoxLayout;
-    layout->addLayout(m_attached);
+    auto* attached = new Section(tr("Attached bakes"));
+    layout->addWidget(attached);
+    auto* attachedRows = new QWidget;
+    m_attached = new QVBoxLayout(attachedRows);
+    m_attached->setContentsMargins(0, 0, 0, 0);
+    attached->add(attachedRows);
 
-    layout->addWidget(makeHeading(tr("Lighting")));
-    auto* lighting = new QHBoxLayout;
+    auto* lightingSection = new Section(tr("Lighting"));
+    layout->addWidget(lightingSection);
+    auto* lightingRow = new QWidget;
+    lightingSection->add(lightingRow);
+    auto* lighting = new QHBoxLayout(lightingRow);
+    lighting->setContentsMargins(0, 0, 0, 0);
+    lighting->setSpacing(1); // two halves of one switch
     auto* group = new QButtonGroup(this);
     m_ibl = makeButton(tr("IBL"), tr("Light from the environment without shadows (live)"));
     m_prt =
@@ -94,7 +113,6 @@ BakePanel::BakePanel(DocumentController& controller, JobManager& jobs, QWidget* 
         group->addButton(button);
         lighting->addWidget(button);
     }
-    layout->addLayout(lighting);
     layout->addStretch(1);
 
     const auto setLighting = [this](LightingMode mode) {
@@ -122,6 +140,8 @@ QWidget* BakePanel::makeSettings() {
     auto* widget = new QWidget;
     m_form = new QFormLayout(widget);
     m_form->setContentsMargins(0, 0, 0, 0);
+    m_form->setHorizontalSpacing(tokens::kMargin);
+    m_form->setVerticalSpacing(tokens::kGap);
     m_form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
     m_kind = new QComboBox;
     for (const BakeKind kind : {BakeKind::PrtVertex, BakeKind::AoTexel, BakeKind::AoVertex})
@@ -150,9 +170,7 @@ QWidget* BakePanel::makeSettings() {
     m_distance->setAccessibleName(tr("Distance"));
     m_distance->setToolTip(tr("Surfaces farther away than this do not occlude"));
     m_form->addRow(tr("Distance"), m_distance);
-    m_estimate = new QLabel;
-    m_estimate->setWordWrap(true);
-    m_estimate->setProperty("hint", true);
+    m_estimate = makeHint();
     m_form->addRow(m_estimate);
     for (QComboBox* box : {m_kind, m_samples, m_order, m_size})
         connect(box, &QComboBox::currentIndexChanged, this, &BakePanel::refreshSettings);
@@ -166,8 +184,8 @@ QWidget* BakePanel::makeProgress() {
     m_bar = new QProgressBar;
     m_bar->setRange(0, 1000);
     m_bar->setAccessibleName(tr("Bake progress"));
-    m_progressText = new QLabel;
-    m_progressText->setProperty("hint", true);
+    m_bar->setTextVisible(false); // the words stand below
+    m_progressText = makeHint();
     m_stop = makeButton(tr("Stop"), tr("Ends now and keeps what has converged"));
     m_cancel = makeButton(tr("Cancel"), tr("Ends now and keeps nothing"));
     m_stop->setObjectName(QStringLiteral("bakeStop"));
@@ -250,9 +268,8 @@ void BakePanel::refreshAttached() {
     clear(m_attached);
     const Document& document = m_controller.document();
     if (document.bakes.empty()) {
-        auto* none = new QLabel(tr("None yet"));
-        none->setProperty("hint", true);
-        m_attached->addWidget(none);
+        m_attached->addWidget(
+            makeHint(tr("None yet. A bake stays with the scene and is saved with it.")));
         return;
     }
     for (const BakeArtifactPtr& bake : document.bakes) {
@@ -260,12 +277,11 @@ void BakePanel::refreshAttached() {
         auto* row = new QWidget;
         auto* layout = new QHBoxLayout(row);
         layout->setContentsMargins(0, 2, 0, 2);
-        auto* text =
-            new QLabel(QStringLiteral("%1<br><span style='color:%2'>%3</span>")
-                           .arg(bakeTitle(bake->kind).toHtmlEscaped(),
-                                stale ? QStringLiteral("#e0a458") : QStringLiteral("#8fa39b"),
-                                stale ? tr("Stale: the geometry has changed")
-                                      : tr("Up to date, %1 rays").arg(bake->samplesDone)));
+        auto* text = new QLabel(QStringLiteral("%1<br><span style='color:%2'>%3</span>")
+                                    .arg(bakeTitle(bake->kind).toHtmlEscaped(),
+                                         QColor(stale ? tokens::kCopper : tokens::kTextDim).name(),
+                                         stale ? tr("Stale: the geometry has changed")
+                                               : tr("Up to date, %1 rays").arg(bake->samplesDone)));
         text->setWordWrap(true);
         text->setObjectName(QStringLiteral("bakeStatus"));
         layout->addWidget(text, 1);

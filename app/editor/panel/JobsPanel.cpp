@@ -43,7 +43,7 @@ JobsPanel::JobsPanel(JobManager& jobs, QWidget* parent)
     m_rows = new QVBoxLayout(content);
     m_rows->setContentsMargins(0, 0, 0, 0);
     m_empty = new QLabel(tr("Nothing is running. Bakes and exports appear here."));
-    m_empty->setProperty("hint", true);
+    m_empty->setObjectName(QStringLiteral("dim"));
     m_empty->setWordWrap(true);
     m_rows->addWidget(m_empty);
     m_rows->addStretch(1);
@@ -76,7 +76,7 @@ JobsPanel::Row JobsPanel::makeRow(const JobRecord& record) {
     row.bar->setTextVisible(false);
     row.bar->setAccessibleName(tr("Progress of %1").arg(record.title));
     row.text = new QLabel;
-    row.text->setProperty("hint", true);
+    row.text->setObjectName(QStringLiteral("dim"));
     row.text->setWordWrap(true);
     row.stop = new QPushButton(tr("Stop"));
     row.stop->setToolTip(tr("Ends now and keeps what has converged"));

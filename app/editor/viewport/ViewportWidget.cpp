@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kRestMs = 250;         // without movement until the picture is refined
 constexpr int kFlyStepMs = 16;       // a flying camera moves 60 times a second
-constexpr int kPreviewMs = 100;      // a bake's preview is uploaded at most ten times a second
+constexpr int kPreviewMs = 100;      // how often a bake is asked for a new pass
 constexpr int kShaderPollMs = 500;   // hot reload in developers' builds
 constexpr double kClickPixels = 4.0; // a press that moves less selects
 
@@ -90,8 +90,11 @@ ViewportWidget::~ViewportWidget() {
 void ViewportWidget::setJobs(JobManager& jobs) {
     m_jobs = &jobs;
     connect(&jobs, &JobManager::previewChanged, this, [this] {
-        if (m_jobs->preview()) {
+        m_previewSamples = 0;
+        m_previewPending = m_jobs->preview() != nullptr;
+        if (m_previewPending) {
             m_previewTimer.start();
+            update();
         } else {
             m_previewTimer.stop();
             update(); // paintGL drops the preview
@@ -121,8 +124,10 @@ void ViewportWidget::initializeGL() {
     m_renderer = std::move(created).value();
     m_renderer->setDocument(m_controller.document(), Change::everything());
     m_iblPending = true;
-    if (m_jobs && m_jobs->preview())
+    if (m_jobs && m_jobs->preview()) {
         m_jobs->preview()->markAllChanged();
+        m_previewPending = true;
+    }
     if (!shaderFolder.isEmpty())
         m_shaderTimer.start();
     Q_EMIT contextReady(QString::fromStdString(m_context->info().renderer),
@@ -164,7 +169,8 @@ void ViewportWidget::paintGL() {
         m_renderer->setIbl(*m_ibl->maps());
         m_iblPending = false;
     }
-    if (m_jobs && m_jobs->preview()) {
+    if (m_previewPending && m_jobs && m_jobs->preview()) {
+        m_previewPending = false;
         m_previewShown |= m_jobs->preview()->collect(
             [this](Id mesh, int stride, std::span<const float> values) {
                 m_renderer->previewVertices(mesh, stride, values);
@@ -172,7 +178,7 @@ void ViewportWidget::paintGL() {
             [this](Id material, int size, std::span<const float> values) {
                 m_renderer->previewTexels(material, size, values);
             });
-    } else if (m_previewShown) {
+    } else if (m_previewShown && !(m_jobs && m_jobs->preview())) {
         m_renderer->clearPreview();
         m_previewShown = false;
     }
@@ -225,7 +231,14 @@ void ViewportWidget::applyChange(const Change& change) {
     touch();
 }
 
+// Each complete pass is a usable picture. Showing unfinished ones would redraw all the time and
+// take the cores from the bake.
 void ViewportWidget::pollPreview() {
+    const std::shared_ptr<LivePreview> preview = m_jobs->preview();
+    if (!preview || preview->samplesDone() == m_previewSamples)
+        return;
+    m_previewSamples = preview->samplesDone();
+    m_previewPending = true;
     update();
 }
 

@@ -93,6 +93,8 @@ class ViewportWidget : public QOpenGLWidget {
     std::unique_ptr<QOpenGLFramebufferObject> m_reduced; // target of reduced frames
     bool m_iblPending = true;                            // m_ibl->maps() is not in the renderer yet
     bool m_previewShown = false;
+    bool m_previewPending = false; // a new pass is to be uploaded
+    int m_previewSamples = 0;      // of the pass seen last
 
     FramePacing m_pacing;
     QTimer m_restTimer, m_flyTimer, m_previewTimer, m_shaderTimer;
