@@ -35,18 +35,32 @@ glm::mat4 Camera::projectionMatrix(float aspect, const Bounds& scene) const {
     const float toCenter = glm::dot(scene.center() - position(), forward());
     const float farPlane = std::max(toCenter + 1.05f * radius, 1e-3f * radius);
     // A ratio of 1e5 keeps 24 bits of depth usable when the camera is inside the scene.
-    const float nearPlane = std::clamp(toCenter - 1.05f * radius, farPlane * 1e-5f, farPlane * 0.5f);
+    const float nearPlane =
+        std::clamp(toCenter - 1.05f * radius, farPlane * 1e-5f, farPlane * 0.5f);
     return glm::perspective(glm::radians(fovDeg), std::max(aspect, 1e-3f),
                             std::max(nearPlane, 1e-3f * distance), farPlane);
 }
 
 Camera frameBounds(Camera camera, const Bounds& scene, float aspect) {
-    const float margin = 1.08f; // a little air around the object
-    const float halfVertical = 0.5f * glm::radians(camera.fovDeg);
-    const float halfHorizontal = std::atan(std::tan(halfVertical) * aspect);
+    const float margin = 1.12f; // a little air around the object
+    const float tanVertical = std::tan(0.5f * glm::radians(camera.fovDeg)) / margin;
+    const float tanHorizontal = tanVertical * aspect;
     const float radius = std::max(scene.radius(), 1e-4f);
+    const glm::vec3 half = 0.5f * scene.size();
+
+    // A corner at (x, y, z) from the centre, along right, up and forward, appears within the frame
+    // when |x| <= tanHorizontal (distance + z), and alike for y.
+    float distance = 1.05f * radius; // in front of the whole object in any case
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 offset(corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y,
+                               corner & 4 ? half.z : -half.z);
+        const float x = std::abs(glm::dot(offset, camera.right()));
+        const float y = std::abs(glm::dot(offset, camera.up()));
+        const float z = glm::dot(offset, camera.forward());
+        distance = std::max({distance, x / tanHorizontal - z, y / tanVertical - z});
+    }
     camera.target = scene.center();
-    camera.distance = margin * radius / std::sin(std::min(halfVertical, halfHorizontal));
+    camera.distance = distance;
     return camera;
 }
 

@@ -27,9 +27,9 @@ struct Camera {
     friend bool operator==(const Camera&, const Camera&) = default;
 };
 
-// Moves target and distance so that the bounding sphere of `scene` fits both directions of the
-// picture with a small margin; keeps yaw, pitch and field of view. The editor, the command line
-// and every renderer frame through this one function.
+// Moves target and distance so that the box `scene` fits both directions of the picture with a
+// small margin; keeps yaw, pitch and field of view. The editor, the command line and every renderer
+// frame through this one function.
 [[nodiscard]] Camera frameBounds(Camera camera, const Bounds& scene, float aspect);
 
 } // namespace patina
