@@ -318,7 +318,8 @@ void MainWindow::connectActions() {
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
         if (touches(change.affects, Affects::Geometry | Affects::Structure))
             refreshTriangles();
-        if (!change.target || change.target->scope == Scope::View)
+        if (!change.target || change.target->scope == Scope::View ||
+            touches(change.affects, Affects::Bakes))
             refreshView();
     });
     connect(m_viewport, &ViewportWidget::frameRendered, this, &MainWindow::showFrameTime);
@@ -365,7 +366,9 @@ void MainWindow::refreshTitle() {
 }
 
 void MainWindow::refreshView() {
-    const LightingMode mode = m_session.controller.document().view.lighting;
+    const Document& document = m_session.controller.document();
+    const LightingMode mode = document.view.lighting;
+    m_actions->lightingPrt->setEnabled(findBake(document, BakeKind::PrtVertex) != nullptr);
     m_actions->lightingIbl->setChecked(mode == LightingMode::Ibl);
     m_actions->lightingPrt->setChecked(mode == LightingMode::Prt);
 }

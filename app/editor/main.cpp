@@ -11,44 +11,65 @@
 #include <QCommandLineParser>
 #include <QIcon>
 #include <QSettings>
-#include <QTimer>
+#include <cstdio>
 #include <cstdlib>
 
 namespace {
 
 // Files that are still being read when the user leaves get this long to come to an end.
 constexpr int kPatienceMs = 1500;
+constexpr int kNoDisplay = 69; // EX_UNAVAILABLE, as the command line's "no OpenGL"
+
+void describe(QCommandLineParser& parser) {
+    parser.setApplicationDescription(QCoreApplication::translate(
+        "main", "Author physically based materials and trust what you see."));
+    parser.addHelpOption();
+    parser.addVersionOption();
+    parser.addOptions(
+        {{QStringLiteral("environment"),
+          QCoreApplication::translate("main",
+                                      "Light the scene with this panorama or builtin:NAME."),
+          QStringLiteral("HDR")},
+         {QStringLiteral("reset-layout"),
+          QCoreApplication::translate("main", "Put all docks back where they were at first.")}});
+    QCommandLineOption quitAfterFirstFrame(
+        QStringLiteral("quit-after-first-frame"),
+        QCoreApplication::translate("main",
+                                    "Quit once the scene is on screen (to time the start)."));
+    quitAfterFirstFrame.setFlags(QCommandLineOption::HiddenFromHelp);
+    parser.addOption(quitAfterFirstFrame);
+    parser.addPositionalArgument(
+        QStringLiteral("FILE"),
+        QCoreApplication::translate("main",
+                                    "Projects, models, environments, images; or builtin:NAME."),
+        QStringLiteral("[FILE …]"));
+}
+
+// Qt ends the process with a core dump when it finds no display; we say what to do.
+bool displayIsMissing() {
+    return qEnvironmentVariableIsEmpty("DISPLAY") &&
+           qEnvironmentVariableIsEmpty("WAYLAND_DISPLAY") &&
+           qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM");
+}
 
 } // namespace
 
 int main(int argc, char* argv[]) {
     using namespace patina::editor;
     prepareApplication();
+    QCommandLineParser parser;
+    describe(parser);
+    if (displayIsMissing()) {
+        const QCoreApplication application(argc, argv);
+        parser.process(application); // --help and --version need no display
+        std::fputs("patina-editor: there is no display (DISPLAY and WAYLAND_DISPLAY are empty). "
+                   "Start it on a desktop, or use 'patina render' and 'patina bake'.\n",
+                   stderr);
+        return kNoDisplay;
+    }
     QApplication application(argc, argv);
     QApplication::setWindowIcon(QIcon(QStringLiteral(":/icons/patina.svg")));
     applyStyle(application);
-
-    QCommandLineParser parser;
-    parser.setApplicationDescription(QApplication::translate(
-        "main", "Author physically based materials and trust what you see."));
-    parser.addHelpOption();
-    parser.addVersionOption();
-    const QCommandLineOption environment(
-        QStringLiteral("environment"),
-        QApplication::translate("main", "Light the scene with this panorama or builtin:NAME."),
-        QStringLiteral("HDR"));
-    const QCommandLineOption resetLayout(
-        QStringLiteral("reset-layout"),
-        QApplication::translate("main", "Put all docks back where they were at first."));
-    QCommandLineOption quitAfterFirstFrame(
-        QStringLiteral("quit-after-first-frame"),
-        QApplication::translate("main", "Quit once the scene is on screen (to time the start)."));
-    quitAfterFirstFrame.setFlags(QCommandLineOption::HiddenFromHelp);
-    parser.addOptions({environment, resetLayout, quitAfterFirstFrame});
-    parser.addPositionalArgument(
-        QStringLiteral("FILE"),
-        QApplication::translate("main", "Projects, models, environments, images; or builtin:NAME."),
-        QStringLiteral("[FILE …]"));
     parser.process(application);
 
     Session session;
@@ -56,11 +77,10 @@ int main(int argc, char* argv[]) {
     int status = 0;
     {
         MainWindow window(session);
-        if (parser.isSet(resetLayout))
+        if (parser.isSet(QStringLiteral("reset-layout")))
             QSettings().remove(QStringLiteral("window"));
         window.restoreLayout();
-        window.show();
-        if (parser.isSet(quitAfterFirstFrame))
+        if (parser.isSet(QStringLiteral("quit-after-first-frame")))
             QObject::connect(
                 &window.viewport(), &ViewportWidget::frameRendered, &application,
                 [&] {
@@ -68,11 +88,10 @@ int main(int argc, char* argv[]) {
                         QApplication::quit();
                 },
                 Qt::QueuedConnection); // not in the middle of painting
-        // The window comes first, its content as soon as it is ready.
-        QTimer::singleShot(0, &window, [&] {
-            window.files().openFromCommandLine(parser.positionalArguments(),
-                                               parser.value(environment));
-        });
+        // Read and made in the background while the window and OpenGL come up.
+        window.files().openFromCommandLine(parser.positionalArguments(),
+                                           parser.value(QStringLiteral("environment")));
+        window.show();
         status = QApplication::exec();
     }
     session.controller.tasks().cancelAll();

@@ -5,6 +5,7 @@
 #include "app/editor/panel/ParameterList.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/ElidedLabel.h"
 #include "app/editor/widget/MapSlotWidget.h"
 #include "app/editor/widget/PanelScroll.h"
 #include "app/editor/widget/SkyGallery.h"
@@ -32,7 +33,7 @@ EnvironmentPanel::EnvironmentPanel(DocumentController& controller, Thumbnails& t
     , m_controller(controller)
     , m_previews(new BackgroundTasks(1, this))
     , m_gallery(new SkyGallery)
-    , m_source(new QLabel)
+    , m_source(new ElidedLabel)
     , m_parameters(
           new ParameterList(controller, thumbnails,
                             {Scope::Environment,
@@ -42,7 +43,6 @@ EnvironmentPanel::EnvironmentPanel(DocumentController& controller, Thumbnails& t
                              {"environment.image"}, // the gallery and the line with the file
                              applies})) {
     m_gallery->setTasks(*m_previews);
-    m_source->setMinimumWidth(40);
     auto* browseButton = new QPushButton(icon(QStringLiteral("open")), tr("Browse…"));
     browseButton->setToolTip(tr("Light the scene with an HDR or EXR panorama from a file"));
     browseButton->setStatusTip(browseButton->toolTip());
@@ -78,10 +78,10 @@ void EnvironmentPanel::refresh() {
     m_gallery->setCurrent(source);
     m_source->setText(MapSlotWidget::sourceTitle(environment.source));
     const bool broken = !environment.problem.empty();
+    m_source->setToolTip(broken ? QString::fromStdString(environment.problem) : source);
     QPalette colors = m_source->palette();
     colors.setColor(QPalette::WindowText, QColor(broken ? tokens::kCopper : tokens::kTextDim));
     m_source->setPalette(colors);
-    m_source->setToolTip(broken ? QString::fromStdString(environment.problem) : source);
 }
 
 void EnvironmentPanel::browse() {

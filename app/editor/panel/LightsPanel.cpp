@@ -56,7 +56,7 @@ LightsPanel::LightsPanel(DocumentController& controller, SelectionModel& selecti
                                               return std::nullopt;
                                           return Target{Scope::Light, selection.light()};
                                       },
-                                      {"light.name", "light.enabled"}, // the list has them
+                                      {"light.enabled"}, // the list has it
                                       applies})) {
     auto* point = textButton(QStringLiteral("light-point"), tr("Point"), tr("Add a point light"));
     auto* sun =

@@ -35,16 +35,15 @@ MaterialPanel::MaterialPanel(DocumentController& controller, SelectionModel& sel
     , m_selection(selection)
     , m_choice(new QComboBox)
     , m_library(new QToolButton)
-    , m_parameters(
-          new ParameterList(controller, thumbnails,
-                            {Scope::Material,
-                             [&selection]() -> std::optional<Target> {
-                                 if (selection.material() == 0)
-                                     return std::nullopt;
-                                 return Target{Scope::Material, selection.material()};
-                             },
-                             {"material.name"}, // the choice above and the scene tree show it
-                             applies})) {
+    , m_parameters(new ParameterList(controller, thumbnails,
+                                     {Scope::Material,
+                                      [&selection]() -> std::optional<Target> {
+                                          if (selection.material() == 0)
+                                              return std::nullopt;
+                                          return Target{Scope::Material, selection.material()};
+                                      },
+                                      {},
+                                      applies})) {
     m_choice->setAccessibleName(tr("Material"));
     m_choice->setToolTip(tr("The material that is edited"));
     m_choice->setStatusTip(m_choice->toolTip());

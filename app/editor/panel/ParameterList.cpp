@@ -23,6 +23,7 @@ ParameterList::ParameterList(DocumentController& controller, Thumbnails& thumbna
     int labelWidth = 0;
     for (const ParameterInfo& info : parameters()) {
         if (info.scope != m_spec.scope || info.type == ParameterType::Reference ||
+            info.type == ParameterType::Text ||
             std::count(m_spec.without.begin(), m_spec.without.end(), info.id) > 0)
             continue;
         infos.push_back(&info);

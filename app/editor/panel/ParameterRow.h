@@ -58,7 +58,7 @@ class ParameterRow : public QWidget {
     qint64 m_lastStepMs = 0;
 };
 
-// The row that suits the parameter's type; null for types that no row shows (references).
+// The row that suits the parameter's type; null for names and references.
 [[nodiscard]] ParameterRow* makeParameterRow(const ParameterInfo& info, const RowContext& context);
 
 [[nodiscard]] QString toQString(std::string_view text);

@@ -12,7 +12,6 @@
 #include <QComboBox>
 #include <QFileDialog>
 #include <QHBoxLayout>
-#include <QLineEdit>
 #include <QSettings>
 #include <QWheelEvent>
 
@@ -181,34 +180,6 @@ class BoolRow : public ParameterRow {
     QCheckBox* m_box;
 };
 
-class TextRow : public ParameterRow {
-  public:
-    TextRow(const ParameterInfo& info, const RowContext& context)
-        : ParameterRow(info, context)
-        , m_edit(new QLineEdit) {
-        m_edit->setFixedHeight(tokens::kRowHeight - 2);
-        addField(m_edit, 1);
-        connect(m_edit, &QLineEdit::editingFinished, this, [this] {
-            if (!m_edit->isModified())
-                return;
-            m_edit->setModified(false);
-            if (const auto element = target())
-                this->context().controller.rename(*element, m_edit->text());
-            refresh();
-        });
-    }
-
-  protected:
-    void show(const ParameterValue& value) override {
-        const QString text = QString::fromStdString(std::get<std::string>(value));
-        if (!m_edit->isModified() && m_edit->text() != text)
-            m_edit->setText(text);
-    }
-
-  private:
-    QLineEdit* m_edit;
-};
-
 class MapRow : public ParameterRow {
   public:
     MapRow(const ParameterInfo& info, const RowContext& context)
@@ -277,10 +248,9 @@ ParameterRow* makeParameterRow(const ParameterInfo& info, const RowContext& cont
         return new VectorRow(info, context);
     case ParameterType::Choice:
         return new ChoiceRow(info, context);
-    case ParameterType::Text:
-        return new TextRow(info, context);
     case ParameterType::Map:
         return new MapRow(info, context);
+    case ParameterType::Text: // names are edited where they are listed
     case ParameterType::Reference:
         return nullptr;
     }

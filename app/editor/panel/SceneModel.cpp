@@ -6,9 +6,6 @@
 #include "app/editor/widget/ColorConversion.h"
 #include "app/editor/widget/Thumbnails.h"
 
-#include <QColor>
-#include <QFont>
-#include <QIcon>
 #include <QPainter>
 #include <QPixmap>
 #include <algorithm>
@@ -45,7 +42,10 @@ QIcon swatch(const QColor& color, bool metal) {
 SceneModel::SceneModel(DocumentController& controller, Thumbnails& thumbnails, QObject* parent)
     : QAbstractItemModel(parent)
     , m_controller(controller)
-    , m_thumbnails(thumbnails) {
+    , m_thumbnails(thumbnails)
+    , m_meshIcon(icon(QStringLiteral("mesh")))
+    , m_eyeIcon(icon(QStringLiteral("eye")))
+    , m_eyeOffIcon(icon(QStringLiteral("eye-off"), tokens::kTextOff)) {
     connect(&thumbnails, &Thumbnails::ready, this, [this] {
         if (m_counts[Materials] > 0)
             Q_EMIT dataChanged(index(0, 0, branchIndex(Materials)),
@@ -164,10 +164,9 @@ QVariant SceneModel::meshData(std::size_t row, int column, int role) const {
         break;
     case Qt::DecorationRole:
         if (column == NameColumn)
-            return icon(QStringLiteral("mesh"));
+            return m_meshIcon;
         if (column == EyeColumn)
-            return mesh.visible ? icon(QStringLiteral("eye"))
-                                : icon(QStringLiteral("eye-off"), tokens::kTextOff);
+            return mesh.visible ? m_eyeIcon : m_eyeOffIcon;
         break;
     case Qt::ForegroundRole:
         if (!mesh.visible)

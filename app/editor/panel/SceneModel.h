@@ -6,6 +6,7 @@
 
 #include <QAbstractItemModel>
 #include <QColor>
+#include <QIcon>
 
 namespace patina::editor {
 
@@ -42,6 +43,7 @@ class SceneModel : public QAbstractItemModel {
 
     DocumentController& m_controller;
     Thumbnails& m_thumbnails;
+    QIcon m_meshIcon, m_eyeIcon, m_eyeOffIcon;
     int m_counts[2] = {0, 0};
 };
 

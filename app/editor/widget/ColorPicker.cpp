@@ -28,7 +28,7 @@ float fraction(double position, int size) {
 
 SaturationValueSquare::SaturationValueSquare(QWidget* parent)
     : QWidget(parent) {
-    setFixedSize(208, 160);
+    setFixedHeight(160);
     setCursor(Qt::CrossCursor);
     setAccessibleName(tr("Saturation and brightness"));
 }
@@ -78,7 +78,7 @@ void SaturationValueSquare::mouseReleaseEvent(QMouseEvent* event) {
 
 HueStrip::HueStrip(QWidget* parent)
     : QWidget(parent) {
-    setFixedSize(208, 16);
+    setFixedHeight(16);
     setCursor(Qt::CrossCursor);
     setAccessibleName(tr("Hue"));
 }
@@ -128,6 +128,7 @@ ColorPicker::ColorPicker(QWidget* parent)
     , m_hex(new QLineEdit)
     , m_swatch(new QWidget) {
     setObjectName(QStringLiteral("popup"));
+    setFixedWidth(276);
     auto* grid = new QGridLayout(this);
     grid->setContentsMargins(tokens::kMargin, tokens::kMargin, tokens::kMargin, tokens::kMargin);
     grid->setSpacing(tokens::kGap);

@@ -3,6 +3,7 @@
 #include "app/editor/document/FileKinds.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/ElidedLabel.h"
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Thumbnails.h"
 #include "core/library/Library.h"
@@ -50,7 +51,7 @@ MapSlotWidget::MapSlotWidget(Thumbnails& thumbnails, const QString& name, bool w
     : QFrame(parent)
     , m_thumbnails(thumbnails)
     , m_name(name)
-    , m_title(new QLabel)
+    , m_title(new ElidedLabel)
     , m_facts(new QLabel)
     , m_channel(new QComboBox)
     , m_browse(smallButton(QStringLiteral("open"), tr("Choose an image file"),
@@ -61,9 +62,6 @@ MapSlotWidget::MapSlotWidget(Thumbnails& thumbnails, const QString& name, bool w
           smallButton(QStringLiteral("close"), tr("Remove the image"), tr("Remove %1").arg(name))) {
     setAcceptDrops(true);
     setAccessibleName(name);
-    m_title->setTextInteractionFlags(Qt::NoTextInteraction);
-    m_title->setMinimumWidth(30);
-    m_title->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     m_facts->setObjectName(QStringLiteral("dim"));
     m_facts->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred); // gives way first
     for (const QString& channel : {tr("RGB"), tr("Red"), tr("Green"), tr("Blue"), tr("Alpha")})
@@ -98,7 +96,7 @@ MapSlotWidget::MapSlotWidget(Thumbnails& thumbnails, const QString& name, bool w
     connect(m_channel, &QComboBox::activated, this,
             [this](int index) { Q_EMIT channelChosen(static_cast<MapChannel>(index)); });
     connect(&thumbnails, &Thumbnails::ready, this, &MapSlotWidget::refreshThumbnail);
-    setSlot({});
+    show({});
 }
 
 QWidget* MapSlotWidget::makeTiling() {
@@ -161,6 +159,12 @@ void MapSlotWidget::addTilingField(int row, int column, const QString& name, flo
 }
 
 void MapSlotWidget::setSlot(const MapSlot& slot) {
+    if (slot == m_slot)
+        return;
+    show(slot);
+}
+
+void MapSlotWidget::show(const MapSlot& slot) {
     m_slot = slot;
     const bool assigned = slot.assigned();
     const bool broken = !slot.problem.empty();

@@ -50,6 +50,7 @@ class MapSlotWidget : public QFrame {
     QWidget* makeTiling();
     void addTilingField(int row, int column, const QString& name, float MapSlot::*angle,
                         glm::vec2 MapSlot::*vector, int component);
+    void show(const MapSlot& slot);
     void refreshThumbnail();
 
     Thumbnails& m_thumbnails;

@@ -14,6 +14,9 @@ RowLabel::RowLabel(const QString& text, QWidget* parent)
 }
 
 void RowLabel::setAtDefault(bool atDefault) {
+    if (atDefault == m_atDefault)
+        return; // a new palette costs more than all the rest of a row
+    m_atDefault = atDefault;
     QPalette colors = palette();
     colors.setColor(QPalette::WindowText, QColor(atDefault ? tokens::kTextDim : tokens::kText));
     setPalette(colors);

@@ -16,6 +16,9 @@ class RowLabel : public QLabel {
 
   protected:
     void mouseDoubleClickEvent(QMouseEvent* event) override;
+
+  private:
+    bool m_atDefault = false;
 };
 
 } // namespace patina::editor

@@ -8,12 +8,14 @@
 #include <QGridLayout>
 #include <QPixmap>
 #include <QPointer>
+#include <QTimer>
 #include <QToolButton>
 
 namespace patina::editor {
 namespace {
 constexpr int kColumns = 3;
 constexpr QSize kPicture{84, 42};
+constexpr int kPreviewDelayMs = 1500; // the first frame of the scene goes before
 } // namespace
 
 SkyGallery::SkyGallery(QWidget* parent)
@@ -55,22 +57,25 @@ void SkyGallery::showEvent(QShowEvent* event) {
     if (m_requested || !m_tasks)
         return;
     m_requested = true;
+    QTimer::singleShot(kPreviewDelayMs, this, &SkyGallery::makePictures);
+}
+
+void SkyGallery::makePictures() {
     for (const Sky& sky : m_skies) {
-        const std::string name = sky.source.mid(8).toStdString();
-        m_tasks->start(
-            QStringLiteral("sky:") + sky.source, tr("Preparing previews"),
-            [name, button = QPointer(sky.button)](const JobContext& job) -> BackgroundTasks::Apply {
-                if (job.cancelled())
-                    return {};
-                const auto image = library::environment(name);
-                if (!image.ok())
-                    return {};
-                const QImage picture = displayImage(*image.value(), 2 * kPicture.width());
-                return [button, picture] {
-                    if (button)
-                        button->setIcon(QPixmap::fromImage(picture));
-                };
-            });
+        const auto work = [name = sky.source.mid(8).toStdString(), button = QPointer(sky.button)](
+                              const JobContext& job) -> BackgroundTasks::Apply {
+            if (job.cancelled())
+                return {};
+            const auto image = library::environment(name);
+            if (!image.ok())
+                return {};
+            const QImage picture = displayImage(*image.value(), 2 * kPicture.width());
+            return [button, picture] {
+                if (button)
+                    button->setIcon(QPixmap::fromImage(picture));
+            };
+        };
+        m_tasks->start(QStringLiteral("sky:") + sky.source, tr("Preparing previews"), work);
     }
 }
 

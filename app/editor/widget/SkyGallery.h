@@ -25,6 +25,8 @@ class SkyGallery : public QWidget {
     void showEvent(QShowEvent* event) override;
 
   private:
+    void makePictures();
+
     struct Sky {
         QString source;
         QToolButton* button;

@@ -49,7 +49,8 @@ class EditorTest : public ::testing::Test {
     }
 
     void SetUp() override {
-        session->controller.newDocument();
+        if (!session->controller.isPristine() || document().meshes.empty())
+            session->controller.newDocument();
         ASSERT_TRUE(settled(*session));
         ASSERT_FALSE(session->controller.document().materials.empty());
         ASSERT_EQ(undoCount(), 0);

@@ -286,6 +286,15 @@ TEST_F(WindowTest, EveryControlHasAnAccessibleName) {
 TEST_F(WindowTest, LightingFollowsTheDocument) {
     Actions& actions = window->actions();
     EXPECT_TRUE(actions.lightingIbl->isChecked());
+    EXPECT_FALSE(actions.lightingPrt->isEnabled()); // there is no transfer yet
+    BakeArtifact bake;
+    bake.kind = BakeKind::PrtVertex;
+    bake.order = 3;
+    for (const MeshInstance& mesh : document().meshes)
+        bake.vertices.push_back(
+            {mesh.id, 9, std::vector<float>(9 * mesh.mesh->vertexCount(), 0.1f)});
+    controller().attachBake(std::make_shared<const BakeArtifact>(bake));
+    EXPECT_TRUE(actions.lightingPrt->isEnabled());
     actions.lightingPrt->trigger();
     EXPECT_EQ(document().view.lighting, LightingMode::Prt);
     EXPECT_TRUE(actions.lightingPrt->isChecked());
