@@ -22,6 +22,7 @@ ParameterRow::ParameterRow(const ParameterInfo& info, const RowContext& context)
     , m_layout(new QHBoxLayout(this)) {
     m_layout->setContentsMargins(0, 0, 0, 0);
     m_layout->setSpacing(tokens::kGap);
+    setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
     m_label->setFixedWidth(context.labelWidth);
     m_layout->addWidget(m_label, 0, Qt::AlignTop);
     const QString help = toQString(info.help);
