@@ -49,7 +49,7 @@ class ViewportWidget : public QOpenGLWidget {
     [[nodiscard]] bool overlaysVisible() const { return m_overlays; }
 
     // Milliseconds of the slowest frame since the last call (tests and the status bar).
-    [[nodiscard]] double takeSlowestFrameMs();
+    double takeSlowestFrameMs();
 
   Q_SIGNALS:
     void contextReady(const QString& gpu, const QString& glVersion); // after initializeGL

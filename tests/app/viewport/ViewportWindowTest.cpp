@@ -1,0 +1,215 @@
+// The viewport and the bakes, driven by real mouse and key events in the real window.
+
+#include "app/editor/job/JobManager.h"
+#include "tests/app/editor/EditorFixture.h"
+
+#include <QComboBox>
+#include <QElapsedTimer>
+#include <QLabel>
+#include <QLocale>
+#include <QPushButton>
+#include <algorithm>
+#include <cstdio>
+
+namespace patina::editor {
+namespace {
+
+class ViewportWindowTest : public EditorTest {
+  protected:
+    static ViewportWidget& viewport() { return window->viewport(); }
+    // Shortcuts belong to the active window; without a window manager nobody else activates it.
+    static void activate() {
+        window->activateWindow();
+        ASSERT_TRUE(QTest::qWaitForWindowActive(window.get(), 30'000));
+        viewport().setFocus();
+    }
+    static QPoint center() { return viewport().rect().center(); }
+    static const Camera& camera() { return document().view.camera; }
+
+    static void drag(Qt::MouseButton button, Qt::KeyboardModifiers modifiers, QPoint by,
+                     int steps = 8) {
+        QTest::mousePress(&viewport(), button, modifiers, center());
+        for (int i = 1; i <= steps; ++i)
+            QTest::mouseMove(&viewport(), center() + by * i / steps);
+        QTest::mouseRelease(&viewport(), button, modifiers, center() + by);
+    }
+
+    // The Bake dock's button of that name.
+    static QPushButton& button(const char* name) {
+        return *window->findChild<QPushButton*>(QLatin1String(name));
+    }
+    static bool bakeRuns() { return session->jobs.runningCount() > 0; }
+    static bool hasPrt() {
+        return std::any_of(document().bakes.begin(), document().bakes.end(),
+                           [](const auto& bake) { return bake->kind == BakeKind::PrtVertex; });
+    }
+    static QString bakeStatus() {
+        const auto* label = window->findChild<QLabel*>(QStringLiteral("bakeStatus"));
+        return label ? label->text() : QString();
+    }
+    static void openKnot() {
+        controller().openScene(QStringLiteral("builtin:torus-knot"));
+        ASSERT_TRUE(settled(*session));
+        ASSERT_GT(document().triangleCount(), 90'000u);
+    }
+};
+
+TEST_F(ViewportWindowTest, DraggingMovesTheCameraAndIsNoUndoStep) {
+    const Camera before = camera();
+    drag(Qt::LeftButton, Qt::NoModifier, {60, 20});
+    EXPECT_NE(camera().yawDeg, before.yawDeg);
+    EXPECT_EQ(camera().target, before.target);
+    const Camera orbited = camera();
+    drag(Qt::MiddleButton, Qt::NoModifier, {30, 10});
+    EXPECT_NE(camera().target, orbited.target);
+    EXPECT_EQ(camera().yawDeg, orbited.yawDeg);
+    const Camera panned = camera();
+    drag(Qt::RightButton, Qt::NoModifier, {40, 0});
+    EXPECT_LT(glm::length(camera().position() - panned.position()), 1e-3f);
+    EXPECT_NE(camera().yawDeg, panned.yawDeg);
+    EXPECT_EQ(undoCount(), 0);
+    EXPECT_FALSE(controller().isModified());
+
+    activate();
+    QTest::keyClick(&viewport(), Qt::Key_Home);
+    EXPECT_EQ(camera().yawDeg, Camera{}.yawDeg);
+    EXPECT_LT(glm::length(camera().target - document().bounds().center()), 1e-3f);
+}
+
+TEST_F(ViewportWindowTest, FlyingNeedsTheRightButtonAndLettersStayShortcutsOtherwise) {
+    activate();
+    const Camera before = camera();
+    QTest::keyPress(&viewport(), Qt::Key_W);
+    QTest::qWait(60);
+    QTest::keyRelease(&viewport(), Qt::Key_W);
+    EXPECT_EQ(camera(), before);
+
+    QTest::mousePress(&viewport(), Qt::RightButton, Qt::NoModifier, center());
+    QTest::keyPress(&viewport(), Qt::Key_W);
+    EXPECT_TRUE(eventually([&] { return camera().position() != before.position(); }));
+    QTest::keyRelease(&viewport(), Qt::Key_W);
+    QTest::mouseRelease(&viewport(), Qt::RightButton, Qt::NoModifier, center());
+    const glm::vec3 moved = camera().position() - before.position();
+    EXPECT_GT(glm::dot(glm::normalize(moved), before.forward()), 0.99f);
+    const Camera after = camera();
+    QTest::qWait(80);
+    EXPECT_EQ(camera(), after) << "the camera stops with the key";
+}
+
+TEST_F(ViewportWindowTest, ShiftRightDragTurnsTheEnvironmentInOneUndoStep) {
+    drag(Qt::RightButton, Qt::ShiftModifier, {50, 0});
+    EXPECT_GT(document().environment.rotationDeg, 5.0f);
+    EXPECT_EQ(undoCount(), 1);
+    controller().undoStack().undo();
+    EXPECT_EQ(document().environment.rotationDeg, 0.0f);
+}
+
+TEST_F(ViewportWindowTest, AClickSelectsWhatIsUnderThePointer) {
+    activate();
+    QTest::keyClick(&viewport(), Qt::Key_Home);
+    session->selection.selectMesh(0);
+    viewport().grab(); // a frame to pick from
+    QTest::mouseClick(&viewport(), Qt::LeftButton, Qt::NoModifier, center());
+    EXPECT_NE(session->selection.mesh(), 0u);
+    QTest::mouseClick(&viewport(), Qt::LeftButton, Qt::NoModifier, QPoint(3, 3));
+    EXPECT_EQ(session->selection.mesh(), 0u) << "a click on the sky selects nothing";
+}
+
+TEST_F(ViewportWindowTest, OrbitingGoesOnWhileABakeRunsAndCancelLeavesNothing) {
+    openKnot();
+    window->findChild<QComboBox*>(QStringLiteral("bakeSamples"))
+        ->setCurrentText(QLocale().toString(4096)); // long enough to be in the way
+    QTest::mouseClick(&button("bakeStart"), Qt::LeftButton);
+    ASSERT_TRUE(bakeRuns());
+    EXPECT_EQ(document().view.lighting, LightingMode::Prt);
+    ASSERT_TRUE(eventually([&] { return session->jobs.jobs().back().progress.workDone > 0; }));
+
+    // Orbit for three seconds; the figure is printed, for times are not asserted.
+    QElapsedTimer clock, gap;
+    clock.start();
+    viewport().takeSlowestFrameMs();
+    qint64 longestGapMs = 0;
+    int frames = 0;
+    const auto counting = QObject::connect(&viewport(), &ViewportWidget::frameRendered, &viewport(),
+                                           [&] { ++frames; });
+    const float yaw = camera().yawDeg;
+    QTest::mousePress(&viewport(), Qt::LeftButton, Qt::NoModifier, center());
+    for (int i = 0; clock.elapsed() < 3000; ++i) {
+        gap.start();
+        QTest::mouseMove(&viewport(), center() + QPoint(i % 80, 0));
+        QTest::qWait(1);
+        longestGapMs = std::max(longestGapMs, gap.elapsed());
+    }
+    QTest::mouseRelease(&viewport(), Qt::LeftButton, Qt::NoModifier, center());
+    QObject::disconnect(counting);
+    std::printf("[ figures  ] orbiting during a bake: %d frames in 3 s, slowest frame %.0f ms, "
+                "longest wait %lld ms\n",
+                frames, viewport().takeSlowestFrameMs(), static_cast<long long>(longestGapMs));
+    EXPECT_GT(frames, 5);
+    EXPECT_NE(camera().yawDeg, yaw);
+    EXPECT_TRUE(bakeRuns());
+
+    clock.restart();
+    QTest::mouseClick(&button("bakeCancel"), Qt::LeftButton);
+    ASSERT_TRUE(eventually([&] { return !bakeRuns(); }));
+    std::printf("[ figures  ] cancel took %lld ms\n", static_cast<long long>(clock.elapsed()));
+    EXPECT_FALSE(hasPrt());
+    EXPECT_EQ(session->jobs.jobs().back().state, JobState::Cancelled);
+    EXPECT_EQ(session->jobs.preview(), nullptr);
+}
+
+TEST_F(ViewportWindowTest, ABakeIsAttachedUndoneAndGoesStaleWithTheGeometry) {
+    openKnot();
+    window->findChild<QComboBox*>(QStringLiteral("bakeSamples"))
+        ->setCurrentText(QLocale().toString(32));
+    QTest::mouseClick(&button("bakeStart"), Qt::LeftButton);
+    ASSERT_TRUE(eventually([&] { return !bakeRuns() && hasPrt(); }));
+    EXPECT_TRUE(bakeStatus().contains(QStringLiteral("Up to date"))) << bakeStatus().toStdString();
+    EXPECT_TRUE(button("lightingPrt").isChecked());
+
+    // Light and material edits leave transfer valid; hiding a mesh does not.
+    const Id mesh = document().meshes.front().id;
+    controller().setParameter(*findParameter("environment.rotationDeg"),
+                              Target{Scope::Environment, 0}, 30.0f);
+    EXPECT_TRUE(bakeStatus().contains(QStringLiteral("Up to date")));
+    controller().setParameter(*findParameter("mesh.visible"), Target{Scope::Mesh, mesh}, false);
+    QTest::qWait(10); // the rows are made anew
+    EXPECT_TRUE(bakeStatus().contains(QStringLiteral("Stale"))) << bakeStatus().toStdString();
+    controller().undoStack().undo();
+    QTest::qWait(10);
+    EXPECT_TRUE(bakeStatus().contains(QStringLiteral("Up to date")));
+
+    QTest::mouseClick(&button("lightingIbl"), Qt::LeftButton);
+    EXPECT_EQ(document().view.lighting, LightingMode::Ibl);
+
+    // Saved with the project and there again after opening it.
+    const QString file = folder.filePath(QStringLiteral("knot.patina"));
+    bool saved = false;
+    controller().saveAs(file, [&](bool ok) { saved = ok; });
+    ASSERT_TRUE(eventually([&] { return saved; }));
+    const auto before = document().bakes.front()->vertices;
+    controller().newDocument();
+    ASSERT_TRUE(settled(*session));
+    ASSERT_FALSE(hasPrt());
+    controller().openScene(file);
+    ASSERT_TRUE(settled(*session));
+    ASSERT_TRUE(hasPrt());
+    EXPECT_EQ(document().bakes.front()->vertices, before);
+}
+
+TEST_F(ViewportWindowTest, StoppingKeepsACompletePass) {
+    openKnot();
+    window->findChild<QComboBox*>(QStringLiteral("bakeSamples"))
+        ->setCurrentText(QLocale().toString(4096));
+    QTest::mouseClick(&button("bakeStart"), Qt::LeftButton);
+    ASSERT_TRUE(eventually([&] { return session->jobs.jobs().back().progress.workDone > 0; }));
+    QTest::mouseClick(&button("bakeStop"), Qt::LeftButton);
+    ASSERT_TRUE(eventually([&] { return !bakeRuns(); }));
+    ASSERT_TRUE(hasPrt());
+    EXPECT_GE(document().bakes.front()->samplesDone, 32);
+    EXPECT_LT(document().bakes.front()->samplesDone, 4096);
+    EXPECT_EQ(session->jobs.jobs().back().state, JobState::Stopped);
+}
+
+} // namespace
+} // namespace patina::editor
