@@ -2,6 +2,8 @@
 
 #include "app/editor/Session.h"
 #include "app/editor/document/FileKinds.h"
+#include "app/editor/style/Icons.h"
+#include "app/editor/style/Tokens.h"
 #include "core/document/Scene.h"
 
 #include <QFileDialog>
@@ -189,6 +191,8 @@ void FileFlow::guard(const std::function<void()>& proceed) {
         new QMessageBox(QMessageBox::Warning, tr("Unsaved Changes"),
                         tr("Save the changes to %1?").arg(m_session.controller.displayName()),
                         QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &m_window);
+    m_question->setIconPixmap(icon(QStringLiteral("warning"), tokens::kCopper)
+                                  .pixmap(QSize(36, 36), m_window.devicePixelRatioF()));
     m_question->setInformativeText(tr("Otherwise the changes since the last save are lost."));
     m_question->setDefaultButton(QMessageBox::Save);
     m_question->button(QMessageBox::Discard)->setText(tr("&Don't Save"));
@@ -216,6 +220,8 @@ void FileFlow::guardQuit(const std::function<void()>& proceed) {
     m_question = new QMessageBox(QMessageBox::Question, tr("Jobs Are Running"),
                                  tr("Quit although %n job(s) are still running?", nullptr, running),
                                  QMessageBox::Cancel, &m_window);
+    m_question->setIconPixmap(icon(QStringLiteral("jobs"), tokens::kCopper)
+                                  .pixmap(QSize(36, 36), m_window.devicePixelRatioF()));
     m_question->setInformativeText(tr("Their results would be lost."));
     QPushButton* quit = m_question->addButton(tr("&Quit"), QMessageBox::DestructiveRole);
     m_question->setDefaultButton(QMessageBox::Cancel);
