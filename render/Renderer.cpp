@@ -104,10 +104,6 @@ void Renderer::setIbl(const IblMaps& maps) {
     m_impl->scene.setIbl(maps);
 }
 
-void Renderer::previewVertices(Id mesh, int stride, std::span<const float> values) {
-    previewVertices(stride == 1 ? BakeKind::AoVertex : BakeKind::PrtVertex, mesh, stride, values);
-}
-
 void Renderer::previewVertices(BakeKind kind, Id mesh, int stride, std::span<const float> values) {
     m_impl->scene.previewVertices(kind, mesh, stride, values);
 }

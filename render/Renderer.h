@@ -40,11 +40,8 @@ class Renderer {
     // directly in the command line). Until set, the SH of a grey sky light the scene.
     void setIbl(const IblMaps& maps);
 
-    // Live bake preview: values of a running bake, drawn instead of an attached artifact's.
-    void previewVertices(Id mesh, int stride,
-                         std::span<const float> values); // all vertices of the mesh
-    // The same, saying whether the numbers are AoVertex or PrtVertex; the form above takes one
-    // number per vertex for visibility.
+    // Live bake preview: values of a running bake, drawn instead of an attached artifact's. `kind`
+    // is AoVertex or PrtVertex; `values`: all vertices of the mesh, `stride` numbers each.
     void previewVertices(BakeKind kind, Id mesh, int stride, std::span<const float> values);
     void previewTexels(Id material, int size, std::span<const float> values); // whole texture
     void clearPreview();

@@ -41,22 +41,6 @@ float channelSample(const Image& image, int x, int y, MapChannel channel) {
     return image.sample(x, y, std::min(wanted, colors - 1));
 }
 
-float channelOf(const glm::vec4& rgba, MapChannel channel) {
-    return channel == MapChannel::A   ? rgba.a
-           : channel == MapChannel::G ? rgba.g
-           : channel == MapChannel::B ? rgba.b
-                                      : rgba.r;
-}
-
-// Where KHR_texture_transform sends a texture coordinate: offset + rotation * (scale * uv), the
-// rotation counter-clockwise as seen with v pointing down.
-glm::vec2 transformUv(const MapSlot& slot, const glm::vec2& uv) {
-    const float angle = glm::radians(slot.uvRotationDeg);
-    const float c = std::cos(angle), s = std::sin(angle);
-    const glm::vec2 scaled = slot.uvScale * uv;
-    return slot.uvOffset + glm::vec2(c * scaled.x + s * scaled.y, -s * scaled.x + c * scaled.y);
-}
-
 template <class T>
 T quantize(float value, float maximum) {
     const float bounded = value > 0.0f ? std::min(value, 1.0f) : 0.0f; // NaN becomes 0
@@ -121,28 +105,13 @@ Image packChannels(const PackedTexture& texture, const JobContext& job) {
     const auto fitted = [&](const ImagePtr& image) {
         return image == nullptr ? Image() : resized(*image, texture.width, texture.height);
     };
-    const bool bakes = texture.bakedOcclusion != nullptr;
-    const bool resamples =
-        bakes && texture.occlusion.image != nullptr &&
-        (texture.occlusion.uvScale != glm::vec2(1.0f) ||
-         texture.occlusion.uvOffset != glm::vec2(0.0f) || texture.occlusion.uvRotationDeg != 0.0f);
-    const Image occlusion = resamples ? Image() : fitted(texture.occlusion.image);
-    const Image baked = fitted(texture.bakedOcclusion);
+    const Image occlusion = fitted(texture.occlusion.image);
     const Image roughness = fitted(texture.roughness.image);
     const Image metallic = fitted(texture.metallic.image);
 
     // Absent maps are 1: the material's numbers then count alone.
     const auto valueOf = [](const Image& image, const MapSlot& slot, int x, int y) {
         return image.empty() ? 1.0f : channelSample(image, x, y, slot.channel);
-    };
-    const auto occlusionAt = [&](int x, int y) {
-        if (!resamples)
-            return valueOf(occlusion, texture.occlusion, x, y);
-        const glm::vec2 uv =
-            transformUv(texture.occlusion, {(static_cast<float>(x) + 0.5f) / texture.width,
-                                            (static_cast<float>(y) + 0.5f) / texture.height});
-        return channelOf(sampleBilinear(*texture.occlusion.image, uv.x, uv.y),
-                         texture.occlusion.channel);
     };
 
     Image result(texture.width, texture.height, texture.channels, PixelType::U8,
@@ -153,9 +122,9 @@ Image packChannels(const PackedTexture& texture, const JobContext& job) {
         job, static_cast<std::size_t>(texture.height), 16, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin * width; i < end * width; ++i) {
                 const int x = static_cast<int>(i % width), y = static_cast<int>(i / width);
-                const float bake = bakes ? channelSample(baked, x, y, MapChannel::R) : 1.0f;
                 const auto channels = static_cast<std::size_t>(texture.channels);
-                out[i * channels] = quantize<std::uint8_t>(occlusionAt(x, y) * bake, 255.0f);
+                out[i * channels] =
+                    quantize<std::uint8_t>(valueOf(occlusion, texture.occlusion, x, y), 255.0f);
                 if (channels == 1)
                     continue;
                 out[i * channels + 1] =

@@ -34,11 +34,9 @@ struct PackedTexture {
     PixelType type = PixelType::U8;
     ImageFileFormat format = ImageFileFormat::Png;
 
-    MapSlot color;           // Color, Normal: the map
-    bool flipGreen = false;  // Normal: from DirectX's convention
-    MapSlot occlusion;       // Channels: each may be without an image
-    ImagePtr bakedOcclusion; // multiplied with `occlusion`
-    MapSlot roughness, metallic;
+    MapSlot color;                          // Color, Normal: the map
+    bool flipGreen = false;                 // Normal: from DirectX's convention
+    MapSlot occlusion, roughness, metallic; // Channels: each may be without an image
 
     [[nodiscard]] const char* extension() const { // with the dot
         return format == ImageFileFormat::Jpeg ? ".jpg" : ".png";

@@ -15,6 +15,8 @@ namespace {
 
 using Transform = std::tuple<glm::vec2, glm::vec2, float>;
 
+constexpr const char* kBakeSource = "bake"; // MapSlot::source of a baked texture
+
 Transform transformOf(const MapSlot& slot) {
     return {slot.uvScale, slot.uvOffset, slot.uvRotationDeg};
 }
@@ -101,19 +103,15 @@ class Planner {
     void addChannels(const Material& material, MaterialTextures& uses) {
         PackedTexture texture;
         texture.kind = PackKind::Channels;
-        texture.occlusion = readable(material.occlusionMap, "occlusion");
-        texture.bakedOcclusion = bakedOcclusion(material);
+        const ImagePtr baked = bakedOcclusion(material);
+        texture.occlusion = baked ? bakeSlot(baked) : readable(material.occlusionMap, "occlusion");
         texture.roughness = readable(material.perceptualRoughnessMap, "roughness");
         texture.metallic = readable(material.metallicMap, "metallic");
-        const bool occludes =
-            texture.occlusion.image != nullptr || texture.bakedOcclusion != nullptr;
+        const bool occludes = texture.occlusion.image != nullptr;
         const bool reflects =
             texture.roughness.image != nullptr || texture.metallic.image != nullptr;
 
-        // A bake lives in the mesh's own texture space: the map is resampled into it.
-        const Transform occlusionTransform = texture.bakedOcclusion != nullptr
-                                                 ? Transform{glm::vec2(1.0f), glm::vec2(0.0f), 0.0f}
-                                                 : transformOf(texture.occlusion);
+        const Transform occlusionTransform = transformOf(texture.occlusion);
         const Transform reflectanceTransform =
             transformOf(texture.roughness.image != nullptr ? texture.roughness : texture.metallic);
         if (texture.roughness.image != nullptr && texture.metallic.image != nullptr &&
@@ -135,7 +133,6 @@ class Planner {
         }
         if (reflects) {
             texture.occlusion = {};
-            texture.bakedOcclusion = nullptr;
             uses.metallicRoughness = addPacked(material, std::move(texture), reflectanceTransform);
         }
     }
@@ -144,26 +141,34 @@ class Planner {
                          const Transform& transform) {
         std::vector<std::string> parts;
         std::vector<const Image*> images;
-        const bool baked = texture.bakedOcclusion != nullptr;
-        if (texture.occlusion.image != nullptr || baked)
-            parts.emplace_back(texture.occlusion.image == nullptr ? "baked occlusion"
-                               : baked                            ? "occlusion × baked occlusion"
-                                                                  : "occlusion");
+        if (texture.occlusion.image != nullptr)
+            parts.emplace_back(texture.occlusion.source == kBakeSource ? "baked occlusion"
+                                                                       : "occlusion");
         const bool occludes = !parts.empty();
-        for (const ImagePtr& image : {texture.occlusion.image, texture.bakedOcclusion,
-                                      texture.roughness.image, texture.metallic.image})
+        for (const ImagePtr& image :
+             {texture.occlusion.image, texture.roughness.image, texture.metallic.image})
             images.push_back(image.get());
-        const bool reflects = images[2] != nullptr || images[3] != nullptr;
+        const bool reflects = images[1] != nullptr || images[2] != nullptr;
         texture.channels = reflects ? 3 : 1;
         if (reflects && occludes)
             parts.front() += " (R)";
-        if (images[2] != nullptr)
+        if (images[1] != nullptr)
             parts.emplace_back("roughness (G)");
-        if (images[3] != nullptr)
+        if (images[2] != nullptr)
             parts.emplace_back("metallic (B)");
         const char* suffix = !reflects ? "occlusion" : occludes ? "orm" : "metallicRoughness";
         return add(material, std::move(texture), suffix, fmt::format("{}", fmt::join(parts, ", ")),
                    images, transform);
+    }
+
+    // A bake has been made for this very scene and lives in the mesh's own texture space: it
+    // replaces the occlusion map, as it does in the viewport, instead of darkening twice.
+    static MapSlot bakeSlot(ImagePtr image) {
+        MapSlot slot;
+        slot.source = kBakeSource;
+        slot.image = std::move(image);
+        slot.channel = MapChannel::R;
+        return slot;
     }
 
     ImagePtr bakedOcclusion(const Material& material) const {
@@ -217,22 +222,17 @@ class Planner {
     // Everything the pixels depend on; equal images count as one even when loaded twice.
     Hash key(const PackedTexture& texture) {
         Hasher hasher;
-        const auto slot = [&](const MapSlot& map, bool placed) {
+        const auto slot = [&](const MapSlot& map) {
             hasher.value(imageHash(map.image.get())).value(static_cast<int>(map.channel));
-            const MapSlot placement = placed ? map : MapSlot{};
-            for (const float f : {placement.uvScale.x, placement.uvScale.y, placement.uvOffset.x,
-                                  placement.uvOffset.y, placement.uvRotationDeg})
-                hasher.value(f);
         };
         for (const int number : {static_cast<int>(texture.kind), texture.width, texture.height,
                                  texture.channels, static_cast<int>(texture.type),
                                  static_cast<int>(texture.format), texture.flipGreen ? 1 : 0})
             hasher.value(number);
-        slot(texture.color, false);
-        slot(texture.occlusion, texture.bakedOcclusion != nullptr);
-        slot(texture.roughness, false);
-        slot(texture.metallic, false);
-        hasher.value(imageHash(texture.bakedOcclusion.get()));
+        slot(texture.color);
+        slot(texture.occlusion);
+        slot(texture.roughness);
+        slot(texture.metallic);
         return hasher.finish();
     }
 

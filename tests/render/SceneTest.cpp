@@ -147,7 +147,7 @@ TEST_F(Scene, PrtWithUnshadowedTransferIsTheIrradianceLighting) {
     document.materials[0].metallic = 0.0f;
     const float attached = centerPixel(draw(document)).x;
     std::vector<float> none(document.meshes[0].mesh->vertexCount() * 9, 0.0f);
-    renderer().previewVertices(1, 9, none);
+    renderer().previewVertices(BakeKind::PrtVertex, 1, 9, none);
     const float specularOnly = centerPixel(draw(document)).x;
     std::vector<float> halfTransfer = unshadowedTransfer(*document.meshes[0].mesh, 3);
     for (float& value : halfTransfer)
@@ -201,7 +201,7 @@ TEST_F(Scene, BakedOcclusionDarkensAmbientLightOnly) {
     // Live texels hide everything else.
     renderer().previewTexels(2, 2, std::vector<float>(4, 0.1f));
     EXPECT_NEAR(centerPixel(draw(document)).x, 0.1f * open, 0.02f);
-    renderer().previewVertices(1, 1, std::vector<float>(4, 0.9f));
+    renderer().previewVertices(BakeKind::AoVertex, 1, 1, std::vector<float>(4, 0.9f));
     renderer().clearPreview();
     EXPECT_NEAR(centerPixel(draw(document)).x, 0.6f * open, 0.02f);
 

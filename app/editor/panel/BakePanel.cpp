@@ -277,11 +277,15 @@ void BakePanel::refreshAttached() {
         auto* row = new QWidget;
         auto* layout = new QHBoxLayout(row);
         layout->setContentsMargins(0, 2, 0, 2);
-        auto* text = new QLabel(QStringLiteral("%1<br><span style='color:%2'>%3</span>")
-                                    .arg(bakeTitle(bake->kind).toHtmlEscaped(),
-                                         QColor(stale ? tokens::kCopper : tokens::kTextDim).name(),
-                                         stale ? tr("Stale: the geometry has changed")
-                                               : tr("Up to date, %1 rays").arg(bake->samplesDone)));
+        QString status = stale ? tr("Stale: the geometry has changed")
+                               : tr("Up to date, %1 rays").arg(bake->samplesDone);
+        // What the user should know of this bake, such as overlapping texture coordinates.
+        if (const auto note = bake->settings.find("note"); note != bake->settings.end())
+            status += QStringLiteral("<br>") + QString::fromStdString(note->second).toHtmlEscaped();
+        auto* text =
+            new QLabel(QStringLiteral("%1<br><span style='color:%2'>%3</span>")
+                           .arg(bakeTitle(bake->kind).toHtmlEscaped(),
+                                QColor(stale ? tokens::kCopper : tokens::kTextDim).name(), status));
         text->setWordWrap(true);
         text->setObjectName(QStringLiteral("bakeStatus"));
         layout->addWidget(text, 1);

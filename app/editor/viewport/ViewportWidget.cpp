@@ -172,8 +172,9 @@ void ViewportWidget::paintGL() {
     if (m_previewPending && m_jobs && m_jobs->preview()) {
         m_previewPending = false;
         m_previewShown |= m_jobs->preview()->collect(
-            [this](Id mesh, int stride, std::span<const float> values) {
-                m_renderer->previewVertices(mesh, stride, values);
+            [this, kind = m_jobs->preview()->kind()](Id mesh, int stride,
+                                                     std::span<const float> values) {
+                m_renderer->previewVertices(kind, mesh, stride, values);
             },
             [this](Id material, int size, std::span<const float> values) {
                 m_renderer->previewTexels(material, size, values);
