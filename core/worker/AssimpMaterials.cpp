@@ -120,7 +120,9 @@ ImportedMaterial Reader::material(const aiMaterial& source, std::size_t index) {
                             material.name));
     }
 
-    // Surface: physically based values where the file has them, otherwise the exponent.
+    // Surface: physically based values where the file has them, otherwise the exponent. (For FBX
+    // Assimp itself turns the exponent n into 1 - sqrt(n) / 10, the inverse of what Blender
+    // writes.)
     if (const auto metallic = number(source, "$mat.metallicFactor"))
         material.metallic = *metallic;
     const auto exponent = number(source, "$mat.shininess");

@@ -216,6 +216,7 @@ ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& forma
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
 
     const aiScene* scene = importer.ReadFile(folder.modelPath().string(), 0);
     if (scene == nullptr)

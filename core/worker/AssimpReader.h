@@ -1,4 +1,4 @@
-// OBJ, PLY, STL, COLLADA and FBX through Assimp 5.2.5.
+// OBJ, COLLADA and FBX through Assimp 5.2.5.
 #pragma once
 
 #include "core/mesh/MeshImport.h"
@@ -8,7 +8,7 @@
 
 namespace patina::codec {
 
-// `format` is "obj", "ply", "stl", "dae" or "fbx": only that importer is registered, so that
+// `format` is "obj", "dae" or "fbx": only that importer is registered, so that
 // Assimp never guesses. Transforms come out in metres with +Y up, texture coordinates as in glTF.
 // ImportedTexture::file is the path as the file spells it. Throws Refusal and std::bad_alloc.
 ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& format);

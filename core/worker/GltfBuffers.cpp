@@ -196,6 +196,14 @@ std::vector<float> GltfBuffers::floats(std::size_t index, int components) const 
         static_cast<std::size_t>(componentsOf(accessor.at("type").get<std::string>()));
     const auto wanted = static_cast<std::size_t>(components);
     const std::size_t size = stored * type.size;
+    // Checked before memory is taken. Without a view all elements are zero.
+    Elements source;
+    if (const auto viewIndex = accessor.find("bufferView"); viewIndex != accessor.end()) {
+        const auto stride =
+            element(m_root, "bufferViews", viewIndex->get<std::size_t>()).value("byteStride", size);
+        source = elements(view(viewIndex->get<std::size_t>()),
+                          accessor.value("byteOffset", std::size_t{0}), n, size, stride);
+    }
     std::vector<float> result(n * wanted, 0.0f);
 
     const auto copyElement = [&](const std::byte* from, std::size_t to) {
@@ -206,15 +214,8 @@ std::vector<float> GltfBuffers::floats(std::size_t index, int components) const 
             result[to * wanted + c] = static_cast<float>(value);
         }
     };
-    if (const auto viewIndex = accessor.find("bufferView"); viewIndex != accessor.end()) {
-        const auto bytes = view(viewIndex->get<std::size_t>());
-        const auto stride =
-            element(m_root, "bufferViews", viewIndex->get<std::size_t>()).value("byteStride", size);
-        const Elements source =
-            elements(bytes, accessor.value("byteOffset", std::size_t{0}), n, size, stride);
-        for (std::size_t i = 0; i < n; ++i)
-            copyElement(source.data + i * source.stride, i);
-    }
+    for (std::size_t i = 0; source.data != nullptr && i < n; ++i)
+        copyElement(source.data + i * source.stride, i);
 
     // A sparse accessor replaces some elements.
     if (const auto sparse = accessor.find("sparse"); sparse != accessor.end()) {
@@ -246,14 +247,14 @@ std::vector<std::uint32_t> GltfBuffers::indices(std::size_t index) const {
         refuse("indices are no unsigned integers");
     const std::size_t size = componentType(code).size;
     const std::size_t n = count(index);
-    std::vector<std::uint32_t> result(n, 0);
-    if (const auto viewIndex = accessor.find("bufferView"); viewIndex != accessor.end()) {
-        const Elements source =
-            elements(view(viewIndex->get<std::size_t>()),
-                     accessor.value("byteOffset", std::size_t{0}), n, size, size);
-        for (std::size_t i = 0; i < n; ++i)
-            result[i] = static_cast<std::uint32_t>(loadComponent(source.data + i * size, code));
-    }
+    const auto viewIndex = accessor.find("bufferView");
+    if (viewIndex == accessor.end())
+        return std::vector<std::uint32_t>(n, 0);
+    const Elements source = elements(view(viewIndex->get<std::size_t>()),
+                                     accessor.value("byteOffset", std::size_t{0}), n, size, size);
+    std::vector<std::uint32_t> result(n);
+    for (std::size_t i = 0; i < n; ++i)
+        result[i] = static_cast<std::uint32_t>(loadComponent(source.data + i * size, code));
     return result;
 }
 

@@ -114,6 +114,33 @@ std::vector<T> regroup(const std::vector<float>& values) {
     return result;
 }
 
+// Without normals a mesh is flat-shaded (glTF 2.0, section 3.7.2.1): each triangle gets vertices of
+// its own. Tangents without normals are to be ignored.
+Mesh flatShaded(const Mesh& mesh) {
+    Mesh flat;
+    flat.name = mesh.name;
+    const std::size_t vertices = mesh.positions.size();
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const std::uint32_t* corner = mesh.indices.data() + i;
+        const bool valid = std::all_of(corner, corner + 3, [&](auto k) { return k < vertices; });
+        if (!valid) { // dropped and counted by the client
+            flat.indices.insert(flat.indices.end(), 3, ~std::uint32_t{0});
+            continue;
+        }
+        const auto at = [&](int k) { return mesh.positions[corner[k]]; };
+        const glm::vec3 area = glm::cross(at(1) - at(0), at(2) - at(0));
+        const float length = glm::length(area);
+        for (int k = 0; k < 3; ++k) {
+            flat.indices.push_back(static_cast<std::uint32_t>(flat.positions.size()));
+            flat.positions.push_back(at(k));
+            flat.normals.push_back(length > 0.0f ? area / length : glm::vec3(0, 1, 0));
+            if (!mesh.uvs.empty())
+                flat.uvs.push_back(mesh.uvs[corner[k]]);
+        }
+    }
+    return flat;
+}
+
 // The arrays of a primitive, from accessors or from a Draco stream.
 class PrimitiveArrays {
   public:
@@ -230,20 +257,9 @@ std::optional<Mesh> Reader::primitive(const json& source, const std::string& nam
     }
     mesh.indices = triangulate(indices, arrays.compressed() ? kTriangles : mode);
 
-    // Without normals a mesh is flat-shaded (glTF 2.0, section 3.7.2.1): each triangle gets
-    // vertices of its own. Tangents without normals are to be ignored.
     if (mesh.normals.empty()) {
-        Mesh flat;
-        flat.name = mesh.name;
-        for (const std::uint32_t index : mesh.indices) {
-            const bool valid = index < mesh.positions.size();
-            flat.indices.push_back(valid ? static_cast<std::uint32_t>(flat.positions.size())
-                                         : ~std::uint32_t{0});
-            flat.positions.push_back(valid ? mesh.positions[index] : glm::vec3(0.0f));
-            if (!mesh.uvs.empty())
-                flat.uvs.push_back(valid ? mesh.uvs[index] : glm::vec2(0.0f));
-        }
-        mesh = std::move(flat);
+        mesh = flatShaded(mesh);
+        m_model.repairs.generatedNormals = true;
     }
     return mesh;
 }

@@ -2,6 +2,8 @@
 #include "core/worker/Codec.h"
 #include "core/worker/GltfReader.h"
 #include "core/worker/ModelWire.h"
+#include "core/worker/PlyReader.h"
+#include "core/worker/StlReader.h"
 
 #include <nlohmann/json.hpp>
 
@@ -16,7 +18,10 @@ Reply importModel(const nlohmann::json& request, int payloadFd) {
     const std::filesystem::path path(bytes);
     const ModelFolder folder(path.parent_path(), path.stem().string() + "." + format, payloadFd);
 
-    ImportedModel model = format == "gltf" ? readGltf(folder) : readWithAssimp(folder, format);
+    ImportedModel model = format == "gltf"  ? readGltf(folder)
+                          : format == "ply" ? readPly(folder)
+                          : format == "stl" ? readStl(folder)
+                                            : readWithAssimp(folder, format);
     if (model.materials.empty()) {
         model.materials.emplace_back();
         model.materials.back().name = "default";

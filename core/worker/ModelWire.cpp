@@ -230,6 +230,7 @@ ImportedModel readUnchecked(const json& header, std::span<const std::byte> bytes
     }
     for (const json& warning : header.at("warnings"))
         model.warnings.push_back(warning);
+    model.repairs.generatedNormals = header.at("generatedNormals");
     return model;
 }
 
@@ -277,6 +278,7 @@ std::string writeModelHeader(const ImportedModel& model, std::size_t& payloadSiz
                           {"direction", array<3>(light.direction)},
                           {"color", array<3>(light.color)}});
     header["warnings"] = model.warnings;
+    header["generatedNormals"] = model.repairs.generatedNormals;
     return header.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 

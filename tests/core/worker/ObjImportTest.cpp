@@ -1,0 +1,146 @@
+#include "tests/core/worker/ModelFiles.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace patina {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr const char* kQuad = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                              "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
+                              "usemtl m\nf 1/1/1 2/2/1 3/3/1 4/4/1\n";
+
+class ObjImport : public test::ImportTest {
+  protected:
+    ImportedMaterial material(const std::string& properties) {
+        folder.write("a.mtl", std::string_view("newmtl m\n" + properties));
+        const ImportedModel model = import("a.obj", kQuad);
+        const auto index = static_cast<std::size_t>(model.instances[0].material);
+        return model.materials[index];
+    }
+};
+
+TEST_F(ObjImport, GeometryAndTextureCoordinates) {
+    const ImportedModel model = import("a.obj", kQuad);
+    EXPECT_EQ(model.format, "obj");
+    EXPECT_EQ(model.triangleCount, 2u);
+    const Mesh& mesh = *model.meshes[0];
+    ASSERT_EQ(mesh.vertexCount(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) // OBJ's v points up, ours down
+        EXPECT_EQ(mesh.uvs[i], glm::vec2(mesh.positions[i].x, 1.0f - mesh.positions[i].y));
+    // u to the right and the image upright: w = +1.
+    EXPECT_NEAR(mesh.tangents[0].x, 1.0f, 1e-5f);
+    EXPECT_EQ(mesh.tangents[0].w, 1.0f);
+    EXPECT_GT(areaVector(model).z, 0.0f);
+    EXPECT_FALSE(model.repairs.generatedNormals);
+}
+
+TEST_F(ObjImport, BothWindingsKeepTheirOrder) {
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    EXPECT_GT(areaVector(import("a.obj", vertices + "f 1 2 3\n")).z, 0.0f);
+    const ImportedModel clockwise = import("b.obj", vertices + "f 1 3 2\n");
+    EXPECT_LT(areaVector(clockwise).z, 0.0f);
+    EXPECT_LT(clockwise.meshes[0]->normals[0].z, 0.0f); // the generated normals agree
+}
+
+TEST_F(ObjImport, WithoutNormalsAndTextureCoordinatesTheyAreGenerated) {
+    const ImportedModel model = import("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    EXPECT_TRUE(model.repairs.generatedNormals);
+    EXPECT_TRUE(model.repairs.generatedUvs);
+    EXPECT_TRUE(model.repairs.generatedTangents);
+    EXPECT_THAT(model.warnings, Contains(HasSubstr("Normals were generated")));
+    EXPECT_THAT(model.warnings, Contains(HasSubstr("Texture coordinates were generated")));
+    EXPECT_EQ(model.materials[0].name, "default");
+}
+
+TEST_F(ObjImport, SeveralMaterialsBecomeSeveralMeshes) {
+    folder.write("seed.mtl", std::string_view(test::kObjMaterials));
+    folder.write("wood.png", std::string_view("any"));
+    const ImportedModel model = import("seed.obj", test::seedFiles(worker()).at("obj")[0]);
+    EXPECT_EQ(model.meshes.size(), 2u);
+    EXPECT_EQ(model.triangleCount, 5u);
+    std::vector<std::string> names;
+    for (const ImportedInstance& instance : model.instances)
+        names.push_back(model.materials[static_cast<std::size_t>(instance.material)].name);
+    EXPECT_THAT(names, testing::UnorderedElementsAre("wood", "red"));
+    EXPECT_THAT(model.missingTextures, ElementsAre("wood_normal.png"));
+}
+
+TEST_F(ObjImport, BlinnPhongBecomesRoughness) {
+    const ImportedMaterial m = material("Kd 0.8 0.1 0.05\nKs 1 1 1\nNs 48\n");
+    EXPECT_EQ(m.name, "m");
+    EXPECT_FLOAT_EQ(m.baseColor.r, 0.8f);
+    EXPECT_FLOAT_EQ(m.baseColor.b, 0.05f);
+    EXPECT_FLOAT_EQ(m.metallic, 0.0f);
+    // alpha = sqrt(2 / (48 + 2)) = 0.2; perceptual roughness is its root.
+    EXPECT_NEAR(m.perceptualRoughness, std::sqrt(0.2f), 1e-5f);
+    EXPECT_NEAR(material("Kd 1 1 1\nNs 0\n").perceptualRoughness, 0.5f, 1e-6f);
+}
+
+TEST_F(ObjImport, PhysicallyBasedExtensionWins) {
+    const ImportedMaterial m = material("Kd 1 1 1\nNs 48\nPr 0.3\nPm 0.8\n");
+    EXPECT_FLOAT_EQ(m.perceptualRoughness, 0.3f);
+    EXPECT_FLOAT_EQ(m.metallic, 0.8f);
+}
+
+TEST_F(ObjImport, Maps) {
+    for (const char* name : {"c.png", "n.png", "r.png", "m.png", "e.png"})
+        folder.write(name, std::string_view("any"));
+    const ImportedMaterial m = material("Kd 0.2 0.2 0.2\nPr 0.1\nmap_Kd c.png\nnorm n.png\n"
+                                        "map_Pr r.png\nmap_Pm m.png\nmap_Ke e.png\n");
+    ASSERT_TRUE(m.baseColorMap && m.normalMap && m.roughnessMap && m.metallicMap && m.emissiveMap);
+    EXPECT_EQ(m.baseColorMap->file, folder.path() / "c.png");
+    EXPECT_EQ(m.normalMap->file, folder.path() / "n.png");
+    EXPECT_EQ(m.roughnessMap->file, folder.path() / "r.png");
+    EXPECT_EQ(m.metallicMap->file, folder.path() / "m.png");
+    EXPECT_EQ(m.emissiveMap->file, folder.path() / "e.png");
+    EXPECT_EQ(m.baseColor, glm::vec4(1.0f)); // the map replaces the colour
+    EXPECT_FLOAT_EQ(m.metallic, 1.0f);
+    EXPECT_FLOAT_EQ(m.perceptualRoughness, 1.0f);
+    EXPECT_EQ(m.emissive, glm::vec3(1.0f));
+    const ImportedMaterial bump = material("Kd 1 1 1\nmap_Bump n.png\n");
+    ASSERT_TRUE(bump.normalMap);
+    EXPECT_EQ(bump.normalMap->file, folder.path() / "n.png");
+}
+
+TEST_F(ObjImport, EmissionAndOpacity) {
+    const ImportedMaterial m = material("Kd 1 1 1\nKe 3 2 1\nd 0.25\n");
+    EXPECT_EQ(m.emissive, glm::vec3(3, 2, 1));
+    EXPECT_FLOAT_EQ(m.baseColor.a, 0.25f);
+    EXPECT_TRUE(m.alphaBlend);
+    EXPECT_FALSE(material("Kd 1 1 1\n").alphaBlend);
+}
+
+TEST_F(ObjImport, TheMaterialFileMayBeMissing) {
+    const ImportedModel model = import("a.obj", kQuad);
+    EXPECT_EQ(model.triangleCount, 2u);
+    EXPECT_FALSE(model.materials.empty());
+}
+
+TEST_F(ObjImport, NamesAreBytes) {
+    folder.write("a.mtl", std::string_view("newmtl m\nKd 1 1 1\nmap_Kd h\xf6lz e.png\n"));
+    folder.write("h\xf6lz e.png", std::string_view("any"));
+    for (const char* name : {"with space.obj", "\xff\xfe \xe9.obj", "日本語.OBJ"}) {
+        const ImportedModel model = import(name, kQuad);
+        EXPECT_EQ(model.triangleCount, 2u) << name;
+        EXPECT_THAT(model.missingTextures, IsEmpty()) << name;
+        const auto index = static_cast<std::size_t>(model.instances[0].material);
+        ASSERT_TRUE(model.materials[index].baseColorMap);
+        EXPECT_EQ(model.materials[index].baseColorMap->file, folder.path() / "h\xf6lz e.png");
+    }
+}
+
+TEST_F(ObjImport, PolygonsAreTriangulated) {
+    const ImportedModel model =
+        import("a.obj", "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 3 0\nv 0 2 0\nf 1 2 3 4 5\n"); // area 5
+    EXPECT_EQ(model.triangleCount, 3u);
+    EXPECT_NEAR(areaVector(model).z, 10.0f, 1e-4f);
+}
+
+} // namespace
+} // namespace patina

@@ -1,0 +1,152 @@
+// COLLADA, PLY and STL.
+#include "tests/core/worker/ModelFiles.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace patina {
+namespace {
+
+using testing::ElementsAre;
+
+class ColladaImport : public test::ImportTest {};
+class PlyImport : public test::ImportTest {};
+class StlImport : public test::ImportTest {};
+
+void expectNear(glm::vec3 a, glm::vec3 b) {
+    EXPECT_LT(glm::distance(a, b), 1e-5f)
+        << a.x << " " << a.y << " " << a.z << " instead of " << b.x << " " << b.y << " " << b.z;
+}
+
+TEST_F(ColladaImport, UnitsAndAxes) {
+    // The first corner sits at the node's translation (10, 20, 30).
+    const ImportedModel metres = import("a.dae", test::daeQuad("1", "Y_UP"));
+    EXPECT_EQ(metres.format, "collada");
+    expectNear(corners(metres)[0], {10, 20, 30});
+    expectNear(corners(metres)[2], {11, 22, 30});
+    expectNear(corners(import("b.dae", test::daeQuad("0.01", "Y_UP")))[0], {0.1f, 0.2f, 0.3f});
+    // Z up: (x, y, z) becomes (x, z, -y).
+    const ImportedModel zUp = import("c.dae", test::daeQuad("1", "Z_UP"));
+    expectNear(corners(zUp)[0], {10, 30, -20});
+    expectNear(glm::normalize(areaVector(zUp)), {0, 1, 0});
+    expectNear(corners(import("d.dae", test::daeQuad("0.0254", "Z_UP")))[0],
+               {0.254f, 0.762f, -0.508f});
+}
+
+TEST_F(ColladaImport, MaterialAndTexture) {
+    folder.write("wood panel.png", std::string_view("any"));
+    const ImportedModel model = import("a.dae", test::daeQuad("1", "Y_UP"));
+    const auto index = static_cast<std::size_t>(model.instances[0].material);
+    const ImportedMaterial& material = model.materials[index];
+    EXPECT_EQ(material.name, "oak");
+    ASSERT_TRUE(material.baseColorMap);
+    EXPECT_EQ(material.baseColorMap->file, folder.path() / "wood panel.png");
+    EXPECT_EQ(material.baseColor, glm::vec4(1.0f));
+    EXPECT_NEAR(material.perceptualRoughness, std::sqrt(0.25f), 1e-5f); // exponent 30
+    EXPECT_EQ(model.instances[0].name, "plank");
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Mesh& mesh = *model.meshes[0];
+        EXPECT_EQ(mesh.uvs[i], glm::vec2(mesh.positions[i].x, 1.0f - mesh.positions[i].y / 2.0f));
+    }
+}
+
+TEST_F(PlyImport, TextAndBinary) {
+    const auto seeds = test::seedFiles(worker());
+    for (const std::string& seed : seeds.at("ply")) {
+        const ImportedModel model = import("a.ply", seed);
+        EXPECT_EQ(model.format, "ply");
+        EXPECT_EQ(model.triangleCount, 2u);
+        expectNear(areaVector(model), {0, 0, 2});
+        expectNear(corners(model)[1], {1, 0, 0});
+    }
+}
+
+TEST_F(PlyImport, NormalsAndTextureCoordinates) {
+    const ImportedModel model =
+        import("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float "
+                        "y\nproperty float z\nproperty float nx\nproperty float ny\nproperty float "
+                        "nz\nproperty float s\nproperty float t\nelement face 1\nproperty list "
+                        "uchar int vertex_indices\nend_header\n0 0 0 0 0 1 0 0\n1 0 0 0 0 1 1 0\n0 "
+                        "1 0 0 0 1 0 1\n3 0 1 2\n");
+    EXPECT_FALSE(model.repairs.generatedNormals);
+    EXPECT_FALSE(model.repairs.generatedUvs);
+    EXPECT_THAT(model.meshes[0]->uvs,
+                ElementsAre(glm::vec2(0, 1), glm::vec2(1, 1), glm::vec2(0, 0)));
+}
+
+TEST_F(PlyImport, BigEndianPolygonsExtrasAndTexture) {
+    folder.write("skin.png", std::string_view("any"));
+    std::string file = "ply\r\nformat binary_big_endian 1.0\r\ncomment TextureFile skin.png\r\n"
+                       "element camera 1\r\nproperty double angle\r\nelement vertex 5\r\n"
+                       "property short x\r\nproperty uchar red\r\nproperty short y\r\n"
+                       "property short z\r\nelement face 1\r\nproperty list ushort float "
+                       "weights\r\nproperty list uchar ushort vertex_indices\r\nend_header\r\n";
+    file += std::string(8, '\1');
+    const char corners[5][2] = {{0, 0}, {2, 0}, {2, 2}, {1, 3}, {0, 2}};
+    for (const auto& c : corners)
+        file += std::string{0, c[0], 99, 0, c[1], 0, 0};
+    file += std::string("\0\1\1\1\1\1", 6) + std::string{5, 0, 0, 0, 1, 0, 2, 0, 3, 0, 4};
+    const ImportedModel model = import("a.ply", file);
+    EXPECT_EQ(model.triangleCount, 3u);
+    expectNear(areaVector(model), {0, 0, 10});
+    ASSERT_TRUE(model.materials[0].baseColorMap);
+    EXPECT_EQ(model.materials[0].baseColorMap->file, folder.path() / "skin.png");
+}
+
+TEST_F(PlyImport, InvalidIndicesAreCounted) {
+    const ImportedModel model =
+        import("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float "
+                        "y\nproperty float z\nelement face 3\nproperty list uchar int "
+                        "vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 -1\n3 0 1 "
+                        "77\n");
+    EXPECT_EQ(model.triangleCount, 1u);
+    EXPECT_EQ(model.repairs.invalidTriangles, 2u);
+}
+
+TEST_F(PlyImport, LiesAreRefused) {
+    const std::string seed = test::seedFiles(worker()).at("ply")[0];
+    const auto with = [&](const std::string& what, const std::string& instead) {
+        std::string file = seed;
+        file.replace(file.find(what), what.size(), instead);
+        EXPECT_EQ(importError("a.ply", file).kind, ErrorKind::InputBroken) << instead;
+    };
+    with("vertex 4", "vertex 400000000000");
+    with("vertex 4", "vertex 5");
+    with("vertex 4", "vertex -1");
+    with("face 2", "face 3");
+    with("3 0 1 2", "99999999 0 1 2");
+    with("float x", "quaternion x");
+    with("float x", "float q");
+    with("end_header", "end");
+    with("0 0 0", "0 zero 0");
+}
+
+TEST_F(StlImport, SolidsAreMeshes) {
+    const std::string facet =
+        "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 "
+        "1 0\nendloop\nendfacet\n";
+    const ImportedModel model = import("a.stl", "solid left wing\n" + facet + "endsolid\nsolid\n" +
+                                                    facet + facet + "endsolid\n");
+    ASSERT_EQ(model.meshes.size(), 2u);
+    EXPECT_EQ(model.meshes[0]->name, "left wing");
+    EXPECT_EQ(model.triangleCount, 3u);
+    expectNear(model.meshes[0]->normals[0], {0, 0, 1}); // not the file's zero
+    EXPECT_EQ(importError("b.stl", "solid s\n" + facet).kind, ErrorKind::InputBroken);
+    EXPECT_EQ(importError("c.stl", "solid s\nfacet\nvertex 0 0\nendsolid\n").kind,
+              ErrorKind::InputBroken);
+}
+
+TEST_F(StlImport, TextAndBinary) {
+    const auto seeds = test::seedFiles(worker()).at("stl");
+    const ImportedModel text = import("a.stl", seeds[0]);
+    EXPECT_EQ(text.format, "stl");
+    EXPECT_EQ(text.triangleCount, 1u);
+    expectNear(areaVector(text), {0, 0, 1});
+    expectNear(text.meshes[0]->normals[0], {0, 0, 1});
+    const ImportedModel binary = import("b.stl", seeds[1]);
+    EXPECT_EQ(binary.triangleCount, 2u);
+    expectNear(areaVector(binary), {0, 0, 2});
+}
+
+} // namespace
+} // namespace patina
