@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 // A file descriptor that closes itself.
 class Descriptor {
   public:
-    explicit Descriptor(int fd) : m_fd(fd) {}
+    explicit Descriptor(int fd)
+        : m_fd(fd) {}
     ~Descriptor() {
         if (m_fd >= 0)
             ::close(m_fd);

@@ -16,7 +16,8 @@ struct Hasher::State {
     ~State() { XXH3_freeState(xxh); }
 };
 
-Hasher::Hasher() : m_state(std::make_unique<State>()) {
+Hasher::Hasher()
+    : m_state(std::make_unique<State>()) {
     CHECK(m_state->xxh != nullptr);
     XXH3_128bits_reset(m_state->xxh);
 }
