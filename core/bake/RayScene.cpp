@@ -40,8 +40,6 @@ struct RayScene::Impl {
 
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
 // Below this many rays Embree's stream code costs more than it saves (measured).
 constexpr std::size_t kMinStream = 32;
 
