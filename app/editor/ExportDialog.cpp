@@ -119,6 +119,7 @@ QWidget* ExportDialog::makeSettings() {
     choose->setObjectName(QStringLiteral("raised"));
     choose->setAccessibleName(tr("Browse for the export file"));
     auto* pathRow = new QHBoxLayout;
+    pathRow->setSpacing(tokens::kGap);
     pathRow->addWidget(m_path, 1);
     pathRow->addWidget(choose);
     auto* pathLabel = new QLabel(tr("Fi&le"));

@@ -12,6 +12,7 @@
 #include <QDir>
 #include <QDockWidget>
 #include <QElapsedTimer>
+#include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSettings>
@@ -103,6 +104,8 @@ int main(int argc, char* argv[]) {
     window.actions().exportScene->trigger();
     settle(800);
     if (auto* dialog = window.findChild<QDialog*>(QStringLiteral("exportDialog"))) {
+        if (auto* path = dialog->findChild<QLineEdit*>(QStringLiteral("exportPath")))
+            path->setText(QStringLiteral("/home/artist/shader-ball.glb"));
         ok &= save(*dialog, folder.filePath(QStringLiteral("export.png")));
         dialog->reject();
     } else {

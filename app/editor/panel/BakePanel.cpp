@@ -16,7 +16,6 @@
 #include <QLocale>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QStackedWidget>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -55,8 +54,10 @@ QPushButton* makeButton(const QString& text, const QString& help) {
 
 void clear(QLayout* layout) {
     while (QLayoutItem* item = layout->takeAt(0)) {
-        if (QWidget* widget = item->widget())
+        if (QWidget* widget = item->widget()) {
+            widget->hide(); // at once; deleting waits for the event loop
             widget->deleteLater();
+        }
         delete item;
     }
 }
@@ -78,15 +79,13 @@ BakePanel::BakePanel(DocumentController& controller, JobManager& jobs, QWidget* 
     auto* newBake = new Section(tr("New bake"));
     layout->addWidget(newBake);
     newBake->add(makeSettings());
-    m_actions = new QStackedWidget;
     m_start = makeButton(tr("Start bake"),
                          tr("Computes in the background; you can go on editing meanwhile"));
     m_start->setObjectName(QStringLiteral("bakeStart"));
     m_start->setProperty("primary", true);
-    m_actions->addWidget(m_start);
-    m_actions->addWidget(makeProgress());
-    m_actions->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
-    newBake->add(m_actions);
+    m_progress = makeProgress();
+    newBake->add(m_start);
+    newBake->add(m_progress);
 
     auto* attached = new Section(tr("Attached bakes"));
     layout->addWidget(attached);
@@ -244,7 +243,8 @@ void BakePanel::refreshSettings() {
 
 void BakePanel::refreshState() {
     const bool running = m_runner.running();
-    m_actions->setCurrentIndex(running ? 1 : 0);
+    m_start->setVisible(!running);
+    m_progress->setVisible(running);
     m_start->setEnabled(m_controller.document().triangleCount() > 0);
     if (running)
         m_poll.start();

@@ -14,7 +14,6 @@ class QFormLayout;
 class QLabel;
 class QProgressBar;
 class QPushButton;
-class QStackedWidget;
 class QVBoxLayout;
 
 namespace patina::editor {
@@ -50,7 +49,7 @@ class BakePanel : public QWidget {
     QComboBox* m_size = nullptr;
     QDoubleSpinBox* m_distance = nullptr;
     QLabel* m_estimate = nullptr;
-    QStackedWidget* m_actions = nullptr; // start, or progress with stop and cancel
+    QWidget* m_progress = nullptr; // with stop and cancel; in the place of the start button
     QPushButton* m_start = nullptr;
     QPushButton* m_stop = nullptr;
     QPushButton* m_cancel = nullptr;

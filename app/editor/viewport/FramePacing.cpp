@@ -10,15 +10,38 @@ constexpr std::array kScales = {1.0f, 0.75f, 0.5f, 0.375f};
 constexpr double kSlowMs = 38.0; // under 26 frames per second a drag feels sticky
 constexpr double kFastMs = 14.0; // room for the next finer scale (at most 1.8 times the pixels)
 constexpr int kFastFramesBeforeFiner = 12; // so that the resolution does not flicker
+constexpr double kAlwaysMs = 12.0;         // anti-aliased frames this fast need no pacing at all
+constexpr double kAffordableMs = 170.0;    // slower ones would triple to a hitch of half a second
 
 } // namespace
 
 float FramePacing::scale() const {
-    return m_moving ? kScales[static_cast<std::size_t>(m_level)] : 1.0f;
+    return moving() ? kScales[static_cast<std::size_t>(m_level)] : 1.0f;
+}
+
+int FramePacing::samples() const {
+    const bool fast = m_antialiasedMs >= 0.0 && m_antialiasedMs < kAlwaysMs && m_level == 0;
+    return fast || m_stage == Stage::Antialiased ? 4 : 1;
+}
+
+bool FramePacing::refine() {
+    if (m_stage == Stage::Moving) {
+        m_stage = Stage::FullResolution;
+        return true;
+    }
+    if (m_stage == Stage::FullResolution && m_fullMs < kAffordableMs) {
+        m_stage = Stage::Antialiased;
+        return true;
+    }
+    return false;
 }
 
 void FramePacing::frameTook(double milliseconds) {
-    if (!m_moving)
+    if (samples() > 1)
+        m_antialiasedMs = milliseconds;
+    else if (m_stage == Stage::FullResolution)
+        m_fullMs = milliseconds;
+    if (!moving())
         return;
     const int coarsest = static_cast<int>(kScales.size()) - 1;
     if (milliseconds > kSlowMs) {

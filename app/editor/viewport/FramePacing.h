@@ -1,5 +1,6 @@
 // Keeps the viewport fluid on a slow GPU: while the hand moves, frames are drawn at a reduced
-// resolution chosen from the measured frame time; when it rests, once at full quality.
+// resolution chosen from the measured frame time; when it rests, first at full resolution, then
+// once with anti-aliasing. A fast GPU draws everything at full quality all the time.
 #pragma once
 
 namespace patina::editor {
@@ -8,18 +9,23 @@ class FramePacing {
   public:
     // Side length relative to the widget's: 1, ¾, ½ or 3⁄8.
     [[nodiscard]] float scale() const;
-    [[nodiscard]] int samples() const { return m_moving ? 1 : 4; } // MSAA
-    [[nodiscard]] bool moving() const { return m_moving; }
+    [[nodiscard]] int samples() const; // MSAA: 1 or 4
+    [[nodiscard]] bool moving() const { return m_stage == Stage::Moving; }
 
-    void beginMoving() { m_moving = true; }
-    void rest() { m_moving = false; }
-    // Milliseconds of the last frame, GPU included. Only moving frames steer the resolution.
+    void beginMoving() { m_stage = Stage::Moving; }
+    // The hand rests: one step finer. Returns whether there is something new to draw; false when
+    // the picture is as fine as it gets, or anti-aliasing would hold up the hand for too long.
+    bool refine();
+    // Milliseconds of the last frame, GPU included.
     void frameTook(double milliseconds);
 
   private:
-    bool m_moving = false;
+    enum class Stage { Moving, FullResolution, Antialiased };
+    Stage m_stage = Stage::FullResolution;
     int m_level = 0; // index into the scales
     int m_fastFrames = 0;
+    double m_fullMs = -1.0;        // last full-resolution frame without anti-aliasing; -1: none yet
+    double m_antialiasedMs = -1.0; // last one with; -1: none yet
 };
 
 } // namespace patina::editor

@@ -53,9 +53,12 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
             m_restTimer.start();
             return;
         }
-        m_pacing.rest();
-        update();
+        if (m_pacing.refine()) {
+            update();
+            m_restTimer.start(); // the next step
+        }
     });
+    m_restTimer.start();
     m_flyTimer.setInterval(kFlyStepMs);
     connect(&m_flyTimer, &QTimer::timeout, this, &ViewportWidget::flyStep);
     m_previewTimer.setInterval(kPreviewMs);

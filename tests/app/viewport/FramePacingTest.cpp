@@ -4,14 +4,34 @@
 
 using patina::editor::FramePacing;
 
-TEST(FramePacing, RestIsAlwaysFullQuality) {
+TEST(FramePacing, RestRefinesInStepsThatAreAffordable) {
     FramePacing pacing;
     pacing.beginMoving();
     for (int i = 0; i < 10; ++i)
-        pacing.frameTook(500.0);
+        pacing.frameTook(90.0);
     EXPECT_LT(pacing.scale(), 0.5f);
     EXPECT_EQ(pacing.samples(), 1);
-    pacing.rest();
+    EXPECT_TRUE(pacing.refine());
+    EXPECT_EQ(pacing.scale(), 1.0f);
+    EXPECT_EQ(pacing.samples(), 1);
+    pacing.frameTook(120.0);
+    EXPECT_TRUE(pacing.refine());
+    EXPECT_EQ(pacing.samples(), 4);
+    pacing.frameTook(350.0);
+    EXPECT_FALSE(pacing.refine()) << "as fine as it gets";
+
+    pacing.beginMoving();
+    pacing.refine();
+    pacing.frameTook(400.0);
+    EXPECT_FALSE(pacing.refine()) << "would hold up the hand for more than a second";
+}
+
+TEST(FramePacing, AFastGpuAlwaysDrawsAtFullQuality) {
+    FramePacing pacing;
+    pacing.frameTook(3.0);
+    EXPECT_TRUE(pacing.refine());
+    pacing.frameTook(5.0);
+    pacing.beginMoving();
     EXPECT_EQ(pacing.scale(), 1.0f);
     EXPECT_EQ(pacing.samples(), 4);
 }
