@@ -15,7 +15,9 @@ namespace patina {
 
 class WorkerClient;
 
-// One part (EXR) of an image file with its string attributes ("patina:basis" …).
+// One part (EXR) of an image file with its string attributes ("patina:basis" …). OpenEXR sorts the
+// channels of a part: after reading they are found by name, not by place. Alpha is never multiplied
+// into the colour, neither here nor there.
 struct ImagePart {
     std::string name; // EXR part name, otherwise empty
     Image image;

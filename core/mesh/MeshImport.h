@@ -1,5 +1,6 @@
 // Reading model files: glTF/GLB, OBJ, FBX, COLLADA, PLY, STL. Decoding happens in the isolated
-// worker process through Assimp; every size, index and number is validated before it is believed.
+// worker process (core/worker: OBJ, FBX and COLLADA through Assimp, the others by readers of our
+// own); every size, index and number is validated before it is believed.
 #pragma once
 
 #include "core/base/AtomicFile.h"
@@ -18,7 +19,7 @@ class WorkerClient;
 
 // A texture as the model names it: a file beside it or an image embedded in it.
 struct ImportedTexture {
-    std::filesystem::path file; // absolute; empty when embedded
+    std::filesystem::path file; // absolute; empty when embedded; where it should be when missing
     int embedded = -1;          // index into ImportedModel::embeddedImages
     char channel = 0;           // 'r','g','b','a' for single-channel use; 0: whole colour
     glm::vec2 uvScale{1.0f}, uvOffset{0.0f};
@@ -44,7 +45,7 @@ struct ImportedInstance {
     std::string name;
     int mesh = 0;              // index into ImportedModel::meshes
     int material = 0;          // index into ImportedModel::materials
-    glm::mat4 transform{1.0f}; // mesh to world, in metres and +Y up
+    glm::mat4 transform{1.0f}; // mesh to world, in metres and +Y up; never mirrors
 };
 
 struct ImportedLight {
