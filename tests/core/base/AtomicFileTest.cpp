@@ -1,4 +1,5 @@
 #include "core/base/AtomicFile.h"
+#include "tests/support/TemporaryFolder.h"
 
 #include <algorithm>
 #include <csignal>
@@ -14,15 +15,11 @@ namespace {
 
 class AtomicFileTest : public ::testing::Test {
   protected:
-    void SetUp() override {
-        std::string pattern = (fs::temp_directory_path() / "patina-atomic-XXXXXX").string();
-        folder = ::mkdtemp(pattern.data());
-    }
-    void TearDown() override { fs::remove_all(folder); }
     [[nodiscard]] std::size_t entries() const {
         return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {}));
     }
-    fs::path folder;
+    const test::TemporaryFolder temporary;
+    const fs::path folder = temporary.path();
 };
 
 TEST_F(AtomicFileTest, WritesAndReplaces) {

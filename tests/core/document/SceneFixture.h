@@ -1,10 +1,10 @@
 // Scenes on disk: small models with textures, written by the test itself.
 #pragma once
 
-#include "TemporaryFolder.h"
 #include "core/document/Scene.h"
 #include "core/image/ImageIO.h"
 #include "core/worker/WorkerClient.h"
+#include "tests/support/TemporaryFolder.h"
 
 #include <algorithm>
 #include <array>
@@ -73,7 +73,7 @@ class SceneFixture : public testing::Test {
     }
 
     static inline std::unique_ptr<WorkerClient> s_worker;
-    TemporaryFolder m_folder;
+    test::TemporaryFolder m_folder;
     WorkerClient& m_worker = *s_worker;
 };
 

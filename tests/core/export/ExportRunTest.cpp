@@ -4,6 +4,7 @@
 #include "core/mesh/MeshImport.h"
 #include "core/worker/WorkerClient.h"
 
+#include "tests/support/TemporaryFolder.h"
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
@@ -24,10 +25,6 @@ namespace {
 class ExportRun : public testing::Test {
   protected:
     ExportRun() {
-        std::string name = (fs::temp_directory_path() / "patina-export-XXXXXX").string();
-        EXPECT_NE(::mkdtemp(name.data()), nullptr);
-        m_folder = name;
-
         Material& paint = addMaterial(m_document, "Paint");
         paint.baseColor = {0.5f, 0.25f, 0.75f};
         paint.metallic = 0.5f;
@@ -48,11 +45,6 @@ class ExportRun : public testing::Test {
             glm::translate(glm::mat4(1.0f), {0.5f, 0.25f, -2.0f});
         addSquare(m_document, lamp.id, squareMesh("lamp"));
     }
-    ~ExportRun() override {
-        std::error_code ignored;
-        fs::remove_all(m_folder, ignored);
-    }
-
     ExportSettings settings(const std::string& name) const {
         ExportSettings result;
         result.output = m_folder / name;
@@ -62,7 +54,7 @@ class ExportRun : public testing::Test {
     }
     std::set<fs::path> folderContents() const {
         std::set<fs::path> result;
-        for (const auto& entry : fs::directory_iterator(m_folder))
+        for (const auto& entry : fs::directory_iterator(m_folder.path()))
             result.insert(entry.path());
         return result;
     }
@@ -74,7 +66,7 @@ class ExportRun : public testing::Test {
                            image.width(), image.height());
     }
 
-    fs::path m_folder;
+    const TemporaryFolder m_folder;
     Document m_document;
     WorkerClient m_worker;
 };
