@@ -24,6 +24,20 @@ int FramePacing::samples() const {
     return fast || m_stage == Stage::Antialiased ? 4 : 1;
 }
 
+void FramePacing::beginMoving() {
+    if (moving())
+        return;
+    m_stage = Stage::Moving;
+    // The cost of a frame goes with its pixels.
+    const auto expectedMs = [this](int level) {
+        const double scale = static_cast<double>(kScales[static_cast<std::size_t>(level)]);
+        return m_fullMs * scale * scale;
+    };
+    const int coarsest = static_cast<int>(kScales.size()) - 1;
+    while (m_level < coarsest && expectedMs(m_level) > kSlowMs)
+        ++m_level;
+}
+
 bool FramePacing::refine() {
     if (m_stage == Stage::Moving) {
         m_stage = Stage::FullResolution;

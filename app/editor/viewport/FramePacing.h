@@ -12,7 +12,9 @@ class FramePacing {
     [[nodiscard]] int samples() const; // MSAA: 1 or 4
     [[nodiscard]] bool moving() const { return m_stage == Stage::Moving; }
 
-    void beginMoving() { m_stage = Stage::Moving; }
+    // The first scale of a movement is estimated from the last frame at full resolution, so that
+    // not even the first frame is slow.
+    void beginMoving();
     // The hand rests: one step finer. Returns whether there is something new to draw; false when
     // the picture is as fine as it gets, or anti-aliasing would hold up the hand for too long.
     bool refine();

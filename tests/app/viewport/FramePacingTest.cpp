@@ -60,9 +60,15 @@ TEST(FramePacing, SettlesOnAScaleThatHoldsTheRate) {
     }
 }
 
-TEST(FramePacing, RestingFramesDoNotSteer) {
+TEST(FramePacing, TheFirstMovingFrameIsAsFastAsTheOthers) {
     FramePacing pacing;
-    pacing.frameTook(1000.0);
+    pacing.frameTook(150.0); // at rest, full resolution
     pacing.beginMoving();
-    EXPECT_EQ(pacing.scale(), 1.0f);
+    EXPECT_LE(150.0f * pacing.scale() * pacing.scale(), 38.0f);
+    EXPECT_GT(pacing.scale(), 0.4f) << "no coarser than needed";
+
+    FramePacing fast;
+    fast.frameTook(20.0);
+    fast.beginMoving();
+    EXPECT_EQ(fast.scale(), 1.0f);
 }
