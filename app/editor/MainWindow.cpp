@@ -29,6 +29,7 @@
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QMimeData>
+#include <QScreen>
 #include <QSettings>
 #include <QStatusBar>
 #include <QToolBar>
@@ -176,7 +177,8 @@ void MainWindow::resetLayout() {
 
 void MainWindow::restoreLayout() {
     QSettings settings;
-    resize(1440, 900);
+    // Scaled screens are small in device-independent pixels.
+    resize(QSize(1440, 900).boundedTo(screen()->availableSize()));
     if (!restoreGeometry(settings.value(QStringLiteral("window/geometry")).toByteArray()) ||
         !restoreState(settings.value(QStringLiteral("window/state")).toByteArray(), kLayoutVersion))
         resetLayout();

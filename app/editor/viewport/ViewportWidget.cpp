@@ -224,6 +224,11 @@ double ViewportWidget::takeSlowestFrameMs() {
 }
 
 void ViewportWidget::applyChange(const Change& change) {
+    // Another document: a project brings its own view, anything else is framed for this widget.
+    if (change.affects == Affects::Everything && m_controller.filePath().isEmpty()) {
+        const Document& document = m_controller.document();
+        m_controller.setCamera(frameBounds(document.view.camera, document.bounds(), viewAspect()));
+    }
     if (touches(change.affects, Affects::EnvironmentMap))
         m_ibl->request(m_controller.document().environment.image);
     // Camera moves affect nothing: the camera travels with each frame.

@@ -174,15 +174,17 @@ void MapSlotWidget::show(const MapSlot& slot) {
     colors.setColor(QPalette::WindowText, QColor(broken ? kCopper : assigned ? kText : kTextOff));
     m_title->setPalette(colors);
     const QString problem = QString::fromStdString(slot.problem);
+    const ImagePtr& image = slot.image;
+    const QString size = image ? tr("%1 × %2").arg(image->width()).arg(image->height()) : QString();
     setToolTip(broken     ? problem + QStringLiteral("\n") + source
+               : image    ? source + QStringLiteral("\n") + size
                : assigned ? source
                           : tr("Drop an image here, or click to choose one"));
     setStatusTip(broken ? problem : assigned ? source : toolTip());
-    const ImagePtr& image = slot.image;
-    m_facts->setText(broken  ? tr("missing")
-                     : image ? tr("%1 × %2").arg(image->width()).arg(image->height())
-                             : QString());
-    m_channel->setVisible(assigned && !m_channel->property("wholeColor").toBool());
+    // Beside the choice of a channel there is no room for the size; the tool tip has it, too.
+    const bool choosesChannel = assigned && !m_channel->property("wholeColor").toBool();
+    m_facts->setText(broken ? tr("missing") : choosesChannel ? QString() : size);
+    m_channel->setVisible(choosesChannel);
     m_channel->setCurrentIndex(static_cast<int>(slot.channel));
     m_tilingButton->setVisible(assigned);
     m_clear->setVisible(assigned);
