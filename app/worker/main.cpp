@@ -1,8 +1,10 @@
 // patina-worker: started by Patina itself (core/worker/WorkerClient.h), never by hand.
+#include "app/worker/LibraryThreads.h"
 #include "app/worker/Zygote.h"
 #include "core/worker/Codec.h"
 #include "core/worker/WorkerProtocol.h"
 
+#include <chrono>
 #include <cstdio>
 #include <sys/socket.h>
 
@@ -15,5 +17,7 @@ int main() {
         return 2;
     }
     patina::codec::prepareImageCodec();
+    if (!patina::worker::settleLibraryThreads(std::chrono::seconds(2)))
+        std::fputs("patina-worker: threads of a library stay busy\n", stderr);
     return patina::worker::serve(patina::protocol::kControlFd);
 }

@@ -83,6 +83,20 @@ TEST_F(Worker, EachRequestHasAProcessOfItsOwn) {
     EXPECT_TRUE(client.childProcesses().empty());
 }
 
+// A thread that runs while the worker forks may hold a lock that the child then waits for for ever.
+TEST_F(Worker, ForksFromASingleThread) {
+    ASSERT_TRUE(ask({{"do", "echo"}}).ok());
+    const auto tasks = std::filesystem::path("/proc") / std::to_string(client.workerProcess());
+    std::size_t count = 0;
+    for ([[maybe_unused]] const auto& task : std::filesystem::directory_iterator(tasks / "task"))
+        ++count;
+#if defined(__SANITIZE_THREAD__)
+    EXPECT_EQ(count, 2u); // the sanitizer's own
+#else
+    EXPECT_EQ(count, 1u);
+#endif
+}
+
 TEST_F(Worker, NothingStartsBeforeTheFirstRequest) {
     EXPECT_EQ(client.workerProcess(), -1);
     client.warmUp();
