@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <fcntl.h>
+#include <fstream>
 #include <sched.h>
 #include <seccomp.h>
 #include <sys/prctl.h>
@@ -16,12 +17,17 @@ namespace patina::worker {
 
 namespace {
 
-// The sanitizers reserve terabytes of address space for their shadow memory.
+// Bytes of address space that count before the first file is looked at. The sanitizers reserve
+// terabytes for their shadow memory; there the limit is on what comes on top.
+std::uint64_t reservedAddressSpace() {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kLimitAddressSpace = false;
+    std::uint64_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 #else
-constexpr bool kLimitAddressSpace = true;
+    return 0;
 #endif
+}
 
 bool limit(__rlimit_resource resource, rlim_t soft, rlim_t hard) {
     rlimit current{};
@@ -194,9 +200,10 @@ std::string Filter::load(Files files) {
 std::string confine(std::uint64_t memoryBytes, double cpuSeconds, Files files) {
     // One second after the soft limit's SIGXCPU, which names the cause, the kernel kills.
     const auto seconds = static_cast<rlim_t>(std::max(1.0, std::ceil(cpuSeconds)));
+    const rlim_t addressSpace = reservedAddressSpace() + memoryBytes;
     if (!limit(RLIMIT_CORE, 0, 0) || !limit(RLIMIT_CPU, seconds, seconds + 1) ||
         !limit(RLIMIT_FSIZE, memoryBytes, memoryBytes) ||
-        (kLimitAddressSpace && !limit(RLIMIT_AS, memoryBytes, memoryBytes)))
+        !limit(RLIMIT_AS, addressSpace, addressSpace))
         return std::string("setrlimit: ") + std::strerror(errno);
     if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
         return std::string("prctl: ") + std::strerror(errno);
