@@ -1,5 +1,7 @@
 #include "core/bake/RayScene.h"
 
+#include "core/job/ForkJoin.h"
+
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -26,6 +28,7 @@ struct RayScene::Impl {
     std::size_t maxBytes = 0;
     std::atomic<std::ptrdiff_t> bytes{0};
     JobContext job;
+    ForkJoin building; // Embree calls back from oneTBB's threads
 
     Impl() = default;
     Impl(const Impl&) = delete;
@@ -82,6 +85,7 @@ Result<RayScene> RayScene::build(const BakeGeometry& geometry, const JobContext&
     auto impl = std::make_unique<Impl>();
     impl->maxBytes = maxBytes;
     impl->job = job;
+    impl->building.fork();
     impl->device = rtcNewDevice(nullptr);
     if (!impl->device)
         return refused(geometry, nullptr);
@@ -89,6 +93,7 @@ Result<RayScene> RayScene::build(const BakeGeometry& geometry, const JobContext&
         impl->device,
         [](void* user, ssize_t bytes, bool) {
             auto* self = static_cast<Impl*>(user);
+            const ForkJoin::Branch branch(self->building);
             const std::ptrdiff_t total = self->bytes.fetch_add(bytes) + bytes;
             // Embree reports what it takes and what it gives back; only taking can be refused.
             return bytes <= 0 || self->maxBytes == 0 ||
@@ -100,7 +105,12 @@ Result<RayScene> RayScene::build(const BakeGeometry& geometry, const JobContext&
         return refused(geometry, impl->device);
     rtcSetSceneBuildQuality(impl->scene, RTC_BUILD_QUALITY_MEDIUM);
     rtcSetSceneProgressMonitorFunction(
-        impl->scene, [](void* user, double) { return !static_cast<Impl*>(user)->job.cancelled(); },
+        impl->scene,
+        [](void* user, double) {
+            auto* self = static_cast<Impl*>(user);
+            const ForkJoin::Branch branch(self->building);
+            return !self->job.cancelled();
+        },
         impl.get());
 
     for (const BakeGeometryMesh& mesh : geometry.meshes) {
@@ -119,6 +129,7 @@ Result<RayScene> RayScene::build(const BakeGeometry& geometry, const JobContext&
         rtcReleaseGeometry(triangles);
     }
     rtcCommitScene(impl->scene);
+    impl->building.join();
     if (job.cancelled())
         return cancelledError();
     const RTCError code = rtcGetDeviceError(impl->device);

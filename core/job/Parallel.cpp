@@ -1,5 +1,7 @@
 #include "core/job/Parallel.h"
 
+#include "core/job/ForkJoin.h"
+
 #include <algorithm>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/global_control.h>
@@ -17,9 +19,11 @@ void parallelFor(const JobContext& job, std::size_t count, std::size_t grain,
         return;
     const std::size_t step = std::max<std::size_t>(grain, 1);
     const std::size_t chunks = (count + step - 1) / step;
+    ForkJoin forkJoin;
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, chunks, 1),
         [&](const tbb::blocked_range<std::size_t>& range) {
+            const ForkJoin::Branch branch(forkJoin);
             for (std::size_t chunk = range.begin(); chunk != range.end(); ++chunk) {
                 if (job.cancelled())
                     return;
