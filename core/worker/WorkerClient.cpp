@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
@@ -71,6 +72,18 @@ FileDescriptor createLog() {
                         ::fcntl(log.get(), F_ADD_SEALS, F_SEAL_GROW | F_SEAL_SHRINK) != 0))
         log.reset();
     return log;
+}
+
+// What a sanitizer found in the decoder must not pass for a damaged file: it is shown in full, and
+// ctest fails on reports about our own code (cmake/PatinaTesting.cmake).
+void showSanitizerReport([[maybe_unused]] int log) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    std::string text(protocol::kLogBytes, '\0');
+    const ssize_t size = ::pread(log, text.data(), text.size(), 0);
+    text.resize(std::min(text.size(), text.find('\0')));
+    if (size > 0)
+        std::fputs(text.c_str(), stderr);
+#endif
 }
 
 // The last line or so of the log, printable.
@@ -310,6 +323,7 @@ WorkerClient::Impl::attempt(const protocol::Request& request, const WorkerLimits
                          "the system refuses to start another process; close some programs", file,
                          std::strerror(static_cast<int>(report.value))};
         case protocol::Event::Ended:
+            showSanitizerReport(log.get());
             return endedWithoutAnswer(static_cast<int>(report.value), used, file,
                                       readLog(log.get()));
         case protocol::Event::Answered:
