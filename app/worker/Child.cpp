@@ -72,9 +72,12 @@ void refuse(int socket, const std::string& message, const std::string& detail, b
 void runChild(const protocol::Request& request, std::vector<FileDescriptor> descriptors) {
     const FileDescriptor socket = std::move(descriptors[0]);
     const FileDescriptor log = std::move(descriptors[2]);
-    // A crash is to end the process by its signal, whatever handlers libraries or sanitizers set.
+    // A crash is to end the process by its signal, whatever handlers libraries set. A sanitizer's
+    // is kept for its report.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
         ::signal(signal, SIG_DFL);
+#endif
     ::dup2(log.get(), STDOUT_FILENO);
     ::dup2(log.get(), STDERR_FILENO);
     try {

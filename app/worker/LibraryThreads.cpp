@@ -1,5 +1,6 @@
 #include "app/worker/LibraryThreads.h"
 
+#include <cstdint>
 #include <dlfcn.h>
 #include <filesystem>
 #include <fstream>
@@ -12,25 +13,6 @@ namespace patina::worker {
 
 namespace {
 
-// The state in "/proc/self/task/*/stat" follows the name in parentheses, which may hold anything.
-bool sleeps(const std::filesystem::path& task) {
-    std::string text;
-    if (!std::getline(std::ifstream(task / "stat"), text))
-        return true; // it has ended
-    const std::size_t name = text.rfind(')');
-    return name != std::string::npos && name + 2 < text.size() && text[name + 2] == 'S';
-}
-
-bool othersSleep() {
-    const std::string self = std::to_string(::gettid());
-    std::error_code ended;
-    for (std::filesystem::directory_iterator task("/proc/self/task", ended), end;
-         !ended && task != end; task.increment(ended))
-        if (task->path().filename() != self && !sleeps(task->path()))
-            return false;
-    return true;
-}
-
 // log4cplus::shutdownThreadPool(), where the library is loaded: nothing here is linked with it.
 void endLog4cplusThreads() {
     using Function = void (*)();
@@ -38,21 +20,48 @@ void endLog4cplusThreads() {
         reinterpret_cast<Function>(symbol)();
 }
 
+// How many other threads this process has, how often they have been given a processor, and whether
+// all of them sleep.
+struct Others {
+    int count = 0;
+    std::uint64_t turns = 0;
+    bool asleep = true;
+};
+
+Others lookAtOthers() {
+    Others others;
+    const std::string self = std::to_string(::gettid());
+    std::error_code ignored;
+    for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", ignored)) {
+        if (task.path().filename() == self)
+            continue;
+        ++others.count;
+        std::ifstream status(task.path() / "status");
+        for (std::string line; std::getline(status, line);) {
+            if (line.starts_with("State:"))
+                others.asleep = others.asleep && line.find("S (", 6) != std::string::npos;
+            else if (line.find("ctxt_switches:") != std::string::npos)
+                others.turns += std::stoull(line.substr(line.find(':') + 1));
+        }
+    }
+    return others;
+}
+
 } // namespace
 
 bool settleLibraryThreads(std::chrono::milliseconds patience) {
-    endLog4cplusThreads();
+    constexpr auto kPause = std::chrono::milliseconds(5);
     const auto deadline = std::chrono::steady_clock::now() + patience;
-    // Twice in a row: the threads are looked at one after another, and one that waits for another
-    // runs again once that has gone to sleep.
-    int quiet = 0;
-    while (quiet < 2) {
-        quiet = othersSleep() ? quiet + 1 : 0;
-        if (quiet == 0) {
-            if (std::chrono::steady_clock::now() > deadline)
-                return false;
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
+    endLog4cplusThreads();
+    Others before = lookAtOthers();
+    while (before.count > 0) {
+        std::this_thread::sleep_for(kPause);
+        const Others now = lookAtOthers();
+        if (before.asleep && now.asleep && before.turns == now.turns)
+            return true;
+        if (std::chrono::steady_clock::now() > deadline)
+            return false;
+        before = now;
     }
     return true;
 }

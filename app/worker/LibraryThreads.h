@@ -1,5 +1,5 @@
-// Threads that libraries start before main(): what they hold locked at a fork, the child finds
-// locked for ever.
+// Threads that libraries start as they are loaded. A fork copies the locks they hold, and nobody in
+// the child would ever release them.
 #pragma once
 
 #include <chrono>
@@ -7,7 +7,7 @@
 namespace patina::worker {
 
 // Ends the threads of log4cplus (which OpenImageIO draws in through OpenVDB, and nobody uses), then
-// waits until every other thread of the process sleeps. False when some still run after `patience`.
+// waits until all others have settled down. False when some still run after `patience`.
 bool settleLibraryThreads(std::chrono::milliseconds patience);
 
 } // namespace patina::worker

@@ -5,16 +5,11 @@
 #include "core/worker/WorkerProtocol.h"
 
 #include <cerrno>
-#include <chrono>
 #include <csignal>
-#include <filesystem>
-#include <fstream>
 #include <poll.h>
-#include <string>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
-#include <thread>
 #include <unistd.h>
 
 namespace patina::worker {
@@ -32,47 +27,6 @@ void report(int socket, protocol::Event event, std::int64_t value) {
     message.event = event;
     message.value = value;
     protocol::send(socket, message); // a client that is gone needs no report
-}
-
-// How often the other threads of this process have been given a processor, and whether all of them
-// sleep.
-struct Others {
-    std::uint64_t turns = 0;
-    bool asleep = true;
-};
-
-Others lookAtOthers() {
-    Others others;
-    const std::string self = std::to_string(::getpid());
-    std::error_code ignored;
-    for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", ignored)) {
-        if (task.path().filename() == self)
-            continue;
-        std::ifstream status(task.path() / "status");
-        for (std::string line; std::getline(status, line);) {
-            if (line.starts_with("State:"))
-                others.asleep = others.asleep && line.find("S (", 6) != std::string::npos;
-            else if (line.find("ctxt_switches:") != std::string::npos)
-                others.turns += std::stoull(line.substr(line.find(':') + 1));
-        }
-    }
-    return others;
-}
-
-// Libraries start threads as they are loaded (log4cplus, far below OpenImageIO, starts four). A
-// fork copies the locks they hold, and nobody in the child would ever release them: wait until they
-// have settled down for good.
-void waitUntilOthersRest() {
-    constexpr int kLooks = 200;
-    constexpr auto kPause = std::chrono::milliseconds(5);
-    Others before = lookAtOthers();
-    for (int i = 0; i < kLooks; ++i) {
-        std::this_thread::sleep_for(kPause);
-        const Others now = lookAtOthers();
-        if (before.asleep && now.asleep && before.turns == now.turns)
-            return;
-        before = now;
-    }
 }
 
 // Children are watched through descriptors (pidfd) and not through SIGCHLD: the libraries have
@@ -172,7 +126,6 @@ void Zygote::start(const protocol::Request& request, std::vector<FileDescriptor>
 } // namespace
 
 int serve(int controlSocket) {
-    waitUntilOthersRest();
     return Zygote(controlSocket).run();
 }
 
