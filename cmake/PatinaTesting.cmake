@@ -5,7 +5,10 @@ set(PATINA_TIMEOUT_FACTOR 1)
 set(PATINA_SANITIZER_ENVIRONMENT)
 if(PATINA_SANITIZERS)
   list(APPEND PATINA_FAILING_OUTPUT
-    "runtime error: " "SUMMARY: [A-Za-z]+Sanitizer: [^\n]* in patina::")
+    "runtime error: "
+    "SUMMARY: [A-Za-z]+Sanitizer: [^\n]*/(core|app)/"
+    # the access itself, or memcpy and its like called by it
+    "(READ|WRITE) of size [^\n]*\n *#0 [^\n]*(\n *#1 [^\n]*)?/(core|app)/")
   set(PATINA_TIMEOUT_FACTOR 4)
   set(PATINA_SANITIZER_ENVIRONMENT
     "UBSAN_OPTIONS=print_stacktrace=1"
