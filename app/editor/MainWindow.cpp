@@ -408,7 +408,8 @@ void MainWindow::closeEvent(QCloseEvent* event) {
         event->ignore();
         m_files->guardQuit([this] {
             m_mayClose = true;
-            close();
+            // Not from within the event: Qt ignores close() on a window that is closing.
+            QMetaObject::invokeMethod(this, &QWidget::close, Qt::QueuedConnection);
         });
         return;
     }
