@@ -34,6 +34,12 @@ const Light* Document::light(Id id) const {
 Light* Document::light(Id id) {
     return findById(lights, id);
 }
+const Softbox* Document::softbox(Id id) const {
+    return findById(environment.softboxes, id);
+}
+Softbox* Document::softbox(Id id) {
+    return findById(environment.softboxes, id);
+}
 const MeshInstance* Document::mesh(Id id) const {
     return findById(meshes, id);
 }

@@ -29,45 +29,157 @@ struct MeshInstance {
     friend bool operator==(const MeshInstance&, const MeshInstance&) = default;
 };
 
-enum class LightType { Point, Directional };
+enum class LightType { Point, Directional, Spot, Sphere, Rectangle };
 
+// Every light shines along -directionToLight() where it has a direction (directional, spot,
+// rectangle).
 struct Light {
     Id id = 0;
     std::string name = "Light";
     LightType type = LightType::Directional;
     bool enabled = true;
-    glm::vec3 color{1.0f}; // linear sRGB
-    float intensity =
-        3.0f; // Directional: lux / pi-free irradiance E at normal incidence; Point: candela (W/sr)
-    glm::vec3 position{2.0f, 3.0f, 2.0f}; // Point: metres
-    float azimuthDeg = 40.0f;   // Directional: where the light comes from, around +Y, 0 is +Z
-    float elevationDeg = 45.0f; // Directional: above the horizon
-    [[nodiscard]] glm::vec3 directionToLight() const; // Directional: unit vector
+    bool solo = false; // while any light is solo, only solo lights shine
+    bool usesTemperature = false;
+    glm::vec3 color{1.0f};        // linear sRGB
+    float temperatureK = 6500.0f; // of a black body; replaces `color` when usesTemperature
+    // Directional: lux at normal incidence (E); point and spot: candela (I, at the spot's centre);
+    // sphere and rectangle: nit (radiance L). Radiometrically the same numbers: 1 W ≙ 1 lm.
+    float intensity = 3.0f;
+    glm::vec3 position{2.0f, 3.0f, 2.0f}; // metres; not of a directional light
+    float azimuthDeg = 40.0f;             // where the light comes from, around +Y, 0 is +Z
+    float elevationDeg = 45.0f;           // above the horizon
+    float rollDeg = 0.0f;                 // rectangle: about its own direction
+    float range = 0.0f;          // metres, 0: without end; glTF's windowed falloff (not area)
+    float innerConeDeg = 20.0f;  // spot: half angle of full intensity
+    float outerConeDeg = 35.0f;  // spot: half angle where it ends
+    float radius = 0.25f;        // metres, sphere
+    float width = 1.0f;          // metres, rectangle, along its local x
+    float height = 1.0f;         // metres, rectangle
+    bool castsShadow = true;     // spot and directional
+    float shadowSoftness = 1.0f; // degrees: apparent diameter of the source, seen from the scene
+    [[nodiscard]] glm::vec3 directionToLight() const; // unit vector
     friend bool operator==(const Light&, const Light&) = default;
 };
 
-enum class BackgroundMode { Environment, Blurred, Color };
+// How the pixels of an environment file cover the sphere of directions (docs/maths/ibl.md).
+enum class EnvironmentLayout {
+    Automatic, // guessed from the file when it is loaded
+    LatLong,
+    AngularMap,
+    MirrorBall,
+    HorizontalCross,
+    VerticalCross,
+    HorizontalStrip,
+    VerticalStrip,
+    SixFaces // one file per face; `source` names the +X one
+};
+
+enum class EnvironmentKind { Image, Sky, Softboxes };
+enum class BackgroundMode { Environment, Blurred, Color, Off };
+
+// An analytic clear sky with a sun.
+struct Sky {
+    float sunAzimuthDeg = 40.0f;   // where the sun stands, around +Y, 0 is +Z
+    float sunElevationDeg = 35.0f; // above the horizon
+    float turbidity = 3.0f;        // 1.7 very clear … 10 hazy
+    float groundAlbedo = 0.3f;
+    float sunScale = 1.0f;        // multiplies the sun's radiance; 0: no disc
+    float sunDiameterDeg = 0.53f; // larger: softer
+    friend bool operator==(const Sky&, const Sky&) = default;
+};
+
+// A luminous rectangle on the sphere of directions.
+struct Softbox {
+    Id id = 0;
+    std::string name = "Softbox";
+    bool enabled = true;
+    float azimuthDeg = 0.0f;    // of its centre, around +Y, 0 is +Z
+    float elevationDeg = 30.0f; // of its centre, above the horizon
+    float widthDeg = 40.0f, heightDeg = 30.0f;
+    float rollDeg = 0.0f;
+    float softness = 0.1f;   // share of the half size over which its edge fades, 0…1
+    glm::vec3 color{1.0f};   // linear sRGB
+    float intensity = 10.0f; // radiance (nit)
+    friend bool operator==(const Softbox&, const Softbox&) = default;
+};
 
 // A lat-long environment: the centre of the image is -Z, its top +Y, u grows to the right as seen
 // from inside: u = 0.5 + atan2(x, -z) / 2pi, v = acos(y) / pi.
 struct Environment {
-    std::string source = "builtin:studio"; // absolute path or builtin:NAME
-    ImagePtr image;                        // F32 linear, 3 channels, w = 2h
-    std::string problem;                   // why it could not be read; a neutral grey stands in
+    EnvironmentKind kind = EnvironmentKind::Image;
+    std::string source = "builtin:studio";                   // Image: absolute path or builtin:NAME
+    EnvironmentLayout layout = EnvironmentLayout::Automatic; // Image: of the file
+    // F32 linear, 3 channels, w = 2h: of the file, or generated from `sky` or the softboxes.
+    ImagePtr image;
+    std::string problem; // why it could not be read; a neutral grey stands in
+    Sky sky;
+    glm::vec3 softboxAmbient{0.02f}; // radiance between the softboxes
+    std::vector<Softbox> softboxes;
     float rotationDeg = 0.0f; // turns the surroundings about +Y, counter-clockwise from above
     float exposureEv = 0.0f;  // scales radiance by 2^EV
     BackgroundMode background = BackgroundMode::Environment;
+    float backgroundBlur = 0.5f; // Blurred: perceptual roughness of the level that is shown
     glm::vec3 backgroundColor{0.05f};
     friend bool operator==(const Environment&, const Environment&) = default;
 };
 
-enum class ToneMap { Clamp, Reinhard };
+// Which terms make up the surface's reflection: shaders/shared/brdf.glsl has each of them. The
+// enumerators' values are the numbers used there.
+enum class Distribution { GGX, Beckmann, BlinnPhong };
+enum class Visibility {
+    SmithCorrelated,
+    SmithSeparable,
+    SchlickDirect, // Schlick-GGX, k = (r + 1)² / 8
+    SchlickIbl,    // Schlick-GGX, k = alpha / 2
+    Kelemen,
+    Implicit
+};
+enum class Fresnel { Schlick, SchlickF90, Dielectric, Conductor };
+enum class Diffuse { Lambert, Burley, OrenNayar, Eon };
+// Where image-based specular light is looked up: along the lobe's mean direction, or classically
+// along the mirror direction.
+enum class LobeDirection { Mean, Mirror };
+
+struct ShadingModel {
+    Distribution distribution = Distribution::GGX;
+    Visibility visibility = Visibility::SmithCorrelated;
+    Fresnel fresnel = Fresnel::Schlick;
+    Diffuse diffuse = Diffuse::Lambert;
+    bool multiScatter = true; // energy compensation (Turquin 2019)
+    LobeDirection lobeDirection = LobeDirection::Mean;
+    float f90 = 1.0f;                          // SchlickF90: reflectance at grazing incidence
+    float ior = 1.5f;                          // Dielectric: refractive index of non-metals
+    glm::vec3 conductorN{0.18f, 0.42f, 1.37f}; // Conductor: complex index of metals, gold
+    glm::vec3 conductorK{3.42f, 2.35f, 1.77f};
+    friend bool operator==(const ShadingModel&, const ShadingModel&) = default;
+};
+
+enum class ToneMap {
+    Clamp,
+    Reinhard,             // L / (1 + L)
+    ReinhardPhotographic, // key over the log-average luminance, optional white point
+    Exponential,          // 1 - exp(-k L)
+    PbrNeutral,           // Khronos
+    Aces,                 // fitted
+    AgX,
+    OpenColorIo // display and view of the configuration; only when there is one
+};
+enum class ExposureMode { Fixed, Automatic };
+enum class DisplayTransfer { Srgb, Gamma };
 enum class LightingMode { Ibl, Prt };
 
 struct View {
     Camera camera; // navigation is saved, but is no undo step
+    ExposureMode exposureMode = ExposureMode::Fixed;
     float exposureEv = 0.0f;
     ToneMap toneMap = ToneMap::Reinhard;
+    float reinhardKey = 0.18f;  // 0.045…0.72
+    float reinhardWhite = 0.0f; // smallest scaled luminance that becomes white; 0: none
+    float exponentialK = 1.0f;
+    DisplayTransfer displayTransfer = DisplayTransfer::Srgb;
+    float displayGamma = 2.2f;
+    std::string ocioConfig;            // file; empty: $OCIO
+    std::string ocioDisplay, ocioView; // empty: the configuration's defaults
     LightingMode lighting = LightingMode::Ibl;
     friend bool operator==(const View&, const View&) = default;
 };
@@ -77,6 +189,7 @@ struct Document {
     std::vector<Material> materials;
     std::vector<Light> lights;
     Environment environment;
+    ShadingModel model;
     View view;
     std::vector<BakeArtifactPtr> bakes; // at most one of each BakeKind
     Id nextId = 1;
@@ -86,6 +199,8 @@ struct Document {
     [[nodiscard]] Material* material(Id id);
     [[nodiscard]] const Light* light(Id id) const;
     [[nodiscard]] Light* light(Id id);
+    [[nodiscard]] const Softbox* softbox(Id id) const;
+    [[nodiscard]] Softbox* softbox(Id id);
     [[nodiscard]] const MeshInstance* mesh(Id id) const;
     [[nodiscard]] MeshInstance* mesh(Id id);
     [[nodiscard]] Bounds bounds() const;             // of the visible meshes, in the world

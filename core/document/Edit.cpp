@@ -64,7 +64,10 @@ bool targetExists(const Document& document, const Target& target) {
         return document.light(target.id) != nullptr;
     case Scope::Mesh:
         return document.mesh(target.id) != nullptr;
+    case Scope::Softbox:
+        return document.softbox(target.id) != nullptr;
     case Scope::Environment:
+    case Scope::Model:
     case Scope::View:
         return target.id == 0;
     }

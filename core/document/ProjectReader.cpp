@@ -25,6 +25,7 @@ using Json = nlohmann::basic_json<std::map, std::vector, std::string, bool, std:
 
 // A project of the largest size is refused before it fills the memory with tiny values.
 constexpr std::size_t kMaxValues = 8'000'000;
+constexpr std::size_t kMaxSoftboxes = 256;
 constexpr std::size_t kMaxElements = limits::kMaxMeshes; // of each list
 
 // Leaves the reader from any depth; caught in parseProject, its only way out.
@@ -240,6 +241,9 @@ class ProjectReader {
         static_cast<void>(root.find("version"));
         readView(root.require("view"));
         readEnvironment(root.require("environment"));
+        if (const auto model =
+                root.find("model")) // absent in projects of before it could be chosen
+            readModel(*model);
         for (const Node& node : readList(root.require("materials"), kMaxElements))
             document().materials.push_back(readMaterial(node));
         for (const Node& node : readList(root.require("lights"), kMaxElements))
@@ -308,6 +312,24 @@ class ProjectReader {
     void readEnvironment(const Node& node) {
         ObjectReader object(node);
         readParameters(object, document(), Scope::Environment, 0, m_projectFile);
+        if (const auto softboxes = object.find("softboxes"))
+            for (const Node& softbox : readList(*softboxes, kMaxSoftboxes))
+                document().environment.softboxes.push_back(readSoftbox(softbox));
+        object.refuseUnknownKeys();
+    }
+
+    Softbox readSoftbox(const Node& node) {
+        ObjectReader object(node);
+        Document scratch;
+        const Id id = scratch.environment.softboxes.emplace_back().id = readId(object);
+        readParameters(object, scratch, Scope::Softbox, id, m_projectFile);
+        object.refuseUnknownKeys();
+        return std::move(scratch.environment.softboxes.front());
+    }
+
+    void readModel(const Node& node) {
+        ObjectReader object(node);
+        readParameters(object, document(), Scope::Model, 0, m_projectFile);
         object.refuseUnknownKeys();
     }
 

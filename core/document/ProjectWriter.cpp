@@ -118,6 +118,14 @@ Json lightToJson(const Light& light, const fs::path& projectFile) {
     return json;
 }
 
+Json softboxToJson(const Softbox& softbox, const fs::path& projectFile) {
+    Document scratch;
+    scratch.environment.softboxes.push_back(softbox);
+    Json json{{"id", softbox.id}};
+    addParameters(json, scratch, Scope::Softbox, softbox.id, projectFile);
+    return json;
+}
+
 Json meshToJson(const MeshInstance& mesh, const fs::path& projectFile) {
     Document scratch;
     scratch.meshes.push_back(mesh);
@@ -185,6 +193,11 @@ std::string documentToJson(const Document& document, const fs::path& projectFile
     json["view"]["camera"] = cameraToJson(document.view.camera);
     json["environment"] = Json::object();
     addParameters(json["environment"], document, Scope::Environment, 0, projectFile);
+    json["environment"]["softboxes"] = Json::array();
+    for (const Softbox& softbox : document.environment.softboxes)
+        json["environment"]["softboxes"].push_back(softboxToJson(softbox, projectFile));
+    json["model"] = Json::object();
+    addParameters(json["model"], document, Scope::Model, 0, projectFile);
 
     json["materials"] = Json::array();
     for (const Material& material : document.materials)

@@ -44,6 +44,7 @@ struct Material {
     float metallic = 0.0f; // 0…1
     MapSlot metallicMap;
     float perceptualRoughness = 0.5f; // 0…1, alpha = its square
+    float diffuseRoughness = 0.0f;    // of the diffuse lobe: 0 Lambert, 1 dust (Oren-Nayar, EON)
     MapSlot perceptualRoughnessMap;
     float normalStrength = 1.0f; // scales the normal map's xy
     MapSlot normalMap;

@@ -48,6 +48,10 @@ std::string scopeTitle(Scope scope) {
         return "View";
     case Scope::Mesh:
         return "Meshes";
+    case Scope::Softbox:
+        return "Softboxes";
+    case Scope::Model:
+        return "Shading model";
     }
     CHECK(false);
     return {};

@@ -82,7 +82,10 @@ std::vector<std::string> elementNames(const Document& document, Scope scope) {
         return namesOf(document.lights);
     case Scope::Mesh:
         return namesOf(document.meshes);
+    case Scope::Softbox:
+        return namesOf(document.environment.softboxes);
     case Scope::Environment:
+    case Scope::Model:
     case Scope::View:
         break;
     }
@@ -102,7 +105,11 @@ std::vector<Target> findTargets(const Document& document, Scope scope,
     case Scope::Mesh:
         addTargets(document.meshes, scope, name, targets);
         break;
+    case Scope::Softbox:
+        addTargets(document.environment.softboxes, scope, name, targets);
+        break;
     case Scope::Environment:
+    case Scope::Model:
     case Scope::View:
         targets.push_back({scope, 0});
         break;
@@ -136,7 +143,8 @@ Result<ParameterSelection> selectParameter(const Document& document, std::string
     }
 
     const std::string_view kind = scopeName(info->scope);
-    const bool single = info->scope == Scope::Environment || info->scope == Scope::View;
+    const bool single = info->scope == Scope::Environment || info->scope == Scope::View ||
+                        info->scope == Scope::Model;
     if (named && single)
         return Error{ErrorKind::Usage,
                      fmt::format("there is only one {}; write {}", kind, info->id),

@@ -48,6 +48,22 @@ struct ElementOf<Environment> {
     }
 };
 template <>
+struct ElementOf<Softbox> {
+    static constexpr Scope kScope = Scope::Softbox;
+    template <class Doc>
+    static auto* find(Doc& document, Id id) {
+        return document.softbox(id);
+    }
+};
+template <>
+struct ElementOf<ShadingModel> {
+    static constexpr Scope kScope = Scope::Model;
+    template <class Doc>
+    static auto* find(Doc& document, Id) {
+        return &document.model;
+    }
+};
+template <>
 struct ElementOf<View> {
     static constexpr Scope kScope = Scope::View;
     template <class Doc>
@@ -324,7 +340,11 @@ ParameterValue ParameterInfo::defaultValue() const {
     case Scope::Mesh:
         document.meshes.emplace_back().id = only;
         break;
+    case Scope::Softbox:
+        document.environment.softboxes.emplace_back().id = only;
+        break;
     case Scope::Environment:
+    case Scope::Model:
     case Scope::View:
         break;
     }
@@ -355,6 +375,10 @@ std::string_view scopeName(Scope scope) {
         return "view";
     case Scope::Mesh:
         return "mesh";
+    case Scope::Softbox:
+        return "softbox";
+    case Scope::Model:
+        return "model";
     }
     CHECK(false);
     return {};

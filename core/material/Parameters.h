@@ -36,7 +36,7 @@ constexpr bool touches(Affects value, Affects part) {
     return (static_cast<std::uint32_t>(value) & static_cast<std::uint32_t>(part)) != 0;
 }
 
-enum class Scope { Material, Light, Environment, View, Mesh };
+enum class Scope { Material, Light, Environment, View, Mesh, Softbox, Model };
 // Reference: the id of a material of the same document, 0 for none.
 enum class ParameterType { Bool, Float, Color, Vector, Choice, Text, Map, Reference };
 
@@ -44,7 +44,7 @@ enum class ParameterType { Bool, Float, Color, Vector, Choice, Text, Map, Refere
 // Text; Map.
 using ParameterValue = std::variant<bool, float, glm::vec3, int, std::string, MapSlot>;
 
-// Whose parameter: Scope::Environment and Scope::View have one element, id 0.
+// Whose parameter: environment, view and model have one element, id 0.
 struct Target {
     Scope scope = Scope::View;
     Id id = 0;
@@ -79,7 +79,8 @@ struct ParameterInfo {
 
 [[nodiscard]] std::span<const ParameterInfo> parameters(); // the whole table, in panel order
 [[nodiscard]] const ParameterInfo* findParameter(std::string_view idOrAlias);
-// "material", "light", "environment", "view", "mesh": how names of the scope begin.
+// "material", "light", "environment", "view", "mesh", "softbox", "model": how names of the scope
+// begin.
 [[nodiscard]] std::string_view scopeName(Scope scope);
 [[nodiscard]] const ParameterInfo* mapOf(const ParameterInfo& parameter); // its ".map", or null
 

@@ -80,7 +80,8 @@ ReplaceElementsCommand::ReplaceElementsCommand(DocumentController& controller, c
     : DocumentCommand(controller, text)
     , m_after(std::move(after)) {
     const Document& document = controller.document();
-    m_before = {document.meshes, document.materials, document.lights, document.nextId};
+    m_before = {document.meshes, document.materials, document.lights,
+                document.environment.softboxes, document.nextId};
 }
 
 std::size_t ReplaceElementsCommand::payloadBytes() const {
@@ -99,6 +100,7 @@ Change ReplaceElementsCommand::swap(Document& document, bool forward) {
     document.meshes = elements.meshes;
     document.materials = elements.materials;
     document.lights = elements.lights;
+    document.environment.softboxes = elements.softboxes;
     document.nextId = elements.nextId;
     return {Affects::Structure | Affects::Geometry | Affects::Texture | Affects::Uniform |
                 Affects::Bakes,
@@ -152,7 +154,12 @@ std::string nameOf(const Document& document, Target target) {
         if (const Light* light = document.light(target.id))
             return light->name;
         break;
+    case Scope::Softbox:
+        if (const Softbox* softbox = document.softbox(target.id))
+            return softbox->name;
+        break;
     case Scope::Environment:
+    case Scope::Model:
     case Scope::View:
         break;
     }

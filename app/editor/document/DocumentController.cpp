@@ -104,9 +104,10 @@ void DocumentController::editStructure(const QString& undoText,
                                        const std::function<void(Document&)>& edit) {
     Document copy = m_document; // payloads are shared, so this is cheap
     edit(copy);
-    push(new ReplaceElementsCommand(
-        *this, undoText,
-        {std::move(copy.meshes), std::move(copy.materials), std::move(copy.lights), copy.nextId}));
+    push(new ReplaceElementsCommand(*this, undoText,
+                                    {std::move(copy.meshes), std::move(copy.materials),
+                                     std::move(copy.lights), std::move(copy.environment.softboxes),
+                                     copy.nextId}));
 }
 
 void DocumentController::rename(Target target, const QString& name) {

@@ -34,6 +34,7 @@ struct Elements {
     std::vector<MeshInstance> meshes;
     std::vector<Material> materials;
     std::vector<Light> lights;
+    std::vector<Softbox> softboxes;
     Id nextId = 1;
 };
 

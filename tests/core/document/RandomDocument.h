@@ -31,6 +31,10 @@ class RandomDocument {
             skipIds(document);
             document.lights.emplace_back().id = document.takeId();
         }
+        for (std::size_t i = below(4); i > 0; --i) {
+            skipIds(document);
+            document.environment.softboxes.emplace_back().id = document.takeId();
+        }
         for (std::size_t i = below(6); i > 0; --i) {
             MeshInstance& mesh = document.meshes.emplace_back();
             mesh.id = document.takeId();
@@ -107,7 +111,11 @@ class RandomDocument {
         case Scope::Mesh:
             collect(document.meshes);
             break;
+        case Scope::Softbox:
+            collect(document.environment.softboxes);
+            break;
         case Scope::Environment:
+        case Scope::Model:
         case Scope::View:
             ids.push_back(0);
         }
