@@ -5,6 +5,7 @@
 #include "include/frame.glsl"
 #include "include/instance.glsl"
 #include "include/material.glsl"
+#include "include/model.glsl"
 #include "shared/ibl.glsl"
 #include "shared/normalmap.glsl"
 
@@ -112,11 +113,12 @@ void main() {
     // The surface.
     vec3 n = shadingNormal();
     vec3 v = normalize(u_cameraPosition.xyz - v_position);
-    float NoV = max(dot(n, v), kMinNoV);
+    float NoV = clamp(dot(n, v), kMinNoV, 1.0);
     perceptualRoughness = clamp(perceptualRoughness, 0.0, 1.0);
     vec2 dfg = textureLod(u_dfg, vec2(NoV, perceptualRoughness), 0.0).rg;
-    SurfaceTerms s = makeSurface(clamp(baseColor.rgb, 0.0, 1.0), clamp(metallic, 0.0, 1.0),
-                                 perceptualRoughness, n, v, dfg);
+    SurfaceTerms s =
+        makeSurface(shadingModel(), clamp(baseColor.rgb, 0.0, 1.0), clamp(metallic, 0.0, 1.0),
+                    perceptualRoughness, u_diffuseRoughness, n, v, dfg);
 
     // Light from the surroundings. Transfer coefficients know the shadows already.
     vec3 r = mat3(u_worldToEnvironment) * reflectionDirection(s);

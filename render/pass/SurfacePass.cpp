@@ -14,6 +14,30 @@ constexpr std::array<const char*, kSurfaceFeatureCount> kDefines{
     "ALPHA_MASK",         "ALPHA_BLEND",      "DOUBLE_SIDED",        "HAS_PLACEHOLDER",
     "HAS_TEXEL_AO",       "HAS_VERTEX_AO",    "HAS_TRANSFER",        "HAS_LIGHTS"};
 
+// The choices of the model: name of the define, value, default.
+struct ModelChoice {
+    const char* name;
+    int value, standard;
+};
+
+std::array<ModelChoice, 6> modelChoices(const ShadingModel& model) {
+    const ShadingModel standard;
+    return {{{"MODEL_DISTRIBUTION", int(model.distribution), int(standard.distribution)},
+             {"MODEL_VISIBILITY", int(model.visibility), int(standard.visibility)},
+             {"MODEL_FRESNEL", int(model.fresnel), int(standard.fresnel)},
+             {"MODEL_DIFFUSE", int(model.diffuse), int(standard.diffuse)},
+             {"MODEL_MULTI_SCATTER", int(model.multiScatter), int(standard.multiScatter)},
+             {"MODEL_LOBE_DIRECTION", int(model.lobeDirection), int(standard.lobeDirection)}}};
+}
+
+// Four bits each.
+unsigned modelKey(const ShadingModel& model) {
+    unsigned key = 0;
+    for (const ModelChoice& choice : modelChoices(model))
+        key = key << 4 | static_cast<unsigned>(choice.value);
+    return key;
+}
+
 constexpr unsigned kVisibilityUnit = 6, kPrefilteredUnit = 7, kDfgUnit = 8;
 
 } // namespace
@@ -42,6 +66,14 @@ std::vector<std::string> surfaceDefines(unsigned features) {
     return defines;
 }
 
+std::vector<std::string> modelDefines(const ShadingModel& model) {
+    std::vector<std::string> defines;
+    for (const ModelChoice& choice : modelChoices(model))
+        if (choice.value != choice.standard)
+            defines.push_back(std::string(choice.name) + ' ' + std::to_string(choice.value));
+    return defines;
+}
+
 void drawItem(const DrawItem& item, bool cull) {
     (cull ? glEnable : glDisable)(GL_CULL_FACE);
     glFrontFace(item.mirrored ? GL_CW : GL_CCW);
@@ -51,13 +83,17 @@ void drawItem(const DrawItem& item, bool cull) {
     glDrawElements(GL_TRIANGLES, item.mesh->indexCount, GL_UNSIGNED_INT, nullptr);
 }
 
-Result<const gl::Program*> SurfacePass::program(unsigned features) {
-    const auto known = m_programs.find(features);
+Result<const gl::Program*> SurfacePass::program(unsigned features, const ShadingModel& model) {
+    const Variant variant{features, modelKey(model)};
+    const auto known = m_programs.find(variant);
     if (known != m_programs.end())
         return known->second;
-    auto made = m_shaders.program({{"surface.vert", "surface.frag"}, surfaceDefines(features)});
+    std::vector<std::string> defines = surfaceDefines(features);
+    for (std::string& define : modelDefines(model))
+        defines.push_back(std::move(define));
+    auto made = m_shaders.program({{"surface.vert", "surface.frag"}, std::move(defines)});
     if (made)
-        m_programs.emplace(features, *made);
+        m_programs.emplace(variant, *made);
     return made;
 }
 
@@ -67,9 +103,10 @@ Result<void> SurfacePass::draw(const GpuScene& scene, const std::vector<const Dr
     glDepthFunc(GL_LESS);
     scene.environment().prefiltered().bind(kPrefilteredUnit);
     scene.environment().dfg().bind(kDfgUnit);
+    scene.modelBlock().bindUniform(kModelBinding);
     for (const DrawItem* item : items) {
         const unsigned features = surfaceFeatures(*item, settings);
-        const auto shader = program(features);
+        const auto shader = program(features, settings.model);
         if (!shader)
             return shader.error();
         (*shader)->use();

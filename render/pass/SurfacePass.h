@@ -5,6 +5,7 @@
 #include "render/shader/ShaderLibrary.h"
 
 #include <map>
+#include <utility>
 
 namespace patina::render {
 
@@ -12,6 +13,7 @@ namespace patina::render {
 struct SurfaceSettings {
     LightingMode lighting = LightingMode::Ibl;
     bool hasLights = false;
+    ShadingModel model; // its choices; the numbers are in the scene's model block
 };
 
 class SurfacePass {
@@ -28,15 +30,20 @@ class SurfacePass {
   private:
     Result<void> draw(const GpuScene& scene, const std::vector<const DrawItem*>& items,
                       const SurfaceSettings& settings);
-    Result<const gl::Program*> program(unsigned features);
+    Result<const gl::Program*> program(unsigned features, const ShadingModel& model);
+
+    // What tells two variants apart: features, and the choices of the model.
+    using Variant = std::pair<unsigned, unsigned>;
 
     ShaderLibrary& m_shaders;
-    std::map<unsigned, const gl::Program*> m_programs; // by features; owned by the library
+    std::map<Variant, const gl::Program*> m_programs; // owned by the library
 };
 
 // Bits of SurfaceFeature this item needs under these settings.
 [[nodiscard]] unsigned surfaceFeatures(const DrawItem& item, const SurfaceSettings& settings);
 [[nodiscard]] std::vector<std::string> surfaceDefines(unsigned features);
+// The choices of the model that are not the default.
+[[nodiscard]] std::vector<std::string> modelDefines(const ShadingModel& model);
 
 // Binds blocks and buffers of an item and issues the draw call; front faces and culling included.
 void drawItem(const DrawItem& item, bool cull);

@@ -1,5 +1,5 @@
-// Uniform blocks as the shaders see them (std140): shaders/include/frame.glsl, instance.glsl and
-// material.glsl have the other side. One line changes there, one here.
+// Uniform blocks as the shaders see them (std140): shaders/include/frame.glsl, instance.glsl,
+// material.glsl and model.glsl have the other side. One line changes there, one here.
 #pragma once
 
 #include <array>
@@ -10,7 +10,8 @@
 
 namespace patina::render {
 
-inline constexpr unsigned kFrameBinding = 0, kInstanceBinding = 1, kMaterialBinding = 2;
+inline constexpr unsigned kFrameBinding = 0, kInstanceBinding = 1, kMaterialBinding = 2,
+                          kModelBinding = 3;
 inline constexpr unsigned kVisibilityBinding = 0, kTransferBinding = 1; // storage blocks
 inline constexpr int kMaxLights = 16;
 inline constexpr int kMaxTransferCount = 25; // order 5
@@ -59,11 +60,18 @@ struct MaterialBlock {
     float occlusionStrength = 1.0f, normalStrength = 1.0f;
     glm::vec4 normalBasis{1.0f, 0.0f, 0.0f, 1.0f};
     float normalGreenUp = 1.0f, placeholder = 0.0f;
-    float reserved0 = 0.0f, reserved1 = 0.0f;
+    float diffuseRoughness = 0.0f, reserved = 0.0f;
     MapBlock baseColorMap, metallicMap, roughnessMap, normalMap, occlusionMap, emissiveMap;
 };
 static_assert(offsetof(MaterialBlock, normalBasis) == 48);
 static_assert(offsetof(MaterialBlock, baseColorMap) == 80);
 static_assert(sizeof(MaterialBlock) == 80 + 6 * 48);
+
+// shaders/include/model.glsl.
+struct ModelBlock {
+    glm::vec4 conductorN{1.0f}; // rgb, f90
+    glm::vec4 conductorK{1.0f}; // rgb, ior
+};
+static_assert(sizeof(ModelBlock) == 32);
 
 } // namespace patina::render

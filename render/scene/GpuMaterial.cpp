@@ -93,6 +93,7 @@ MaterialBlock packMaterial(const Material& m) {
     block.normalBasis = normalBasis(m.normalMap);
     block.normalGreenUp = m.normalConvention == NormalConvention::OpenGl ? 1.0f : -1.0f;
     block.placeholder = placeholderShare(m);
+    block.diffuseRoughness = m.diffuseRoughness;
     block.baseColorMap = packMap(m.baseColorMap, true);
     block.metallicMap = packMap(m.metallicMap, false);
     block.roughnessMap = packMap(m.perceptualRoughnessMap, false);

@@ -28,6 +28,10 @@ InstanceBlock packInstance(const MeshInstance& mesh, int transferCount) {
     return block;
 }
 
+ModelBlock packModel(const ShadingModel& model) {
+    return {glm::vec4(model.conductorN, model.f90), glm::vec4(model.conductorK, model.ior)};
+}
+
 LightBlock packLight(const Light& light) {
     const glm::vec3 color = light.color * light.intensity;
     if (light.type == LightType::Directional)
@@ -40,19 +44,23 @@ LightBlock packLight(const Light& light) {
 GpuScene::GpuScene(gl::Context& context)
     : m_context(context)
     , m_environment(context)
+    , m_modelBlock(context, "shading model", sizeof(ModelBlock))
     , m_textures(context)
     , m_visibility(context, BakeKind::AoVertex)
     , m_transfer(context, BakeKind::PrtVertex) {}
 
 void GpuScene::update(const Document& document, const Change& change) {
     m_document = document;
+    if (!change.target || change.target->scope == Scope::Model)
+        m_modelBlock.writeValue(packModel(m_document.model));
     const auto touched = [&](Affects part) { return touches(change.affects, part); };
 
     // One number is the change of a dragged slider: nothing else is looked at. Those of the view,
     // the lights and the environment are read anew for each frame.
     if (change.affects == Affects::Uniform && change.target) {
         const Scope scope = change.target->scope;
-        if (scope == Scope::View || scope == Scope::Light || scope == Scope::Environment)
+        if (scope == Scope::View || scope == Scope::Light || scope == Scope::Environment ||
+            scope == Scope::Model)
             return;
         const Material* material = m_document.material(change.target->id);
         const auto known = m_materials.find(change.target->id);

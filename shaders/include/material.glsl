@@ -19,6 +19,7 @@ layout(std140, binding = 2) uniform Material {
     vec4 u_normalBasis;     // rows: map x and y of the normal to tangent and bitangent
     float u_normalGreenUp;  // +1 OpenGL, -1 DirectX
     float u_placeholder;    // share of the pattern that stands for a missing map
+    float u_diffuseRoughness;
     Map u_baseColorMap;
     Map u_metallicMap;
     Map u_roughnessMap;

@@ -66,9 +66,10 @@ PT_FN float specularOcclusion(float NoV, float ao, float alpha) {
 
 // ---- Shading -----------------------------------------------------------------------------------
 
-// Diffuse light of irradiance E.
+// Diffuse light of irradiance E, as if it came evenly from all sides: exact for Lambert; the other
+// lobes prefer directions, which an irradiance does not know.
 PT_FN vec3 shadeIrradiance(SurfaceTerms s, vec3 irradiance) {
-    return diffuseLobe(s) * irradiance;
+    return s.diffuseAlbedo * irradiance * kInvPi;
 }
 
 // The split sum, Karis 2013, "Real Shading in Unreal Engine 4", equation 7: prefiltered radiance

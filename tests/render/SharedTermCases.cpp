@@ -62,9 +62,22 @@ void surface(InputMaker& make, In in) {
         name, #__VA_ARGS__, []([[maybe_unused]] const float* in, float* out) { __VA_ARGS__ },      \
             prepare, scale                                                                         \
     }
-#define SURFACE                                                                                    \
-    makeSurface(vec3(I(9), I(10), I(11)), I(12), I(13), vec3(I(0), I(1), I(2)),                    \
+#define SURFACE_OF(model)                                                                          \
+    makeSurface(model, vec3(I(9), I(10), I(11)), I(12), I(13), I(25), vec3(I(0), I(1), I(2)),      \
                 vec3(I(3), I(4), I(5)), vec2(I(14), I(15)))
+#define SURFACE SURFACE_OF(defaultBrdfModel())
+// Any model, chosen by inputs that no case of a surface needs otherwise.
+#define CHOOSE_MODEL(m)                                                                            \
+    BrdfModel m = defaultBrdfModel();                                                              \
+    m.distribution = int(2.999f * I(26));                                                          \
+    m.visibility = int(5.999f * I(27));                                                            \
+    m.fresnel = int(3.999f * I(28));                                                               \
+    m.diffuse = int(3.999f * I(29));                                                               \
+    m.multiScatter = int(1.999f * I(30));                                                          \
+    m.f90 = I(31);                                                                                 \
+    m.ior = 1.0f + I(22);                                                                          \
+    m.conductorN = vec3(0.05f + 3.0f * I(23), 1.0f, 0.2f);                                         \
+    m.conductorK = vec3(5.0f * I(24), 2.0f, 3.0f);
 #define OUT3(k, v)                                                                                 \
     {                                                                                              \
         vec3 value = v;                                                                            \
@@ -75,27 +88,60 @@ void surface(InputMaker& make, In in) {
 
 std::vector<SharedTermCase> makeCases() {
     return {
-        CASE("distribution", aboveZero, 1e-3f, O(0) = D_GGX(I(0), I(1));
-             O(1) = D_GGX_Sin2(I(0), 1.0f - I(0) * I(0), I(1));
-             O(2) = distribution(I(0), 1.0f - I(0) * I(0), I(1));),
+        CASE("distributions", aboveZero, 1e-3f, float sin2 = 1.0f - I(0) * I(0);
+             O(0) = D_GGX(I(0), I(1)); O(1) = D_GGX_Sin2(I(0), sin2, I(1));
+             O(2) = D_Beckmann_Sin2(I(0), sin2, I(1)); O(3) = D_BlinnPhong_Sin2(sin2, I(1));
+             O(4) = logOneMinus(I(2)); O(5) = logOneMinus(0.1f * I(2));
+             O(6) = distribution(defaultBrdfModel(), I(0), sin2, I(1));),
             CASE("visibility", aboveZero, 1e-3f, O(0) = V_SmithGGXCorrelated(I(0), I(1), I(2));
-                 O(1) = visibility(I(0), I(1), I(2)); O(2) = G1_SmithGGX(I(0), I(2));),
+                 O(1) = V_SmithGGXSeparable(I(0), I(1), I(2)); O(2) = G1_SmithGGX(I(0), I(2));
+                 O(3) = V_SmithBeckmannCorrelated(I(0), I(1), I(2));
+                 O(4) = V_SmithBeckmannSeparable(I(0), I(1), I(2));
+                 O(5) = G1_SmithBeckmann(I(0), I(2)); O(6) = scaledLambdaBeckmann(I(0), I(2));
+                 O(7) = V_SchlickGGX(I(0), I(1), I(2)); O(8) = schlickKDirect(I(3));
+                 O(9) = V_Kelemen(I(3)); O(10) = V_Implicit();
+                 O(11) = visibility(defaultBrdfModel(), I(0), I(1), I(3), I(2));),
             CASE("fresnel", unit, 1e-2f, OUT3(0, F_Schlick(vec3(I(0), I(1), I(2)), I(3), I(4)));
-                 OUT3(3, fresnel(vec3(I(0), I(1), I(2)), I(4)));),
-            CASE("lambert", unit, 1.0f, O(0) = Fd_Lambert(); O(1) = diffuse();),
+                 O(3) = schlickWeight(I(4)); O(4) = f0FromIor(1.0f + I(5));
+                 O(5) = F_Dielectric(I(4), 1.0f + I(5));
+                 OUT3(6, F_Conductor(I(4), vec3(0.1f + I(6), 1.0f + I(7), 3.0f * I(8) + 0.05f),
+                                     5.0f * vec3(I(9), I(10), I(11))));),
+            CASE("diffuse", unit, 1e-2f, O(0) = Fd_Lambert();
+                 O(1) = Fd_Burley(I(0), I(1), I(2), I(3)); O(2) = E_Burley(I(0), I(3));
+                 O(3) = Fd_OrenNayar(I(0), I(1), 2.0f * I(2) - 1.0f, I(3));
+                 O(4) = E_OrenNayar(I(0), I(3)); vec2 c = orenNayarCoefficients(I(3)); O(5) = c.x;
+                 O(6) = c.y; O(7) = E_FON(I(0), I(3));
+                 OUT3(8, multiScatterAlbedoEon(vec3(I(4), I(5), I(6)), I(3)));
+                 OUT3(11, Fd_Eon(vec3(I(4), I(5), I(6)), I(0), I(1), 2.0f * I(2) - 1.0f, I(3)));
+                 OUT3(14, E_Eon(vec3(I(4), I(5), I(6)), I(0), I(3)));),
+            CASE("dispatch", unit, 1e-2f, CHOOSE_MODEL(m);
+                 float alpha = alphaFromPerceptualRoughness(I(0)); float NoH = 0.5f + 0.5f * I(1);
+                 O(0) = distribution(m, NoH, 1.0f - NoH * NoH, alpha);
+                 O(1) = visibility(m, 0.01f + 0.99f * I(2), 0.01f + 0.99f * I(3), I(4), alpha);
+                 vec3 color = vec3(I(5), I(6), I(7)); vec3 f0 = normalReflectance(m, color, I(8));
+                 OUT3(2, f0); OUT3(5, fresnel(m, f0, I(8), I(4)));
+                 OUT3(8, diffuse(m, color, I(0), I(9), I(2), I(3), I(4)));
+                 OUT3(11, diffuseReflectance(m, color, I(0), I(9), I(2)));
+                 OUT3(14, energyCompensation(m, f0, vec2(I(10), I(11))));
+                 OUT3(17, singleScatterAlbedo(m, f0, I(8), vec2(0.1f + I(10), I(11))));
+                 OUT3(20, specularAlbedo(m, f0, I(8), vec2(0.1f + I(10), I(11))));),
             CASE("parameters", unit, 1e-2f, O(0) = alphaFromPerceptualRoughness(I(0));
-                 OUT3(1, f0FromBaseColor(vec3(I(1), I(2), I(3)), I(4)));
                  OUT3(4, diffuseColorFromBaseColor(vec3(I(1), I(2), I(3)), I(4)));
-                 OUT3(7, energyCompensationTurquin(vec3(I(1), I(2), I(3)), vec2(I(5), I(6))));
-                 OUT3(10, specularAlbedoFromDfg(vec3(I(1), I(2), I(3)), vec2(I(5), I(6))));),
-            CASE("surface", surface, 1e-2f, SurfaceTerms s = SURFACE; O(0) = s.NoV; O(1) = s.alpha;
-                 O(2) = s.perceptualRoughness; OUT3(3, s.diffuseColor); OUT3(6, s.f0);
-                 OUT3(9, s.energyCompensation); OUT3(12, s.specularAlbedo);
-                 OUT3(15, s.diffuseAlbedo);),
+                 OUT3(7, energyCompensationTurquin(vec3(I(1), I(2), I(3)), vec2(I(5), I(6))));),
+            CASE("surface", surface, 1e-2f, CHOOSE_MODEL(m); SurfaceTerms s = SURFACE_OF(m);
+                 O(0) = s.NoV; O(1) = s.alpha; O(2) = s.perceptualRoughness;
+                 OUT3(3, s.diffuseColor); OUT3(6, s.f0); OUT3(9, s.energyCompensation);
+                 OUT3(12, s.specularAlbedo); OUT3(15, s.diffuseAlbedo); O(18) = s.metallic;
+                 OUT3(19, s.transmission); O(22) = s.diffuseRoughness;),
             CASE("lobes", surface, 1e-2f, SurfaceTerms s = SURFACE;
                  OUT3(0, specularLobe(s, I(16), 1.0f - I(16) * I(16), I(17), I(18)));
-                 OUT3(3, diffuseLobe(s));),
+                 OUT3(3, diffuseLobe(s, I(17), I(18)));),
             CASE("shade direct", surface, 1e-2f, SurfaceTerms s = SURFACE;
+                 ShadedLight light =
+                     shadeDirect(s, vec3(I(6), I(7), I(8)), vec3(I(16), I(17), I(18)));
+                 OUT3(0, light.diffuse); OUT3(3, light.specular);),
+            CASE("shade direct, any model", surface, 1e-2f, CHOOSE_MODEL(m);
+                 SurfaceTerms s = SURFACE_OF(m);
                  ShadedLight light =
                      shadeDirect(s, vec3(I(6), I(7), I(8)), vec3(I(16), I(17), I(18)));
                  OUT3(0, light.diffuse); OUT3(3, light.specular);),

@@ -35,8 +35,17 @@ std::string computeShader(const SharedTermCase& c) {
                        "#define O(k) out_[k]\n"
                        "#define OUT3(k, v) { vec3 value = v; O(k) = value.x; O(k + 1) = value.y; "
                        "O(k + 2) = value.z; }\n"
-                       "#define SURFACE makeSurface(vec3(I(9), I(10), I(11)), I(12), I(13), "
-                       "vec3(I(0), I(1), I(2)), vec3(I(3), I(4), I(5)), vec2(I(14), I(15)))\n";
+                       "#define SURFACE_OF(model) makeSurface(model, vec3(I(9), I(10), I(11)), "
+                       "I(12), I(13), I(25), vec3(I(0), I(1), I(2)), vec3(I(3), I(4), I(5)), "
+                       "vec2(I(14), I(15)))\n"
+                       "#define SURFACE SURFACE_OF(defaultBrdfModel())\n"
+                       "#define CHOOSE_MODEL(m) BrdfModel m = defaultBrdfModel(); "
+                       "m.distribution = int(2.999f * I(26)); "
+                       "m.visibility = int(5.999f * I(27)); m.fresnel = int(3.999f * I(28)); "
+                       "m.diffuse = int(3.999f * I(29)); m.multiScatter = int(1.999f * I(30)); "
+                       "m.f90 = I(31); m.ior = 1.0f + I(22); "
+                       "m.conductorN = vec3(0.05f + 3.0f * I(23), 1.0f, 0.2f); "
+                       "m.conductorK = vec3(5.0f * I(24), 2.0f, 3.0f);\n";
     for (const char* file : {"shared/ibl.glsl", "shared/normalmap.glsl", "shared/tonemap.glsl",
                              "shared/sampling.glsl"}) {
         ExpandedShader expanded;
@@ -111,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(Each, SharedTerms,
 TEST(SharedTermCases, CoverEveryFunction) {
     std::string bodies;
     for (const SharedTermCase& c : sharedTermCases())
-        bodies += c.body + " makeSurface(";
+        bodies += c.body + " makeSurface( defaultBrdfModel(";
     const std::regex function(R"(PT_FN\s+\w+\s+(\w+)\()");
     int found = 0;
     for (const EmbeddedShader& shader : embeddedShaders()) {

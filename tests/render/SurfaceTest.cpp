@@ -36,7 +36,8 @@ glm::vec2 dfgAt(float NoV, float perceptualRoughness) {
 glm::vec3 reflectedOfLight(const Material& m, const glm::vec3& n, const glm::vec3& l, float E) {
     const glm::vec3 v(0, 1, 0);
     const float NoV = std::max(glm::dot(n, v), shading::kMinNoV);
-    const auto s = shading::makeSurface(m.baseColor, m.metallic, m.perceptualRoughness, n, v,
+    const auto s = shading::makeSurface(shading::defaultBrdfModel(), m.baseColor, m.metallic,
+                                        m.perceptualRoughness, m.diffuseRoughness, n, v,
                                         dfgAt(NoV, m.perceptualRoughness));
     const auto shaded = shading::shadeDirect(s, l, glm::vec3(E));
     return shaded.diffuse + shaded.specular;
@@ -85,8 +86,8 @@ TEST_F(Surface, MetalInAWhiteFurnaceShowsItsDfgAlbedo) {
         m.baseColor = {1.0f, 0.6f, 0.2f};
         m.perceptualRoughness = perceptualRoughness;
         const glm::vec3 seen(centerPixel(draw(document, 65)));
-        const glm::vec3 expected =
-            shading::specularAlbedoFromDfg(m.baseColor, dfgAt(1.0f, perceptualRoughness));
+        const glm::vec3 expected = shading::specularAlbedo(shading::defaultBrdfModel(), m.baseColor,
+                                                           1.0f, dfgAt(1.0f, perceptualRoughness));
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(seen[c], expected[c], 3e-3f) << perceptualRoughness << " channel " << c;
     }
@@ -104,7 +105,9 @@ TEST_F(Surface, LambertPlaneReflectsAlbedoOverPiTimesECosine) {
     // Diffuse: what the specular layer leaves of the albedo; cos of the angle to +Y is sin 30° = ½.
     const glm::vec3 l = document.lights[0].directionToLight();
     EXPECT_NEAR(l.y, 0.5f, 1e-6f);
-    const float layer = shading::specularAlbedoFromDfg(glm::vec3(0.04f), dfgAt(1.0f, 1.0f)).x;
+    const float layer = shading::specularAlbedo(shading::defaultBrdfModel(), glm::vec3(0.04f), 0.0f,
+                                                dfgAt(1.0f, 1.0f))
+                            .x;
     const float diffuse = albedo * (1.0f - layer) / glm::pi<float>() * E * 0.5f;
     EXPECT_NEAR(seen.x, reflectedOfLight(m, {0, 1, 0}, l, E).x, 2e-3f * seen.x);
     EXPECT_GT(seen.x, diffuse);
@@ -190,8 +193,9 @@ TEST_F(Surface, MapsMultiplyTheirNumbersThroughTheirChannel) {
         makeImage(2, 2, 3, PixelType::U8, ColorEncoding::Srgb,
                   [](int, int, int c) { return c == 1 ? 188.0f / 255.0f : 1.0f; });
     const auto expected = [&](float metallic, float perceptualRoughness, const glm::vec3& color) {
-        const auto s = shading::makeSurface(color, metallic, perceptualRoughness, {0, 1, 0},
-                                            {0, 1, 0}, dfgAt(1.0f, perceptualRoughness));
+        const auto s =
+            shading::makeSurface(shading::defaultBrdfModel(), color, metallic, perceptualRoughness,
+                                 0.0f, {0, 1, 0}, {0, 1, 0}, dfgAt(1.0f, perceptualRoughness));
         const auto light =
             shading::shadeEnvironment(s, glm::vec3(glm::pi<float>()), glm::vec3(1.0f));
         return light.diffuse + light.specular;

@@ -108,6 +108,13 @@ TEST(Fresnel, SchlickValues) {
     EXPECT_FLOAT_EQ(F_Schlick(vec3(0.04f), 0.5f, 0.0f).x, 0.5f);
 }
 
+// Of the default model.
+SurfaceTerms surfaceOf(const vec3& baseColor, float metallic, float perceptualRoughness,
+                       const vec3& n, const vec3& v, const vec2& dfg) {
+    return makeSurface(defaultBrdfModel(), baseColor, metallic, perceptualRoughness, 0.0f, n, v,
+                       dfg);
+}
+
 // A table entry that says "nothing is lost": the lobe is then the bare single-scatter one.
 const vec2 kNoLoss(1.0f, 0.0f);
 
@@ -124,11 +131,11 @@ TEST(ShadeDirect, WholeBrdfAtOnePair) {
                  {1.0f, 0.00290748491462, 0.0363316215503}};
     for (const auto& c : cases) {
         const SurfaceTerms dielectric =
-            makeSurface(vec3(0.8f), 0.0f, c.perceptualRoughness, n, v, kNoLoss);
+            surfaceOf(vec3(0.8f), 0.0f, c.perceptualRoughness, n, v, kNoLoss);
         expectRelative(shadeDirect(dielectric, l, vec3(1.0f)).specular.x, c.dielectric, 1e-4,
                        "dielectric");
         const SurfaceTerms metal =
-            makeSurface(vec3(0.5f), 1.0f, c.perceptualRoughness, n, v, kNoLoss);
+            surfaceOf(vec3(0.5f), 1.0f, c.perceptualRoughness, n, v, kNoLoss);
         expectRelative(shadeDirect(metal, l, vec3(3.0f)).specular.z, 3.0 * c.halfMetal, 1e-4,
                        "metal");
         EXPECT_EQ(shadeDirect(metal, l, vec3(3.0f)).diffuse, vec3(0.0f));
@@ -138,27 +145,26 @@ TEST(ShadeDirect, WholeBrdfAtOnePair) {
 TEST(ShadeDirect, DiffuseIsAlbedoOverPiTimesIrradiance) {
     const vec3 n(0, 0, 1), v(0, 0, 1), l = normalize(vec3(0.0f, 0.6f, 0.8f));
     // No specular layer (scale = bias = 0): what the documents promise for Lambert.
-    const SurfaceTerms bare = makeSurface(vec3(0.5f, 0.25f, 1.0f), 0.0f, 0.5f, n, v, vec2(0.0f));
+    const SurfaceTerms bare = surfaceOf(vec3(0.5f, 0.25f, 1.0f), 0.0f, 0.5f, n, v, vec2(0.0f));
     const ShadedLight light = shadeDirect(bare, l, vec3(2.0f));
     EXPECT_NEAR(light.diffuse.x, 0.5 / M_PI * 2.0 * 0.8, 1e-6);
     EXPECT_NEAR(light.diffuse.y, 0.25 / M_PI * 2.0 * 0.8, 1e-6);
     EXPECT_NEAR(light.diffuse.z, 1.0 / M_PI * 2.0 * 0.8, 1e-6);
 
     // With the layer: 1 - albedo of the compensated lobe, (F0 A + B) (1 + F0 (1 - E) / E).
-    const SurfaceTerms layered = makeSurface(vec3(0.5f), 0.0f, 0.5f, n, v, vec2(0.8f, 0.1f));
+    const SurfaceTerms layered = surfaceOf(vec3(0.5f), 0.0f, 0.5f, n, v, vec2(0.8f, 0.1f));
     const double albedo = (0.04 * 0.8 + 0.1) * (1.0 + 0.04 * (1.0 - 0.9) / 0.9);
     EXPECT_NEAR(layered.specularAlbedo.x, albedo, 1e-6);
     EXPECT_NEAR(shadeDirect(layered, l, vec3(2.0f)).diffuse.x,
                 0.5 * (1.0 - albedo) / M_PI * 2.0 * 0.8, 1e-6);
     // Half a metal has half the diffuse colour and an F0 half-way.
-    const SurfaceTerms mixed = makeSurface(vec3(0.5f), 0.5f, 0.5f, n, v, vec2(0.0f));
+    const SurfaceTerms mixed = surfaceOf(vec3(0.5f), 0.5f, 0.5f, n, v, vec2(0.0f));
     EXPECT_NEAR(mixed.diffuseColor.x, 0.25f, 1e-6f);
     EXPECT_NEAR(mixed.f0.x, 0.27f, 1e-6f);
 }
 
 TEST(ShadeDirect, LightBehindTheSurfaceGivesNothing) {
-    const SurfaceTerms s =
-        makeSurface(vec3(0.8f), 0.0f, 0.4f, vec3(0, 0, 1), vec3(0, 0, 1), kNoLoss);
+    const SurfaceTerms s = surfaceOf(vec3(0.8f), 0.0f, 0.4f, vec3(0, 0, 1), vec3(0, 0, 1), kNoLoss);
     for (const vec3 l : {vec3(0, 0, -1), normalize(vec3(1, 0, -0.01f)), vec3(1, 0, 0)}) {
         const ShadedLight light = shadeDirect(s, l, vec3(1.0f));
         EXPECT_EQ(light.diffuse, vec3(0.0f));
@@ -175,8 +181,8 @@ TEST(ShadeDirect, IsFiniteEverywhere) {
         if (i % 7 == 1)
             l = reflect(-v, n);
         const SurfaceTerms s =
-            makeSurface(vec3(1.0f), static_cast<float>(i % 3) / 2.0f,
-                        static_cast<float>(i % 11) / 10.0f, n, v, vec2(0.9f, 0.02f));
+            surfaceOf(vec3(1.0f), static_cast<float>(i % 3) / 2.0f,
+                      static_cast<float>(i % 11) / 10.0f, n, v, vec2(0.9f, 0.02f));
         const ShadedLight light = shadeDirect(s, l, vec3(1.0f));
         ASSERT_TRUE(std::isfinite(light.specular.x) && light.specular.x >= 0.0f) << i;
         ASSERT_TRUE(std::isfinite(light.diffuse.x) && light.diffuse.x >= 0.0f) << i;
@@ -190,8 +196,8 @@ TEST(SpecularLobe, IsReciprocal) {
         if (v.z < 1e-3f || l.z < 1e-3f)
             continue;
         const float r = 0.1f + 0.9f * sobolOwen2D(i, 3).x;
-        const SurfaceTerms sv = makeSurface(vec3(0.7f), 1.0f, r, n, v, kNoLoss);
-        const SurfaceTerms sl = makeSurface(vec3(0.7f), 1.0f, r, n, l, kNoLoss);
+        const SurfaceTerms sv = surfaceOf(vec3(0.7f), 1.0f, r, n, v, kNoLoss);
+        const SurfaceTerms sl = surfaceOf(vec3(0.7f), 1.0f, r, n, l, kNoLoss);
         const double a = shadeDirect(sv, l, vec3(1.0f)).specular.x / l.z;
         const double b = shadeDirect(sl, v, vec3(1.0f)).specular.x / v.z;
         ASSERT_NEAR(a, b, 1e-4 * std::max(a, b)) << i;
@@ -230,16 +236,16 @@ TEST(Furnace, NothingIsLostAndNothingIsMade) {
         for (const float NoV : {0.1f, 0.3f, 0.7f, 1.0f}) {
             const vec3 v(std::sqrt(1.0f - NoV * NoV), 0.0f, NoV);
             const vec2 dfg = integrateDfg(NoV, r);
-            const SurfaceTerms metal = makeSurface(vec3(1.0f), 1.0f, r, vec3(0, 0, 1), v, dfg);
+            const SurfaceTerms metal = surfaceOf(vec3(1.0f), 1.0f, r, vec3(0, 0, 1), v, dfg);
             EXPECT_NEAR(furnace(metal).specular, 1.0, 4e-3) << "metal " << r << " " << NoV;
 
-            const SurfaceTerms white = makeSurface(vec3(1.0f), 0.0f, r, vec3(0, 0, 1), v, dfg);
+            const SurfaceTerms white = surfaceOf(vec3(1.0f), 0.0f, r, vec3(0, 0, 1), v, dfg);
             const Furnace dielectric = furnace(white);
             EXPECT_NEAR(dielectric.specular, white.specularAlbedo.x, 3e-3) << r << " " << NoV;
             EXPECT_NEAR(dielectric.diffuse + dielectric.specular, 1.0, 4e-3)
                 << "white dielectric " << r << " " << NoV;
 
-            const SurfaceTerms grey = makeSurface(vec3(0.5f), 0.3f, r, vec3(0, 0, 1), v, dfg);
+            const SurfaceTerms grey = surfaceOf(vec3(0.5f), 0.3f, r, vec3(0, 0, 1), v, dfg);
             const Furnace some = furnace(grey);
             EXPECT_LT(some.diffuse + some.specular, 0.95) << r << " " << NoV;
             EXPECT_GT(some.diffuse + some.specular, 0.3) << r << " " << NoV;
@@ -248,8 +254,8 @@ TEST(Furnace, NothingIsLostAndNothingIsMade) {
 
 TEST(Furnace, EnvironmentShadingAgreesWithDirectShading) {
     // A constant environment: irradiance pi, prefiltered radiance 1.
-    const SurfaceTerms s = makeSurface(vec3(0.6f), 0.2f, 0.5f, vec3(0, 0, 1),
-                                       normalize(vec3(0.5f, 0, 1)), integrateDfg(0.894427f, 0.5f));
+    const SurfaceTerms s = surfaceOf(vec3(0.6f), 0.2f, 0.5f, vec3(0, 0, 1),
+                                     normalize(vec3(0.5f, 0, 1)), integrateDfg(0.894427f, 0.5f));
     const ShadedLight light = shadeEnvironment(s, vec3(kPi), vec3(1.0f));
     const Furnace expected = furnace(s);
     EXPECT_NEAR(light.diffuse.x, expected.diffuse, 2e-3);
