@@ -261,6 +261,21 @@ constexpr std::array<Text, 2> kToneMapLabels{"None (clamp)", "Reinhard"};
 constexpr std::array<Text, 2> kLightings{"ibl", "prt"};
 constexpr std::array<Text, 2> kLightingLabels{"Image-based light", "Precomputed transfer"};
 
+constexpr std::array<Text, 3> kDistributions{"ggx", "beckmann", "blinnPhong"};
+constexpr std::array<Text, 3> kDistributionLabels{"GGX", "Beckmann", "Blinn-Phong"};
+constexpr std::array<Text, 6> kVisibilities{"smithCorrelated", "smithSeparable", "schlickDirect",
+                                            "schlickIbl",      "kelemen",        "implicit"};
+constexpr std::array<Text, 6> kVisibilityLabels{
+    "Smith, height-correlated", "Smith, separable", "Schlick-GGX, k = (r + 1)² / 8",
+    "Schlick-GGX, k = α / 2",   "Kelemen",          "Implicit"};
+constexpr std::array<Text, 4> kFresnels{"schlick", "schlickF90", "dielectric", "conductor"};
+constexpr std::array<Text, 4> kFresnelLabels{"Schlick", "Schlick with f90", "Exact dielectric",
+                                             "Exact conductor"};
+constexpr std::array<Text, 4> kDiffuses{"lambert", "burley", "orenNayar", "eon"};
+constexpr std::array<Text, 4> kDiffuseLabels{"Lambert", "Burley", "Oren-Nayar", "EON"};
+constexpr std::array<Text, 2> kLobeDirections{"mean", "mirror"};
+constexpr std::array<Text, 2> kLobeDirectionLabels{"The lobe's mean", "Mirror direction"};
+
 // --- The table ---
 
 constexpr auto kSrgb = ColorEncoding::Srgb;
@@ -272,6 +287,7 @@ constexpr auto kGeometry = Affects::Geometry | Affects::Bakes;
 
 using M = Material;
 using E = Environment;
+using S = ShadingModel;
 
 // clang-format off
 constexpr std::array kParameters{
@@ -282,6 +298,7 @@ constexpr std::array kParameters{
     map<&M::metallicMap>("material.metallic.map", "Metallic map", "Surface", kData, kRed, "Image that multiplies the metallic value."),
     alias("material.roughness", number<&M::perceptualRoughness>("material.perceptualRoughness", "Roughness", "Surface", kUnit, kUnit, 3, "", "How blurred reflections are: 0 is a mirror, 1 is chalk; the shading uses its square.")),
     alias("material.roughness.map", map<&M::perceptualRoughnessMap>("material.perceptualRoughness.map", "Roughness map", "Surface", kData, kRed, "Image that multiplies the roughness.")),
+    number<&M::diffuseRoughness>("material.diffuseRoughness", "Diffuse roughness", "Surface", kUnit, kUnit, 3, "", "How powdery the body is: 0 is smooth and 1 dust; used by the diffuse models Oren-Nayar and EON."),
     number<&M::normalStrength>("material.normalStrength", "Normal strength", "Relief", {0.0f, 2.0f}, {-10.0f, 10.0f}, 3, "", "How strongly the normal map tilts the surface; negative values turn bumps into dents."),
     alias("material.normal.map", map<&M::normalMap>("material.normalStrength.map", "Normal map", "Relief", kData, kRgb, "Tangent-space normal map that adds fine relief.")),
     choice<&M::normalConvention>("material.normalConvention", "Green channel", "Relief", kNormalConventions, kNormalConventionLabels, "Which way the normal map's green channel points; choose the other one when bumps look like dents."),
@@ -300,6 +317,17 @@ constexpr std::array kParameters{
     number<&E::exposureEv>("environment.exposureEv", "Brightness", "Environment", {-6.0f, 6.0f}, {-24.0f, 24.0f}, 2, "EV", "Brightens the surroundings; each step doubles their light."),
     choice<&E::background>("environment.background", "Background", "Environment", kBackgrounds, kBackgroundLabels, "What is seen behind the model; the light on it stays the same."),
     color<&E::backgroundColor>("environment.backgroundColor", "Background colour", "Environment", "Colour behind the model when the background is a colour."),
+
+    choice<&S::distribution>("model.distribution", "Distribution", "Highlight", kDistributions, kDistributionLabels, "How the tiny facets of a rough surface are tilted: GGX has the long tails that real materials show."),
+    choice<&S::visibility>("model.visibility", "Visibility", "Highlight", kVisibilities, kVisibilityLabels, "How facets hide each other: Smith's models are derived, Schlick's fits are those of the Unreal Engine 4, the last two are shortcuts of old."),
+    flag<&S::multiScatter>("model.multiScatter", "Energy compensation", "Highlight", "Gives back the light that bounces more than once between facets; without it rough metals are too dark."),
+    choice<&S::fresnel>("model.fresnel", "Fresnel", "Fresnel", kFresnels, kFresnelLabels, "How reflection grows towards grazing angles: by Schlick's approximation, or by Fresnel's exact equations for non-metals or for metals."),
+    number<&S::f90>("model.f90", "Grazing reflectance", "Fresnel", kUnit, kUnit, 3, "", "Reflectance at grazing angles for Schlick with f90; real surfaces reach 1."),
+    number<&S::ior>("model.ior", "Refractive index", "Fresnel", {1.0f, 2.5f}, {1.0f, 10.0f}, 3, "", "Refractive index of all non-metals for the exact dielectric: water 1.33, glass and plastic 1.5, diamond 2.42."),
+    vector<&S::conductorN>("model.conductorN", "Index n", "Fresnel", {0.05f, 5.0f}, {0.01f, 50.0f}, "", "Real part of the metals' refractive index at red, green and blue for the exact conductor; it replaces their base colour."),
+    vector<&S::conductorK>("model.conductorK", "Extinction k", "Fresnel", {0.0f, 10.0f}, {0.0f, 50.0f}, "", "Imaginary part of the metals' refractive index at red, green and blue for the exact conductor."),
+    choice<&S::diffuse>("model.diffuse", "Diffuse", "Body", kDiffuses, kDiffuseLabels, "How light that enters the body leaves it: evenly (Lambert), or flatter and brighter at the edges as from powder, cloth and clay."),
+    choice<&S::lobeDirection>("model.lobeDirection", "Reflections from", "Image-based light", kLobeDirections, kLobeDirectionLabels, "Where rough reflections of the environment are looked up: around the lobe's mean direction, or around the mirror direction as is usual but off by several degrees."),
 
     number<&View::exposureEv>("view.exposureEv", "Exposure", "View", {-6.0f, 6.0f}, {-24.0f, 24.0f}, 2, "EV", "Brightens the whole picture like a camera's exposure; each step doubles it."),
     choice<&View::toneMap>("view.toneMap", "Tone mapping", "View", kToneMaps, kToneMapLabels, "How light that is brighter than the screen is brought into its range."),
