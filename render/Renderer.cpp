@@ -1,6 +1,7 @@
 #include "render/Renderer.h"
 
 #include "core/base/Log.h"
+#include "render/pass/AdaptationPass.h"
 #include "render/pass/OverlayPass.h"
 #include "render/pass/PickPass.h"
 #include "render/pass/ScreenPasses.h"
@@ -21,6 +22,7 @@ struct Renderer::Impl {
         , shaders(c, shaderFolder)
         , scene(c)
         , surface(shaders)
+        , adaptation(c, shaders)
         , screen(c, shaders)
         , overlay(c, shaders, screen)
         , picking(c, shaders)
@@ -30,15 +32,20 @@ struct Renderer::Impl {
     ShaderLibrary shaders;
     GpuScene scene;
     SurfacePass surface;
+    AdaptationPass adaptation;
     ScreenPasses screen;
     OverlayPass overlay;
     PickPass picking;
     gl::Buffer frameBlock;
     Targets targets;
     glm::mat4 worldToClip{1.0f}; // of the last frame
+    int samples = 0;             // of the last frame
+    bool sceneIsNew = true;      // something was set since the last frame
+    bool luminanceIsNew = true;  // the last frame's scene has not been measured
 
     FrameBlock packFrame(const FrameSettings& frame);
     Result<void> drawScene(const FrameSettings& frame, const FrameBlock& block);
+    Result<void> adapt(const FrameSettings& frame);
 };
 
 FrameBlock Renderer::Impl::packFrame(const FrameSettings& frame) {
@@ -78,6 +85,21 @@ Result<void> Renderer::Impl::drawScene(const FrameSettings& frame, const FrameBl
     return {};
 }
 
+// What exposure needs to know of the picture, where it or the caller asks for it.
+Result<void> Renderer::Impl::adapt(const FrameSettings& frame) {
+    const View& view = scene.document().view;
+    const bool automatic = view.exposureMode == ExposureMode::Automatic;
+    adaptation.bind();
+    if (!automatic && view.toneMap != ToneMap::ReinhardPhotographic && !frame.measureLuminance)
+        return {};
+    if (luminanceIsNew)
+        if (auto done = adaptation.measure(targets); !done)
+            return done;
+    luminanceIsNew = false;
+    return adaptation.adapt(automatic ? frame.adaptSeconds
+                                      : std::numeric_limits<float>::infinity());
+}
+
 Renderer::Renderer(std::unique_ptr<Impl> impl)
     : m_impl(std::move(impl)) {}
 
@@ -93,31 +115,42 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context,
             return program.error();
     if (auto done = impl->screen.compile(); !done)
         return done.error();
+    if (auto done = impl->adaptation.compile(); !done)
+        return done.error();
     return std::unique_ptr<Renderer>(new Renderer(std::move(impl)));
 }
 
 void Renderer::setDocument(const Document& document, const Change& change) {
     m_impl->scene.update(document, change);
+    m_impl->sceneIsNew = true;
 }
 
 void Renderer::setIbl(const IblMaps& maps) {
     m_impl->scene.setIbl(maps);
+    m_impl->sceneIsNew = true;
 }
 
 void Renderer::previewVertices(BakeKind kind, Id mesh, int stride, std::span<const float> values) {
     m_impl->scene.previewVertices(kind, mesh, stride, values);
+    m_impl->sceneIsNew = true;
 }
 
 void Renderer::previewTexels(Id material, int size, std::span<const float> values) {
     m_impl->scene.previewTexels(material, size, values);
+    m_impl->sceneIsNew = true;
 }
 
 void Renderer::clearPreview() {
     m_impl->scene.clearPreview();
+    m_impl->sceneIsNew = true;
 }
 
 Result<void> Renderer::render(const FrameSettings& frame, unsigned targetFramebuffer) {
     Impl& r = *m_impl;
+    if (frame.width != r.targets.width() || frame.height != r.targets.height() ||
+        frame.samples != r.samples)
+        r.sceneIsNew = true;
+    r.samples = frame.samples;
     if (auto sized = r.targets.resize(r.context, frame.width, frame.height, frame.samples); !sized)
         return sized;
     // The context may be shared with Qt, which leaves its own state behind.
@@ -134,9 +167,16 @@ Result<void> Renderer::render(const FrameSettings& frame, unsigned targetFramebu
     r.frameBlock.writeValue(block);
     r.frameBlock.bindUniform(kFrameBinding);
 
-    Result<void> done = r.drawScene(frame, block);
+    Result<void> done;
+    if (r.sceneIsNew || !frame.reuseScene) {
+        done = r.drawScene(frame, block);
+        r.sceneIsNew = !done.ok();
+        r.luminanceIsNew = true;
+    }
     if (done)
-        done = r.screen.toneMap(r.targets, r.scene.document().view);
+        done = r.adapt(frame);
+    if (done)
+        done = r.screen.toneMap(r.targets, r.scene.document().view, frame.dither);
     if (done && frame.showOverlays)
         done = r.overlay.draw(r.targets, r.scene, block, frame.camera, frame.selectedMesh);
     if (done)
@@ -188,8 +228,17 @@ Image Renderer::readDisplayed() {
     return image;
 }
 
+std::optional<Luminance> Renderer::luminance() {
+    return m_impl->adaptation.poll();
+}
+
+std::optional<Luminance> Renderer::readLuminance() {
+    return m_impl->adaptation.read();
+}
+
 std::vector<std::string> Renderer::reloadShaders() {
     std::vector<std::string> messages = m_impl->shaders.reload();
+    m_impl->sceneIsNew = true;
     for (const std::string& message : messages)
         logError("{}", message);
     return messages;

@@ -6,10 +6,13 @@
 #include "core/document/Change.h"
 #include "core/document/Document.h"
 #include "core/light/Ibl.h"
+#include "render/Luminance.h"
 #include "render/gl/Context.h"
 
 #include <filesystem>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +26,16 @@ struct FrameSettings {
     bool transparentBackground = false;
     bool showOverlays = false; // grid, light gizmos (the editor)
     Id selectedMesh = 0;       // outlined when showOverlays
+    bool dither = false;       // hides the bands of 8-bit values (the editor)
+
+    // Seconds since the last frame, for automatic exposure; infinite: the eye is used to the
+    // picture already.
+    float adaptSeconds = std::numeric_limits<float>::infinity();
+    // Measures the luminance even when the picture does not depend on it.
+    bool measureLuminance = false;
+    // The scene looks as in the last frame: only exposure, tone curve and overlays are done anew.
+    // Without effect when size, samples or what the renderer was given have changed since.
+    bool reuseScene = false;
 };
 
 class Renderer {
@@ -49,6 +62,12 @@ class Renderer {
     // Renders to the internal HDR target and tone maps into framebuffer `targetFramebuffer`
     // (0: the window's), viewport 0,0 … width,height.
     Result<void> render(const FrameSettings& frame, unsigned targetFramebuffer);
+
+    // The newest luminance known of a frame that measured it (automatic exposure, the photographic
+    // operator, FrameSettings::measureLuminance); nothing before the first. luminance() is usually
+    // that of the last frame but one and never waits; readLuminance() waits for the last one.
+    [[nodiscard]] std::optional<Luminance> luminance();
+    [[nodiscard]] std::optional<Luminance> readLuminance();
 
     // The last frame before tone mapping: linear RGBA floats, top row first, colour premultiplied
     // by alpha (as OpenEXR wants it).

@@ -1,13 +1,12 @@
 #version 450 core
 // The ground plane y = 0 as a grid that fades with distance, hidden by what stands before it.
 #include "include/frame.glsl"
-#include "shared/tonemap.glsl"
+#include "include/exposure.glsl"
 
 in vec2 v_uv;
 
 layout(binding = 0) uniform sampler2D u_depth;
 layout(binding = 1) uniform sampler2D u_radiance;
-uniform float u_exposureEv;
 uniform float u_spacing;    // metres between fine lines; every tenth is a strong one
 uniform float u_fadeRadius; // metres from u_center
 uniform vec3 u_center;
@@ -43,7 +42,7 @@ void main() {
     float fade = 1.0 - smoothstep(0.25, 1.0, length(p - u_center) / u_fadeRadius);
     float strength = max(0.22 * lines(fine, width), 0.4 * lines(fine * 0.1, width * 0.1));
     // Light lines on a dark picture, dark ones on a bright one.
-    vec3 behind = applyExposure(texelFetch(u_radiance, ivec2(gl_FragCoord.xy), 0).rgb, u_exposureEv);
+    vec3 behind = expose(texelFetch(u_radiance, ivec2(gl_FragCoord.xy), 0).rgb);
     vec3 color = vec3(mix(0.85, 0.05, smoothstep(0.05, 0.3, reinhard(luminance(behind)))));
     vec2 axis = 1.0 - clamp(abs(p.xz) / (1.5 * metres), 0.0, 1.0);
     if (axis.y > 0.0) { // z = 0: the x axis

@@ -1,15 +1,53 @@
 #version 450 core
-// Scene-linear radiance to display values: exposure, tone curve, sRGB.
-#include "shared/tonemap.glsl"
+// Scene-linear radiance to display values: exposure, tone curve, the display's transfer function.
+// TONE_MAP is one of kToneMap…: software renderers execute both sides of a branch, so that each
+// curve is a program of its own.
+#include "include/exposure.glsl"
 
 layout(binding = 0) uniform sampler2D u_radiance; // premultiplied
-uniform float u_exposureEv;
-uniform int u_curve;
+uniform int u_autoKey; // photographic: the key follows from the picture
+uniform float u_reinhardKey, u_reinhardWhite;
+uniform float u_exponentialK;
+uniform int u_transfer;
+uniform float u_gamma;
+uniform float u_ditherAmplitude; // of one step of the display's values
 
 layout(location = 0) out vec4 o_color; // straight alpha
+
+#if TONE_MAP == 7
+vec4 ocioDisplay(vec4 pixel); // OpenColorIO's text follows below
+
+vec3 displayed(vec3 exposed) {
+    vec3 c = ocioDisplay(vec4(finiteRadiance(exposed), 1.0)).rgb;
+    return min(finiteRadiance(c), vec3(1.0)); // encoded already
+}
+#else
+vec3 displayed(vec3 exposed) {
+    ToneCurve t;
+    t.curve = TONE_MAP;
+    t.scale = 1.0;
+    t.white = u_reinhardWhite;
+    t.k = u_exponentialK;
+#if TONE_MAP == 2
+    float key = u_autoKey != 0 ? reinhardAutoKey(u_adapted, u_darkest, u_brightest) : u_reinhardKey;
+    t.scale = key / u_adapted;
+#endif
+    return displayEncode(toneMap(exposed, t), u_transfer, u_gamma);
+}
+#endif
+
+// Jimenez 2014, "Next Generation Post Processing in Call of Duty: Advanced Warfare": noise whose
+// values are spread evenly over every small neighbourhood. -0.5 … 0.5.
+float interleavedGradientNoise(vec2 pixel) {
+    return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))) - 0.5;
+}
 
 void main() {
     vec4 c = texelFetch(u_radiance, ivec2(gl_FragCoord.xy), 0);
     vec3 radiance = c.a > 0.0 ? c.rgb / c.a : vec3(0.0);
-    o_color = vec4(srgbEncode(toneMap(applyExposure(radiance, u_exposureEv), u_curve)), c.a);
+    vec3 shown = displayed(expose(radiance));
+    // Half a step at most: what lies exactly on a step stays there, so black stays black.
+    if (u_ditherAmplitude > 0.0)
+        shown += u_ditherAmplitude * interleavedGradientNoise(gl_FragCoord.xy) / 255.0;
+    o_color = vec4(shown, c.a);
 }

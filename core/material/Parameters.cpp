@@ -2,6 +2,7 @@
 
 #include "core/base/Check.h"
 #include "core/document/Document.h"
+#include "core/image/DisplayTransform.h"
 
 #include <algorithm>
 #include <array>
@@ -213,8 +214,9 @@ constexpr ParameterInfo choice(Text id, Text label, Text group, std::span<const 
 }
 
 template <auto... Members>
-constexpr ParameterInfo text(Text id, Text label, Text group, Text help) {
-    return row<Path<Members...>>(ParameterType::Text, id, label, group, help, Affects::Structure);
+constexpr ParameterInfo text(Text id, Text label, Text group, Text help,
+                             Affects affects = Affects::Structure) {
+    return row<Path<Members...>>(ParameterType::Text, id, label, group, help, affects);
 }
 
 template <auto... Members>
@@ -241,6 +243,21 @@ constexpr ParameterInfo reference(Text id, Text label, Text group, Text help, Af
     return row<Path<Members...>>(ParameterType::Reference, id, label, group, help, affects);
 }
 
+constexpr ParameterInfo offered(std::string (*unavailable)(const Document&, int),
+                                ParameterInfo info) {
+    info.unavailable = unavailable;
+    return info;
+}
+
+// OpenColorIO's displays are offered where there is a configuration to take them from.
+std::string toneMapUnavailable(const Document& document, int choice) {
+    if (static_cast<ToneMap>(choice) != ToneMap::OpenColorIo ||
+        !openColorIoConfig(document.view.ocioConfig).empty())
+        return {};
+    return "OpenColorIO needs a configuration: choose one with view.ocioConfig, or set the "
+           "environment variable OCIO to one";
+}
+
 constexpr ParameterInfo alias(Text name, ParameterInfo info) {
     info.alias = name;
     return info;
@@ -256,8 +273,21 @@ constexpr std::array<Text, 2> kLightTypes{"point", "directional"};
 constexpr std::array<Text, 2> kLightTypeLabels{"Point", "Directional"};
 constexpr std::array<Text, 3> kBackgrounds{"environment", "blurred", "color"};
 constexpr std::array<Text, 3> kBackgroundLabels{"Environment", "Blurred environment", "Colour"};
-constexpr std::array<Text, 2> kToneMaps{"clamp", "reinhard"};
-constexpr std::array<Text, 2> kToneMapLabels{"None (clamp)", "Reinhard"};
+constexpr std::array<Text, 8> kToneMaps{"clamp",       "reinhard",   "reinhardPhotographic",
+                                        "exponential", "pbrNeutral", "aces",
+                                        "agx",         "openColorIo"};
+constexpr std::array<Text, 8> kToneMapLabels{"None (clamp)",
+                                             "Reinhard",
+                                             "Reinhard, photographic",
+                                             "Exponential",
+                                             "PBR Neutral (Khronos)",
+                                             "ACES (fitted)",
+                                             "AgX",
+                                             "OpenColorIO"};
+constexpr std::array<Text, 2> kExposureModes{"fixed", "automatic"};
+constexpr std::array<Text, 2> kExposureModeLabels{"Fixed", "Automatic"};
+constexpr std::array<Text, 2> kDisplayTransfers{"srgb", "gamma"};
+constexpr std::array<Text, 2> kDisplayTransferLabels{"sRGB", "Gamma"};
 constexpr std::array<Text, 2> kLightings{"ibl", "prt"};
 constexpr std::array<Text, 2> kLightingLabels{"Image-based light", "Precomputed transfer"};
 
@@ -329,8 +359,18 @@ constexpr std::array kParameters{
     choice<&S::diffuse>("model.diffuse", "Diffuse", "Body", kDiffuses, kDiffuseLabels, "How light that enters the body leaves it: evenly (Lambert), or flatter and brighter at the edges as from powder, cloth and clay."),
     choice<&S::lobeDirection>("model.lobeDirection", "Reflections from", "Image-based light", kLobeDirections, kLobeDirectionLabels, "Where rough reflections of the environment are looked up: around the lobe's mean direction, or around the mirror direction as is usual but off by several degrees."),
 
-    number<&View::exposureEv>("view.exposureEv", "Exposure", "View", {-6.0f, 6.0f}, {-24.0f, 24.0f}, 2, "EV", "Brightens the whole picture like a camera's exposure; each step doubles it."),
-    choice<&View::toneMap>("view.toneMap", "Tone mapping", "View", kToneMaps, kToneMapLabels, "How light that is brighter than the screen is brought into its range."),
+    choice<&View::exposureMode>("view.exposureMode", "Exposure", "View", kExposureModes, kExposureModeLabels, "Fixed, or automatic like an eye that gets used to how bright the picture is."),
+    number<&View::exposureEv>("view.exposureEv", "Exposure value", "View", {-6.0f, 6.0f}, {-24.0f, 24.0f}, 2, "EV", "Brightens the whole picture like a camera's exposure, each step doubles it; it corrects automatic exposure."),
+    offered(toneMapUnavailable, choice<&View::toneMap>("view.toneMap", "Tone mapping", "View", kToneMaps, kToneMapLabels, "How light that is brighter than the screen is brought into its range; PBR Neutral keeps base colours as they are.")),
+    flag<&View::reinhardAutoKey>("view.reinhardAutoKey", "Automatic key", "View", "Lets the photographic operator find its key from the darkest, average and brightest light of the picture."),
+    number<&View::reinhardKey>("view.reinhardKey", "Key", "View", {0.045f, 0.72f}, {0.045f, 0.72f}, 3, "", "Brightness that the picture's average gets: 0.045 for a night, 0.18 for an ordinary scene, 0.72 for snow."),
+    number<&View::reinhardWhite>("view.reinhardWhite", "White point", "View", {0.0f, 16.0f}, {0.0f, 10000.0f}, 2, "", "Smallest scaled luminance that becomes white; 0 is none, and nothing is ever quite white."),
+    number<&View::exponentialK>("view.exponentialK", "Rate", "View", {0.1f, 8.0f}, {0.01f, 100.0f}, 2, "", "The k of 1 - exp(-k L): how quickly light comes near white."),
+    choice<&View::displayTransfer>("view.displayTransfer", "Display", "View", kDisplayTransfers, kDisplayTransferLabels, "What the display expects: the sRGB curve, or a pure power; OpenColorIO brings its own."),
+    number<&View::displayGamma>("view.displayGamma", "Display gamma", "View", {1.0f, 3.0f}, {1.0f, 4.0f}, 2, "", "Exponent of a display that is a pure power."),
+    text<&View::ocioConfig>("view.ocioConfig", "OpenColorIO configuration", "View", "File with OpenColorIO's displays and views; empty means the one that the environment variable OCIO names.", kUniform),
+    text<&View::ocioDisplay>("view.ocioDisplay", "OpenColorIO display", "View", "Display of the OpenColorIO configuration; empty means its default.", kUniform),
+    text<&View::ocioView>("view.ocioView", "OpenColorIO view", "View", "View of the OpenColorIO display; empty means the display's default.", kUniform),
     number<&View::camera, &Camera::fovDeg>("view.fovDeg", "Field of view", "View", {10.0f, 90.0f}, {1.0f, 170.0f}, 1, "°", "Vertical angle that the camera sees: small like a telephoto lens, large like a wide-angle lens."),
     choice<&View::lighting>("view.lighting", "Lighting", "View", kLightings, kLightingLabels, "Light from the environment with every reflection, or from a precomputed transfer bake with its soft shadows."),
 
@@ -377,6 +417,10 @@ ParameterValue ParameterInfo::defaultValue() const {
         break;
     }
     return get(document, only);
+}
+
+std::string whyUnavailable(const ParameterInfo& info, const Document& document, int choice) {
+    return info.unavailable == nullptr ? std::string() : info.unavailable(document, choice);
 }
 
 const ParameterInfo* findParameter(std::string_view idOrAlias) {

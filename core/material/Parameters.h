@@ -74,8 +74,16 @@ struct ParameterInfo {
     ParameterValue (*get)(const Document&, Id) = nullptr;
     void (*set)(Document&, Id, const ParameterValue&) = nullptr;
 
+    // Choice: why it cannot be made in this document at the moment, as a sentence that says what to
+    // do; empty when it can. Null: every choice can be made.
+    std::string (*unavailable)(const Document&, int choice) = nullptr;
+
     [[nodiscard]] ParameterValue defaultValue() const; // of a default-constructed element
 };
+
+// Why this choice of a parameter is not offered in this document; empty when it is.
+[[nodiscard]] std::string whyUnavailable(const ParameterInfo& info, const Document& document,
+                                         int choice);
 
 [[nodiscard]] std::span<const ParameterInfo> parameters(); // the whole table, in panel order
 [[nodiscard]] const ParameterInfo* findParameter(std::string_view idOrAlias);

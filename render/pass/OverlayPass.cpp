@@ -54,7 +54,7 @@ Result<void> OverlayPass::drawGrid(const Targets& targets, const View& view, con
     // The power of ten that gives a handful of cells across the picture.
     const float spacing = std::pow(10.0f, std::round(std::log10(camera.distance / 6.0f)));
     (*shader)->use();
-    (*shader)->set("u_exposureEv", view.exposureEv);
+    ScreenPasses::setExposure(**shader, view);
     (*shader)->set("u_spacing", spacing);
     (*shader)->set("u_fadeRadius", 3.0f * camera.distance);
     (*shader)->set("u_center", glm::vec3(camera.target.x, 0.0f, camera.target.z));

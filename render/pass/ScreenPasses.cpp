@@ -6,7 +6,16 @@ namespace patina::render {
 
 namespace {
 constexpr unsigned kEnvironmentUnit = 0, kPictureUnit = 0, kPrefilteredUnit = 7;
+// Just under a whole step from end to end, so that a value on a step stays there.
+constexpr float kDitherAmplitude = 0.998f;
+
+std::vector<std::string> toneMapDefines(ToneMap curve) {
+    // Until a view of OpenColorIO is there, the default stands in for it.
+    if (curve == ToneMap::OpenColorIo)
+        curve = View().toneMap;
+    return {"TONE_MAP " + std::to_string(static_cast<int>(curve))};
 }
+} // namespace
 
 ScreenPasses::ScreenPasses(gl::Context& context, ShaderLibrary& shaders)
     : m_shaders(shaders)
@@ -24,9 +33,11 @@ void ScreenPasses::drawTriangle() const {
 }
 
 Result<void> ScreenPasses::compile() {
-    for (const char* fragment : {"sky.frag", "tonemap.frag", "copy.frag"})
+    for (const char* fragment : {"sky.frag", "copy.frag"})
         if (auto made = program(fragment); !made)
             return made.error();
+    if (auto made = program("tonemap.frag", toneMapDefines(View().toneMap)); !made)
+        return made.error();
     return {};
 }
 
@@ -51,13 +62,27 @@ Result<void> ScreenPasses::drawSky(const EnvironmentLight& environment, Backgrou
     return {};
 }
 
-Result<void> ScreenPasses::toneMap(const Targets& targets, const View& view) {
-    const auto shader = program("tonemap.frag");
+void ScreenPasses::setExposure(const gl::Program& program, const View& view) {
+    // The photographic operator brings its key, which is an automatic exposure of its own.
+    const bool automatic = view.exposureMode == ExposureMode::Automatic &&
+                           view.toneMap != ToneMap::ReinhardPhotographic;
+    program.set("u_exposureEv", view.exposureEv);
+    program.set("u_automatic", automatic ? 1 : 0);
+}
+
+Result<void> ScreenPasses::toneMap(const Targets& targets, const View& view, bool dither) {
+    const auto shader = program("tonemap.frag", toneMapDefines(view.toneMap));
     if (!shader)
         return shader.error();
     (*shader)->use();
-    (*shader)->set("u_exposureEv", view.exposureEv);
-    (*shader)->set("u_curve", static_cast<int>(view.toneMap));
+    setExposure(**shader, view);
+    (*shader)->set("u_autoKey", view.reinhardAutoKey ? 1 : 0);
+    (*shader)->set("u_reinhardKey", view.reinhardKey);
+    (*shader)->set("u_reinhardWhite", view.reinhardWhite);
+    (*shader)->set("u_exponentialK", view.exponentialK);
+    (*shader)->set("u_transfer", static_cast<int>(view.displayTransfer));
+    (*shader)->set("u_gamma", view.displayGamma);
+    (*shader)->set("u_ditherAmplitude", dither ? kDitherAmplitude : 0.0f);
     targets.linear().bind(kPictureUnit);
     targets.display().bind();
     glDisable(GL_DEPTH_TEST);

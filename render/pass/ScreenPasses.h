@@ -16,8 +16,9 @@ class ScreenPasses {
     // BackgroundMode::Color: that is the clear colour.
     Result<void> drawSky(const EnvironmentLight& environment, BackgroundMode mode);
 
-    // linear() to display(): exposure, curve, sRGB.
-    Result<void> toneMap(const Targets& targets, const View& view);
+    // linear() to display(): exposure, tone curve, transfer function. The luminance that the view
+    // may ask for is bound (AdaptationPass). `dither`: noise of half a display step hides bands.
+    Result<void> toneMap(const Targets& targets, const View& view, bool dither);
 
     // displayed() into a framebuffer of the window system, multisampled or not.
     Result<void> present(const Targets& targets, unsigned framebuffer);
@@ -26,6 +27,9 @@ class ScreenPasses {
     Result<void> compile();
 
     void drawTriangle() const; // with the program in use
+
+    // The uniforms of shaders/include/exposure.glsl.
+    static void setExposure(const gl::Program& program, const View& view);
 
   private:
     Result<const gl::Program*> program(const char* fragment, std::vector<std::string> defines = {});

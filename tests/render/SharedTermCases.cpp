@@ -175,8 +175,31 @@ std::vector<SharedTermCase> makeCases() {
             CASE("tone map", hdr, 1e-2f, vec3 c = vec3(I(0), I(1), I(2));
                  OUT3(0, applyExposure(c, log2(I(3)))); OUT3(3, toneMapClamp(c));
                  O(6) = reinhard(I(4)); O(7) = reinhardExtended(I(4), I(5));
-                 OUT3(8, toneMapReinhard(c)); OUT3(11, toneMap(c, kToneMapClamp));
-                 OUT3(14, toneMap(c, kToneMapReinhard)); O(17) = luminance(c);),
+                 OUT3(8, toneMapReinhard(c)); O(11) = luminance(c);
+                 OUT3(12, toneMapReinhardPhotographic(c, I(6), 0.0f));
+                 OUT3(15, toneMapReinhardPhotographic(c, I(6), I(7)));
+                 OUT3(18, toneMapExponential(c, I(8))); OUT3(21, toneMapPbrNeutral(c));),
+            CASE("tone map of films", hdr, 1e-2f, vec3 c = vec3(I(0), I(1), I(2));
+                 OUT3(0, toneMapAces(c)); OUT3(3, toneMapAgX(c));
+                 O(6) = agxCurve(clamp(0.1f * I(3), 0.0f, 1.0f));
+                 O(7) = agxScale(0.3f, 0.5f, 2.0f, 2.5f + min(I(4), 1.0f));),
+            CASE(
+                "tone map dispatch", hdr, 1e-2f, vec3 c = vec3(I(0), -I(1), 1e20f * I(2));
+                ToneCurve t; t.scale = I(3); t.white = I(4); t.k = I(5);
+                for (int i = 0; i < 7; ++i) {
+                    t.curve = i;
+                    vec3 shown = toneMap(c, t);
+                    O(i) = shown.x + 2.0f * shown.y + 4.0f * shown.z;
+                } OUT3(7, finiteRadiance(c));
+                O(10) = finiteRadiance(-I(6));),
+            CASE(
+                "display", unit, 1e-2f,
+                OUT3(0, displayEncode(vec3(I(0), I(1), I(2)), kDisplaySrgb, 2.2f));
+                OUT3(3, displayEncode(vec3(I(0), I(1), I(2)), kDisplayGamma, 1.0f + 2.0f * I(3)));),
+            CASE("adaptation", hdr, 1e-2f, O(0) = logLuminance(vec3(I(0), I(1), I(2)));
+                 O(1) = automaticExposure(I(3)); O(2) = adaptationWeight(I(4));
+                 O(3) = adaptLuminance(I(5), 0.1f + 0.5f * I(5), 0.004f + 0.01f * I(7));
+                 O(4) = reinhardAutoKey(I(8), 0.004f, 256.0f);),
             CASE("sRGB", signedNumbers, 1e-2f, O(0) = srgbEncode(I(0)); O(1) = srgbDecode(I(1));
                  OUT3(2, srgbEncode(vec3(I(2), I(3), I(4))));
                  OUT3(5, srgbDecode(vec3(I(2), I(3), I(4))));),

@@ -1,0 +1,36 @@
+#version 450 core
+// Adds up the tiles of luminance.comp and lets the eye get used to what it sees.
+#include "include/luminance.glsl"
+#include "shared/tonemap.glsl"
+
+layout(std430, binding = 0) readonly buffer Tiles { LuminanceSum b_tiles[]; };
+layout(std430, binding = 1) buffer Adaptation { // as in include/exposure.glsl
+    float b_logAverage;
+    float b_adapted; // 0: the eye has seen nothing yet
+    float b_darkest;
+    float b_brightest;
+};
+uniform int u_tileCount;
+uniform float u_seconds; // since the last frame; negative: the eye has had all the time it needs
+
+void main() {
+    LuminanceSum sum = noPixels();
+    for (int i = int(gl_LocalInvocationIndex); i < u_tileCount; i += 256)
+        sum = add(sum, b_tiles[i]);
+    sum = addGroup(sum);
+    if (gl_LocalInvocationIndex != 0u)
+        return;
+    // A picture without a pixel in it changes nothing.
+    float logAverage = b_adapted > 0.0 ? b_logAverage : kMiddleGrey;
+    if (sum.weight > 0.0) {
+        logAverage = exp2(sum.weightedLog / sum.weight);
+        b_darkest = exp2(sum.darkest);
+        b_brightest = exp2(sum.brightest);
+    }
+    b_logAverage = logAverage;
+    float adapted = u_seconds < 0.0 || !(b_adapted > 0.0)
+                        ? logAverage
+                        : adaptLuminance(b_adapted, logAverage, u_seconds);
+    // The formula never arrives; 1/512 of a stop is nothing that anybody sees.
+    b_adapted = abs(log2(adapted / logAverage)) < 1.0 / 512.0 ? logAverage : adapted;
+}
