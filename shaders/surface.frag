@@ -115,18 +115,28 @@ void main() {
     vec3 v = normalize(u_cameraPosition.xyz - v_position);
     float NoV = clamp(dot(n, v), kMinNoV, 1.0);
     perceptualRoughness = clamp(perceptualRoughness, 0.0, 1.0);
+#ifdef CONSTANT_DFG
+    vec2 dfg = vec2(0.9, 0.05);
+#else
     vec2 dfg = textureLod(u_dfg, vec2(NoV, perceptualRoughness), 0.0).rg;
+#endif
     SurfaceTerms s =
         makeSurface(shadingModel(), clamp(baseColor.rgb, 0.0, 1.0), clamp(metallic, 0.0, 1.0),
                     perceptualRoughness, u_diffuseRoughness, n, v, dfg);
 
     // Light from the surroundings. Transfer coefficients know the shadows already.
+#ifdef CONSTANT_REFLECTION
+    vec3 prefiltered = vec3(0.5);
+#else
     vec3 r = mat3(u_worldToEnvironment) * reflectionDirection(s);
     vec3 prefiltered =
         u_radianceScale *
         textureLod(u_prefiltered, r, prefilteredLevel(s.perceptualRoughness, u_prefilteredLevels))
             .rgb;
-#ifdef HAS_TRANSFER
+#endif
+#if defined(CONSTANT_IRRADIANCE)
+    vec3 irradiance = vec3(0.5 * ao);
+#elif defined(HAS_TRANSFER)
     vec3 irradiance = kPi * max(v_exitRadiance, vec3(0.0));
 #else
     vec3 irradiance = ao * irradianceFromSh9(u_irradianceSh, n);

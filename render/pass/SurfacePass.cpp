@@ -91,6 +91,7 @@ Result<const gl::Program*> SurfacePass::program(unsigned features, const Shading
     std::vector<std::string> defines = surfaceDefines(features);
     for (std::string& define : modelDefines(model))
         defines.push_back(std::move(define));
+    defines.insert(defines.end(), m_studyDefines.begin(), m_studyDefines.end());
     auto made = m_shaders.program({{"surface.vert", "surface.frag"}, std::move(defines)});
     if (made)
         m_programs.emplace(variant, *made);

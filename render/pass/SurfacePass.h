@@ -5,7 +5,9 @@
 #include "render/shader/ShaderLibrary.h"
 
 #include <map>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace patina::render {
 
@@ -18,8 +20,10 @@ struct SurfaceSettings {
 
 class SurfacePass {
   public:
-    explicit SurfacePass(ShaderLibrary& shaders)
-        : m_shaders(shaders) {}
+    // `studyDefines` go into every variant: CONSTANT_… of surface.frag, to measure what terms cost.
+    explicit SurfacePass(ShaderLibrary& shaders, std::vector<std::string> studyDefines = {})
+        : m_shaders(shaders)
+        , m_studyDefines(std::move(studyDefines)) {}
 
     // The opaque items write depth; the blended ones are added over what is there.
     Result<void> drawOpaque(const GpuScene& scene, const DrawList& list,
@@ -36,6 +40,7 @@ class SurfacePass {
     using Variant = std::pair<unsigned, unsigned>;
 
     ShaderLibrary& m_shaders;
+    std::vector<std::string> m_studyDefines;
     std::map<Variant, const gl::Program*> m_programs; // owned by the library
 };
 

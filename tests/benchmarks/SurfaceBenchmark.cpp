@@ -1,0 +1,225 @@
+// What light costs in the surface pass: 1280 × 720, one sample, five maps of 1024², image-based
+// light and four lights, against the yardstick: the same pass with irradiance, reflection and
+// lights replaced by a constant. The table says what each term costs: the time of the whole pass
+// less the time without the term.
+//
+// Times are processor time of all threads (llvmpipe draws on them). Every variant is drawn once per
+// round, so that a busy machine disturbs all alike; the table holds minima.
+#include "core/library/Library.h"
+#include "core/math/Camera.h"
+#include "render/pass/SurfacePass.h"
+#include "render/pass/Targets.h"
+
+#include <algorithm>
+#include <benchmark/benchmark.h>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <epoxy/gl.h>
+#include <functional>
+#include <limits>
+#include <memory>
+
+namespace patina::render {
+namespace {
+
+constexpr int kWidth = 1280, kHeight = 720, kRounds = 12;
+
+double processMilliseconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+// A tileable map laid out 2 × 2: an image of its own of twice the size.
+ImagePtr doubled(const ImagePtr& map) {
+    auto large = std::make_shared<Image>(2 * map->width(), 2 * map->height(), map->channels(),
+                                         map->type(), map->encoding());
+    const std::size_t row = map->bytesPerPixel() * static_cast<std::size_t>(map->width());
+    for (int y = 0; y < large->height(); ++y) {
+        const auto* source =
+            map->bytes().data() + row * static_cast<std::size_t>(y % map->height());
+        std::byte* target = large->bytes().data() + 2 * row * static_cast<std::size_t>(y);
+        std::memcpy(target, source, row);
+        std::memcpy(target + row, source, row);
+    }
+    return large;
+}
+
+Light pointLight(const glm::vec3& position) {
+    Light light;
+    light.type = LightType::Point;
+    light.position = position;
+    light.intensity = 8.0f;
+    return light;
+}
+
+Light directionalLight(float azimuthDeg) {
+    Light light;
+    light.azimuthDeg = azimuthDeg;
+    light.castsShadow = false;
+    return light;
+}
+
+// The built-in model with five maps, under the studio sky and four lights.
+Document litDocument(const char* model) {
+    Document document;
+    Material material = library::material("worn-painted-metal").value();
+    material.id = 1;
+    for (MapSlot* map :
+         {&material.baseColorMap, &material.metallicMap, &material.perceptualRoughnessMap,
+          &material.normalMap, &material.occlusionMap})
+        map->image = doubled(map->image);
+    document.materials = {material};
+    Id id = 1;
+    const std::vector<library::ModelPart> parts = library::model(model).value();
+    for (const library::ModelPart& part : parts) {
+        MeshInstance mesh;
+        mesh.id = ++id;
+        mesh.mesh = part.mesh;
+        mesh.material = material.id;
+        document.meshes.push_back(mesh);
+    }
+    document.environment.image = library::environment("studio").value();
+    document.lights = {pointLight({2, 3, 2}), pointLight({-2, 2, 1}), directionalLight(40),
+                       directionalLight(-120)};
+    return document;
+}
+
+// One line of the table: what is taken out of the full pass.
+struct Variant {
+    const char* name;
+    std::vector<std::string> defines;
+    std::function<void(Document&)> edit;
+};
+
+void withoutLights(Document& document) {
+    document.lights.clear();
+}
+
+std::function<void(Document&)> withoutMap(MapSlot Material::*slot) {
+    return [slot](Document& document) { document.materials[0].*slot = {}; };
+}
+
+std::vector<Variant> variants() {
+    return {
+        {"everything", {}, nullptr},
+        {"yardstick: constant light",
+         {"CONSTANT_IRRADIANCE", "CONSTANT_REFLECTION"},
+         withoutLights},
+        {"irradiance (SH)", {"CONSTANT_IRRADIANCE"}, nullptr},
+        {"reflection (prefiltered cube)", {"CONSTANT_REFLECTION"}, nullptr},
+        {"reflectance (DFG table)", {"CONSTANT_DFG"}, nullptr},
+        {"one point light", {}, [](Document& d) { d.lights.erase(d.lights.begin()); }},
+        {"one directional light", {}, [](Document& d) { d.lights.pop_back(); }},
+        {"all four lights", {}, withoutLights},
+        {"base colour map", {}, withoutMap(&Material::baseColorMap)},
+        {"metallic map", {}, withoutMap(&Material::metallicMap)},
+        {"roughness map", {}, withoutMap(&Material::perceptualRoughnessMap)},
+        {"normal map", {}, withoutMap(&Material::normalMap)},
+        {"occlusion map", {}, withoutMap(&Material::occlusionMap)},
+    };
+}
+
+// A variant ready to be drawn.
+struct Study {
+    Study(gl::Context& context, ShaderLibrary& shaders, const Variant& variant, Document document,
+          const IblMaps& ibl)
+        : scene(context)
+        , pass(shaders, variant.defines)
+        , frameBlock(context, "frame", sizeof(FrameBlock)) {
+        if (variant.edit)
+            variant.edit(document);
+        scene.update(document, Change::everything());
+        scene.setIbl(ibl);
+    }
+
+    GpuScene scene;
+    SurfacePass pass;
+    gl::Buffer frameBlock;
+    double milliseconds = std::numeric_limits<double>::max();
+
+    // Fills half the picture's height with the model's middle half, so that nearly all pixels
+    // count.
+    void draw(const Targets& targets) {
+        Camera camera = frameBounds(Camera{}, scene.bounds(), 1.0f);
+        camera.distance *= 0.5f;
+        FrameBlock block;
+        block.worldToClip =
+            camera.projectionMatrix(static_cast<float>(kWidth) / kHeight, scene.bounds()) *
+            camera.viewMatrix();
+        block.cameraPosition = glm::vec4(camera.position(), 1.0f);
+        scene.fill(block);
+        frameBlock.writeValue(block);
+        frameBlock.bindUniform(kFrameBinding);
+        const DrawList list = makeDrawList(scene.items(), block.worldToClip, camera.position());
+        targets.scene().bind();
+        targets.scene().clearColor(0, 0, 0, 1);
+        targets.scene().clearDepth(1.0f);
+        glFinish();
+        const double start = processMilliseconds();
+        SurfaceSettings settings;
+        settings.hasLights = block.lightCount > 0;
+        if (!pass.drawOpaque(scene, list, settings))
+            return;
+        glFinish();
+        milliseconds = std::min(milliseconds, processMilliseconds() - start);
+    }
+};
+
+void surfaceTerms(benchmark::State& state, const char* model) {
+    auto context = gl::Context::createHeadless();
+    if (!context) {
+        state.SkipWithError("no OpenGL 4.5");
+        return;
+    }
+    const Document document = litDocument(model);
+    const auto ibl = computeIbl(*document.environment.image, {}, JobContext());
+    ShaderLibrary shaders(**context, {});
+    Targets targets;
+    if (!ibl || !targets.resize(**context, kWidth, kHeight, 1)) {
+        state.SkipWithError("no light or no target");
+        return;
+    }
+    glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+    glCullFace(GL_BACK);
+    std::vector<std::unique_ptr<Study>> studies;
+    for (const Variant& variant : variants())
+        studies.push_back(std::make_unique<Study>(**context, shaders, variant, document, *ibl));
+    for (const auto& study : studies)
+        study->draw(targets); // compiles
+    for (const auto& study : studies)
+        study->milliseconds = std::numeric_limits<double>::max();
+    for (auto _ : state)
+        for (const auto& study : studies)
+            study->draw(targets);
+
+    const double all = studies[0]->milliseconds, constant = studies[1]->milliseconds;
+    std::printf("\n%s on %s, CPU ms\n", model, (*context)->info().renderer.c_str());
+    const std::vector<Variant> names = variants();
+    for (std::size_t i = 0; i < studies.size(); ++i)
+        if (i < 2)
+            std::printf("  %-30s %7.1f\n", names[i].name, studies[i]->milliseconds);
+        else
+            std::printf("  %-30s %+7.1f\n", names[i].name, all - studies[i]->milliseconds);
+    std::printf("  ratio %.2f\n", all / constant);
+    state.counters["ratio"] = all / constant;
+    state.counters["everything_ms"] = all;
+    state.counters["constant_ms"] = constant;
+}
+
+BENCHMARK_CAPTURE(surfaceTerms, torus_knot, "torus-knot")
+    ->Iterations(kRounds)
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(surfaceTerms, shader_ball, "shader-ball")
+    ->Iterations(kRounds)
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(surfaceTerms, plane, "plane")
+    ->Iterations(kRounds)
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
+
+} // namespace
+} // namespace patina::render
