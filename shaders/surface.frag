@@ -116,19 +116,19 @@ void main() {
     float NoV = clamp(dot(n, v), kMinNoV, 1.0);
     perceptualRoughness = clamp(perceptualRoughness, 0.0, 1.0);
 #ifdef CONSTANT_DFG
-    vec2 dfg = vec2(0.9, 0.05);
+    vec3 dfg = vec3(0.9, 0.05, 0.5);
 #else
-    vec2 dfg = textureLod(u_dfg, vec2(NoV, perceptualRoughness), 0.0).rg;
+    vec3 dfg = textureLod(u_dfg, vec2(NoV, perceptualRoughness), 0.0).rgb;
 #endif
     SurfaceTerms s =
         makeSurface(shadingModel(), clamp(baseColor.rgb, 0.0, 1.0), clamp(metallic, 0.0, 1.0),
-                    perceptualRoughness, u_diffuseRoughness, n, v, dfg);
+                    perceptualRoughness, u_diffuseRoughness, n, v, dfg.xy);
 
     // Light from the surroundings. Transfer coefficients know the shadows already.
 #ifdef CONSTANT_REFLECTION
     vec3 prefiltered = vec3(0.5);
 #else
-    vec3 r = mat3(u_worldToEnvironment) * reflectionDirection(s);
+    vec3 r = mat3(u_worldToEnvironment) * lobeDirection(s, dfg.z);
     vec3 prefiltered =
         u_radianceScale *
         textureLod(u_prefiltered, r, prefilteredLevel(s.perceptualRoughness, u_prefilteredLevels))

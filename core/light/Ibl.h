@@ -4,9 +4,9 @@
 #include "core/base/Result.h"
 #include "core/image/Image.h"
 #include "core/job/JobContext.h"
+#include "core/light/DfgTable.h"
 
 #include <array>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -38,13 +38,5 @@ struct IblSettings {
 // exposure are applied by the user of the maps. Deterministic. Cancelled when the job is.
 Result<IblMaps> computeIbl(const Image& environment, const IblSettings& settings,
                            const JobContext& job);
-
-// The DFG table: size × size, F32, 3 channels; u = N·V, v = perceptualRoughness, texel centres at
-// (i + 0.5) / size; R: scale on F0, G: bias (Smith height-correlated GGX), B: reserved, 0.
-[[nodiscard]] Image computeDfgTable(int size = 128);
-
-// One entry of it: (scale, bias) by Gauss-Legendre quadrature over the visible normals, within 1e-3
-// of the exact integral for N·V >= 0.01.
-[[nodiscard]] glm::vec2 integrateDfg(float NoV, float perceptualRoughness);
 
 } // namespace patina

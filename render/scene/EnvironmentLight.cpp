@@ -28,11 +28,11 @@ std::size_t clampToHalf(std::span<glm::vec3> texels) {
     return clamped;
 }
 
-gl::Texture makeDfg(gl::Context& context) {
-    const Image table = computeDfgTable();
+gl::Texture makeDfg(gl::Context& context, const ShadingModel& model) {
+    const Image table = computeDfgTable(128, model.distribution, model.visibility);
     gl::Texture texture(
         context, "DFG table",
-        {.format = gl::PixelFormat::Rg32f, .width = table.width(), .height = table.height()});
+        {.format = gl::PixelFormat::Rgba16f, .width = table.width(), .height = table.height()});
     texture.upload(0, table.channels(), gl::SampleType::F32, table.f32().data());
     texture.setSampling(gl::Filter::Linear, gl::Wrap::Clamp);
     return texture;
@@ -79,7 +79,7 @@ IblMaps uniformIbl(const glm::vec3& radiance) {
 
 EnvironmentLight::EnvironmentLight(gl::Context& context)
     : m_context(context)
-    , m_dfg(makeDfg(context)) {
+    , m_dfg(makeDfg(context, m_model)) {
     setIbl(uniformIbl(glm::vec3(kGreySky)));
     setBackground(nullptr);
 }
@@ -91,6 +91,14 @@ void EnvironmentLight::setIbl(const IblMaps& maps) {
         logInfo("{} texels of the environment exceed 65504 and were limited", m_clampedTexels);
     m_irradianceSh = maps.irradianceSh;
     m_radianceSh = maps.radianceSh;
+}
+
+void EnvironmentLight::setModel(const ShadingModel& model) {
+    const bool same = model.distribution == m_model.distribution &&
+                      model.visibility == m_model.visibility;
+    m_model = model;
+    if (!same)
+        m_dfg = makeDfg(m_context, model);
 }
 
 void EnvironmentLight::setBackground(const ImagePtr& image) {

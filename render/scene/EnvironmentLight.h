@@ -14,6 +14,8 @@ class EnvironmentLight {
     explicit EnvironmentLight(gl::Context& context); // a grey sky until setIbl()
 
     void setIbl(const IblMaps& maps);
+    // Terms of the specular lobe that the DFG table is for; cheap while they stay the same.
+    void setModel(const ShadingModel& model);
     // The picture behind the scene; null: grey.
     void setBackground(const ImagePtr& image);
 
@@ -28,6 +30,7 @@ class EnvironmentLight {
 
   private:
     gl::Context& m_context;
+    ShadingModel m_model;
     gl::Texture m_prefiltered, m_dfg, m_background;
     ImagePtr m_backgroundImage;
     std::array<glm::vec3, 9> m_irradianceSh{};

@@ -51,8 +51,10 @@ GpuScene::GpuScene(gl::Context& context)
 
 void GpuScene::update(const Document& document, const Change& change) {
     m_document = document;
-    if (!change.target || change.target->scope == Scope::Model)
+    if (!change.target || change.target->scope == Scope::Model) {
         m_modelBlock.writeValue(packModel(m_document.model));
+        m_environment.setModel(m_document.model);
+    }
     const auto touched = [&](Affects part) { return touches(change.affects, part); };
 
     // One number is the change of a dragged slider: nothing else is looked at. Those of the view,

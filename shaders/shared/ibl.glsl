@@ -53,9 +53,14 @@ PT_FN vec3 irradianceFromSh9(PT_ARRAY(vec3, irradianceSh, 9), vec3 n) {
     return max(sum, vec3(0.0f));
 }
 
-// Where to look the specular light up.
-PT_FN vec3 reflectionDirection(SurfaceTerms s) {
-    return reflect(-s.v, s.n);
+// Where to look the specular light up, not normalised: the lobe's mean direction, which leans from
+// the mirror direction towards the normal the rougher the surface. `tilt`: third channel of the DFG
+// table; 1 gives the mirror direction, which Karis 2013 uses.
+PT_FN vec3 lobeDirection(SurfaceTerms s, float tilt) {
+    vec3 r = reflect(-s.v, s.n);
+    if (s.model.lobeDirection == kLobeDirectionMirror)
+        return r;
+    return mix(s.n, r, tilt);
 }
 
 // How much of the specular lobe an ambient visibility of `ao` leaves open.

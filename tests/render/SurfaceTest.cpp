@@ -1,4 +1,5 @@
 // The surface against what can be worked out by hand.
+#include "core/light/Cubemap.h"
 #include "core/math/Shading.h"
 #include "render/scene/EnvironmentLight.h"
 #include "tests/render/RenderTest.h"
@@ -90,6 +91,45 @@ TEST_F(Surface, MetalInAWhiteFurnaceShowsItsDfgAlbedo) {
                                                            1.0f, dfgAt(1.0f, perceptualRoughness));
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(seen[c], expected[c], 3e-3f) << perceptualRoughness << " channel " << c;
+    }
+}
+
+TEST_F(Surface, MetalReflectsWhatItsLobeLooksAt) {
+    // Radiance 1 + 0.9 y in every level: the picture tells in which direction it was looked up.
+    IblMaps maps = uniformIbl(glm::vec3(1.0f));
+    maps.prefiltered.clear();
+    for (const int size : {64, 32}) {
+        CubeLevel level{size, {}};
+        for (int i = 0; i < 6 * size * size; ++i) {
+            const auto centre = [&](int k) {
+                return (static_cast<float>(k % size) + 0.5f) / static_cast<float>(size);
+            };
+            const glm::vec3 d =
+                glm::normalize(cubeDirection(i / (size * size), centre(i), centre(i / size)));
+            level.texels.emplace_back(1.0f + 0.9f * d.y);
+        }
+        maps.prefiltered.push_back(level);
+    }
+    renderer().setIbl(maps);
+    Document document = planeSeenFromAbove();
+    document.view.camera.pitchDeg = 20.0f;
+    document.view.camera.fovDeg = 1.0f;
+    Material& m = materialOf(document);
+    m.metallic = 1.0f;
+    m.baseColor = glm::vec3(1.0f);
+    const float NoV = std::sin(glm::radians(20.0f));
+    for (const float perceptualRoughness : {0.1f, 0.5f, 0.9f}) {
+        m.perceptualRoughness = perceptualRoughness;
+        const auto expected = [&](double tilt) { // 1 + 0.9 y of normalize(mix(n, R, tilt))
+            const double y = 1.0 - tilt + tilt * NoV;
+            return 1.0 + 0.9 * y / std::hypot(y, tilt * std::sqrt(1.0 - NoV * NoV));
+        };
+        document.model.lobeDirection = LobeDirection::Mean;
+        EXPECT_NEAR(centerPixel(draw(document)).x,
+                    expected(integrateDfg(NoV, perceptualRoughness).z), 5e-3)
+            << perceptualRoughness;
+        document.model.lobeDirection = LobeDirection::Mirror;
+        EXPECT_NEAR(centerPixel(draw(document)).x, expected(1.0), 5e-3) << perceptualRoughness;
     }
 }
 

@@ -235,7 +235,7 @@ TEST(Furnace, NothingIsLostAndNothingIsMade) {
     for (const float r : {0.2f, 0.5f, 0.8f, 1.0f})
         for (const float NoV : {0.1f, 0.3f, 0.7f, 1.0f}) {
             const vec3 v(std::sqrt(1.0f - NoV * NoV), 0.0f, NoV);
-            const vec2 dfg = integrateDfg(NoV, r);
+            const vec2 dfg(integrateDfg(NoV, r));
             const SurfaceTerms metal = surfaceOf(vec3(1.0f), 1.0f, r, vec3(0, 0, 1), v, dfg);
             EXPECT_NEAR(furnace(metal).specular, 1.0, 4e-3) << "metal " << r << " " << NoV;
 
@@ -255,7 +255,7 @@ TEST(Furnace, NothingIsLostAndNothingIsMade) {
 TEST(Furnace, EnvironmentShadingAgreesWithDirectShading) {
     // A constant environment: irradiance pi, prefiltered radiance 1.
     const SurfaceTerms s = surfaceOf(vec3(0.6f), 0.2f, 0.5f, vec3(0, 0, 1),
-                                     normalize(vec3(0.5f, 0, 1)), integrateDfg(0.894427f, 0.5f));
+                                     normalize(vec3(0.5f, 0, 1)), vec2(integrateDfg(0.894427f, 0.5f)));
     const ShadedLight light = shadeEnvironment(s, vec3(kPi), vec3(1.0f));
     const Furnace expected = furnace(s);
     EXPECT_NEAR(light.diffuse.x, expected.diffuse, 2e-3);

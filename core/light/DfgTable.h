@@ -1,0 +1,31 @@
+// The DFG table: directional albedo and mean direction of the specular lobe, precomputed over the
+// view angle and the roughness for a choice of terms (docs/maths/ibl.md).
+#pragma once
+
+#include "core/document/Document.h"
+#include "core/image/Image.h"
+
+#include <glm/vec3.hpp>
+
+namespace patina {
+
+// What the lobe f of D and V, single scattering, integrates to; theta is the angle of v from n.
+//   x: scale = ∫ f/F (1 - Fc) cos, y: bias = ∫ f/F Fc cos, Fc = (1 - V·H)^5 (Karis 2013, eq. 8):
+//      the albedo with Schlick's F is F0 x + y, the albedo E of a perfect mirror material x + y.
+//   z: tilt of the mean direction m = ∫ f/F l cos / |…| from n towards the mirror direction R:
+//      m is normalize(mix(n, R, tilt)). 0: along n; 1: along R; above 1: beyond it.
+
+// One table entry, by Gauss-Legendre quadrature in double precision: within 1e-6 of the exact
+// integral of GGX for N·V >= 0.05. NoV in 0…1, perceptualRoughness in 0…1; both are
+// kept a little above 0, where the lobe has no density.
+[[nodiscard]] glm::dvec3 integrateDfg(float NoV, float perceptualRoughness,
+                                      Distribution distribution = Distribution::GGX,
+                                      Visibility visibility = Visibility::SmithCorrelated);
+
+// size × size, F32, 3 channels as above; u = N·V, v = perceptualRoughness, texel centres at
+// (i + 0.5) / size. Entries are within 5e-4 of integrateDfg() (1e-3 for N·V < 0.05): a shorter
+// quadrature in single precision, SIMD. The result does not depend on the number of threads.
+[[nodiscard]] Image computeDfgTable(int size = 128, Distribution distribution = Distribution::GGX,
+                                    Visibility visibility = Visibility::SmithCorrelated);
+
+} // namespace patina
