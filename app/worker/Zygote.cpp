@@ -1,7 +1,7 @@
 #include "app/worker/Zygote.h"
 
 #include "app/worker/Child.h"
-#include "core/worker/FileDescriptor.h"
+#include "core/base/FileDescriptor.h"
 #include "core/worker/WorkerProtocol.h"
 
 #include <cerrno>

@@ -1,5 +1,7 @@
 #include "core/base/AtomicFile.h"
 
+#include "core/base/FileDescriptor.h"
+
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -12,24 +14,6 @@ namespace patina {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A file descriptor that closes itself.
-class Descriptor {
-  public:
-    explicit Descriptor(int fd)
-        : m_fd(fd) {}
-    ~Descriptor() {
-        if (m_fd >= 0)
-            ::close(m_fd);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    [[nodiscard]] int get() const { return m_fd; }
-    [[nodiscard]] bool valid() const { return m_fd >= 0; }
-
-  private:
-    int m_fd;
-};
 
 Error systemError(ErrorKind kind, const fs::path& path, std::string message, int code) {
     return {kind, std::move(message), path, std::strerror(code)};
@@ -86,7 +70,7 @@ Result<void> writeFileAtomically(const fs::path& path, std::span<const std::byte
         return cannotCreate(path, EISDIR);
     // A device such as /dev/null or a pipe takes the data directly: there is nothing to replace.
     if (replaces && !S_ISREG(existing.st_mode)) {
-        const Descriptor device(::open(target.c_str(), O_WRONLY | O_CLOEXEC));
+        const FileDescriptor device(::open(target.c_str(), O_WRONLY | O_CLOEXEC));
         if (!device.valid())
             return cannotCreate(path, errno);
         if (const int code = writeAll(device.get(), data))
@@ -107,7 +91,7 @@ Result<void> writeFileAtomically(const fs::path& path, std::span<const std::byte
         fd = ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     if (fd < 0)
         return cannotCreate(path, errno);
-    const Descriptor file(fd);
+    const FileDescriptor file(fd);
     const auto fail = [&](int code) -> Result<void> {
         ::unlink(temporary.c_str());
         return cannotWrite(path, code);
@@ -129,7 +113,7 @@ Result<void> writeFileAtomically(const fs::path& path, std::span<const std::byte
     }
     if (::rename(temporary.c_str(), target.c_str()) != 0)
         return fail(errno);
-    const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    const FileDescriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (directory.valid())
         ::fsync(directory.get());
     return {};
@@ -140,7 +124,7 @@ Result<void> writeFileAtomically(const fs::path& path, std::string_view text) {
 }
 
 Result<Bytes> readFile(const fs::path& path, std::size_t maxSize) {
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     if (!file.valid())
         return systemError(ErrorKind::InputMissing, path,
                            errno == ENOENT ? "there is no such file" : "the file cannot be read",

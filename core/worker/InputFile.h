@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/Result.h"
-#include "core/worker/FileDescriptor.h"
+#include "core/base/FileDescriptor.h"
 
 #include <cstddef>
 #include <filesystem>

@@ -2,7 +2,7 @@
 // before it changes hands, so that its reader can rely on a size and content that stay.
 #pragma once
 
-#include "core/worker/FileDescriptor.h"
+#include "core/base/FileDescriptor.h"
 
 #include <cstddef>
 #include <optional>

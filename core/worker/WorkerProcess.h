@@ -6,7 +6,7 @@
 #pragma once
 
 #include "core/base/Result.h"
-#include "core/worker/FileDescriptor.h"
+#include "core/base/FileDescriptor.h"
 
 #include <filesystem>
 #include <sys/types.h>

@@ -7,7 +7,7 @@
 // child.
 #pragma once
 
-#include "core/worker/FileDescriptor.h"
+#include "core/base/FileDescriptor.h"
 
 #include <cstddef>
 #include <cstdint>
