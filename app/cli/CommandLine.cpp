@@ -221,6 +221,55 @@ class Parser {
         addRays(prt, m_prt.samples, m_prt.seed, "vertex");
         addSets(prt);
         addThreads(prt);
+        addBakeIbl(*bake);
+    }
+
+    void addBakeIbl(CLI::App& bake) {
+        BakeIblOptions& o = m_ibl;
+        CLI::App* c = addCommand(
+            bake, "ibl", "Image-based light: reflections, irradiance, harmonics, DFG table", o);
+        c->add_option("HDR", o.environment,
+                      "Environment image, builtin:NAME, or .patina project for its environment")
+            ->required()
+            ->type_name("");
+        c->add_option("-o,--output", o.output, "Folder to write: new, empty, or an earlier bake")
+            ->required()
+            ->type_name("DIR");
+        c->add_option("--size", o.size,
+                      "Side of the sharpest cubemap's faces in texels: 16, 32 … 2048")
+            ->check(plain(CLI::IsMember({16, 32, 64, 128, 256, 512, 1024, 2048})))
+            ->capture_default_str()
+            ->type_name("N");
+        c->add_option("--levels", o.levels,
+                      "Roughness levels, each of half the size (default: down to 4 texels)")
+            ->check(plain(CLI::Range(2, 12)))
+            ->type_name("N");
+        c->add_option("--format", o.format, "Kind of files")
+            ->transform(plain(CLI::CheckedTransformer(
+                std::map<std::string, IblFileFormat>{{"exr", IblFileFormat::Exr},
+                                                     {"hdr", IblFileFormat::Hdr},
+                                                     {"ktx2", IblFileFormat::Ktx2},
+                                                     {"dds", IblFileFormat::Dds}})))
+            ->default_str("exr")
+            ->type_name("exr|hdr|ktx2|dds");
+        CLI::Option* layout = c->add_option("--layout", o.layout,
+                                            "exr, hdr: a file for each face, "
+                                            "or for each level");
+        layout
+            ->transform(plain(CLI::CheckedTransformer(std::map<std::string, IblLayout>{
+                {"faces", IblLayout::Faces}, {"latlong", IblLayout::LatLong}})))
+            ->default_str("faces")
+            ->each([&o](const std::string&) { o.layoutGiven = true; })
+            ->type_name("faces|latlong");
+        c->add_option("--precision", o.texels,
+                      "Numbers in exr, ktx2 and dds; rgb9e5 only in ktx2 and dds (default: half)")
+            ->transform(plain(CLI::CheckedTransformer(
+                std::map<std::string, TexelFormat>{{"half", TexelFormat::Rgba16F},
+                                                   {"float", TexelFormat::Rgba32F},
+                                                   {"rgb9e5", TexelFormat::Rgb9E5}})))
+            ->type_name("half|float|rgb9e5");
+        addSets(c);
+        addThreads(c);
     }
 
     void addExport() {
@@ -267,6 +316,7 @@ class Parser {
     RenderOptions m_render;
     BakeAoOptions m_ao;
     BakePrtOptions m_prt;
+    BakeIblOptions m_ibl;
     ExportOptions m_export;
     CompareOptions m_compare;
     ParametersOptions m_parameters;

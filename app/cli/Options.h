@@ -1,6 +1,9 @@
 // What the user asked for on the command line, as plain structs with their defaults.
 #pragma once
 
+#include "core/export/IblPackage.h"
+
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -49,6 +52,17 @@ struct BakePrtOptions {
     unsigned seed = 0;
 };
 
+// The defaults of levels and texels depend on other options.
+struct BakeIblOptions {
+    std::string environment, output;
+    int size = 256;
+    int levels = 0; // 0: down to 4 texels
+    IblFileFormat format = IblFileFormat::Exr;
+    IblLayout layout = IblLayout::Faces;
+    bool layoutGiven = false;
+    std::optional<TexelFormat> texels;
+};
+
 struct ExportOptions {
     std::string scene, output;
     std::vector<std::string> bakes;
@@ -67,8 +81,8 @@ struct ParametersOptions {
 
 struct Invocation {
     CommonOptions common;
-    std::variant<InfoOptions, RenderOptions, BakeAoOptions, BakePrtOptions, ExportOptions,
-                 CompareOptions, ParametersOptions>
+    std::variant<InfoOptions, RenderOptions, BakeAoOptions, BakePrtOptions, BakeIblOptions,
+                 ExportOptions, CompareOptions, ParametersOptions>
         options;
 };
 

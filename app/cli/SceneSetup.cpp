@@ -91,19 +91,10 @@ Result<void> setParameter(Session& session, Document& document, const std::strin
     return {};
 }
 
-Result<Document> openSceneFor(Session& session, SceneRequest& request) {
-    Result<OpenedScene> opened = openScene(session.worker(), request.scene, session.job());
-    if (!opened)
-        return opened.error();
-    session.report().add(*opened);
-    request.isProject = opened->isProject;
-    Document document = std::move(opened->document);
+namespace {
 
-    if (!request.environment.empty())
-        if (Result<void> set = setEnvironment(session, document, request.environment); !set)
-            return set.error();
-
-    // Maps first: putting one on raises its number to 1, and numbers given should win.
+// --set, maps first: putting one on raises its number to 1, and numbers given should win.
+Result<void> applySets(Session& session, Document& document) {
     std::vector<std::pair<std::string, std::string>> assignments;
     for (const std::string& text : session.options().sets) {
         Result<std::pair<std::string, std::string>> assignment = splitAssignment(text);
@@ -117,6 +108,25 @@ Result<Document> openSceneFor(Session& session, SceneRequest& request) {
     for (const auto& [name, value] : assignments)
         if (Result<void> set = setParameter(session, document, name, value); !set)
             return set.error();
+    return {};
+}
+
+} // namespace
+
+Result<Document> openSceneFor(Session& session, SceneRequest& request) {
+    Result<OpenedScene> opened = openScene(session.worker(), request.scene, session.job());
+    if (!opened)
+        return opened.error();
+    session.report().add(*opened);
+    request.isProject = opened->isProject;
+    Document document = std::move(opened->document);
+
+    if (!request.environment.empty())
+        if (Result<void> set = setEnvironment(session, document, request.environment); !set)
+            return set.error();
+
+    if (Result<void> set = applySets(session, document); !set)
+        return set.error();
 
     for (const std::string& file : request.bakes) {
         Result<BakeArtifact> bake = loadBake(session.worker(), file, document);
@@ -124,6 +134,37 @@ Result<Document> openSceneFor(Session& session, SceneRequest& request) {
             return bake.error();
         attachBake(document, std::make_shared<const BakeArtifact>(std::move(*bake)));
     }
+    return document;
+}
+
+Result<Document> openEnvironmentFor(Session& session, const std::string& source) {
+    Document document;
+    if (extensionOf(source) == ".patina") {
+        Result<OpenedScene> opened = openScene(session.worker(), source, session.job());
+        if (!opened)
+            return opened.error();
+        session.report().add(*opened);
+        document.environment = opened->document.environment;
+        document.model = opened->document.model;
+        if (!document.environment.problem.empty())
+            return Error{ErrorKind::InputMissing,
+                         "its environment cannot be read: " + document.environment.problem,
+                         source,
+                         {}};
+    } else if (Result<void> set = setEnvironment(session, document, source); !set) {
+        return set.error();
+    }
+    for (const std::string& text : session.options().sets)
+        if (!text.starts_with("environment.") && !text.starts_with("softbox") &&
+            !text.starts_with("model."))
+            return Error{ErrorKind::Usage,
+                         fmt::format("\"{}\" changes nothing here; set parameters of environment, "
+                                     "softbox and model",
+                                     text),
+                         {},
+                         {}};
+    if (Result<void> set = applySets(session, document); !set)
+        return set.error();
     return document;
 }
 

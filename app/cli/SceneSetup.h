@@ -21,6 +21,11 @@ struct SceneRequest {
 // Opens the scene, reports its notices, and applies environment, --set and bakes in this order.
 Result<Document> openSceneFor(Session& session, SceneRequest& request);
 
+// A document whose environment is that of the image or builtin:NAME, or whose environment and
+// shading model are a .patina project's, with --set applied. Usage error when that sets anything
+// else.
+Result<Document> openEnvironmentFor(Session& session, const std::string& source);
+
 // Sets one parameter from its text, as --set does; maps and environments are loaded.
 Result<void> setParameter(Session& session, Document& document, const std::string& name,
                           const std::string& value);

@@ -1,47 +1,19 @@
-// KTX2 and DDS, byte by byte, read by small readers written here from the specifications, not from
-// the writers.
+// KTX2 and DDS, byte by byte.
 #include "core/image/Dds.h"
 #include "core/image/Ktx2.h"
+#include "tests/support/TextureFiles.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <gmock/gmock.h>
-#include <limits>
 
 using namespace patina;
+using namespace patina::test;
 using testing::ElementsAre;
 
 namespace {
-
-std::uint32_t u32(const Bytes& file, std::size_t offset) {
-    std::uint32_t value = 0;
-    for (std::size_t i = 4; i-- > 0;)
-        value = value << 8 | std::to_integer<std::uint32_t>(file.at(offset + i));
-    return value;
-}
-
-std::uint64_t u64(const Bytes& file, std::size_t offset) {
-    return u32(file, offset) | std::uint64_t{u32(file, offset + 4)} << 32;
-}
-
-// IEEE 754 binary16 by its definition.
-double fromHalf(std::uint32_t bits) {
-    const double sign = bits & 0x8000 ? -1.0 : 1.0;
-    const int exponent = static_cast<int>(bits >> 10 & 31);
-    const double mantissa = bits & 1023;
-    if (exponent == 31)
-        return mantissa != 0 ? std::numeric_limits<double>::quiet_NaN() : sign * INFINITY;
-    return exponent == 0 ? sign * std::ldexp(mantissa, -24)
-                         : sign * std::ldexp(1024 + mantissa, exponent - 25);
-}
-
-// OpenGL 4.6, section 8.25: red = mantissa * 2^(exponent - 15 - 9).
-glm::dvec3 fromRgb9E5(std::uint32_t bits) {
-    const double scale = std::ldexp(1.0, static_cast<int>(bits >> 27) - 24);
-    return glm::dvec3(bits & 511, bits >> 9 & 511, bits >> 18 & 511) * scale;
-}
 
 // Every texel different: face, level, row and column can be read off it, exactly as a half.
 glm::vec3 mark(int face, int level, int x, int y) {
@@ -62,17 +34,6 @@ FloatTexture marked(int faces, int width, int height, int levels) {
                     texels.push_back(mark(face, level, x, y));
     }
     return texture;
-}
-
-glm::vec3 texelAt(const Bytes& file, std::size_t offset, TexelFormat format) {
-    glm::vec3 color;
-    for (int c = 0; c < 3; ++c)
-        if (format == TexelFormat::Rgba16F)
-            color[c] = static_cast<float>(fromHalf(
-                u32(file, offset + 4 * static_cast<std::size_t>(c / 2)) >> 16 * (c % 2) & 0xffff));
-        else
-            color[c] = std::bit_cast<float>(u32(file, offset + 4 * static_cast<std::size_t>(c)));
-    return color;
 }
 
 } // namespace
@@ -146,9 +107,9 @@ TEST(PackTexels, CountsTexelsThatAreTooBright) {
     EXPECT_EQ(packTexels(texture, TexelFormat::Rgb9E5).clamped, 4u);
     const PackedTexels floats = packTexels(texture, TexelFormat::Rgba32F);
     EXPECT_EQ(floats.clamped, 0u);
-    EXPECT_EQ(texelAt(floats.levels[0], 48, TexelFormat::Rgba32F), glm::vec3(0, 0, 1e9f));
+    EXPECT_EQ(texelAt(floats.levels[0], 48, 16), glm::dvec3(0, 0, 1e9f));
     const PackedTexels halfs = packTexels(texture, TexelFormat::Rgba16F);
-    EXPECT_EQ(texelAt(halfs.levels[0], 0, TexelFormat::Rgba16F), glm::vec3(65504, 65504, 1));
+    EXPECT_EQ(texelAt(halfs.levels[0], 0, 8), glm::dvec3(65504, 65504, 1));
 }
 
 struct Container : testing::TestWithParam<TexelFormat> {
@@ -189,7 +150,7 @@ TEST_P(Container, Ktx2HoldsEveryTexelWhereTheIndexSays) {
         for (int face = 0; face < 6; ++face)
             for (int y = 0; y < size; ++y)
                 for (int x = 0; x < size; ++x, at += bytes()) {
-                    ASSERT_EQ(texelAt(file, at, GetParam()), mark(face, level, x, y));
+                    ASSERT_EQ(texelAt(file, at, bytes()), glm::dvec3(mark(face, level, x, y)));
                     const double alpha = GetParam() == TexelFormat::Rgba16F
                                              ? fromHalf(u32(file, at + 4) >> 16)
                                              : std::bit_cast<float>(u32(file, at + 12));
@@ -245,7 +206,7 @@ TEST_P(Container, DdsHoldsFaceAfterFace) {
         for (int level = 0; level < 4; ++level)
             for (int y = 0; y < 8 >> level; ++y)
                 for (int x = 0; x < 8 >> level; ++x, at += bytes())
-                    ASSERT_EQ(texelAt(file, at, GetParam()), mark(face, level, x, y));
+                    ASSERT_EQ(texelAt(file, at, bytes()), glm::dvec3(mark(face, level, x, y)));
     EXPECT_EQ(at, file.size());
 }
 

@@ -1,0 +1,20 @@
+// Spherical harmonics of light as files for other programs: JSON, and plain text of the same.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+
+namespace patina {
+
+enum class ShQuantity {
+    Radiance,  // L(d) of the environment
+    Irradiance // E(n) = ∫ L(d) max(n·d, 0) dd; a white Lambertian surface reflects E / pi
+};
+
+// order² coefficients in the basis of core/math/SphericalHarmonics.h. Both files state that basis,
+// and JSON also what the sum gives along the axes, so that a reader can check itself.
+[[nodiscard]] std::string shJson(std::span<const glm::vec3> coefficients, ShQuantity quantity);
+[[nodiscard]] std::string shText(std::span<const glm::vec3> coefficients, ShQuantity quantity);
+
+} // namespace patina

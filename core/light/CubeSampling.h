@@ -1,0 +1,17 @@
+// Looking radiance up in a cubemap, and unrolling a cubemap to a lat-long image.
+#pragma once
+
+#include "core/job/JobContext.h"
+#include "core/light/Ibl.h"
+
+namespace patina {
+
+// Bilinear between texel centres, seamless: beyond a face's edge lie the texels of its neighbour.
+// `direction` need not be normalised.
+[[nodiscard]] glm::vec3 sampleCube(const CubeLevel& level, const glm::vec3& direction);
+
+// 4 size × 2 size, F32, 3 channels, conventions of patina::Environment. Four samples per pixel,
+// where the pixels are about as large as the cube's texels. Meaningless after a cancel.
+[[nodiscard]] Image latLongFromCube(const CubeLevel& level, const JobContext& job);
+
+} // namespace patina
