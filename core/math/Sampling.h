@@ -78,10 +78,12 @@ namespace detail {
 }
 
 // The warps and densities of shaders/shared/sampling.glsl.
+using shading::brdfPdf;
 using shading::concentricDisc;
 using shading::cosineHemisphere;
 using shading::cosineHemispherePdf;
 using shading::orthonormalBasis;
+using shading::sampleBrdf;
 using shading::sampleVndfGGX;
 using shading::uniformSphere;
 using shading::vndfReflectionPdf;

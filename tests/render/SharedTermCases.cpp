@@ -212,6 +212,31 @@ std::vector<SharedTermCase> makeCases() {
                  OUT3(0, sampleVndfGGX(vec2(I(16), I(17)), vec3(I(6), I(7), abs(I(8)) + 1e-3f),
                                        0.01f + I(18)));
                  O(3) = vndfReflectionPdf(0.01f + I(19), I(20), 0.01f + 0.9f * I(18));),
+            CASE("half vectors", unit, 1e-1f, vec2 u = vec2(I(0), I(1));
+                 float alpha = 0.01f + 0.99f * I(2); OUT3(0, sampleHalfVectorGGX(u, alpha));
+                 OUT3(3, sampleHalfVectorBeckmann(u, alpha));
+                 OUT3(6, sampleHalfVectorBlinnPhong(u, alpha));
+                 OUT3(9, directionFromSin2(I(3), 6.0f * I(4))); CHOOSE_MODEL(m);
+                 O(12) = specularReflectionPdf(m, 0.1f + 0.9f * I(5), I(6), 1.0f - I(6) * I(6),
+                                               0.1f + 0.9f * I(7), alpha);
+                 OUT3(13, sampleHalfVector(m, u, vec3(0.6f, 0.0f, 0.8f), alpha));),
+            CASE("EON sampling", unit, 1e-1f, vec2 u = vec2(0.98f * I(0), I(1));
+                 vec3 wo = directionFromSin2(0.9f * I(2), 6.0f * I(3));
+                 vec3 wi = directionFromSin2(0.9f * I(4), 6.0f * I(5)); float r = I(6);
+                 vec4 k = cltcCoefficients(I(2), r); O(0) = k.x; O(1) = k.y; O(2) = k.z; O(3) = k.w;
+                 O(4) = eonUniformShare(I(2), r); vec2 axis = cltcAxis(wo); O(5) = axis.x;
+                 O(6) = axis.y; OUT3(7, sampleCltc(u, wo, r)); O(10) = cltcPdf(wo, wi, r);
+                 O(11) = eonPdf(wo, wi, r);
+                 if (abs(u.x - eonUniformShare(wo.z, r)) > 1e-3f) OUT3(12, sampleEon(u, wo, r));),
+            CASE(
+                "surface sampling", surface, 1e-1f, CHOOSE_MODEL(m); SurfaceTerms s = SURFACE_OF(m);
+                vec3 l = vec3(I(6), I(7), I(8)); O(0) = brdfPdf(s, l);
+                O(1) = specularProbability(s); vec3 t; vec3 b; orthonormalBasis(s.n, t, b);
+                OUT3(2, viewerInFrame(s, t, b)); float pdf = 0.0f;
+                if (abs(I(18) - specularProbability(s)) > 1e-3f) {
+                    vec3 sampled = sampleBrdf(s, vec3(0.98f * I(16), I(17), I(18)), pdf);
+                    OUT3(5, sampled);
+                }),
     };
 }
 
