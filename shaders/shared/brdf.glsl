@@ -219,7 +219,7 @@ PT_FN vec3 F_Conductor(float VoH, vec3 n, vec3 k) {
     vec3 a = sqrt(max(0.5f * (a2b2 + d), vec3(0.0f)));
     vec3 p = a2b2 + vec3(c2);
     vec3 q = 2.0f * c * a;
-    vec3 rs = (p - q) / (p + q);
+    vec3 rs = max(p - q, vec3(0.0f)) / (p + q);
     vec3 u = c2 * a2b2 + vec3(s2 * s2);
     vec3 w = q * s2;
     return 0.5f * rs * (vec3(1.0f) + (u - w) / (u + w));
@@ -290,16 +290,18 @@ PT_FN float E_FON(float NoX, float r) {
     return (1.0f + r * g) / (1.0f + kFonA * r);
 }
 
-// Albedo of light scattered twice and more: section 3.
+// Albedo of light scattered twice and more, a geometric series: section 3. It has no sum for albedos
+// far above 1, which a renderer may be handed; its ratio is cut at that of white.
 PT_FN vec3 multiScatterAlbedoEon(vec3 rho, float r) {
     float average = (1.0f + kFonAvg * r) / (1.0f + kFonA * r);
-    return rho * rho * average / (vec3(1.0f) - rho * (1.0f - average));
+    return rho * rho * average / (vec3(1.0f) - min(rho, vec3(1.0f)) * (1.0f - average));
 }
 
-// Listing 1; 1e-7 keeps 0 / 0 out at r = 0, where there is no second lobe.
+// Listing 1; 1e-7 keeps 0 / 0 out at r = 0, where there is no second lobe; s is below -1 only for
+// viewers behind the surface, whose N·V is not that of v.
 PT_FN vec3 Fd_Eon(vec3 rho, float NoV, float NoL, float VoL, float r) {
     float s = VoL - NoL * NoV;
-    float t = s > 0.0f ? s / max(max(NoL, NoV), 1e-6f) : s;
+    float t = s > 0.0f ? s / max(max(NoL, NoV), 1e-6f) : max(s, -1.0f);
     float single = (1.0f + r * t) / (1.0f + kFonA * r);
     float average = (1.0f + kFonAvg * r) / (1.0f + kFonA * r);
     float multiple = max(1.0f - E_FON(NoV, r), 1e-7f) * max(1.0f - E_FON(NoL, r), 1e-7f) /
@@ -323,7 +325,8 @@ PT_FN float distribution(BrdfModel m, float NoH, float sin2, float alpha) {
     return D_GGX_Sin2(NoH, sin2, alpha);
 }
 
-// The Smith terms are those of the distribution.
+// The Smith terms are those of the distribution. All pairs keep E <= 1 but Blinn-Phong with the Smith
+// terms it borrows: for r > 0.5 at grazing views E grows to 1.7.
 PT_FN float visibility(BrdfModel m, float NoV, float NoL, float VoH, float alpha) {
     if (m.visibility == kVisibilitySmithSeparable) {
         if (m.distribution == kDistributionGGX)
@@ -371,7 +374,8 @@ PT_FN vec3 fresnel(BrdfModel m, vec3 f0, float metallic, float VoH) {
 }
 
 // The diffuse BRDF of albedo rho. Oren-Nayar's sigma is the diffuse roughness in radians (as in
-// MaterialX). Burley's lobe returns up to 1.56 at grazing views: it is limited to what arrives.
+// MaterialX). At grazing views Burley's lobe returns up to 1.56 and Oren-Nayar's up to 1.01 of what
+// arrives: both are limited to 1.
 PT_FN vec3 diffuse(BrdfModel m, vec3 rho, float perceptualRoughness, float diffuseRoughness,
                    float NoV, float NoL, float VoH) {
     float VoL = 2.0f * VoH * VoH - 1.0f;
@@ -379,7 +383,8 @@ PT_FN vec3 diffuse(BrdfModel m, vec3 rho, float perceptualRoughness, float diffu
         return rho * (Fd_Burley(NoV, NoL, VoH, perceptualRoughness) /
                       max(E_Burley(NoV, perceptualRoughness), 1.0f));
     if (m.diffuse == kDiffuseOrenNayar)
-        return rho * Fd_OrenNayar(NoV, NoL, VoL, diffuseRoughness);
+        return rho * (Fd_OrenNayar(NoV, NoL, VoL, diffuseRoughness) /
+                      max(E_OrenNayar(NoV, diffuseRoughness), 1.0f));
     if (m.diffuse == kDiffuseEon)
         return Fd_Eon(rho, NoV, NoL, VoL, diffuseRoughness);
     return rho * Fd_Lambert();
@@ -391,7 +396,7 @@ PT_FN vec3 diffuseReflectance(BrdfModel m, vec3 rho, float perceptualRoughness,
     if (m.diffuse == kDiffuseBurley)
         return rho * min(E_Burley(NoV, perceptualRoughness), 1.0f);
     if (m.diffuse == kDiffuseOrenNayar)
-        return rho * E_OrenNayar(NoV, diffuseRoughness);
+        return rho * min(E_OrenNayar(NoV, diffuseRoughness), 1.0f);
     if (m.diffuse == kDiffuseEon)
         return E_Eon(rho, NoV, diffuseRoughness);
     return rho;
@@ -431,9 +436,10 @@ PT_FN vec3 diffuseColorFromBaseColor(vec3 baseColor, float metallic) {
 // 1 + F0 (1 - E) / E with E = scale + bias, the albedo for F0 = 1.
 // Turquin 2019, "Practical multiple scattering compensation for microfacet models", equation 16.
 // E is never below 0.3 (1 - ln 2 at alpha = 1, N·V = 1) for Smith; the floor guards an empty table.
+// Where E exceeds 1 (see visibility()) it takes light away, from an F0 above 1 at most all.
 PT_FN vec3 energyCompensationTurquin(vec3 f0, vec2 dfg) {
     float E = max(dfg.x + dfg.y, 1e-3f);
-    return vec3(1.0f) + f0 * (1.0f / E - 1.0f);
+    return max(vec3(1.0f) + f0 * (1.0f / E - 1.0f), vec3(0.0f));
 }
 
 PT_FN vec3 energyCompensation(BrdfModel m, vec3 f0, vec2 dfg) {
@@ -457,7 +463,7 @@ PT_FN vec3 singleScatterAlbedo(BrdfModel m, vec3 f0, float metallic, vec2 dfg) {
     return f0 * dfg.x + vec3(dfg.y);
 }
 
-// With compensation. What a lobe returns in excess (Kelemen's at grazing views) is cut at 1.
+// With compensation; without it, what a lobe returns in excess (see visibility()) is cut at 1.
 PT_FN vec3 specularAlbedo(BrdfModel m, vec3 f0, float metallic, vec2 dfg) {
     return min(singleScatterAlbedo(m, f0, metallic, dfg) * energyCompensation(m, f0, dfg),
                vec3(1.0f));
