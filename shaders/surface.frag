@@ -7,6 +7,7 @@
 #include "include/material.glsl"
 #include "include/model.glsl"
 #include "shared/ibl.glsl"
+#include "shared/lights.glsl"
 #include "shared/normalmap.glsl"
 
 in vec3 v_position;
@@ -29,6 +30,9 @@ layout(binding = 5) uniform sampler2D u_emissiveTexture;
 layout(binding = 6) uniform sampler2D u_visibilityTexture; // baked
 layout(binding = 7) uniform samplerCube u_prefiltered;
 layout(binding = 8) uniform sampler2D u_dfg;
+#ifdef HAS_AREA_LIGHTS
+layout(binding = 9) uniform sampler2D u_lobes; // core/light/LobeTable.h
+#endif
 
 layout(location = 0) out vec4 o_radiance; // premultiplied by alpha
 
@@ -145,15 +149,36 @@ void main() {
     vec3 radiance =
         ambient.diffuse + ambient.specular * specularOcclusion(s.NoV, ao, s.alpha);
 
-    // Analytic lights.
-#ifdef HAS_LIGHTS
-    for (int i = 0; i < u_lightCount; ++i) {
-        vec4 place = u_lights[i].place;
-        vec3 toLight = place.xyz - place.w * v_position;
-        float distance2 = max(dot(toLight, toLight), 1e-8);
-        vec3 l = toLight * inversesqrt(distance2);
-        vec3 E = u_lights[i].irradiance.rgb / mix(1.0, distance2, place.w);
-        ShadedLight light = shadeDirect(s, l, E);
+    // Analytic lights, one loop for each kind.
+#ifdef HAS_PUNCTUAL_LIGHTS
+    for (int i = 0; i < u_lightEnds.x; ++i) {
+        ShadedLight light = shadeDirect(s, u_lights[i].place.xyz, u_lights[i].color.rgb);
+        radiance += light.diffuse + light.specular;
+    }
+    for (int i = u_lightEnds.x; i < u_lightEnds.y; ++i) {
+        vec3 toLight = u_lights[i].place.xyz - v_position;
+        float distance2 = dot(toLight, toLight);
+        vec3 l = toLight * inversesqrt(max(distance2, 1e-12));
+        float reaches = pointFalloff(distance2, u_lights[i].color.w) *
+                        spotFalloff(dot(u_lights[i].axis.xyz, l), 1.0, u_lights[i].axis.w);
+        ShadedLight light = shadeDirect(s, l, u_lights[i].color.rgb * reaches);
+        radiance += light.diffuse + light.specular;
+    }
+#endif
+
+#ifdef HAS_AREA_LIGHTS
+    vec2 lobe = vec2(lobeAngle(s.NoV), s.perceptualRoughness);
+    float lobeTexels = float(textureSize(u_lobes, 0).x);
+    vec4 fit = textureLod(u_lobes, (lobe * (lobeTexels - 1.0) + 0.5) / lobeTexels, 0.0);
+    for (int i = u_lightEnds.y; i < u_lightEnds.z; ++i) {
+        ShadedLight light = shadeSphere(s, fit, u_lights[i].place.xyz - v_position,
+                                        u_lights[i].axis.x, u_lights[i].color.rgb);
+        radiance += light.diffuse + light.specular;
+    }
+    for (int i = u_lightEnds.z; i < u_lightEnds.w; ++i) {
+        ShadedLight light =
+            shadeRectangle(s, fit, u_lights[i].place.xyz - v_position, u_lights[i].axis.xyz,
+                           u_lights[i].side.xyz, u_lights[i].color.rgb);
         radiance += light.diffuse + light.specular;
     }
 #endif

@@ -1,9 +1,11 @@
 #include "app/cli/Commands.h"
 #include "app/cli/SceneSetup.h"
+#include "core/document/Lights.h"
 #include "core/document/Scene.h"
 #include "core/document/Source.h"
 #include "core/image/ImageIO.h"
 #include "core/library/Library.h"
+#include "core/material/Parameters.h"
 #include "core/mesh/MeshImport.h"
 
 #include <algorithm>
@@ -140,10 +142,16 @@ void describeScene(Report& report, const OpenedScene& scene) {
 
     Rows lights;
     for (const Light& light : document.lights) {
-        const char* type = light.type == LightType::Point ? "point" : "directional";
-        json["lights"].push_back(
-            {{"name", light.name}, {"type", type}, {"intensity", light.intensity}});
-        lights.emplace_back(light.name, fmt::format("{}, intensity {:.4g}", type, light.intensity));
+        const ParameterInfo& typeInfo = *findParameter("light.type");
+        const std::string type = formatParameterValue(typeInfo, typeInfo.get(document, light.id));
+        json["lights"].push_back({{"name", light.name},
+                                  {"type", type},
+                                  {"intensity", light.intensity},
+                                  {"unit", std::string(intensityUnit(light.type))},
+                                  {"shines", shines(document, light)}});
+        lights.emplace_back(light.name, fmt::format("{}, {:.4g} {}{}", type, light.intensity,
+                                                    intensityUnit(light.type),
+                                                    shines(document, light) ? "" : ", off"));
     }
     if (!lights.empty())
         report.table(fmt::format("Lights ({})", lights.size()), lights);

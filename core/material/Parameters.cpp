@@ -3,6 +3,8 @@
 #include "core/base/Check.h"
 #include "core/document/Document.h"
 #include "core/image/DisplayTransform.h"
+#include "core/document/Lights.h"
+#include "core/light/Blackbody.h"
 
 #include <algorithm>
 #include <array>
@@ -134,6 +136,10 @@ void setEnvironmentImage(Document& document, Id, const ParameterValue& value) {
     document.environment.problem = slot.problem;
 }
 
+std::string_view lightIntensityUnit(const Document& document, Id id) {
+    return intensityUnit(document.light(id)->type);
+}
+
 // --- Rows ---
 
 using Text = std::string_view;
@@ -258,6 +264,12 @@ std::string toneMapUnavailable(const Document& document, int choice) {
            "environment variable OCIO to one";
 }
 
+constexpr ParameterInfo unitOfElement(std::string_view (*unitOf)(const Document&, Id),
+                                      ParameterInfo info) {
+    info.unitOf = unitOf;
+    return info;
+}
+
 constexpr ParameterInfo alias(Text name, ParameterInfo info) {
     info.alias = name;
     return info;
@@ -269,8 +281,9 @@ constexpr std::array<Text, 2> kNormalConventions{"openGl", "directX"};
 constexpr std::array<Text, 2> kNormalConventionLabels{"OpenGL (green up)", "DirectX (green down)"};
 constexpr std::array<Text, 3> kAlphaModes{"opaque", "mask", "blend"};
 constexpr std::array<Text, 3> kAlphaModeLabels{"Opaque", "Cut-out", "Blend"};
-constexpr std::array<Text, 2> kLightTypes{"point", "directional"};
-constexpr std::array<Text, 2> kLightTypeLabels{"Point", "Directional"};
+constexpr std::array<Text, 5> kLightTypes{"point", "directional", "spot", "sphere", "rectangle"};
+constexpr std::array<Text, 5> kLightTypeLabels{"Point", "Directional", "Spot", "Sphere (area)",
+                                               "Rectangle (area)"};
 constexpr std::array<Text, 3> kBackgrounds{"environment", "blurred", "color"};
 constexpr std::array<Text, 3> kBackgroundLabels{"Environment", "Blurred environment", "Colour"};
 constexpr std::array<Text, 8> kToneMaps{"clamp",       "reinhard",   "reinhardPhotographic",
@@ -318,6 +331,7 @@ constexpr auto kGeometry = Affects::Geometry | Affects::Bakes;
 using M = Material;
 using E = Environment;
 using S = ShadingModel;
+using L = Light;
 
 // clang-format off
 constexpr std::array kParameters{
@@ -374,14 +388,26 @@ constexpr std::array kParameters{
     number<&View::camera, &Camera::fovDeg>("view.fovDeg", "Field of view", "View", {10.0f, 90.0f}, {1.0f, 170.0f}, 1, "°", "Vertical angle that the camera sees: small like a telephoto lens, large like a wide-angle lens."),
     choice<&View::lighting>("view.lighting", "Lighting", "View", kLightings, kLightingLabels, "Light from the environment with every reflection, or from a precomputed transfer bake with its soft shadows."),
 
-    text<&Light::name>("light.name", "Name", "Light", "What the light is called in lists, exports and scripts."),
-    choice<&Light::type>("light.type", "Type", "Light", kLightTypes, kLightTypeLabels, "A point shines from one place in all directions, a directional light like the sun from far away.", kUniform | Affects::Structure),
-    flag<&Light::enabled>("light.enabled", "On", "Light", "Switches the light on or off.", kUniform | Affects::Structure),
-    color<&Light::color>("light.color", "Colour", "Light", "Colour of the light; its brightness is set by the intensity."),
-    number<&Light::intensity>("light.intensity", "Intensity", "Light", {0.0f, 20.0f}, {0.0f, 1e6f}, 3, "", "Brightness: of a directional light what reaches a surface that faces it (W/m²), of a point what it sends into each direction (W/sr)."),
-    vector<&Light::position>("light.position", "Position", "Light", {-10.0f, 10.0f}, {-1e6f, 1e6f}, "m", "Where a point light stands: right, up and towards the viewer."),
-    angle<&Light::azimuthDeg>("light.azimuthDeg", "Azimuth", "Light", "The compass direction a directional light comes from; 0 is the model's front, positive values turn towards +X."),
-    number<&Light::elevationDeg>("light.elevationDeg", "Elevation", "Light", {-90.0f, 90.0f}, {-90.0f, 90.0f}, 1, "°", "How high a directional light stands above the horizon."),
+    text<&L::name>("light.name", "Name", "Light", "What the light is called in lists, exports and scripts."),
+    choice<&L::type>("light.type", "Type", "Light", kLightTypes, kLightTypeLabels, "A point shines from one place in all directions, a directional light like the sun from far away, a spot in a cone; spheres and rectangles shine from an area and make soft highlights.", kUniform | Affects::Structure),
+    flag<&L::enabled>("light.enabled", "On", "Light", "Switches the light on or off.", kUniform | Affects::Structure),
+    flag<&L::solo>("light.solo", "Solo", "Light", "While any light is solo, only solo lights shine, as on a mixing desk.", kUniform | Affects::Structure),
+    color<&L::color>("light.color", "Colour", "Light", "Colour of the light; its brightness is set by the intensity."),
+    flag<&L::usesTemperature>("light.usesTemperature", "Use temperature", "Light", "Takes the colour of a glowing body of the temperature below instead of the colour above."),
+    number<&L::temperatureK>("light.temperatureK", "Temperature", "Light", {1000.0f, 12000.0f}, {kMinTemperatureK, kMaxTemperatureK}, 0, "K", "Colour temperature: a candle has 1900 K, a light bulb 2700 K, the midday sun 5500 K, a clear sky 10000 K and more."),
+    unitOfElement(lightIntensityUnit, number<&L::intensity>("light.intensity", "Intensity", "Light", {0.0f, 20.0f}, {0.0f, 1e6f}, 3, "cd, lx or nit", "Brightness: in lux at a surface that faces a directional light, in candela for points and spots, in nit (candela per m²) for spheres and rectangles.")),
+    vector<&L::position>("light.position", "Position", "Place", {-10.0f, 10.0f}, {-1e6f, 1e6f}, "m", "Where the light stands: right, up and towards the viewer; not of a directional light."),
+    angle<&L::azimuthDeg>("light.azimuthDeg", "Azimuth", "Place", "The compass direction that light of a directional light, spot or rectangle comes from; 0 is the model's front, positive values turn towards +X."),
+    number<&L::elevationDeg>("light.elevationDeg", "Elevation", "Place", {-90.0f, 90.0f}, {-90.0f, 90.0f}, 1, "°", "How far from above the light of a directional light, spot or rectangle comes: 90 is straight down, 0 level."),
+    angle<&L::rollDeg>("light.rollDeg", "Roll", "Place", "Turns a rectangle about the direction it shines in."),
+    number<&L::range>("light.range", "Range", "Shape", {0.0f, 50.0f}, {0.0f, 1e6f}, 2, "m", "Where light of a point or spot ends, fading smoothly; 0 lets it go on for ever, as real light does."),
+    number<&L::innerConeDeg>("light.innerConeDeg", "Inner cone", "Shape", {0.0f, 90.0f}, {0.0f, 90.0f}, 1, "°", "Half angle of the cone within which a spot has its full intensity."),
+    number<&L::outerConeDeg>("light.outerConeDeg", "Outer cone", "Shape", {0.1f, 90.0f}, {0.1f, 90.0f}, 1, "°", "Half angle of the cone outside of which a spot is dark."),
+    number<&L::radius>("light.radius", "Radius", "Shape", {0.0f, 2.0f}, {0.0f, 1e5f}, 3, "m", "Radius of a sphere light."),
+    number<&L::width>("light.width", "Width", "Shape", {0.0f, 5.0f}, {0.0f, 1e5f}, 3, "m", "Width of a rectangle light."),
+    number<&L::height>("light.height", "Height", "Shape", {0.0f, 5.0f}, {0.0f, 1e5f}, 3, "m", "Height of a rectangle light."),
+    flag<&L::castsShadow>("light.castsShadow", "Shadow", "Shadow", "Lets the meshes cast shadows in the light of a spot or a directional light."),
+    number<&L::shadowSoftness>("light.shadowSoftness", "Softness", "Shadow", {0.0f, 10.0f}, {0.0f, 45.0f}, 2, "°", "How large the source appears from the scene, which makes shadows soft: the sun has 0.53°; 0 gives hard edges."),
 
     text<&MeshInstance::name>("mesh.name", "Name", "Mesh", "What the mesh is called in lists, exports and scripts."),
     flag<&MeshInstance::visible>("mesh.visible", "Visible", "Mesh", "Shows the mesh, and lets it take part in bakes.", kGeometry),

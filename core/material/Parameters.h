@@ -61,7 +61,7 @@ struct ParameterInfo {
     float softMin = 0.0f, softMax = 1.0f; // the slider's ends
     float hardMin = 0.0f, hardMax = 1.0f; // what may be typed
     int decimals = 3;
-    std::string_view unit;                          // "°", "EV", "m", "lx" or empty
+    std::string_view unit;                          // "°", "EV", "m" or empty; see unitFor()
     std::span<const std::string_view> choices;      // names of a Choice, as in files: "openGl"
     std::span<const std::string_view> choiceLabels; // as shown: "OpenGL (green up)"
     std::string_view help;                          // one sentence
@@ -73,6 +73,13 @@ struct ParameterInfo {
     // Access to the element that `target` names; get() requires that it exists.
     ParameterValue (*get)(const Document&, Id) = nullptr;
     void (*set)(Document&, Id, const ParameterValue&) = nullptr;
+    // Where the unit depends on the element (a light's intensity on its type), otherwise null.
+    std::string_view (*unitOf)(const Document&, Id) = nullptr;
+
+    // The unit of this element's number; the element must exist.
+    [[nodiscard]] std::string_view unitFor(const Document& document, Id element) const {
+        return unitOf ? unitOf(document, element) : unit;
+    }
 
     // Choice: why it cannot be made in this document at the moment, as a sentence that says what to
     // do; empty when it can. Null: every choice can be made.

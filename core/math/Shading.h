@@ -58,6 +58,7 @@ using glm::sqrt;
 #include "../../shaders/shared/color.glsl"
 #include "../../shaders/shared/constants.glsl"
 #include "../../shaders/shared/ibl.glsl"
+#include "../../shaders/shared/lights.glsl"
 #include "../../shaders/shared/normalmap.glsl"
 #include "../../shaders/shared/sampling.glsl"
 #include "../../shaders/shared/sh.glsl"

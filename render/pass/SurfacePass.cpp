@@ -12,7 +12,8 @@ constexpr std::array<const char*, kSurfaceFeatureCount> kDefines{
     "HAS_BASE_COLOR_MAP", "HAS_METALLIC_MAP", "HAS_ROUGHNESS_MAP",   "HAS_NORMAL_MAP",
     "HAS_OCCLUSION_MAP",  "HAS_EMISSIVE_MAP", "ROUGHNESS_IS_PACKED", "OCCLUSION_IS_PACKED",
     "ALPHA_MASK",         "ALPHA_BLEND",      "DOUBLE_SIDED",        "HAS_PLACEHOLDER",
-    "HAS_TEXEL_AO",       "HAS_VERTEX_AO",    "HAS_TRANSFER",        "HAS_LIGHTS"};
+    "HAS_TEXEL_AO",       "HAS_VERTEX_AO",    "HAS_TRANSFER",        "HAS_PUNCTUAL_LIGHTS",
+    "HAS_AREA_LIGHTS"};
 
 // The choices of the model: name of the define, value, default.
 struct ModelChoice {
@@ -38,14 +39,16 @@ unsigned modelKey(const ShadingModel& model) {
     return key;
 }
 
-constexpr unsigned kVisibilityUnit = 6, kPrefilteredUnit = 7, kDfgUnit = 8;
+constexpr unsigned kVisibilityUnit = 6, kPrefilteredUnit = 7, kDfgUnit = 8, kLobesUnit = 9;
 
 } // namespace
 
 unsigned surfaceFeatures(const DrawItem& item, const SurfaceSettings& settings) {
     unsigned features = item.material->features;
-    if (settings.hasLights)
-        features |= HasLights;
+    if (settings.hasPunctualLights)
+        features |= HasPunctualLights;
+    if (settings.hasAreaLights)
+        features |= HasAreaLights;
     if (settings.lighting == LightingMode::Prt && item.transfer)
         features |= HasTransfer;
     // One source of ambient visibility is used; the others would only cost fetches.
@@ -105,6 +108,7 @@ Result<void> SurfacePass::draw(const GpuScene& scene, const std::vector<const Dr
     scene.environment().prefiltered().bind(kPrefilteredUnit);
     scene.environment().dfg().bind(kDfgUnit);
     scene.modelBlock().bindUniform(kModelBinding);
+    scene.lobes().bind(kLobesUnit);
     for (const DrawItem* item : items) {
         const unsigned features = surfaceFeatures(*item, settings);
         const auto shader = program(features, settings.model);

@@ -14,7 +14,8 @@ namespace patina::render {
 // What is the same for all items of a frame.
 struct SurfaceSettings {
     LightingMode lighting = LightingMode::Ibl;
-    bool hasLights = false;
+    bool hasPunctualLights = false;
+    bool hasAreaLights = false;
     ShadingModel model; // its choices; the numbers are in the scene's model block
 };
 

@@ -17,8 +17,7 @@ inline constexpr int kMaxLights = 16;
 inline constexpr int kMaxTransferCount = 25; // order 5
 
 struct LightBlock {
-    glm::vec4 place{0.0f};
-    glm::vec4 irradiance{0.0f};
+    glm::vec4 place{0.0f}, color{0.0f}, axis{0.0f}, side{0.0f};
 };
 
 struct FrameBlock {
@@ -27,16 +26,16 @@ struct FrameBlock {
     glm::vec4 viewport{0.0f};
     float radianceScale = 1.0f;
     std::int32_t prefilteredLevels = 1;
-    std::int32_t lightCount = 0;
-    std::int32_t reserved = 0;
+    std::int32_t reserved0 = 0, reserved1 = 0;
     std::array<glm::vec4, 9> irradianceSh{};
     std::array<glm::vec4, kMaxTransferCount> radianceSh{};
+    glm::ivec4 lightEnds{0};
     std::array<LightBlock, kMaxLights> lights{};
 };
 static_assert(offsetof(FrameBlock, cameraPosition) == 192);
 static_assert(offsetof(FrameBlock, radianceScale) == 224);
 static_assert(offsetof(FrameBlock, irradianceSh) == 240);
-static_assert(sizeof(FrameBlock) == 240 + 34 * 16 + 16 * 32);
+static_assert(sizeof(FrameBlock) == 240 + 35 * 16 + 16 * 64);
 
 struct InstanceBlock {
     glm::mat4 model{1.0f}, normalToWorld{1.0f};

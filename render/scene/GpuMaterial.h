@@ -31,9 +31,10 @@ enum SurfaceFeature : unsigned {
     HasTexelAo = 1u << 12,
     HasVertexAo = 1u << 13,
     HasTransfer = 1u << 14,
-    HasLights = 1u << 15,
+    HasPunctualLights = 1u << 15, // points, spots, directional lights
+    HasAreaLights = 1u << 16,     // spheres, rectangles
 };
-inline constexpr int kSurfaceFeatureCount = 16;
+inline constexpr int kSurfaceFeatureCount = 17;
 
 inline constexpr std::size_t kMaterialMapCount = 6; // texture units 0…5, order of the block
 

@@ -2,6 +2,8 @@
 
 #include "core/base/Check.h"
 #include "core/base/Log.h"
+#include "core/light/LobeTable.h"
+#include "render/scene/LightBlocks.h"
 
 #include <algorithm>
 #include <glm/gtc/matrix_inverse.hpp>
@@ -32,11 +34,13 @@ ModelBlock packModel(const ShadingModel& model) {
     return {glm::vec4(model.conductorN, model.f90), glm::vec4(model.conductorK, model.ior)};
 }
 
-LightBlock packLight(const Light& light) {
-    const glm::vec3 color = light.color * light.intensity;
-    if (light.type == LightType::Directional)
-        return {glm::vec4(light.directionToLight(), 0.0f), glm::vec4(color, 0.0f)};
-    return {glm::vec4(light.position, 1.0f), glm::vec4(color, 0.0f)};
+gl::Texture makeLobes(gl::Context& context) {
+    gl::Texture texture(
+        context, "lobes of area lights",
+        {.format = gl::PixelFormat::Rgba32f, .width = kLobeTableSize, .height = kLobeTableSize});
+    texture.upload(0, 4, gl::SampleType::F32, lobeTable().data());
+    texture.setSampling(gl::Filter::Linear, gl::Wrap::Clamp);
+    return texture;
 }
 
 } // namespace
@@ -45,6 +49,7 @@ GpuScene::GpuScene(gl::Context& context)
     : m_context(context)
     , m_environment(context)
     , m_modelBlock(context, "shading model", sizeof(ModelBlock))
+    , m_lobes(makeLobes(context))
     , m_textures(context)
     , m_visibility(context, BakeKind::AoVertex)
     , m_transfer(context, BakeKind::PrtVertex) {}
@@ -72,10 +77,8 @@ void GpuScene::update(const Document& document, const Change& change) {
         }
     }
 
-    if (touched(Affects::Structure) &&
-        std::count_if(m_document.lights.begin(), m_document.lights.end(),
-                      [](const Light& light) { return light.enabled; }) > kMaxLights)
-        logWarning("Only the first {} enabled lights are drawn; disable some.", kMaxLights);
+    if (touched(Affects::Structure) && tooManyLights(m_document))
+        logWarning("Only the first {} lights that shine are drawn; switch some off.", kMaxLights);
 
     if (touched(Affects::EnvironmentMap))
         m_environment.setBackground(m_document.environment.image);
@@ -198,13 +201,7 @@ void GpuScene::clearPreview() {
 
 void GpuScene::fill(FrameBlock& frame) const {
     m_environment.fill(m_document.environment, frame);
-    for (const Light& light : m_document.lights) {
-        if (!light.enabled)
-            continue;
-        if (frame.lightCount == kMaxLights)
-            break; // update() has said so
-        frame.lights[static_cast<std::size_t>(frame.lightCount++)] = packLight(light);
-    }
+    packLights(m_document, {}, frame);
 }
 
 } // namespace patina::render

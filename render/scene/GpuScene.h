@@ -44,6 +44,7 @@ class GpuScene {
     [[nodiscard]] const Document& document() const { return m_document; }
     [[nodiscard]] const EnvironmentLight& environment() const { return m_environment; }
     [[nodiscard]] const gl::Buffer& modelBlock() const { return m_modelBlock; }
+    [[nodiscard]] const gl::Texture& lobes() const { return m_lobes; } // core/light/LobeTable.h
     // Visible instances with geometry, in document order.
     [[nodiscard]] const std::vector<DrawItem>& items() const { return m_items; }
     [[nodiscard]] const Bounds& bounds() const { return m_bounds; } // of the items
@@ -63,6 +64,7 @@ class GpuScene {
     Document m_document;
     EnvironmentLight m_environment;
     gl::Buffer m_modelBlock;
+    gl::Texture m_lobes;
     TextureCache m_textures;
     std::map<MeshPtr, GpuMesh> m_meshes; // holds the mesh: an address is never reused
     std::map<Id, GpuMaterial> m_materials;

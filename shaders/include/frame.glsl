@@ -2,9 +2,14 @@
 #ifndef PT_FRAME_GLSL
 #define PT_FRAME_GLSL
 
+// Sorted by type: u_lightEnds says where the directional lights end, the points and spots, the
+// spheres, the rectangles.
 struct Light {
-    vec4 place;      // directional (w = 0): unit vector to the light; point (w = 1): position
-    vec4 irradiance; // rgb: directional: of a surface facing it; point: intensity in W/sr
+    vec4 place; // position, directional: unit vector to the light; w: shadow map, -1 for none
+    vec4 color; // rgb: lux, candela or nit by type; w: 1 / range², 0 without end
+    vec4 axis;  // point, spot: unit vector to the light times the cone's scale, w: its offset;
+                // sphere: radius; rectangle: half of its width
+    vec4 side;  // rectangle: half of its height
 };
 
 layout(std140, binding = 0) uniform Frame {
@@ -15,10 +20,11 @@ layout(std140, binding = 0) uniform Frame {
     vec4 u_viewport;         // width, height, 1 / width, 1 / height
     float u_radianceScale;   // 2^exposure of the environment
     int u_prefilteredLevels; // of the prefiltered cubemap
-    int u_lightCount;
-    int u_reserved;
+    int u_reserved0;
+    int u_reserved1;
     vec3 u_irradianceSh[9]; // world space, exposure included
     vec3 u_radianceSh[25];  // world space, exposure included
+    ivec4 u_lightEnds;
     Light u_lights[16];
 };
 

@@ -159,7 +159,7 @@ struct Study {
         glFinish();
         const double start = processMilliseconds();
         SurfaceSettings settings;
-        settings.hasLights = block.lightCount > 0;
+        settings.hasPunctualLights = block.lightEnds.y > 0;
         if (!pass.drawOpaque(scene, list, settings))
             return;
         glFinish();

@@ -55,6 +55,17 @@ void surface(InputMaker& make, In in) {
     in[15] = make.uniform(0.0f, 0.1f);
 }
 
+// As surface(), then in 16…19 a lobe's fit, in 20…22 a place, in 23…31 shapes. The fit is a lobe
+// that the table holds (a matrix of positive determinant).
+void areaLight(InputMaker& make, In in) {
+    surface(make, in);
+    in[16] = make.uniform(0.5f, 1.5f);
+    in[17] = make.uniform(-0.4f, 0.4f);
+    in[18] = make.uniform(-0.2f, 0.2f);
+    in[19] = make.uniform(0.3f, 1.0f);
+    make.numbers(in.subspan(20), -2.0f, 2.0f);
+}
+
 #define I(k) in[k]
 #define O(k) out[k]
 #define CASE(name, prepare, scale, ...)                                                            \
@@ -237,6 +248,38 @@ std::vector<SharedTermCase> makeCases() {
                     vec3 sampled = sampleBrdf(s, vec3(0.98f * I(16), I(17), I(18)), pdf);
                     OUT3(5, sampled);
                 }),
+            CASE("punctual lights", unit, 1e-2f, O(0) = rangeWindow(I(0), I(1));
+                 O(1) = spotFalloff(2.0f * I(2) - 1.0f, 1.0f + 5.0f * I(3), -2.0f * I(4));
+                 O(2) = pointFalloff(I(5), I(6)); O(3) = lobeAngle(I(7));),
+            CASE("sphere form factor", unit, 1e-2f,
+                 O(0) = sphereFormFactor(2.0f * I(0) - 1.0f, I(1));
+                 O(1) = sphereFormFactor(0.3f * I(2) - 0.15f, 0.02f * I(3));),
+            CASE("polygon form factor", directions, 1e-1f, vec3 a = vec3(I(0), I(1), I(2));
+                 vec3 b = vec3(I(3), I(4), I(5)); O(0) = edgeFormFactor(a, b);
+                 OUT3(1, horizonPoint(a, b)); float sum = 0.0f; vec3 down = vec3(0.0f);
+                 vec3 up = vec3(0.0f); addClippedEdge(a, b, sum, down, up); O(4) = sum;
+                 OUT3(5, down); OUT3(8, up); vec3 center = vec3(I(6), I(7), I(8));
+                 vec3 x = 0.7f * vec3(I(9), I(10), I(11)); vec3 y = 0.7f * cross(x, center);
+                 O(11) = quadFormFactor(center - x - y, center + x - y, center + x + y,
+                                        center - x + y);),
+            CASE("lobe of area lights", areaLight, 1e-1f,
+                 vec4 fit = vec4(I(16), I(17), I(18), I(19));
+                 vec3 d = vec3(I(3), I(4), I(5)); OUT3(0, toLobe(fit, d));
+                 O(3) = lobeOfSphere(fit, d, 0.01f + 0.9f * I(14));
+                 vec3 x = vec3(I(23), I(24), I(25)); vec3 y = 0.5f * cross(x, d);
+                 O(4) = lobeOfQuad(fit, d - x - y, d + x - y, d + x + y, d - x + y); vec3 t; vec3 u;
+                 lobeFrame(vec3(I(0), I(1), I(2)), d, t, u); OUT3(5, t); OUT3(8, u);),
+            CASE("shade area lights", areaLight, 1e-1f, SurfaceTerms s = SURFACE;
+                 vec4 fit = vec4(I(16), I(17), I(18), I(19));
+                 ShadedLight area = shadeArea(s, I(9), I(10), vec3(I(11), I(12), I(13)));
+                 OUT3(0, area.diffuse); OUT3(3, area.specular);
+                 ShadedLight sphere = shadeSphere(s, fit, vec3(I(20), I(21), I(22)), abs(I(23)),
+                                                  vec3(I(9), I(10), I(11)));
+                 OUT3(6, sphere.diffuse); OUT3(9, sphere.specular);
+                 vec3 x = vec3(I(24), I(25), I(26)); vec3 y = cross(vec3(I(27), I(28), I(29)), x);
+                 ShadedLight rectangle = shadeRectangle(s, fit, vec3(I(20), I(21), I(22)), x, y,
+                                                        vec3(I(9), I(10), I(11)));
+                 OUT3(12, rectangle.diffuse); OUT3(15, rectangle.specular);),
     };
 }
 

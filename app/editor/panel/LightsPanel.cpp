@@ -7,6 +7,7 @@
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/PanelScroll.h"
+#include "core/document/Lights.h"
 
 #include <QHBoxLayout>
 #include <QLabel>
@@ -17,12 +18,30 @@
 namespace patina::editor {
 namespace {
 
+// Rows of numbers that the light does not use are hidden.
 bool applies(const ParameterInfo& info, const Document& document, Id id) {
-    const bool point = document.light(id)->type == LightType::Point;
+    const Light& light = *document.light(id);
+    const LightType type = light.type;
+    if (info.id == "light.color")
+        return !light.usesTemperature;
+    if (info.id == "light.temperatureK")
+        return light.usesTemperature;
     if (info.id == "light.position")
-        return point;
+        return hasPosition(type);
     if (info.id == "light.azimuthDeg" || info.id == "light.elevationDeg")
-        return !point;
+        return hasDirection(type);
+    if (info.id == "light.rollDeg" || info.id == "light.width" || info.id == "light.height")
+        return type == LightType::Rectangle;
+    if (info.id == "light.range")
+        return hasRange(type);
+    if (info.id == "light.innerConeDeg" || info.id == "light.outerConeDeg")
+        return type == LightType::Spot;
+    if (info.id == "light.radius")
+        return type == LightType::Sphere;
+    if (info.id == "light.castsShadow")
+        return canCastShadow(type);
+    if (info.id == "light.shadowSoftness")
+        return canCastShadow(type) && light.castsShadow;
     return true;
 }
 

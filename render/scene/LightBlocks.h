@@ -1,0 +1,19 @@
+// The document's lights as the surface shader wants them: those that shine, sorted by the loop that
+// adds them up.
+#pragma once
+
+#include "core/document/Document.h"
+#include "render/scene/Blocks.h"
+
+#include <span>
+
+namespace patina::render {
+
+// Fills the lights of the frame. `shadowSlots`: ids of the lights that have a shadow map, by slot.
+// At most kMaxLights are taken, in the document's order.
+void packLights(const Document& document, std::span<const Id> shadowSlots, FrameBlock& frame);
+
+// Whether more lights shine than packLights() takes.
+[[nodiscard]] bool tooManyLights(const Document& document);
+
+} // namespace patina::render
