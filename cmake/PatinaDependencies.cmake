@@ -24,3 +24,4 @@ endif()
 # Through pkg-config: Debian 12's CMake package of OpenImageIO wants its command-line tools installed
 # and exports include paths that do not exist.
 pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
+pkg_check_modules(OCIO REQUIRED IMPORTED_TARGET OpenColorIO)

@@ -89,16 +89,16 @@ Result<void> Renderer::Impl::drawScene(const FrameSettings& frame, const FrameBl
 // What exposure needs to know of the picture, where it or the caller asks for it.
 Result<void> Renderer::Impl::adapt(const FrameSettings& frame) {
     const View& view = scene.document().view;
-    const bool automatic = view.exposureMode == ExposureMode::Automatic;
     adaptation.bind();
-    if (!automatic && view.toneMap != ToneMap::ReinhardPhotographic && !frame.measureLuminance)
+    if (!needsLuminance(view) && !frame.measureLuminance)
         return {};
     if (luminanceIsNew)
         if (auto done = adaptation.measure(targets); !done)
             return done;
     luminanceIsNew = false;
-    return adaptation.adapt(automatic ? frame.adaptSeconds
-                                      : std::numeric_limits<float>::infinity());
+    return adaptation.adapt(view.exposureMode == ExposureMode::Automatic
+                                ? frame.adaptSeconds
+                                : std::numeric_limits<float>::infinity());
 }
 
 Renderer::Renderer(std::unique_ptr<Impl> impl)
@@ -129,6 +129,17 @@ void Renderer::setDocument(const Document& document, const Change& change) {
 void Renderer::setIbl(const IblMaps& maps) {
     m_impl->scene.setIbl(maps);
     m_impl->sceneIsNew = true;
+}
+
+Result<void> Renderer::setDisplay(const DisplayTransformPtr& display) {
+    m_impl->screen.setDisplay(std::nullopt);
+    if (!display)
+        return {};
+    auto program = DisplayProgram::create(m_impl->context, *display);
+    if (!program)
+        return program.error();
+    m_impl->screen.setDisplay(std::move(*program));
+    return {};
 }
 
 void Renderer::previewVertices(BakeKind kind, Id mesh, int stride, std::span<const float> values) {

@@ -5,8 +5,9 @@
 #include "core/base/Result.h"
 #include "core/document/Change.h"
 #include "core/document/Document.h"
+#include "core/document/ToneResponse.h"
+#include "core/image/DisplayTransform.h"
 #include "core/light/Ibl.h"
-#include "render/Luminance.h"
 #include "render/gl/Context.h"
 
 #include <filesystem>
@@ -52,6 +53,10 @@ class Renderer {
     // Image-based light of document.environment.image; computed elsewhere (a job in the editor,
     // directly in the command line). Until set, the SH of a grey sky light the scene.
     void setIbl(const IblMaps& maps);
+
+    // What ToneMap::OpenColorIo shows; null: nothing yet, the default curve stands in for it. Error
+    // Internal when the driver refuses its shader; the stand-in is used then, too.
+    Result<void> setDisplay(const DisplayTransformPtr& display);
 
     // Live bake preview: values of a running bake, drawn instead of an attached artifact's. `kind`
     // is AoVertex or PrtVertex; `values`: all vertices of the mesh, `stride` numbers each.

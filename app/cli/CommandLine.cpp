@@ -1,5 +1,7 @@
 #include "app/cli/CommandLine.h"
 
+#include "core/material/Parameters.h"
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -175,8 +177,13 @@ class Parser {
                       "Orbit in degrees and metres; without DISTANCE the scene fills the picture")
             ->type_name("YAW,PITCH[,DISTANCE]");
         c->add_option("--fov", o.fov, "Vertical field of view in degrees")->type_name("DEG");
-        c->add_option("--exposure", o.exposure, "Brightens the picture, in stops")->type_name("EV");
-        c->add_option("--tone-map", o.toneMap, "clamp or reinhard")->type_name("NAME");
+        c->add_option("--exposure", o.exposure,
+                      "Brightens the picture, in stops; auto: like an eye used to it")
+            ->type_name("EV|auto");
+        c->add_option(
+             "--tone-map", o.toneMap,
+             fmt::format("One of {}", fmt::join(findParameter("view.toneMap")->choices, ", ")))
+            ->type_name("NAME");
         c->add_option("--background", o.background,
                       "visible, blurred, transparent, or a colour as R,G,B or #rrggbb")
             ->type_name("NAME");

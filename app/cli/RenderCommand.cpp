@@ -1,8 +1,10 @@
 #include "app/cli/Commands.h"
 #include "app/cli/SceneSetup.h"
 #include "core/document/Edit.h"
+#include "core/image/DisplayTransform.h"
 #include "core/image/ImageIO.h"
 #include "core/light/Ibl.h"
+#include "core/material/Parameters.h"
 #include "render/Renderer.h"
 #include "render/gl/Context.h"
 
@@ -73,12 +75,20 @@ Result<void> applyView(Session& session, const RenderOptions& options, Document&
     const auto set = [&](const char* name, const std::string& value) {
         return value.empty() ? Result<void>() : setParameter(session, document, name, value);
     };
+    if (options.exposure == "auto" || options.exposure == "automatic")
+        document.view.exposureMode = ExposureMode::Automatic;
+    else if (Result<void> result = set("view.exposureEv", options.exposure); !result)
+        return usage(fmt::format("--exposure wants a number of EV from -24 to 24 or \"auto\", not "
+                                 "\"{}\"",
+                                 options.exposure));
     for (const auto& [name, value] : {std::pair{"view.fovDeg", options.fov},
-                                      {"view.exposureEv", options.exposure},
                                       {"view.toneMap", options.toneMap},
                                       {"view.lighting", options.lighting}})
         if (Result<void> result = set(name, value); !result)
             return result;
+    if (!options.toneMap.empty())
+        if (Result<void> offered = checkOffered(document, "view.toneMap"); !offered)
+            return offered;
 
     Environment& environment = document.environment;
     if (options.background == "visible")
@@ -113,8 +123,32 @@ Image withoutAlpha(const Image& image) {
     return result;
 }
 
+// The view of OpenColorIO that the document asks for; null when it asks for none.
+Result<DisplayTransformPtr> openDisplay(Session& session, const View& view) {
+    if (view.toneMap != ToneMap::OpenColorIo)
+        return DisplayTransformPtr();
+    const std::string config = openColorIoConfig(view.ocioConfig);
+    if (config.empty())
+        return usage("the view is shown through OpenColorIO, and there is no configuration; set "
+                     "the environment variable OCIO to one, or choose another --tone-map");
+    Result<DisplayTransform> display =
+        loadDisplayTransform(session.worker(), config, view.ocioDisplay, view.ocioView);
+    if (!display)
+        return display.error();
+    session.report().json()["settings"]["openColorIo"] = {{"config", display->config},
+                                                          {"display", display->display},
+                                                          {"view", display->view},
+                                                          {"workingSpace", display->space}};
+    return std::make_shared<const DisplayTransform>(std::move(*display));
+}
+
 Result<Image> draw(Session& session, const Document& document, const render::FrameSettings& frame,
                    bool linear) {
+    // Linear pictures need no display.
+    Result<DisplayTransformPtr> display =
+        linear ? DisplayTransformPtr() : openDisplay(session, document.view);
+    if (!display)
+        return display.error();
     Result<std::unique_ptr<gl::Context>> context = gl::Context::createHeadless();
     if (!context)
         return context.error();
@@ -139,10 +173,14 @@ Result<Image> draw(Session& session, const Document& document, const render::Fra
             return ibl.error();
         (*renderer)->setIbl(*ibl);
     }
+    if (Result<void> set = (*renderer)->setDisplay(*display); !set)
+        return set.error();
     session.job().setActivity("drawing");
     (*renderer)->setDocument(document, Change::everything());
     if (Result<void> drawn = (*renderer)->render(frame, 0); !drawn)
         return drawn.error();
+    if (const std::optional<Luminance> luminance = (*renderer)->readLuminance())
+        session.report().json()["logAverageLuminance"] = luminance->logAverage;
     return linear ? (*renderer)->readLinear() : (*renderer)->readDisplayed();
 }
 
@@ -181,6 +219,12 @@ Result<void> run(Session& session, const RenderOptions& options) {
         {"distance", camera->distance},
         {"fovDeg", camera->fovDeg},
         {"target", {camera->target.x, camera->target.y, camera->target.z}}};
+    const View& view = document->view;
+    json["settings"]["exposure"] = {
+        {"mode", view.exposureMode == ExposureMode::Automatic ? "automatic" : "fixed"},
+        {"ev", view.exposureEv}};
+    json["settings"]["toneMap"] =
+        formatParameterValue(*findParameter("view.toneMap"), static_cast<int>(view.toneMap));
     json["settings"]["lighting"] = document->view.lighting == LightingMode::Prt ? "prt" : "ibl";
 
     const bool linear = *format == ImageFileFormat::Exr || *format == ImageFileFormat::Hdr;

@@ -91,6 +91,19 @@ Result<void> setParameter(Session& session, Document& document, const std::strin
     return {};
 }
 
+Result<void> checkOffered(const Document& document, const std::string& name) {
+    const Result<ParameterSelection> selection = selectParameter(document, name);
+    if (!selection)
+        return selection.error();
+    for (const Target& target : selection->targets) {
+        const ParameterValue value = selection->info->get(document, target.id);
+        if (const int* choice = std::get_if<int>(&value))
+            if (std::string why = whyUnavailable(*selection->info, document, *choice); !why.empty())
+                return Error{ErrorKind::Usage, std::move(why), {}, {}};
+    }
+    return {};
+}
+
 namespace {
 
 // --set, maps first: putting one on raises its number to 1, and numbers given should win.
@@ -108,6 +121,10 @@ Result<void> applySets(Session& session, Document& document) {
     for (const auto& [name, value] : assignments)
         if (Result<void> set = setParameter(session, document, name, value); !set)
             return set.error();
+    // Only now: a later assignment may be what makes a choice possible.
+    for (const auto& [name, value] : assignments)
+        if (Result<void> offered = checkOffered(document, name); !offered)
+            return offered.error();
     return {};
 }
 

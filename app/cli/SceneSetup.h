@@ -30,6 +30,9 @@ Result<Document> openEnvironmentFor(Session& session, const std::string& source)
 Result<void> setParameter(Session& session, Document& document, const std::string& name,
                           const std::string& value);
 
+// Usage error when the named choice is one that the document does not offer (whyUnavailable()).
+Result<void> checkOffered(const Document& document, const std::string& name);
+
 // CannotCreate when the folder is missing or not writable, or the path is a folder.
 Result<void> checkOutput(const std::filesystem::path& output);
 // The extension in lower case, with the dot.

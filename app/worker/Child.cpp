@@ -33,6 +33,10 @@ codec::Reply dispatch(const json& header, const protocol::Request& request,
         return codec::decodeImage(header, payload.get());
     if (op == "importModel")
         return codec::importModel(header, payload.get());
+    if (op == "displayMenu")
+        return codec::displayMenu(header);
+    if (op == "displayTransform")
+        return codec::displayTransform(header);
     if (op == "encodeImage") {
         const auto bytes = MemoryFile::open(std::move(payload), request.payloadSize);
         if (!bytes)

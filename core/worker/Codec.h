@@ -36,6 +36,8 @@ std::string toJsonText(const nlohmann::json& json);
 Reply decodeImage(const nlohmann::json& request, int payloadFd);
 Reply encodeImage(const nlohmann::json& request, std::span<const std::byte> payload);
 Reply importModel(const nlohmann::json& request, int payloadFd);
+Reply displayMenu(const nlohmann::json& request);      // of an OpenColorIO configuration
+Reply displayTransform(const nlohmann::json& request); // one of its views, for the GPU
 
 // Once, before the first child is forked: loads what every child would have to load.
 void prepareImageCodec();

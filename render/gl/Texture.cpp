@@ -17,6 +17,10 @@ GLenum target(TextureKind kind) {
         return GL_TEXTURE_CUBE_MAP;
     case TextureKind::Multisample:
         return GL_TEXTURE_2D_MULTISAMPLE;
+    case TextureKind::Line:
+        return GL_TEXTURE_1D;
+    case TextureKind::Volume:
+        return GL_TEXTURE_3D;
     }
     return GL_TEXTURE_2D;
 }
@@ -101,6 +105,12 @@ Texture::Texture(Context&, std::string_view label, const TextureSettings& settin
     if (settings.kind == TextureKind::Multisample)
         glTextureStorage2DMultisample(name, settings.samples, internalFormat(settings.format),
                                       settings.width, settings.height, GL_TRUE);
+    else if (settings.kind == TextureKind::Line)
+        glTextureStorage1D(name, m_settings.levels, internalFormat(settings.format),
+                           settings.width);
+    else if (settings.kind == TextureKind::Volume)
+        glTextureStorage3D(name, m_settings.levels, internalFormat(settings.format), settings.width,
+                           settings.height, settings.depth);
     else
         glTextureStorage2D(name, m_settings.levels, internalFormat(settings.format), settings.width,
                            settings.height);
@@ -110,11 +120,18 @@ Texture::Texture(Context&, std::string_view label, const TextureSettings& settin
 }
 
 void Texture::upload(int level, int channels, SampleType type, const void* data) {
-    CHECK(m_settings.kind == TextureKind::Flat);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage2D(id(), level, 0, 0, std::max(1, width() >> level),
-                        std::max(1, height() >> level), pixelLayout(m_settings.format, channels),
-                        componentType(type), data);
+    const GLenum layout = pixelLayout(m_settings.format, channels), sample = componentType(type);
+    const int w = std::max(1, width() >> level), h = std::max(1, height() >> level);
+    if (m_settings.kind == TextureKind::Line) {
+        glTextureSubImage1D(id(), level, 0, w, layout, sample, data);
+    } else if (m_settings.kind == TextureKind::Volume) {
+        glTextureSubImage3D(id(), level, 0, 0, 0, w, h, std::max(1, m_settings.depth >> level),
+                            layout, sample, data);
+    } else {
+        CHECK(m_settings.kind == TextureKind::Flat);
+        glTextureSubImage2D(id(), level, 0, 0, w, h, layout, sample, data);
+    }
 }
 
 void Texture::uploadFace(int face, int level, int channels, SampleType type, const void* data) {
@@ -139,6 +156,8 @@ void Texture::setSampling(Filter filter, Wrap wrap) {
     glTextureParameteri(id(), GL_TEXTURE_WRAP_S,
                         wrap == Wrap::Clamp ? GL_CLAMP_TO_EDGE : GL_REPEAT);
     glTextureParameteri(id(), GL_TEXTURE_WRAP_T,
+                        wrap == Wrap::Repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+    glTextureParameteri(id(), GL_TEXTURE_WRAP_R,
                         wrap == Wrap::Repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE);
 }
 

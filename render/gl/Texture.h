@@ -29,7 +29,7 @@ enum class PixelFormat {
     Depth32f
 };
 
-enum class TextureKind { Flat, Cube, Multisample };
+enum class TextureKind { Flat, Cube, Multisample, Line, Volume };
 
 // How the numbers handed to upload() are laid out: interleaved, rows without padding.
 enum class SampleType { U8, U16, F32, U32 };
@@ -37,7 +37,8 @@ enum class SampleType { U8, U16, F32, U32 };
 struct TextureSettings {
     TextureKind kind = TextureKind::Flat;
     PixelFormat format = PixelFormat::Rgba8;
-    int width = 0, height = 0; // Cube: both the side of a face
+    int width = 0, height = 0; // Cube: both the side of a face; Line: the height is 1
+    int depth = 1;             // Volume
     int levels = 1;            // 0: a full mipmap chain
     int samples = 1;           // Multisample
 };
@@ -63,7 +64,7 @@ class Texture {
     [[nodiscard]] const TextureSettings& settings() const { return m_settings; }
 
     // Fills a level; `data` holds width × height × channels samples. Cube: one face 0…5 in the
-    // order +X -X +Y -Y +Z -Z.
+    // order +X -X +Y -Y +Z -Z. Volume: slice by slice.
     void upload(int level, int channels, SampleType type, const void* data);
     void uploadFace(int face, int level, int channels, SampleType type, const void* data);
     void generateMipmaps();

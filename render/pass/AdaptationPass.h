@@ -3,7 +3,7 @@
 // The CPU learns of them later, without waiting.
 #pragma once
 
-#include "render/Luminance.h"
+#include "core/document/ToneResponse.h"
 #include "render/gl/Buffer.h"
 #include "render/pass/Targets.h"
 #include "render/shader/ShaderLibrary.h"
@@ -30,6 +30,7 @@ class AdaptationPass {
     // The newest result that the GPU has finished; nothing before the first.
     [[nodiscard]] std::optional<Luminance> poll();
     [[nodiscard]] std::optional<Luminance> read(); // waits for the GPU
+    [[nodiscard]] bool pending() const { return m_underWay > 0; } // poll() will have a newer one
 
     // Compiles the programs, so that a broken one is found when the renderer is made.
     Result<void> compile();

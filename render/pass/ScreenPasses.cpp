@@ -10,7 +10,6 @@ constexpr unsigned kEnvironmentUnit = 0, kPictureUnit = 0, kPrefilteredUnit = 7;
 constexpr float kDitherAmplitude = 0.998f;
 
 std::vector<std::string> toneMapDefines(ToneMap curve) {
-    // Until a view of OpenColorIO is there, the default stands in for it.
     if (curve == ToneMap::OpenColorIo)
         curve = View().toneMap;
     return {"TONE_MAP " + std::to_string(static_cast<int>(curve))};
@@ -71,18 +70,25 @@ void ScreenPasses::setExposure(const gl::Program& program, const View& view) {
 }
 
 Result<void> ScreenPasses::toneMap(const Targets& targets, const View& view, bool dither) {
-    const auto shader = program("tonemap.frag", toneMapDefines(view.toneMap));
-    if (!shader)
-        return shader.error();
-    (*shader)->use();
-    setExposure(**shader, view);
-    (*shader)->set("u_autoKey", view.reinhardAutoKey ? 1 : 0);
-    (*shader)->set("u_reinhardKey", view.reinhardKey);
-    (*shader)->set("u_reinhardWhite", view.reinhardWhite);
-    (*shader)->set("u_exponentialK", view.exponentialK);
-    (*shader)->set("u_transfer", static_cast<int>(view.displayTransfer));
-    (*shader)->set("u_gamma", view.displayGamma);
-    (*shader)->set("u_ditherAmplitude", dither ? kDitherAmplitude : 0.0f);
+    const gl::Program* shader = nullptr;
+    if (view.toneMap == ToneMap::OpenColorIo && m_display) {
+        shader = &m_display->program();
+        m_display->bindTables();
+    } else {
+        const auto made = program("tonemap.frag", toneMapDefines(view.toneMap));
+        if (!made)
+            return made.error();
+        shader = *made;
+    }
+    shader->use();
+    setExposure(*shader, view);
+    shader->set("u_autoKey", view.reinhardAutoKey ? 1 : 0);
+    shader->set("u_reinhardKey", view.reinhardKey);
+    shader->set("u_reinhardWhite", view.reinhardWhite);
+    shader->set("u_exponentialK", view.exponentialK);
+    shader->set("u_transfer", static_cast<int>(view.displayTransfer));
+    shader->set("u_gamma", view.displayGamma);
+    shader->set("u_ditherAmplitude", dither ? kDitherAmplitude : 0.0f);
     targets.linear().bind(kPictureUnit);
     targets.display().bind();
     glDisable(GL_DEPTH_TEST);

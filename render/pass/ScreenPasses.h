@@ -2,9 +2,12 @@
 #pragma once
 
 #include "render/gl/VertexArray.h"
+#include "render/pass/DisplayProgram.h"
 #include "render/pass/Targets.h"
 #include "render/scene/GpuScene.h"
 #include "render/shader/ShaderLibrary.h"
+
+#include <optional>
 
 namespace patina::render {
 
@@ -18,7 +21,9 @@ class ScreenPasses {
 
     // linear() to display(): exposure, tone curve, transfer function. The luminance that the view
     // may ask for is bound (AdaptationPass). `dither`: noise of half a display step hides bands.
+    // Until setDisplay() has been given a view of OpenColorIO, the default curve stands in for it.
     Result<void> toneMap(const Targets& targets, const View& view, bool dither);
+    void setDisplay(std::optional<DisplayProgram> display) { m_display = std::move(display); }
 
     // displayed() into a framebuffer of the window system, multisampled or not.
     Result<void> present(const Targets& targets, unsigned framebuffer);
@@ -36,6 +41,7 @@ class ScreenPasses {
 
     ShaderLibrary& m_shaders;
     gl::VertexArray m_noAttributes;
+    std::optional<DisplayProgram> m_display;
 };
 
 } // namespace patina::render

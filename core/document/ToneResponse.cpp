@@ -1,0 +1,35 @@
+#include "core/document/ToneResponse.h"
+
+#include "core/base/Check.h"
+#include "core/math/Shading.h"
+
+#include <cmath>
+
+namespace patina {
+
+bool needsLuminance(const View& view) {
+    return view.exposureMode == ExposureMode::Automatic ||
+           view.toneMap == ToneMap::ReinhardPhotographic;
+}
+
+float exposureScale(const View& view, const Luminance& luminance) {
+    const bool automatic = view.exposureMode == ExposureMode::Automatic &&
+                           view.toneMap != ToneMap::ReinhardPhotographic;
+    return std::exp2(view.exposureEv) *
+           (automatic ? shading::automaticExposure(luminance.adapted) : 1.0f);
+}
+
+float displayedGrey(const View& view, const Luminance& luminance, float exposed) {
+    CHECK(view.toneMap != ToneMap::OpenColorIo);
+    const float key =
+        view.reinhardAutoKey
+            ? shading::reinhardAutoKey(luminance.adapted, luminance.darkest, luminance.brightest)
+            : view.reinhardKey;
+    const shading::ToneCurve curve{static_cast<int>(view.toneMap), key / luminance.adapted,
+                                   view.reinhardWhite, view.exponentialK};
+    return shading::displayEncode(shading::toneMap(glm::vec3(exposed), curve),
+                                  static_cast<int>(view.displayTransfer), view.displayGamma)
+        .y;
+}
+
+} // namespace patina
