@@ -296,6 +296,11 @@ class Parser {
         addBakeFiles(c, "--bakes", o.bakes,
                      "Bake file to take along: occlusion per texel (repeatable)");
         c->add_flag("--no-baked-ao", o.noBakedAo, "Leave a project's baked occlusion out");
+        c->add_flag("--environment-light", o.environmentLight,
+                    "Take the environment's light along (EXT_lights_image_based)");
+        c->add_option("--environment", o.environment,
+                      "Surroundings in place of the scene's; implies --environment-light")
+            ->type_name("HDR");
         c->add_flag("--no-lights", o.noLights, "Leave the lights out");
         c->add_flag("--dry-run", o.dryRun, "Say what would be written, and write nothing");
         addSets(c);

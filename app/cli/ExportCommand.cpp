@@ -46,15 +46,17 @@ Result<void> run(Session& session, const ExportOptions& options) {
     settings.maxTextureSize = options.textureSize;
     settings.includeBakedAo = !options.noBakedAo;
     settings.includeLights = !options.noLights;
+    settings.includeEnvironment = options.environmentLight || !options.environment.empty();
 
     Report& report = session.report();
     report.json()["settings"] = {{"scene", options.scene},
                                  {"textures", options.jpeg ? "jpg" : "png"},
                                  {"textureSize", options.textureSize},
                                  {"bakedAo", settings.includeBakedAo},
-                                 {"lights", settings.includeLights}};
+                                 {"lights", settings.includeLights},
+                                 {"environmentLight", settings.includeEnvironment}};
     session.beginPhase();
-    SceneRequest request{options.scene, {}, options.bakes};
+    SceneRequest request{options.scene, options.environment, options.bakes};
     Result<Document> document = openSceneFor(session, request);
     if (!document)
         return document.error();

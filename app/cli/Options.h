@@ -67,7 +67,9 @@ struct ExportOptions {
     std::string scene, output;
     std::vector<std::string> bakes;
     bool jpeg = false;
-    int textureSize = 0; // 0: as they are
+    int textureSize = 0;           // 0: as they are
+    std::string environment;       // replaces the scene's, and is taken along
+    bool environmentLight = false; // takes the scene's along
     bool noLights = false, noBakedAo = false, dryRun = false;
 };
 

@@ -41,6 +41,12 @@ QString suggestedPath(const DocumentController& controller) {
         .filePath((name.isEmpty() ? QStringLiteral("scene") : name) + QStringLiteral(".glb"));
 }
 
+// The name of the file that an embedded one lies in.
+QString containerOf(const PlannedFile& file) {
+    const QString name = fromPath(file.path.filename());
+    return name.left(name.lastIndexOf(QLatin1Char('#')));
+}
+
 template <class Widget>
 Widget* withHelp(Widget* widget, const QString& help) {
     widget->setToolTip(help);
@@ -141,8 +147,12 @@ QWidget* ExportDialog::makeSettings() {
     m_lights = withHelp(new QCheckBox(tr("Lights (KHR_lights_punctual)")),
                         tr("Writes point and directional lights"));
     m_visible = withHelp(new QCheckBox(tr("Visible meshes only")), tr("Leaves hidden meshes out"));
-    for (QCheckBox* box : {m_bakedAo, m_lights, m_visible}) {
-        box->setChecked(true);
+    m_environment = withHelp(
+        new QCheckBox(tr("Environment's light (EXT_lights_image_based)")),
+        tr("Writes the surroundings' light into the file; few programs read it, Babylon.js does"));
+    m_environment->setObjectName(QStringLiteral("exportEnvironment"));
+    for (QCheckBox* box : {m_bakedAo, m_lights, m_environment, m_visible}) {
+        box->setChecked(box != m_environment);
         form->addRow(QString(), box);
         connect(box, &QCheckBox::toggled, this, &ExportDialog::refresh);
     }
@@ -163,6 +173,7 @@ ExportSettings ExportDialog::settings() const {
     settings.maxTextureSize = m_size->currentData().toInt();
     settings.includeBakedAo = m_bakedAo->isChecked();
     settings.includeLights = m_lights->isChecked();
+    settings.includeEnvironment = m_environment->isChecked();
     settings.visibleOnly = m_visible->isChecked();
     return settings;
 }
@@ -204,7 +215,7 @@ void ExportDialog::refresh() {
             QString::fromStdString(file.colorSpace),
             QString::fromStdString(file.format),
             file.overwrites ? tr("Overwrites")
-            : file.embedded ? tr("Inside the GLB")
+            : file.embedded ? tr("Inside %1").arg(containerOf(file))
                             : tr("New"),
         };
         for (int column = 0; column < cells.size(); ++column) {

@@ -42,6 +42,7 @@ class ExportDialog : public QDialog {
     QComboBox* m_size = nullptr;
     QCheckBox* m_bakedAo = nullptr;
     QCheckBox* m_lights = nullptr;
+    QCheckBox* m_environment = nullptr;
     QCheckBox* m_visible = nullptr;
     QTableWidget* m_files = nullptr;
     QLabel* m_warnings = nullptr;

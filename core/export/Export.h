@@ -21,19 +21,20 @@ struct ExportSettings {
     std::filesystem::path output; // OUT.glb or OUT.gltf
     ExportFormat format = ExportFormat::Glb;
     ExportTextureFormat textures = ExportTextureFormat::Png;
-    int maxTextureSize = 0;     // 0: as they are
-    bool includeBakedAo = true; // an attached AoTexel bake becomes the occlusion texture
-    bool includeLights = true;  // KHR_lights_punctual
+    int maxTextureSize = 0;          // 0: as they are
+    bool includeBakedAo = true;      // an attached AoTexel bake becomes the occlusion texture
+    bool includeLights = true;       // KHR_lights_punctual
+    bool includeEnvironment = false; // EXT_lights_image_based
     bool visibleOnly = true;
 };
 
 struct PlannedFile {
-    std::filesystem::path path; // inside a GLB: path of the GLB + "#" + name
+    std::filesystem::path path; // inside another file: that file's path + "#" + name
     std::string
         contents; // "Geometry and materials", "Body: occlusion (R), roughness (G), metallic (B)"
     std::string colorSpace;  // "sRGB", "linear", ""
     std::string format;      // "GLB", "PNG 8-bit RGB 1024 × 1024"
-    bool embedded = false;   // inside the GLB
+    bool embedded = false;   // inside another file, the GLB or the .bin
     bool overwrites = false; // a file of that name exists
 };
 

@@ -1,6 +1,7 @@
 #include "core/export/ExportContents.h"
 
 #include "core/bake/Bake.h"
+#include "core/export/GltfEnvironment.h"
 #include "core/export/Names.h"
 
 #include <algorithm>
@@ -54,6 +55,19 @@ void warnAboutBakes(const Document& document, const ExportSettings& settings,
     }
 }
 
+void addEnvironment(const Environment& environment, ExportContents& contents) {
+    if (environment.image == nullptr || !environment.problem.empty()) {
+        contents.warnings.emplace_back(
+            "the environment's image is missing, so that its light is left out");
+        return;
+    }
+    contents.environment = &environment;
+    if (fitRgbd(*environment.image).tooBright)
+        contents.warnings.emplace_back(
+            "the environment has lights that are brighter than glTF's 8-bit images can hold; "
+            "mirrors will show them dimmer (patina bake ibl keeps them)");
+}
+
 } // namespace
 
 std::filesystem::path ExportContents::texturePath(const ExportSettings& settings,
@@ -62,6 +76,12 @@ std::filesystem::path ExportContents::texturePath(const ExportSettings& settings
     if (settings.format == ExportFormat::Glb)
         return settings.output.string() + "#" + name;
     return settings.output.parent_path() / name;
+}
+
+std::filesystem::path ExportContents::environmentPath(const ExportSettings& settings) const {
+    const std::filesystem::path& file =
+        settings.format == ExportFormat::Glb ? settings.output : buffer;
+    return file.string() + "#environment";
 }
 
 ExportContents gatherContents(const Document& document, const ExportSettings& settings) {
@@ -82,6 +102,8 @@ ExportContents gatherContents(const Document& document, const ExportSettings& se
     contents.warnings.insert(contents.warnings.end(), contents.textures.warnings.begin(),
                              contents.textures.warnings.end());
     warnAboutBakes(document, settings, contents.warnings);
+    if (settings.includeEnvironment)
+        addEnvironment(document.environment, contents);
     return contents;
 }
 

@@ -23,6 +23,7 @@ struct ExportContents {
     std::vector<ExportedInstance> instances;
     std::vector<const Material*> materials; // used by an instance
     std::vector<const Light*> lights;
+    const Environment* environment = nullptr; // its light is exported
     TexturePlan textures;
     std::filesystem::path buffer; // of a .gltf: the .bin beside it; empty for GLB
     std::vector<std::string> warnings;
@@ -30,6 +31,8 @@ struct ExportContents {
     // Where a texture goes: the file beside a .gltf, "OUT.glb#NAME" inside a GLB.
     [[nodiscard]] std::filesystem::path texturePath(const ExportSettings& settings,
                                                     const PackedTexture& texture) const;
+    // The images of the environment always lie in the buffer.
+    [[nodiscard]] std::filesystem::path environmentPath(const ExportSettings& settings) const;
 };
 
 [[nodiscard]] ExportContents gatherContents(const Document& document,

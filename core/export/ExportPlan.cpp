@@ -1,6 +1,8 @@
 #include "core/export/Export.h"
 #include "core/export/ExportContents.h"
+#include "core/export/GltfEnvironment.h"
 
+#include <fmt/format.h>
 #include <system_error>
 
 namespace patina {
@@ -25,6 +27,12 @@ ExportPlan planExport(const Document& document, const ExportSettings& settings) 
     for (const PackedTexture& texture : contents.textures.textures)
         add({contents.texturePath(settings, texture), texture.contents,
              texture.kind == PackKind::Color ? "sRGB" : "linear", texture.formatText(), glb});
+    if (contents.environment != nullptr)
+        add({contents.environmentPath(settings), "Environment's light: reflections, irradiance",
+             "linear, RGBD",
+             fmt::format("PNG 8-bit RGBA {0} × {0}, {1} levels of 6 faces", kGltfEnvironmentSize,
+                         kGltfEnvironmentLevels),
+             true});
     return plan;
 }
 

@@ -1,6 +1,7 @@
 #include "core/base/AtomicFile.h"
 #include "core/export/Export.h"
 #include "core/export/ExportContents.h"
+#include "core/export/GltfEnvironment.h"
 #include "core/export/GltfWriter.h"
 #include "core/job/Parallel.h"
 
@@ -77,7 +78,8 @@ Result<std::vector<fs::path>> writeAll(std::vector<FileToWrite> files, const Job
 bool matchesPlan(const ExportPlan& plan, const ExportContents& contents) {
     const std::size_t own = plan.settings.format == ExportFormat::Glb ? 1 : 2;
     const std::vector<PackedTexture>& textures = contents.textures.textures;
-    if (plan.files.size() != own + textures.size())
+    const std::size_t environment = contents.environment != nullptr ? 1 : 0;
+    if (plan.files.size() != own + textures.size() + environment)
         return false;
     for (std::size_t i = 0; i < textures.size(); ++i)
         if (plan.files[own + i].path != contents.texturePath(plan.settings, textures[i]) ||
@@ -106,9 +108,17 @@ Result<std::vector<fs::path>> runExport(WorkerClient& worker, const Document& do
     Result<std::vector<Bytes>> images = encodeTextures(worker, contents.textures.textures, job);
     if (!images)
         return images.error();
+    std::optional<GltfEnvironment> environment;
+    if (contents.environment != nullptr) {
+        Result<GltfEnvironment> encoded = encodeGltfEnvironment(worker, *contents.environment, job);
+        if (!encoded)
+            return encoded.error();
+        environment = std::move(*encoded);
+    }
     job.setActivity("writing");
     const bool glb = settings.format == ExportFormat::Glb;
-    Result<GltfOutput> gltf = writeGltf(contents, settings, *images);
+    Result<GltfOutput> gltf =
+        writeGltf(contents, settings, *images, environment ? &*environment : nullptr);
     if (!gltf)
         return gltf.error();
 

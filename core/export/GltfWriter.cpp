@@ -1,5 +1,6 @@
 #include "core/export/GltfWriter.h"
 
+#include "core/export/GltfEnvironment.h"
 #include "core/export/GltfGeometry.h"
 #include "core/export/Names.h"
 
@@ -32,9 +33,11 @@ Json toJson(const Vector& v) {
 
 class Writer {
   public:
-    Writer(const ExportContents& contents, const ExportSettings& settings)
+    Writer(const ExportContents& contents, const ExportSettings& settings,
+           const GltfEnvironment* environment)
         : m_contents(contents)
-        , m_settings(settings) {}
+        , m_settings(settings)
+        , m_environment(environment) {}
 
     GltfOutput write(const std::vector<Bytes>& images) {
         for (std::size_t i = 0; i < m_contents.materials.size(); ++i)
@@ -43,6 +46,8 @@ class Writer {
         writeInstances();
         writeLights();
         writeTextures(images);
+        if (m_environment != nullptr)
+            writeEnvironment(*m_environment);
         return {assemble(), m_geometry.takeBuffer()};
     }
 
@@ -199,6 +204,30 @@ class Writer {
         }
     }
 
+    void writeEnvironment(const GltfEnvironment& environment) {
+        Json irradiance = Json::array(), levels = Json::array();
+        for (const glm::vec3& coefficient : environment.irradiance)
+            irradiance.push_back(toJson(coefficient));
+        for (const std::array<Bytes, 6>& faces : environment.images) {
+            Json indices = Json::array();
+            for (const Bytes& face : faces) {
+                indices.push_back(m_images.size());
+                m_images.push_back(
+                    {{"bufferView", m_geometry.addImage(face)}, {"mimeType", "image/png"}});
+            }
+            levels.push_back(std::move(indices));
+        }
+        const glm::dquat& q = environment.rotation;
+        // The intensity is optional, but Babylon.js makes NaN of the light without it.
+        m_environmentLight = {{"name", cleanName(environment.name, "Environment")},
+                              {"rotation", {q.x, q.y, q.z, q.w}},
+                              {"intensity", environment.intensity},
+                              {"irradianceCoefficients", std::move(irradiance)},
+                              {"specularImageSize", kGltfEnvironmentSize},
+                              {"specularImages", std::move(levels)}};
+        m_extensions.insert("EXT_lights_image_based");
+    }
+
     std::string assemble() {
         Json root;
         root["asset"] = {{"version", "2.0"}, {"generator", "Patina " PATINA_VERSION}};
@@ -213,12 +242,13 @@ class Writer {
             root["materials"] = m_materials;
         if (!m_textures.empty()) {
             root["textures"] = m_textures;
-            root["images"] = m_images;
             root["samplers"] = Json::array({{{"magFilter", kLinear},
                                              {"minFilter", kLinearMipmapLinear},
                                              {"wrapS", kRepeat},
                                              {"wrapT", kRepeat}}});
         }
+        if (!m_images.empty())
+            root["images"] = m_images;
         root["accessors"] = m_geometry.accessors();
         root["bufferViews"] = m_geometry.bufferViews();
         Json buffer;
@@ -228,6 +258,11 @@ class Writer {
         root["buffers"] = Json::array({buffer});
         if (!m_lights.empty())
             root["extensions"]["KHR_lights_punctual"]["lights"] = m_lights;
+        if (!m_environmentLight.is_null()) {
+            root["extensions"]["EXT_lights_image_based"]["lights"] =
+                Json::array({m_environmentLight});
+            root["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 0;
+        }
         return root.dump(m_settings.format == ExportFormat::Gltf ? 2 : -1);
     }
 
@@ -237,11 +272,13 @@ class Writer {
 
     const ExportContents& m_contents;
     const ExportSettings& m_settings;
+    const GltfEnvironment* m_environment;
     GltfGeometry m_geometry;
     UniqueNames m_nodeNames, m_materialNames;
     std::set<std::string> m_extensions;
     std::vector<int> m_roots;
     std::vector<Json> m_nodes, m_meshes, m_materials, m_textures, m_images, m_lights;
+    Json m_environmentLight;
 };
 
 void append(Bytes& out, std::uint32_t value) {
@@ -252,8 +289,8 @@ void append(Bytes& out, std::uint32_t value) {
 } // namespace
 
 Result<GltfOutput> writeGltf(const ExportContents& contents, const ExportSettings& settings,
-                             const std::vector<Bytes>& images) {
-    GltfOutput output = Writer(contents, settings).write(images);
+                             const std::vector<Bytes>& images, const GltfEnvironment* environment) {
+    GltfOutput output = Writer(contents, settings, environment).write(images);
     // GLB counts in 32 bits, and few readers take larger buffers from a .gltf.
     if (output.json.size() + output.buffer.size() + 64 > kMaxBytes)
         return Error{ErrorKind::Usage,

@@ -119,6 +119,28 @@ TEST_F(Commands, ExportPlansWithoutWriting) {
     EXPECT_EQ(outcome.json()["files"][1]["path"], m_folder / "ball.bin");
 }
 
+TEST_F(Commands, ExportTakesTheEnvironmentAlongWhenAsked) {
+    const auto plan = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments = {
+            "export", "builtin:plane", "-o", m_folder / "plane.glb", "--json", "--dry-run"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runPatina(arguments).json();
+    };
+    const auto holdsIt = [&](const nlohmann::json& json) {
+        return json["files"].back()["path"] == (m_folder / "plane.glb") + "#environment";
+    };
+    EXPECT_FALSE(holdsIt(plan({})));
+    EXPECT_TRUE(holdsIt(plan({"--environment-light"})));
+    const nlohmann::json other = plan({"--environment", "builtin:night"});
+    EXPECT_TRUE(holdsIt(other));
+    EXPECT_EQ(other["settings"]["environmentLight"], true);
+    EXPECT_EQ(runPatina({"export", "builtin:plane", "-o", m_folder / "plane.glb", "--environment",
+                         m_folder / "missing.hdr"})
+                  .status,
+              66);
+    EXPECT_THAT(m_folder.files(), IsEmpty());
+}
+
 TEST_F(Commands, RenderDrawsTheSphereOnTransparency) {
     const Outcome outcome =
         runPatina({"render", "builtin:sphere", "-o", m_folder / "ball.png", "--size", "96x64",
