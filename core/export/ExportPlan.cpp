@@ -28,11 +28,10 @@ ExportPlan planExport(const Document& document, const ExportSettings& settings) 
         add({contents.texturePath(settings, texture), texture.contents,
              texture.kind == PackKind::Color ? "sRGB" : "linear", texture.formatText(), glb});
     if (contents.environment != nullptr)
-        add({contents.environmentPath(settings), "Environment's light: reflections, irradiance",
-             "linear, RGBD",
-             fmt::format("PNG 8-bit RGBA {0} × {0}, {1} levels of 6 faces", kGltfEnvironmentSize,
+        add({contents.environmentPath(settings),
+             fmt::format("Environment's light: {} levels of 6 faces, irradiance",
                          kGltfEnvironmentLevels),
-             true});
+             "linear", fmt::format("PNG 8-bit RGBD {0} × {0}", kGltfEnvironmentSize), true});
     return plan;
 }
 
