@@ -255,4 +255,8 @@ Image computeDfgTable(int size, Distribution distribution, Visibility visibility
     return table;
 }
 
+Visibility iblVisibility(Visibility visibility) {
+    return visibility == Visibility::SchlickDirect ? Visibility::SchlickIbl : visibility;
+}
+
 } // namespace patina

@@ -28,4 +28,8 @@ namespace patina {
 [[nodiscard]] Image computeDfgTable(int size = 128, Distribution distribution = Distribution::GGX,
                                     Visibility visibility = Visibility::SmithCorrelated);
 
+// The visibility whose table image-based light uses: the chosen one, but for the k = (r + 1)² / 8
+// that Karis 2013 made for lamps only; light from all sides takes his k = alpha / 2.
+[[nodiscard]] Visibility iblVisibility(Visibility visibility);
+
 } // namespace patina

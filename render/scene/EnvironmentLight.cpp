@@ -29,7 +29,7 @@ std::size_t clampToHalf(std::span<glm::vec3> texels) {
 }
 
 gl::Texture makeDfg(gl::Context& context, const ShadingModel& model) {
-    const Image table = computeDfgTable(128, model.distribution, model.visibility);
+    const Image table = computeDfgTable(128, model.distribution, iblVisibility(model.visibility));
     gl::Texture texture(
         context, "DFG table",
         {.format = gl::PixelFormat::Rgba16f, .width = table.width(), .height = table.height()});
@@ -95,7 +95,7 @@ void EnvironmentLight::setIbl(const IblMaps& maps) {
 
 void EnvironmentLight::setModel(const ShadingModel& model) {
     const bool same = model.distribution == m_model.distribution &&
-                      model.visibility == m_model.visibility;
+                      iblVisibility(model.visibility) == iblVisibility(m_model.visibility);
     m_model = model;
     if (!same)
         m_dfg = makeDfg(m_context, model);

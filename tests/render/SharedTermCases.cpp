@@ -2,7 +2,9 @@
 
 #include "core/math/Shading.h"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 namespace patina::render {
 
@@ -65,6 +67,39 @@ void areaLight(InputMaker& make, In in) {
     in[19] = make.uniform(0.3f, 1.0f);
     make.numbers(in.subspan(20), -2.0f, 2.0f);
 }
+// A surface at the ends of what can happen: roughness and metallic 0 and 1 and beyond, normal and
+// light along, against and across the viewer, black and too bright albedo, 1e14 of light (a lamp
+// inside the surface). The choices of the model stay random.
+void extremes(InputMaker& make, In in) {
+    surface(make, in);
+    const auto pick = [&make](std::initializer_list<float> values) {
+        return values.begin()[static_cast<std::size_t>(make.uniform(0.0f, 0.999f) *
+                                                       static_cast<float>(values.size()))];
+    };
+    for (std::size_t i = 0; i < 3; ++i)
+        in[9 + i] = pick({0.0f, 0.5f, 1.0f, 20.0f});
+    in[12] = pick({0.0f, 0.5f, 1.0f});
+    in[13] = pick({-1.0f, 0.0f, 0.045f, 0.5f, 1.0f, 2.0f});
+    in[14] = pick({0.0f, 0.5f, 1.2f});
+    in[15] = pick({0.0f, 0.1f});
+    in[16] = in[17] = in[18] = pick({0.0f, 1.0f, 1e14f});
+    for (std::size_t i = 22; i < 26; ++i)
+        in[i] = pick({0.0f, 0.5f, 1.0f});
+    const float where = make.uniform(0.0f, 6.0f);
+    if (where < 1.0f) // the viewer across the surface
+        for (std::size_t i = 0; i < 3; ++i)
+            in[3 + i] = i == 2 ? -in[0] : i == 0 ? in[2] : 0.0f;
+    else if (where < 2.0f) // light towards the viewer
+        std::copy_n(in.begin() + 3, 3, in.begin() + 6);
+    else if (where < 3.0f) // light opposite the viewer
+        for (std::size_t i = 0; i < 3; ++i)
+            in[6 + i] = -in[3 + i];
+    else if (where < 4.0f) // light along the normal
+        std::copy_n(in.begin(), 3, in.begin() + 6);
+    const float length = std::sqrt(in[3] * in[3] + in[4] * in[4] + in[5] * in[5]);
+    for (std::size_t i = 0; i < 3; ++i)
+        in[3 + i] = length > 1e-3f ? in[3 + i] / length : in[i];
+}
 
 #define I(k) in[k]
 #define O(k) out[k]
@@ -89,6 +124,9 @@ void areaLight(InputMaker& make, In in) {
     m.ior = 1.0f + I(22);                                                                          \
     m.conductorN = vec3(0.05f + 3.0f * I(23), 1.0f, 0.2f);                                         \
     m.conductorK = vec3(5.0f * I(24), 2.0f, 3.0f);
+// 1 for what light can be: neither negative, nor infinite, nor NaN, which compares false. For the
+// rest each language has a number of its own, so that they only agree when both are fine.
+#define IS_LIGHT(x) ((x) >= 0.0f && (x) < 3e38f ? 1.0f : 2.0f)
 #define OUT3(k, v)                                                                                 \
     {                                                                                              \
         vec3 value = v;                                                                            \
@@ -156,6 +194,17 @@ std::vector<SharedTermCase> makeCases() {
                  ShadedLight light =
                      shadeDirect(s, vec3(I(6), I(7), I(8)), vec3(I(16), I(17), I(18)));
                  OUT3(0, light.diffuse); OUT3(3, light.specular);),
+            CASE("extremes stay finite", extremes, 1.0f, CHOOSE_MODEL(m);
+                 m.ior = 1.0f + 2.0f * I(22); m.conductorN = vec3(0.01f + I(23));
+                 SurfaceTerms s = SURFACE_OF(m); vec3 E = vec3(I(16), I(17), I(18));
+                 vec3 l = vec3(I(6), I(7), I(8)); ShadedLight a = shadeDirect(s, l, E);
+                 ShadedLight b = shadeDirect(s, s.n, E); ShadedLight c = shadeEnvironment(s, E, E);
+                 vec3 sum =
+                     a.diffuse + a.specular + b.diffuse + b.specular + c.diffuse + c.specular;
+                 float pdf = 0.0f; vec3 sampled = sampleBrdf(s, vec3(0.5f, 0.25f, I(25)), pdf);
+                 O(0) = IS_LIGHT(sum.x); O(1) = IS_LIGHT(sum.y); O(2) = IS_LIGHT(sum.z);
+                 O(3) = IS_LIGHT(pdf); O(4) = IS_LIGHT(dot(sampled, sampled));
+                 O(5) = IS_LIGHT(brdfPdf(s, l));),
             CASE("shade environment", surface, 1e-2f, SurfaceTerms s = SURFACE;
                  ShadedLight light =
                      shadeEnvironment(s, vec3(I(16), I(17), I(18)), vec3(I(19), I(20), I(21)));

@@ -35,6 +35,7 @@ std::string computeShader(const SharedTermCase& c) {
                        "#define O(k) out_[k]\n"
                        "#define OUT3(k, v) { vec3 value = v; O(k) = value.x; O(k + 1) = value.y; "
                        "O(k + 2) = value.z; }\n"
+                       "#define IS_LIGHT(x) ((x) >= 0.0f && (x) < 3e38f ? 1.0f : 3.0f)\n"
                        "#define SURFACE_OF(model) makeSurface(model, vec3(I(9), I(10), I(11)), "
                        "I(12), I(13), I(25), vec3(I(0), I(1), I(2)), vec3(I(3), I(4), I(5)), "
                        "vec2(I(14), I(15)))\n"
