@@ -67,18 +67,20 @@ Result<void> Renderer::Impl::drawScene(const FrameSettings& frame, const FrameBl
     const DrawList list = makeDrawList(scene.items(), block.worldToClip, frame.camera.position());
 
     targets.scene().bind();
-    const glm::vec3 clear =
-        frame.transparentBackground || document.environment.background != BackgroundMode::Color
-            ? glm::vec3(0.0f)
-            : document.environment.backgroundColor;
-    targets.scene().clearColor(clear.r, clear.g, clear.b,
-                               frame.transparentBackground ? 0.0f : 1.0f);
+    const BackgroundMode background = document.environment.background;
+    const bool transparent = frame.transparentBackground || background == BackgroundMode::Off;
+    const glm::vec3 clear = transparent || background != BackgroundMode::Color
+                                ? glm::vec3(0.0f)
+                                : document.environment.backgroundColor;
+    targets.scene().clearColor(clear.r, clear.g, clear.b, transparent ? 0.0f : 1.0f);
     targets.scene().clearDepth(1.0f);
 
     if (auto done = surface.drawOpaque(scene, list, settings); !done)
         return done;
-    if (!frame.transparentBackground)
-        if (auto done = screen.drawSky(scene.environment(), document.environment.background); !done)
+    if (!transparent)
+        if (auto done = screen.drawSky(scene.environment(), background,
+                                       document.environment.backgroundBlur);
+            !done)
             return done;
     if (auto done = surface.drawBlended(scene, list, settings); !done)
         return done;

@@ -24,10 +24,10 @@ struct FrameSettings {
     int width = 0, height = 0; // pixels
     int samples = 4;           // MSAA; 1: none
     Camera camera;
-    bool transparentBackground = false;
-    bool showOverlays = false; // grid, light gizmos (the editor)
-    Id selectedMesh = 0;       // outlined when showOverlays
-    bool dither = false;       // hides the bands of 8-bit values (the editor)
+    bool transparentBackground = false; // whatever the document says; its Off does the same
+    bool showOverlays = false;          // grid, light gizmos (the editor)
+    Id selectedMesh = 0;                // outlined when showOverlays
+    bool dither = false;                // hides the bands of 8-bit values (the editor)
 
     // Seconds since the last frame, for automatic exposure; infinite: the eye is used to the
     // picture already.

@@ -1,7 +1,12 @@
 #version 450 core
-layout(binding = 0) uniform sampler2D u_picture;
+// The finished picture into a window; where it is transparent a checkerboard shows.
+layout(binding = 0) uniform sampler2D u_picture; // straight alpha
 layout(location = 0) out vec4 o_color;
 
 void main() {
-    o_color = texelFetch(u_picture, ivec2(gl_FragCoord.xy), 0);
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec4 c = texelFetch(u_picture, pixel, 0);
+    ivec2 field = pixel / 16;
+    vec3 checker = ((field.x + field.y) & 1) == 0 ? vec3(0.16) : vec3(0.20);
+    o_color = vec4(mix(checker, c.rgb, c.a), 1.0);
 }

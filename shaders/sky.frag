@@ -8,13 +8,17 @@ in vec2 v_uv;
 layout(binding = 0) uniform sampler2D u_environment;
 layout(binding = 7) uniform samplerCube u_prefiltered;
 
+#ifdef BLURRED
+uniform float u_blur; // perceptual roughness of the level that is shown
+#endif
+
 layout(location = 0) out vec4 o_radiance;
 
 void main() {
     vec4 far = u_clipToWorld * vec4(v_uv * 2.0 - 1.0, 1.0, 1.0);
     vec3 d = mat3(u_worldToEnvironment) * normalize(far.xyz / far.w - u_cameraPosition.xyz);
 #ifdef BLURRED
-    vec3 radiance = textureLod(u_prefiltered, d, prefilteredLevel(0.5, u_prefilteredLevels)).rgb;
+    vec3 radiance = textureLod(u_prefiltered, d, prefilteredLevel(u_blur, u_prefilteredLevels)).rgb;
 #else
     vec2 uv = latLongFromDirection(d);
     // Where u wraps around, neighbours differ by almost one: without the wrap in the derivatives

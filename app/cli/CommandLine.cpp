@@ -185,7 +185,7 @@ class Parser {
              fmt::format("One of {}", fmt::join(findParameter("view.toneMap")->choices, ", ")))
             ->type_name("NAME");
         c->add_option("--background", o.background,
-                      "visible, blurred, transparent, or a colour as R,G,B or #rrggbb")
+                      "visible, blurred, transparent (or off), or a colour as R,G,B or #rrggbb")
             ->type_name("NAME");
         c->add_option("--lighting", o.lighting, "ibl, or prt with a radiance transfer bake")
             ->type_name("NAME");

@@ -156,8 +156,8 @@ void describeScene(Report& report, const OpenedScene& scene) {
     if (!lights.empty())
         report.table(fmt::format("Lights ({})", lights.size()), lights);
     if (scene.isProject) {
-        json["environment"] = document.environment.source;
-        report.table("Environment", {{document.environment.source, ""}});
+        json["environment"] = environmentName(document.environment);
+        report.table("Environment", {{environmentName(document.environment), ""}});
     }
     Rows bakes;
     for (const BakeArtifactPtr& bake : document.bakes) {

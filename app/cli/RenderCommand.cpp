@@ -95,8 +95,8 @@ Result<void> applyView(Session& session, const RenderOptions& options, Document&
         environment.background = BackgroundMode::Environment;
     else if (options.background == "blurred")
         environment.background = BackgroundMode::Blurred;
-    else if (options.background == "transparent")
-        frame.transparentBackground = true;
+    else if (options.background == "transparent" || options.background == "off")
+        environment.background = BackgroundMode::Off;
     else if (!options.background.empty()) {
         environment.background = BackgroundMode::Color;
         if (Result<void> result = set("environment.backgroundColor", options.background); !result)
@@ -104,6 +104,7 @@ Result<void> applyView(Session& session, const RenderOptions& options, Document&
                                      "colour as R,G,B or #rrggbb, not \"{}\"",
                                      options.background));
     }
+    frame.transparentBackground = environment.background == BackgroundMode::Off;
     if (document.view.lighting == LightingMode::Prt &&
         findBake(document, BakeKind::PrtVertex) == nullptr)
         return usage("--lighting prt needs a radiance transfer bake; make one with patina bake prt "
@@ -212,7 +213,7 @@ Result<void> run(Session& session, const RenderOptions& options) {
     if (!camera)
         return camera.error();
     document->view.camera = frame->camera = *camera;
-    json["settings"]["environment"] = document->environment.source;
+    json["settings"]["environment"] = environmentName(document->environment);
     json["settings"]["camera"] = {
         {"yawDeg", camera->yawDeg},
         {"pitchDeg", camera->pitchDeg},

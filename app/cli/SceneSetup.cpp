@@ -5,6 +5,7 @@
 #include "core/document/Edit.h"
 #include "core/document/Scene.h"
 #include "core/document/Source.h"
+#include "core/light/GeneratedEnvironment.h"
 #include "core/material/Parameters.h"
 
 #include <algorithm>
@@ -45,8 +46,9 @@ Result<void> setEnvironment(Session& session, Document& document, const std::str
         return image.error();
     for (const Notice& notice : notices)
         session.report().add(notice);
+    environment.kind = EnvironmentKind::Image;
     environment.source = normalized;
-    environment.image = *image;
+    environment.image = environment.fileImage = *image;
     environment.problem.clear();
     return {};
 }
@@ -70,6 +72,13 @@ Result<void> setMap(Session& session, Document& document, const ParameterSelecti
 }
 
 } // namespace
+
+std::string environmentName(const Environment& environment) {
+    const ParameterInfo& kind = *findParameter("environment.kind");
+    return environment.kind == EnvironmentKind::Image
+               ? environment.source
+               : std::string(kind.choices[static_cast<std::size_t>(environment.kind)]);
+}
 
 Result<void> setParameter(Session& session, Document& document, const std::string& name,
                           const std::string& value) {
@@ -108,6 +117,7 @@ namespace {
 
 // --set, maps first: putting one on raises its number to 1, and numbers given should win.
 Result<void> applySets(Session& session, Document& document) {
+    const EnvironmentRecipe before = environmentRecipe(document.environment);
     std::vector<std::pair<std::string, std::string>> assignments;
     for (const std::string& text : session.options().sets) {
         Result<std::pair<std::string, std::string>> assignment = splitAssignment(text);
@@ -125,6 +135,8 @@ Result<void> applySets(Session& session, Document& document) {
     for (const auto& [name, value] : assignments)
         if (Result<void> offered = checkOffered(document, name); !offered)
             return offered.error();
+    if (environmentRecipe(document.environment) != before)
+        resolveEnvironment(document.environment, session.job());
     return {};
 }
 
@@ -163,7 +175,8 @@ Result<Document> openEnvironmentFor(Session& session, const std::string& source)
         session.report().add(*opened);
         document.environment = opened->document.environment;
         document.model = opened->document.model;
-        if (!document.environment.problem.empty())
+        if (document.environment.kind == EnvironmentKind::Image &&
+            !document.environment.problem.empty())
             return Error{ErrorKind::InputMissing,
                          "its environment cannot be read: " + document.environment.problem,
                          source,

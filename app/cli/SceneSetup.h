@@ -33,6 +33,9 @@ Result<void> setParameter(Session& session, Document& document, const std::strin
 // Usage error when the named choice is one that the document does not offer (whyUnavailable()).
 Result<void> checkOffered(const Document& document, const std::string& name);
 
+// What lights the scene, for reports: the image's source, or "sky", "softboxes".
+[[nodiscard]] std::string environmentName(const Environment& environment);
+
 // CannotCreate when the folder is missing or not writable, or the path is a folder.
 Result<void> checkOutput(const std::filesystem::path& output);
 // The extension in lower case, with the dot.

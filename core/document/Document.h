@@ -81,10 +81,10 @@ enum class BackgroundMode { Environment, Blurred, Color, Off };
 struct Sky {
     float sunAzimuthDeg = 40.0f;   // where the sun stands, around +Y, 0 is +Z
     float sunElevationDeg = 35.0f; // above the horizon
-    float turbidity = 3.0f;        // 1.7 very clear … 10 hazy
+    float turbidity = 3.0f;        // 2 very clear … 10 hazy
     float groundAlbedo = 0.3f;
     float sunScale = 1.0f;        // multiplies the sun's radiance; 0: no disc
-    float sunDiameterDeg = 0.53f; // larger: softer
+    float sunDiameterDeg = 0.53f; // larger: softer, its light staying the same
     friend bool operator==(const Sky&, const Sky&) = default;
 };
 
@@ -96,8 +96,8 @@ struct Softbox {
     float azimuthDeg = 0.0f;    // of its centre, around +Y, 0 is +Z
     float elevationDeg = 30.0f; // of its centre, above the horizon
     float widthDeg = 40.0f, heightDeg = 30.0f;
-    float rollDeg = 0.0f;
-    float softness = 0.1f;   // share of the half size over which its edge fades, 0…1
+    float rollDeg = 0.0f;    // counter-clockwise, seen from the centre
+    float softness = 0.1f;   // share of the smaller half size over which its edge fades, 0…1
     glm::vec3 color{1.0f};   // linear sRGB
     float intensity = 10.0f; // radiance (nit)
     friend bool operator==(const Softbox&, const Softbox&) = default;
@@ -109,8 +109,10 @@ struct Environment {
     EnvironmentKind kind = EnvironmentKind::Image;
     std::string source = "builtin:studio";                   // Image: absolute path or builtin:NAME
     EnvironmentLayout layout = EnvironmentLayout::Automatic; // Image: of the file
-    // F32 linear, 3 channels, w = 2h: of the file, or generated from `sky` or the softboxes.
+    // F32 linear, 3 channels, w = 2h: of the file, or generated from `sky` or the softboxes
+    // (resolveEnvironment() of core/light/GeneratedEnvironment.h).
     ImagePtr image;
+    ImagePtr fileImage;  // what `source` holds, kept while another kind lights the scene
     std::string problem; // why it could not be read; a neutral grey stands in
     Sky sky;
     glm::vec3 softboxAmbient{0.02f}; // radiance between the softboxes

@@ -129,6 +129,10 @@ std::string uniqueMeshName(const Document& document, const std::string& name) {
     return uniqueName(document.meshes, name);
 }
 
+std::string uniqueSoftboxName(const Document& document, const std::string& name) {
+    return uniqueName(document.environment.softboxes, name);
+}
+
 Id addMaterial(Document& document, Material material) {
     material.id = document.takeId();
     material.name = uniqueMaterialName(document, material.name);
@@ -146,6 +150,22 @@ Id duplicateMaterial(Document& document, Id material) {
 }
 Id duplicateLight(Document& document, Id light) {
     return duplicate(document, document.lights, light);
+}
+
+Id addSoftbox(Document& document, Softbox softbox) {
+    if (document.environment.softboxes.size() >= kMaxSoftboxes)
+        return 0;
+    softbox.id = document.takeId();
+    softbox.name = uniqueSoftboxName(document, softbox.name);
+    return document.environment.softboxes.emplace_back(std::move(softbox)).id;
+}
+Id duplicateSoftbox(Document& document, Id softbox) {
+    if (document.environment.softboxes.size() >= kMaxSoftboxes)
+        return 0;
+    return duplicate(document, document.environment.softboxes, softbox);
+}
+bool removeSoftbox(Document& document, Id softbox) {
+    return removeFrom(document.environment.softboxes, softbox);
 }
 
 bool removeMaterial(Document& document, Id material) {

@@ -37,6 +37,7 @@ struct ParameterEdit {
 [[nodiscard]] std::string uniqueMaterialName(const Document& document, const std::string& name);
 [[nodiscard]] std::string uniqueLightName(const Document& document, const std::string& name);
 [[nodiscard]] std::string uniqueMeshName(const Document& document, const std::string& name);
+[[nodiscard]] std::string uniqueSoftboxName(const Document& document, const std::string& name);
 
 // Adding gives the element a new id and a unique name, and returns the id.
 Id addMaterial(Document& document, Material material);
@@ -44,6 +45,14 @@ Id addLight(Document& document, Light light);
 // Directly below the original, with a name that says so. The original must exist.
 Id duplicateMaterial(Document& document, Id material);
 Id duplicateLight(Document& document, Id light);
+
+// More are neither made nor read.
+inline constexpr std::size_t kMaxSoftboxes = 256;
+// Like lights; 0 when there are kMaxSoftboxes. The environment's image follows with
+// resolveEnvironment(), as after each edit of what it is generated from.
+Id addSoftbox(Document& document, Softbox softbox);
+Id duplicateSoftbox(Document& document, Id softbox);
+bool removeSoftbox(Document& document, Id softbox);
 
 // False when there is no such element. Meshes of a removed material take the first one that is
 // left; when none is left, a default one is made for them. Bakes stay attached (they show as

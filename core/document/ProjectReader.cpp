@@ -2,6 +2,7 @@
 #include "core/base/Limits.h"
 #include "core/base/Utf8.h"
 #include "core/document/DocumentIO.h"
+#include "core/document/Edit.h"
 #include "core/document/ProjectJson.h"
 #include "core/document/ProjectPath.h"
 
@@ -25,7 +26,6 @@ using Json = nlohmann::basic_json<std::map, std::vector, std::string, bool, std:
 
 // A project of the largest size is refused before it fills the memory with tiny values.
 constexpr std::size_t kMaxValues = 8'000'000;
-constexpr std::size_t kMaxSoftboxes = 256;
 constexpr std::size_t kMaxElements = limits::kMaxMeshes; // of each list
 
 // Leaves the reader from any depth; caught in parseProject, its only way out.

@@ -5,6 +5,7 @@
 #include "core/document/Edit.h"
 #include "core/document/ModelConversion.h"
 #include "core/job/Parallel.h"
+#include "core/light/GeneratedEnvironment.h"
 #include "core/material/Parameters.h"
 
 #include <algorithm>
@@ -198,20 +199,24 @@ void SceneLoader::loadMaps(std::span<Material> materials) {
 }
 
 void SceneLoader::loadEnvironment(Environment& environment) {
-    if (environment.image)
-        return;
+    if (!environment.fileImage)
+        loadEnvironmentFile(environment);
+    resolveEnvironment(environment, m_job);
+}
+
+void SceneLoader::loadEnvironmentFile(Environment& environment) {
     if (environment.source.empty()) {
-        environment.image = neutralEnvironment();
+        environment.fileImage = neutralEnvironment();
         return;
     }
     m_job.setActivity("reading " + fileName(environment.source));
     Result<ImagePtr> image = readEnvironmentImage(m_worker, environment.source, m_notices);
     if (image.ok()) {
-        environment.image = *std::move(image);
+        environment.fileImage = *std::move(image);
         environment.problem.clear();
         return;
     }
-    environment.image = neutralEnvironment();
+    environment.fileImage = neutralEnvironment();
     environment.problem = image.error().message;
     if (image.error().kind == ErrorKind::InputMissing)
         addMissing(environment.source);

@@ -38,7 +38,8 @@ class SceneLoader {
 
     // Gives every map that has a source but no image its image, or its problem.
     void loadMaps(std::span<Material> materials);
-    // The same for the environment; a neutral grey stands in for an image that cannot be read.
+    // The same for the environment, whose image is then that of its kind; a neutral grey stands in
+    // for a file that cannot be read.
     void loadEnvironment(Environment& environment);
 
     void addNotice(std::string message, const std::filesystem::path& file = {});
@@ -54,6 +55,7 @@ class SceneLoader {
 
   private:
     Result<Model> readModel(const std::string& source);
+    void loadEnvironmentFile(Environment& environment);
 
     WorkerClient* m_worker;
     JobContext m_job;

@@ -2,8 +2,8 @@
 
 #include "core/base/Check.h"
 #include "core/document/Document.h"
-#include "core/image/DisplayTransform.h"
 #include "core/document/Lights.h"
+#include "core/image/DisplayTransform.h"
 #include "core/light/Blackbody.h"
 
 #include <algorithm>
@@ -123,7 +123,7 @@ void setMember(Document& document, Id id, const ParameterValue& value) {
 ParameterValue getEnvironmentImage(const Document& document, Id) {
     MapSlot slot;
     slot.source = document.environment.source;
-    slot.image = document.environment.image;
+    slot.image = document.environment.fileImage;
     slot.problem = document.environment.problem;
     return slot;
 }
@@ -132,7 +132,9 @@ void setEnvironmentImage(Document& document, Id, const ParameterValue& value) {
     CHECK(std::holds_alternative<MapSlot>(value));
     const MapSlot& slot = std::get<MapSlot>(value);
     document.environment.source = slot.source;
-    document.environment.image = slot.image;
+    document.environment.fileImage = slot.image;
+    if (document.environment.kind == EnvironmentKind::Image)
+        document.environment.image = slot.image;
     document.environment.problem = slot.problem;
 }
 
@@ -284,8 +286,6 @@ constexpr std::array<Text, 3> kAlphaModeLabels{"Opaque", "Cut-out", "Blend"};
 constexpr std::array<Text, 5> kLightTypes{"point", "directional", "spot", "sphere", "rectangle"};
 constexpr std::array<Text, 5> kLightTypeLabels{"Point", "Directional", "Spot", "Sphere (area)",
                                                "Rectangle (area)"};
-constexpr std::array<Text, 3> kBackgrounds{"environment", "blurred", "color"};
-constexpr std::array<Text, 3> kBackgroundLabels{"Environment", "Blurred environment", "Colour"};
 constexpr std::array<Text, 8> kToneMaps{"clamp",       "reinhard",   "reinhardPhotographic",
                                         "exponential", "pbrNeutral", "aces",
                                         "agx",         "openColorIo"};
@@ -301,6 +301,11 @@ constexpr std::array<Text, 2> kExposureModes{"fixed", "automatic"};
 constexpr std::array<Text, 2> kExposureModeLabels{"Fixed", "Automatic"};
 constexpr std::array<Text, 2> kDisplayTransfers{"srgb", "gamma"};
 constexpr std::array<Text, 2> kDisplayTransferLabels{"sRGB", "Gamma"};
+constexpr std::array<Text, 3> kEnvironmentKinds{"image", "sky", "softboxes"};
+constexpr std::array<Text, 3> kEnvironmentKindLabels{"Image", "Sky", "Softboxes"};
+constexpr std::array<Text, 4> kBackgrounds{"environment", "blurred", "color", "off"};
+constexpr std::array<Text, 4> kBackgroundLabels{"Environment", "Blurred environment", "Colour",
+                                                "Off (transparent)"};
 constexpr std::array<Text, 2> kLightings{"ibl", "prt"};
 constexpr std::array<Text, 2> kLightingLabels{"Image-based light", "Precomputed transfer"};
 
@@ -327,11 +332,13 @@ constexpr auto kRgb = MapChannel::Rgb;
 constexpr auto kRed = MapChannel::R;
 constexpr auto kUniform = Affects::Uniform;
 constexpr auto kGeometry = Affects::Geometry | Affects::Bakes;
+constexpr auto kSurroundings = Affects::EnvironmentMap;
 
 using M = Material;
 using E = Environment;
 using S = ShadingModel;
 using L = Light;
+using B = Softbox;
 
 // clang-format off
 constexpr std::array kParameters{
@@ -356,11 +363,31 @@ constexpr std::array kParameters{
     number<&M::alphaCutoff>("material.alphaCutoff", "Alpha cutoff", "Transparency", kUnit, kUnit, 3, "", "In cut-out mode, points of lower opacity than this are left out."),
     flag<&M::doubleSided>("material.doubleSided", "Double-sided", "Transparency", "Shows the back of thin surfaces such as leaves and cloth, with their normal turned to the viewer.", kUniform | Affects::Bakes),
 
+    choice<&E::kind>("environment.kind", "Kind", "Environment", kEnvironmentKinds, kEnvironmentKindLabels, "What surrounds and lights the model: an image, a computed clear sky, or softboxes in a dark room.", kSurroundings),
     environmentImage("environment.image", "Image", "Environment", "Lat-long image of the surroundings that light the scene."),
+    angle<&E::sky, &Sky::sunAzimuthDeg>("environment.skySunAzimuthDeg", "Sun azimuth", "Environment", "The compass direction of the sun; 0 is the model's front, positive values turn towards +X.", kSurroundings),
+    number<&E::sky, &Sky::sunElevationDeg>("environment.skySunElevationDeg", "Sun elevation", "Environment", {0.0f, 90.0f}, {0.0f, 90.0f}, 1, "°", "How high the sun stands: 0 is sunset, 90 is overhead.", kSurroundings),
+    number<&E::sky, &Sky::turbidity>("environment.skyTurbidity", "Haze", "Environment", {2.0f, 10.0f}, {2.0f, 10.0f}, 2, "", "How much haze is in the air (turbidity): 2 is a clear mountain day, 10 a milky one with a weak sun.", kSurroundings),
+    number<&E::sky, &Sky::sunScale>("environment.skySunScale", "Sun strength", "Environment", {0.0f, 2.0f}, {0.0f, 100.0f}, 2, "", "Multiplies the light of the sun's disc; 0 leaves only the sky.", kSurroundings),
+    number<&E::sky, &Sky::sunDiameterDeg>("environment.skySunDiameterDeg", "Sun size", "Environment", {0.5f, 20.0f}, {0.1f, 90.0f}, 2, "°", "Diameter of the sun's disc, 0.53° in nature; a larger sun gives softer shadows and as much light.", kSurroundings),
+    number<&E::sky, &Sky::groundAlbedo>("environment.skyGroundAlbedo", "Ground", "Environment", kUnit, kUnit, 2, "", "How much light the ground reflects: 0.1 is wet soil, 0.3 sand, 0.8 snow.", kSurroundings),
+    color<&E::softboxAmbient>("environment.softboxAmbient", "Ambient", "Environment", "Light of the room between the softboxes.", kSurroundings),
     angle<&E::rotationDeg>("environment.rotationDeg", "Rotation", "Environment", "Turns the surroundings about the vertical axis, counter-clockwise seen from above."),
     number<&E::exposureEv>("environment.exposureEv", "Brightness", "Environment", {-6.0f, 6.0f}, {-24.0f, 24.0f}, 2, "EV", "Brightens the surroundings; each step doubles their light."),
     choice<&E::background>("environment.background", "Background", "Environment", kBackgrounds, kBackgroundLabels, "What is seen behind the model; the light on it stays the same."),
+    number<&E::backgroundBlur>("environment.backgroundBlur", "Background blur", "Environment", kUnit, kUnit, 2, "", "How far the surroundings behind the model are out of focus when they are blurred."),
     color<&E::backgroundColor>("environment.backgroundColor", "Background colour", "Environment", "Colour behind the model when the background is a colour."),
+
+    text<&B::name>("softbox.name", "Name", "Softbox", "What the softbox is called in lists and scripts."),
+    flag<&B::enabled>("softbox.enabled", "On", "Softbox", "Switches the softbox on or off.", kSurroundings),
+    number<&B::intensity>("softbox.intensity", "Intensity", "Softbox", {0.0f, 50.0f}, {0.0f, 1e6f}, 2, "nit", "Radiance of the softbox: how bright it looks in a mirror.", kSurroundings),
+    color<&B::color>("softbox.color", "Colour", "Softbox", "Colour of the softbox; its brightness is set by the intensity.", kSurroundings),
+    angle<&B::azimuthDeg>("softbox.azimuthDeg", "Azimuth", "Softbox", "The compass direction of its centre; 0 is the model's front, positive values turn towards +X.", kSurroundings),
+    number<&B::elevationDeg>("softbox.elevationDeg", "Elevation", "Softbox", {-90.0f, 90.0f}, {-90.0f, 90.0f}, 1, "°", "How high its centre stands above the horizon.", kSurroundings),
+    number<&B::widthDeg>("softbox.widthDeg", "Width", "Softbox", {1.0f, 120.0f}, {0.5f, 170.0f}, 1, "°", "The angle that its width is seen under: larger is softer light.", kSurroundings),
+    number<&B::heightDeg>("softbox.heightDeg", "Height", "Softbox", {1.0f, 120.0f}, {0.5f, 170.0f}, 1, "°", "The angle that its height is seen under.", kSurroundings),
+    angle<&B::rollDeg>("softbox.rollDeg", "Roll", "Softbox", "Turns it about its centre, counter-clockwise seen from the model.", kSurroundings),
+    number<&B::softness>("softbox.softness", "Edge softness", "Softbox", kUnit, kUnit, 2, "", "How much of it fades out towards its edges: 0 is a sharp rectangle.", kSurroundings),
 
     choice<&S::distribution>("model.distribution", "Distribution", "Highlight", kDistributions, kDistributionLabels, "How the tiny facets of a rough surface are tilted: GGX has the long tails that real materials show."),
     choice<&S::visibility>("model.visibility", "Visibility", "Highlight", kVisibilities, kVisibilityLabels, "How facets hide each other: Smith's models are derived, Schlick's fits are those of the Unreal Engine 4, the last two are shortcuts of old."),

@@ -40,8 +40,9 @@ Result<void> ScreenPasses::compile() {
     return {};
 }
 
-Result<void> ScreenPasses::drawSky(const EnvironmentLight& environment, BackgroundMode mode) {
-    if (mode == BackgroundMode::Color)
+Result<void> ScreenPasses::drawSky(const EnvironmentLight& environment, BackgroundMode mode,
+                                   float blur) {
+    if (mode == BackgroundMode::Color || mode == BackgroundMode::Off)
         return {};
     const bool blurred = mode == BackgroundMode::Blurred;
     const auto shader = program("sky.frag", blurred ? std::vector<std::string>{"BLURRED"}
@@ -49,6 +50,8 @@ Result<void> ScreenPasses::drawSky(const EnvironmentLight& environment, Backgrou
     if (!shader)
         return shader.error();
     (*shader)->use();
+    if (blurred)
+        (*shader)->set("u_blur", blur);
     environment.background().bind(kEnvironmentUnit);
     environment.prefiltered().bind(kPrefilteredUnit);
     glDisable(GL_BLEND);

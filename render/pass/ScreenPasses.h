@@ -16,8 +16,9 @@ class ScreenPasses {
     ScreenPasses(gl::Context& context, ShaderLibrary& shaders);
 
     // Where nothing has been drawn yet (depth 1), into the bound scene target. Nothing for
-    // BackgroundMode::Color: that is the clear colour.
-    Result<void> drawSky(const EnvironmentLight& environment, BackgroundMode mode);
+    // BackgroundMode::Color and Off: that is the clear colour. `blur` of BackgroundMode::Blurred:
+    // perceptual roughness of the prefiltered level.
+    Result<void> drawSky(const EnvironmentLight& environment, BackgroundMode mode, float blur);
 
     // linear() to display(): exposure, tone curve, transfer function. The luminance that the view
     // may ask for is bound (AdaptationPass). `dither`: noise of half a display step hides bands.

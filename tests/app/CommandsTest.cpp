@@ -161,6 +161,33 @@ TEST_F(Commands, RenderDrawsTheSphereOnTransparency) {
         EXPECT_EQ(image.sample(x, y, 3), 0.0f);
 }
 
+TEST_F(Commands, RenderLightsWithAGeneratedEnvironment) {
+    const auto render = [&](const char* name, std::initializer_list<std::string> sets) {
+        std::vector<std::string> arguments{"render", "builtin:sphere", "-o",    m_folder / name,
+                                           "--size", "32x32",          "--json"};
+        for (const std::string& set : sets)
+            arguments.insert(arguments.end(), {"--set", set});
+        const Outcome outcome = runPatina(arguments);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return outcome.json()["settings"]["environment"].get<std::string>();
+    };
+    EXPECT_EQ(render("left.exr", {"environment.kind=sky", "environment.skySunAzimuthDeg=-60",
+                                  "environment.background=off"}),
+              "sky");
+    EXPECT_EQ(render("right.exr", {"environment.skySunAzimuthDeg=120", "environment.kind=sky",
+                                   "environment.background=off"}),
+              "sky");
+    // The camera stands at azimuth 30°: the suns are 90° to its left and to its right.
+    const Image left = load(m_folder / "left.exr"), right = load(m_folder / "right.exr");
+    EXPECT_GT(left.linear(10, 14).g, 1.5f * left.linear(21, 14).g);
+    EXPECT_GT(right.linear(21, 14).g, 1.5f * right.linear(10, 14).g);
+    EXPECT_EQ(left.linear(0, 0).a, 0.0f);
+    // An image given by name ends the sky's reign.
+    EXPECT_EQ(render("white.exr", {"environment.kind=sky", "environment.image=builtin:white"}),
+              "builtin:white");
+    EXPECT_EQ(load(m_folder / "white.exr").linear(0, 0).r, 1.0f);
+}
+
 // The background has the radiance it was given: no tone curve, no rounding to 8 bits.
 TEST_F(Commands, RenderWritesLinearFloats) {
     const Outcome outcome =

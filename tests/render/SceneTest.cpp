@@ -67,6 +67,25 @@ TEST_F(Scene, SurroundingsTurnCounterClockwiseSeenFromAbove) {
     }
 }
 
+TEST_F(Scene, BackgroundIsAsBlurredAsAskedOrOff) {
+    Document document = makeScene(makeSphere());
+    document.environment.image = spot({0, 0, -1});
+    document.meshes[0].visible = false;
+    document.view.camera.yawDeg = yawTowards({0, 0, 1});
+    setIblOf(document);
+    document.environment.background = BackgroundMode::Blurred;
+    float last = 11.0f; // the more blurred, the darker the middle of the spot
+    for (const float blur : {0.0f, 0.5f, 1.0f}) {
+        document.environment.backgroundBlur = blur;
+        const glm::vec4 middle = centerPixel(draw(document));
+        EXPECT_LT(middle.x, last - 1.0f) << blur;
+        EXPECT_EQ(middle.w, 1.0f);
+        last = middle.x;
+    }
+    document.environment.background = BackgroundMode::Off;
+    EXPECT_EQ(centerPixel(draw(document)), glm::vec4(0.0f));
+}
+
 TEST_F(Scene, BackgroundHasNoSeamAndMatchesTheImage) {
     // A smooth sky: the column behind the seam (+Z) must be as smooth as any other.
     Document document = makeScene(makeSphere());

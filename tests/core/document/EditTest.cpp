@@ -20,6 +20,7 @@ std::set<Id> allIds(const Document& document) {
     collect(document.materials);
     collect(document.lights);
     collect(document.meshes);
+    collect(document.environment.softboxes);
     EXPECT_EQ(ids.size(), count) << "ids are not unique";
     return ids;
 }
@@ -42,8 +43,8 @@ TEST(Edit, RandomEditsKeepThePromisesOfADocument) {
                 return elements.empty() ? Id{0} : elements[random.below(elements.size())].id;
             };
             const Id material = pick(document.materials), light = pick(document.lights),
-                     mesh = pick(document.meshes);
-            switch (random.below(8)) {
+                     mesh = pick(document.meshes), softbox = pick(document.environment.softboxes);
+            switch (random.below(11)) {
             case 0:
                 addMaterial(document, {});
                 break;
@@ -63,12 +64,22 @@ TEST(Edit, RandomEditsKeepThePromisesOfADocument) {
             case 5:
                 EXPECT_EQ(removeMesh(document, mesh), mesh != 0);
                 break;
+            case 6:
+                EXPECT_NE(addSoftbox(document, {}), 0u);
+                break;
+            case 7:
+                EXPECT_EQ(softbox != 0 && duplicateSoftbox(document, softbox) != 0, softbox != 0);
+                break;
+            case 8:
+                EXPECT_EQ(removeSoftbox(document, softbox), softbox != 0);
+                break;
             default: {
                 const ParameterInfo& info = parameters()[random.below(parameters().size())];
-                const Target target{info.scope, info.scope == Scope::Material ? material
-                                                : info.scope == Scope::Light  ? light
-                                                : info.scope == Scope::Mesh   ? mesh
-                                                                              : 0};
+                const Target target{info.scope, info.scope == Scope::Material  ? material
+                                                : info.scope == Scope::Light   ? light
+                                                : info.scope == Scope::Mesh    ? mesh
+                                                : info.scope == Scope::Softbox ? softbox
+                                                                               : 0};
                 const bool exists = targetExists(document, target);
                 const ParameterValue value = random.value(info, document);
                 const Result<Change> change = applyParameter(document, info, target, value);
@@ -120,6 +131,24 @@ TEST(Edit, NamesStayUnique) {
     EXPECT_EQ(document.lights[1].id, fourth);
     EXPECT_EQ(uniqueLightName(document, "Moon"), "Moon");
     EXPECT_EQ(uniqueMaterialName(document, "2001"), "2001");
+}
+
+TEST(Edit, SoftboxesAreNamedDuplicatedAndLimited) {
+    Document document;
+    Softbox key;
+    key.name = "Key";
+    key.widthDeg = 77.0f;
+    const Id first = addSoftbox(document, key), second = duplicateSoftbox(document, first);
+    EXPECT_EQ(document.softbox(second)->name, "Key 2");
+    EXPECT_EQ(document.softbox(second)->widthDeg, 77.0f);
+    EXPECT_EQ(document.environment.softboxes[1].id, second);
+    EXPECT_TRUE(removeSoftbox(document, first));
+    EXPECT_FALSE(removeSoftbox(document, first));
+    while (document.environment.softboxes.size() < kMaxSoftboxes)
+        ASSERT_NE(addSoftbox(document, {}), 0u);
+    EXPECT_EQ(addSoftbox(document, {}), 0u);
+    EXPECT_EQ(duplicateSoftbox(document, second), 0u);
+    EXPECT_EQ(document.environment.softboxes.size(), kMaxSoftboxes);
 }
 
 TEST(Edit, MeshesOfARemovedMaterialTakeAnother) {

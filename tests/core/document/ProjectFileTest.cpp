@@ -4,6 +4,7 @@
 #include "core/document/DocumentIO.h"
 #include "core/document/Edit.h"
 #include "core/export/Export.h"
+#include "core/light/GeneratedEnvironment.h"
 #include "core/material/Parameters.h"
 
 #include <gmock/gmock.h>
@@ -146,6 +147,32 @@ TEST_F(ProjectFile, AMissingEnvironmentIsReplacedByGreyAndKept) {
     ASSERT_NE(opened.document.environment.image, nullptr);
     EXPECT_EQ(opened.document.environment.image->linear(3, 3), glm::vec4(0.5f, 0.5f, 0.5f, 1.0f));
     EXPECT_EQ(opened.missingFiles, (std::vector<std::string>{document.environment.source}));
+}
+
+TEST_F(ProjectFile, GeneratedEnvironmentsAreMadeAgain) {
+    Document document = startDocument();
+    document.environment.kind = EnvironmentKind::Sky;
+    document.environment.sky.sunElevationDeg = 12.5f;
+    resolveEnvironment(document.environment);
+    const std::filesystem::path file = m_folder / "p.patina";
+    saveTo(document, file);
+    Document opened = open(file.string()).document;
+    expectSameDocument(opened, document);
+    expectSameImage(opened.environment.fileImage, document.environment.fileImage, "studio");
+
+    opened.environment.kind = EnvironmentKind::Softboxes;
+    Softbox key;
+    key.azimuthDeg = -30.0f;
+    key.color = {1.0f, 0.5f, 0.25f};
+    addSoftbox(opened, key);
+    resolveEnvironment(opened.environment);
+    saveTo(opened, file);
+    const std::string before = *readTextFile(file, 1 << 20);
+    const Document again = open(file.string()).document;
+    expectSameDocument(again, opened);
+    EXPECT_FALSE(*again.environment.image == *document.environment.image);
+    saveTo(again, file);
+    EXPECT_EQ(*readTextFile(file, 1 << 20), before);
 }
 
 TEST_F(ProjectFile, BakesLieBesideTheProject) {

@@ -16,6 +16,7 @@ Document twoOfEach() {
         document.materials.emplace_back().id = document.takeId();
         document.lights.emplace_back().id = document.takeId();
         document.meshes.emplace_back().id = document.takeId();
+        document.environment.softboxes.emplace_back().id = document.takeId();
     }
     return document;
 }
@@ -28,6 +29,8 @@ Id secondOf(const Document& document, Scope scope) {
         return document.lights[1].id;
     case Scope::Mesh:
         return document.meshes[1].id;
+    case Scope::Softbox:
+        return document.environment.softboxes[1].id;
     default:
         return 0;
     }
@@ -107,12 +110,16 @@ TEST(ParameterTable, HoldsTheFixedNames) {
                              "material.emissive",
                              "material.emissive.map",
                              "environment.image",
+                             "environment.kind",
+                             "environment.skySunAzimuthDeg",
+                             "environment.softboxAmbient",
                              "environment.rotationDeg",
                              "environment.exposureEv",
                              "view.exposureEv",
                              "view.toneMap",
                              "view.fovDeg",
                              "view.lighting",
+                             "softbox.widthDeg",
                              "light.intensity",
                              "light.color",
                              "light.position",

@@ -1,0 +1,67 @@
+#include "core/light/LatLongGrid.h"
+
+#include "core/base/Check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <numbers>
+
+namespace patina {
+namespace {
+constexpr double kPi = std::numbers::pi;
+}
+
+LatLongGrid::LatLongGrid(int height)
+    : m_height(height)
+    , m_columns(static_cast<std::size_t>(2 * height))
+    , m_rows(static_cast<std::size_t>(height)) {
+    CHECK(height >= 2 && height % 2 == 0);
+    for (int x = 0; x < width(); ++x) {
+        const double angle = 2.0 * kPi * ((x + 0.5) / width() - 0.5);
+        m_columns[static_cast<std::size_t>(x)] = {std::sin(angle), std::cos(angle)};
+    }
+    for (int y = 0; y < height; ++y) {
+        const double angle = kPi * (y + 0.5) / height;
+        m_rows[static_cast<std::size_t>(y)] = {std::sin(angle), std::cos(angle)};
+    }
+}
+
+glm::dvec3 LatLongGrid::directionAt(double x, double y) const {
+    const double phi = 2.0 * kPi * (x / width() - 0.5), theta = kPi * y / m_height;
+    const double rho = std::sin(theta);
+    return {rho * std::sin(phi), std::cos(theta), -rho * std::cos(phi)};
+}
+
+double LatLongGrid::texelAngle() const {
+    return kPi / m_height;
+}
+
+double LatLongGrid::solidAngle(int y) const {
+    return 2.0 * kPi / width() *
+           (std::cos(kPi * y / m_height) - std::cos(kPi * (y + 1) / m_height));
+}
+
+double LatLongGrid::projectedSolidAngle(int y) const {
+    // ∫ cos θ sin θ dθ = sin² θ / 2.
+    const double top = std::sin(kPi * y / m_height), bottom = std::sin(kPi * (y + 1) / m_height);
+    return kPi / width() * (bottom * bottom - top * top);
+}
+
+glm::ivec2 LatLongGrid::rowsBetween(double begin, double end) const {
+    const double first = std::floor(begin / texelAngle()), last = std::ceil(end / texelAngle());
+    return {static_cast<int>(std::clamp<double>(first, 0, m_height)),
+            static_cast<int>(std::clamp<double>(last, 0, m_height))};
+}
+
+glm::dvec3 directionFromAngles(double azimuthDeg, double elevationDeg) {
+    const double a = glm::radians(azimuthDeg), e = glm::radians(elevationDeg);
+    return {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
+}
+
+glm::dvec2 anglesFromDirection(const glm::dvec3& d) {
+    return {glm::degrees(std::atan2(d.x, d.z)),
+            glm::degrees(std::atan2(d.y, std::hypot(d.x, d.z)))};
+}
+
+} // namespace patina
