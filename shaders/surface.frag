@@ -7,6 +7,7 @@
 #include "include/material.glsl"
 #include "include/model.glsl"
 #include "shared/ibl.glsl"
+#include "include/prefiltered.glsl"
 #include "shared/lights.glsl"
 #include "shared/normalmap.glsl"
 
@@ -28,7 +29,6 @@ layout(binding = 3) uniform sampler2D u_normalTexture;
 layout(binding = 4) uniform sampler2D u_occlusionTexture;
 layout(binding = 5) uniform sampler2D u_emissiveTexture;
 layout(binding = 6) uniform sampler2D u_visibilityTexture; // baked
-layout(binding = 7) uniform samplerCube u_prefiltered;
 layout(binding = 8) uniform sampler2D u_dfg;
 #ifdef HAS_AREA_LIGHTS
 layout(binding = 9) uniform sampler2D u_lobes; // core/light/LobeTable.h
@@ -132,11 +132,7 @@ void main() {
 #ifdef CONSTANT_REFLECTION
     vec3 prefiltered = vec3(0.5);
 #else
-    vec3 r = mat3(u_worldToEnvironment) * lobeDirection(s, dfg.z);
-    vec3 prefiltered =
-        u_radianceScale *
-        textureLod(u_prefiltered, r, prefilteredLevel(s.perceptualRoughness, u_prefilteredLevels))
-            .rgb;
+    vec3 prefiltered = prefilteredRadiance(lobeDirection(s, dfg.z), s.perceptualRoughness);
 #endif
 #if defined(CONSTANT_IRRADIANCE)
     vec3 irradiance = vec3(0.5 * ao);

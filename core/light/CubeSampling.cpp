@@ -8,11 +8,8 @@
 #include <numbers>
 
 namespace patina {
-namespace {
 
-// Texel (x, y) of a face; one step outside it is the nearest texel of the neighbour. At a corner of
-// the cube three texels meet and the fourth is either of its neighbours.
-glm::vec3 texel(const CubeLevel& level, int face, int x, int y) {
+glm::vec3 cubeTexel(const CubeLevel& level, int face, int x, int y) {
     const int size = level.size;
     if (x < 0 || y < 0 || x >= size || y >= size) {
         const auto scale = static_cast<float>(size);
@@ -25,8 +22,6 @@ glm::vec3 texel(const CubeLevel& level, int face, int x, int y) {
     return level.texels[(static_cast<std::size_t>(face) * size + y) * size + x];
 }
 
-} // namespace
-
 glm::vec3 sampleCube(const CubeLevel& level, const glm::vec3& direction) {
     const CubePosition at = cubePosition(direction);
     const auto scale = static_cast<float>(level.size);
@@ -34,11 +29,11 @@ glm::vec3 sampleCube(const CubeLevel& level, const glm::vec3& direction) {
     const float x0 = std::floor(x), y0 = std::floor(y);
     const float fx = x - x0, fy = y - y0;
     const int column = static_cast<int>(x0), row = static_cast<int>(y0);
-    return (texel(level, at.face, column, row) * (1.0f - fx) +
-            texel(level, at.face, column + 1, row) * fx) *
+    return (cubeTexel(level, at.face, column, row) * (1.0f - fx) +
+            cubeTexel(level, at.face, column + 1, row) * fx) *
                (1.0f - fy) +
-           (texel(level, at.face, column, row + 1) * (1.0f - fx) +
-            texel(level, at.face, column + 1, row + 1) * fx) *
+           (cubeTexel(level, at.face, column, row + 1) * (1.0f - fx) +
+            cubeTexel(level, at.face, column + 1, row + 1) * fx) *
                fy;
 }
 

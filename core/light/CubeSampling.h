@@ -6,6 +6,10 @@
 
 namespace patina {
 
+// Texel (x, y) of a face; up to one step outside it, the nearest texel of the neighbour. At a
+// corner of the cube three texels meet and the fourth is either of its neighbours.
+[[nodiscard]] glm::vec3 cubeTexel(const CubeLevel& level, int face, int x, int y);
+
 // Bilinear between texel centres, seamless: beyond a face's edge lie the texels of its neighbour.
 // `direction` need not be normalised.
 [[nodiscard]] glm::vec3 sampleCube(const CubeLevel& level, const glm::vec3& direction);

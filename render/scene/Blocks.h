@@ -26,7 +26,8 @@ struct FrameBlock {
     glm::vec4 viewport{0.0f};
     float radianceScale = 1.0f;
     std::int32_t prefilteredLevels = 1;
-    std::int32_t reserved0 = 0, reserved1 = 0;
+    float prefilteredSide = 1.0f;
+    std::int32_t reserved = 0;
     std::array<glm::vec4, 9> irradianceSh{};
     std::array<glm::vec4, kMaxTransferCount> radianceSh{};
     glm::ivec4 lightEnds{0};

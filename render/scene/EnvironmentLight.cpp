@@ -2,6 +2,7 @@
 
 #include "core/base/Check.h"
 #include "core/base/Log.h"
+#include "core/light/CubeAtlas.h"
 #include "core/math/SphericalHarmonics.h"
 
 #include <algorithm>
@@ -17,15 +18,17 @@ namespace {
 constexpr float kLargestHalf = 65504.0f;
 constexpr float kGreySky = 0.5f; // radiance that lights the scene before an environment is ready
 
-// Half floats hold up to 65504: more would become infinite and spread. Returns how many changed.
-std::size_t clampToHalf(std::span<glm::vec3> texels) {
-    std::size_t clamped = 0;
-    for (glm::vec3& texel : texels) {
-        const glm::vec3 limited = glm::min(texel, glm::vec3(kLargestHalf));
-        clamped += limited != texel ? 1u : 0u;
-        texel = limited;
-    }
-    return clamped;
+// Half floats hold up to 65504: more would become infinite and spread.
+glm::vec3 clampToHalf(const glm::vec3& texel) {
+    return glm::min(texel, glm::vec3(kLargestHalf));
+}
+
+std::size_t countClamped(const std::vector<CubeLevel>& levels) {
+    std::size_t count = 0;
+    for (const CubeLevel& level : levels)
+        for (const glm::vec3& texel : level.texels)
+            count += clampToHalf(texel) != texel ? 1u : 0u;
+    return count;
 }
 
 gl::Texture makeDfg(gl::Context& context, const ShadingModel& model) {
@@ -38,29 +41,13 @@ gl::Texture makeDfg(gl::Context& context, const ShadingModel& model) {
     return texture;
 }
 
-gl::Texture makeCube(gl::Context& context, const std::vector<CubeLevel>& levels,
-                     std::size_t& clamped) {
-    CHECK(!levels.empty());
-    gl::Texture cube(context, "prefiltered environment",
-                     {.kind = gl::TextureKind::Cube,
-                      .format = gl::PixelFormat::Rgba16f,
-                      .width = levels[0].size,
-                      .height = levels[0].size,
-                      .levels = static_cast<int>(levels.size())});
-    for (std::size_t level = 0; level < levels.size(); ++level) {
-        const int side = std::max(1, levels[0].size >> level);
-        CHECK_EQ(levels[level].size, side);
-        std::vector<glm::vec3> texels = levels[level].texels;
-        const auto face = static_cast<std::size_t>(levels[level].size) *
-                          static_cast<std::size_t>(levels[level].size);
-        CHECK(texels.size() == 6 * face);
-        clamped += clampToHalf(texels);
-        for (int i = 0; i < 6; ++i)
-            cube.uploadFace(i, static_cast<int>(level), 3, gl::SampleType::F32,
-                            texels.data() + static_cast<std::size_t>(i) * face);
-    }
-    cube.setSampling(gl::Filter::Trilinear, gl::Wrap::Clamp);
-    return cube;
+gl::Texture makePrefiltered(gl::Context& context, const CubeAtlas& atlas) {
+    gl::Texture texture(
+        context, "prefiltered environment",
+        {.format = gl::PixelFormat::Rgba16f, .width = atlas.width, .height = atlas.height});
+    texture.upload(0, 3, gl::SampleType::F32, atlas.texels.data());
+    texture.setSampling(gl::Filter::Linear, gl::Wrap::Clamp);
+    return texture;
 }
 
 } // namespace
@@ -85,8 +72,13 @@ EnvironmentLight::EnvironmentLight(gl::Context& context)
 }
 
 void EnvironmentLight::setIbl(const IblMaps& maps) {
-    m_clampedTexels = 0;
-    m_prefiltered = makeCube(m_context, maps.prefiltered, m_clampedTexels);
+    CubeAtlas atlas = makeCubeAtlas(maps.prefiltered);
+    for (glm::vec3& texel : atlas.texels)
+        texel = clampToHalf(texel);
+    m_clampedTexels = countClamped(maps.prefiltered);
+    m_prefilteredSide = atlas.side;
+    m_prefilteredLevels = atlas.levels;
+    m_prefiltered = makePrefiltered(m_context, atlas);
     if (m_clampedTexels > 0)
         logInfo("{} texels of the environment exceed 65504 and were limited", m_clampedTexels);
     m_irradianceSh = maps.irradianceSh;
@@ -132,7 +124,8 @@ void EnvironmentLight::setBackground(const ImagePtr& image) {
 void EnvironmentLight::fill(const Environment& environment, FrameBlock& frame) const {
     const float angle = glm::radians(environment.rotationDeg);
     frame.radianceScale = std::exp2(environment.exposureEv);
-    frame.prefilteredLevels = m_prefiltered.levels();
+    frame.prefilteredLevels = m_prefilteredLevels;
+    frame.prefilteredSide = static_cast<float>(m_prefilteredSide);
     // The surroundings turn by `angle`, so a world direction is looked up turned back.
     frame.worldToEnvironment = glm::rotate(glm::mat4(1.0f), -angle, glm::vec3(0, 1, 0));
 

@@ -1,4 +1,4 @@
-// The surroundings on the GPU: prefiltered cubemap, DFG table, lat-long background, and the SH
+// The surroundings on the GPU: prefiltered radiance, DFG table, lat-long background, and the SH
 // coefficients turned and scaled for the frame.
 #pragma once
 
@@ -22,6 +22,7 @@ class EnvironmentLight {
     // Rotation, exposure and coefficients of the environment for this frame.
     void fill(const Environment& environment, FrameBlock& frame) const;
 
+    // A CubeAtlas; its side and levels are in the frame's block.
     [[nodiscard]] const gl::Texture& prefiltered() const { return m_prefiltered; }
     [[nodiscard]] const gl::Texture& dfg() const { return m_dfg; }
     [[nodiscard]] const gl::Texture& background() const { return m_background; }
@@ -35,6 +36,7 @@ class EnvironmentLight {
     ImagePtr m_backgroundImage;
     std::array<glm::vec3, 9> m_irradianceSh{};
     std::array<glm::vec3, kMaxTransferCount> m_radianceSh{};
+    int m_prefilteredSide = 1, m_prefilteredLevels = 1;
     std::size_t m_clampedTexels = 0;
 };
 

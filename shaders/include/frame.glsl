@@ -20,12 +20,19 @@ layout(std140, binding = 0) uniform Frame {
     vec4 u_viewport;         // width, height, 1 / width, 1 / height
     float u_radianceScale;   // 2^exposure of the environment
     int u_prefilteredLevels; // of the prefiltered cubemap
-    int u_reserved0;
-    int u_reserved1;
+    float u_prefilteredSide; // of a face of its level 0
+    int u_reserved;
     vec3 u_irradianceSh[9]; // world space, exposure included
     vec3 u_radianceSh[25];  // world space, exposure included
     ivec4 u_lightEnds;
     Light u_lights[16];
 };
+
+// World direction to a direction of the environment's picture: a rotation about +Y is two numbers.
+vec3 toEnvironment(vec3 d) {
+    float c = u_worldToEnvironment[0].x;
+    float s = u_worldToEnvironment[0].z;
+    return vec3(c * d.x - s * d.z, d.y, s * d.x + c * d.z);
+}
 
 #endif

@@ -38,6 +38,35 @@ PT_FN float prefilteredLevel(float perceptualRoughness, int levels) {
     return clamp(perceptualRoughness, 0.0f, 1.0f) * float(levels - 1);
 }
 
+// The prefiltered cubemap lies in one flat texture (core/light/CubeAtlas.h): a row of six faces for
+// each level, +X -X +Y -Y +Z -Z, each with a border of one texel; `side` is that of a face of level
+// 0, a power of two. The size leaves room for 16 levels.
+PT_FN vec2 cubeAtlasSize(float side) {
+    return vec2(6.0f * (side + 2.0f), 2.0f * (side + 16.0f));
+}
+
+// Face 0…5 and position 0…1 on it of a direction, not necessarily unit: OpenGL 4.6, table 8.19.
+PT_FN vec3 cubeFacePosition(vec3 d) {
+    vec3 a = abs(d);
+    bool onZ = a.z >= max(a.x, a.y);
+    bool onY = !onZ && a.y >= a.x;
+    float major = onZ ? d.z : (onY ? d.y : d.x);
+    float side = major < 0.0f ? -1.0f : 1.0f;
+    float sc = onZ ? side * d.x : (onY ? d.x : -side * d.z);
+    float tc = onY ? side * d.z : -d.y;
+    float scale = 0.5f / max(abs(major), 1e-30f); // no direction at all: the middle of a face
+    float face = onZ ? 4.0f : (onY ? 2.0f : 0.0f);
+    return vec3(face + (major < 0.0f ? 1.0f : 0.0f), sc * scale + 0.5f, tc * scale + 0.5f);
+}
+
+// Where in the atlas, in texels, `at` (cubeFacePosition) lies on whole level `level`: above it lie
+// side (1 + 1/2 + …) = 2 (side - size) rows of texels and 2 of borders for each level.
+PT_FN vec2 cubeAtlasTexel(vec3 at, float level, float side) {
+    float size = side * exp2(-level);
+    return vec2(at.x * (size + 2.0f) + 1.0f + at.y * size,
+                2.0f * (side - size) + 2.0f * level + 1.0f + at.z * size);
+}
+
 // ---- Light -------------------------------------------------------------------------------------
 
 // Irradiance from irradiance coefficients (radiance coefficients times A_l).

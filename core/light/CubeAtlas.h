@@ -1,0 +1,22 @@
+// A prefiltered cubemap as one flat picture, which is how the viewport looks it up: software OpenGL
+// samples a flat texture without mipmaps about twice as fast as a cubemap with them, and no GPU
+// minds. Each face has a border of one texel of its neighbours, so that bilinear lookups are
+// seamless. The layout is that of cubeAtlasTexel() in shaders/shared/ibl.glsl.
+#pragma once
+
+#include "core/light/Ibl.h"
+
+namespace patina {
+
+// Rows of levels, the largest first: +X -X +Y -Y +Z -Z side by side, from the first row of each.
+struct CubeAtlas {
+    int side = 0; // of a face of level 0, without its border
+    int levels = 0;
+    int width = 0, height = 0;
+    std::vector<glm::vec3> texels; // what no face covers is black
+};
+
+// `levels`: each half as large as the one before; the first a power of two.
+[[nodiscard]] CubeAtlas makeCubeAtlas(const std::vector<CubeLevel>& levels);
+
+} // namespace patina
