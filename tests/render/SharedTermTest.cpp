@@ -4,6 +4,7 @@
 #include "render/shader/ShaderSources.h"
 #include "tests/render/GlTest.h"
 #include "tests/render/SharedTermCases.h"
+#include "tests/render/SharedTermShader.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,49 +16,9 @@
 namespace patina::render {
 namespace {
 
-constexpr int kGroup = 64, kGroups = 800; // 51,200 sets of inputs
-constexpr int kCount = kGroup * kGroups;
-constexpr float kTolerance = 1e-3f; // relative
-
-std::string computeShader(const SharedTermCase& c) {
-    std::string text = "#version 450 core\n"
-                       "layout(local_size_x = " +
-                       std::to_string(kGroup) +
-                       ") in;\n"
-                       "layout(std430, binding = 0) readonly buffer In { float b_in[]; };\n"
-                       "layout(std430, binding = 1) writeonly buffer Out { float b_out[]; };\n"
-                       "float out_[" +
-                       std::to_string(kCaseOutputs) +
-                       "];\n"
-                       "#define I(k) b_in[gl_GlobalInvocationID.x * " +
-                       std::to_string(kCaseInputs) +
-                       " + (k)]\n"
-                       "#define O(k) out_[k]\n"
-                       "#define OUT3(k, v) { vec3 value = v; O(k) = value.x; O(k + 1) = value.y; "
-                       "O(k + 2) = value.z; }\n"
-                       "#define IS_LIGHT(x) ((x) >= 0.0f && (x) < 3e38f ? 1.0f : 3.0f)\n"
-                       "#define SURFACE_OF(model) makeSurface(model, vec3(I(9), I(10), I(11)), "
-                       "I(12), I(13), I(25), vec3(I(0), I(1), I(2)), vec3(I(3), I(4), I(5)), "
-                       "vec2(I(14), I(15)))\n"
-                       "#define SURFACE SURFACE_OF(defaultBrdfModel())\n"
-                       "#define CHOOSE_MODEL(m) BrdfModel m = defaultBrdfModel(); "
-                       "m.distribution = int(2.999f * I(26)); "
-                       "m.visibility = int(5.999f * I(27)); m.fresnel = int(3.999f * I(28)); "
-                       "m.diffuse = int(3.999f * I(29)); m.multiScatter = int(1.999f * I(30)); "
-                       "m.f90 = I(31); m.ior = 1.0f + I(22); "
-                       "m.conductorN = vec3(0.05f + 3.0f * I(23), 1.0f, 0.2f); "
-                       "m.conductorK = vec3(5.0f * I(24), 2.0f, 3.0f);\n";
-    for (const char* file : {"shared/ibl.glsl", "shared/normalmap.glsl", "shared/tonemap.glsl",
-                             "shared/sampling.glsl", "shared/lights.glsl"}) {
-        ExpandedShader expanded;
-        EXPECT_TRUE(expandShader(ShaderSources(), file, {}, expanded).ok()) << file;
-        text += expanded.text;
-    }
-    return text + "void main() {\nfor (int i = 0; i < " + std::to_string(kCaseOutputs) +
-           "; ++i) out_[i] = 0.0f;\n" + c.body + "\nfor (int i = 0; i < " +
-           std::to_string(kCaseOutputs) + "; ++i) b_out[gl_GlobalInvocationID.x * " +
-           std::to_string(kCaseOutputs) + " + i] = out_[i];\n}\n";
-}
+constexpr int kGroups = 800;
+constexpr int kCount = kCaseGroup * kGroups; // 51,200 sets of inputs
+constexpr float kTolerance = 1e-3f;          // relative
 
 class SharedTerms : public gl::GlTest, public testing::WithParamInterface<std::size_t> {};
 
@@ -70,7 +31,7 @@ TEST_P(SharedTerms, AgreeOnCpuAndGpu) {
     for (std::size_t i = 0; i < kCount; ++i)
         c.prepare(make, std::span(inputs).subspan(i * kCaseInputs, kCaseInputs));
 
-    const gl::StageSource stage{gl::Stage::Compute, computeShader(c)};
+    const gl::StageSource stage{gl::Stage::Compute, sharedTermShader(c.body)};
     const auto program = gl::Program::create(context(), c.name, std::span(&stage, 1));
     ASSERT_TRUE(program.ok()) << program.error().text();
     const gl::Buffer in = gl::Buffer::of<float>(context(), "in", inputs);
