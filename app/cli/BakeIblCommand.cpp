@@ -113,6 +113,8 @@ Result<void> run(Session& session, const BakeIblOptions& options) {
     if (!document)
         return document.error();
     const Environment& environment = document->environment;
+    if (environment.image == nullptr) // a sky or softboxes, not finished
+        return Error{ErrorKind::Cancelled, "the bake was cancelled", {}, {}};
     session.beginPhase();
     const Image oriented =
         orientEnvironment(*environment.image, environment.rotationDeg, environment.exposureEv);
@@ -124,8 +126,10 @@ Result<void> run(Session& session, const BakeIblOptions& options) {
     const Image table = computeDfgTable(kDfgSize, model.distribution, model.visibility);
 
     session.beginPhase();
-    const IblPackageSource source{environment.source, environment.rotationDeg,
-                                  environment.exposureEv,
+    const IblPackageSource source{environment.kind == EnvironmentKind::Image
+                                      ? environment.source
+                                      : parameterText(*document, "environment.kind"),
+                                  environment.rotationDeg, environment.exposureEv,
                                   parameterText(*document, "model.distribution"),
                                   parameterText(*document, "model.visibility")};
     Result<IblPackage> packed =

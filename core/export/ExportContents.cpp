@@ -56,7 +56,8 @@ void warnAboutBakes(const Document& document, const ExportSettings& settings,
 }
 
 void addEnvironment(const Environment& environment, ExportContents& contents) {
-    if (environment.image == nullptr || !environment.problem.empty()) {
+    const bool missing = environment.kind == EnvironmentKind::Image && !environment.problem.empty();
+    if (environment.image == nullptr || missing) {
         contents.warnings.emplace_back(
             "the environment's image is missing, so that its light is left out");
         return;

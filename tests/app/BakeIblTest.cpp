@@ -394,6 +394,24 @@ TEST_F(BakeIbl, BakesTheEnvironmentOfAProject) {
     EXPECT_THAT(m_folder.files(), Not(Contains("other")));
 }
 
+// A sun overhead, given by --set alone: all light above, most of it from the zenith.
+TEST_F(BakeIbl, BakesAGeneratedSky) {
+    const Outcome outcome =
+        bake("builtin:white", "out",
+             {"--format", "ktx2", "--precision", "float", "--set", "environment.kind=sky", "--set",
+              "environment.skySunElevationDeg=90", "--set", "environment.skyGroundAlbedo=0"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(jsonFile("out/manifest.json")["environment"]["source"], "sky");
+    nlohmann::json axes = jsonFile("out/irradiance-sh.json")["axes"];
+    EXPECT_GT(axes["+Y"][1].get<double>(), 2 * axes["+X"][1].get<double>());
+    EXPECT_GT(axes["+X"][1].get<double>(), 1.5 * std::abs(axes["-Y"][1].get<double>()));
+    const TextureFile texture = readKtx2(bytesOf("out/prefiltered.ktx2"));
+    const std::vector<glm::dvec3>& level = texture.levels.at(0);
+    const auto brightest =
+        std::max_element(level.begin(), level.end(), [](auto& a, auto& b) { return a.x < b.x; });
+    EXPECT_EQ((brightest - level.begin()) / (64 * 64), 2) << "the sun is in +Y";
+}
+
 TEST_F(BakeIbl, ReplacesAnEarlierBakeButNoOtherFolder) {
     ASSERT_EQ(bake("builtin:white", "out").status, 0);
     ASSERT_EQ(bake("builtin:white", "out", {"--format", "ktx2"}).status, 0);

@@ -214,6 +214,10 @@ TEST_F(GltfEnvironmentFile, ThePlanNamesItAndWarnsOfTheSun) {
     EXPECT_THAT(planExport(m_document, settings("scene.glb")).warnings,
                 ElementsAre(HasSubstr("brighter")));
 
+    m_document.environment.problem = "gone";
+    EXPECT_EQ(planExport(m_document, settings("scene.glb")).files.size(), 1u);
+    m_document.environment.kind = EnvironmentKind::Sky; // needs no file
+    EXPECT_EQ(planExport(m_document, settings("scene.glb")).files.size(), 2u);
     m_document.environment.image = nullptr;
     plan = planExport(m_document, settings("scene.glb"));
     EXPECT_EQ(plan.files.size(), 1u);
