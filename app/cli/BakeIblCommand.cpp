@@ -66,14 +66,6 @@ std::string parameterText(const Document& document, const char* id) {
     return formatParameterValue(*info, info->get(document, 0));
 }
 
-// At perceptual roughness 1 the GGX lobe with N = V = R is the clamped cosine.
-CubeLevel irradianceCube(const CubeLevel& radiance, const JobContext& job) {
-    CubeLevel cube = prefilterGGX(CubePyramid(radiance), kIrradianceSize, 1.0f, {}, job);
-    for (glm::vec3& texel : cube.texels)
-        texel *= std::numbers::pi_v<float>;
-    return cube;
-}
-
 void describe(Session& session, const IblMaps& maps, const IblPackage& package) {
     nlohmann::ordered_json& json = session.report().json();
     std::size_t texels = 0, bytes = 0;
@@ -103,6 +95,7 @@ Result<void> run(Session& session, const BakeIblOptions& options) {
     IblSettings settings;
     settings.cubeSize = options.size;
     settings.levels = levelsFor(options);
+    settings.irradianceSize = kIrradianceSize;
     session.report().json()["settings"] = {{"environment", options.environment},
                                            {"size", settings.cubeSize},
                                            {"levels", settings.levels},
@@ -121,7 +114,6 @@ Result<void> run(Session& session, const BakeIblOptions& options) {
     Result<IblMaps> maps = computeIbl(oriented, settings, session.job());
     if (!maps)
         return maps.error();
-    const CubeLevel irradiance = irradianceCube(maps->prefiltered.front(), session.job());
     const ShadingModel& model = document->model;
     const Image table = computeDfgTable(kDfgSize, model.distribution, model.visibility);
 
@@ -133,7 +125,7 @@ Result<void> run(Session& session, const BakeIblOptions& options) {
                                   parameterText(*document, "model.distribution"),
                                   parameterText(*document, "model.visibility")};
     Result<IblPackage> packed =
-        packIbl(session.worker(), *maps, irradiance, table, source, package, session.job());
+        packIbl(session.worker(), *maps, maps->irradiance, table, source, package, session.job());
     if (!packed)
         return packed.error();
     if (packed->clamped > 0)

@@ -13,37 +13,52 @@ namespace patina {
 
 namespace {
 
-// A lat-long image as packed RGB, small enough that a few samples per cube texel see each pixel.
+// A lat-long image, small enough that a few samples per cube texel see each pixel. Four floats a
+// texel: one register.
 struct LatLong {
     int width, height;
-    std::vector<glm::vec3> texels;
+    std::vector<glm::vec4> texels;
 
-    // Bilinear between texel centres; u repeats, v ends at the poles.
-    [[nodiscard]] glm::vec3 sample(glm::vec2 uv) const {
-        const float x = uv.x * static_cast<float>(width) - 0.5f;
-        const float y = std::clamp(uv.y * static_cast<float>(height) - 0.5f, 0.0f,
-                                   static_cast<float>(height - 1));
-        const float x0 = std::floor(x);
-        const int column0 = (static_cast<int>(x0) + width) % width;
-        const int column1 = (column0 + 1) % width;
+    // Where a latitude lies: two rows and the share of the second. v ends at the poles.
+    struct Rows {
+        const glm::vec4 *top, *bottom;
+        float share;
+    };
+    [[nodiscard]] Rows rows(float v) const {
+        const float y =
+            std::clamp(v * static_cast<float>(height) - 0.5f, 0.0f, static_cast<float>(height - 1));
         const int row0 = static_cast<int>(y);
         const int row1 = std::min(row0 + 1, height - 1);
-        const float fx = x - x0, fy = y - static_cast<float>(row0);
-        const glm::vec3* top = texels.data() + static_cast<std::size_t>(row0) * width;
-        const glm::vec3* bottom = texels.data() + static_cast<std::size_t>(row1) * width;
-        return (top[column0] * (1.0f - fx) + top[column1] * fx) * (1.0f - fy) +
-               (bottom[column0] * (1.0f - fx) + bottom[column1] * fx) * fy;
+        return {texels.data() + static_cast<std::size_t>(row0) * width,
+                texels.data() + static_cast<std::size_t>(row1) * width,
+                y - static_cast<float>(row0)};
+    }
+
+    // Bilinear between texel centres; u in 0…2 repeats after 1. (A cast instead of floor and a
+    // comparison instead of a remainder: this is called millions of times.)
+    [[nodiscard]] glm::vec4 sample(float u, const Rows& rows) const {
+        const float x = u * static_cast<float>(width) + static_cast<float>(width) - 0.5f;
+        int column0 = static_cast<int>(x);
+        const float fx = x - static_cast<float>(column0);
+        while (column0 >= width)
+            column0 -= width;
+        const int column1 = column0 + 1 == width ? 0 : column0 + 1;
+        const glm::vec4 top = rows.top[column0] * (1.0f - fx) + rows.top[column1] * fx;
+        const glm::vec4 bottom = rows.bottom[column0] * (1.0f - fx) + rows.bottom[column1] * fx;
+        return top * (1.0f - rows.share) + bottom * rows.share;
     }
 };
 
-LatLong unpack(const Image& environment) {
+LatLong unpack(const Image& environment, const JobContext& job) {
     LatLong result{environment.width(), environment.height(), {}};
     result.texels.resize(static_cast<std::size_t>(result.width) * result.height);
-    const std::span<const float> source = environment.f32();
+    const float* source = environment.f32().data();
     const std::size_t channels = environment.channels();
-    for (std::size_t i = 0; i < result.texels.size(); ++i)
-        result.texels[i] = {source[i * channels], source[i * channels + 1],
-                            source[i * channels + 2]};
+    parallelFor(job, result.texels.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            result.texels[i] = {source[i * channels], source[i * channels + 1],
+                                source[i * channels + 2], 0.0f};
+    });
     return result;
 }
 
@@ -56,8 +71,8 @@ LatLong halve(const LatLong& from) {
         const double step = std::numbers::pi / from.height;
         const double upper = std::sin(step * (2 * y + 0.5)), lower = std::sin(step * (2 * y + 1.5));
         const auto weight = static_cast<float>(upper / (upper + lower));
-        const glm::vec3* top = from.texels.data() + static_cast<std::size_t>(2 * y) * from.width;
-        const glm::vec3* bottom = top + from.width;
+        const glm::vec4* top = from.texels.data() + static_cast<std::size_t>(2 * y) * from.width;
+        const glm::vec4* bottom = top + from.width;
         for (int x = 0; x < to.width; ++x)
             to.texels[static_cast<std::size_t>(y) * to.width + x] =
                 (top[2 * x] + top[2 * x + 1]) * (0.5f * weight) +
@@ -66,24 +81,45 @@ LatLong halve(const LatLong& from) {
     return to;
 }
 
-float brightest(const glm::vec3& c) {
+float brightest(const glm::vec4& c) {
     return std::max({c.x, c.y, c.z});
 }
 
 // What is this many times brighter than the mean of the image counts as a lamp.
 constexpr float kLamp = 16.0f;
 
-float meanBrightness(const LatLong& image) {
+// The brightest texel of each row, and the mean brightness over the sphere.
+struct Brightness {
+    std::vector<float> rowMaximum;
+    float mean = 0.0f;
+};
+
+Brightness measureBrightness(const LatLong& image, const JobContext& job) {
+    Brightness result;
+    result.rowMaximum.resize(image.height);
+    std::vector<double> rowSum(image.height);
+    parallelFor(job, image.height, 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t y = begin; y < end; ++y) {
+            // Four partial sums: an addition need not wait for the one before.
+            float sum[4] = {}, maximum[4] = {};
+            const glm::vec4* row = image.texels.data() + y * image.width;
+            for (int x = 0; x < image.width; ++x) {
+                const float value = brightest(row[x]);
+                sum[x % 4] += value;
+                maximum[x % 4] = std::max(maximum[x % 4], value);
+            }
+            rowSum[y] = static_cast<double>(sum[0]) + sum[1] + sum[2] + sum[3];
+            result.rowMaximum[y] = std::max({maximum[0], maximum[1], maximum[2], maximum[3]});
+        }
+    });
     double sum = 0.0, weights = 0.0;
     for (int y = 0; y < image.height; ++y) {
-        double row = 0.0;
-        for (int x = 0; x < image.width; ++x)
-            row += brightest(image.texels[static_cast<std::size_t>(y) * image.width + x]);
         const double weight = std::sin(std::numbers::pi * (y + 0.5) / image.height);
-        sum += weight * row;
+        sum += weight * rowSum[y];
         weights += weight * image.width;
     }
-    return static_cast<float>(sum / weights);
+    result.mean = static_cast<float>(sum / weights);
+    return result;
 }
 
 // How much solid angle a sample on the plane at distance 1 stands for: dω = dA / |d|³.
@@ -97,19 +133,22 @@ float sampleWeight(float squaredDistance) {
 // its energy is exact, however small it is and wherever it stands.
 void moveLamps(LatLong& image, CubeLevel& cube, const JobContext& job) {
     const int size = cube.size;
-    const float limit = kLamp * meanBrightness(image);
+    const Brightness brightness = measureBrightness(image, job);
+    const float limit = kLamp * brightness.mean;
     const std::vector<float> omega = cubeSolidAngles(size);
     // Eight patches across a cube texel
     const int n = std::clamp((32 * size + image.width - 1) / image.width, 4, 64);
     const double stepTheta = std::numbers::pi / (static_cast<double>(image.height) * n);
     const double stepPhi = 2.0 * std::numbers::pi / (static_cast<double>(image.width) * n);
-    for (int y = 0; y < image.height && !job.cancelled(); ++y)
+    for (int y = 0; y < image.height && !job.cancelled(); ++y) {
+        if (brightness.rowMaximum[y] <= limit)
+            continue;
         for (int x = 0; x < image.width; ++x) {
-            glm::vec3& texel = image.texels[static_cast<std::size_t>(y) * image.width + x];
+            glm::vec4& texel = image.texels[static_cast<std::size_t>(y) * image.width + x];
             if (brightest(texel) <= limit)
                 continue;
-            const glm::vec3 kept = texel * (limit / brightest(texel));
-            const glm::vec3 excess = texel - kept;
+            const glm::vec4 kept = texel * (limit / brightest(texel));
+            const glm::vec3 excess(texel - kept);
             texel = kept;
             for (int j = 0; j < n; ++j) {
                 const double theta = stepTheta * (static_cast<double>(y) * n + j + 0.5);
@@ -132,6 +171,7 @@ void moveLamps(LatLong& image, CubeLevel& cube, const JobContext& job) {
                 }
             }
         }
+    }
 }
 
 // Positions of samples across a face and their azimuths, shared by rows and columns.
@@ -149,12 +189,14 @@ struct FaceGrid {
     }
 };
 
-// n × n samples in the texels at (x, y) of all six faces (-Y: at (x, size - 1 - y)) at once: the
-// four sides see the same latitudes, and a quarter further on the same longitudes; the floor
-// mirrors the ceiling. That saves five of six arc tangents.
-std::array<glm::vec3, 6> averageSixTexels(const LatLong& image, const FaceGrid& grid, int x, int y,
-                                          int n) {
-    std::array<glm::vec3, 6> sums{};
+// Means over the texels at (x, y) of all six faces and over their mirror images, behind x, y and
+// both: sums[mirror][face]. The four sides see the same latitudes, and a quarter further on the
+// same longitudes; the floor mirrors the ceiling. That saves 23 of 24 arc tangents.
+using MirroredSums = std::array<std::array<glm::vec4, 6>, 4>;
+
+// n × n samples per texel; face -Y: at (x, size - 1 - y).
+MirroredSums averageTexels(const LatLong& image, const FaceGrid& grid, int x, int y, int n) {
+    MirroredSums sums{};
     float weights = 0.0f;
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) {
@@ -163,20 +205,32 @@ std::array<glm::vec3, 6> averageSixTexels(const LatLong& image, const FaceGrid& 
             const float weight = sampleWeight(1.0f + u * u + v * v);
             weights += weight;
 
+            // The sides: azimuths ± turn from their middles, latitudes `side` and 1 - side
             const float side = std::atan2(std::sqrt(1.0f + u * u), -v) * shading::kInvPi;
             const float turn = grid.azimuth[static_cast<std::size_t>(x) * n + i];
-            sums[0] += image.sample({0.75f - turn, side}) * weight;
-            sums[1] += image.sample({0.25f - turn, side}) * weight;
-            sums[4] += image.sample({1.0f - turn, side}) * weight;
-            sums[5] += image.sample({0.5f - turn, side}) * weight;
-
-            const float around = 0.5f + std::atan2(u, -v) / shading::kTwoPi;
+            const LatLong::Rows sideRows[2] = {image.rows(side), image.rows(1.0f - side)};
+            // Ceiling and floor: azimuth from the middle of the image
+            const float around = std::atan2(u, -v) / shading::kTwoPi;
             const float down = std::atan(std::sqrt(u * u + v * v)) * shading::kInvPi;
-            sums[2] += image.sample({around, down}) * weight;
-            sums[3] += image.sample({around, 1.0f - down}) * weight;
+            const LatLong::Rows up = image.rows(down), under = image.rows(1.0f - down);
+            for (int mirror = 0; mirror < 4; ++mirror) {
+                std::array<glm::vec4, 6>& sum = sums[mirror];
+                const float signedTurn = mirror % 2 == 0 ? turn : -turn;
+                const LatLong::Rows& rows = sideRows[mirror / 2];
+                sum[0] += image.sample(0.75f - signedTurn, rows) * weight;
+                sum[1] += image.sample(0.25f - signedTurn, rows) * weight;
+                sum[4] += image.sample(1.0f - signedTurn, rows) * weight;
+                sum[5] += image.sample(0.5f - signedTurn, rows) * weight;
+                // atan2(u, v) = pi - atan2(u, -v), and odd in u
+                const float here = mirror / 2 == 0 ? around : 0.5f - around;
+                const float azimuth = 0.5f + (mirror % 2 == 0 ? here : -here);
+                sum[2] += image.sample(azimuth, up) * weight;
+                sum[3] += image.sample(azimuth, under) * weight;
+            }
         }
-    for (glm::vec3& sum : sums)
-        sum /= weights;
+    for (std::array<glm::vec4, 6>& sum : sums)
+        for (glm::vec4& value : sum)
+            value /= weights;
     return sums;
 }
 
@@ -225,26 +279,33 @@ CubePosition cubePosition(const glm::vec3& d) {
 }
 
 std::vector<float> cubeSolidAngles(int size) {
-    std::vector<double> corners(static_cast<std::size_t>(size + 1) * (size + 1));
-    for (int j = 0; j <= size; ++j)
-        for (int i = 0; i <= size; ++i) {
-            const double x = 2.0 * i / size - 1.0, y = 2.0 * j / size - 1.0;
-            corners[static_cast<std::size_t>(j) * (size + 1) + i] =
+    // A(x, y) = atan(xy / sqrt(x² + y² + 1)) is odd in x and in y: one quarter of the corners is
+    // enough, x and y >= 0; half a texel off when the size is odd.
+    const int half = size / 2 + 1;
+    std::vector<double> corners(static_cast<std::size_t>(half) * half);
+    const auto position = [&](int i) { return std::abs(2.0 * i / size - 1.0); };
+    for (int j = 0; j < half; ++j)
+        for (int i = 0; i < half; ++i) {
+            const double x = position(i), y = position(j);
+            corners[static_cast<std::size_t>(j) * half + i] =
                 std::atan2(x * y, std::sqrt(x * x + y * y + 1.0));
         }
+    const auto corner = [&](int i, int j) {
+        const int column = std::min(i, size - i), row = std::min(j, size - j);
+        const double a = corners[static_cast<std::size_t>(row) * half + column];
+        return (column == i) == (row == j) ? a : -a;
+    };
     std::vector<float> result(static_cast<std::size_t>(size) * size);
     for (int j = 0; j < size; ++j)
-        for (int i = 0; i < size; ++i) {
-            const double* a = corners.data() + static_cast<std::size_t>(j) * (size + 1) + i;
-            const double* b = a + size + 1;
-            result[static_cast<std::size_t>(j) * size + i] =
-                static_cast<float>(a[0] - a[1] - b[0] + b[1]);
-        }
+        for (int i = 0; i < size; ++i)
+            result[static_cast<std::size_t>(j) * size + i] = static_cast<float>(
+                corner(i, j) - corner(i + 1, j) - corner(i, j + 1) + corner(i + 1, j + 1));
     return result;
 }
 
 CubeLevel cubeFromLatLong(const Image& environment, int size, const JobContext& job) {
-    LatLong image = unpack(environment);
+    CHECK_EQ(size % 2, 0);
+    LatLong image = unpack(environment, job);
     while (image.width > 8 * size && image.width % 2 == 0 && image.height % 2 == 0)
         image = halve(image);
 
@@ -253,19 +314,24 @@ CubeLevel cubeFromLatLong(const Image& environment, int size, const JobContext& 
     level.texels.resize(6 * static_cast<std::size_t>(size) * size, glm::vec3(0.0f));
     moveLamps(image, level, job);
 
-    // Two samples per image texel; at the equator 4 · size texels go around.
-    const int n = std::clamp((image.width + 2 * size - 1) / (2 * size), 2, 16);
+    // At least one sample per image texel, also in the middle of a face: a cube texel is 2 / size
+    // wide there, an image texel 2 pi / width.
+    const int n =
+        std::clamp(static_cast<int>(std::ceil(image.width / (std::numbers::pi * size))), 2, 16);
     const FaceGrid grid(size * n);
-    parallelFor(job, size, 2, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t row = begin; row < end; ++row)
-            for (int x = 0; x < size; ++x) {
-                const int y = static_cast<int>(row);
-                const std::array<glm::vec3, 6> means = averageSixTexels(image, grid, x, y, n);
-                for (int face = 0; face < 6; ++face) {
-                    const int faceRow = face == 3 ? size - 1 - y : y;
-                    level.texels[(static_cast<std::size_t>(face) * size + faceRow) * size + x] +=
-                        means[face];
-                }
+    parallelFor(job, size / 2, 2, [&](std::size_t begin, std::size_t end) {
+        for (int row = static_cast<int>(begin); row < static_cast<int>(end); ++row)
+            for (int column = 0; column < size / 2; ++column) {
+                const MirroredSums means = averageTexels(image, grid, column, row, n);
+                for (int mirror = 0; mirror < 4; ++mirror)
+                    for (int face = 0; face < 6; ++face) {
+                        const int x = mirror % 2 == 0 ? column : size - 1 - column;
+                        int y = mirror / 2 == 0 ? row : size - 1 - row;
+                        if (face == 3)
+                            y = size - 1 - y;
+                        level.texels[(static_cast<std::size_t>(face) * size + y) * size + x] +=
+                            glm::vec3(means[mirror][face]);
+                    }
             }
     });
     return level;

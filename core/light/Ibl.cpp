@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numbers>
 
 namespace patina {
 
@@ -35,28 +36,36 @@ Result<IblMaps> computeIbl(const Image& environment, const IblSettings& settings
     maps.prefiltered.push_back(cubeFromLatLong(environment, settings.cubeSize, job));
     if (job.cancelled())
         return cancelled;
+    const CubePyramid pyramid(maps.prefiltered.front());
     job.setProgress(0.2);
 
     job.setActivity("filtering reflections");
-    const CubePyramid pyramid(maps.prefiltered.front());
     double done = 0.0, total = 0.0; // texels
     for (int i = 1; i < settings.levels; ++i)
         total += 1.0 / (1 << (2 * i));
     for (int i = 1; i < settings.levels; ++i) {
         const float perceptualRoughness =
             static_cast<float>(i) / static_cast<float>(settings.levels - 1);
-        // The largest level costs four fifths of the time; its narrow lobe gains least from finer
-        // cells far away.
-        PrefilterQuality quality;
-        if (i == 1)
-            quality.relative = 0.3f;
+        // The largest level costs three quarters of the time; far from its narrow lobe finer cells
+        // gain least.
+        const float widest = (i == 1 ? 0.7f : 0.35f) * settings.cellSize;
         maps.prefiltered.push_back(prefilterGGX(pyramid, settings.cubeSize >> i,
-                                                perceptualRoughness * perceptualRoughness, quality,
-                                                job));
+                                                perceptualRoughness * perceptualRoughness,
+                                                {settings.cellSize, widest}, job));
         if (job.cancelled())
             return cancelled;
         done += 1.0 / (1 << (2 * i));
         job.setProgress(0.2 + 0.8 * done / total);
+    }
+
+    // At alpha = 1 the lobe is the clamped cosine.
+    if (settings.irradianceSize > 0) {
+        maps.irradiance = prefilterGGX(pyramid, settings.irradianceSize, 1.0f,
+                                       {settings.cellSize, 0.35f * settings.cellSize}, job);
+        for (glm::vec3& texel : maps.irradiance.texels)
+            texel *= std::numbers::pi_v<float>;
+        if (job.cancelled())
+            return cancelled;
     }
     return maps;
 }

@@ -86,6 +86,63 @@ struct RowSums {
     std::array<glm::dvec3, kMaxShOrder> cosine{}, sine{};
 };
 
+// `planes`: red, green and blue, one after another; `cosines`, `sines`: of m phi, m = 0 … order -
+// 1, one after another; each `padded` long, a multiple of 16, zeros at the end.
+template <int lanes>
+[[gnu::always_inline]] inline void sumRow(const float* planes, const float* cosines,
+                                          const float* sines, int padded, int order,
+                                          RowSums& sums) {
+    typedef float Lanes __attribute__((vector_size(lanes * sizeof(float)))); // NOLINT: GCC's
+    for (int m = 0; m < order; ++m) {
+        Lanes re[3] = {}, im[3] = {};
+        for (int x = 0; x < padded; x += lanes) {
+            Lanes cosine, sine;
+            __builtin_memcpy(&cosine, cosines + static_cast<std::ptrdiff_t>(m) * padded + x,
+                             sizeof(Lanes));
+            __builtin_memcpy(&sine, sines + static_cast<std::ptrdiff_t>(m) * padded + x,
+                             sizeof(Lanes));
+            for (int c = 0; c < 3; ++c) {
+                Lanes value;
+                __builtin_memcpy(&value, planes + static_cast<std::ptrdiff_t>(c) * padded + x,
+                                 sizeof(Lanes));
+                re[c] += value * cosine;
+                im[c] += value * sine;
+            }
+        }
+        std::array<float, 3 * lanes> reLanes, imLanes;
+        __builtin_memcpy(reLanes.data(), re, sizeof(re));
+        __builtin_memcpy(imLanes.data(), im, sizeof(im));
+        for (int i = 0; i < 3 * lanes; ++i) {
+            sums.cosine[m][i / lanes] += reLanes[i];
+            sums.sine[m][i / lanes] += imLanes[i];
+        }
+    }
+}
+
+using SumRow = void (*)(const float*, const float*, const float*, int, int, RowSums&);
+
+void sumRowBaseline(const float* planes, const float* cosines, const float* sines, int padded,
+                    int order, RowSums& sums) {
+    sumRow<8>(planes, cosines, sines, padded, order, sums);
+}
+
+#if defined(__x86_64__)
+[[gnu::target("avx2,fma")]] void sumRowAvx2(const float* planes, const float* cosines,
+                                            const float* sines, int padded, int order,
+                                            RowSums& sums) {
+    sumRow<16>(planes, cosines, sines, padded, order, sums);
+}
+#endif
+
+// For the widest instructions this machine has.
+SumRow chooseSumRow() {
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+        return sumRowAvx2;
+#endif
+    return sumRowBaseline;
+}
+
 } // namespace
 
 void evaluateSh(int order, const glm::dvec3& d, std::span<double> out) {
@@ -128,52 +185,28 @@ std::vector<glm::vec3> projectLatLong(const Image& environment, int order, const
     // In the image's own frame (zonal axis = its pole, +Y of the world) the basis separates into
     // azimuth and latitude: a texel costs 2·order - 1 products, not order² basis values.
     // Azimuth phi grows with u from 0 at the image's left edge.
-    std::vector<float> cosines(static_cast<std::size_t>(order) * width);
+    constexpr int kPad = 16;
+    const int padded = (width + kPad - 1) / kPad * kPad;
+    std::vector<float> cosines(static_cast<std::size_t>(order) * padded);
     std::vector<float> sines(cosines.size());
     for (int m = 0; m < order; ++m)
         for (int x = 0; x < width; ++x) {
             const double phi = 2.0 * kPi * (x + 0.5) / width;
-            cosines[static_cast<std::size_t>(m) * width + x] =
+            cosines[static_cast<std::size_t>(m) * padded + x] =
                 static_cast<float>(std::cos(m * phi));
-            sines[static_cast<std::size_t>(m) * width + x] = static_cast<float>(std::sin(m * phi));
+            sines[static_cast<std::size_t>(m) * padded + x] = static_cast<float>(std::sin(m * phi));
         }
 
     std::vector<RowSums> rows(height);
+    const SumRow sumOneRow = chooseSumRow();
     parallelFor(job, height, 16, [&](std::size_t begin, std::size_t end) {
-        // One plane per channel and eight partial sums: loops that the compiler turns into SIMD.
-        constexpr int kLanes = 8;
-        const int padded = (width + kLanes - 1) / kLanes * kLanes;
-        std::vector<float> plane(3 * static_cast<std::size_t>(padded), 0.0f);
+        std::vector<float> planes(3 * static_cast<std::size_t>(padded), 0.0f);
         for (std::size_t y = begin; y < end; ++y) {
             const float* source = texels.data() + y * width * channels;
             for (int x = 0; x < width; ++x)
                 for (int c = 0; c < 3; ++c)
-                    plane[static_cast<std::size_t>(c) * padded + x] = source[x * channels + c];
-            for (int m = 0; m < order; ++m) {
-                const float* cosine = cosines.data() + static_cast<std::size_t>(m) * width;
-                const float* sine = sines.data() + static_cast<std::size_t>(m) * width;
-                for (int c = 0; c < 3; ++c) {
-                    const float* values = plane.data() + static_cast<std::size_t>(c) * padded;
-                    std::array<float, kLanes> re{}, im{};
-                    int x = 0;
-                    for (; x + kLanes <= width; x += kLanes)
-                        for (int k = 0; k < kLanes; ++k) {
-                            re[k] += values[x + k] * cosine[x + k];
-                            im[k] += values[x + k] * sine[x + k];
-                        }
-                    double sumRe = 0.0, sumIm = 0.0;
-                    for (int k = 0; k < kLanes; ++k) {
-                        sumRe += re[k];
-                        sumIm += im[k];
-                    }
-                    for (; x < width; ++x) {
-                        sumRe += static_cast<double>(values[x]) * cosine[x];
-                        sumIm += static_cast<double>(values[x]) * sine[x];
-                    }
-                    rows[y].cosine[m][c] = sumRe;
-                    rows[y].sine[m][c] = sumIm;
-                }
-            }
+                    planes[static_cast<std::size_t>(c) * padded + x] = source[x * channels + c];
+            sumOneRow(planes.data(), cosines.data(), sines.data(), padded, order, rows[y]);
         }
     });
 
@@ -181,6 +214,11 @@ std::vector<glm::vec3> projectLatLong(const Image& environment, int order, const
     // in which the integrand is smooth up to the pole; the error is below 1e-14 even for one row.
     // Azimuth: a texel's ∫ cos(m phi) dphi is its centre's value times the sinc below.
     const GaussLegendre rule(4 + 16 / height);
+    std::array<double, kMaxShOrder> azimuth{}; // sinc times the texel's width
+    for (int m = 0; m < order; ++m) {
+        const double half = m * kPi / width;
+        azimuth[m] = (m == 0 ? 1.0 : std::sin(half) / half) * 2.0 * kPi / width;
+    }
     std::vector<glm::dvec3> local(shCount(order), glm::dvec3(0.0));
     for (int y = 0; y < height; ++y) {
         for (int node = 0; node < rule.size(); ++node) {
@@ -192,10 +230,7 @@ std::vector<glm::vec3> projectLatLong(const Image& environment, int order, const
             for (int m = 1; m < order; ++m)
                 sinPower[m] = sinPower[m - 1] * sinTheta;
             forEachLegendre(order, z, [&](int l, int m, double p) {
-                const double half = m * kPi / width;
-                const double sinc = m == 0 ? 1.0 : std::sin(half) / half;
-                const double weight =
-                    p * sinPower[m] * sinc * extent * rule.weight01(node) * 2.0 * kPi / width;
+                const double weight = p * sinPower[m] * azimuth[m] * extent * rule.weight01(node);
                 local[shIndex(l, m)] += rows[y].cosine[m] * weight;
                 if (m > 0)
                     local[shIndex(l, -m)] += rows[y].sine[m] * weight;

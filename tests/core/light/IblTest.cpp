@@ -90,6 +90,30 @@ TEST(Ibl, IrradianceOfAnalyticSkies) {
         EXPECT_EQ(maps.value().radianceSh[i], radiance[i]);
 }
 
+TEST(Ibl, IrradianceCubeIsTheRoughestLevelTimesPi) {
+    // The same skies, texel by texel, and without the nine coefficients' limits: a lamp of 1e4.
+    const Image image = latLong(256, 128, [](glm::vec3 d) {
+        return glm::vec3(1.0f + d.y, d.y * d.y, d.y > 0.0f ? 1.0f : 0.0f);
+    });
+    const auto maps = computeIbl(image, {64, 4, 8}, {});
+    ASSERT_TRUE(maps.ok());
+    ASSERT_EQ(maps->irradiance.size, 8);
+    ASSERT_EQ(maps->irradiance.texels.size(), 6u * 8 * 8);
+    for (int i = 0; i < 6 * 8 * 8; ++i) {
+        const auto at = [](int k) { return (static_cast<float>(k % 8) + 0.5f) / 8.0f; };
+        const float y = glm::normalize(cubeDirection(i / 64, at(i), at(i / 8))).y;
+        EXPECT_NEAR(maps->irradiance.texels[i].x, M_PI + 2.0 * M_PI / 3.0 * y, 2e-3);
+        EXPECT_NEAR(maps->irradiance.texels[i].y, M_PI / 3.0 + M_PI / 6.0 * (1.5 * y * y - 0.5),
+                    2e-3);
+        EXPECT_NEAR(maps->irradiance.texels[i].z, M_PI * (1.0 + y) / 2.0, 6e-3);
+        // Level 3 of 64² is 8² at perceptual roughness 1.
+        EXPECT_LT(glm::length(maps->prefiltered[3].texels[i] * static_cast<float>(M_PI) -
+                              maps->irradiance.texels[i]),
+                  1e-5f);
+    }
+    EXPECT_TRUE(computeIbl(image, {16, 2}, {})->irradiance.texels.empty());
+}
+
 TEST(Ibl, ResultDoesNotDependOnThreads) {
     const Image sky = latLong(128, 64, [](glm::vec3 d) {
         return d.y > 0.98f ? glm::vec3(1e5f) : glm::vec3(1.0f + d.x, 0.5f, d.z * d.z);

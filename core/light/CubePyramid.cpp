@@ -1,0 +1,169 @@
+#include "core/light/CubePyramid.h"
+
+#include "core/base/Check.h"
+#include "core/light/Cubemap.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace patina {
+
+namespace {
+
+constexpr int kFacePlusZ = 4;
+constexpr std::size_t kMostLamps = 1024;
+constexpr float kLampBrightness = 4.0f; // times the mean
+
+// The matrix that takes cubeDirection(+Z, s, t) to cubeDirection(face, s, t).
+glm::mat3 faceMatrix(int face) {
+    // cubeDirection(+Z, s, t) = (u, -v, 1)
+    const glm::vec3 middle = cubeDirection(face, 0.5f, 0.5f);
+    return {cubeDirection(face, 1.0f, 0.5f) - middle, middle - cubeDirection(face, 0.5f, 1.0f),
+            middle};
+}
+
+CubeSymmetry makeSymmetry(int face, bool mirrorX, bool mirrorY) {
+    CubeSymmetry result;
+    result.face = face;
+    result.mirrorX = mirrorX;
+    result.mirrorY = mirrorY;
+    result.matrix = faceMatrix(face);
+    if (mirrorX)
+        result.matrix[0] = -result.matrix[0];
+    if (mirrorY)
+        result.matrix[1] = -result.matrix[1];
+    for (int from = 0; from < 6; ++from) {
+        // Three points tell where the axes of the face go.
+        const auto image = [&](float s, float t) {
+            return cubePosition(result.matrix * cubeDirection(from, s, t));
+        };
+        const CubePosition p = image(0.25f, 0.25f), x = image(0.75f, 0.25f),
+                           y = image(0.25f, 0.75f);
+        const auto step = [](float a, float b) {
+            return static_cast<int>(std::lround(2.0f * (b - a)));
+        };
+        result.faces[from] = {p.face, step(p.s, x.s), step(p.s, y.s), step(p.t, x.t),
+                              step(p.t, y.t)};
+    }
+    return result;
+}
+
+std::array<CubeSymmetry, 24> makeSymmetries() {
+    std::array<CubeSymmetry, 24> result;
+    for (int i = 0; i < 24; ++i)
+        result[i] = makeSymmetry(i % 6, i / 6 % 2 == 1, i / 12 == 1);
+    return result;
+}
+
+float brightest(const glm::vec4& c) {
+    return std::max({c.x, c.y, c.z});
+}
+
+} // namespace
+
+const std::array<CubeSymmetry, 24>& cubeSymmetries() {
+    static const std::array<CubeSymmetry, 24> kSymmetries = makeSymmetries();
+    return kSymmetries;
+}
+
+CubePyramid::CubePyramid(const CubeLevel& base) {
+    CHECK(std::has_single_bit(static_cast<unsigned>(base.size)));
+    std::size_t texels = 0, cells = 0;
+    for (int n = base.size; n >= 1; n /= 2) {
+        const std::size_t face = static_cast<std::size_t>(n) * n;
+        m_levels.push_back({n, texels, nullptr});
+        texels += 6 * face;
+        cells += face;
+    }
+    m_radiance.resize(texels);
+    m_cells.resize(cells);
+
+    // Geometry: a cell's centroid is the mean of its children's, weighted by their solid angles.
+    glm::vec4* level = m_cells.data();
+    for (std::size_t i = 0; i < m_levels.size(); ++i) {
+        const int n = m_levels[i].size;
+        m_levels[i].cells = level;
+        const std::vector<float> omega = cubeSolidAngles(n);
+        const glm::vec4* finer = i > 0 ? m_levels[i - 1].cells : nullptr;
+        for (int y = 0; y < n; ++y)
+            for (int x = 0; x < n; ++x) {
+                const std::size_t at = static_cast<std::size_t>(y) * n + x;
+                glm::vec3 direction(0.0f);
+                if (i == 0)
+                    direction = cubeDirection(
+                        kFacePlusZ, (static_cast<float>(x) + 0.5f) / static_cast<float>(n),
+                        (static_cast<float>(y) + 0.5f) / static_cast<float>(n));
+                else
+                    for (int k = 0; k < 4; ++k) {
+                        const glm::vec4& child =
+                            finer[static_cast<std::size_t>(2 * y + k / 2) * 2 * n + 2 * x + k % 2];
+                        direction += glm::vec3(child) * child.w;
+                    }
+                level[at] = glm::vec4(glm::normalize(direction), omega[at]);
+            }
+        level += static_cast<std::size_t>(n) * n;
+    }
+
+    // Radiance
+    for (std::size_t i = 0; i < base.texels.size(); ++i)
+        m_radiance[i] = glm::vec4(base.texels[i], 0.0f);
+    separateLamps(cubeSolidAngles(base.size));
+    for (std::size_t i = 1; i < m_levels.size(); ++i) {
+        const Level &fine = m_levels[i - 1], &coarse = m_levels[i];
+        const int n = coarse.size;
+        glm::vec4* out = m_radiance.data() + coarse.first;
+        for (int face = 0; face < 6; ++face)
+            for (int y = 0; y < n; ++y) {
+                const std::size_t row = static_cast<std::size_t>(2 * y) * fine.size;
+                const glm::vec4* top = m_radiance.data() + fine.first +
+                                       static_cast<std::size_t>(face) * fine.size * fine.size + row;
+                const glm::vec4* bottom = top + fine.size;
+                const glm::vec4 *upper = fine.cells + row, *lower = upper + fine.size;
+                for (int x = 0; x < n; ++x, ++out) {
+                    const int a = 2 * x, b = a + 1;
+                    const float total = upper[a].w + upper[b].w + lower[a].w + lower[b].w;
+                    *out = (top[a] * upper[a].w + top[b] * upper[b].w + bottom[a] * lower[a].w +
+                            bottom[b] * lower[b].w) /
+                           total;
+                }
+            }
+    }
+}
+
+// A small bright texel far from the lobe's peak would be smeared over a large cell: an error of
+// many times the threshold. Taken apart, it is summed where it is.
+void CubePyramid::separateLamps(const std::vector<float>& solidAngles) {
+    const std::size_t count = 6 * solidAngles.size();
+    double sum = 0.0;
+    for (std::size_t i = 0; i < count; ++i)
+        sum += static_cast<double>(brightest(m_radiance[i])) * solidAngles[i % solidAngles.size()];
+    auto limit = kLampBrightness * static_cast<float>(sum / (4.0 * std::numbers::pi));
+
+    std::vector<float> bright;
+    for (std::size_t i = 0; i < count; ++i)
+        if (brightest(m_radiance[i]) > limit)
+            bright.push_back(brightest(m_radiance[i]));
+    if (bright.size() > kMostLamps) {
+        std::ranges::nth_element(bright, bright.begin() + kMostLamps, std::greater());
+        limit = bright[kMostLamps];
+    }
+    if (bright.empty() || !std::isfinite(limit))
+        return;
+    for (std::size_t i = 0; i < count; ++i) {
+        const float value = brightest(m_radiance[i]);
+        if (!(value > limit) || !std::isfinite(value))
+            continue;
+        const std::size_t inFace = i % solidAngles.size();
+        const glm::vec3 direction =
+            cubeSymmetries()[i / solidAngles.size()].matrix * glm::vec3(m_levels[0].cells[inFace]);
+        const glm::vec4 kept = m_radiance[i] * (limit / value);
+        m_lamps.push_back({direction, glm::vec3(m_radiance[i] - kept) * solidAngles[inFace]});
+        m_radiance[i] = kept;
+    }
+}
+
+} // namespace patina
