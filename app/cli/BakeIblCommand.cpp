@@ -2,13 +2,11 @@
 #include "app/cli/SceneSetup.h"
 #include "core/base/Check.h"
 #include "core/light/OrientedEnvironment.h"
-#include "core/light/Prefilter.h"
 #include "core/material/Parameters.h"
 
 #include <bit>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 namespace patina::cli {
 namespace {
@@ -125,7 +123,7 @@ Result<void> run(Session& session, const BakeIblOptions& options) {
                                   parameterText(*document, "model.distribution"),
                                   parameterText(*document, "model.visibility")};
     Result<IblPackage> packed =
-        packIbl(session.worker(), *maps, maps->irradiance, table, source, package, session.job());
+        packIbl(session.worker(), *maps, table, source, package, session.job());
     if (!packed)
         return packed.error();
     if (packed->clamped > 0)

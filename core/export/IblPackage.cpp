@@ -101,17 +101,17 @@ FloatTexture tableTexture(const Image& table) {
 
 class Packer {
   public:
-    Packer(WorkerClient& worker, const IblMaps& maps, const CubeLevel& irradiance,
-           const Image& dfgTable, const IblPackageSource& source,
-           const IblPackageSettings& settings, const JobContext& job)
+    Packer(WorkerClient& worker, const IblMaps& maps, const Image& dfgTable,
+           const IblPackageSource& source, const IblPackageSettings& settings,
+           const JobContext& job)
         : m_worker(worker)
         , m_maps(maps)
-        , m_irradiance(irradiance)
         , m_dfgTable(dfgTable)
         , m_source(source)
         , m_settings(settings)
         , m_job(job) {
         CHECK(!maps.prefiltered.empty());
+        CHECK_LE(1, maps.irradiance.size);
         CHECK(settings.format != IblFileFormat::Exr || settings.texels != TexelFormat::Rgb9E5);
     }
 
@@ -155,7 +155,7 @@ class Packer {
             {addContainer("prefiltered", cubeTexture(m_maps.prefiltered), m_settings.texels)});
         m_job.setProgress(0.7);
         m_irradianceFiles = Json::array({addContainer(
-            "irradiance", cubeTexture(std::span(&m_irradiance, 1)), m_settings.texels)});
+            "irradiance", cubeTexture(std::span(&m_maps.irradiance, 1)), m_settings.texels)});
         m_dfgFile = addContainer("dfg", tableTexture(m_dfgTable), tableTexels);
         return {};
     }
@@ -185,7 +185,7 @@ class Packer {
         for (std::size_t i = 0; i < m_maps.prefiltered.size(); ++i)
             m_prefilteredFiles.push_back(
                 add(fmt::format("prefiltered-{}", i), m_maps.prefiltered[i]));
-        m_irradianceFiles = add("irradiance", m_irradiance);
+        m_irradianceFiles = add("irradiance", m_maps.irradiance);
 
         m_job.setActivity("encoding images");
         std::vector<std::optional<Result<Bytes>>> encoded(pictures.size());
@@ -266,7 +266,7 @@ class Packer {
                                {"levels", std::move(levels)}};
         if (m_settings.format == IblFileFormat::Ktx2 || m_settings.format == IblFileFormat::Dds)
             root["prefiltered"]["files"] = m_prefilteredFiles;
-        root["irradiance"] = {{"size", m_irradiance.size}, {"files", m_irradianceFiles}};
+        root["irradiance"] = {{"size", m_maps.irradiance.size}, {"files", m_irradianceFiles}};
         root["dfg"] = {{"width", m_dfgTable.width()},
                        {"height", m_dfgTable.height()},
                        {"distribution", m_source.distribution},
@@ -308,7 +308,6 @@ class Packer {
 
     WorkerClient& m_worker;
     const IblMaps& m_maps;
-    const CubeLevel& m_irradiance;
     const Image& m_dfgTable;
     const IblPackageSource& m_source;
     const IblPackageSettings& m_settings;
@@ -320,10 +319,10 @@ class Packer {
 
 } // namespace
 
-Result<IblPackage> packIbl(WorkerClient& worker, const IblMaps& maps, const CubeLevel& irradiance,
-                           const Image& dfgTable, const IblPackageSource& source,
-                           const IblPackageSettings& settings, const JobContext& job) {
-    return Packer(worker, maps, irradiance, dfgTable, source, settings, job).pack();
+Result<IblPackage> packIbl(WorkerClient& worker, const IblMaps& maps, const Image& dfgTable,
+                           const IblPackageSource& source, const IblPackageSettings& settings,
+                           const JobContext& job) {
+    return Packer(worker, maps, dfgTable, source, settings, job).pack();
 }
 
 bool isIblPackage(const fs::path& folder) {

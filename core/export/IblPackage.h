@@ -37,10 +37,10 @@ struct IblPackage {
     std::size_t clamped = 0;       // texels brighter than the format can hold
 };
 
-// Errors: Cancelled, and what encoding an image may fail with.
-Result<IblPackage> packIbl(WorkerClient& worker, const IblMaps& maps, const CubeLevel& irradiance,
-                           const Image& dfgTable, const IblPackageSource& source,
-                           const IblPackageSettings& settings, const JobContext& job);
+// `maps` with their irradiance cube. Errors: Cancelled, and what encoding an image may fail with.
+Result<IblPackage> packIbl(WorkerClient& worker, const IblMaps& maps, const Image& dfgTable,
+                           const IblPackageSource& source, const IblPackageSettings& settings,
+                           const JobContext& job);
 
 // Whether the folder holds a package and nothing else, so that a new one may replace it.
 [[nodiscard]] bool isIblPackage(const std::filesystem::path& folder);
