@@ -63,7 +63,8 @@ FrameBlock Renderer::Impl::packFrame(const FrameSettings& frame) {
 Result<void> Renderer::Impl::drawScene(const FrameSettings& frame, const FrameBlock& block) {
     const Document& document = scene.document();
     const SurfaceSettings settings{document.view.lighting, block.lightEnds.y > 0,
-                                   block.lightEnds.w > block.lightEnds.y, document.model};
+                                   block.lightEnds.w > block.lightEnds.y, block.lightEnds,
+                                   document.model};
     const DrawList list = makeDrawList(scene.items(), block.worldToClip, frame.camera.position());
 
     targets.scene().bind();

@@ -36,6 +36,10 @@ layout(binding = 9) uniform sampler2D u_lobes; // core/light/LobeTable.h
 
 layout(location = 0) out vec4 o_radiance; // premultiplied by alpha
 
+#ifndef LIGHT_ENDS
+#define LIGHT_ENDS u_lightEnds
+#endif
+
 vec4 baseColorAt(vec2 uv) {
     vec4 color = u_baseColor;
 #ifdef HAS_BASE_COLOR_MAP
@@ -53,8 +57,10 @@ vec3 shadingNormal() {
 #ifdef HAS_NORMAL_MAP
     vec3 texel = texture(u_normalTexture, mapUv(u_normalMap, v_uv)).rgb;
     vec3 m = decodeNormalTs(texel, u_normalStrength, u_normalGreenUp);
-    vec3 normalTs = vec3(dot(u_normalBasis.xy, m.xy), dot(u_normalBasis.zw, m.xy), m.z);
-    n = normalTsToWorld(normalTs, n, v_tangent);
+#ifdef HAS_MOVED_MAPS
+    m = vec3(dot(u_normalBasis.xy, m.xy), dot(u_normalBasis.zw, m.xy), m.z);
+#endif
+    n = normalTsToWorld(m, n, v_tangent);
 #endif
 #ifdef DOUBLE_SIDED
     if (!gl_FrontFacing)
@@ -82,14 +88,14 @@ void main() {
     float perceptualRoughness = u_perceptualRoughness;
 #ifdef HAS_METALLIC_MAP
     vec4 packedTexel = texture(u_metallicTexture, mapUv(u_metallicMap, v_uv));
-    metallic *= dot(u_metallicMap.channel, packedTexel);
+    metallic *= packedTexel.METALLIC_CHANNEL;
 #endif
 #ifdef HAS_ROUGHNESS_MAP
 #ifdef ROUGHNESS_IS_PACKED
-    perceptualRoughness *= dot(u_roughnessMap.channel, packedTexel);
+    perceptualRoughness *= packedTexel.ROUGHNESS_CHANNEL;
 #else
     perceptualRoughness *=
-        dot(u_roughnessMap.channel, texture(u_roughnessTexture, mapUv(u_roughnessMap, v_uv)));
+        texture(u_roughnessTexture, mapUv(u_roughnessMap, v_uv)).ROUGHNESS_CHANNEL;
 #endif
 #endif
 
@@ -103,10 +109,9 @@ void main() {
     visible = v_visibility;
 #elif defined(HAS_OCCLUSION_MAP)
 #ifdef OCCLUSION_IS_PACKED
-    visible = dot(u_occlusionMap.channel, packedTexel);
+    visible = packedTexel.OCCLUSION_CHANNEL;
 #else
-    visible =
-        dot(u_occlusionMap.channel, texture(u_occlusionTexture, mapUv(u_occlusionMap, v_uv)));
+    visible = texture(u_occlusionTexture, mapUv(u_occlusionMap, v_uv)).OCCLUSION_CHANNEL;
 #endif
 #endif
     float ao = mix(1.0, clamp(visible, 0.0, 1.0), u_occlusionStrength);
@@ -145,13 +150,13 @@ void main() {
     vec3 radiance =
         ambient.diffuse + ambient.specular * specularOcclusion(s.NoV, ao, s.alpha);
 
-    // Analytic lights, one loop for each kind.
+    // Analytic lights, one loop for each kind. Where LIGHT_ENDS is known it is unrolled.
 #ifdef HAS_PUNCTUAL_LIGHTS
-    for (int i = 0; i < u_lightEnds.x; ++i) {
+    for (int i = 0; i < LIGHT_ENDS.x; ++i) {
         ShadedLight light = shadeDirect(s, u_lights[i].place.xyz, u_lights[i].color.rgb);
         radiance += light.diffuse + light.specular;
     }
-    for (int i = u_lightEnds.x; i < u_lightEnds.y; ++i) {
+    for (int i = LIGHT_ENDS.x; i < LIGHT_ENDS.y; ++i) {
         vec3 toLight = u_lights[i].place.xyz - v_position;
         float distance2 = dot(toLight, toLight);
         vec3 l = toLight * inversesqrt(max(distance2, 1e-12));
@@ -166,12 +171,12 @@ void main() {
     vec2 lobe = vec2(lobeAngle(s.NoV), s.perceptualRoughness);
     float lobeTexels = float(textureSize(u_lobes, 0).x);
     vec4 fit = textureLod(u_lobes, (lobe * (lobeTexels - 1.0) + 0.5) / lobeTexels, 0.0);
-    for (int i = u_lightEnds.y; i < u_lightEnds.z; ++i) {
+    for (int i = LIGHT_ENDS.y; i < LIGHT_ENDS.z; ++i) {
         ShadedLight light = shadeSphere(s, fit, u_lights[i].place.xyz - v_position,
                                         u_lights[i].axis.x, u_lights[i].color.rgb);
         radiance += light.diffuse + light.specular;
     }
-    for (int i = u_lightEnds.z; i < u_lightEnds.w; ++i) {
+    for (int i = LIGHT_ENDS.z; i < LIGHT_ENDS.w; ++i) {
         ShadedLight light =
             shadeRectangle(s, fit, u_lights[i].place.xyz - v_position, u_lights[i].axis.xyz,
                            u_lights[i].side.xyz, u_lights[i].color.rgb);

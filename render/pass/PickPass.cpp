@@ -34,7 +34,8 @@ Result<Id> PickPass::pick(const GpuScene& scene, const glm::mat4& worldToClip, i
     for (const DrawItem& item : scene.items()) {
         if (!insideFrustum(item.bounds, worldToClip))
             continue;
-        const unsigned features = item.material->features & (AlphaMasked | HasBaseColorMap);
+        const unsigned features =
+            item.material->features & (AlphaMasked | HasBaseColorMap | HasMovedMaps);
         auto shader = m_shaders.program({{"surface.vert", "id.frag"}, surfaceDefines(features)});
         if (!shader) {
             result = shader.error();

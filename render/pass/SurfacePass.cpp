@@ -2,6 +2,7 @@
 
 #include <array>
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
 namespace patina::render {
 
@@ -41,6 +42,23 @@ unsigned modelKey(const ShadingModel& model) {
 
 constexpr unsigned kVisibilityUnit = 6, kPrefilteredUnit = 7, kDfgUnit = 8, kLobesUnit = 9;
 
+// A few lights are unrolled into the program, which is much faster on software OpenGL; many, or
+// area lights, whose code is long, run in loops. Zero: loops.
+glm::ivec4 unrolledEnds(const SurfaceSettings& settings) {
+    constexpr int kMostUnrolled = 4;
+    const bool few = settings.hasPunctualLights && !settings.hasAreaLights &&
+                     settings.lightEnds.y <= kMostUnrolled;
+    return few ? settings.lightEnds : glm::ivec4(0);
+}
+
+// Eight bits each.
+unsigned endsKey(const glm::ivec4& ends) {
+    unsigned key = 0;
+    for (int i = 0; i < 4; ++i)
+        key = key << 8 | static_cast<unsigned>(ends[i]);
+    return key;
+}
+
 } // namespace
 
 unsigned surfaceFeatures(const DrawItem& item, const SurfaceSettings& settings) {
@@ -66,6 +84,17 @@ std::vector<std::string> surfaceDefines(unsigned features) {
     for (std::size_t bit = 0; bit < kDefines.size(); ++bit)
         if (features & (1u << bit))
             defines.emplace_back(kDefines[bit]);
+    if (features & HasMovedMaps)
+        defines.emplace_back("HAS_MOVED_MAPS");
+    if (features & HasPickedColors)
+        defines.emplace_back("HAS_PICKED_COLORS");
+    const auto channel = [&](SurfaceFeature map, const char* name, unsigned shift) {
+        if (features & map)
+            defines.push_back(std::string(name) + ' ' + "rgba"[features >> shift & 3u]);
+    };
+    channel(HasMetallicMap, "METALLIC_CHANNEL", kMetallicChannelShift);
+    channel(HasRoughnessMap, "ROUGHNESS_CHANNEL", kRoughnessChannelShift);
+    channel(HasOcclusionMap, "OCCLUSION_CHANNEL", kOcclusionChannelShift);
     return defines;
 }
 
@@ -86,14 +115,18 @@ void drawItem(const DrawItem& item, bool cull) {
     glDrawElements(GL_TRIANGLES, item.mesh->indexCount, GL_UNSIGNED_INT, nullptr);
 }
 
-Result<const gl::Program*> SurfacePass::program(unsigned features, const ShadingModel& model) {
-    const Variant variant{features, modelKey(model)};
+Result<const gl::Program*> SurfacePass::program(unsigned features,
+                                                const SurfaceSettings& settings) {
+    const Variant variant{features, modelKey(settings.model), endsKey(unrolledEnds(settings))};
     const auto known = m_programs.find(variant);
     if (known != m_programs.end())
         return known->second;
     std::vector<std::string> defines = surfaceDefines(features);
-    for (std::string& define : modelDefines(model))
+    for (std::string& define : modelDefines(settings.model))
         defines.push_back(std::move(define));
+    if (const glm::ivec4 ends = unrolledEnds(settings); ends != glm::ivec4(0))
+        defines.push_back(
+            fmt::format("LIGHT_ENDS ivec4({}, {}, {}, {})", ends.x, ends.y, ends.z, ends.w));
     defines.insert(defines.end(), m_studyDefines.begin(), m_studyDefines.end());
     auto made = m_shaders.program({{"surface.vert", "surface.frag"}, std::move(defines)});
     if (made)
@@ -111,7 +144,7 @@ Result<void> SurfacePass::draw(const GpuScene& scene, const std::vector<const Dr
     scene.lobes().bind(kLobesUnit);
     for (const DrawItem* item : items) {
         const unsigned features = surfaceFeatures(*item, settings);
-        const auto shader = program(features, settings.model);
+        const auto shader = program(features, settings);
         if (!shader)
             return shader.error();
         (*shader)->use();

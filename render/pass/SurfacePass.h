@@ -4,9 +4,9 @@
 #include "render/scene/DrawList.h"
 #include "render/shader/ShaderLibrary.h"
 
+#include <array>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace patina::render {
@@ -16,7 +16,8 @@ struct SurfaceSettings {
     LightingMode lighting = LightingMode::Ibl;
     bool hasPunctualLights = false;
     bool hasAreaLights = false;
-    ShadingModel model; // its choices; the numbers are in the scene's model block
+    glm::ivec4 lightEnds{0}; // FrameBlock::lightEnds
+    ShadingModel model;      // its choices; the numbers are in the scene's model block
 };
 
 class SurfacePass {
@@ -35,10 +36,10 @@ class SurfacePass {
   private:
     Result<void> draw(const GpuScene& scene, const std::vector<const DrawItem*>& items,
                       const SurfaceSettings& settings);
-    Result<const gl::Program*> program(unsigned features, const ShadingModel& model);
+    Result<const gl::Program*> program(unsigned features, const SurfaceSettings& settings);
 
-    // What tells two variants apart: features, and the choices of the model.
-    using Variant = std::pair<unsigned, unsigned>;
+    // What tells two variants apart: features, the choices of the model, the unrolled lights.
+    using Variant = std::array<unsigned, 3>;
 
     ShaderLibrary& m_shaders;
     std::vector<std::string> m_studyDefines;

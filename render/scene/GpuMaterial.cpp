@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <utility>
 
 namespace patina::render {
 
@@ -18,11 +19,11 @@ glm::vec4 uvMatrix(const MapSlot& map) {
     return {c * map.uvScale.x, s * map.uvScale.y, -s * map.uvScale.x, c * map.uvScale.y};
 }
 
-// Colour maps: Rgb is the colour itself. Number maps read one channel; Rgb means red.
-glm::vec4 channelWeights(MapChannel channel, bool isColor) {
+// Of a colour map: Rgb is the colour itself.
+glm::vec4 channelWeights(MapChannel channel) {
     switch (channel) {
     case MapChannel::Rgb:
-        return isColor ? glm::vec4(-1, 0, 0, 0) : glm::vec4(1, 0, 0, 0);
+        return {-1, 0, 0, 0};
     case MapChannel::R:
         return {1, 0, 0, 0};
     case MapChannel::G:
@@ -32,11 +33,32 @@ glm::vec4 channelWeights(MapChannel channel, bool isColor) {
     case MapChannel::A:
         return {0, 0, 0, 1};
     }
-    return {1, 0, 0, 0};
+    return {-1, 0, 0, 0};
 }
 
-MapBlock packMap(const MapSlot& map, bool isColor) {
-    return {uvMatrix(map), glm::vec4(map.uvOffset, 0, 0), channelWeights(map.channel, isColor)};
+// Of a map of numbers, which reads one channel: its index; Rgb means red.
+unsigned channelIndex(MapChannel channel) {
+    switch (channel) {
+    case MapChannel::Rgb:
+    case MapChannel::R:
+        return 0;
+    case MapChannel::G:
+        return 1;
+    case MapChannel::B:
+        return 2;
+    case MapChannel::A:
+        return 3;
+    }
+    return 0;
+}
+
+MapBlock packMap(const MapSlot& map) {
+    return {uvMatrix(map), glm::vec4(map.uvOffset, 0, 0), channelWeights(map.channel)};
+}
+
+bool moved(const MapSlot& map) {
+    return map.uvScale != glm::vec2(1.0f) || map.uvOffset != glm::vec2(0.0f) ||
+           map.uvRotationDeg != 0.0f;
 }
 
 // A map that is turned or mirrored on the surface takes its slopes along: its x points where u'
@@ -94,12 +116,12 @@ MaterialBlock packMaterial(const Material& m) {
     block.normalGreenUp = m.normalConvention == NormalConvention::OpenGl ? 1.0f : -1.0f;
     block.placeholder = placeholderShare(m);
     block.diffuseRoughness = m.diffuseRoughness;
-    block.baseColorMap = packMap(m.baseColorMap, true);
-    block.metallicMap = packMap(m.metallicMap, false);
-    block.roughnessMap = packMap(m.perceptualRoughnessMap, false);
-    block.normalMap = packMap(m.normalMap, true);
-    block.occlusionMap = packMap(m.occlusionMap, false);
-    block.emissiveMap = packMap(m.emissiveMap, true);
+    block.baseColorMap = packMap(m.baseColorMap);
+    block.metallicMap = packMap(m.metallicMap);
+    block.roughnessMap = packMap(m.perceptualRoughnessMap);
+    block.normalMap = packMap(m.normalMap);
+    block.occlusionMap = packMap(m.occlusionMap);
+    block.emissiveMap = packMap(m.emissiveMap);
     return block;
 }
 
@@ -109,6 +131,17 @@ unsigned materialFeatures(const Material& m) {
     for (std::size_t i = 0; i < maps.size(); ++i)
         if (maps[i]->image)
             features |= 1u << i; // HasBaseColorMap … HasEmissiveMap
+    for (const MapSlot* map : maps)
+        if (map->image && moved(*map))
+            features |= HasMovedMaps;
+    for (const MapSlot* map : {&m.baseColorMap, &m.emissiveMap})
+        if (map->image && map->channel != MapChannel::Rgb)
+            features |= HasPickedColors;
+    for (const auto& [map, shift] : {std::pair(&m.metallicMap, kMetallicChannelShift),
+                                     std::pair(&m.perceptualRoughnessMap, kRoughnessChannelShift),
+                                     std::pair(&m.occlusionMap, kOcclusionChannelShift)})
+        if (map->image)
+            features |= channelIndex(map->channel) << shift;
     if (sameTexels(m.metallicMap, m.perceptualRoughnessMap))
         features |= RoughnessIsPacked;
     if (sameTexels(m.metallicMap, m.occlusionMap))

@@ -14,8 +14,12 @@ namespace patina::render {
 
 class TextureCache;
 
-// Bits of a surface variant; the names of the defines are in render/pass/SurfacePass.cpp.
+// Bits of a surface variant; the names of the defines are in render/pass/SurfacePass.cpp. What most
+// materials do not need, and every uniform that is not read, counts: software OpenGL gathers each
+// number of a uniform block for each pixel.
 enum SurfaceFeature : unsigned {
+    HasMovedMaps = 1u << 24,    // a map is scaled, shifted or turned
+    HasPickedColors = 1u << 25, // a colour map gives one of its channels
     HasBaseColorMap = 1u << 0,
     HasMetallicMap = 1u << 1,
     HasRoughnessMap = 1u << 2,
@@ -35,6 +39,10 @@ enum SurfaceFeature : unsigned {
     HasAreaLights = 1u << 16,     // spheres, rectangles
 };
 inline constexpr int kSurfaceFeatureCount = 17;
+
+// Two bits each: which channel of the map counts, R G B A.
+inline constexpr unsigned kMetallicChannelShift = 26, kRoughnessChannelShift = 28,
+                          kOcclusionChannelShift = 30;
 
 inline constexpr std::size_t kMaterialMapCount = 6; // texture units 0…5, order of the block
 

@@ -6,7 +6,7 @@
 struct Map {
     vec4 uvMatrix;  // rows of the 2 × 2 matrix
     vec4 uvOffset;  // xy
-    vec4 channel;   // weights; x < 0: the colour as it is
+    vec4 channel;   // weights, of colour maps; x < 0: the colour as it is
 };
 
 layout(std140, binding = 2) uniform Material {
@@ -29,10 +29,16 @@ layout(std140, binding = 2) uniform Material {
 };
 
 vec2 mapUv(Map map, vec2 uv) {
+#ifndef HAS_MOVED_MAPS
+    return uv;
+#endif
     return vec2(dot(map.uvMatrix.xy, uv), dot(map.uvMatrix.zw, uv)) + map.uvOffset.xy;
 }
 
 vec3 mapColor(Map map, vec4 texel) {
+#ifndef HAS_PICKED_COLORS
+    return texel.rgb;
+#endif
     return map.channel.x < 0.0 ? texel.rgb : vec3(dot(map.channel, texel));
 }
 

@@ -160,6 +160,8 @@ struct Study {
         const double start = processMilliseconds();
         SurfaceSettings settings;
         settings.hasPunctualLights = block.lightEnds.y > 0;
+        settings.hasAreaLights = block.lightEnds.w > block.lightEnds.y;
+        settings.lightEnds = block.lightEnds;
         if (!pass.drawOpaque(scene, list, settings))
             return;
         glFinish();
