@@ -5,6 +5,7 @@
 #include "app/editor/FileFlow.h"
 #include "app/editor/MainWindow.h"
 #include "app/editor/Session.h"
+#include "app/editor/panel/SoftboxList.h"
 #include "app/editor/style/Style.h"
 
 #include <QApplication>
@@ -82,6 +83,13 @@ int main(int argc, char* argv[]) {
         return 1;
     settle(6000); // image-based light at full resolution, then the refined frame
     bool ok = save(window, folder.filePath(QStringLiteral("start.png")));
+
+    session.controller.setEnvironmentKind(patina::EnvironmentKind::Softboxes);
+    window.findChild<SoftboxList*>()->select(
+        session.controller.document().environment.softboxes.front().id);
+    settle(6000);
+    ok &= save(window, folder.filePath(QStringLiteral("softboxes.png")));
+    session.controller.setEnvironmentKind(patina::EnvironmentKind::Image);
 
     raiseDock(window, QStringLiteral("bake"));
     raiseDock(window, QStringLiteral("jobs"));

@@ -1,6 +1,7 @@
 #include "app/editor/document/DocumentController.h"
 
 #include "app/editor/document/Commands.h"
+#include "app/editor/document/EnvironmentResolver.h"
 #include "core/base/Check.h"
 
 #include <algorithm>
@@ -21,9 +22,14 @@ QString fromText(std::string_view text) {
 DocumentController::DocumentController(WorkerClient& worker, QObject* parent)
     : QObject(parent)
     , m_worker(worker)
-    , m_tasks(4) { // most of them wait for the worker process or for the disk
+    , m_tasks(4) // most of them wait for the worker process or for the disk
+    , m_environment(new EnvironmentResolver(this)) {
     m_undo.setUndoLimit(kUndoSteps);
     connect(&m_undo, &QUndoStack::cleanChanged, this, &DocumentController::fileChanged);
+    connect(m_environment, &EnvironmentResolver::refined, this, [this](const ImagePtr& image) {
+        m_document.environment.image = image;
+        Q_EMIT changed({Affects::EnvironmentMap, Target{Scope::Environment, 0}});
+    });
     connect(&m_tasks, &BackgroundTasks::failed, this,
             [this](const QString& activity, const QString& reason) {
                 Q_EMIT noticed({NoticeKind::Error, tr("%1 failed.").arg(activity), {reason}});
@@ -41,7 +47,9 @@ bool DocumentController::isPristine() const {
 }
 
 void DocumentController::apply(const std::function<Change(Document&)>& edit) {
-    const Change change = edit(m_document);
+    Change change = edit(m_document);
+    if (m_environment->update(m_document.environment))
+        change.affects = change.affects | Affects::EnvironmentMap;
     Q_EMIT changed(change);
 }
 
@@ -94,6 +102,20 @@ void DocumentController::pushParameters(Target target, const std::vector<Paramet
         push(new SetParametersCommand(*this, text, target, std::move(after), session));
 }
 
+void DocumentController::setParameters(Target target, const std::vector<ParameterEdit>& edits,
+                                       const QString& text, DragSession session) {
+    if (!targetExists(m_document, target))
+        return;
+    std::vector<ParameterEdit> after;
+    bool differs = false;
+    for (const ParameterEdit& edit : edits) {
+        after.push_back({edit.info, clampToRange(*edit.info, edit.value)});
+        differs = differs || after.back().value != edit.info->get(m_document, target.id);
+    }
+    if (differs)
+        push(new SetParametersCommand(*this, text, target, std::move(after), session));
+}
+
 void DocumentController::resetParameter(const ParameterInfo& info, Target target) {
     setParameter(info, target, info.defaultValue());
 }
@@ -117,6 +139,7 @@ void DocumentController::rename(Target target, const QString& name) {
     pushParameters(target,
                    {{&parameter(target.scope == Scope::Mesh       ? "mesh.name"
                                 : target.scope == Scope::Material ? "material.name"
+                                : target.scope == Scope::Softbox  ? "softbox.name"
                                                                   : "light.name"),
                      trimmed.toStdString()}},
                    0, tr("Rename %1").arg(nameText(target)));

@@ -20,7 +20,10 @@
 
 namespace patina {
 class WorkerClient;
+namespace library {
+struct SoftboxRig;
 }
+} // namespace patina
 
 namespace patina::editor {
 
@@ -28,6 +31,7 @@ namespace patina::editor {
 using DragSession = quint64;
 
 class DocumentCommand;
+class EnvironmentResolver;
 
 // The lists that structural edits replace as a whole, ids kept.
 struct Elements {
@@ -62,12 +66,23 @@ class DocumentController : public QObject {
     void setParameter(const ParameterInfo& info, Target target, const ParameterValue& value,
                       DragSession session = 0);
     void resetParameter(const ParameterInfo& info, Target target);
+    // Several of one element as one step, as a drag in two directions needs it: within a session
+    // the same parameters in the same order.
+    void setParameters(Target target, const std::vector<ParameterEdit>& edits, const QString& text,
+                       DragSession session = 0);
 
     // --- Maps and surroundings, read in the background -------------------------------------------
     // `map` is a parameter of type Map. An image that cannot be read leaves the slot as it was.
     void setMap(const ParameterInfo& map, Target target, const QString& source);
     void clearMap(const ParameterInfo& map, Target target);
     void setEnvironment(const QString& source); // a file or "builtin:NAME"
+
+    // --- Generated surroundings: their image follows each edit, a draft first --------------------
+    void setEnvironmentKind(EnvironmentKind kind);       // Softboxes without one get the first rig
+    void setSoftboxRig(const library::SoftboxRig& rig);  // in place of what is there
+    Id addSoftbox(float azimuthDeg, float elevationDeg); // 0: there are too many
+    Id duplicateSoftbox(Id softbox);
+    void removeSoftbox(Id softbox);
 
     // --- Structure -------------------------------------------------------------------------------
     void rename(Target target, const QString& name);
@@ -125,6 +140,7 @@ class DocumentController : public QObject {
     Document m_document;
     QUndoStack m_undo;
     BackgroundTasks m_tasks;
+    EnvironmentResolver* m_environment; // owned by Qt
     QString m_filePath, m_name;
     bool m_pristine = true;
     DragSession m_lastSession = 0;

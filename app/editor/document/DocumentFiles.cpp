@@ -2,6 +2,7 @@
 
 #include "app/editor/document/Commands.h"
 #include "app/editor/document/DocumentController.h"
+#include "app/editor/document/EnvironmentResolver.h"
 #include "app/editor/document/FileKinds.h"
 #include "core/base/Check.h"
 #include "core/document/DocumentIO.h"
@@ -58,6 +59,7 @@ void DocumentController::replaceDocument(Document document, const QString& fileP
     // Results that were on their way belong to elements of the document that goes.
     m_tasks.cancelAll();
     m_document = std::move(document);
+    m_environment->reset(m_document.environment);
     m_undo.clear();
     m_filePath = filePath;
     m_name = name;
@@ -164,28 +166,30 @@ void DocumentController::clearMap(const ParameterInfo& map, Target target) {
 
 void DocumentController::setEnvironment(const QString& source) {
     const QString title = shortName(source);
-    m_tasks.start(
-        QStringLiteral("environment"), tr("Reading %1").arg(title),
-        [this, source, title](const JobContext&) -> BackgroundTasks::Apply {
-            const std::string name = normalizeSource(source.toStdString());
-            auto notices = std::make_shared<std::vector<Notice>>();
-            auto image =
-                std::make_shared<Result<ImagePtr>>(loadEnvironmentImage(m_worker, name, *notices));
-            return [this, title, name, notices, image] {
-                if (!image->ok()) {
-                    Q_EMIT noticed(UserNotice::fromError(image->error()));
-                    return;
-                }
-                MapSlot sky;
-                sky.source = name;
-                sky.image = image->value();
-                pushParameters({Scope::Environment, 0}, {{&parameter("environment.image"), sky}}, 0,
-                               tr("Light with %1").arg(title));
-                const UserNotice notice = UserNotice::fromImport(title, *notices, {});
-                if (!notice.text.isEmpty())
-                    Q_EMIT noticed(notice);
-            };
-        });
+    m_tasks.start(QStringLiteral("environment"), tr("Reading %1").arg(title),
+                  [this, source, title](const JobContext&) -> BackgroundTasks::Apply {
+                      const std::string name = normalizeSource(source.toStdString());
+                      auto notices = std::make_shared<std::vector<Notice>>();
+                      auto image = std::make_shared<Result<ImagePtr>>(
+                          loadEnvironmentImage(m_worker, name, *notices));
+                      return [this, title, name, notices, image] {
+                          if (!image->ok()) {
+                              Q_EMIT noticed(UserNotice::fromError(image->error()));
+                              return;
+                          }
+                          MapSlot sky;
+                          sky.source = name;
+                          sky.image = image->value();
+                          const ParameterEdit kind{&parameter("environment.kind"),
+                                                   static_cast<int>(EnvironmentKind::Image)};
+                          pushParameters({Scope::Environment, 0},
+                                         {kind, {&parameter("environment.image"), sky}}, 0,
+                                         tr("Light with %1").arg(title));
+                          const UserNotice notice = UserNotice::fromImport(title, *notices, {});
+                          if (!notice.text.isEmpty())
+                              Q_EMIT noticed(notice);
+                      };
+                  });
 }
 
 void DocumentController::applyLibraryMaterial(Id id, const QString& name) {

@@ -18,7 +18,9 @@ class IblUpdater : public QObject {
     explicit IblUpdater(QObject* parent = nullptr);
     ~IblUpdater() override; // cancels and waits
 
-    // Does nothing when `environment` is the one already prepared or under way.
+    // Does nothing when `environment` is the one already prepared or under way. Requests that
+    // follow each other quickly wait for the small version of the first, so that light keeps
+    // coming while something is dragged.
     void request(ImagePtr environment);
     // The last result, so that a new OpenGL context can be given it again; null before the first.
     [[nodiscard]] std::shared_ptr<const IblMaps> maps() const { return m_maps; }
@@ -27,12 +29,14 @@ class IblUpdater : public QObject {
     void ready(); // maps() is new
 
   private:
-    void deliver(quint64 request, std::shared_ptr<const IblMaps> maps);
+    void start();
+    void deliver(quint64 request, bool quick, std::shared_ptr<const IblMaps> maps);
 
     QThreadPool m_pool;
     JobControl m_control;
     ImagePtr m_environment;
     quint64 m_request = 0;
+    bool m_quickUnderWay = false, m_waiting = false;
     std::shared_ptr<const IblMaps> m_maps;
 };
 

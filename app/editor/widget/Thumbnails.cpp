@@ -3,25 +3,29 @@
 #include "core/math/Shading.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace patina::editor {
 namespace {
 constexpr int kMaxEntries = 256;
 }
 
-QImage displayImage(const Image& image, int maxSide) {
+QImage displayImage(const Image& image, int maxSide, float exposureEv) {
     if (image.empty())
         return {};
     const Image small = shrinkImage(image, maxSide);
     QImage picture(small.width(), small.height(), QImage::Format_RGB32);
     const bool data = small.encoding() == ColorEncoding::Data;
     const bool highRange = small.type() == PixelType::F32;
+    const float exposure = std::exp2(exposureEv);
     for (int y = 0; y < small.height(); ++y) {
         auto* row = reinterpret_cast<QRgb*>(picture.scanLine(y));
         for (int x = 0; x < small.width(); ++x) {
             glm::vec3 color(small.linear(x, y));
-            if (highRange && !data)
+            if (highRange && !data) {
+                color *= exposure;
                 color = color / (color + glm::vec3(1.0f)) * 1.6f; // Reinhard, a little brighter
+            }
             if (!data)
                 color = shading::srgbEncode(color);
             const glm::vec3 byte = glm::clamp(color, 0.0f, 1.0f) * 255.0f + 0.5f;

@@ -11,8 +11,9 @@
 
 namespace patina::editor {
 
-// An image as a screen shows it: Data as it is, high dynamic range tone mapped, alpha ignored.
-[[nodiscard]] QImage displayImage(const Image& image, int maxSide);
+// An image as a screen shows it: Data as it is, high dynamic range exposed and tone mapped, alpha
+// ignored.
+[[nodiscard]] QImage displayImage(const Image& image, int maxSide, float exposureEv = 0.0f);
 
 class Thumbnails : public QObject {
     Q_OBJECT

@@ -1,0 +1,186 @@
+#include "app/editor/panel/SoftboxList.h"
+
+#include "app/editor/document/Commands.h"
+#include "app/editor/document/DocumentController.h"
+#include "app/editor/panel/ParameterList.h"
+#include "app/editor/style/Icons.h"
+#include "app/editor/style/Tokens.h"
+#include "core/library/SoftboxRigs.h"
+
+#include <QHBoxLayout>
+#include <QListWidget>
+#include <QMenu>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+
+namespace patina::editor {
+namespace {
+
+constexpr int kShownRows = 4; // more scroll
+
+QToolButton* makeButton(const QString& iconName, const QString& text, const QString& tip) {
+    auto* button = new QToolButton;
+    button->setIcon(icon(iconName));
+    if (!text.isEmpty()) {
+        button->setObjectName(QStringLiteral("raised"));
+        button->setText(text);
+        button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    }
+    button->setToolTip(tip);
+    button->setStatusTip(tip);
+    button->setAccessibleName(tip);
+    button->setFocusPolicy(Qt::TabFocus);
+    return button;
+}
+
+} // namespace
+
+SoftboxList::SoftboxList(DocumentController& controller, Thumbnails& thumbnails, QWidget* parent)
+    : QWidget(parent)
+    , m_controller(controller)
+    , m_list(new QListWidget)
+    , m_duplicate(makeButton(QStringLiteral("duplicate"), {}, tr("Duplicate the softbox")))
+    , m_remove(makeButton(QStringLiteral("remove"), {}, tr("Remove the softbox")))
+    , m_parameters(new ParameterList(controller, thumbnails,
+                                     {Scope::Softbox,
+                                      [this]() -> std::optional<Target> {
+                                          if (m_selected == 0)
+                                              return std::nullopt;
+                                          return Target{Scope::Softbox, m_selected};
+                                      },
+                                      {"softbox.enabled"}, // the list has it
+                                      {}})) {
+    m_list->setAccessibleName(tr("Softboxes"));
+    m_list->setStatusTip(tr("Tick to switch a softbox on, F2 to rename it"));
+    m_list->setEditTriggers(QAbstractItemView::EditKeyPressed | QAbstractItemView::DoubleClicked);
+
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(tokens::kGap);
+    layout->addWidget(makeButtons());
+    layout->addWidget(m_list);
+    layout->addWidget(m_parameters);
+
+    connect(m_duplicate, &QToolButton::clicked, this,
+            [this] { select(m_controller.duplicateSoftbox(m_selected)); });
+    connect(m_remove, &QToolButton::clicked, this, [this] { remove(m_selected); });
+    connect(m_list, &QListWidget::currentItemChanged, this, [this](QListWidgetItem* item) {
+        if (!m_refreshing && item)
+            select(item->data(Qt::UserRole).toUInt());
+    });
+    connect(m_list, &QListWidget::itemChanged, this, [this](QListWidgetItem* item) {
+        if (m_refreshing)
+            return;
+        const Target target{Scope::Softbox, item->data(Qt::UserRole).toUInt()};
+        m_controller.setParameter(parameter("softbox.enabled"), target,
+                                  item->checkState() == Qt::Checked);
+        m_controller.rename(target, item->text());
+    });
+    connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
+        if (!change.target || change.target->scope == Scope::Softbox)
+            refresh();
+    });
+    refresh();
+}
+
+QWidget* SoftboxList::makeButtons() {
+    auto* add =
+        makeButton(QStringLiteral("add"), tr("Add"), tr("Add a softbox in front of the model"));
+    auto* rigs = makeButton(QStringLiteral("library"), tr("Rigs"),
+                            tr("Set up an arrangement of softboxes in place of these"));
+    rigs->setPopupMode(QToolButton::InstantPopup);
+    auto* menu = new QMenu(rigs);
+    menu->setToolTipsVisible(true);
+    for (const library::SoftboxRig& rig : library::softboxRigs()) {
+        QAction* action = menu->addAction(QString::fromStdString(rig.title), this, [this, &rig] {
+            m_controller.setSoftboxRig(rig);
+            selectFirst();
+        });
+        action->setToolTip(QString::fromStdString(rig.help));
+        action->setStatusTip(action->toolTip());
+    }
+    rigs->setMenu(menu);
+
+    auto* buttons = new QWidget;
+    auto* row = new QHBoxLayout(buttons);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(4);
+    row->addWidget(add);
+    row->addWidget(rigs);
+    row->addStretch(1);
+    row->addWidget(m_duplicate);
+    row->addWidget(m_remove);
+    connect(add, &QToolButton::clicked, this, [this] {
+        const Softbox usual;
+        select(m_controller.addSoftbox(usual.azimuthDeg, usual.elevationDeg));
+    });
+    return buttons;
+}
+
+void SoftboxList::select(Id softbox) {
+    if (!m_controller.document().softbox(softbox))
+        softbox = 0;
+    const bool other = softbox != m_selected;
+    m_selected = softbox;
+    refresh();
+    m_parameters->refresh();
+    if (other)
+        Q_EMIT selectionChanged();
+}
+
+void SoftboxList::selectFirst() {
+    const std::vector<Softbox>& softboxes = m_controller.document().environment.softboxes;
+    select(softboxes.empty() ? 0 : softboxes.front().id);
+}
+
+void SoftboxList::remove(Id softbox) {
+    const std::vector<Softbox>& softboxes = m_controller.document().environment.softboxes;
+    const auto found = std::ranges::find(softboxes, softbox, &Softbox::id);
+    if (found == softboxes.end())
+        return;
+    Id next = 0;
+    if (found + 1 != softboxes.end())
+        next = (found + 1)->id;
+    else if (found != softboxes.begin())
+        next = (found - 1)->id;
+    m_controller.removeSoftbox(softbox);
+    select(next);
+}
+
+void SoftboxList::refresh() {
+    const std::vector<Softbox>& softboxes = m_controller.document().environment.softboxes;
+    if (!m_controller.document().softbox(m_selected) && m_selected != 0) {
+        m_selected = 0;
+        Q_EMIT selectionChanged();
+    }
+    m_refreshing = true;
+    // Items are kept where they are: rebuilding the list would end an edit of a name.
+    while (m_list->count() > static_cast<int>(softboxes.size()))
+        delete m_list->takeItem(m_list->count() - 1);
+    while (m_list->count() < static_cast<int>(softboxes.size()))
+        m_list->addItem(new QListWidgetItem);
+    int current = -1;
+    for (int row = 0; row < m_list->count(); ++row) {
+        const Softbox& softbox = softboxes[static_cast<std::size_t>(row)];
+        QListWidgetItem* item = m_list->item(row);
+        item->setText(QString::fromStdString(softbox.name));
+        item->setFlags(item->flags() | Qt::ItemIsEditable | Qt::ItemIsUserCheckable);
+        item->setCheckState(softbox.enabled ? Qt::Checked : Qt::Unchecked);
+        item->setData(Qt::UserRole, softbox.id);
+        if (softbox.id == m_selected)
+            current = row;
+    }
+    m_list->setCurrentRow(current);
+    const bool any = m_selected != 0;
+    m_list->setVisible(!softboxes.empty());
+    if (!softboxes.empty())
+        m_list->setFixedHeight(std::min(m_list->count(), kShownRows) * m_list->sizeHintForRow(0) +
+                               2 * m_list->frameWidth() + 6);
+    m_parameters->setVisible(any);
+    m_duplicate->setEnabled(any);
+    m_remove->setEnabled(any);
+    m_refreshing = false;
+}
+
+} // namespace patina::editor

@@ -1,0 +1,410 @@
+// The Environment dock by real events: kinds, the lat-long view with its sun and softboxes.
+
+#include "tests/app/editor/EditorFixture.h"
+
+#include "app/editor/document/Commands.h"
+#include "app/editor/panel/EnvironmentPanel.h"
+#include "app/editor/panel/ParameterList.h"
+#include "app/editor/panel/SoftboxList.h"
+#include "app/editor/widget/LatLongView.h"
+#include "app/editor/widget/SkyGallery.h"
+#include "core/library/SoftboxRigs.h"
+#include "core/light/GeneratedEnvironment.h"
+#include "core/light/LatLongGrid.h"
+
+#include <QDockWidget>
+#include <QListWidget>
+#include <QMenu>
+#include <QToolButton>
+#include <cmath>
+
+namespace patina::editor {
+namespace {
+
+struct EnvironmentPanelTest : EditorTest {
+    static EnvironmentPanel& panel() { return *window->findChild<EnvironmentPanel*>(); }
+    static LatLongView& view() { return *panel().view(); }
+    static const Environment& environment() { return document().environment; }
+    static const Softbox& softbox(std::size_t index) { return environment().softboxes.at(index); }
+
+    void SetUp() override {
+        EditorTest::SetUp();
+        window->findChild<QDockWidget*>(QStringLiteral("environment"))->raise();
+        QApplication::processEvents();
+        ASSERT_TRUE(view().isVisible());
+    }
+    static void choose(const char* kind) {
+        auto* button = find<QToolButton>(panel(), QStringLiteral("Environment kind %1").arg(kind));
+        ASSERT_NE(button, nullptr);
+        QTest::mouseClick(button, Qt::LeftButton);
+        EXPECT_TRUE(button->isChecked());
+        QApplication::processEvents();
+    }
+    // One softbox alone, selected.
+    static Id chooseOneSoftbox(const Softbox& softbox) {
+        choose("Softboxes");
+        Id id = 0;
+        controller().editStructure(QStringLiteral("one"), [&](Document& edited) {
+            edited.environment.softboxes.clear();
+            id = patina::addSoftbox(edited, softbox);
+        });
+        panel().softboxes()->select(id);
+        controller().undoStack().clear();
+        QApplication::processEvents();
+        return id;
+    }
+    static QPoint pointOf(double azimuthDeg, double elevationDeg) {
+        return view().map().point(directionFromAngles(azimuthDeg, elevationDeg)).toPoint();
+    }
+    static QPoint handlePoint(SoftboxHandle wanted) {
+        for (const auto& [handle, point] : handlesOf(softbox(0), view().map()))
+            if (handle == wanted)
+                return point.toPoint();
+        ADD_FAILURE() << "no such handle";
+        return {};
+    }
+    static void press(QPoint point, Qt::KeyboardModifiers keys = {}) {
+        QTest::mousePress(&view(), Qt::LeftButton, keys, point);
+    }
+    static void moveTo(QPoint point, Qt::KeyboardModifiers keys = {}) {
+        QMouseEvent move(QEvent::MouseMove, point, view().mapToGlobal(QPointF(point)), Qt::NoButton,
+                         Qt::LeftButton, keys);
+        QApplication::sendEvent(&view(), &move);
+    }
+    static void release(QPoint point) { QTest::mouseRelease(&view(), Qt::LeftButton, {}, point); }
+    static void drag(QPoint from, QPoint to, Qt::KeyboardModifiers keys = {}) {
+        press(from, keys);
+        for (int step = 1; step <= 8; ++step)
+            moveTo(from + (to - from) * step / 8, keys);
+        release(to);
+    }
+    // Radiance of the environment's image, green.
+    static float radiance(double azimuthDeg, double elevationDeg) {
+        const Image& image = *environment().image;
+        const glm::dvec3 d = directionFromAngles(azimuthDeg, elevationDeg);
+        const double u = 0.5 + std::atan2(d.x, -d.z) / 6.283185307179586;
+        const double v = std::acos(d.y) / 3.141592653589793;
+        return image
+            .linear(static_cast<int>(u * image.width()) % image.width(),
+                    std::min(static_cast<int>(v * image.height()), image.height() - 1))
+            .g;
+    }
+    static double degreesPerPixel() { return 360.0 / view().map().area().width(); }
+};
+
+Softbox plainBox(float azimuthDeg, float elevationDeg) {
+    Softbox softbox;
+    softbox.name = "Key";
+    softbox.azimuthDeg = azimuthDeg;
+    softbox.elevationDeg = elevationDeg;
+    softbox.intensity = 10.0f;
+    return softbox;
+}
+
+TEST_F(EnvironmentPanelTest, KindsChangeTheImageAndComeBack) {
+    const ImagePtr studio = environment().image;
+    choose("Sky");
+    EXPECT_EQ(environment().kind, EnvironmentKind::Sky);
+    EXPECT_NE(environment().image, studio);
+    EXPECT_EQ(undoCount(), 1);
+    EXPECT_FALSE(panel().gallery()->isVisible());
+    choose("Softboxes");
+    EXPECT_EQ(environment().softboxes.size(), library::softboxRigs().front().softboxes.size());
+    EXPECT_EQ(undoCount(), 2); // kind and rig are one step
+    choose("Image");
+    EXPECT_EQ(environment().image, studio);
+    EXPECT_TRUE(panel().gallery()->isVisible());
+    controller().undoStack().undo();
+    EXPECT_EQ(environment().kind, EnvironmentKind::Softboxes);
+    controller().undoStack().undo();
+    EXPECT_EQ(environment().kind, EnvironmentKind::Sky);
+    EXPECT_TRUE(environment().softboxes.empty());
+    controller().undoStack().undo();
+    EXPECT_EQ(environment().image, studio);
+    // An image chosen by name ends the sky, in one step.
+    choose("Sky");
+    controller().setEnvironment(QStringLiteral("builtin:white"));
+    ASSERT_TRUE(settled(*session));
+    EXPECT_EQ(environment().kind, EnvironmentKind::Image);
+    EXPECT_EQ(environment().image->linear(0, 0).g, 1.0f);
+    controller().undoStack().undo();
+    EXPECT_EQ(environment().kind, EnvironmentKind::Sky);
+    EXPECT_GT(radiance(environment().sky.sunAzimuthDeg, environment().sky.sunElevationDeg), 100.0f);
+}
+
+TEST_F(EnvironmentPanelTest, DraggingASoftboxMovesItsLight) {
+    chooseOneSoftbox(plainBox(180, 0)); // the seam of the view
+    ASSERT_TRUE(eventually([] { return environment().image->width() == 2 * kEnvironmentHeight; }));
+    EXPECT_NEAR(radiance(180, 0), 10.02f, 0.05f);
+    const ImagePtr before = environment().image;
+    const QImage shown = view().grab().toImage();
+
+    const QPoint from = pointOf(180, 0), way(-60, -20);
+    press(from);
+    moveTo(from + way / 2);
+    // A draft at once, while the button is down.
+    EXPECT_EQ(environment().image->height(), kDraftEnvironmentHeight);
+    EXPECT_NE(environment().image, before);
+    moveTo(from + way);
+    release(from + way);
+    const float azimuth = softbox(0).azimuthDeg, elevation = softbox(0).elevationDeg;
+    const double expected = 180.0 + 60 * degreesPerPixel() - 360.0;
+    EXPECT_NEAR(azimuth, expected, 0.01); // to the left azimuth grows
+    EXPECT_NEAR(elevation, 20 * 180.0 / view().map().area().height(), 0.01);
+    EXPECT_NEAR(radiance(azimuth, elevation), 10.02f, 0.05f);
+    EXPECT_LT(radiance(180, 0), 0.1f);
+    EXPECT_EQ(undoCount(), 1);
+    EXPECT_NE(view().grab().toImage(), shown);
+    // The full picture follows by itself, is no step of its own, and moves nothing.
+    ASSERT_TRUE(eventually([] { return environment().image->width() == 2 * kEnvironmentHeight; }));
+    EXPECT_EQ(undoCount(), 1);
+    EXPECT_NEAR(radiance(azimuth, elevation), 10.02f, 0.05f);
+
+    controller().undoStack().undo();
+    EXPECT_EQ(softbox(0).azimuthDeg, 180.0f);
+    EXPECT_EQ(softbox(0).elevationDeg, 0.0f);
+    EXPECT_EQ(*environment().image, *before);
+    controller().undoStack().redo();
+    EXPECT_EQ(softbox(0).azimuthDeg, azimuth);
+    EXPECT_LT(radiance(180, 0), 0.1f);
+}
+
+TEST_F(EnvironmentPanelTest, EscapeCancelsADrag) {
+    chooseOneSoftbox(plainBox(150, 10));
+    const QPoint from = pointOf(150, 10);
+    press(from);
+    moveTo(from + QPoint(30, 10));
+    moveTo(from + QPoint(60, 10));
+    ASSERT_NE(softbox(0).azimuthDeg, 150.0f);
+    QTest::keyClick(&view(), Qt::Key_Escape);
+    EXPECT_EQ(softbox(0).azimuthDeg, 150.0f);
+    EXPECT_EQ(softbox(0).elevationDeg, 10.0f);
+    EXPECT_EQ(undoCount(), 0);
+    moveTo(from + QPoint(80, 10)); // what follows belongs to nothing
+    release(from + QPoint(80, 10));
+    EXPECT_EQ(softbox(0).azimuthDeg, 150.0f);
+    EXPECT_EQ(undoCount(), 0);
+}
+
+TEST_F(EnvironmentPanelTest, AClickThatTremblesMovesNothing) {
+    chooseOneSoftbox(plainBox(150, 10));
+    const QPoint from = pointOf(150, 10);
+    press(from);
+    moveTo(from + QPoint(1, 1));
+    release(from + QPoint(1, 1));
+    EXPECT_EQ(undoCount(), 0);
+    EXPECT_EQ(panel().softboxes()->selected(), softbox(0).id);
+    // Beside it: nothing is selected any more.
+    press(pointOf(0, -60));
+    release(pointOf(0, -60));
+    EXPECT_EQ(panel().softboxes()->selected(), 0u);
+}
+
+TEST_F(EnvironmentPanelTest, HandlesResizeAboutTheMiddle) {
+    Softbox softboxBefore = plainBox(180, 0);
+    softboxBefore.widthDeg = softboxBefore.heightDeg = 60;
+    chooseOneSoftbox(softboxBefore);
+    const QPoint right = handlePoint(SoftboxHandle::Right);
+    drag(right, right + QPoint(12, 0));
+    // On the horizon azimuths are angles: each side grows by 12 pixels.
+    EXPECT_NEAR(softbox(0).widthDeg, 60 + 24 * degreesPerPixel(), 1.6);
+    EXPECT_EQ(softbox(0).heightDeg, 60.0f);
+    EXPECT_EQ(softbox(0).azimuthDeg, 180.0f);
+    EXPECT_EQ(undoCount(), 1);
+    controller().undoStack().undo();
+    EXPECT_EQ(softbox(0).widthDeg, 60.0f);
+
+    const QPoint corner = handlePoint(SoftboxHandle::BottomLeft);
+    drag(corner, corner + QPoint(-10, 4), Qt::ShiftModifier); // in shape
+    EXPECT_GT(softbox(0).widthDeg, 65.0f);
+    EXPECT_FLOAT_EQ(softbox(0).heightDeg, softbox(0).widthDeg);
+    controller().undoStack().undo();
+
+    // Through the middle and beyond: as small as it gets, never inside out.
+    drag(right, right + QPoint(-90, 0));
+    EXPECT_FLOAT_EQ(softbox(0).widthDeg, 0.5f);
+}
+
+TEST_F(EnvironmentPanelTest, TheRoundHandleRolls) {
+    Softbox flat = plainBox(180, 0);
+    flat.widthDeg = 50;
+    flat.heightDeg = 30;
+    chooseOneSoftbox(flat);
+    const QPoint top = handlePoint(SoftboxHandle::Roll), middle = pointOf(180, 0);
+    const int radius = middle.y() - top.y();
+    drag(top, middle - QPoint(radius, 0)); // from above to the left: counter-clockwise
+    EXPECT_NEAR(softbox(0).rollDeg, 90.0f, 2.5f);
+    controller().undoStack().undo();
+    EXPECT_EQ(softbox(0).rollDeg, 0.0f);
+    drag(top, middle + QPoint(radius, -radius), Qt::ShiftModifier); // snaps
+    EXPECT_FLOAT_EQ(softbox(0).rollDeg, -45.0f);
+}
+
+TEST_F(EnvironmentPanelTest, ASoftboxCrossesTheSeam) {
+    chooseOneSoftbox(plainBox(170, 0)); // a little right of the left end
+    const QPoint from = pointOf(170, 0);
+    const auto pixels = static_cast<int>(std::lround(25 / degreesPerPixel()));
+    drag(from, from - QPoint(pixels, 0));
+    EXPECT_NEAR(softbox(0).azimuthDeg, 170 + pixels * degreesPerPixel() - 360, 0.01);
+    // It is drawn, and can be taken, on both sides.
+    controller().setParameter(parameter("softbox.azimuthDeg"), {Scope::Softbox, softbox(0).id},
+                              180.0f);
+    const QRectF area = view().map().area();
+    for (const double x : {area.left() + 6, area.right() - 6}) {
+        panel().softboxes()->select(0);
+        const QPoint point = QPointF(x, area.center().y() - 4).toPoint();
+        press(point);
+        release(point);
+        EXPECT_EQ(panel().softboxes()->selected(), softbox(0).id) << x;
+    }
+}
+
+TEST_F(EnvironmentPanelTest, SoftboxesAreAddedRemovedAndNudgedInPlace) {
+    chooseOneSoftbox(plainBox(180, 0));
+    const QPoint empty = pointOf(-90, 45);
+    QTest::mouseDClick(&view(), Qt::LeftButton, {}, empty);
+    ASSERT_EQ(environment().softboxes.size(), 2u);
+    EXPECT_NEAR(softbox(1).azimuthDeg, -90, degreesPerPixel());
+    EXPECT_NEAR(softbox(1).elevationDeg, 45, degreesPerPixel());
+    EXPECT_EQ(softbox(1).name, "Softbox");
+    EXPECT_EQ(panel().softboxes()->selected(), softbox(1).id);
+    EXPECT_EQ(panel().softboxes()->list()->count(), 2);
+    EXPECT_EQ(undoCount(), 1);
+
+    const float azimuth = softbox(1).azimuthDeg;
+    view().setFocus();
+    for (int i = 0; i < 3; ++i)
+        QTest::keyClick(&view(), Qt::Key_Right);
+    QTest::keyClick(&view(), Qt::Key_Right, Qt::ControlModifier);
+    EXPECT_NEAR(softbox(1).azimuthDeg, azimuth - 13, 1e-3);
+    EXPECT_EQ(undoCount(), 2); // quick steps are one
+
+    QTest::keyClick(&view(), Qt::Key_Delete);
+    EXPECT_EQ(environment().softboxes.size(), 1u);
+    EXPECT_EQ(panel().softboxes()->selected(), softbox(0).id); // the neighbour
+    controller().undoStack().undo();
+    ASSERT_EQ(environment().softboxes.size(), 2u);
+    EXPECT_NEAR(softbox(1).azimuthDeg, azimuth - 13, 1e-3);
+}
+
+TEST_F(EnvironmentPanelTest, TheListSwitchesRenamesAndDuplicates) {
+    chooseOneSoftbox(plainBox(180, 0));
+    QListWidget& list = *panel().softboxes()->list();
+    list.item(0)->setCheckState(Qt::Unchecked);
+    EXPECT_FALSE(softbox(0).enabled);
+    EXPECT_LT(radiance(180, 0), 0.1f);
+    list.item(0)->setCheckState(Qt::Checked);
+    EXPECT_GT(radiance(180, 0), 9.0f);
+    list.item(0)->setText(QStringLiteral("Window"));
+    EXPECT_EQ(softbox(0).name, "Window");
+    find<QToolButton>(panel(), QStringLiteral("Duplicate the softbox"))->click();
+    ASSERT_EQ(environment().softboxes.size(), 2u);
+    EXPECT_EQ(softbox(1).name, "Window 2");
+    EXPECT_NE(softbox(1).azimuthDeg, softbox(0).azimuthDeg);
+    EXPECT_EQ(panel().softboxes()->selected(), softbox(1).id);
+    find<QToolButton>(panel(), QStringLiteral("Remove the softbox"))->click();
+    EXPECT_EQ(environment().softboxes.size(), 1u);
+}
+
+TEST_F(EnvironmentPanelTest, RigsReplaceWhatIsThere) {
+    chooseOneSoftbox(plainBox(180, 0));
+    QToolButton* rigs = nullptr;
+    for (QToolButton* button : panel().findChildren<QToolButton*>())
+        if (button->text() == QStringLiteral("Rigs"))
+            rigs = button;
+    ASSERT_NE(rigs, nullptr);
+    ASSERT_EQ(rigs->menu()->actions().size(), static_cast<int>(library::softboxRigs().size()));
+    for (int i = 0; i < rigs->menu()->actions().size(); ++i) {
+        const library::SoftboxRig& rig = library::softboxRigs()[static_cast<std::size_t>(i)];
+        rigs->menu()->actions()[i]->trigger();
+        ASSERT_EQ(environment().softboxes.size(), rig.softboxes.size());
+        EXPECT_EQ(softbox(0).name, rig.softboxes[0].name);
+        EXPECT_GT(radiance(rig.softboxes[0].azimuthDeg, rig.softboxes[0].elevationDeg), 0.5f);
+    }
+    EXPECT_EQ(undoCount(), rigs->menu()->actions().size());
+    while (controller().undoStack().canUndo())
+        controller().undoStack().undo();
+    EXPECT_EQ(softbox(0).name, "Key");
+    EXPECT_EQ(environment().softboxes.size(), 1u);
+}
+
+TEST_F(EnvironmentPanelTest, TheSunIsDraggedAndSet) {
+    choose("Sky");
+    const Sky before = environment().sky;
+    const QPoint from = pointOf(before.sunAzimuthDeg, before.sunElevationDeg);
+    drag(from + QPoint(2, 1), from + QPoint(42, -9)); // taken beside its middle it does not jump
+    const Sky dragged = environment().sky;
+    EXPECT_NEAR(dragged.sunAzimuthDeg, before.sunAzimuthDeg - 40 * degreesPerPixel(), 0.01);
+    EXPECT_NEAR(dragged.sunElevationDeg,
+                before.sunElevationDeg + 10 * 180.0 / view().map().area().height(), 0.01);
+    EXPECT_EQ(undoCount(), 2); // the kind and the drag
+    EXPECT_GT(radiance(dragged.sunAzimuthDeg, dragged.sunElevationDeg), 100.0f);
+    controller().undoStack().undo();
+    EXPECT_EQ(environment().sky, before);
+    EXPECT_LT(radiance(dragged.sunAzimuthDeg, dragged.sunElevationDeg), 50.0f);
+
+    // A click elsewhere brings it there; below the horizon it stays on it.
+    const QPoint elsewhere = pointOf(-120, 50);
+    press(elsewhere);
+    release(elsewhere);
+    EXPECT_NEAR(environment().sky.sunAzimuthDeg, -120, degreesPerPixel());
+    EXPECT_NEAR(environment().sky.sunElevationDeg, 50, degreesPerPixel());
+    press(pointOf(90, -30));
+    release(pointOf(90, -30));
+    EXPECT_EQ(environment().sky.sunElevationDeg, 0.0f);
+    QTest::keyClick(&view(), Qt::Key_Up, Qt::ControlModifier);
+    EXPECT_EQ(environment().sky.sunElevationDeg, 10.0f);
+}
+
+TEST_F(EnvironmentPanelTest, AnImageIsTurned) {
+    const auto width = view().map().area().width();
+    const QPoint from = view().rect().center();
+    const auto quarter = static_cast<int>(width / 4);
+    drag(from, from + QPoint(quarter, 0));
+    // What was in the middle (behind, 180°) has gone to the right (90°): clockwise from above.
+    EXPECT_NEAR(environment().rotationDeg, -quarter * 360.0 / width, 0.01);
+    EXPECT_EQ(undoCount(), 1);
+    EXPECT_NEAR(view().map().shift(), quarter, 0.01);
+    controller().undoStack().undo();
+    EXPECT_EQ(environment().rotationDeg, 0.0f);
+}
+
+TEST_F(EnvironmentPanelTest, WhatIsTurnedIsDraggedWhereItIsSeen) {
+    const Id id = chooseOneSoftbox(plainBox(0, 0)); // the front is in the middle
+    controller().setParameter(parameter("environment.rotationDeg"), {Scope::Environment, 0}, 70.0f);
+    const QRectF area = view().map().area();
+    const QPoint seen = pointOf(0, 0);
+    EXPECT_NEAR(seen.x(), area.center().x() - 70 / degreesPerPixel(), 1.0);
+    panel().softboxes()->select(0);
+    drag(seen, seen + QPoint(20, 0));
+    EXPECT_EQ(panel().softboxes()->selected(), id);
+    EXPECT_NEAR(softbox(0).azimuthDeg, -20 * degreesPerPixel(), 0.01);
+}
+
+TEST_F(EnvironmentPanelTest, RowsFollowTheKindAndTheBackground) {
+    ParameterList* list = nullptr;
+    for (ParameterList* candidate : panel().findChildren<ParameterList*>())
+        if (candidate->row("environment.background"))
+            list = candidate;
+    ASSERT_NE(list, nullptr);
+    const auto hidden = [&](const char* id) { return list->row(id)->isHidden(); };
+    EXPECT_TRUE(hidden("environment.skyTurbidity"));
+    EXPECT_TRUE(hidden("environment.softboxAmbient"));
+    choose("Sky");
+    EXPECT_FALSE(hidden("environment.skyTurbidity"));
+    choose("Softboxes");
+    EXPECT_TRUE(hidden("environment.skyTurbidity"));
+    EXPECT_FALSE(hidden("environment.softboxAmbient"));
+    for (const auto& [mode, blur, color] : {std::tuple{BackgroundMode::Environment, true, true},
+                                            {BackgroundMode::Blurred, false, true},
+                                            {BackgroundMode::Color, true, false},
+                                            {BackgroundMode::Off, true, true}}) {
+        controller().setParameter(parameter("environment.background"), {Scope::Environment, 0},
+                                  static_cast<int>(mode));
+        EXPECT_EQ(hidden("environment.backgroundBlur"), blur);
+        EXPECT_EQ(hidden("environment.backgroundColor"), color);
+    }
+}
+
+} // namespace
+} // namespace patina::editor
