@@ -128,9 +128,11 @@ Result<void> run(Session& session, const BakeIblOptions& options) {
         return packed.error();
     if (packed->clamped > 0)
         session.report().warn(fmt::format(
-            "{} texels are brighter than {}, the most that {} can hold, and were cut to it; "
-            "--precision float keeps them",
-            packed->clamped, largestValue(package.texels),
+            "{} brighter than {}, the most that {} can hold, and cut to it; --precision float "
+            "keeps "
+            "them",
+            packed->clamped == 1 ? "one texel was" : countText(packed->clamped) + " texels were",
+            largestValue(package.texels),
             package.texels == TexelFormat::Rgb9E5 ? "rgb9e5" : "a half float"));
     const JobContext job = session.job();
     if (Result<void> written = writeFolderAtomically(options.output, packed->files, isIblPackage,
