@@ -12,6 +12,7 @@
 #include "app/editor/panel/LightsPanel.h"
 #include "app/editor/panel/LogPanel.h"
 #include "app/editor/panel/MaterialPanel.h"
+#include "app/editor/panel/ModelPanel.h"
 #include "app/editor/panel/ParameterList.h"
 #include "app/editor/panel/ScenePanel.h"
 #include "app/editor/style/Icons.h"
@@ -39,7 +40,7 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kLayoutVersion = 1;    // raise when docks come or go: older layouts are ignored
+constexpr int kLayoutVersion = 2;    // raise when docks come or go: older layouts are ignored
 constexpr qint64 kFrameTimeMs = 250; // how often the number changes, so that it can be read
 
 QStringList droppedFiles(const QMimeData* data) {
@@ -131,6 +132,9 @@ void MainWindow::makeDocks() {
             tr("Show or hide exposure, tone mapping and field of view"), view);
     addDock(QStringLiteral("bake"), tr("Bake"), QStringLiteral("bake"),
             tr("Show or hide the baking of light"), new BakePanel(controller, m_session.jobs));
+    addDock(QStringLiteral("model"), tr("Model"), QStringLiteral("model"),
+            tr("Show or hide which shading model is used"),
+            new ModelPanel(controller, m_session.selection, m_session.thumbnails));
     addDock(QStringLiteral("jobs"), tr("Jobs"), QStringLiteral("jobs"),
             tr("Show or hide what runs in the background"), new JobsPanel(m_session.jobs));
     addDock(QStringLiteral("log"), tr("Log"), QStringLiteral("log"),
@@ -154,7 +158,7 @@ void MainWindow::refreshDockTitles() {
 }
 
 void MainWindow::resetLayout() {
-    enum { Scene, MaterialDock, EnvironmentDock, Lights, ViewDock, Bake, Jobs, Log };
+    enum { Scene, MaterialDock, EnvironmentDock, Lights, ViewDock, Bake, Model, Jobs, Log };
     for (QDockWidget* dock : std::as_const(m_docks)) {
         dock->setFloating(false);
         removeDockWidget(dock);
@@ -164,7 +168,8 @@ void MainWindow::resetLayout() {
     tabifyDockWidget(m_docks[EnvironmentDock], m_docks[Lights]);
     tabifyDockWidget(m_docks[Lights], m_docks[ViewDock]);
     addDockWidget(Qt::RightDockWidgetArea, m_docks[MaterialDock]);
-    tabifyDockWidget(m_docks[MaterialDock], m_docks[Bake]);
+    tabifyDockWidget(m_docks[MaterialDock], m_docks[Model]);
+    tabifyDockWidget(m_docks[Model], m_docks[Bake]);
     addDockWidget(Qt::BottomDockWidgetArea, m_docks[Jobs]);
     tabifyDockWidget(m_docks[Jobs], m_docks[Log]);
     for (QDockWidget* dock : std::as_const(m_docks))

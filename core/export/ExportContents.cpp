@@ -1,6 +1,7 @@
 #include "core/export/ExportContents.h"
 
 #include "core/bake/Bake.h"
+#include "core/document/ModelPresets.h"
 #include "core/export/GltfEnvironment.h"
 #include "core/export/Names.h"
 
@@ -103,6 +104,9 @@ ExportContents gatherContents(const Document& document, const ExportSettings& se
     contents.warnings.insert(contents.warnings.end(), contents.textures.warnings.begin(),
                              contents.textures.warnings.end());
     warnAboutBakes(document, settings, contents.warnings);
+    if (!sameChoices(document.model, ShadingModel{}))
+        contents.warnings.emplace_back("glTF has no place for the shading model: programs that "
+                                       "open the file shade with their own");
     if (settings.includeEnvironment)
         addEnvironment(document.environment, contents);
     return contents;

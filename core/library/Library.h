@@ -21,7 +21,7 @@ struct Entry {
 };
 
 [[nodiscard]] const std::vector<Entry>&
-models(); // sphere rounded-cube torus-knot shader-ball cornell-box plane
+models(); // sphere rounded-cube torus-knot shader-ball cornell-box plane sphere-grid
 [[nodiscard]] const std::vector<Entry>&
 environments(); // white clear-sky overcast studio sunset night
 [[nodiscard]] const std::vector<Entry>&

@@ -169,7 +169,7 @@ Mesh makeTorusKnot(int segments, int sides) {
 }
 
 std::span<const ModelRecipe> modelRecipes() {
-    static constexpr std::array<ModelRecipe, 6> kRecipes = {{
+    static constexpr std::array<ModelRecipe, 7> kRecipes = {{
         {"sphere", "Sphere", "A ball of 1 m.",
          [] {
              return std::vector{makePart("Sphere", makeSphere(128, 64),
@@ -197,6 +197,10 @@ std::span<const ModelRecipe> modelRecipes() {
              return std::vector{makePart("Plane", makePlane(64),
                                          materialNamed("Plane", "concrete", {2.0f, 2.0f}))};
          }},
+        {"sphere-grid", "Sphere Grid",
+         "Twenty-five balls: rougher to the right, more metallic upwards; for comparing shading "
+         "models and surroundings.",
+         sphereGrid},
     }};
     return kRecipes;
 }

@@ -91,6 +91,15 @@ int main(int argc, char* argv[]) {
     ok &= save(window, folder.filePath(QStringLiteral("softboxes.png")));
     session.controller.setEnvironmentKind(patina::EnvironmentKind::Image);
 
+    // Gold by its refractive index: what the Model dock offers beyond its presets.
+    raiseDock(window, QStringLiteral("model"));
+    session.controller.setParameter(*patina::findParameter("model.fresnel"),
+                                    {patina::Scope::Model, 0},
+                                    static_cast<int>(patina::Fresnel::Conductor));
+    settle(3000);
+    ok &= save(window, folder.filePath(QStringLiteral("model.png")));
+    session.controller.undoStack().undo();
+
     raiseDock(window, QStringLiteral("bake"));
     raiseDock(window, QStringLiteral("jobs"));
     auto* start = window.findChild<QPushButton*>(QStringLiteral("bakeStart"));

@@ -23,6 +23,9 @@ bool applies(const ParameterInfo& info, const Document& document, Id id) {
         return material->alphaMode == AlphaMode::Mask;
     if (info.id == "material.opacity")
         return material->alphaMode != AlphaMode::Opaque;
+    if (info.id == "material.diffuseRoughness")
+        return document.model.diffuse == Diffuse::OrenNayar ||
+               document.model.diffuse == Diffuse::Eon;
     return true;
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/Section.h"
+#include "core/base/Check.h"
 
 #include <QVBoxLayout>
 #include <algorithm>
@@ -58,10 +59,22 @@ ParameterRow* ParameterList::row(std::string_view id) const {
     return found == m_rows.end() ? nullptr : *found;
 }
 
+void ParameterList::addBelow(std::string_view id, QWidget* widget) {
+    ParameterRow* above = row(id);
+    CHECK(above != nullptr);
+    auto* rows = qobject_cast<QBoxLayout*>(above->parentWidget()->layout());
+    CHECK(rows != nullptr);
+    rows->insertWidget(rows->indexOf(above) + 1, widget);
+}
+
 void ParameterList::documentChanged(const Change& change) {
-    // An edit of another element concerns no row here.
-    if (change.target && change.target != m_spec.target())
+    // An edit of another element concerns no row here; one of the shading model may make rows of
+    // materials useful or useless.
+    if (change.target && change.target != m_spec.target()) {
+        if (change.target->scope == Scope::Model)
+            refreshVisibility();
         return;
+    }
     refresh();
 }
 

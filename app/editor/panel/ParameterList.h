@@ -29,6 +29,8 @@ class ParameterList : public QWidget {
 
     void refresh(); // everything, e.g. when another element is selected
     [[nodiscard]] ParameterRow* row(std::string_view id) const;
+    // Puts a widget of the panel's own under the row of a parameter, which the list must show.
+    void addBelow(std::string_view id, QWidget* widget);
 
   private:
     void documentChanged(const Change& change);

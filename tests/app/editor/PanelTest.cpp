@@ -5,11 +5,13 @@
 #include "app/editor/document/Commands.h"
 #include "app/editor/panel/LightsPanel.h"
 #include "app/editor/panel/MaterialPanel.h"
+#include "app/editor/panel/ModelPanel.h"
 #include "app/editor/panel/ParameterList.h"
 #include "app/editor/panel/SceneModel.h"
 #include "app/editor/panel/ScenePanel.h"
 #include "app/editor/widget/ColorButton.h"
 #include "app/editor/widget/ColorPicker.h"
+#include "app/editor/widget/FurnacePlot.h"
 #include "app/editor/widget/MapSlotWidget.h"
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/RowLabel.h"
@@ -19,10 +21,12 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDockWidget>
 #include <QDropEvent>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMimeData>
+#include <QPushButton>
 #include <QToolButton>
 #include <QTreeView>
 
@@ -308,6 +312,68 @@ TEST_F(PanelTest, TheLibraryChangesTheLookAndKeepsTheName) {
     EXPECT_EQ(selectedMaterial().name, name);
     EXPECT_EQ(selectedMaterial().metallic, 1.0f);
     EXPECT_EQ(undoCount(), 1);
+}
+
+TEST_F(PanelTest, TheModelPanelOffersWhatApplies) {
+    // Rows that would do nothing are hidden, and come with their choice.
+    EXPECT_TRUE(row("model.ior").isHidden());
+    EXPECT_TRUE(row("model.conductorN").isHidden());
+    EXPECT_TRUE(row("material.diffuseRoughness").isHidden());
+    auto& fresnel = in<QComboBox>("model.fresnel");
+    fresnel.setCurrentIndex(static_cast<int>(Fresnel::Dielectric));
+    Q_EMIT fresnel.activated(fresnel.currentIndex());
+    EXPECT_EQ(document().model.fresnel, Fresnel::Dielectric);
+    EXPECT_FALSE(row("model.ior").isHidden());
+    EXPECT_TRUE(row("model.f90").isHidden());
+    EXPECT_TRUE(row("model.conductorK").isHidden());
+    auto& diffuse = in<QComboBox>("model.diffuse");
+    diffuse.setCurrentIndex(static_cast<int>(Diffuse::Eon));
+    Q_EMIT diffuse.activated(diffuse.currentIndex());
+    EXPECT_FALSE(row("material.diffuseRoughness").isHidden());
+    EXPECT_EQ(undoCount(), 2);
+}
+
+TEST_F(PanelTest, AModelPresetIsOneUndoStepAndKeepsTheNumbers) {
+    auto* panel = window->findChild<ModelPanel*>();
+    ASSERT_NE(panel, nullptr);
+    window->findChild<QDockWidget*>(QStringLiteral("model"))->raise();
+    const auto button = [&](const char* text) {
+        for (QPushButton* each : panel->findChildren<QPushButton*>())
+            if (each->text() == QLatin1String(text))
+                return each;
+        return static_cast<QPushButton*>(nullptr);
+    };
+    ASSERT_NE(button("Unreal Engine 4"), nullptr);
+    EXPECT_TRUE(button("Patina")->isChecked());
+    controller().setParameter(parameter("model.ior"), {Scope::Model, 0}, 1.33f);
+    auto* furnace = panel->findChild<FurnacePlot*>();
+    EXPECT_NEAR(furnace->returned(1.0f), 1.0f, 1e-4f);
+
+    QTest::mouseClick(button("Unreal Engine 4"), Qt::LeftButton);
+    EXPECT_EQ(document().model.visibility, Visibility::SchlickDirect);
+    EXPECT_EQ(document().model.lobeDirection, LobeDirection::Mirror);
+    EXPECT_FALSE(document().model.multiScatter);
+    EXPECT_EQ(document().model.ior, 1.33f);
+    EXPECT_TRUE(button("Unreal Engine 4")->isChecked());
+    EXPECT_FALSE(button("Patina")->isChecked());
+    // 2 ∫ E mu dmu of GGX with Schlick's k = alpha / 2 at roughness 0.5 and 1.
+    EXPECT_NEAR(furnace->returned(0.5f), 0.8017f, 0.003f);
+    EXPECT_NEAR(furnace->returned(1.0f), 0.3766f, 0.01f);
+    QTest::mouseClick(button("Unreal Engine 4"), Qt::LeftButton); // again: nothing to do
+    EXPECT_TRUE(button("Unreal Engine 4")->isChecked());
+    EXPECT_EQ(undoCount(), 2);
+    window->actions().undo->trigger();
+    EXPECT_EQ(document().model.visibility, Visibility::SmithCorrelated);
+    EXPECT_TRUE(button("Patina")->isChecked());
+
+    // Metals by name, when there are exact conductors.
+    EXPECT_TRUE(button("Copper")->parentWidget()->isHidden());
+    controller().setParameter(parameter("model.fresnel"), {Scope::Model, 0},
+                              static_cast<int>(Fresnel::Conductor));
+    EXPECT_FALSE(button("Copper")->parentWidget()->isHidden());
+    button("Copper")->click();
+    EXPECT_NEAR(document().model.conductorN.y, 1.116f, 1e-4f);
+    EXPECT_TRUE(button("Copper")->isChecked());
 }
 
 } // namespace

@@ -213,6 +213,15 @@ TEST_F(ExportRun, HiddenMeshesStayBehind) {
     EXPECT_EQ(nothing.error().kind, ErrorKind::Usage);
 }
 
+TEST_F(ExportRun, SaysThatTheShadingModelStaysBehind) {
+    m_document.model.ior = 1.3f; // unused by the default
+    const std::size_t before = planExport(m_document, settings("scene.glb")).warnings.size();
+    m_document.model.diffuse = Diffuse::Eon;
+    const auto warnings = planExport(m_document, settings("scene.glb")).warnings;
+    ASSERT_EQ(warnings.size(), before + 1);
+    EXPECT_THAT(warnings, testing::Contains(HasSubstr("shading model")));
+}
+
 TEST_F(ExportRun, ThePlanTellsWhatIsLost) {
     BakeArtifact prt, stale;
     prt.kind = BakeKind::PrtVertex;

@@ -89,7 +89,7 @@ class EveryModel : public testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(Library, EveryModel,
                          testing::Values("sphere", "rounded-cube", "torus-knot", "shader-ball",
-                                         "cornell-box", "plane"));
+                                         "cornell-box", "plane", "sphere-grid"));
 
 TEST_P(EveryModel, NeedsNoRepair) {
     for (const library::ModelPart& p : partsOf(GetParam())) {
@@ -167,6 +167,21 @@ TEST(LibraryMesh, SolidsAreClosed) {
         const Mesh all = joined(partsOf(name));
         EXPECT_EQ(openEdges(all), 0u);
         EXPECT_GT(volume(all), 0.0);
+    }
+}
+
+TEST(LibraryMesh, TheGridSpansMetallicAndRoughness) {
+    const auto parts = partsOf("sphere-grid");
+    ASSERT_EQ(parts.size(), 25u);
+    for (const library::ModelPart& p : parts) {
+        const Bounds bounds = p.mesh->bounds();
+        EXPECT_NEAR(bounds.size().y, 0.36f, 1e-5f);
+        const glm::vec3 center = bounds.center();
+        // rougher to the right, more metallic upwards
+        EXPECT_NEAR(p.material.perceptualRoughness, (center.x + 0.8f) / 1.6f, 1e-4f) << p.name;
+        EXPECT_NEAR(p.material.metallic, (center.y - 0.18f) / 1.6f, 1e-4f) << p.name;
+        EXPECT_EQ(p.material.baseColor, parts.front().material.baseColor);
+        EXPECT_EQ(openEdges(*p.mesh), 0u);
     }
 }
 
