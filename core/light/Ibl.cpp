@@ -11,6 +11,13 @@
 
 namespace patina {
 
+std::size_t memoryBytes(const IblMaps& maps) {
+    std::size_t texels = maps.irradiance.texels.size();
+    for (const CubeLevel& level : maps.prefiltered)
+        texels += level.texels.size();
+    return sizeof(IblMaps) + texels * sizeof(glm::vec3);
+}
+
 Result<IblMaps> computeIbl(const Image& environment, const IblSettings& settings,
                            const JobContext& job) {
     CHECK(environment.type() == PixelType::F32);

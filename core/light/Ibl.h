@@ -7,6 +7,7 @@
 #include "core/light/DfgTable.h"
 
 #include <array>
+#include <cstddef>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct IblMaps {
         irradianceSh; // E(n) = Σ irradianceSh[i] Y_i(n), Y as in shaders/shared/sh.glsl
     std::array<glm::vec3, 25> radianceSh; // L_i of the environment, 5 bands, for PRT
 };
+
+[[nodiscard]] std::size_t memoryBytes(const IblMaps& maps); // of all texels
 
 struct IblSettings {
     int cubeSize = 256;     // of level 0, a power of two

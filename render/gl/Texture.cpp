@@ -81,6 +81,30 @@ GLenum componentType(SampleType type) {
     return GL_UNSIGNED_BYTE;
 }
 
+std::size_t bytesPerTexel(PixelFormat format) {
+    switch (format) {
+    case PixelFormat::R8:
+        return 1;
+    case PixelFormat::Rg8:
+    case PixelFormat::R16:
+        return 2;
+    case PixelFormat::Rgba8:
+    case PixelFormat::Srgb8Alpha8:
+    case PixelFormat::Rg16:
+    case PixelFormat::R32f:
+    case PixelFormat::R32ui:
+    case PixelFormat::Depth32f:
+        return 4;
+    case PixelFormat::Rgba16:
+    case PixelFormat::Rgba16f:
+    case PixelFormat::Rg32f:
+        return 8;
+    case PixelFormat::Rgba32f:
+        return 16;
+    }
+    return 16;
+}
+
 int fullChain(int width, int height) {
     int levels = 1;
     for (int side = std::max(width, height); side > 1; side /= 2)
@@ -117,6 +141,23 @@ Texture::Texture(Context&, std::string_view label, const TextureSettings& settin
     glObjectLabel(GL_TEXTURE, name, static_cast<GLsizei>(label.size()), label.data());
     if (settings.kind != TextureKind::Multisample)
         setSampling(Filter::Nearest, Wrap::Clamp);
+}
+
+std::size_t Texture::memoryBytes() const {
+    if (empty())
+        return 0;
+    const std::size_t copies = m_settings.kind == TextureKind::Cube ? 6
+                               : m_settings.kind == TextureKind::Multisample
+                                   ? static_cast<std::size_t>(m_settings.samples)
+                                   : 1;
+    std::size_t texels = 0;
+    for (int level = 0; level < m_settings.levels; ++level) {
+        const auto side = [&](int full) {
+            return static_cast<std::size_t>(std::max(full >> level, 1));
+        };
+        texels += side(width()) * side(height()) * side(m_settings.depth);
+    }
+    return copies * texels * bytesPerTexel(m_settings.format);
 }
 
 void Texture::upload(int level, int channels, SampleType type, const void* data) {

@@ -62,6 +62,7 @@ class Texture {
     [[nodiscard]] int height() const { return m_settings.height; }
     [[nodiscard]] int levels() const { return m_settings.levels; } // never 0 once created
     [[nodiscard]] const TextureSettings& settings() const { return m_settings; }
+    [[nodiscard]] std::size_t memoryBytes() const; // of all texels; drivers may round up
 
     // Fills a level; `data` holds width × height × channels samples. Cube: one face 0…5 in the
     // order +X -X +Y -Y +Z -Z. Volume: slice by slice.

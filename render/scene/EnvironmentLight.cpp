@@ -121,6 +121,10 @@ void EnvironmentLight::setBackground(const ImagePtr& image) {
     m_background.setSampling(gl::Filter::Trilinear, gl::Wrap::RepeatU);
 }
 
+std::size_t EnvironmentLight::memoryBytes() const {
+    return m_prefiltered.memoryBytes() + m_dfg.memoryBytes() + m_background.memoryBytes();
+}
+
 void EnvironmentLight::fill(const Environment& environment, FrameBlock& frame) const {
     const float angle = glm::radians(environment.rotationDeg);
     frame.radianceScale = std::exp2(environment.exposureEv);

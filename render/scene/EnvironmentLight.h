@@ -26,6 +26,7 @@ class EnvironmentLight {
     [[nodiscard]] const gl::Texture& prefiltered() const { return m_prefiltered; }
     [[nodiscard]] const gl::Texture& dfg() const { return m_dfg; }
     [[nodiscard]] const gl::Texture& background() const { return m_background; }
+    [[nodiscard]] std::size_t memoryBytes() const; // of the textures
     // Texels of the last setIbl() that exceeded 65504, the largest half float.
     [[nodiscard]] std::size_t clampedTexels() const { return m_clampedTexels; }
 

@@ -75,5 +75,39 @@ BENCHMARK_CAPTURE(drawFrames, ibl_4x_overlays, true, 4, true)
     ->MeasureProcessCPUTime()
     ->Unit(benchmark::kMillisecond);
 
+// What a new environment costs the thread that draws: the light, and a 2048 × 1024 background. Must
+// stay below 100 ms, or a frame stalls.
+void uploadLight(benchmark::State& state) {
+    const auto stage = makeStage(false);
+    if (!stage) {
+        state.SkipWithError("no OpenGL 4.5");
+        return;
+    }
+    const auto maps = computeIbl(*stage->document.environment.image, {}, JobContext());
+    EnvironmentLight light(*stage->context);
+    for (auto _ : state) {
+        light.setIbl(*maps);
+        benchmark::DoNotOptimize(light.dfg().readFloats(1)); // waits for the driver
+    }
+}
+BENCHMARK(uploadLight)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void uploadBackground(benchmark::State& state) {
+    const auto stage = makeStage(false);
+    if (!stage) {
+        state.SkipWithError("no OpenGL 4.5");
+        return;
+    }
+    EnvironmentLight light(*stage->context);
+    const auto image =
+        std::make_shared<const Image>(Image(2048, 1024, 3, PixelType::F32, ColorEncoding::Linear));
+    for (auto _ : state) {
+        light.setBackground(nullptr);
+        light.setBackground(image);
+        benchmark::DoNotOptimize(light.dfg().readFloats(1));
+    }
+}
+BENCHMARK(uploadBackground)->Unit(benchmark::kMillisecond)->UseRealTime();
+
 } // namespace
 } // namespace patina::render

@@ -123,6 +123,34 @@ TEST_F(GpuSceneTest, HalfFloatsAreLimitedAndCounted) {
     EXPECT_EQ(light.clampedTexels(), 0u);
 }
 
+TEST_F(GpuSceneTest, APreparedEnvironmentFitsIntoSixtyMebibytes) {
+    // Everything that stays of a 2048 × 1024 picture: itself, its maps, and their textures.
+    const auto image =
+        std::make_shared<const Image>(Image(2048, 1024, 3, PixelType::F32, ColorEncoding::Linear));
+    const IblSettings settings;
+    IblMaps maps;
+    for (int i = 0; i < settings.levels; ++i) {
+        const int side = settings.cubeSize >> i;
+        maps.prefiltered.push_back({side, std::vector<glm::vec3>(6u * side * side)});
+    }
+    EnvironmentLight light(context());
+    const std::size_t before = light.memoryBytes();
+    light.setIbl(maps);
+    light.setBackground(image);
+    const std::size_t picture = image->f32().size_bytes(), onGpu = light.memoryBytes();
+    const std::size_t total = picture + memoryBytes(maps) + onGpu;
+    EXPECT_EQ(picture, std::size_t{24} << 20);
+    EXPECT_GT(onGpu, before);
+    // Half floats, a third more for the background's mipmaps, and the table
+    EXPECT_GE(onGpu,
+              2048u * 1024 * 8 * 4 / 3 + maps.prefiltered[0].texels.size() * 8 + 128u * 128 * 8);
+    EXPECT_LE(total, std::size_t{60} << 20);
+    RecordProperty("mebibytes", std::to_string(static_cast<double>(total) / (1 << 20)));
+    light.setBackground(nullptr);
+    light.setIbl(uniformIbl(glm::vec3(1.0f)));
+    EXPECT_EQ(light.memoryBytes(), before);
+}
+
 // Every kind of image reads in the shader as Image::linear() says.
 using Formats = RenderTest;
 

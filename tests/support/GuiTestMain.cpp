@@ -1,10 +1,11 @@
-// main() of the tests with a window: a QApplication in the editor's style, settings in a folder of
-// their own, and every warning of Qt a failure.
+// main() of the tests with a window: a QApplication in the editor's style, settings and cache in a
+// folder of their own, and every warning of Qt a failure.
 
 #include "app/editor/Startup.h"
 #include "app/editor/style/Style.h"
 
 #include <QApplication>
+#include <QFile>
 #include <QSettings>
 #include <QTemporaryDir>
 #include <cstdio>
@@ -33,6 +34,7 @@ int main(int argc, char* argv[]) {
     patina::editor::prepareApplication();
     QTemporaryDir settings;
     QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, settings.path());
+    qputenv("XDG_CACHE_HOME", QFile::encodeName(settings.path()));
     QApplication application(argc, argv);
     patina::editor::applyStyle(application);
     const int status = RUN_ALL_TESTS();

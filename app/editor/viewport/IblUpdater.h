@@ -1,13 +1,15 @@
-// Prepares image-based light in the background: a small version at once, the full one when it is
-// ready. The newest environment wins.
+// Prepares image-based light in the background: from the cache, or else a small version within
+// some ten milliseconds and the full one when it is ready. The newest environment wins.
 #pragma once
 
 #include "core/image/Image.h"
 #include "core/job/JobContext.h"
-#include "core/light/Ibl.h"
+#include "core/light/IblCache.h"
 
 #include <QObject>
 #include <QThreadPool>
+#include <atomic>
+#include <filesystem>
 #include <memory>
 
 namespace patina::editor {
@@ -15,7 +17,8 @@ namespace patina::editor {
 class IblUpdater : public QObject {
     Q_OBJECT
   public:
-    explicit IblUpdater(QObject* parent = nullptr);
+    // `cacheFolder`: of IblCache.
+    explicit IblUpdater(const std::filesystem::path& cacheFolder, QObject* parent = nullptr);
     ~IblUpdater() override; // cancels and waits
 
     // Does nothing when `environment` is the one already prepared or under way. Requests that
@@ -30,13 +33,16 @@ class IblUpdater : public QObject {
 
   private:
     void start();
-    void deliver(quint64 request, bool quick, std::shared_ptr<const IblMaps> maps);
+    void prepare(quint64 request, const Image& environment, const JobContext& job);
+    void post(quint64 request, std::shared_ptr<const IblMaps> maps); // from the pool to deliver()
+    void deliver(quint64 request, std::shared_ptr<const IblMaps> maps);
 
+    IblCache m_cache;
     QThreadPool m_pool;
     JobControl m_control;
     ImagePtr m_environment;
-    quint64 m_request = 0;
-    bool m_quickUnderWay = false, m_waiting = false;
+    std::atomic<quint64> m_request = 0; // the newest
+    bool m_firstUnderWay = false, m_waiting = false;
     std::shared_ptr<const IblMaps> m_maps;
 };
 

@@ -10,12 +10,15 @@
 #include "render/Renderer.h"
 #include "render/gl/Context.h"
 
+#include <QFile>
 #include <QMouseEvent>
 #include <QOpenGLContext>
 #include <QOpenGLFramebufferObject>
 #include <QOpenGLFunctions>
+#include <QStandardPaths>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace patina::editor {
 namespace {
@@ -30,6 +33,12 @@ glm::vec2 toGlm(const QPointF& point) {
     return {static_cast<float>(point.x()), static_cast<float>(point.y())};
 }
 
+// Computed light outlives the session; the system may empty this folder at any time.
+std::filesystem::path iblCacheFolder() {
+    const QString folder = QStandardPaths::writableLocation(QStandardPaths::CacheLocation);
+    return std::filesystem::path(QFile::encodeName(folder).toStdString()) / "ibl";
+}
+
 } // namespace
 
 ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& selection,
@@ -37,7 +46,7 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     : QOpenGLWidget(parent)
     , m_controller(controller)
     , m_selection(selection)
-    , m_ibl(new IblUpdater(this)) {
+    , m_ibl(new IblUpdater(iblCacheFolder(), this)) {
     setObjectName(QStringLiteral("viewport"));
     setAccessibleName(tr("Viewport"));
     setAccessibleDescription(
