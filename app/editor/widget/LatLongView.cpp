@@ -8,7 +8,6 @@
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 namespace patina::editor {
 namespace {
@@ -143,10 +142,9 @@ const Softbox* LatLongView::softboxAt(const QPointF& point) const {
     };
     if (const Softbox* selected = selectedSoftbox(); selected && contains(*selected))
         return selected;
-    for (const Softbox& softbox : std::views::reverse(m_environment.softboxes))
-        if (contains(softbox))
-            return &softbox;
-    return nullptr;
+    const auto& softboxes = m_environment.softboxes;
+    const auto last = std::find_if(softboxes.rbegin(), softboxes.rend(), contains);
+    return last == softboxes.rend() ? nullptr : &*last;
 }
 
 QPointF LatLongView::sunPoint() const {
