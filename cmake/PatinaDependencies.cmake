@@ -25,3 +25,4 @@ endif()
 # and exports include paths that do not exist.
 pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
 pkg_check_modules(OCIO REQUIRED IMPORTED_TARGET OpenColorIO)
+pkg_check_modules(OPENEXR REQUIRED IMPORTED_TARGET OpenEXR)

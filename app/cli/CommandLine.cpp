@@ -31,6 +31,9 @@ constexpr const char* kFooter =
     "Exit status: 0 done, 2 wrong usage, 65 an input is broken, 66 an input is missing, 69 no\n"
     "OpenGL, 70 a fault of ours, 73 an output cannot be created, 74 I/O error or disk full,\n"
     "130/143 interrupted.";
+const std::string kLayouts =
+    "lat-long, angular-map, mirror-ball, horizontal-cross, vertical-cross, horizontal-strip, "
+    "vertical-strip, six-faces";
 constexpr const char* kScene = "Model, .patina project or builtin:NAME";
 
 // A check whose bounds the help does not repeat in its own notation; errors still name them.
@@ -168,6 +171,9 @@ class Parser {
                           "Picture: .png, .jpg, .tif, .tga as displayed, .exr or .hdr linear");
         c->add_option("--environment", o.environment, "Surroundings that light the scene")
             ->type_name("HDR");
+        c->add_option("--environment-layout", o.environmentLayout,
+                      "How the HDR shows the surroundings (default: guessed): " + kLayouts)
+            ->type_name("NAME");
         c->add_option("--size", o.size, "Pixels")->capture_default_str()->type_name("WxH");
         c->add_option("--samples", o.samples, "Samples per pixel against jagged edges (MSAA)")
             ->check(plain(CLI::IsMember({1, 2, 4, 8, 16})))

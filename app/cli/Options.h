@@ -25,7 +25,7 @@ struct InfoOptions {
 
 struct RenderOptions {
     std::string scene, output;
-    std::string environment;
+    std::string environment, environmentLayout;
     std::string size = "1280x720";
     std::string camera;                           // YAW,PITCH,DISTANCE
     std::string exposure, toneMap, fov, lighting; // as for --set; empty: as the scene has it

@@ -202,7 +202,8 @@ Result<void> run(Session& session, const RenderOptions& options) {
                         {"size", {frame->width, frame->height}},
                         {"samples", options.samples}};
     session.beginPhase();
-    SceneRequest request{options.scene, options.environment, options.bakes};
+    SceneRequest request{options.scene, options.environment, options.environmentLayout,
+                         options.bakes};
     Result<Document> document = openSceneFor(session, request);
     if (!document)
         return document.error();

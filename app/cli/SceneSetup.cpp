@@ -3,6 +3,7 @@
 #include "core/bake/BakeIO.h"
 #include "core/base/AtomicFile.h"
 #include "core/document/Edit.h"
+#include "core/document/EnvironmentFile.h"
 #include "core/document/Scene.h"
 #include "core/document/Source.h"
 #include "core/light/GeneratedEnvironment.h"
@@ -37,17 +38,20 @@ Result<std::pair<std::string, std::string>> splitAssignment(const std::string& t
     return std::pair{text.substr(0, equals), text.substr(equals + 1)};
 }
 
-Result<void> setEnvironment(Session& session, Document& document, const std::string& source) {
+Result<void> setEnvironment(Session& session, Document& document, const std::string& source,
+                            EnvironmentLayout layout) {
     std::vector<Notice> notices;
     Environment& environment = document.environment;
     const std::string normalized = normalizeSource(source);
-    Result<ImagePtr> image = loadEnvironmentImage(session.worker(), normalized, notices);
+    Result<ImagePtr> image =
+        loadEnvironmentImage(session.worker(), normalized, notices, layout, session.job());
     if (!image)
         return image.error();
     for (const Notice& notice : notices)
         session.report().add(notice);
     environment.kind = EnvironmentKind::Image;
     environment.source = normalized;
+    environment.layout = layout;
     environment.image = environment.fileImage = *image;
     environment.problem.clear();
     return {};
@@ -90,8 +94,19 @@ Result<void> setParameter(Session& session, Document& document, const std::strin
         return parsed.error();
     if (const MapSlot* slot = std::get_if<MapSlot>(&*parsed)) {
         if (selection->info->scope == Scope::Environment)
-            return setEnvironment(session, document, slot->source);
+            return setEnvironment(session, document, slot->source, EnvironmentLayout::Automatic);
         return setMap(session, document, *selection, *slot);
+    }
+    // The file is read anew: what it shows depends on its layout.
+    if (selection->info->id == "environment.layout") {
+        const Environment before = document.environment;
+        Result<void> set = setEnvironment(session, document, before.source,
+                                          static_cast<EnvironmentLayout>(std::get<int>(*parsed)));
+        if (before.kind != EnvironmentKind::Image) { // something else goes on lighting the scene
+            document.environment.kind = before.kind;
+            document.environment.image = before.image;
+        }
+        return set;
     }
     for (const Target& target : selection->targets)
         if (Result<Change> change = applyParameter(document, *selection->info, target, *parsed);
@@ -113,9 +128,24 @@ Result<void> checkOffered(const Document& document, const std::string& name) {
     return {};
 }
 
+Result<EnvironmentLayout> parseLayout(const std::string& name) {
+    if (name.empty())
+        return EnvironmentLayout::Automatic;
+    if (const auto layout = layoutNamed(name))
+        return *layout;
+    return Error{ErrorKind::Usage,
+                 fmt::format("there is no layout \"{}\"; layouts are lat-long, angular-map, "
+                             "mirror-ball, horizontal-cross, vertical-cross, horizontal-strip, "
+                             "vertical-strip and six-faces",
+                             name),
+                 {},
+                 {}};
+}
+
 namespace {
 
-// --set, maps first: putting one on raises its number to 1, and numbers given should win.
+// --set, maps first: putting one on raises its number to 1, and numbers given should win. The same
+// goes for an environment and its layout.
 Result<void> applySets(Session& session, Document& document) {
     const EnvironmentRecipe before = environmentRecipe(document.environment);
     std::vector<std::pair<std::string, std::string>> assignments;
@@ -126,8 +156,9 @@ Result<void> applySets(Session& session, Document& document) {
         assignments.push_back(*assignment);
         session.report().json()["settings"]["set"][assignment->first] = assignment->second;
     }
-    std::stable_partition(assignments.begin(), assignments.end(),
-                          [](const auto& a) { return a.first.ends_with(".map"); });
+    std::stable_partition(assignments.begin(), assignments.end(), [](const auto& a) {
+        return a.first.ends_with(".map") || a.first == "environment.image";
+    });
     for (const auto& [name, value] : assignments)
         if (Result<void> set = setParameter(session, document, name, value); !set)
             return set.error();
@@ -150,9 +181,15 @@ Result<Document> openSceneFor(Session& session, SceneRequest& request) {
     request.isProject = opened->isProject;
     Document document = std::move(opened->document);
 
-    if (!request.environment.empty())
-        if (Result<void> set = setEnvironment(session, document, request.environment); !set)
+    if (!request.environment.empty() || !request.environmentLayout.empty()) {
+        const Result<EnvironmentLayout> layout = parseLayout(request.environmentLayout);
+        if (!layout)
+            return layout.error();
+        const std::string source =
+            request.environment.empty() ? document.environment.source : request.environment;
+        if (Result<void> set = setEnvironment(session, document, source, *layout); !set)
             return set.error();
+    }
 
     if (Result<void> set = applySets(session, document); !set)
         return set.error();
@@ -166,8 +203,12 @@ Result<Document> openSceneFor(Session& session, SceneRequest& request) {
     return document;
 }
 
-Result<Document> openEnvironmentFor(Session& session, const std::string& source) {
+Result<Document> openEnvironmentFor(Session& session, const std::string& source,
+                                    const std::string& layoutName) {
     Document document;
+    const Result<EnvironmentLayout> layout = parseLayout(layoutName);
+    if (!layout)
+        return layout.error();
     if (extensionOf(source) == ".patina") {
         Result<OpenedScene> opened = openScene(session.worker(), source, session.job());
         if (!opened)
@@ -181,7 +222,7 @@ Result<Document> openEnvironmentFor(Session& session, const std::string& source)
                          "its environment cannot be read: " + document.environment.problem,
                          source,
                          {}};
-    } else if (Result<void> set = setEnvironment(session, document, source); !set) {
+    } else if (Result<void> set = setEnvironment(session, document, source, *layout); !set) {
         return set.error();
     }
     for (const std::string& text : session.options().sets)

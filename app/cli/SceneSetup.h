@@ -14,6 +14,7 @@ namespace patina::cli {
 struct SceneRequest {
     std::string scene;
     std::string environment;        // empty: the scene's own
+    std::string environmentLayout;  // empty: guessed
     std::vector<std::string> bakes; // files to attach
     bool isProject = false;         // set by openSceneFor(): the scene has a camera of its own
 };
@@ -23,8 +24,9 @@ Result<Document> openSceneFor(Session& session, SceneRequest& request);
 
 // A document whose environment is that of the image or builtin:NAME, or whose environment and
 // shading model are a .patina project's, with --set applied. Usage error when that sets anything
-// else.
-Result<Document> openEnvironmentFor(Session& session, const std::string& source);
+// else. `layoutName` of the image; empty: guessed.
+Result<Document> openEnvironmentFor(Session& session, const std::string& source,
+                                    const std::string& layoutName = {});
 
 // Sets one parameter from its text, as --set does; maps and environments are loaded.
 Result<void> setParameter(Session& session, Document& document, const std::string& name,
@@ -35,6 +37,9 @@ Result<void> checkOffered(const Document& document, const std::string& name);
 
 // What lights the scene, for reports: the image's source, or "sky", "softboxes".
 [[nodiscard]] std::string environmentName(const Environment& environment);
+
+// The layout of an environment by name; Automatic for an empty one. Usage error with the names.
+Result<EnvironmentLayout> parseLayout(const std::string& name);
 
 // CannotCreate when the folder is missing or not writable, or the path is a folder.
 Result<void> checkOutput(const std::filesystem::path& output);

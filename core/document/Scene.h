@@ -50,10 +50,12 @@ Result<ImagePtr> loadMapImage(WorkerClient& worker, const std::string& source,
                               ColorEncoding integerEncoding,
                               std::vector<Notice>* notices = nullptr);
 
-// Reads a lat-long environment as F32 RGB, w = 2h, at most 4096 × 2048; pictures of other
-// proportions are stretched, integer files decoded from sRGB. `notices` receives such changes and
-// the count of repaired pixels.
+// Reads an environment of any layout as a lat-long, F32 RGB, w = 2h, at most 4096 × 2048; pictures
+// of proportions that no layout has are stretched, integer files decoded from sRGB. `notices`
+// receives such changes, doubts about the layout and the count of repaired pixels.
 Result<ImagePtr> loadEnvironmentImage(WorkerClient& worker, const std::string& source,
-                                      std::vector<Notice>& notices);
+                                      std::vector<Notice>& notices,
+                                      EnvironmentLayout layout = EnvironmentLayout::Automatic,
+                                      const JobContext& job = {});
 
 } // namespace patina

@@ -1,12 +1,13 @@
 // Images for maps and environments.
 #include "core/base/Check.h"
+#include "core/document/EnvironmentFile.h"
 #include "core/document/SceneLoader.h"
 #include "core/image/ImageIO.h"
 #include "core/job/Parallel.h"
 #include "core/library/Library.h"
+#include "core/light/EnvironmentResample.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <utility>
 
@@ -35,25 +36,12 @@ Result<MapImage> takeFirst(Result<LoadedImage> loaded) {
     return result;
 }
 
-// Any picture as RGB floats of twice the width of its height, which is what the light needs.
-Image toLatLong(const Image& source) {
-    // Neither side is ever made smaller unless it is beyond the limit.
-    const double width = std::max<double>(source.width(), 2.0 * source.height());
-    const int targetWidth =
-        std::max(2, static_cast<int>(std::min<double>(width, kMaxEnvironmentWidth)) / 2 * 2);
-    Image shrunk;
-    const Image* image = &source;
-    if (width > kMaxEnvironmentWidth) {
-        const double scale = kMaxEnvironmentWidth / width;
-        const int side = std::max(source.width(), source.height());
-        shrunk = shrinkImage(source, std::max(1, static_cast<int>(std::lround(side * scale))));
-        image = &shrunk;
-    }
-
-    Image result(targetWidth, targetWidth / 2, 3, PixelType::F32, ColorEncoding::Linear);
+// A picture of other proportions as twice as wide as high; neither side gets smaller.
+Image stretched(const Image& picture) {
+    const int width = std::max(2, std::max(picture.width(), 2 * picture.height()) / 2 * 2);
+    Image result(width, width / 2, 3, PixelType::F32, ColorEncoding::Linear);
     const std::span<float> texels = result.f32();
-    const bool sameSize = image->width() == result.width() && image->height() == result.height();
-    const float halfTexel = 0.5f / static_cast<float>(image->height());
+    const float halfTexel = 0.5f / static_cast<float>(picture.height());
     parallelFor(
         {}, static_cast<std::size_t>(result.height()), 16, [&](std::size_t begin, std::size_t end) {
             for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
@@ -64,9 +52,7 @@ Image toLatLong(const Image& source) {
                         (static_cast<float>(y) + 0.5f) / static_cast<float>(result.height());
                     // Lookups repeat, but the sky does not continue below the ground.
                     const glm::vec4 pixel =
-                        sameSize
-                            ? image->linear(x, y)
-                            : sampleBilinear(*image, u, std::clamp(v, halfTexel, 1.0f - halfTexel));
+                        sampleBilinear(picture, u, std::clamp(v, halfTexel, 1.0f - halfTexel));
                     const std::size_t at = 3 * (static_cast<std::size_t>(y) *
                                                     static_cast<std::size_t>(result.width()) +
                                                 static_cast<std::size_t>(x));
@@ -75,6 +61,22 @@ Image toLatLong(const Image& source) {
                 }
         });
     return result;
+}
+
+// What the light needs of a picture: a lat-long, not too large.
+Image toLatLong(const EnvironmentPicture& picture, const JobContext& job) {
+    if (picture.mapping.isCommonLatLong()) {
+        const ImageSize size = picture.mapping.size();
+        if (size.width == 2 * size.height)
+            return shrinkLatLong(picture.image, kMaxEnvironmentWidth);
+        const int limit = kMaxEnvironmentWidth / (size.height > size.width ? 2 : 1);
+        return stretched(shrinkImage(picture.image, limit));
+    }
+    const int width = std::min(picture.mapping.latLongSize().width, kMaxEnvironmentWidth);
+    const Result<EnvironmentMapping> latLong = EnvironmentMapping::create(
+        EnvironmentLayout::LatLong,
+        EnvironmentMapping::imageSize(EnvironmentLayout::LatLong, width));
+    return resampleEnvironment(picture.image, picture.mapping, *latLong, {}, job);
 }
 
 } // namespace
@@ -123,35 +125,25 @@ Result<ImagePtr> loadMapImage(WorkerClient& worker, const std::string& source,
 }
 
 Result<ImagePtr> readEnvironmentImage(WorkerClient* worker, const std::string& source,
-                                      std::vector<Notice>& notices) {
+                                      EnvironmentLayout layout, std::vector<Notice>& notices,
+                                      const JobContext& job) {
     if (isBuiltin(source))
         return library::environment(builtinName(source));
     CHECK(worker != nullptr);
-    const fs::path file = source;
-    ImageLoadOptions options;
-    options.integerEncoding = ColorEncoding::Srgb;
-    Result<LoadedImage> loaded = loadImage(*worker, file, options);
-    if (!loaded)
-        return loaded.error();
-    const Image& image = loaded->image();
-
-    if (loaded->sanitizedSamples > 0)
-        notices.push_back({repairedText(loaded->sanitizedSamples), file});
-    if (image.type() != PixelType::F32)
-        notices.push_back({"this picture has no high dynamic range, so that its lamps and windows "
-                           "light the scene too weakly; use an .hdr or .exr file for real light",
-                           file});
-    if (image.width() != 2 * image.height())
-        notices.push_back({fmt::format("the picture is {} × {} and not twice as wide as high, as a "
-                                       "lat-long environment is; it was stretched",
-                                       image.width(), image.height()),
-                           file});
-    return std::make_shared<const Image>(toLatLong(image));
+    const Result<EnvironmentPicture> picture =
+        readEnvironmentPicture(*worker, source, layout, notices, job);
+    if (!picture)
+        return picture.error();
+    auto image = std::make_shared<const Image>(toLatLong(*picture, job));
+    if (job.cancelled())
+        return Error{ErrorKind::Cancelled, "reading was cancelled", source, {}};
+    return image;
 }
 
 Result<ImagePtr> loadEnvironmentImage(WorkerClient& worker, const std::string& source,
-                                      std::vector<Notice>& notices) {
-    return readEnvironmentImage(&worker, source, notices);
+                                      std::vector<Notice>& notices, EnvironmentLayout layout,
+                                      const JobContext& job) {
+    return readEnvironmentImage(&worker, source, layout, notices, job);
 }
 
 } // namespace patina

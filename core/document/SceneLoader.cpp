@@ -210,7 +210,8 @@ void SceneLoader::loadEnvironmentFile(Environment& environment) {
         return;
     }
     m_job.setActivity("reading " + fileName(environment.source));
-    Result<ImagePtr> image = readEnvironmentImage(m_worker, environment.source, m_notices);
+    Result<ImagePtr> image =
+        readEnvironmentImage(m_worker, environment.source, environment.layout, m_notices, m_job);
     if (image.ok()) {
         environment.fileImage = *std::move(image);
         environment.problem.clear();

@@ -80,6 +80,7 @@ Result<MapImage> readMapImage(WorkerClient* worker, const std::string& source,
 [[nodiscard]] std::string repairedText(std::size_t samples); // for notices
 
 Result<ImagePtr> readEnvironmentImage(WorkerClient* worker, const std::string& source,
-                                      std::vector<Notice>& notices);
+                                      EnvironmentLayout layout, std::vector<Notice>& notices,
+                                      const JobContext& job);
 
 } // namespace patina

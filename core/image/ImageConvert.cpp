@@ -1,5 +1,6 @@
 // Changing how an image stores its picture: type, encoding and size.
 #include "core/base/Check.h"
+#include "core/image/AreaFilter.h"
 #include "core/image/Image.h"
 #include "core/image/Srgb.h"
 
@@ -103,28 +104,6 @@ void convertFrom(std::span<const From> from, Image& result, int channels, Curve 
     }
 }
 
-// The share of each source texel in each destination texel along one axis.
-struct Footprint {
-    int first = 0;
-    std::vector<float> weights; // sum to 1
-};
-
-std::vector<Footprint> footprints(int from, int to) {
-    std::vector<Footprint> result(static_cast<std::size_t>(to));
-    const double scale = static_cast<double>(from) / to;
-    for (int i = 0; i < to; ++i) {
-        Footprint& footprint = result[static_cast<std::size_t>(i)];
-        const double begin = i * scale;
-        const double end = std::min((i + 1) * scale, static_cast<double>(from));
-        footprint.first = static_cast<int>(begin);
-        for (int k = footprint.first; k < from && k < end; ++k) {
-            const double covered = std::min<double>(end, k + 1) - std::max<double>(begin, k);
-            footprint.weights.push_back(static_cast<float>(covered / (end - begin)));
-        }
-    }
-    return result;
-}
-
 } // namespace
 
 Image convertImage(const Image& image, PixelType type, ColorEncoding encoding) {
@@ -164,47 +143,22 @@ Image shrinkImage(const Image& image, int maxSide) {
     const int width = scaled(image.width());
     const int height = scaled(image.height());
 
-    // A row of source texels at a time: decoded, reduced along x, added to the rows it touches.
+    // A row of source texels at a time is decoded and added to the rows it touches.
     const bool decode = image.encoding() == ColorEncoding::Srgb;
     const ColorEncoding workEncoding = decode ? ColorEncoding::Linear : image.encoding();
-    const auto channels = static_cast<std::size_t>(image.channels());
-    const std::vector<Footprint> columns = footprints(image.width(), width);
-    const std::vector<Footprint> rows = footprints(image.height(), height);
     const std::size_t sourceRowBytes =
         static_cast<std::size_t>(image.width()) * image.bytesPerPixel();
-
     Image sourceRow(image.width(), 1, image.channels(), image.type(), image.encoding());
+    RowReducer reducer(image.width(), image.height(), width, height, image.channels());
+    for (int y = 0; y < image.height(); ++y) {
+        std::memcpy(sourceRow.bytes().data(),
+                    image.bytes().data() + static_cast<std::size_t>(y) * sourceRowBytes,
+                    sourceRowBytes);
+        reducer.addRow(convertImage(sourceRow, PixelType::F32, workEncoding).f32());
+    }
     Image work(width, height, image.channels(), PixelType::F32, workEncoding);
     work.setChannelNames(image.channelNames());
-    std::vector<float> reduced(static_cast<std::size_t>(width) * channels);
-
-    int ready = -1; // the source row that `reduced` holds: neighbours share at most one row
-    for (int y = 0; y < height; ++y) {
-        const Footprint& row = rows[static_cast<std::size_t>(y)];
-        for (std::size_t k = 0; k < row.weights.size(); ++k) {
-            const int sourceY = row.first + static_cast<int>(k);
-            if (sourceY != ready) {
-                std::memcpy(sourceRow.bytes().data(),
-                            image.bytes().data() +
-                                static_cast<std::size_t>(sourceY) * sourceRowBytes,
-                            sourceRowBytes);
-                const Image linearRow = convertImage(sourceRow, PixelType::F32, workEncoding);
-                const auto source = linearRow.f32();
-                std::fill(reduced.begin(), reduced.end(), 0.0f);
-                for (std::size_t x = 0; x < columns.size(); ++x)
-                    for (std::size_t j = 0; j < columns[x].weights.size(); ++j)
-                        for (std::size_t c = 0; c < channels; ++c)
-                            reduced[x * channels + c] +=
-                                columns[x].weights[j] *
-                                source[(static_cast<std::size_t>(columns[x].first) + j) * channels +
-                                       c];
-                ready = sourceY;
-            }
-            const auto target = work.f32().subspan(static_cast<std::size_t>(y) * reduced.size());
-            for (std::size_t i = 0; i < reduced.size(); ++i)
-                target[i] += row.weights[k] * reduced[i];
-        }
-    }
+    std::ranges::copy(reducer.result(), work.f32().begin());
     return convertImage(work, image.type(), image.encoding());
 }
 

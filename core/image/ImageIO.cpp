@@ -107,10 +107,11 @@ ImagePart readPart(const json& entry, std::span<const std::byte> payload, bool f
 
 using Send = std::function<Result<WorkerClient::Reply>(const std::string& header)>;
 
-Result<WorkerClient::Reply> decode(const Send& send, const std::string& format, bool allParts,
-                                   bool inspect) {
-    const json header = {
-        {"op", "decodeImage"}, {"format", format}, {"allParts", allParts}, {"inspect", inspect}};
+Result<WorkerClient::Reply> decode(const Send& send, const std::string& format,
+                                   const ImageLoadOptions& options, bool inspect) {
+    const json header = {{"op", "decodeImage"},          {"format", format},
+                         {"allParts", options.allParts}, {"colorOnly", options.colorOnly},
+                         {"maxSide", options.maxSide},   {"inspect", inspect}};
     return send(header.dump());
 }
 
@@ -130,7 +131,7 @@ Result<T> believe(const WorkerClient::Reply& reply, const std::filesystem::path&
 
 Result<LoadedImage> load(const Send& send, const std::string& format,
                          const std::filesystem::path& file, const ImageLoadOptions& options) {
-    const auto reply = decode(send, format, options.allParts, false);
+    const auto reply = decode(send, format, options, false);
     if (!reply)
         return reply.error();
     return believe<LoadedImage>(*reply, file, [&](const json& header) {
@@ -189,7 +190,7 @@ Result<ImageInfo> inspectImage(WorkerClient& worker, const std::filesystem::path
         return notAnImage(file);
     const auto reply = decode(
         [&](const std::string& header) { return worker.request(header, input->fd.get(), file); },
-        format, true, true);
+        format, {}, true);
     if (!reply)
         return reply.error();
     return believe<ImageInfo>(*reply, file, [&](const json& header) {

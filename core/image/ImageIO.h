@@ -15,7 +15,9 @@ namespace patina {
 
 class WorkerClient;
 
-// One part (EXR) of an image file with its string attributes ("patina:basis" …). OpenEXR sorts the
+// One part (EXR) of an image file with its string attributes ("patina:basis" …); OpenEXR's `envmap`
+// ("latlong", "cube") and `chromaticities` (CIE xy of red, green, blue, white) are among them. An
+// envmap attribute is written, too. OpenEXR sorts the
 // channels of a part: after reading they are found by name, not by place. Alpha is never multiplied
 // into the colour, neither here nor there.
 struct ImagePart {
@@ -38,6 +40,12 @@ struct ImageLoadOptions {
     // files, whose coefficients are signed.
     bool sanitize = true;
     bool allParts = false; // read every EXR part, not only the first
+    // Surroundings: of an EXR file the first part with colour (R, G, B or Y), of every file only
+    // these channels.
+    bool colorOnly = false;
+    // Floating-point images with longer sides are averaged down to it while they are read, keeping
+    // their proportions; 0: never.
+    int maxSide = 0;
 };
 
 // PNG, JPEG, TGA, TIFF, OpenEXR, Radiance HDR, PSD, DDS, BMP, WebP; 8/16 bit integer, half, float.

@@ -286,6 +286,12 @@ constexpr std::array<Text, 3> kAlphaModeLabels{"Opaque", "Cut-out", "Blend"};
 constexpr std::array<Text, 5> kLightTypes{"point", "directional", "spot", "sphere", "rectangle"};
 constexpr std::array<Text, 5> kLightTypeLabels{"Point", "Directional", "Spot", "Sphere (area)",
                                                "Rectangle (area)"};
+constexpr std::array<Text, 9> kEnvironmentLayouts{
+    "automatic",     "latLong",         "angularMap",    "mirrorBall", "horizontalCross",
+    "verticalCross", "horizontalStrip", "verticalStrip", "sixFaces"};
+constexpr std::array<Text, 9> kEnvironmentLayoutLabels{
+    "Automatic",      "Lat-long",         "Angular map",    "Mirror ball", "Horizontal cross",
+    "Vertical cross", "Horizontal strip", "Vertical strip", "Six faces"};
 constexpr std::array<Text, 8> kToneMaps{"clamp",       "reinhard",   "reinhardPhotographic",
                                         "exponential", "pbrNeutral", "aces",
                                         "agx",         "openColorIo"};
@@ -364,7 +370,8 @@ constexpr std::array kParameters{
     flag<&M::doubleSided>("material.doubleSided", "Double-sided", "Transparency", "Shows the back of thin surfaces such as leaves and cloth, with their normal turned to the viewer.", kUniform | Affects::Bakes),
 
     choice<&E::kind>("environment.kind", "Kind", "Environment", kEnvironmentKinds, kEnvironmentKindLabels, "What surrounds and lights the model: an image, a computed clear sky, or softboxes in a dark room.", kSurroundings),
-    environmentImage("environment.image", "Image", "Environment", "Lat-long image of the surroundings that light the scene."),
+    environmentImage("environment.image", "Image", "Environment", "Image of the surroundings that light the scene."),
+    choice<&E::layout>("environment.layout", "Layout", "Environment", kEnvironmentLayouts, kEnvironmentLayoutLabels, "How the file shows the surroundings; automatic guesses it from the file, choose another one when the guess is wrong.", Affects::Texture | Affects::EnvironmentMap),
     angle<&E::sky, &Sky::sunAzimuthDeg>("environment.skySunAzimuthDeg", "Sun azimuth", "Environment", "The compass direction of the sun; 0 is the model's front, positive values turn towards +X.", kSurroundings),
     number<&E::sky, &Sky::sunElevationDeg>("environment.skySunElevationDeg", "Sun elevation", "Environment", {0.0f, 90.0f}, {0.0f, 90.0f}, 1, "°", "How high the sun stands: 0 is sunset, 90 is overhead.", kSurroundings),
     number<&E::sky, &Sky::turbidity>("environment.skyTurbidity", "Haze", "Environment", {2.0f, 10.0f}, {2.0f, 10.0f}, 2, "", "How much haze is in the air (turbidity): 2 is a clear mountain day, 10 a milky one with a weak sun.", kSurroundings),

@@ -41,7 +41,9 @@ using glm::exp;
 using glm::exp2;
 using glm::floor;
 using glm::fract;
+using glm::frexp;
 using glm::inversesqrt;
+using glm::ldexp;
 using glm::length;
 using glm::log2;
 using glm::max;
@@ -60,6 +62,7 @@ using glm::sqrt;
 #include "../../shaders/shared/ibl.glsl"
 #include "../../shaders/shared/lights.glsl"
 #include "../../shaders/shared/normalmap.glsl"
+#include "../../shaders/shared/rgbe.glsl"
 #include "../../shaders/shared/sampling.glsl"
 #include "../../shaders/shared/sh.glsl"
 #include "../../shaders/shared/tonemap.glsl"

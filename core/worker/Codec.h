@@ -28,6 +28,9 @@ class Refusal : public std::runtime_error {
 // Memory for a payload. Throws std::bad_alloc.
 MemoryFile allocate(std::size_t size);
 
+// Throws Refusal for sizes that make no sense or lie beyond core/base/Limits.h.
+void checkImageSize(long long width, long long height, long long channels, std::size_t sampleSize);
+
 // Text from a file may be no UTF-8; JSON must be.
 std::string toJsonText(const nlohmann::json& json);
 
@@ -38,6 +41,10 @@ Reply encodeImage(const nlohmann::json& request, std::span<const std::byte> payl
 Reply importModel(const nlohmann::json& request, int payloadFd);
 Reply displayMenu(const nlohmann::json& request);      // of an OpenColorIO configuration
 Reply displayTransform(const nlohmann::json& request); // one of its views, for the GPU
+
+// The part of decodeImage and encodeImage that Radiance files are.
+Reply decodeRadiance(const nlohmann::json& request, int payloadFd);
+Reply encodeRadiance(const nlohmann::json& request, std::span<const std::byte> payload);
 
 // Once, before the first child is forked: loads what every child would have to load.
 void prepareImageCodec();

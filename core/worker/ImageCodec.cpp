@@ -1,6 +1,8 @@
 // The only file that sees OpenImageIO.
 #include "core/base/Limits.h"
+#include "core/image/AreaFilter.h"
 #include "core/worker/Codec.h"
+#include "core/worker/LuminanceChroma.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -21,9 +23,9 @@ namespace {
 using nlohmann::json;
 
 // The only formats whose readers are ever created, so that OpenImageIO never probes all of them.
-constexpr std::array<const char*, 10> kReaders{"png",   "jpeg", "openexr", "hdr", "tiff",
-                                               "targa", "psd",  "dds",     "bmp", "webp"};
-constexpr std::array<const char*, 6> kWriters{"png", "jpeg", "openexr", "hdr", "tiff", "targa"};
+constexpr std::array<const char*, 9> kReaders{"png", "jpeg", "openexr", "tiff", "targa",
+                                              "psd", "dds",  "bmp",     "webp"};
+constexpr std::array<const char*, 5> kWriters{"png", "jpeg", "openexr", "tiff", "targa"};
 
 // A few threads: a child works on one file, several children run at once.
 void allowThreads() {
@@ -87,22 +89,11 @@ Frame frameOf(const OIIO::ImageSpec& spec) {
     return frame;
 }
 
-void checkSize(long long width, long long height, long long channels, std::size_t sampleSize) {
-    if (width <= 0 || height <= 0 || channels <= 0)
-        throw Refusal("the file claims a size that makes no sense; it is damaged",
-                      fmt::format("{} x {} x {}", width, height, channels));
-    if (width > limits::kMaxImageSide || height > limits::kMaxImageSide)
-        throw Refusal(fmt::format("the image has {} x {} pixels; the largest supported side is {}",
-                                  width, height, limits::kMaxImageSide));
-    if (channels > limits::kMaxImageChannels)
-        throw Refusal(fmt::format("the image has {} channels; at most {} are supported", channels,
-                                  limits::kMaxImageChannels));
-    const auto bytes = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
-                       static_cast<std::size_t>(channels) * sampleSize;
-    if (bytes > limits::kMaxImageBytes)
-        throw Refusal(fmt::format("the image needs {} MiB of memory; at most {} MiB are supported",
-                                  bytes >> 20, limits::kMaxImageBytes >> 20));
-}
+// The attribute that says how a picture covers all directions ("latlong", "cube"), and what
+// OpenImageIO makes of it.
+constexpr const char* kEnvmap = "envmap";
+constexpr const char* kLatLongFormat = "LatLong Environment";
+constexpr const char* kCubeFormat = "CubeFace Environment";
 
 // String attributes that are part of the file's content rather than of how it is stored.
 json attributesOf(const OIIO::ImageSpec& spec) {
@@ -116,39 +107,16 @@ json attributesOf(const OIIO::ImageSpec& spec) {
         if (!storage && attribute.type() == OIIO::TypeDesc::STRING)
             result[name] = attribute.get_string();
     }
+    // OpenEXR's own attributes, as text.
+    const std::string_view kind = spec.get_string_attribute("textureformat");
+    if (kind == kLatLongFormat || kind == kCubeFormat)
+        result[kEnvmap] = kind == kCubeFormat ? "cube" : "latlong";
+    constexpr OIIO::TypeDesc kEightFloats(OIIO::TypeDesc::FLOAT, 8);
+    if (const auto* found = spec.find_attribute("chromaticities", kEightFloats)) {
+        const auto* values = static_cast<const float*>(found->data());
+        result["chromaticities"] = fmt::format("{}", fmt::join(values, values + 8, " "));
+    }
     return result;
-}
-
-json describe(const OIIO::ImageSpec& spec) {
-    const std::string pixelType = spec.format.c_str();
-    const Frame frame = frameOf(spec);
-    return {{"name", spec.get_string_attribute("oiio:subimagename")},
-            {"width", frame.width},
-            {"height", frame.height},
-            {"channels", spec.nchannels},
-            {"channelNames", spec.channelnames},
-            {"stored", pixelType},
-            {"attributes", attributesOf(spec)}};
-}
-
-// Radiance files may store their rows and columns in another order (Exif's orientations 1…4 are
-// the ones without transposition); the picture is turned so that row 0 is the top.
-void orient(std::span<std::byte> pixels, const Frame& frame, std::size_t pixelSize,
-            int orientation) {
-    const auto width = static_cast<std::size_t>(frame.width);
-    const auto height = static_cast<std::size_t>(frame.height);
-    const std::size_t row = width * pixelSize;
-    if (orientation == 3 || orientation == 4)
-        for (std::size_t y = 0; y < height / 2; ++y)
-            std::swap_ranges(pixels.data() + y * row, pixels.data() + (y + 1) * row,
-                             pixels.data() + (height - 1 - y) * row);
-    if (orientation == 2 || orientation == 3)
-        for (std::size_t y = 0; y < height; ++y)
-            for (std::size_t x = 0; x < width / 2; ++x) {
-                std::byte* a = pixels.data() + y * row + x * pixelSize;
-                std::byte* b = pixels.data() + y * row + (width - 1 - x) * pixelSize;
-                std::swap_ranges(a, a + pixelSize, b);
-            }
 }
 
 // libjpeg fills what a cut-off file lacks with grey and calls it a warning; the end marker tells.
@@ -179,25 +147,106 @@ struct PartLayout {
     OIIO::ImageSpec spec;
     Frame frame;
     Sample sample;
+    int firstChannel = 0, channels = 0; // what is wanted of it
+    ImageSize target;                   // the frame's, or smaller
     std::size_t offset = 0, size = 0;
+
+    [[nodiscard]] bool reduced() const { return target != ImageSize{frame.width, frame.height}; }
+    [[nodiscard]] std::size_t pixelSize() const {
+        return static_cast<std::size_t>(channels) * sample.size;
+    }
 };
+
+json describe(const PartLayout& part) {
+    const auto names = part.spec.channelnames.begin() + part.firstChannel;
+    return {{"name", part.spec.get_string_attribute("oiio:subimagename")},
+            {"width", part.target.width},
+            {"height", part.target.height},
+            {"channels", part.channels},
+            {"channelNames", std::vector<std::string>(names, names + part.channels)},
+            {"stored", part.spec.format.c_str()},
+            {"attributes", attributesOf(part.spec)},
+            {"type", part.sample.name},
+            {"offset", part.offset}};
+}
+
+// Red, green and blue of a part, or its luminance: "R" "G" "B", also inside a layer
+// ("beauty.R"), or "Y". Unnamed channels of other formats are colours from the first on.
+bool selectColor(PartLayout& part, bool named) {
+    if (!named) {
+        part.channels = std::min(part.channels, part.channels < 3 ? 1 : 3);
+        return true;
+    }
+    const std::vector<std::string>& names = part.spec.channelnames;
+    const auto select = [&](std::initializer_list<const char*> wanted) {
+        const std::size_t count = wanted.size();
+        for (std::size_t i = 0; i + count <= names.size(); ++i) {
+            const std::string layer = names[i].substr(0, names[i].rfind('.') + 1);
+            if (std::equal(wanted.begin(), wanted.end(), names.begin() + static_cast<int>(i),
+                           [&](const char* letter, const std::string& name) {
+                               return name == layer + letter;
+                           })) {
+                part.firstChannel = static_cast<int>(i);
+                part.channels = static_cast<int>(count);
+                return true;
+            }
+        }
+        return false;
+    };
+    return select({"R", "G", "B"}) || select({"Y"});
+}
+
+[[noreturn]] void damaged(const std::string& format, OIIO::ImageInput& input) {
+    throw Refusal("the file is damaged or cut short; save or download it again",
+                  libraryText(format, input.geterror()));
+}
+
+// Averages the picture down while it is read, a few rows at a time.
+void readReduced(OIIO::ImageInput& input, const std::string& format, int index,
+                 const PartLayout& part, std::span<std::byte> target) {
+    const OIIO::ImageSpec& spec = part.spec;
+    const int rows = spec.tile_width > 0 ? std::max(1, spec.tile_height) : 64;
+    const auto row = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(part.channels);
+    std::vector<float> samples(row * static_cast<std::size_t>(rows));
+    RowReducer reducer(spec.width, spec.height, part.target.width, part.target.height,
+                       part.channels);
+    const int lastChannel = part.firstChannel + part.channels;
+    for (int y = 0; y < spec.height; y += rows) {
+        const int begin = spec.y + y;
+        const int end = spec.y + std::min(y + rows, spec.height);
+        const bool ok =
+            spec.tile_width > 0
+                ? input.read_tiles(index, 0, spec.x, spec.x + spec.width, begin, end, spec.z,
+                                   spec.z + 1, part.firstChannel, lastChannel,
+                                   OIIO::TypeDesc::FLOAT, samples.data())
+                : input.read_scanlines(index, 0, begin, end, spec.z, part.firstChannel, lastChannel,
+                                       OIIO::TypeDesc::FLOAT, samples.data());
+        if (!ok || input.has_error())
+            damaged(format, input);
+        for (int i = 0; i < end - begin; ++i)
+            reducer.addRow(std::span(samples).subspan(static_cast<std::size_t>(i) * row, row));
+    }
+    std::memcpy(target.data(), reducer.result().data(), reducer.result().size_bytes());
+}
 
 void readPart(OIIO::ImageInput& input, const std::string& format, int index, const PartLayout& part,
               std::span<std::byte> target) {
+    if (part.reduced())
+        return readReduced(input, format, index, part, target);
     // OpenImageIO 2.4 says of a TIFF with missing strips that it was read, but keeps the error.
     const auto read = [&](std::byte* pixels) {
         const bool ok =
-            input.read_image(index, 0, 0, part.spec.nchannels, part.sample.type, pixels);
+            input.read_image(index, 0, part.firstChannel, part.firstChannel + part.channels,
+                             part.sample.type, pixels);
         if (!ok || input.has_error())
-            throw Refusal("the file is damaged or cut short; save or download it again",
-                          libraryText(format, input.geterror()));
+            damaged(format, input);
     };
-    const std::size_t pixelSize = static_cast<std::size_t>(part.spec.nchannels) * part.sample.size;
+    const std::size_t pixelSize = part.pixelSize();
     if (!part.frame.cropped) {
         read(target.data());
         return;
     }
-    checkSize(part.spec.width, part.spec.height, part.spec.nchannels, part.sample.size);
+    checkImageSize(part.spec.width, part.spec.height, part.channels, part.sample.size);
     std::vector<std::byte> data(static_cast<std::size_t>(part.spec.width) *
                                 static_cast<std::size_t>(part.spec.height) * pixelSize);
     read(data.data());
@@ -215,6 +264,34 @@ void readPart(OIIO::ImageInput& input, const std::string& format, int index, con
         std::memcpy(target.data() + to * pixelSize, data.data() + from * pixelSize,
                     static_cast<std::size_t>(right - left) * pixelSize);
     }
+}
+
+// Files that OpenImageIO does not open because channels have resolutions of their own.
+Reply decodeSubsampled(const std::string& file, bool inspect, const std::string& libraryError) {
+    auto image = readLuminanceChroma(file, inspect);
+    if (!image)
+        throw Refusal("channels of the file are stored at a lower resolution than others, which is "
+                      "not supported; save it without subsampling",
+                      libraryText("openexr", libraryError));
+    json attributes = json::object();
+    if (image->chromaticities)
+        attributes["chromaticities"] = fmt::format("{}", fmt::join(*image->chromaticities, " "));
+    const json part = {{"name", ""},
+                       {"width", image->width},
+                       {"height", image->height},
+                       {"channels", 3},
+                       {"channelNames", {"R", "G", "B"}},
+                       {"stored", "half"},
+                       {"attributes", attributes},
+                       {"type", "f32"},
+                       {"offset", 0}};
+    Reply reply;
+    reply.header = toJsonText({{"format", "openexr"}, {"parts", json::array({part})}});
+    reply.payload = allocate(image->rgb.size() * sizeof(float));
+    if (!image->rgb.empty())
+        std::memcpy(reply.payload.writable().data(), image->rgb.data(),
+                    image->rgb.size() * sizeof(float));
+    return reply;
 }
 
 void shareDisplayWindow(std::vector<OIIO::ImageSpec>& specs) {
@@ -248,6 +325,8 @@ void prepareImageCodec() {
 
 Reply decodeImage(const json& request, int payloadFd) {
     const auto format = request.at("format").get<std::string>();
+    if (format == "hdr")
+        return decodeRadiance(request, payloadFd);
     if (std::find(kReaders.begin(), kReaders.end(), format) == kReaders.end())
         throw Refusal("this image format is not supported", format);
     allowThreads();
@@ -255,50 +334,73 @@ Reply decodeImage(const json& request, int payloadFd) {
     if (!input)
         throw Refusal("this image format is not supported", OIIO::geterror());
 
+    const bool inspect = request.value("inspect", false);
+    const bool allParts = inspect || (request.value("allParts", false) && format == "openexr");
+    const bool colorOnly = request.value("colorOnly", false) && !inspect;
+    const int maxSide = inspect ? 0 : request.value("maxSide", 0);
+
     // PNG, TIFF … store colour that is not multiplied by alpha; it is wanted as it is.
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
     OIIO::ImageSpec first;
-    if (!input->open(fmt::format("/proc/self/fd/{}", payloadFd), first, config))
+    const std::string file = fmt::format("/proc/self/fd/{}", payloadFd);
+    if (!input->open(file, first, config)) {
+        const std::string error = input->geterror();
+        if (format == "openexr" && error.find("Subsampled") != std::string::npos)
+            return decodeSubsampled(file, inspect, error);
         throw Refusal("the file is damaged or not an image of this kind",
-                      libraryText(format, input->geterror()));
-
-    const bool inspect = request.value("inspect", false);
-    const bool allParts = inspect || (request.value("allParts", false) && format == "openexr");
+                      libraryText(format, error));
+    }
 
     // Sizes first, of all parts, before anything is allocated.
     std::vector<PartLayout> parts;
+    std::vector<int> indices;
     std::size_t total = 0;
     json descriptions = json::array();
-    for (int index = 0; index == 0 || allParts; ++index) {
+    std::string skipped; // parts without colour
+    for (int index = 0; index == 0 || allParts || (colorOnly && parts.empty()); ++index) {
         if (!input->seek_subimage(index, 0))
             break;
         if (index >= limits::kMaxImageParts)
             throw Refusal(fmt::format("the file has more than {} parts", limits::kMaxImageParts));
-        PartLayout part{input->spec(), {}, {}, 0, 0};
+        PartLayout part;
+        part.spec = input->spec();
         part.frame = frameOf(part.spec);
         part.sample = sampleFor(part.spec);
+        part.channels = part.spec.nchannels;
         if (part.spec.deep)
             throw Refusal("deep images are not supported; flatten the file first");
         if (part.spec.depth > 1)
             throw Refusal("volume images are not supported");
-        checkSize(part.spec.width, part.spec.height, part.spec.nchannels, part.sample.size);
-        checkSize(part.frame.width, part.frame.height, part.spec.nchannels, part.sample.size);
+        if (colorOnly && !selectColor(part, format == "openexr")) {
+            skipped += fmt::format("{}{}", skipped.empty() ? "" : ", ",
+                                   fmt::join(part.spec.channelnames, " "));
+            continue;
+        }
+        part.target = {part.frame.width, part.frame.height};
+        if (part.sample.type == OIIO::TypeDesc::FLOAT && !part.frame.cropped) {
+            checkImageSize(part.frame.width, part.frame.height, 1, 1);
+            part.target = reducedSize(part.target, maxSide);
+        } else {
+            checkImageSize(part.spec.width, part.spec.height, part.channels, part.sample.size);
+        }
+        checkImageSize(part.target.width, part.target.height, part.channels, part.sample.size);
         part.offset = total;
-        part.size = static_cast<std::size_t>(part.frame.width) *
-                    static_cast<std::size_t>(part.frame.height) *
-                    static_cast<std::size_t>(part.spec.nchannels) * part.sample.size;
+        part.size = static_cast<std::size_t>(part.target.width) *
+                    static_cast<std::size_t>(part.target.height) * part.pixelSize();
         if (!inspect) {
             total += (part.size + 15) / 16 * 16;
             if (total > limits::kMaxImageBytes)
                 throw Refusal("the parts of the file together need too much memory");
         }
-        json entry = describe(part.spec);
-        entry["type"] = part.sample.name;
-        entry["offset"] = part.offset;
-        descriptions.push_back(std::move(entry));
+        descriptions.push_back(describe(part));
         parts.push_back(std::move(part));
+        indices.push_back(index);
     }
+    if (parts.empty() && !skipped.empty())
+        throw Refusal(fmt::format("the file holds no colours: it has the channels {} instead of R, "
+                                  "G, B or Y; save its colours",
+                                  skipped.substr(0, 200)));
     if (parts.empty())
         throw Refusal("the file holds no image", libraryText(format, input->geterror()));
 
@@ -309,11 +411,7 @@ Reply decodeImage(const json& request, int payloadFd) {
         return reply;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const auto target = reply.payload.writable().subspan(parts[i].offset, parts[i].size);
-        readPart(*input, format, static_cast<int>(i), parts[i], target);
-        if (format == "hdr")
-            orient(target, parts[i].frame,
-                   static_cast<std::size_t>(parts[i].spec.nchannels) * parts[i].sample.size,
-                   parts[i].spec.get_int_attribute("Orientation", 1));
+        readPart(*input, format, indices[i], parts[i], target);
     }
     if (format == "jpeg")
         requireJpegEnd(payloadFd);
@@ -322,6 +420,8 @@ Reply decodeImage(const json& request, int payloadFd) {
 
 Reply encodeImage(const json& request, std::span<const std::byte> payload) {
     const auto format = request.at("format").get<std::string>();
+    if (format == "hdr")
+        return encodeRadiance(request, payload);
     if (std::find(kWriters.begin(), kWriters.end(), format) == kWriters.end())
         throw Refusal("this image format cannot be written", format);
     allowThreads();
@@ -349,7 +449,10 @@ Reply encodeImage(const json& request, std::span<const std::byte> payload) {
                 spec.attribute("oiio:subimagename", name);
             }
             for (const auto& [key, value] : part.at("attributes").items())
-                spec.attribute(key, value.get<std::string>());
+                if (key == kEnvmap)
+                    spec.attribute("textureformat", value == "cube" ? kCubeFormat : kLatLongFormat);
+                else
+                    spec.attribute(key, value.get<std::string>());
         } else if (format == "jpeg") {
             spec.attribute("Compression",
                            fmt::format("jpeg:{}", request.at("jpegQuality").get<int>()));

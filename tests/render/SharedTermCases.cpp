@@ -101,6 +101,19 @@ void extremes(InputMaker& make, In in) {
         in[3 + i] = length > 1e-3f ? in[3 + i] / length : in[i];
 }
 
+// Colours of every exponent, with the numbers at which the format ends mixed in.
+void rgbe(InputMaker& make, In in) {
+    static constexpr float kEdges[] = {0.0f,        -1.0f, 1e-32f,          1.1e-32f, 1.6e38f,
+                                       1.69477e38f, 3e38f, 1.7014118346e38f, 65504.0f, 0.9999f};
+    for (float& value : in)
+        value = make.uniform() < 0.2f ? kEdges[static_cast<int>(make.uniform(0.0f, 9.99f))]
+                                      : std::exp2(make.uniform(-100.0f, 126.0f));
+    for (std::size_t i = 3; i < 7; ++i) // bytes to decode, their exponent in the normal range
+        in[i] = std::floor(make.uniform(i == 6 ? 20.0f : 0.0f, 255.99f));
+    in[7] = in[0] * make.uniform();
+    in[8] = in[0] * make.uniform();
+}
+
 #define I(k) in[k]
 #define O(k) out[k]
 #define CASE(name, prepare, scale, ...)                                                            \
@@ -267,6 +280,11 @@ std::vector<SharedTermCase> makeCases() {
             CASE("sRGB", signedNumbers, 1e-2f, O(0) = srgbEncode(I(0)); O(1) = srgbDecode(I(1));
                  OUT3(2, srgbEncode(vec3(I(2), I(3), I(4))));
                  OUT3(5, srgbDecode(vec3(I(2), I(3), I(4))));),
+            CASE("RGBE", rgbe, 1e-30f, vec4 e = rgbeEncode(vec3(I(0), I(1), I(2))); O(0) = e.x;
+                 O(1) = e.y; O(2) = e.z; O(3) = e.w; vec4 near = rgbeEncode(vec3(I(7), I(0), I(8)));
+                 O(4) = near.x; O(5) = near.y; O(6) = near.z; O(7) = near.w;
+                 OUT3(8, rgbeDecode(vec4(I(3), I(4), I(5), I(6)))); O(11) = rgbeClamp(I(9));
+                 OUT3(12, rgbeDecode(vec4(I(3), I(4), I(5), 0.0f)));),
             CASE("sampling", unit, 1e-1f, vec2 u = vec2(I(0), I(1)); vec2 disc = concentricDisc(u);
                  O(0) = disc.x; O(1) = disc.y; OUT3(2, cosineHemisphere(u));
                  O(5) = cosineHemispherePdf(I(2)); OUT3(6, uniformSphere(u));),

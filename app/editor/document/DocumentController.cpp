@@ -81,6 +81,15 @@ void DocumentController::push(DocumentCommand* command) {
 void DocumentController::setParameter(const ParameterInfo& info, Target target,
                                       const ParameterValue& value, DragSession session) {
     CHECK(info.scope == target.scope);
+    // What a file shows depends on its layout: it is read anew.
+    if (info.id == "environment.layout") {
+        const Environment& environment = m_document.environment;
+        if (ParameterValue(static_cast<int>(environment.layout)) != value)
+            readEnvironment(QString::fromStdString(environment.source),
+                            static_cast<EnvironmentLayout>(std::get<int>(value)),
+                            tr("Change %1").arg(fromText(info.label)));
+        return;
+    }
     const QString label = fromText(info.label);
     const std::string name = nameOf(m_document, target);
     pushParameters(target, {{&info, value}}, session,

@@ -75,7 +75,7 @@ class DocumentController : public QObject {
     // `map` is a parameter of type Map. An image that cannot be read leaves the slot as it was.
     void setMap(const ParameterInfo& map, Target target, const QString& source);
     void clearMap(const ParameterInfo& map, Target target);
-    void setEnvironment(const QString& source); // a file or "builtin:NAME"
+    void setEnvironment(const QString& source); // a file or "builtin:NAME"; its layout is guessed
 
     // --- Generated surroundings: their image follows each edit, a draft first --------------------
     void setEnvironmentKind(EnvironmentKind kind);       // Softboxes without one get the first rig
@@ -132,6 +132,7 @@ class DocumentController : public QObject {
     void push(DocumentCommand* command);
     void pushParameters(Target target, const std::vector<ParameterEdit>& edits, DragSession session,
                         const QString& text);
+    void readEnvironment(const QString& source, EnvironmentLayout layout, const QString& undoText);
     void takeOpened(OpenedScene opened, const QString& scene, const QString& name);
     void replaceDocument(Document document, const QString& filePath, const QString& name,
                          bool pristine);

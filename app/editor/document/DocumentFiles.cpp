@@ -165,31 +165,42 @@ void DocumentController::clearMap(const ParameterInfo& map, Target target) {
 }
 
 void DocumentController::setEnvironment(const QString& source) {
+    readEnvironment(source, EnvironmentLayout::Automatic,
+                    tr("Light with %1").arg(shortName(source)));
+}
+
+void DocumentController::readEnvironment(const QString& source, EnvironmentLayout layout,
+                                         const QString& undoText) {
     const QString title = shortName(source);
-    m_tasks.start(QStringLiteral("environment"), tr("Reading %1").arg(title),
-                  [this, source, title](const JobContext&) -> BackgroundTasks::Apply {
-                      const std::string name = normalizeSource(source.toStdString());
-                      auto notices = std::make_shared<std::vector<Notice>>();
-                      auto image = std::make_shared<Result<ImagePtr>>(
-                          loadEnvironmentImage(m_worker, name, *notices));
-                      return [this, title, name, notices, image] {
-                          if (!image->ok()) {
-                              Q_EMIT noticed(UserNotice::fromError(image->error()));
-                              return;
-                          }
-                          MapSlot sky;
-                          sky.source = name;
-                          sky.image = image->value();
-                          const ParameterEdit kind{&parameter("environment.kind"),
-                                                   static_cast<int>(EnvironmentKind::Image)};
-                          pushParameters({Scope::Environment, 0},
-                                         {kind, {&parameter("environment.image"), sky}}, 0,
-                                         tr("Light with %1").arg(title));
-                          const UserNotice notice = UserNotice::fromImport(title, *notices, {});
-                          if (!notice.text.isEmpty())
-                              Q_EMIT noticed(notice);
-                      };
-                  });
+    m_tasks.start(
+        QStringLiteral("environment"), tr("Reading %1").arg(title),
+        [this, source, layout, title, undoText](const JobContext& job) -> BackgroundTasks::Apply {
+            const std::string name = normalizeSource(source.toStdString());
+            auto notices = std::make_shared<std::vector<Notice>>();
+            auto image = std::make_shared<Result<ImagePtr>>(
+                loadEnvironmentImage(m_worker, name, *notices, layout, job));
+            return [this, title, name, layout, undoText, notices, image] {
+                const Target environment{Scope::Environment, 0};
+                if (!image->ok()) {
+                    Q_EMIT noticed(UserNotice::fromError(image->error()));
+                    Q_EMIT changed(
+                        {Affects::Nothing, environment}); // rows show what is, not wanted
+                    return;
+                }
+                MapSlot sky;
+                sky.source = name;
+                sky.image = image->value();
+                pushParameters(environment,
+                               {{&parameter("environment.kind"),
+                                 static_cast<int>(EnvironmentKind::Image)},
+                                {&parameter("environment.image"), sky},
+                                {&parameter("environment.layout"), static_cast<int>(layout)}},
+                               0, undoText);
+                const UserNotice notice = UserNotice::fromImport(title, *notices, {});
+                if (!notice.text.isEmpty())
+                    Q_EMIT noticed(notice);
+            };
+        });
 }
 
 void DocumentController::applyLibraryMaterial(Id id, const QString& name) {

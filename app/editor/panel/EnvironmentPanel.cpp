@@ -12,6 +12,7 @@
 #include "app/editor/widget/MapSlotWidget.h"
 #include "app/editor/widget/PanelScroll.h"
 #include "app/editor/widget/SkyGallery.h"
+#include "core/document/Source.h"
 
 #include <QButtonGroup>
 #include <QDateTime>
@@ -37,6 +38,8 @@ bool applies(const ParameterInfo& info, const Document& document, Id) {
         return environment.background == BackgroundMode::Blurred;
     if (info.id.starts_with("environment.sky"))
         return environment.kind == EnvironmentKind::Sky;
+    if (info.id == "environment.layout")
+        return environment.kind == EnvironmentKind::Image && !isBuiltin(environment.source);
     if (info.id == "environment.softboxAmbient")
         return environment.kind == EnvironmentKind::Softboxes;
     return true;
