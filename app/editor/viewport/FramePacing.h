@@ -7,7 +7,7 @@ namespace patina::editor {
 
 class FramePacing {
   public:
-    // Side length relative to the widget's: 1, ¾, ½ or 3⁄8.
+    // Side length relative to the widget's: 1 … ¼.
     [[nodiscard]] float scale() const;
     [[nodiscard]] int samples() const; // MSAA: 1 or 4
     [[nodiscard]] bool moving() const { return m_stage == Stage::Moving; }

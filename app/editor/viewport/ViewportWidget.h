@@ -48,6 +48,9 @@ class ViewportWidget : public QOpenGLWidget {
     void setOverlaysVisible(bool visible); // ground grid, selection outline, light icons
     [[nodiscard]] bool overlaysVisible() const { return m_overlays; }
 
+    // Of the next frame in device pixels: the widget's, or less while the hand moves.
+    [[nodiscard]] QSize frameSize() const;
+
     // Milliseconds of the slowest frame since the last call (tests and the status bar).
     double takeSlowestFrameMs();
 
@@ -81,7 +84,6 @@ class ViewportWidget : public QOpenGLWidget {
     void turnEnvironment(float pixels);
     void pickAt(const QPointF& position);
     [[nodiscard]] float viewAspect() const;
-    [[nodiscard]] QSize frameSize() const; // in device pixels, reduced while moving
 
     DocumentController& m_controller;
     SelectionModel& m_selection;

@@ -1,0 +1,118 @@
+// How fluid the viewport is at 1280 × 720: frame times are printed, not asserted, for they depend
+// on the machine (run it alone: ctest -R test_frame_times -V).
+
+#include "tests/app/editor/EditorFixture.h"
+
+#include "app/editor/document/Commands.h"
+#include "core/library/Library.h"
+
+#include <QElapsedTimer>
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <vector>
+
+namespace patina::editor {
+namespace {
+
+class FrameTimeTest : public EditorTest {
+  protected:
+    static ViewportWidget& viewport() { return window->viewport(); }
+
+    // 100,352 triangles, five maps, the studio's light and four lights.
+    static void openLitKnot() {
+        viewport().setFixedSize(1280, 720);
+        controller().openScene(QStringLiteral("builtin:torus-knot"));
+        ASSERT_TRUE(settled(*session));
+        ASSERT_GT(document().triangleCount(), 100'000u);
+        const Id material = document().materials.front().id;
+        const Material maps = library::material("worn-painted-metal").value();
+        for (const auto& [name, slot] :
+             {std::pair("material.baseColor.map", &maps.baseColorMap),
+              std::pair("material.metallic.map", &maps.metallicMap),
+              std::pair("material.perceptualRoughness.map", &maps.perceptualRoughnessMap),
+              std::pair("material.normal.map", &maps.normalMap),
+              std::pair("material.occlusion.map", &maps.occlusionMap)})
+            controller().setMap(*findParameter(name), Target{Scope::Material, material},
+                                QString::fromStdString(slot->source));
+        ASSERT_TRUE(settled(*session));
+        for (int i = 0; i < 4; ++i)
+            controller().addLight(i < 2 ? LightType::Point : LightType::Directional);
+    }
+};
+
+double processMs() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+// Orbits with the left button held for some time and prints the frames it took.
+class Drag {
+  public:
+    Drag(ViewportWidget& viewport, const char* name)
+        : m_viewport(viewport)
+        , m_name(name)
+        , m_connection(QObject::connect(&viewport, &ViewportWidget::frameRendered, &viewport,
+                                        [this](double ms) { m_times.push_back(ms); })) {}
+
+    void run(int milliseconds) {
+        const QPoint center = m_viewport.rect().center();
+        QTest::mousePress(&m_viewport, Qt::LeftButton, Qt::NoModifier, center);
+        QElapsedTimer clock;
+        clock.start();
+        const double cpu = processMs();
+        for (int i = 0; clock.elapsed() < milliseconds; ++i) {
+            const std::size_t frames = m_times.size();
+            const int x = i % 160 < 80 ? i % 160 : 160 - i % 160;
+            QTest::mouseMove(&m_viewport, center + QPoint(10 + x, i % 7)); // more than a click
+            ASSERT_TRUE(eventually([&] { return m_times.size() > frames; }));
+            m_width = std::min(m_width, m_viewport.frameSize().width());
+        }
+        const double seconds = static_cast<double>(clock.elapsed()) * 1e-3;
+        const double cpuMs = processMs() - cpu;
+        QTest::mouseRelease(&m_viewport, Qt::LeftButton, Qt::NoModifier, center);
+        ASSERT_FALSE(m_times.empty());
+        std::vector<double> sorted = m_times;
+        std::sort(sorted.begin(), sorted.end());
+        const auto quantile = [&](double q) {
+            return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
+        };
+        std::printf(
+            "[ figures  ] %s: %.1f frames/s; a frame takes %.1f ms (median), %.1f ms (95th "
+            "percentile), %.1f ms (slowest), %.1f ms of processor time; coarsest width %d\n",
+            m_name, static_cast<double>(sorted.size()) / seconds, quantile(0.5), quantile(0.95),
+            sorted.back(), cpuMs / static_cast<double>(sorted.size()), m_width);
+    }
+    ~Drag() { QObject::disconnect(m_connection); }
+    [[nodiscard]] int coarsestWidth() const { return m_width; }
+
+  private:
+    ViewportWidget& m_viewport;
+    const char* m_name;
+    std::vector<double> m_times;
+    int m_width = 1 << 16;
+    QMetaObject::Connection m_connection;
+};
+
+TEST_F(FrameTimeTest, ADragIsFluidAndRestIsSharp) {
+    openLitKnot();
+    const QSize full = viewport().size() * viewport().devicePixelRatioF();
+    ASSERT_TRUE(eventually([&] { return viewport().frameSize() == full; }));
+    Drag drag(viewport(), "dragging");
+    drag.run(3000);
+    EXPECT_LE(drag.coarsestWidth(), full.width());
+    EXPECT_TRUE(eventually([&] { return viewport().frameSize() == full; })) << "refines at rest";
+}
+
+TEST_F(FrameTimeTest, AnEnvironmentArrivesWhileTheHandMoves) {
+    openLitKnot();
+    Drag(viewport(), "dragging before").run(1000);
+    controller().setEnvironment(QStringLiteral("builtin:sunset"));
+    Drag(viewport(), "while an environment arrives").run(3000);
+    ASSERT_TRUE(settled(*session));
+    EXPECT_EQ(document().environment.source, "builtin:sunset");
+}
+
+} // namespace
+} // namespace patina::editor
