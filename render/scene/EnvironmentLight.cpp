@@ -10,6 +10,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
+#include <utility>
 
 namespace patina::render {
 
@@ -104,19 +105,31 @@ void EnvironmentLight::setBackground(const ImagePtr& image) {
         m_background.upload(0, 3, gl::SampleType::F32, &grey);
         return;
     }
+    // Usually nothing has to be changed, and a copy of a large picture would hold a frame up.
+    Image changed;
+    const Image* picture = image.get();
+    const auto change = [&](Image other) {
+        changed = std::move(other);
+        picture = &changed;
+    };
+    if (image->type() != PixelType::F32 || image->encoding() != ColorEncoding::Linear)
+        change(convertImage(*image, PixelType::F32, ColorEncoding::Linear));
     const int limit = m_context.info().maxTextureSize;
-    Image picture = convertImage(*image, PixelType::F32, ColorEncoding::Linear);
-    if (picture.width() > limit || picture.height() > limit)
-        picture = shrinkImage(picture, limit);
-    for (float& value : picture.f32())
-        value = std::min(value, kLargestHalf);
+    if (picture->width() > limit || picture->height() > limit)
+        change(shrinkImage(*picture, limit));
+    const std::span<const float> values = picture->f32();
+    if (std::any_of(values.begin(), values.end(), [](float v) { return v > kLargestHalf; })) {
+        change(Image(*picture));
+        for (float& value : changed.f32())
+            value = std::min(value, kLargestHalf);
+    }
     m_background = gl::Texture(m_context, "background",
                                {.format = gl::PixelFormat::Rgba16f,
-                                .width = picture.width(),
-                                .height = picture.height(),
+                                .width = picture->width(),
+                                .height = picture->height(),
                                 .levels = 0});
-    m_background.upload(0, std::min(picture.channels(), 4), gl::SampleType::F32,
-                        picture.f32().data());
+    m_background.upload(0, std::min(picture->channels(), 4), gl::SampleType::F32,
+                        picture->f32().data());
     m_background.generateMipmaps();
     m_background.setSampling(gl::Filter::Trilinear, gl::Wrap::RepeatU);
 }
