@@ -32,8 +32,8 @@ std::size_t countClamped(const std::vector<CubeLevel>& levels) {
     return count;
 }
 
-gl::Texture makeDfg(gl::Context& context, const ShadingModel& model) {
-    const Image table = computeDfgTable(128, model.distribution, iblVisibility(model.visibility));
+gl::Texture makeDfg(gl::Context& context, Distribution distribution, Visibility visibility) {
+    const Image table = computeDfgTable(128, distribution, visibility);
     gl::Texture texture(
         context, "DFG table",
         {.format = gl::PixelFormat::Rgba16f, .width = table.width(), .height = table.height()});
@@ -66,8 +66,8 @@ IblMaps uniformIbl(const glm::vec3& radiance) {
 }
 
 EnvironmentLight::EnvironmentLight(gl::Context& context)
-    : m_context(context)
-    , m_dfg(makeDfg(context, m_model)) {
+    : m_context(context) {
+    setModel(ShadingModel{});
     setIbl(uniformIbl(glm::vec3(kGreySky)));
     setBackground(nullptr);
 }
@@ -87,11 +87,11 @@ void EnvironmentLight::setIbl(const IblMaps& maps) {
 }
 
 void EnvironmentLight::setModel(const ShadingModel& model) {
-    const bool same = model.distribution == m_model.distribution &&
-                      iblVisibility(model.visibility) == iblVisibility(m_model.visibility);
-    m_model = model;
-    if (!same)
-        m_dfg = makeDfg(m_context, model);
+    const std::pair terms(model.distribution, iblVisibility(model.visibility));
+    auto known = m_dfgTables.find(terms);
+    if (known == m_dfgTables.end())
+        known = m_dfgTables.emplace(terms, makeDfg(m_context, terms.first, terms.second)).first;
+    m_dfg = &known->second;
 }
 
 void EnvironmentLight::setBackground(const ImagePtr& image) {
@@ -135,7 +135,10 @@ void EnvironmentLight::setBackground(const ImagePtr& image) {
 }
 
 std::size_t EnvironmentLight::memoryBytes() const {
-    return m_prefiltered.memoryBytes() + m_dfg.memoryBytes() + m_background.memoryBytes();
+    std::size_t bytes = m_prefiltered.memoryBytes() + m_background.memoryBytes();
+    for (const auto& [terms, table] : m_dfgTables)
+        bytes += table.memoryBytes();
+    return bytes;
 }
 
 void EnvironmentLight::fill(const Environment& environment, FrameBlock& frame) const {

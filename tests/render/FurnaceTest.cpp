@@ -128,6 +128,14 @@ TEST_F(Furnace, EveryModelHasItsOwnTable) {
                     << name << ", N·V " << NoV;
             });
         }
+    // Back to a model of before: its table is still there, and is the one in use.
+    model() = ShadingModel{};
+    model().multiScatter = false;
+    material().perceptualRoughness = 0.7f;
+    forEachPixel([&](float NoV, float seen) {
+        const glm::dvec3 exact = integrateDfg(NoV, 0.7f);
+        EXPECT_NEAR(seen, exact.x + exact.y, 5e-3) << NoV;
+    });
 }
 
 TEST_F(Furnace, WhiteNonMetalReturnsNoMoreThanEverything) {
