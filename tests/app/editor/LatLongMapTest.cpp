@@ -4,6 +4,7 @@
 #include "app/editor/viewport/IblUpdater.h"
 #include "core/light/LatLongGrid.h"
 
+#include <QTemporaryDir>
 #include <QTest>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -105,7 +106,8 @@ ImagePtr evenEnvironment(float radiance) {
 
 // Requests faster than the work: light keeps coming, and the last one wins.
 TEST(IblUpdater, ADragIsNotStarved) {
-    IblUpdater updater;
+    QTemporaryDir cache;
+    IblUpdater updater{std::filesystem::path(cache.path().toStdString())};
     std::vector<float> lights;
     QObject::connect(&updater, &IblUpdater::ready, &updater,
                      [&] { lights.push_back(updater.maps()->prefiltered.back().texels[0].x); });
