@@ -100,7 +100,8 @@ Result<void> run(Session& session, const BakeIblOptions& options) {
                                            {"format", formatName(options.format)}};
 
     session.beginPhase();
-    Result<Document> document = openEnvironmentFor(session, options.environment);
+    Result<Document> document =
+        openEnvironmentFor(session, options.environment, options.environmentLayout);
     if (!document)
         return document.error();
     const Environment& environment = document->environment;

@@ -134,6 +134,12 @@ class Parser {
             ->required()
             ->type_name("OUT");
     }
+    CLI::Option* addLayout(CLI::App* command, std::string& layout) {
+        return command
+            ->add_option("--environment-layout", layout,
+                         "How the HDR shows the surroundings (default: guessed): " + kLayouts)
+            ->type_name("NAME");
+    }
     void addBakeFiles(CLI::App* command, const char* name, std::vector<std::string>& bakes,
                       const char* help) {
         command->add_option(name, bakes, help)
@@ -171,9 +177,7 @@ class Parser {
                           "Picture: .png, .jpg, .tif, .tga as displayed, .exr or .hdr linear");
         c->add_option("--environment", o.environment, "Surroundings that light the scene")
             ->type_name("HDR");
-        c->add_option("--environment-layout", o.environmentLayout,
-                      "How the HDR shows the surroundings (default: guessed): " + kLayouts)
-            ->type_name("NAME");
+        addLayout(c, o.environmentLayout);
         c->add_option("--size", o.size, "Pixels")->capture_default_str()->type_name("WxH");
         c->add_option("--samples", o.samples, "Samples per pixel against jagged edges (MSAA)")
             ->check(plain(CLI::IsMember({1, 2, 4, 8, 16})))
@@ -248,6 +252,7 @@ class Parser {
         c->add_option("-o,--output", o.output, "Folder to write: new, empty, or an earlier bake")
             ->required()
             ->type_name("DIR");
+        addLayout(c, o.environmentLayout);
         c->add_option("--size", o.size,
                       "Side of the sharpest cubemap's faces in texels: 16, 32 … 2048")
             ->check(plain(CLI::IsMember({16, 32, 64, 128, 256, 512, 1024, 2048})))
@@ -304,9 +309,11 @@ class Parser {
         c->add_flag("--no-baked-ao", o.noBakedAo, "Leave a project's baked occlusion out");
         c->add_flag("--environment-light", o.environmentLight,
                     "Take the environment's light along (EXT_lights_image_based)");
-        c->add_option("--environment", o.environment,
-                      "Surroundings in place of the scene's; implies --environment-light")
-            ->type_name("HDR");
+        CLI::Option* environment =
+            c->add_option("--environment", o.environment,
+                          "Surroundings in place of the scene's; implies --environment-light")
+                ->type_name("HDR");
+        addLayout(c, o.environmentLayout)->needs(environment);
         c->add_flag("--no-lights", o.noLights, "Leave the lights out");
         c->add_flag("--dry-run", o.dryRun, "Say what would be written, and write nothing");
         addSets(c);

@@ -56,7 +56,8 @@ Result<void> run(Session& session, const ExportOptions& options) {
                                  {"lights", settings.includeLights},
                                  {"environmentLight", settings.includeEnvironment}};
     session.beginPhase();
-    SceneRequest request{options.scene, options.environment, {}, options.bakes};
+    SceneRequest request{options.scene, options.environment, options.environmentLayout,
+                         options.bakes};
     Result<Document> document = openSceneFor(session, request);
     if (!document)
         return document.error();

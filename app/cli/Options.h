@@ -54,7 +54,7 @@ struct BakePrtOptions {
 
 // The defaults of levels and texels depend on other options.
 struct BakeIblOptions {
-    std::string environment, output;
+    std::string environment, environmentLayout, output;
     int size = 256;
     int levels = 0; // 0: down to 4 texels
     IblFileFormat format = IblFileFormat::Exr;
@@ -69,6 +69,7 @@ struct ExportOptions {
     bool jpeg = false;
     int textureSize = 0;           // 0: as they are
     std::string environment;       // replaces the scene's, and is taken along
+    std::string environmentLayout; // of it; empty: guessed
     bool environmentLight = false; // takes the scene's along
     bool noLights = false, noBakedAo = false, dryRun = false;
 };

@@ -210,6 +210,12 @@ Result<Document> openEnvironmentFor(Session& session, const std::string& source,
     if (!layout)
         return layout.error();
     if (extensionOf(source) == ".patina") {
+        if (!layoutName.empty())
+            return Error{ErrorKind::Usage,
+                         "a project knows the layout of its environment; --environment-layout is "
+                         "for images",
+                         source,
+                         {}};
         Result<OpenedScene> opened = openScene(session.worker(), source, session.job());
         if (!opened)
             return opened.error();

@@ -320,6 +320,31 @@ TEST_F(BakeIbl, TurnsAndExposesWithSet) {
     EXPECT_EQ(outcome.json()["settings"]["set"]["environment.rotationDeg"], "90");
 }
 
+// The six faces side by side, as the files of faces have them.
+TEST_F(BakeIbl, ReadsEveryLayout) {
+    constexpr int kSize = 64;
+    Image strip(6 * kSize, kSize, 3, PixelType::F32, ColorEncoding::Linear);
+    for (int face = 0; face < 6; ++face)
+        for (int y = 0; y < kSize; ++y)
+            for (int x = 0; x < kSize; ++x) {
+                const glm::dvec3 value = 2.0 + faceDirection(face, x, y, kSize);
+                for (int c = 0; c < 3; ++c)
+                    strip.f32()[static_cast<std::size_t>((y * 6 + face) * kSize + x) * 3 +
+                                static_cast<std::size_t>(c)] = static_cast<float>(value[c]);
+            }
+    ASSERT_TRUE(saveImage(m_worker, strip, m_folder / "strip.exr").ok());
+    ASSERT_EQ(bake(m_folder / "strip.exr", "guessed", {"--format", "dds"}).status, 0);
+    expectLinear(readDds(bytesOf("guessed/prefiltered.dds")).levels.at(0), 64, 2, 1, 0.03);
+    ASSERT_EQ(bake(m_folder / "strip.exr", "said",
+                   {"--format", "dds", "--environment-layout", "horizontal-strip"})
+                  .status,
+              0);
+    EXPECT_EQ(bytesOf("said/prefiltered.dds"), bytesOf("guessed/prefiltered.dds"));
+    EXPECT_EQ(bake(m_folder / "strip.exr", "no", {"--environment-layout", "nonsense"}).status, 2);
+    EXPECT_EQ(bake("some.patina", "no", {"--environment-layout", "lat-long"}).status, 2);
+    EXPECT_FALSE(fs::exists(m_folder / "no"));
+}
+
 TEST_F(BakeIbl, CountsWhatIsTooBright) {
     writeLatLong(m_folder / "sun.exr",
                  [](const glm::dvec3& d) { return d.z > 0.9 ? glm::dvec3(1e5) : glm::dvec3(1.0); });
