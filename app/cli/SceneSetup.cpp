@@ -144,8 +144,8 @@ Result<EnvironmentLayout> parseLayout(const std::string& name) {
 
 namespace {
 
-// --set, maps first: putting one on raises its number to 1, and numbers given should win. The same
-// goes for an environment and its layout.
+// --set, maps first: putting one on raises its number to 1, and numbers given should win. The
+// layout of an environment last: naming an image starts it anew, and what was given should win.
 Result<void> applySets(Session& session, Document& document) {
     const EnvironmentRecipe before = environmentRecipe(document.environment);
     std::vector<std::pair<std::string, std::string>> assignments;
@@ -156,9 +156,10 @@ Result<void> applySets(Session& session, Document& document) {
         assignments.push_back(*assignment);
         session.report().json()["settings"]["set"][assignment->first] = assignment->second;
     }
-    std::stable_partition(assignments.begin(), assignments.end(), [](const auto& a) {
-        return a.first.ends_with(".map") || a.first == "environment.image";
-    });
+    std::stable_partition(assignments.begin(), assignments.end(),
+                          [](const auto& a) { return a.first.ends_with(".map"); });
+    std::stable_partition(assignments.begin(), assignments.end(),
+                          [](const auto& a) { return a.first != "environment.layout"; });
     for (const auto& [name, value] : assignments)
         if (Result<void> set = setParameter(session, document, name, value); !set)
             return set.error();
