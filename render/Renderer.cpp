@@ -247,6 +247,10 @@ std::optional<Luminance> Renderer::luminance() {
     return m_impl->adaptation.poll();
 }
 
+bool Renderer::luminancePending() const {
+    return m_impl->adaptation.pending();
+}
+
 std::optional<Luminance> Renderer::readLuminance() {
     return m_impl->adaptation.read();
 }

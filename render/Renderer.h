@@ -73,6 +73,7 @@ class Renderer {
     // that of the last frame but one and never waits; readLuminance() waits for the last one.
     [[nodiscard]] std::optional<Luminance> luminance();
     [[nodiscard]] std::optional<Luminance> readLuminance();
+    [[nodiscard]] bool luminancePending() const; // luminance() will have a newer one
 
     // The last frame before tone mapping: linear RGBA floats, top row first, colour premultiplied
     // by alpha (as OpenEXR wants it).

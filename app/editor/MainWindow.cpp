@@ -13,13 +13,12 @@
 #include "app/editor/panel/LogPanel.h"
 #include "app/editor/panel/MaterialPanel.h"
 #include "app/editor/panel/ModelPanel.h"
-#include "app/editor/panel/ParameterList.h"
 #include "app/editor/panel/ScenePanel.h"
+#include "app/editor/panel/ViewPanel.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "app/editor/widget/BusyIndicator.h"
 #include "app/editor/widget/NoticeArea.h"
-#include "app/editor/widget/PanelScroll.h"
 #include "core/base/Log.h"
 #include "core/library/Library.h"
 
@@ -66,6 +65,7 @@ MainWindow::MainWindow(Session& session)
     setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
     m_viewport->setJobs(session.jobs);
+    m_viewport->setDisplays(session.displays);
 
     auto* centre = new QWidget;
     auto* layout = new QVBoxLayout(centre);
@@ -121,15 +121,13 @@ void MainWindow::makeDocks() {
     addDock(QStringLiteral("lights"), tr("Lights"), QStringLiteral("light-sun"),
             tr("Show or hide the list of lights"),
             new LightsPanel(controller, m_session.selection, m_session.thumbnails));
-    auto* view = new PanelScroll;
-    ParameterListSpec viewSpec;
-    viewSpec.scope = Scope::View;
-    viewSpec.target = [] { return std::optional(Target{Scope::View, 0}); };
-    view->contents()->addWidget(
-        new ParameterList(controller, m_session.thumbnails, std::move(viewSpec)));
-    view->contents()->addStretch(1);
-    addDock(QStringLiteral("view"), tr("View"), QStringLiteral("view"),
-            tr("Show or hide exposure, tone mapping and field of view"), view);
+    auto* view = new ViewPanel(controller, m_session.displays, m_session.thumbnails);
+    connect(m_viewport, &ViewportWidget::luminanceMeasured, view, &ViewPanel::setLuminance);
+    QDockWidget* viewDock =
+        addDock(QStringLiteral("view"), tr("View"), QStringLiteral("view"),
+                tr("Show or hide exposure, tone mapping, display and field of view"), view);
+    connect(viewDock, &QDockWidget::visibilityChanged, m_viewport,
+            &ViewportWidget::setLuminanceWanted);
     addDock(QStringLiteral("bake"), tr("Bake"), QStringLiteral("bake"),
             tr("Show or hide the baking of light"), new BakePanel(controller, m_session.jobs));
     addDock(QStringLiteral("model"), tr("Model"), QStringLiteral("model"),
@@ -330,6 +328,9 @@ void MainWindow::connectActions() {
             refreshView();
     });
     connect(m_viewport, &ViewportWidget::frameRendered, this, &MainWindow::showFrameTime);
+    connect(m_viewport, &ViewportWidget::displayRefused, &m_session.displays,
+            &DisplayLoader::refuse);
+    connect(&m_session.displays, &DisplayLoader::noticed, this, &MainWindow::notice);
     connect(m_viewport, &ViewportWidget::contextReady, this,
             [this](const QString& gpu, const QString& version) {
                 m_gpu->setText(

@@ -1,6 +1,7 @@
 // What one run of the editor is made of, apart from its window: who lives longer stands first.
 #pragma once
 
+#include "app/editor/document/DisplayLoader.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/job/JobManager.h"
@@ -12,6 +13,7 @@ namespace patina::editor {
 struct Session {
     WorkerClient worker;
     DocumentController controller{worker};
+    DisplayLoader displays{controller};
     SelectionModel selection{controller};
     Thumbnails thumbnails;
     JobManager jobs{controller};

@@ -7,6 +7,19 @@
 
 namespace patina {
 
+namespace {
+
+// What the photographic operator multiplies luminance with.
+float keyScale(const View& view, const Luminance& luminance) {
+    const float key =
+        view.reinhardAutoKey
+            ? shading::reinhardAutoKey(luminance.adapted, luminance.darkest, luminance.brightest)
+            : view.reinhardKey;
+    return key / luminance.adapted;
+}
+
+} // namespace
+
 bool needsLuminance(const View& view) {
     return view.exposureMode == ExposureMode::Automatic ||
            view.toneMap == ToneMap::ReinhardPhotographic;
@@ -19,13 +32,15 @@ float exposureScale(const View& view, const Luminance& luminance) {
            (automatic ? shading::automaticExposure(luminance.adapted) : 1.0f);
 }
 
+float exposureInForce(const View& view, const Luminance& luminance) {
+    const float key =
+        view.toneMap == ToneMap::ReinhardPhotographic ? keyScale(view, luminance) : 1.0f;
+    return std::log2(exposureScale(view, luminance) * key);
+}
+
 float displayedGrey(const View& view, const Luminance& luminance, float exposed) {
     CHECK(view.toneMap != ToneMap::OpenColorIo);
-    const float key =
-        view.reinhardAutoKey
-            ? shading::reinhardAutoKey(luminance.adapted, luminance.darkest, luminance.brightest)
-            : view.reinhardKey;
-    const shading::ToneCurve curve{static_cast<int>(view.toneMap), key / luminance.adapted,
+    const shading::ToneCurve curve{static_cast<int>(view.toneMap), keyScale(view, luminance),
                                    view.reinhardWhite, view.exponentialK};
     return shading::displayEncode(shading::toneMap(glm::vec3(exposed), curve),
                                   static_cast<int>(view.displayTransfer), view.displayGamma)

@@ -24,6 +24,9 @@ struct Luminance {
 // (The photographic operator exposes by its key, inside of the curve.)
 [[nodiscard]] float exposureScale(const View& view, const Luminance& luminance);
 
+// The whole exposure in EV: exposureScale() and what the photographic operator's key adds.
+[[nodiscard]] float exposureInForce(const View& view, const Luminance& luminance);
+
 // The value, 0…1, that the display is sent for grey of this radiance after exposure. Not for
 // ToneMap::OpenColorIo: DisplayTransform::curve has that.
 [[nodiscard]] float displayedGrey(const View& view, const Luminance& luminance, float exposed);

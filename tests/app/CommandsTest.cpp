@@ -3,9 +3,13 @@
 #include "core/image/ImageIO.h"
 #include "core/worker/WorkerClient.h"
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
+#include <filesystem>
 #include <gmock/gmock.h>
+#include <set>
 
 using namespace patina;
 using namespace patina::test;
@@ -292,4 +296,97 @@ TEST_F(Commands, KeepPartialWritesWhatHasConverged) {
     EXPECT_LT(outcome.json()["samplesDone"], 65536);
     EXPECT_THAT(m_folder.files(), ElementsAre("x.exr"));
     EXPECT_EQ(runPatina({"info", m_folder / "x.exr"}).status, 0);
+}
+
+TEST_F(Commands, RenderToneMapsByName) {
+    std::set<std::string> pictures;
+    for (const char* name : {"clamp", "reinhardPhotographic", "pbrNeutral", "agx"}) {
+        const std::string file = m_folder / (std::string(name) + ".png");
+        const Outcome outcome = runPatina({"render", "builtin:sphere", "--size", "48x32", "--json",
+                                           "--tone-map", name, "-o", file});
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_EQ(outcome.json()["settings"]["toneMap"], name);
+        const Image image = load(file);
+        pictures.emplace(image.u8().begin(), image.u8().end()); // its bytes
+    }
+    EXPECT_EQ(pictures.size(), 4u);
+}
+
+// The eye is used to the picture: brighter surroundings come out the same.
+TEST_F(Commands, RenderExposesAutomatically) {
+    const auto mean = [&](const char* ev, const char* exposure) {
+        const std::string file = m_folder / "exposed.png";
+        const Outcome outcome =
+            runPatina({"render", "builtin:sphere", "--size", "48x32", "--json", "--exposure",
+                       exposure, "--set", std::string("environment.exposureEv=") + ev, "-o", file});
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        double sum = 0.0;
+        const Image image = load(file);
+        for (const std::uint8_t value : image.u8())
+            sum += value;
+        return std::pair(sum / static_cast<double>(image.u8().size()), outcome.json());
+    };
+    const auto [dark, darkJson] = mean("-3", "auto");
+    const auto [bright, brightJson] = mean("3", "auto");
+    EXPECT_NEAR(dark, bright, 1.5);
+    EXPECT_EQ(darkJson["settings"]["exposure"]["mode"], "automatic");
+    EXPECT_NEAR(std::log2(brightJson["logAverageLuminance"].get<double>() /
+                          darkJson["logAverageLuminance"].get<double>()),
+                6.0, 0.1);
+    EXPECT_GT(mean("3", "0").first, mean("-3", "0").first + 40.0) << "fixed exposure stays";
+    const Outcome wrong =
+        runPatina({"render", "builtin:sphere", "--exposure", "bright", "-o", m_folder / "x.png"});
+    EXPECT_EQ(wrong.status, 2);
+    EXPECT_THAT(wrong.err, HasSubstr("auto"));
+}
+
+TEST_F(Commands, RenderThroughOpenColorIo) {
+    ::unsetenv("OCIO");
+    const std::string config = m_folder / "studio.ocio";
+    writeBytes(config, R"(ocio_profile_version: 1
+strictparsing: false
+roles: {scene_linear: light, default: light}
+displays:
+  Monitor:
+    - !<View> {name: White, colorspace: white}
+colorspaces:
+  - !<ColorSpace> {name: light}
+  - !<ColorSpace>
+    name: white
+    from_reference: !<MatrixTransform> {offset: [9, 9, 9, 0]}
+)");
+    const auto render = [&](std::vector<std::string> more, const std::string& file = "x.png") {
+        std::vector<std::string> arguments{"render", "builtin:sphere", "--size", "32x32", "--json",
+                                           "-o",     m_folder / file};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runPatina(arguments);
+    };
+    const Outcome shown =
+        render({"--tone-map", "openColorIo", "--set", "view.ocioConfig=" + config});
+    ASSERT_EQ(shown.status, 0) << shown.err;
+    EXPECT_EQ(shown.json()["settings"]["openColorIo"]["view"], "White");
+    EXPECT_THAT(shown.json()["settings"]["openColorIo"]["workingSpace"].get<std::string>(),
+                HasSubstr("scene_linear"));
+    const Image white = load(m_folder / "x.png");
+    EXPECT_EQ(*std::min_element(white.u8().begin(), white.u8().end()), 255);
+
+    const Outcome none = render({"--tone-map", "openColorIo"}, "none.png");
+    EXPECT_EQ(none.status, 2);
+    EXPECT_THAT(none.err, HasSubstr("view.ocioConfig"));
+    const Outcome missing = render(
+        {"--tone-map", "openColorIo", "--set", "view.ocioConfig=/none/config.ocio"}, "none.png");
+    EXPECT_EQ(missing.status, 66);
+    EXPECT_THAT(missing.err, HasSubstr("/none/config.ocio"));
+    const Outcome unknown = render({"--tone-map", "openColorIo", "--set",
+                                    "view.ocioConfig=" + config, "--set", "view.ocioView=Noir"},
+                                   "none.png");
+    EXPECT_EQ(unknown.status, 65);
+    EXPECT_THAT(unknown.err, HasSubstr("it has White"));
+    EXPECT_FALSE(std::filesystem::exists(m_folder / "none.png"));
+    // Linear pictures need no display.
+    EXPECT_EQ(render({"--tone-map", "openColorIo", "--set", "view.ocioConfig=" + config, "--set",
+                      "view.ocioView=Noir"},
+                     "x.exr")
+                  .status,
+              0);
 }

@@ -104,6 +104,10 @@ class DocumentController : public QObject {
     void detachBake(BakeKind kind);
 
     // --- View ------------------------------------------------------------------------------------
+    // Shows the scene through an OpenColorIO configuration, with its default display and view; an
+    // empty file: through the environment's, or, where there is none, the default tone curve.
+    void setDisplayConfig(const QString& file);
+    void setDisplayView(const QString& display, const QString& view); // empty view: the default
     // Navigation is saved with the document, but is neither an undo step nor a modification.
     void setCamera(const Camera& camera);
 

@@ -7,6 +7,7 @@
 #include "core/base/Check.h"
 #include "core/document/DocumentIO.h"
 #include "core/document/Scene.h"
+#include "core/image/DisplayTransform.h"
 #include "core/library/Library.h"
 
 #include <QFileInfo>
@@ -203,6 +204,31 @@ void DocumentController::readEnvironment(const QString& source, EnvironmentLayou
         });
 }
 
+void DocumentController::setDisplayConfig(const QString& file) {
+    const std::string config =
+        file.isEmpty() ? std::string() : QFileInfo(file).absoluteFilePath().toStdString();
+    ToneMap curve = ToneMap::OpenColorIo;
+    if (openColorIoConfig(config).empty())
+        curve = View().toneMap;
+    else if (config.empty())
+        curve = m_document.view.toneMap;
+    pushParameters({Scope::View, 0},
+                   {{&parameter("view.ocioConfig"), config},
+                    {&parameter("view.ocioDisplay"), std::string()},
+                    {&parameter("view.ocioView"), std::string()},
+                    {&parameter("view.toneMap"), static_cast<int>(curve)}},
+                   0,
+                   file.isEmpty() ? tr("Leave OpenColorIO Configuration")
+                                  : tr("Show Through %1").arg(QFileInfo(file).fileName()));
+}
+
+void DocumentController::setDisplayView(const QString& display, const QString& view) {
+    pushParameters({Scope::View, 0},
+                   {{&parameter("view.ocioDisplay"), display.toStdString()},
+                    {&parameter("view.ocioView"), view.toStdString()}},
+                   0, tr("Show %1").arg(view.isEmpty() ? display : view));
+}
+
 void DocumentController::applyLibraryMaterial(Id id, const QString& name) {
     const QString title = shortName(QStringLiteral("builtin:") + name);
     m_tasks.start(
@@ -235,6 +261,9 @@ void DocumentController::addFiles(const QStringList& files, Id baseColorOf) {
             break;
         case FileKind::Project:
             openScene(file);
+            break;
+        case FileKind::DisplayConfig:
+            setDisplayConfig(file);
             break;
         case FileKind::Unknown:
             Q_EMIT noticed({NoticeKind::Error,

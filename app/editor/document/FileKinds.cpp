@@ -45,6 +45,8 @@ FileKind fileKind(const QString& file) {
         return FileKind::Environment;
     if (kImageSuffixes.contains(suffix))
         return FileKind::Image;
+    if (suffix == QLatin1String("ocio"))
+        return FileKind::DisplayConfig;
     return FileKind::Unknown;
 }
 
@@ -69,6 +71,10 @@ QString environmentFilter() {
 
 QString projectFilter() {
     return filter(tr("Patina projects"), {QStringLiteral("patina")});
+}
+
+QString displayConfigFilter() {
+    return filter(tr("OpenColorIO configurations"), {QStringLiteral("ocio")});
 }
 
 } // namespace patina::editor

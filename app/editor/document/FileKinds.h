@@ -6,7 +6,7 @@
 
 namespace patina::editor {
 
-enum class FileKind { Project, Model, Environment, Image, Unknown };
+enum class FileKind { Project, Model, Environment, Image, DisplayConfig, Unknown };
 
 [[nodiscard]] FileKind fileKind(const QString& file);
 
@@ -16,5 +16,6 @@ enum class FileKind { Project, Model, Environment, Image, Unknown };
 [[nodiscard]] QString imageFilter();
 [[nodiscard]] QString environmentFilter();
 [[nodiscard]] QString projectFilter();
+[[nodiscard]] QString displayConfigFilter();
 
 } // namespace patina::editor

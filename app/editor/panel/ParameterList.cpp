@@ -38,16 +38,19 @@ ParameterList::ParameterList(DocumentController& controller, Thumbnails& thumbna
     for (const ParameterInfo* info : infos) {
         ParameterRow* row = makeParameterRow(*info, context);
         m_rows.push_back(row);
-        // A lone group needs no heading: the dock has one.
-        if (groups.size() > 1 && info->group != group) {
+        // A lone group usually needs no heading: the dock has one.
+        if ((groups.size() > 1 || m_spec.loneHeading) && info->group != group) {
             section = new Section(toQString(info->group));
             layout->addWidget(section);
+            m_sections.push_back({section, {}});
             group = info->group;
         }
-        if (section)
+        if (section) {
             section->add(row);
-        else
+            m_sections.back().second.push_back(row);
+        } else {
             layout->addWidget(row);
+        }
     }
     connect(&controller, &DocumentController::changed, this, &ParameterList::documentChanged);
     refresh();
@@ -90,6 +93,10 @@ void ParameterList::refreshVisibility() {
         return;
     for (ParameterRow* row : m_rows)
         row->setVisible(m_spec.applies(row->info(), m_controller.document(), target->id));
+    // A heading without a row would only be in the way.
+    for (const auto& [section, rows] : m_sections)
+        section->setVisible(std::any_of(rows.begin(), rows.end(),
+                                        [](const ParameterRow* row) { return !row->isHidden(); }));
 }
 
 } // namespace patina::editor

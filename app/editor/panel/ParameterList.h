@@ -19,6 +19,7 @@ struct ParameterListSpec {
     // Whether a row makes sense for this element now ("position" only for point lights). Empty:
     // always.
     std::function<bool(const ParameterInfo&, const Document&, Id)> applies;
+    bool loneHeading = false; // a lone group has a heading, too
 };
 
 class ParameterList : public QWidget {
@@ -39,6 +40,7 @@ class ParameterList : public QWidget {
     DocumentController& m_controller;
     ParameterListSpec m_spec;
     std::vector<ParameterRow*> m_rows;
+    std::vector<std::pair<Section*, std::vector<ParameterRow*>>> m_sections;
 };
 
 } // namespace patina::editor

@@ -145,22 +145,39 @@ class ChoiceRow : public ParameterRow {
     ChoiceRow(const ParameterInfo& info, const RowContext& context)
         : ParameterRow(info, context)
         , m_box(new ChoiceBox) {
-        for (const std::string_view label : info.choiceLabels)
-            m_box->addItem(toQString(label));
         m_box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         m_box->setMinimumContentsLength(6);
         m_box->setFocusPolicy(Qt::StrongFocus);
         addField(m_box, 1);
-        connect(m_box, &QComboBox::activated, this, [this](int index) { edit(index); });
+        connect(m_box, &QComboBox::activated, this,
+                [this](int index) { edit(m_box->itemData(index).toInt()); });
     }
 
   protected:
     void show(const ParameterValue& value) override {
-        m_box->setCurrentIndex(std::get<int>(value));
+        const int current = std::get<int>(value);
+        offer(current);
+        m_box->setCurrentIndex(m_box->findData(current));
     }
 
   private:
+    // The choices that can be made, and the one that was made, whether it can be or not.
+    void offer(int current) {
+        const Document& document = context().controller.document();
+        std::vector<int> offered;
+        for (int i = 0; i < static_cast<int>(info().choices.size()); ++i)
+            if (i == current || whyUnavailable(info(), document, i).empty())
+                offered.push_back(i);
+        if (offered == m_offered)
+            return;
+        m_offered = offered;
+        m_box->clear();
+        for (const int i : offered)
+            m_box->addItem(toQString(info().choiceLabels[static_cast<std::size_t>(i)]), i);
+    }
+
     QComboBox* m_box;
+    std::vector<int> m_offered;
 };
 
 class BoolRow : public ParameterRow {

@@ -1,5 +1,6 @@
 #include "app/editor/viewport/ViewportWidget.h"
 
+#include "app/editor/document/DisplayLoader.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/job/JobManager.h"
@@ -26,6 +27,7 @@ namespace {
 constexpr int kRestMs = 250;         // without movement until the picture is refined
 constexpr int kFlyStepMs = 16;       // a flying camera moves 60 times a second
 constexpr int kPreviewMs = 100;      // how often a bake is asked for a new pass
+constexpr int kAdaptationMs = 16;    // between the frames of an eye that adapts
 constexpr int kShaderPollMs = 500;   // hot reload in developers' builds
 constexpr double kClickPixels = 4.0; // a press that moves less selects
 
@@ -70,6 +72,13 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     m_restTimer.start();
     m_flyTimer.setInterval(kFlyStepMs);
     connect(&m_flyTimer, &QTimer::timeout, this, &ViewportWidget::flyStep);
+    m_clock.start();
+    m_adaptationTimer.setSingleShot(true);
+    m_adaptationTimer.setInterval(kAdaptationMs);
+    connect(&m_adaptationTimer, &QTimer::timeout, this, [this] {
+        m_onlyExposure = true;
+        update();
+    });
     m_previewTimer.setInterval(kPreviewMs);
     connect(&m_previewTimer, &QTimer::timeout, this, &ViewportWidget::pollPreview);
     m_shaderTimer.setInterval(kShaderPollMs);
@@ -114,6 +123,20 @@ void ViewportWidget::setJobs(JobManager& jobs) {
     });
 }
 
+void ViewportWidget::setDisplays(DisplayLoader& displays) {
+    m_displays = &displays;
+    connect(&displays, &DisplayLoader::changed, this, [this] {
+        m_displayPending = true;
+        update();
+    });
+}
+
+void ViewportWidget::setLuminanceWanted(bool wanted) {
+    if (wanted && !m_luminanceWanted)
+        update();
+    m_luminanceWanted = wanted;
+}
+
 // --- OpenGL ----------------------------------------------------------------------------------
 
 void ViewportWidget::initializeGL() {
@@ -136,6 +159,7 @@ void ViewportWidget::initializeGL() {
     m_renderer = std::move(created).value();
     m_renderer->setDocument(m_controller.document(), Change::everything());
     m_iblPending = true;
+    m_displayPending = true;
     if (m_jobs && m_jobs->preview()) {
         m_jobs->preview()->markAllChanged();
         m_previewPending = true;
@@ -196,6 +220,8 @@ void ViewportWidget::paintGL() {
         m_previewShown = false;
     }
 
+    takeDisplay();
+
     // Full frames go to the widget; reduced ones to a smaller buffer that is stretched.
     const QSize size = frameSize();
     const QSize full(std::max(1, static_cast<int>(std::lround(width() * devicePixelRatioF()))),
@@ -213,6 +239,13 @@ void ViewportWidget::paintGL() {
     frame.camera = m_controller.document().view.camera;
     frame.showOverlays = m_overlays;
     frame.selectedMesh = m_selection.mesh();
+    frame.dither = true;
+    // The eye does not wait for what nobody looks at; while the hand moves there is no time for it.
+    frame.measureLuminance = m_luminanceWanted && !m_pacing.moving();
+    frame.adaptSeconds =
+        m_adaptation.beginFrame(static_cast<double>(m_clock.nsecsElapsed()) * 1e-9);
+    frame.reuseScene = std::exchange(m_onlyExposure, false) && frame.camera == m_lastCamera;
+    m_lastCamera = frame.camera;
     if (const Result<void> drawn = m_renderer->render(frame, target); !drawn)
         logError("the frame could not be drawn: {}", drawn.error().text());
     if (size != full)
@@ -223,9 +256,31 @@ void ViewportWidget::paintGL() {
     m_lastFrameSize = size;
 
     const double milliseconds = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
-    m_pacing.frameTook(milliseconds);
+    if (!frame.reuseScene) // says nothing about what the scene costs
+        m_pacing.frameTook(milliseconds);
     m_slowestFrameMs = std::max(m_slowestFrameMs, milliseconds);
     Q_EMIT frameRendered(milliseconds);
+    followLuminance();
+}
+
+void ViewportWidget::takeDisplay() {
+    if (!m_displayPending || !m_displays)
+        return;
+    m_displayPending = false;
+    if (const Result<void> set = m_renderer->setDisplay(m_displays->transform()); !set)
+        Q_EMIT displayRefused(set.error());
+}
+
+// Draws on while the eye adapts, or while its state is still on its way here; then rests.
+void ViewportWidget::followLuminance() {
+    const std::optional<Luminance> luminance = m_renderer->luminance();
+    const bool automatic = m_controller.document().view.exposureMode == ExposureMode::Automatic;
+    if (m_adaptation.endFrame(luminance, automatic) || m_renderer->luminancePending())
+        m_adaptationTimer.start();
+    if (luminance && luminance != m_luminance) {
+        m_luminance = luminance;
+        Q_EMIT luminanceMeasured(*luminance);
+    }
 }
 
 double ViewportWidget::takeSlowestFrameMs() {

@@ -6,6 +6,7 @@
 //  Shift+right drag     turn the environment (one undo step)
 #pragma once
 
+#include "app/editor/viewport/AdaptationClock.h"
 #include "app/editor/viewport/FramePacing.h"
 #include "core/math/Camera.h"
 
@@ -19,7 +20,8 @@ class QOpenGLFramebufferObject;
 
 namespace patina {
 struct Change;
-}
+struct Error;
+} // namespace patina
 namespace patina::gl {
 class Context;
 }
@@ -29,6 +31,7 @@ class Renderer;
 
 namespace patina::editor {
 
+class DisplayLoader;
 class DocumentController;
 class IblUpdater;
 class JobManager;
@@ -41,7 +44,9 @@ class ViewportWidget : public QOpenGLWidget {
                    QWidget* parent = nullptr);
     ~ViewportWidget() override;
 
-    void setJobs(JobManager& jobs); // whose live preview is shown
+    void setJobs(JobManager& jobs);            // whose live preview is shown
+    void setDisplays(DisplayLoader& displays); // whose view of OpenColorIO is shown
+    void setLuminanceWanted(bool wanted);      // even where the picture does not depend on it
 
     void frameSelection();                 // the selected mesh, or everything
     void resetCamera();                    // Home: the whole scene from the default side
@@ -58,6 +63,8 @@ class ViewportWidget : public QOpenGLWidget {
     void contextReady(const QString& gpu, const QString& glVersion); // after initializeGL
     void contextFailed(const QString& reason); // no OpenGL 4.5: the widget stays grey
     void frameRendered(double milliseconds);
+    void luminanceMeasured(const patina::Luminance& luminance); // when it has changed
+    void displayRefused(const patina::Error& error);            // by the graphics driver
     void shaderProblems(const QStringList& messages); // a reload failed; the last good ones stay
 
   protected:
@@ -81,6 +88,8 @@ class ViewportWidget : public QOpenGLWidget {
     void touch(); // the hand moved something: draw fast now, refine when it rests
     void flyStep();
     void pollPreview();
+    void takeDisplay();
+    void followLuminance();
     void turnEnvironment(float pixels);
     void pickAt(const QPointF& position);
     [[nodiscard]] float viewAspect() const;
@@ -88,6 +97,7 @@ class ViewportWidget : public QOpenGLWidget {
     DocumentController& m_controller;
     SelectionModel& m_selection;
     JobManager* m_jobs = nullptr;
+    DisplayLoader* m_displays = nullptr;
     IblUpdater* m_ibl;
 
     std::unique_ptr<gl::Context> m_context;
@@ -98,8 +108,16 @@ class ViewportWidget : public QOpenGLWidget {
     bool m_previewPending = false; // a new pass is to be uploaded
     int m_previewSamples = 0;      // of the pass seen last
 
+    bool m_displayPending = true; // m_displays->transform() is not in the renderer yet
+    bool m_luminanceWanted = false;
+    std::optional<Luminance> m_luminance; // as announced last
+    AdaptationClock m_adaptation;
+    QElapsedTimer m_clock;       // since the viewport was made
+    bool m_onlyExposure = false; // the next frame is drawn for adaptation alone
+    Camera m_lastCamera;         // of the last frame
+
     FramePacing m_pacing;
-    QTimer m_restTimer, m_flyTimer, m_previewTimer, m_shaderTimer;
+    QTimer m_restTimer, m_flyTimer, m_previewTimer, m_shaderTimer, m_adaptationTimer;
     QElapsedTimer m_flyClock;
     double m_slowestFrameMs = 0.0;
     QSize m_lastFrameSize;

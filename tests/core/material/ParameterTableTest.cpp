@@ -2,6 +2,7 @@
 #include "core/document/Document.h"
 #include "core/material/Parameters.h"
 
+#include <cstdlib>
 #include <gtest/gtest.h>
 #include <set>
 
@@ -227,6 +228,27 @@ TEST(ParameterTable, ChoiceNamesFollowTheirEnums) {
     EXPECT_EQ(nameOf("view.toneMap", static_cast<int>(ToneMap::Clamp)), "clamp");
     EXPECT_EQ(nameOf("view.toneMap", static_cast<int>(ToneMap::Reinhard)), "reinhard");
     EXPECT_EQ(nameOf("view.lighting", static_cast<int>(LightingMode::Prt)), "prt");
+}
+
+// OpenColorIO's views are offered where there is a configuration, by file or by environment.
+TEST(ParameterTable, ChoicesCanBeUnavailable) {
+    const ParameterInfo& toneMap = *findParameter("view.toneMap");
+    constexpr int kOpenColorIo = static_cast<int>(ToneMap::OpenColorIo);
+    ::unsetenv("OCIO");
+    Document document;
+    for (int choice = 0; choice < kOpenColorIo; ++choice)
+        EXPECT_EQ(whyUnavailable(toneMap, document, choice), "");
+    const std::string why = whyUnavailable(toneMap, document, kOpenColorIo);
+    EXPECT_NE(why.find("view.ocioConfig"), std::string::npos) << why;
+    EXPECT_NE(why.find("OCIO"), std::string::npos) << why;
+    document.view.ocioConfig = "/studio/config.ocio";
+    EXPECT_EQ(whyUnavailable(toneMap, document, kOpenColorIo), "");
+    document.view.ocioConfig.clear();
+    ::setenv("OCIO", "/site/config.ocio", 1);
+    EXPECT_EQ(whyUnavailable(toneMap, document, kOpenColorIo), "");
+    ::unsetenv("OCIO");
+    // Rows that say nothing offer everything.
+    EXPECT_EQ(whyUnavailable(*findParameter("view.lighting"), document, 1), "");
 }
 
 TEST(ParameterTable, MapsBelongToTheirNumbersAndCarryTheColourPolicy) {
