@@ -69,6 +69,17 @@ vec3 shadingNormal() {
     return n;
 }
 
+vec3 irradianceAt(vec3 n) {
+    vec2 p[14];
+    for (int i = 0; i < 14; ++i)
+        p[i] = irradiancePair(u_irradianceSh[i / 4][i % 4]);
+    vec3 sh[9];
+    for (int i = 0; i < 9; ++i)
+        for (int c = 0; c < 3; ++c)
+            sh[i][c] = p[(3 * i + c) / 2][(3 * i + c) % 2];
+    return u_irradianceScale * irradianceFromSh9(sh, n);
+}
+
 // Half floats end at 65504, and one NaN would spread over its pixel in the resolve.
 vec3 storable(vec3 c) {
     return vec3(isnan(c.x) ? 0.0 : clamp(c.x, 0.0, 65504.0),
@@ -144,7 +155,7 @@ void main() {
 #elif defined(HAS_TRANSFER)
     vec3 irradiance = kPi * max(v_exitRadiance, vec3(0.0));
 #else
-    vec3 irradiance = ao * irradianceFromSh9(u_irradianceSh, n);
+    vec3 irradiance = ao * irradianceAt(n);
 #endif
     ShadedLight ambient = shadeEnvironment(s, irradiance, prefiltered);
     vec3 radiance =

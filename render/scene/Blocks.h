@@ -27,8 +27,8 @@ struct FrameBlock {
     float radianceScale = 1.0f;
     std::int32_t prefilteredLevels = 1;
     float prefilteredSide = 1.0f;
-    std::int32_t reserved = 0;
-    std::array<glm::vec4, 9> irradianceSh{};
+    float irradianceScale = 0.0f;
+    std::array<glm::uvec4, 4> irradianceSh{}; // see packIrradiance()
     std::array<glm::vec4, kMaxTransferCount> radianceSh{};
     glm::ivec4 lightEnds{0};
     std::array<LightBlock, kMaxLights> lights{};
@@ -36,7 +36,7 @@ struct FrameBlock {
 static_assert(offsetof(FrameBlock, cameraPosition) == 192);
 static_assert(offsetof(FrameBlock, radianceScale) == 224);
 static_assert(offsetof(FrameBlock, irradianceSh) == 240);
-static_assert(sizeof(FrameBlock) == 240 + 35 * 16 + 16 * 64);
+static_assert(sizeof(FrameBlock) == 240 + 30 * 16 + 16 * 64);
 
 struct InstanceBlock {
     glm::mat4 model{1.0f}, normalToWorld{1.0f};

@@ -53,6 +53,23 @@ gl::Texture makePrefiltered(gl::Context& context, const CubeAtlas& atlas) {
 
 } // namespace
 
+void packIrradiance(const std::array<glm::vec3, 9>& coefficients, FrameBlock& frame) {
+    constexpr float kLargest = 32767.0f;
+    float largest = 0.0f;
+    for (const glm::vec3& c : coefficients)
+        largest = std::max({largest, std::abs(c.x), std::abs(c.y), std::abs(c.z)});
+    frame.irradianceScale = frame.radianceScale * largest / kLargest;
+    frame.irradianceSh.fill(glm::uvec4(0));
+    if (largest == 0.0f)
+        return;
+    for (int k = 0; k < 27; ++k) {
+        const float value = coefficients[static_cast<std::size_t>(k / 3)][k % 3] / largest;
+        const auto bits = static_cast<std::uint32_t>(std::lround(value * kLargest)) & 0xffffu;
+        frame.irradianceSh[static_cast<std::size_t>(k / 8)][k / 2 % 4] |=
+            k % 2 == 0 ? bits << 16 : bits;
+    }
+}
+
 IblMaps uniformIbl(const glm::vec3& radiance) {
     // L = L_00 Y_00 with Y_00 = 1 / sqrt(4 pi); E = pi L.
     const float l00 = std::sqrt(4.0f * glm::pi<float>());
@@ -155,8 +172,7 @@ void EnvironmentLight::fill(const Environment& environment, FrameBlock& frame) c
                                        std::span<glm::vec3>(irradiance));
     ShRotation::aboutY(angle, 5).apply(std::span<const glm::vec3>(m_radianceSh),
                                        std::span<glm::vec3>(radiance));
-    for (std::size_t i = 0; i < irradiance.size(); ++i)
-        frame.irradianceSh[i] = glm::vec4(frame.radianceScale * irradiance[i], 0.0f);
+    packIrradiance(irradiance, frame);
     for (std::size_t i = 0; i < radiance.size(); ++i)
         frame.radianceSh[i] = glm::vec4(frame.radianceScale * radiance[i], 0.0f);
 }

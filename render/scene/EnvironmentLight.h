@@ -47,6 +47,10 @@ class EnvironmentLight {
     std::size_t m_clampedTexels = 0;
 };
 
+// Irradiance coefficients as FrameBlock has them, times its radianceScale: 16 bits relative to the
+// largest.
+void packIrradiance(const std::array<glm::vec3, 9>& coefficients, FrameBlock& frame);
+
 // Light of the same radiance from everywhere, as setIbl() takes it.
 [[nodiscard]] IblMaps uniformIbl(const glm::vec3& radiance);
 

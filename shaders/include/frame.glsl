@@ -21,12 +21,20 @@ layout(std140, binding = 0) uniform Frame {
     float u_radianceScale;   // 2^exposure of the environment
     int u_prefilteredLevels; // of the prefiltered cubemap
     float u_prefilteredSide; // of a face of its level 0
-    int u_reserved;
-    vec3 u_irradianceSh[9]; // world space, exposure included
+    float u_irradianceScale; // of u_irradianceSh
+    // World space, exposure included: 27 numbers r g b r g b …, two to a word, the first in the upper
+    // half, as signed integers.
+    uvec4 u_irradianceSh[4];
     vec3 u_radianceSh[25];  // world space, exposure included
     ivec4 u_lightEnds;
     Light u_lights[16];
 };
+
+// Two of the numbers of u_irradianceSh. Software OpenGL takes longer to read a uniform than to
+// unpack it; what is lost is 1 / 65534 of the largest coefficient.
+vec2 irradiancePair(uint word) {
+    return vec2(float(int(word) >> 16), float(int(word << 16) >> 16));
+}
 
 // World direction to a direction of the environment's picture: a rotation about +Y is two numbers.
 vec3 toEnvironment(vec3 d) {
