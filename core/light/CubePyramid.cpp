@@ -9,6 +9,8 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 namespace patina {
 
@@ -153,6 +155,8 @@ void CubePyramid::separateLamps(const std::vector<float>& solidAngles) {
     }
     if (bright.empty() || !std::isfinite(limit))
         return;
+    std::vector<Lamp> lamps;
+    std::vector<std::size_t> texels;
     for (std::size_t i = 0; i < count; ++i) {
         const float value = brightest(m_radiance[i]);
         if (!(value > limit) || !std::isfinite(value))
@@ -161,9 +165,33 @@ void CubePyramid::separateLamps(const std::vector<float>& solidAngles) {
         const glm::vec3 direction =
             cubeSymmetries()[i / solidAngles.size()].matrix * glm::vec3(m_levels[0].cells[inFace]);
         const glm::vec4 kept = m_radiance[i] * (limit / value);
-        m_lamps.push_back({direction, glm::vec3(m_radiance[i] - kept) * solidAngles[inFace]});
+        lamps.push_back({direction, glm::vec3(m_radiance[i] - kept) * solidAngles[inFace]});
+        texels.push_back(i);
         m_radiance[i] = kept;
     }
+    groupLamps(std::move(texels), std::move(lamps));
+}
+
+void CubePyramid::groupLamps(std::vector<std::size_t> texels, std::vector<Lamp> lamps) {
+    const auto n = static_cast<std::size_t>(m_levels[0].size);
+    const auto cell = [&](std::size_t texel) { // two by two texels
+        return (texel / (n * n) * n + texel / n % n / 2) * n + texel % n / 2;
+    };
+    std::vector<std::size_t> order(lamps.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return cell(texels[i]); });
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const Lamp& lamp = lamps[order[k]];
+        if (k == 0 || cell(texels[order[k]]) != cell(texels[order[k - 1]]))
+            m_lampGroups.push_back({{glm::vec3(0.0f), glm::vec3(0.0f)}, k, 0});
+        LampGroup& group = m_lampGroups.back();
+        group.all.direction += lamp.direction * (lamp.flux.x + lamp.flux.y + lamp.flux.z);
+        group.all.flux += lamp.flux;
+        ++group.count;
+        m_lamps.push_back(lamp);
+    }
+    for (LampGroup& group : m_lampGroups)
+        group.all.direction = glm::normalize(group.all.direction);
 }
 
 } // namespace patina

@@ -53,13 +53,21 @@ class CubePyramid {
         glm::vec3 flux;
     };
     [[nodiscard]] const std::vector<Lamp>& lamps() const { return m_lamps; }
+    // The lamps of a cell of the second level, as one: their flux, from their centroid.
+    struct LampGroup {
+        Lamp all;
+        std::size_t first = 0, count = 0; // in lamps()
+    };
+    [[nodiscard]] const std::vector<LampGroup>& lampGroups() const { return m_lampGroups; }
 
   private:
     void separateLamps(const std::vector<float>& solidAngles);
+    void groupLamps(std::vector<std::size_t> texels, std::vector<Lamp> lamps);
 
     std::vector<Level> m_levels;
     std::vector<glm::vec4> m_radiance, m_cells;
-    std::vector<Lamp> m_lamps;
+    std::vector<Lamp> m_lamps; // by group
+    std::vector<LampGroup> m_lampGroups;
 };
 
 } // namespace patina

@@ -7,17 +7,37 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 namespace patina {
 
 namespace {
 
+// Four floats in one register.
+typedef float Quad __attribute__((vector_size(16))); // NOLINT(modernize-use-using): as GCC has it
+
+Quad load(const glm::vec4& texel) {
+    Quad quad;
+    __builtin_memcpy(&quad, &texel, sizeof(quad));
+    return quad;
+}
+
 // A lat-long image, small enough that a few samples per cube texel see each pixel. Four floats a
 // texel: one register.
 struct LatLong {
     int width, height;
-    std::vector<glm::vec4> texels;
+    std::unique_ptr<glm::vec4[]> texels; // NOLINT: a vector would clear 32 MB first
+    std::vector<double> rowSum;          // of the brightness
+    std::vector<float> rowMaximum;
+
+    LatLong(int columns, int rowCount)
+        : width(columns)
+        , height(rowCount)
+        , texels(std::make_unique_for_overwrite<glm::vec4[]>(static_cast<std::size_t>(columns) *
+                                                             rowCount))
+        , rowSum(rowCount)
+        , rowMaximum(rowCount) {}
 
     // Where a latitude lies: two rows and the share of the second. v ends at the poles.
     struct Rows {
@@ -29,97 +49,91 @@ struct LatLong {
             std::clamp(v * static_cast<float>(height) - 0.5f, 0.0f, static_cast<float>(height - 1));
         const int row0 = static_cast<int>(y);
         const int row1 = std::min(row0 + 1, height - 1);
-        return {texels.data() + static_cast<std::size_t>(row0) * width,
-                texels.data() + static_cast<std::size_t>(row1) * width,
+        return {texels.get() + static_cast<std::size_t>(row0) * width,
+                texels.get() + static_cast<std::size_t>(row1) * width,
                 y - static_cast<float>(row0)};
     }
 
     // Bilinear between texel centres; u in 0…2 repeats after 1. (A cast instead of floor and a
     // comparison instead of a remainder: this is called millions of times.)
-    [[nodiscard]] glm::vec4 sample(float u, const Rows& rows) const {
+    [[nodiscard]] Quad sample(float u, const Rows& rows) const {
         const float x = u * static_cast<float>(width) + static_cast<float>(width) - 0.5f;
         int column0 = static_cast<int>(x);
         const float fx = x - static_cast<float>(column0);
         while (column0 >= width)
             column0 -= width;
         const int column1 = column0 + 1 == width ? 0 : column0 + 1;
-        const glm::vec4 top = rows.top[column0] * (1.0f - fx) + rows.top[column1] * fx;
-        const glm::vec4 bottom = rows.bottom[column0] * (1.0f - fx) + rows.bottom[column1] * fx;
-        return top * (1.0f - rows.share) + bottom * rows.share;
+        const Quad top0 = load(rows.top[column0]), bottom0 = load(rows.bottom[column0]);
+        const Quad top = top0 + (load(rows.top[column1]) - top0) * fx;
+        const Quad bottom = bottom0 + (load(rows.bottom[column1]) - bottom0) * fx;
+        return top + (bottom - top) * rows.share;
     }
 };
 
+float brightest(const glm::vec4& c) {
+    return std::max({c.x, c.y, c.z});
+}
+
+// Sum and maximum of the brightness of a row.
+void measureRow(LatLong& image, std::size_t y) {
+    // Four partial sums: an addition need not wait for the one before.
+    float sum[4] = {}, maximum[4] = {};
+    const glm::vec4* row = image.texels.get() + y * image.width;
+    for (int x = 0; x < image.width; ++x) {
+        const float value = brightest(row[x]);
+        sum[x % 4] += value;
+        maximum[x % 4] = std::max(maximum[x % 4], value);
+    }
+    image.rowSum[y] = static_cast<double>(sum[0]) + sum[1] + sum[2] + sum[3];
+    image.rowMaximum[y] = std::max({maximum[0], maximum[1], maximum[2], maximum[3]});
+}
+
 LatLong unpack(const Image& environment, const JobContext& job) {
-    LatLong result{environment.width(), environment.height(), {}};
-    result.texels.resize(static_cast<std::size_t>(result.width) * result.height);
-    const float* source = environment.f32().data();
+    LatLong result(environment.width(), environment.height());
     const std::size_t channels = environment.channels();
-    parallelFor(job, result.texels.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            result.texels[i] = {source[i * channels], source[i * channels + 1],
-                                source[i * channels + 2], 0.0f};
+    parallelFor(job, result.height, 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t y = begin; y < end; ++y) {
+            const float* source = environment.f32().data() + y * result.width * channels;
+            glm::vec4* row = result.texels.get() + y * result.width;
+            for (int x = 0; x < result.width; ++x, source += channels)
+                row[x] = {source[0], source[1], source[2], 0.0f};
+            measureRow(result, y); // while it is in the cache
+        }
     });
     return result;
 }
 
 // Means of 2 × 2 texels, weighted by the solid angles of their rows.
 LatLong halve(const LatLong& from) {
-    LatLong to{from.width / 2, from.height / 2, {}};
-    to.texels.resize(static_cast<std::size_t>(to.width) * to.height);
+    LatLong to(from.width / 2, from.height / 2);
     for (int y = 0; y < to.height; ++y) {
         // extent of row j in cos(theta): 2 sin(centre) sin(half height)
         const double step = std::numbers::pi / from.height;
         const double upper = std::sin(step * (2 * y + 0.5)), lower = std::sin(step * (2 * y + 1.5));
         const auto weight = static_cast<float>(upper / (upper + lower));
-        const glm::vec4* top = from.texels.data() + static_cast<std::size_t>(2 * y) * from.width;
+        const glm::vec4* top = from.texels.get() + static_cast<std::size_t>(2 * y) * from.width;
         const glm::vec4* bottom = top + from.width;
         for (int x = 0; x < to.width; ++x)
             to.texels[static_cast<std::size_t>(y) * to.width + x] =
                 (top[2 * x] + top[2 * x + 1]) * (0.5f * weight) +
                 (bottom[2 * x] + bottom[2 * x + 1]) * (0.5f * (1.0f - weight));
+        measureRow(to, y);
     }
     return to;
-}
-
-float brightest(const glm::vec4& c) {
-    return std::max({c.x, c.y, c.z});
 }
 
 // What is this many times brighter than the mean of the image counts as a lamp.
 constexpr float kLamp = 16.0f;
 
-// The brightest texel of each row, and the mean brightness over the sphere.
-struct Brightness {
-    std::vector<float> rowMaximum;
-    float mean = 0.0f;
-};
-
-Brightness measureBrightness(const LatLong& image, const JobContext& job) {
-    Brightness result;
-    result.rowMaximum.resize(image.height);
-    std::vector<double> rowSum(image.height);
-    parallelFor(job, image.height, 16, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t y = begin; y < end; ++y) {
-            // Four partial sums: an addition need not wait for the one before.
-            float sum[4] = {}, maximum[4] = {};
-            const glm::vec4* row = image.texels.data() + y * image.width;
-            for (int x = 0; x < image.width; ++x) {
-                const float value = brightest(row[x]);
-                sum[x % 4] += value;
-                maximum[x % 4] = std::max(maximum[x % 4], value);
-            }
-            rowSum[y] = static_cast<double>(sum[0]) + sum[1] + sum[2] + sum[3];
-            result.rowMaximum[y] = std::max({maximum[0], maximum[1], maximum[2], maximum[3]});
-        }
-    });
+// Over the sphere.
+float meanBrightness(const LatLong& image) {
     double sum = 0.0, weights = 0.0;
     for (int y = 0; y < image.height; ++y) {
         const double weight = std::sin(std::numbers::pi * (y + 0.5) / image.height);
-        sum += weight * rowSum[y];
+        sum += weight * image.rowSum[y];
         weights += weight * image.width;
     }
-    result.mean = static_cast<float>(sum / weights);
-    return result;
+    return static_cast<float>(sum / weights);
 }
 
 // How much solid angle a sample on the plane at distance 1 stands for: dω = dA / |d|³.
@@ -133,15 +147,14 @@ float sampleWeight(float squaredDistance) {
 // its energy is exact, however small it is and wherever it stands.
 void moveLamps(LatLong& image, CubeLevel& cube, const JobContext& job) {
     const int size = cube.size;
-    const Brightness brightness = measureBrightness(image, job);
-    const float limit = kLamp * brightness.mean;
+    const float limit = kLamp * meanBrightness(image);
     const std::vector<float> omega = cubeSolidAngles(size);
     // Eight patches across a cube texel
     const int n = std::clamp((32 * size + image.width - 1) / image.width, 4, 64);
     const double stepTheta = std::numbers::pi / (static_cast<double>(image.height) * n);
     const double stepPhi = 2.0 * std::numbers::pi / (static_cast<double>(image.width) * n);
     for (int y = 0; y < image.height && !job.cancelled(); ++y) {
-        if (brightness.rowMaximum[y] <= limit)
+        if (image.rowMaximum[y] <= limit)
             continue;
         for (int x = 0; x < image.width; ++x) {
             glm::vec4& texel = image.texels[static_cast<std::size_t>(y) * image.width + x];
@@ -190,13 +203,15 @@ struct FaceGrid {
 };
 
 // Means over the texels at (x, y) of all six faces and over their mirror images, behind x, y and
-// both: sums[mirror][face]. The four sides see the same latitudes, and a quarter further on the
+// both: of[mirror][face]. The four sides see the same latitudes, and a quarter further on the
 // same longitudes; the floor mirrors the ceiling. That saves 23 of 24 arc tangents.
-using MirroredSums = std::array<std::array<glm::vec4, 6>, 4>;
+struct MirroredSums {
+    Quad of[4][6] = {};
+};
 
 // n × n samples per texel; face -Y: at (x, size - 1 - y).
 MirroredSums averageTexels(const LatLong& image, const FaceGrid& grid, int x, int y, int n) {
-    MirroredSums sums{};
+    MirroredSums sums;
     float weights = 0.0f;
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) {
@@ -214,7 +229,7 @@ MirroredSums averageTexels(const LatLong& image, const FaceGrid& grid, int x, in
             const float down = std::atan(std::sqrt(u * u + v * v)) * shading::kInvPi;
             const LatLong::Rows up = image.rows(down), under = image.rows(1.0f - down);
             for (int mirror = 0; mirror < 4; ++mirror) {
-                std::array<glm::vec4, 6>& sum = sums[mirror];
+                Quad* sum = sums.of[mirror];
                 const float signedTurn = mirror % 2 == 0 ? turn : -turn;
                 const LatLong::Rows& rows = sideRows[mirror / 2];
                 sum[0] += image.sample(0.75f - signedTurn, rows) * weight;
@@ -228,8 +243,8 @@ MirroredSums averageTexels(const LatLong& image, const FaceGrid& grid, int x, in
                 sum[3] += image.sample(azimuth, under) * weight;
             }
         }
-    for (std::array<glm::vec4, 6>& sum : sums)
-        for (glm::vec4& value : sum)
+    for (Quad(&mirror)[6] : sums.of)
+        for (Quad& value : mirror)
             value /= weights;
     return sums;
 }
@@ -314,10 +329,9 @@ CubeLevel cubeFromLatLong(const Image& environment, int size, const JobContext& 
     level.texels.resize(6 * static_cast<std::size_t>(size) * size, glm::vec3(0.0f));
     moveLamps(image, level, job);
 
-    // At least one sample per image texel, also in the middle of a face: a cube texel is 2 / size
-    // wide there, an image texel 2 pi / width.
-    const int n =
-        std::clamp(static_cast<int>(std::ceil(image.width / (std::numbers::pi * size))), 2, 16);
+    // A sample per image texel, on average: at the equator 4 · size texels go around. Small cubes
+    // need more, to weigh what their curved texels cover.
+    const int n = std::clamp((image.width + 4 * size - 1) / (4 * size), size < 64 ? 4 : 2, 16);
     const FaceGrid grid(size * n);
     parallelFor(job, size / 2, 2, [&](std::size_t begin, std::size_t end) {
         for (int row = static_cast<int>(begin); row < static_cast<int>(end); ++row)
@@ -329,8 +343,9 @@ CubeLevel cubeFromLatLong(const Image& environment, int size, const JobContext& 
                         int y = mirror / 2 == 0 ? row : size - 1 - row;
                         if (face == 3)
                             y = size - 1 - y;
+                        const Quad& mean = means.of[mirror][face];
                         level.texels[(static_cast<std::size_t>(face) * size + y) * size + x] +=
-                            glm::vec3(means[mirror][face]);
+                            glm::vec3(mean[0], mean[1], mean[2]);
                     }
             }
     });

@@ -68,7 +68,7 @@ Result<IblMaps> computeIbl(const Image& environment, const IblSettings& settings
     // At alpha = 1 the lobe is the clamped cosine.
     if (settings.irradianceSize > 0) {
         maps.irradiance = prefilterGGX(pyramid, settings.irradianceSize, 1.0f,
-                                       {settings.cellSize, 0.35f * settings.cellSize}, job);
+                                       {settings.cellSize, 0.7f * settings.cellSize}, job);
         for (glm::vec3& texel : maps.irradiance.texels)
             texel *= std::numbers::pi_v<float>;
         if (job.cancelled())

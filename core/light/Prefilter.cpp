@@ -21,6 +21,7 @@ using namespace detail;
 
 constexpr int kTile = 8; // texels on a tile's side
 constexpr int kFacePlusZ = 4;
+constexpr float kLampGroup = 0.08f; // of the distance + 2 alpha: how wide a group may be
 
 // A tile of face +Z: its texels, rows one after another; unused lanes repeat the last texel.
 struct Tile {
@@ -128,6 +129,7 @@ class TileFilter {
     TileFilter(const CubePyramid& pyramid, float alpha, const PrefilterQuality& quality,
                CubeLevel& out)
         : m_pyramid(pyramid)
+        , m_alpha(alpha)
         , m_alpha2(alpha * alpha)
         , m_out(out)
         , m_arithmetic(prefilterSums().front())
@@ -186,10 +188,25 @@ class TileFilter {
         }
         const glm::vec3 centre = symmetry.matrix * tile.centre;
         const float horizon = -std::sin(tile.radius) - 1e-4f;
+        // A group counts as one lamp where it spans little of the kernel's scale.
+        const float width = 4.0f / static_cast<float>(m_pyramid.levels()[0].size);
         m_visible.clear();
-        for (const CubePyramid::Lamp& lamp : m_pyramid.lamps())
-            if (glm::dot(centre, lamp.direction) > horizon)
-                m_visible.push_back(lamp);
+        for (const CubePyramid::LampGroup& group : m_pyramid.lampGroups()) {
+            const float cosine = glm::dot(centre, group.all.direction);
+            if (cosine < horizon - width)
+                continue;
+            // A group that may be half behind a texel's horizon is not one lamp, however far.
+            const float distance = glm::length(centre - group.all.direction) - tile.radius;
+            if (cosine > -horizon + width &&
+                width <= kLampGroup * (std::max(distance, 0.0f) + 2.0f * m_alpha))
+                m_visible.push_back(group.all);
+            else
+                m_visible.insert(m_visible.end(),
+                                 m_pyramid.lamps().begin() +
+                                     static_cast<std::ptrdiff_t>(group.first),
+                                 m_pyramid.lamps().begin() +
+                                     static_cast<std::ptrdiff_t>(group.first + group.count));
+        }
         m_arithmetic.addLamps(turned, m_visible, m_alpha2, sums);
     }
 
@@ -206,7 +223,7 @@ class TileFilter {
     }
 
     const CubePyramid& m_pyramid;
-    float m_alpha2;
+    float m_alpha, m_alpha2;
     CubeLevel& m_out;
     PrefilterSums m_arithmetic;
     CellList m_list;

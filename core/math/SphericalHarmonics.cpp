@@ -203,9 +203,18 @@ std::vector<glm::vec3> projectLatLong(const Image& environment, int order, const
         std::vector<float> planes(3 * static_cast<std::size_t>(padded), 0.0f);
         for (std::size_t y = begin; y < end; ++y) {
             const float* source = texels.data() + y * width * channels;
-            for (int x = 0; x < width; ++x)
-                for (int c = 0; c < 3; ++c)
-                    planes[static_cast<std::size_t>(c) * padded + x] = source[x * channels + c];
+            float *red = planes.data(), *green = red + padded, *blue = green + padded;
+            const auto separate = [&](int stride) {
+                for (int x = 0; x < width; ++x) {
+                    red[x] = source[x * stride];
+                    green[x] = source[x * stride + 1];
+                    blue[x] = source[x * stride + 2];
+                }
+            };
+            if (channels == 3) // a constant stride becomes SIMD
+                separate(3);
+            else
+                separate(channels);
             sumOneRow(planes.data(), cosines.data(), sines.data(), padded, order, rows[y]);
         }
     });

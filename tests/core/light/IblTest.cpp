@@ -106,10 +106,10 @@ TEST(Ibl, IrradianceCubeIsTheRoughestLevelTimesPi) {
         EXPECT_NEAR(maps->irradiance.texels[i].y, M_PI / 3.0 + M_PI / 6.0 * (1.5 * y * y - 0.5),
                     2e-3);
         EXPECT_NEAR(maps->irradiance.texels[i].z, M_PI * (1.0 + y) / 2.0, 6e-3);
-        // Level 3 of 64² is 8² at perceptual roughness 1.
+        // Level 3 of 64² is 8² at perceptual roughness 1; its cells are half as wide.
         EXPECT_LT(glm::length(maps->prefiltered[3].texels[i] * static_cast<float>(M_PI) -
                               maps->irradiance.texels[i]),
-                  1e-5f);
+                  5e-4f);
     }
     EXPECT_TRUE(computeIbl(image, {16, 2}, {})->irradiance.texels.empty());
 }
