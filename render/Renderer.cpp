@@ -5,6 +5,7 @@
 #include "render/pass/OverlayPass.h"
 #include "render/pass/PickPass.h"
 #include "render/pass/ScreenPasses.h"
+#include "render/pass/ShadowPass.h"
 #include "render/pass/SurfacePass.h"
 #include "render/pass/Targets.h"
 #include "render/scene/DrawList.h"
@@ -21,6 +22,7 @@ struct Renderer::Impl {
         : context(c)
         , shaders(c, shaderFolder)
         , scene(c)
+        , shadows(c, shaders)
         , surface(shaders)
         , adaptation(c, shaders)
         , screen(c, shaders)
@@ -31,6 +33,7 @@ struct Renderer::Impl {
     gl::Context& context;
     ShaderLibrary shaders;
     GpuScene scene;
+    ShadowPass shadows;
     SurfacePass surface;
     AdaptationPass adaptation;
     ScreenPasses screen;
@@ -56,7 +59,7 @@ FrameBlock Renderer::Impl::packFrame(const FrameSettings& frame) {
     block.clipToWorld = glm::inverse(block.worldToClip);
     block.cameraPosition = glm::vec4(frame.camera.position(), 1.0f);
     block.viewport = {width, height, 1.0f / width, 1.0f / height};
-    scene.fill(block);
+    scene.fill(block, shadows.lights());
     return block;
 }
 
@@ -64,7 +67,8 @@ Result<void> Renderer::Impl::drawScene(const FrameSettings& frame, const FrameBl
     const Document& document = scene.document();
     const SurfaceSettings settings{document.view.lighting, block.lightEnds.y > 0,
                                    block.lightEnds.w > block.lightEnds.y, block.lightEnds,
-                                   document.model};
+                                   static_cast<int>(shadows.lights().size()), document.model};
+    shadows.bind();
     const DrawList list = makeDrawList(scene.items(), block.worldToClip, frame.camera.position());
 
     targets.scene().bind();
@@ -117,6 +121,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context,
                                   ProgramKey{{"surface.vert", "id.frag"}, {}}})
         if (auto program = impl->shaders.program(key); !program)
             return program.error();
+    if (auto done = impl->shadows.compile(); !done)
+        return done.error();
     if (auto done = impl->screen.compile(); !done)
         return done.error();
     if (auto done = impl->adaptation.compile(); !done)
@@ -177,13 +183,17 @@ Result<void> Renderer::render(const FrameSettings& frame, unsigned targetFramebu
     glEnable(GL_MULTISAMPLE);
     glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
 
+    const bool drawsScene = r.sceneIsNew || !frame.reuseScene;
+    if (drawsScene)
+        if (auto done = r.shadows.update(r.scene); !done)
+            return done;
     const FrameBlock block = r.packFrame(frame);
     r.worldToClip = block.worldToClip;
     r.frameBlock.writeValue(block);
     r.frameBlock.bindUniform(kFrameBinding);
 
     Result<void> done;
-    if (r.sceneIsNew || !frame.reuseScene) {
+    if (drawsScene) {
         done = r.drawScene(frame, block);
         r.sceneIsNew = !done.ok();
         r.luminanceIsNew = true;
@@ -193,13 +203,15 @@ Result<void> Renderer::render(const FrameSettings& frame, unsigned targetFramebu
     if (done)
         done = r.screen.toneMap(r.targets, r.scene.document().view, frame.dither);
     if (done && frame.showOverlays)
-        done = r.overlay.draw(r.targets, r.scene, block, frame.camera, frame.selectedMesh);
+        done = r.overlay.draw(r.targets, r.scene, block, frame.camera,
+                              {frame.selectedMesh, frame.selectedLight, frame.overlayScale});
     if (done)
         done = r.screen.present(r.targets, targetFramebuffer);
 
     glBindFramebuffer(GL_FRAMEBUFFER, targetFramebuffer);
     glBindVertexArray(0);
     glUseProgram(0);
+    r.shadows.unbind();
     glDisable(GL_CULL_FACE);
     glDisable(GL_DEPTH_TEST);
     glFrontFace(GL_CCW);

@@ -27,7 +27,9 @@ struct FrameSettings {
     bool transparentBackground = false; // whatever the document says; its Off does the same
     bool showOverlays = false;          // grid, light gizmos (the editor)
     Id selectedMesh = 0;                // outlined when showOverlays
-    bool dither = false;                // hides the bands of 8-bit values (the editor)
+    Id selectedLight = 0;               // shown with its handles when showOverlays
+    float overlayScale = 1.0f; // of a frame that is to be enlarged: share of its final size
+    bool dither = false;       // hides the bands of 8-bit values (the editor)
 
     // Seconds since the last frame, for automatic exposure; infinite: the eye is used to the
     // picture already.

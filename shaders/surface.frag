@@ -6,6 +6,9 @@
 #include "include/instance.glsl"
 #include "include/material.glsl"
 #include "include/model.glsl"
+#ifdef HAS_SHADOWS
+#include "include/shadow.glsl"
+#endif
 #include "shared/ibl.glsl"
 #include "include/prefiltered.glsl"
 #include "shared/lights.glsl"
@@ -162,9 +165,29 @@ void main() {
         ambient.diffuse + ambient.specular * specularOcclusion(s.NoV, ao, s.alpha);
 
     // Analytic lights, one loop for each kind. Where LIGHT_ENDS is known it is unrolled.
+#ifdef HAS_SHADOWS
+    // By slot, with constant indices: a software rasteriser gathers what is indexed by a variable.
+    vec3 face = cross(dFdx(v_position), dFdy(v_position));
+    face *= inversesqrt(max(dot(face, face), 1e-30));
+    vec4 visibility = vec4(1.0);
+    visibility.x = shadowVisibility(u_shadows[0], v_position, face, n);
+#ifdef HAS_SHADOWS_2
+    visibility.y = shadowVisibility(u_shadows[1], v_position, face, n);
+#endif
+#ifdef HAS_SHADOWS_3
+    visibility.z = shadowVisibility(u_shadows[2], v_position, face, n);
+#endif
+#ifdef HAS_SHADOWS_4
+    visibility.w = shadowVisibility(u_shadows[3], v_position, face, n);
+#endif
+#endif
 #ifdef HAS_PUNCTUAL_LIGHTS
     for (int i = 0; i < LIGHT_ENDS.x; ++i) {
-        ShadedLight light = shadeDirect(s, u_lights[i].place.xyz, u_lights[i].color.rgb);
+        vec3 E = u_lights[i].color.rgb;
+#ifdef HAS_SHADOWS
+        E *= u_lights[i].place.w < 0.0 ? 1.0 : visibility[int(u_lights[i].place.w)];
+#endif
+        ShadedLight light = shadeDirect(s, u_lights[i].place.xyz, E);
         radiance += light.diffuse + light.specular;
     }
     for (int i = LIGHT_ENDS.x; i < LIGHT_ENDS.y; ++i) {
@@ -173,6 +196,9 @@ void main() {
         vec3 l = toLight * inversesqrt(max(distance2, 1e-12));
         float reaches = pointFalloff(distance2, u_lights[i].color.w) *
                         spotFalloff(dot(u_lights[i].axis.xyz, l), 1.0, u_lights[i].axis.w);
+#ifdef HAS_SHADOWS
+        reaches *= u_lights[i].place.w < 0.0 ? 1.0 : visibility[int(u_lights[i].place.w)];
+#endif
         ShadedLight light = shadeDirect(s, l, u_lights[i].color.rgb * reaches);
         radiance += light.diffuse + light.specular;
     }

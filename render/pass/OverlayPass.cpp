@@ -6,43 +6,43 @@
 #include <cmath>
 #include <epoxy/gl.h>
 #include <glm/geometric.hpp>
-#include <optional>
 
 namespace patina::render {
 
 namespace {
 
 constexpr glm::vec3 kSelection{1.0f, 0.62f, 0.18f}; // amber: rare in materials
-constexpr float kMarkSize = 14.0f;                  // half the side of a light's mark, in units
-
-// Pixels from the bottom left; nothing behind the camera.
-std::optional<glm::vec2> project(const FrameBlock& frame, const glm::vec3& point) {
-    const glm::vec4 clip = frame.worldToClip * glm::vec4(point, 1.0f);
-    if (clip.w <= 1e-6f)
-        return std::nullopt;
-    return (glm::vec2(clip) / clip.w * 0.5f + 0.5f) * glm::vec2(frame.viewport);
-}
-
 // Marks keep their size on a small picture and grow with a large or dense one.
-float markScale(const FrameBlock& frame) {
-    return std::max(1.0f, frame.viewport.y / 1000.0f);
+float markScale(float height, float share) {
+    return share * std::max(1.0f, height / share / 1000.0f);
 }
 
-// Hue of a light at full brightness.
-glm::vec3 markColor(const Light& light) {
-    const float most = std::max({light.color.r, light.color.g, light.color.b, 1e-6f});
-    return glm::mix(glm::vec3(1.0f), light.color / most, 0.8f);
+const char* markShape(LightType type) {
+    switch (type) {
+    case LightType::Directional:
+        return "SUN";
+    case LightType::Point:
+        return "BULB";
+    case LightType::Spot:
+        return "SPOT";
+    case LightType::Sphere:
+        return "BALL";
+    case LightType::Rectangle:
+        return "PANEL";
+    }
+    return "BULB";
 }
 
 } // namespace
 
 Result<void> OverlayPass::draw(const Targets& targets, const GpuScene& scene,
-                               const FrameBlock& frame, const Camera& camera, Id selected) {
+                               const FrameBlock& frame, const Camera& camera,
+                               const OverlaySettings& settings) {
     if (auto done = drawGrid(targets, scene.document().view, camera); !done)
         return done;
-    if (auto done = drawOutline(targets, scene, selected); !done)
+    if (auto done = drawOutline(targets, scene, settings); !done)
         return done;
-    Result<void> done = drawLights(targets, scene, frame);
+    Result<void> done = drawLights(targets, scene, frame, settings);
     glDisable(GL_BLEND);
     return done;
 }
@@ -68,10 +68,12 @@ Result<void> OverlayPass::drawGrid(const Targets& targets, const View& view, con
     return {};
 }
 
-Result<void> OverlayPass::drawOutline(const Targets& targets, const GpuScene& scene, Id selected) {
+Result<void> OverlayPass::drawOutline(const Targets& targets, const GpuScene& scene,
+                                      const OverlaySettings& settings) {
     const auto& items = scene.items();
-    const auto item = std::find_if(items.begin(), items.end(),
-                                   [&](const DrawItem& i) { return i.id == selected; });
+    const auto item = std::find_if(items.begin(), items.end(), [&](const DrawItem& i) {
+        return i.id == settings.selectedMesh;
+    });
     if (item == items.end())
         return {};
     if (m_mask.width() != targets.width() || m_mask.height() != targets.height()) {
@@ -101,7 +103,7 @@ Result<void> OverlayPass::drawOutline(const Targets& targets, const GpuScene& sc
     (*outline)->use();
     (*outline)->set("u_color", kSelection);
     (*outline)->set("u_radius",
-                    2.5f * std::max(1.0f, static_cast<float>(targets.height()) / 1000.0f));
+                    2.5f * markScale(static_cast<float>(targets.height()), settings.scale));
     m_mask.bind(0);
     m_screen.drawTriangle();
     return {};
@@ -125,37 +127,42 @@ Result<void> OverlayPass::drawMark(const char* shape, const glm::vec2& center,
     return {};
 }
 
+Result<void> OverlayPass::drawLine(const GizmoLine& line, float scale) {
+    const glm::vec2 along = line.to - line.from;
+    const float length = glm::length(along);
+    // Half of a pixel has no direction, and a line across the world no end.
+    if (!(length > 0.5f) || length > 1e5f)
+        return {};
+    const glm::vec2 side = 2.5f * scale * glm::vec2(-along.y, along.x) / length;
+    return drawMark(line.dashed ? "DASHED" : "LINE", 0.5f * (line.from + line.to), 0.5f * along,
+                    side, line.color, scale);
+}
+
 Result<void> OverlayPass::drawLights(const Targets& targets, const GpuScene& scene,
-                                     const FrameBlock& frame) {
+                                     const FrameBlock& frame, const OverlaySettings& settings) {
     targets.display().bind();
-    const float scale = markScale(frame), half = kMarkSize * scale;
-    const glm::vec3 center = scene.bounds().center();
-    const float radius = std::max(scene.bounds().radius(), 1e-3f);
-    for (const Light& light : scene.document().lights) {
-        if (!light.enabled)
+    const float scale = markScale(frame.viewport.y, settings.scale);
+    const GizmoView view{frame.worldToClip, glm::vec2(frame.viewport), scale};
+    const Document& document = scene.document();
+    for (const Light& light : document.lights) {
+        const LightGizmo gizmo =
+            lightGizmo(document, light, scene.bounds(), view, light.id == settings.selectedLight);
+        if (!gizmo.visible)
             continue;
-        // A directional light has no place: its mark stands on the side it comes from.
-        const bool sun = light.type == LightType::Directional;
-        const glm::vec3 d = sun ? light.directionToLight() : glm::vec3(0.0f);
-        const auto mark = project(frame, sun ? center + 1.6f * radius * d : light.position);
-        if (!mark)
-            continue;
-        const glm::vec3 color = markColor(light);
-        if (const auto end = project(frame, center + 1.05f * radius * d); sun && end) {
-            const glm::vec2 along = *end - *mark;
-            const float length = glm::length(along);
-            if (length > 2.0f * half) {
-                const glm::vec2 start = *mark + along * (half / length);
-                const glm::vec2 halfLine = 0.5f * (*end - start);
-                const glm::vec2 side = 2.0f * scale * glm::vec2(-along.y, along.x) / length;
-                if (auto done = drawMark("LINE", start + halfLine, halfLine, side, color, scale);
-                    !done)
-                    return done;
-            }
-        }
-        if (auto done = drawMark(sun ? "SUN" : "BULB", *mark, {half, 0}, {0, half}, color, scale);
+        for (const GizmoLine& line : gizmo.lines)
+            if (auto done = drawLine(line, scale); !done)
+                return done;
+        const float half = kGizmoMark * scale;
+        const glm::vec3 color = gizmo.selected ? kSelection : gizmo.color;
+        if (auto done =
+                drawMark(markShape(light.type), gizmo.mark, {half, 0}, {0, half}, color, scale);
             !done)
             return done;
+        const float knob = (kGizmoKnob + 3.0f) * scale; // room for the rim
+        for (const GizmoPoint& handle : gizmo.handles)
+            if (auto done = drawMark("KNOB", handle.at, {knob, 0}, {0, knob}, handle.color, scale);
+                !done)
+                return done;
     }
     return {};
 }

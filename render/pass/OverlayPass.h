@@ -1,11 +1,18 @@
-// What the editor draws over the picture: ground grid, outline of the selection, marks of lights.
+// What the editor draws over the picture: ground grid, outline of the selection, lights.
 // It is added after tone mapping, so exposure does not touch it.
 #pragma once
 
 #include "render/pass/ScreenPasses.h"
 #include "render/scene/DrawList.h"
+#include "render/scene/LightGizmo.h"
 
 namespace patina::render {
+
+struct OverlaySettings {
+    Id selectedMesh = 0;  // outlined; 0: none
+    Id selectedLight = 0; // shown with its handles; 0: none
+    float scale = 1.0f;   // of a frame that is to be enlarged: share of its final size
+};
 
 class OverlayPass {
   public:
@@ -15,14 +22,17 @@ class OverlayPass {
         , m_screen(screen)
         , m_noAttributes(context, "no attributes") {}
 
-    // Into targets.display(). `selected`: the outlined instance, 0 for none.
+    // Into targets.display().
     Result<void> draw(const Targets& targets, const GpuScene& scene, const FrameBlock& frame,
-                      const Camera& camera, Id selected);
+                      const Camera& camera, const OverlaySettings& settings);
 
   private:
     Result<void> drawGrid(const Targets& targets, const View& view, const Camera& camera);
-    Result<void> drawOutline(const Targets& targets, const GpuScene& scene, Id selected);
-    Result<void> drawLights(const Targets& targets, const GpuScene& scene, const FrameBlock& frame);
+    Result<void> drawOutline(const Targets& targets, const GpuScene& scene,
+                             const OverlaySettings& settings);
+    Result<void> drawLights(const Targets& targets, const GpuScene& scene, const FrameBlock& frame,
+                            const OverlaySettings& settings);
+    Result<void> drawLine(const GizmoLine& line, float scale);
     Result<void> drawMark(const char* shape, const glm::vec2& center, const glm::vec2& axisX,
                           const glm::vec2& axisY, const glm::vec3& color, float scale);
 

@@ -14,7 +14,8 @@ constexpr std::array<const char*, kSurfaceFeatureCount> kDefines{
     "HAS_OCCLUSION_MAP",  "HAS_EMISSIVE_MAP", "ROUGHNESS_IS_PACKED", "OCCLUSION_IS_PACKED",
     "ALPHA_MASK",         "ALPHA_BLEND",      "DOUBLE_SIDED",        "HAS_PLACEHOLDER",
     "HAS_TEXEL_AO",       "HAS_VERTEX_AO",    "HAS_TRANSFER",        "HAS_PUNCTUAL_LIGHTS",
-    "HAS_AREA_LIGHTS"};
+    "HAS_AREA_LIGHTS",    "HAS_SHADOWS",      "HAS_SHADOWS_2",       "HAS_SHADOWS_3",
+    "HAS_SHADOWS_4"};
 
 // The choices of the model: name of the define, value, default.
 struct ModelChoice {
@@ -65,6 +66,8 @@ unsigned surfaceFeatures(const DrawItem& item, const SurfaceSettings& settings) 
     unsigned features = item.material->features;
     if (settings.hasPunctualLights)
         features |= HasPunctualLights;
+    for (int i = 0; i < settings.shadows; ++i)
+        features |= HasShadows << i;
     if (settings.hasAreaLights)
         features |= HasAreaLights;
     if (settings.lighting == LightingMode::Prt && item.transfer)

@@ -17,6 +17,7 @@ struct SurfaceSettings {
     bool hasPunctualLights = false;
     bool hasAreaLights = false;
     glm::ivec4 lightEnds{0}; // FrameBlock::lightEnds
+    int shadows = 0;         // maps that ShadowPass::bind() has bound
     ShadingModel model;      // its choices; the numbers are in the scene's model block
 };
 

@@ -11,9 +11,10 @@
 namespace patina::render {
 
 inline constexpr unsigned kFrameBinding = 0, kInstanceBinding = 1, kMaterialBinding = 2,
-                          kModelBinding = 3;
+                          kModelBinding = 3, kShadowBinding = 4;
 inline constexpr unsigned kVisibilityBinding = 0, kTransferBinding = 1; // storage blocks
 inline constexpr int kMaxLights = 16;
+inline constexpr int kMaxShadows = 4; // lights that have a shadow map
 inline constexpr int kMaxTransferCount = 25; // order 5
 
 struct LightBlock {
@@ -37,6 +38,16 @@ static_assert(offsetof(FrameBlock, cameraPosition) == 192);
 static_assert(offsetof(FrameBlock, radianceScale) == 224);
 static_assert(offsetof(FrameBlock, irradianceSh) == 240);
 static_assert(sizeof(FrameBlock) == 240 + 30 * 16 + 16 * 64);
+
+// shaders/include/shadow.glsl; see ShadowView for the numbers.
+struct ShadowBlock {
+    glm::mat4 worldToMap{1.0f}, planeToMap{1.0f};
+    glm::vec4 light{0.0f};
+    glm::vec4 tile{0.0f, 0.0f, 1.0f, 1.0f};
+    float penumbra = 0.0f, texelDepth = 0.0f, maxSlope = 0.0f, texel = 0.0f;
+};
+static_assert(sizeof(ShadowBlock) == 176);
+using ShadowBlocks = std::array<ShadowBlock, kMaxShadows>;
 
 struct InstanceBlock {
     glm::mat4 model{1.0f}, normalToWorld{1.0f};

@@ -37,8 +37,12 @@ enum SurfaceFeature : unsigned {
     HasTransfer = 1u << 14,
     HasPunctualLights = 1u << 15, // points, spots, directional lights
     HasAreaLights = 1u << 16,     // spheres, rectangles
+    HasShadows = 1u << 17,        // of one spot or directional light
+    HasShadows2 = 1u << 18,       // … of a second one …
+    HasShadows3 = 1u << 19,
+    HasShadows4 = 1u << 20,
 };
-inline constexpr int kSurfaceFeatureCount = 17;
+inline constexpr int kSurfaceFeatureCount = 21;
 
 // Two bits each: which channel of the map counts, R G B A.
 inline constexpr unsigned kMetallicChannelShift = 26, kRoughnessChannelShift = 28,

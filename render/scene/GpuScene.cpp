@@ -73,12 +73,17 @@ void GpuScene::update(const Document& document, const Change& change) {
         const auto known = m_materials.find(change.target->id);
         if (scope == Scope::Material && material && known != m_materials.end()) {
             updateGpuMaterial(m_context, m_textures, *material, known->second);
+            if (material->alphaMode != AlphaMode::Opaque)
+                ++m_shapeRevision;
             return;
         }
     }
 
     if (touched(Affects::Structure) && tooManyLights(m_document))
         logWarning("Only the first {} lights that shine are drawn; switch some off.", kMaxLights);
+    if (touched(Affects::Structure) && tooManyShadows(m_document))
+        logWarning("Only the first {} lights that cast shadows do so; the others shine through.",
+                   kMaxShadows);
 
     if (touched(Affects::EnvironmentMap))
         m_environment.setBackground(m_document.environment.image);
@@ -128,6 +133,7 @@ void GpuScene::updateTexelBakes() {
 }
 
 void GpuScene::rebuildItems() {
+    ++m_shapeRevision;
     m_items.clear();
     m_bounds = {};
     std::set<Id> ids;
@@ -199,9 +205,9 @@ void GpuScene::clearPreview() {
     rebuildItems();
 }
 
-void GpuScene::fill(FrameBlock& frame) const {
+void GpuScene::fill(FrameBlock& frame, std::span<const Id> shadows) const {
     m_environment.fill(m_document.environment, frame);
-    packLights(m_document, {}, frame);
+    packLights(m_document, shadows, frame);
 }
 
 } // namespace patina::render

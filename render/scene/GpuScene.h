@@ -51,8 +51,12 @@ class GpuScene {
     [[nodiscard]] std::size_t meshCount() const { return m_meshes.size(); }
     [[nodiscard]] std::size_t textureCount() const { return m_textures.size(); }
 
-    // The frame's uniforms that follow from the document: environment and lights.
-    void fill(FrameBlock& frame) const;
+    // Grows when geometry, or what is cut out of it, changes: shadow maps are drawn anew.
+    [[nodiscard]] std::uint64_t shapeRevision() const { return m_shapeRevision; }
+
+    // The frame's uniforms that follow from the document: environment and lights. `shadows`: ids of
+    // the lights that have a shadow map, by slot.
+    void fill(FrameBlock& frame, std::span<const Id> shadows = {}) const;
 
   private:
     void updateMeshes();
@@ -73,6 +77,7 @@ class GpuScene {
     std::map<Id, gl::Texture> m_texelPreviews; // by material
     std::map<Id, const gl::Texture*> m_texelBakes;
     std::vector<DrawItem> m_items;
+    std::uint64_t m_shapeRevision = 0;
     Bounds m_bounds;
 };
 

@@ -73,7 +73,9 @@ void packLights(const Document& document, std::span<const Id> shadowSlots, Frame
     });
     frame.lightEnds = glm::ivec4(0);
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        const auto slot = std::find(shadowSlots.begin(), shadowSlots.end(), lights[i]->id);
+        const bool casts = canCastShadow(lights[i]->type) && lights[i]->castsShadow;
+        const auto slot = casts ? std::find(shadowSlots.begin(), shadowSlots.end(), lights[i]->id)
+                                : shadowSlots.end();
         frame.lights[i] = packLight(*lights[i], slot == shadowSlots.end()
                                                     ? -1
                                                     : static_cast<int>(slot - shadowSlots.begin()));
@@ -84,6 +86,18 @@ void packLights(const Document& document, std::span<const Id> shadowSlots, Frame
 
 bool tooManyLights(const Document& document) {
     return shiningLights(document).size() > std::size_t{kMaxLights};
+}
+
+std::vector<const Light*> castingLights(const Document& document) {
+    std::vector<const Light*> lights = shiningLights(document);
+    std::erase_if(lights, [](const Light* light) {
+        return !canCastShadow(light->type) || !light->castsShadow;
+    });
+    return lights;
+}
+
+bool tooManyShadows(const Document& document) {
+    return castingLights(document).size() > std::size_t{kMaxShadows};
 }
 
 } // namespace patina::render

@@ -6,6 +6,7 @@
 #include "render/scene/Blocks.h"
 
 #include <span>
+#include <vector>
 
 namespace patina::render {
 
@@ -15,5 +16,9 @@ void packLights(const Document& document, std::span<const Id> shadowSlots, Frame
 
 // Whether more lights shine than packLights() takes.
 [[nodiscard]] bool tooManyLights(const Document& document);
+
+// Those that shine and cast a shadow, in the document's order; the first kMaxShadows get a map.
+[[nodiscard]] std::vector<const Light*> castingLights(const Document& document);
+[[nodiscard]] bool tooManyShadows(const Document& document);
 
 } // namespace patina::render
