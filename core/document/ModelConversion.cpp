@@ -2,12 +2,10 @@
 
 #include "core/base/Check.h"
 #include "core/base/Utf8.h"
+#include "core/document/Lights.h"
 #include "core/material/Parameters.h"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <tuple>
 #include <utility>
 
@@ -97,15 +95,16 @@ Material convertMaterial(const ImportedMaterial& imported, const std::string& mo
 Light convertLight(const ImportedLight& imported) {
     Light light;
     light.name = nameOr(imported.name, "Light");
-    light.type = imported.directional ? LightType::Directional : LightType::Point;
+    using Type = ImportedLight::Type;
+    light.type = imported.type == Type::Directional ? LightType::Directional
+                 : imported.type == Type::Spot      ? LightType::Spot
+                                                    : LightType::Point;
     std::tie(light.color, light.intensity) = splitBrightness(imported.color, 0.0f);
     light.position = imported.position;
-    const float length = glm::length(imported.direction);
-    if (length > 0.0f && std::isfinite(length)) {
-        const glm::vec3 toLight = -imported.direction / length; // Light::directionToLight inverted
-        light.azimuthDeg = glm::degrees(std::atan2(toLight.x, toLight.z));
-        light.elevationDeg = glm::degrees(std::asin(std::clamp(toLight.y, -1.0f, 1.0f)));
-    }
+    setDirectionToLight(light, -imported.direction);
+    light.range = imported.range;
+    light.innerConeDeg = imported.innerConeDeg;
+    light.outerConeDeg = imported.outerConeDeg;
     return light;
 }
 

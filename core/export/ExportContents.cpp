@@ -56,6 +56,17 @@ void warnAboutBakes(const Document& document, const ExportSettings& settings,
     }
 }
 
+// Solo is for looking: lights that are switched on are exported whether or not another one is solo.
+void addLight(const Light& light, ExportContents& contents) {
+    if (light.type == LightType::Sphere || light.type == LightType::Rectangle)
+        contents.warnings.push_back(fmt::format(
+            "glTF has no area lights: \"{}\" is left out; switch its type to point or spot to take "
+            "it along",
+            light.name));
+    else
+        contents.lights.push_back(&light);
+}
+
 void addEnvironment(const Environment& environment, ExportContents& contents) {
     const bool missing = environment.kind == EnvironmentKind::Image && !environment.problem.empty();
     if (environment.image == nullptr || missing) {
@@ -92,7 +103,7 @@ ExportContents gatherContents(const Document& document, const ExportSettings& se
     if (settings.includeLights)
         for (const Light& light : document.lights)
             if (light.enabled)
-                contents.lights.push_back(&light);
+                addLight(light, contents);
 
     // The names of files beside the .gltf start with its own, in characters that need no escaping.
     std::string stem;

@@ -1,5 +1,6 @@
 #include "core/export/GltfWriter.h"
 
+#include "core/document/Lights.h"
 #include "core/export/GltfEnvironment.h"
 #include "core/export/GltfGeometry.h"
 #include "core/export/Names.h"
@@ -105,20 +106,32 @@ class Writer {
         UniqueNames names;
         for (const Light* light : m_contents.lights) {
             // The extension wants colours within 0…1: what is brighter goes into the intensity.
-            const float peak = std::max({light->color.r, light->color.g, light->color.b, 1.0f});
+            const glm::vec3 color = lightColor(*light);
+            const float peak = std::max({color.r, color.g, color.b, 1.0f});
             const std::string name = cleanName(light->name, "Light");
-            const bool directional = light->type == LightType::Directional;
             NodeTransform transform;
-            if (directional)
+            if (hasDirection(light->type))
                 transform.rotation = rotationFromMinusZ(-glm::dvec3(light->directionToLight()));
-            else
+            if (hasPosition(light->type))
                 transform.translation = light->position;
             const Json reference = {
                 {"KHR_lights_punctual", {{"light", static_cast<int>(m_lights.size())}}}};
-            m_lights.push_back({{"name", names.take(name)},
-                                {"type", directional ? "directional" : "point"},
-                                {"color", toJson(light->color / peak)},
-                                {"intensity", light->intensity * peak}});
+            Json json = {{"name", names.take(name)},
+                         {"type", light->type == LightType::Directional ? "directional"
+                                  : light->type == LightType::Spot      ? "spot"
+                                                                        : "point"},
+                         {"color", toJson(color / peak)},
+                         {"intensity", light->intensity * peak}};
+            if (hasRange(light->type) && light->range > 0.0f)
+                json["range"] = light->range;
+            if (light->type == LightType::Spot) {
+                // The extension wants the inner cone to be smaller; ours ends at the outer one.
+                const double outer = glm::radians(static_cast<double>(light->outerConeDeg));
+                const double inner = glm::radians(static_cast<double>(light->innerConeDeg));
+                json["spot"] = {{"innerConeAngle", std::min(inner, 0.999 * outer)},
+                                {"outerConeAngle", outer}};
+            }
+            m_lights.push_back(std::move(json));
             addNode({{"name", m_nodeNames.take(name)}}, {transform}, {{"extensions", reference}});
         }
         if (!m_lights.empty())

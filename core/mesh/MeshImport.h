@@ -49,10 +49,13 @@ struct ImportedInstance {
 };
 
 struct ImportedLight {
+    enum class Type { Point, Directional, Spot };
     std::string name;
-    bool directional = true;
+    Type type = Type::Directional;
     glm::vec3 position{0.0f}, direction{0.0f, -1.0f, 0.0f};
-    glm::vec3 color{1.0f}; // linear, intensity included
+    glm::vec3 color{1.0f}; // linear, intensity included: candela, or lux of a directional light
+    float range = 0.0f;    // metres, 0: without end
+    float innerConeDeg = 0.0f, outerConeDeg = 45.0f; // half angles of a spot
 };
 
 struct ImportedModel {

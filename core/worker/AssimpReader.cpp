@@ -16,6 +16,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <sstream>
 
 namespace patina::codec {
@@ -189,7 +190,14 @@ void readNodes(const aiScene& scene, const glm::mat4& root, const std::vector<in
                 continue;
             ImportedLight light;
             light.name = source.mName.C_Str();
-            light.directional = source.mType == aiLightSource_DIRECTIONAL;
+            using Type = ImportedLight::Type;
+            light.type = source.mType == aiLightSource_DIRECTIONAL ? Type::Directional
+                         : source.mType == aiLightSource_SPOT      ? Type::Spot
+                                                                   : Type::Point;
+            if (light.type == Type::Spot) { // Assimp has full angles
+                light.innerConeDeg = 0.5f * glm::degrees(source.mAngleInnerCone);
+                light.outerConeDeg = 0.5f * glm::degrees(source.mAngleOuterCone);
+            }
             light.position = glm::vec3(
                 world * glm::vec4(source.mPosition.x, source.mPosition.y, source.mPosition.z, 1));
             const glm::vec3 direction =

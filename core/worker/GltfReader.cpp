@@ -10,8 +10,10 @@
 #include <array>
 #include <cstring>
 #include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -321,7 +323,15 @@ void Reader::light(const json& node, const glm::mat4& world) {
     const std::string type = source.at("type");
     ImportedLight light;
     light.name = source.value("name", node.value("name", std::string("light")));
-    light.directional = type == "directional";
+    using Type = ImportedLight::Type;
+    if (type != "directional" && type != "point" && type != "spot") {
+        m_model.warnings.push_back(
+            fmt::format("The light \"{}\" is of an unknown type and was left out.", light.name));
+        return;
+    }
+    light.type = type == "directional" ? Type::Directional
+                 : type == "spot"      ? Type::Spot
+                                       : Type::Point;
     light.position = glm::vec3(world[3]);
     const glm::vec3 axis = -glm::vec3(world[2]);
     if (glm::dot(axis, axis) > 0.0f)
@@ -330,9 +340,12 @@ void Reader::light(const json& node, const glm::mat4& world) {
     for (int i = 0; i < 3; ++i)
         light.color[i] =
             color.at(static_cast<std::size_t>(i)).get<float>() * source.value("intensity", 1.0f);
-    if (type == "spot")
-        m_model.warnings.push_back(
-            fmt::format("Spot light \"{}\" was read as a point light.", light.name));
+    light.range = source.value("range", 0.0f);
+    if (light.type == Type::Spot) {
+        const json cone = source.value("spot", json::object());
+        light.innerConeDeg = glm::degrees(cone.value("innerConeAngle", 0.0f));
+        light.outerConeDeg = glm::degrees(cone.value("outerConeAngle", glm::quarter_pi<float>()));
+    }
     m_model.lights.push_back(light);
 }
 

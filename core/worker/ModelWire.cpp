@@ -222,10 +222,16 @@ ImportedModel readUnchecked(const json& header, std::span<const std::byte> bytes
     for (const json& value : header.at("lights")) {
         ImportedLight light;
         light.name = value.at("name");
-        light.directional = value.at("directional");
+        const int type = value.at("type");
+        if (type < 0 || type > static_cast<int>(ImportedLight::Type::Spot))
+            throw std::runtime_error("a light of unknown type");
+        light.type = static_cast<ImportedLight::Type>(type);
         light.position = vector<3>(value.at("position"));
         light.direction = vector<3>(value.at("direction"));
         light.color = glm::max(vector<3>(value.at("color")), glm::vec3(0.0f));
+        light.range = number(value.at("range"));
+        light.innerConeDeg = number(value.at("innerConeDeg"));
+        light.outerConeDeg = number(value.at("outerConeDeg"));
         model.lights.push_back(light);
     }
     for (const json& warning : header.at("warnings"))
@@ -273,7 +279,10 @@ std::string writeModelHeader(const ImportedModel& model, std::size_t& payloadSiz
     json& lights = header["lights"] = json::array();
     for (const ImportedLight& light : model.lights)
         lights.push_back({{"name", light.name},
-                          {"directional", light.directional},
+                          {"type", static_cast<int>(light.type)},
+                          {"range", light.range},
+                          {"innerConeDeg", light.innerConeDeg},
+                          {"outerConeDeg", light.outerConeDeg},
                           {"position", array<3>(light.position)},
                           {"direction", array<3>(light.direction)},
                           {"color", array<3>(light.color)}});

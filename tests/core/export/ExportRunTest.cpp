@@ -1,5 +1,7 @@
 // What is planned is what is written, and what was written is read back the same.
 #include "ExportScene.h"
+#include "core/document/Lights.h"
+#include "core/document/ModelConversion.h"
 #include "core/image/ImageIO.h"
 #include "core/mesh/MeshImport.h"
 #include "core/worker/WorkerClient.h"
@@ -232,4 +234,58 @@ TEST_F(ExportRun, ThePlanTellsWhatIsLost) {
                         std::make_shared<const BakeArtifact>(stale)};
     EXPECT_THAT(planExport(m_document, settings("scene.glb")).warnings,
                 ElementsAre(HasSubstr("radiance transfer"), HasSubstr("older than the geometry")));
+}
+
+TEST_F(ExportRun, PunctualLightsComeBackAsTheyWent) {
+    Light sun, lamp, spot, area;
+    sun.name = "Sun";
+    sun.azimuthDeg = 70.0f;
+    sun.elevationDeg = 25.0f;
+    sun.color = {1.0f, 0.5f, 0.25f};
+    lamp.name = "Lamp";
+    lamp.type = LightType::Point;
+    lamp.position = {1, 2, -3};
+    lamp.range = 6.0f;
+    lamp.intensity = 12.0f;
+    spot = lamp;
+    spot.name = "Spot";
+    spot.type = LightType::Spot;
+    spot.azimuthDeg = -110.0f;
+    spot.elevationDeg = -15.0f;
+    spot.range = 0.0f;
+    spot.innerConeDeg = 12.0f;
+    spot.outerConeDeg = 33.0f;
+    spot.usesTemperature = true;
+    spot.temperatureK = 3000.0f;
+    area.name = "Panel";
+    area.type = LightType::Rectangle;
+    m_document.lights = {sun, lamp, spot, area};
+    m_document.lights[0].solo = true; // a matter of looking, not of the scene
+
+    const ExportPlan plan = planExport(m_document, settings("lights.glb"));
+    EXPECT_THAT(plan.warnings, ElementsAre(HasSubstr("no area lights: \"Panel\" is left out")));
+    ASSERT_TRUE(runExport(m_worker, m_document, plan, JobContext()).ok());
+    Result<ImportedModel> model = importModel(m_worker, m_folder / "lights.glb");
+    ASSERT_TRUE(model.ok()) << model.error().text();
+    const std::vector<Light> lights = convertModel(std::move(*model), "lights.glb").lights;
+    ASSERT_EQ(lights.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Light& before = m_document.lights[i];
+        const Light& after = lights[i];
+        EXPECT_EQ(after.name, before.name);
+        EXPECT_EQ(after.type, before.type);
+        const glm::vec3 power = lightColor(before) * before.intensity;
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(lightColor(after)[c] * after.intensity, power[c], 1e-4f * before.intensity);
+        if (hasPosition(before.type)) {
+            EXPECT_EQ(after.position, before.position);
+            EXPECT_EQ(after.range, before.range);
+        }
+        if (hasDirection(before.type)) {
+            EXPECT_NEAR(after.azimuthDeg, before.azimuthDeg, 1e-3f);
+            EXPECT_NEAR(after.elevationDeg, before.elevationDeg, 1e-3f);
+        }
+    }
+    EXPECT_NEAR(lights[2].innerConeDeg, 12.0f, 1e-4f);
+    EXPECT_NEAR(lights[2].outerConeDeg, 33.0f, 1e-4f);
 }

@@ -288,6 +288,30 @@ TEST(GltfWriter, LightsBecomePunctualLights) {
     EXPECT_FALSE(write(document, settings).json.contains("extensions"));
 }
 
+TEST(GltfWriter, SpotsHaveConesWithinWhatTheExtensionAllows) {
+    Document document;
+    addSquare(document, 0);
+    Light spot;
+    spot.name = "Spot";
+    spot.type = LightType::Spot;
+    spot.position = {1, 2, 3};
+    spot.range = 4.0f;
+    spot.innerConeDeg = 60.0f; // wider than the outer one
+    spot.outerConeDeg = 30.0f;
+    document.lights = {spot};
+    Json json = write(document).json;
+    Json& light = json["extensions"]["KHR_lights_punctual"]["lights"][0];
+    EXPECT_EQ(light["type"], "spot");
+    EXPECT_EQ(light["range"], 4.0);
+    EXPECT_NEAR(light["spot"]["outerConeAngle"], 0.5235988, 1e-6);
+    EXPECT_LT(light["spot"]["innerConeAngle"], light["spot"]["outerConeAngle"]);
+    const glm::dvec4 shines = worldMatrix(json, 1) * glm::dvec4(0, 0, -1, 0);
+    const glm::vec3 d = spot.directionToLight();
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(shines[i], -d[i], 1e-6);
+    EXPECT_EQ(json["nodes"][1]["translation"], Json({1, 2, 3}));
+}
+
 TEST(GltfWriter, SeparateFilesAreReferredToByName) {
     Document document;
     Material& m = addMaterial(document, "M");

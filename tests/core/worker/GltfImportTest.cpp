@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/trigonometric.hpp>
 
 namespace patina {
 namespace {
@@ -321,20 +322,41 @@ TEST_F(GltfImport, Lights) {
     GltfBuilder builder;
     builder.root["extensions"]["KHR_lights_punctual"]["lights"] = json::parse(
         R"([{"type": "directional", "name": "sun", "color": [1, 0.5, 0.25], "intensity": 2},
-            {"type": "point", "intensity": 10}])");
+            {"type": "point", "intensity": 10, "range": 7},
+            {"type": "spot", "intensity": 3,
+             "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.6}},
+            {"type": "spot"}, {"type": "disc", "name": "odd"}])");
     builder.node({{"mesh", builder.triangle()}});
     builder.node({{"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}},
                   {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
     builder.node({{"translation", {1, 2, 3}},
                   {"name", "bulb"},
                   {"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});
+    // Half a turn about Y, scaled: it shines along +Z, and the scale does not touch its range.
+    builder.node({{"rotation", {0, 1, 0, 0}},
+                  {"scale", {2, 2, 2}},
+                  {"translation", {0, 0, -5}},
+                  {"extensions", {{"KHR_lights_punctual", {{"light", 2}}}}}});
+    for (const int index : {3, 4})
+        builder.node({{"extensions", {{"KHR_lights_punctual", {{"light", index}}}}}});
     const ImportedModel model = import("a.glb", builder.glb());
-    ASSERT_EQ(model.lights.size(), 2u);
-    EXPECT_TRUE(model.lights[0].directional);
+    ASSERT_EQ(model.lights.size(), 4u);
+    EXPECT_EQ(model.lights[0].type, ImportedLight::Type::Directional);
     EXPECT_EQ(model.lights[0].name, "sun");
     expectNear(model.lights[0].color, {2, 1, 0.5f});
     expectNear(model.lights[0].direction, {0, -1, 0}); // -Z turned -90 degrees about X
-    EXPECT_FALSE(model.lights[1].directional);
+    EXPECT_EQ(model.lights[1].type, ImportedLight::Type::Point);
+    EXPECT_EQ(model.lights[1].range, 7.0f);
+    const ImportedLight& spot = model.lights[2];
+    EXPECT_EQ(spot.type, ImportedLight::Type::Spot);
+    expectNear(spot.position, {0, 0, -5});
+    expectNear(spot.direction, {0, 0, 1});
+    EXPECT_NEAR(spot.innerConeDeg, glm::degrees(0.2f), 1e-4f);
+    EXPECT_NEAR(spot.outerConeDeg, glm::degrees(0.6f), 1e-4f);
+    EXPECT_EQ(spot.range, 0.0f);
+    EXPECT_EQ(model.lights[3].innerConeDeg, 0.0f); // what the extension says when nothing is said
+    EXPECT_NEAR(model.lights[3].outerConeDeg, 45.0f, 1e-4f);
+    EXPECT_THAT(model.warnings, Contains(HasSubstr("\"odd\" is of an unknown type")));
     EXPECT_EQ(model.lights[1].name, "bulb");
     expectNear(model.lights[1].position, {1, 2, 3});
 }
