@@ -72,10 +72,14 @@ QDialog* makeShortcutsDialog(const QList<QAction*>& actions, QWidget* parent) {
         {tr("Left drag"), tr("Orbit")},
         {tr("Middle drag"), tr("Pan (also Shift + left drag)")},
         {tr("Wheel"), tr("Zoom")},
-        {tr("Click"), tr("Select a mesh and its material")},
+        {tr("Click"), tr("Select a mesh and its material, or a light")},
         {tr("Right drag"), tr("Look around")},
         {tr("W A S D Q E"), tr("Fly while the right button is held")},
         {tr("Shift + right drag"), tr("Turn the environment")},
+        {tr("Ctrl + right drag"),
+         tr("Turn the selected light about the scene, or the environment")},
+        {tr("Drag a light's mark"), tr("Move it; a sun turns")},
+        {tr("Drag its handles"), tr("Move it along X, Y, Z, or aim it; Esc takes the drag back")},
     };
     const Lines fields = {
         {tr("Drag a number"), tr("Change it; Shift is fine, Ctrl is coarse")},

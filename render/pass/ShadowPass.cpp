@@ -142,9 +142,10 @@ Result<void> ShadowPass::drawMap(const GpuScene& scene, const ShadowView& view, 
         if (item.material->alphaMode == AlphaMode::Blend ||
             !insideFrustum(item.bounds, view.worldToClip))
             continue;
-        const unsigned features = item.material->features & AlphaMasked
-                                      ? item.material->features & (AlphaMasked | HasBaseColorMap)
-                                      : 0u;
+        const unsigned features =
+            item.material->features & AlphaMasked
+                ? item.material->features & (AlphaMasked | HasBaseColorMap | HasMovedMaps)
+                : 0u;
         const auto shader =
             m_shaders.program({{"surface.vert", "shadow.frag"}, surfaceDefines(features)});
         if (!shader)

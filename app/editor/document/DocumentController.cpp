@@ -3,6 +3,7 @@
 #include "app/editor/document/Commands.h"
 #include "app/editor/document/EnvironmentResolver.h"
 #include "core/base/Check.h"
+#include "core/document/Lights.h"
 
 #include <algorithm>
 
@@ -90,6 +91,14 @@ void DocumentController::setParameter(const ParameterInfo& info, Target target,
                             tr("Change %1").arg(fromText(info.label)));
         return;
     }
+    // A light that becomes another type keeps what it does to the scene.
+    const Light* light = info.id == "light.type" ? m_document.light(target.id) : nullptr;
+    const int* type = std::get_if<int>(&value);
+    if (light && type && *type >= 0 && *type < static_cast<int>(info.choices.size())) {
+        changeLight(convertedLight(*light, static_cast<LightType>(*type), m_document.bounds()),
+                    session, tr("Change Type of %1").arg(nameText(target)));
+        return;
+    }
     const QString label = fromText(info.label);
     const std::string name = nameOf(m_document, target);
     pushParameters(target, {{&info, value}}, session,
@@ -159,16 +168,46 @@ QString DocumentController::nameText(Target target) const {
 }
 
 Id DocumentController::addLight(LightType type) {
-    const bool point = type == LightType::Point;
-    Light light;
-    light.type = type;
-    light.name = (point ? tr("Point") : tr("Sun")).toStdString();
-    if (point)
-        light.intensity = 20.0f; // as bright as the default sun at the default distance
+    Light light = defaultLight(type, m_document.bounds());
+    QString undoText;
+    switch (type) {
+    case LightType::Point:
+        light.name = tr("Point").toStdString(), undoText = tr("Add Point Light");
+        break;
+    case LightType::Directional:
+        light.name = tr("Sun").toStdString(), undoText = tr("Add Directional Light");
+        break;
+    case LightType::Spot:
+        light.name = tr("Spot").toStdString(), undoText = tr("Add Spot Light");
+        break;
+    case LightType::Sphere:
+        light.name = tr("Sphere").toStdString(), undoText = tr("Add Sphere Light");
+        break;
+    case LightType::Rectangle:
+        light.name = tr("Panel").toStdString(), undoText = tr("Add Rectangle Light");
+        break;
+    }
     Id id = 0;
-    editStructure(point ? tr("Add Point Light") : tr("Add Directional Light"),
-                  [&](Document& document) { id = patina::addLight(document, light); });
+    editStructure(undoText, [&](Document& document) { id = patina::addLight(document, light); });
     return id;
+}
+
+Id DocumentController::duplicateLight(Id original) {
+    Id id = 0;
+    if (m_document.light(original))
+        editStructure(tr("Duplicate %1").arg(nameText({Scope::Light, original})),
+                      [&](Document& document) { id = patina::duplicateLight(document, original); });
+    return id;
+}
+
+void DocumentController::changeLight(const Light& light, DragSession session, const QString& text) {
+    Document scratch;
+    scratch.lights.push_back(light);
+    std::vector<ParameterEdit> edits;
+    for (const ParameterInfo& info : parameters())
+        if (info.scope == Scope::Light && info.type != ParameterType::Text)
+            edits.push_back({&info, info.get(scratch, light.id)});
+    setParameters({Scope::Light, light.id}, edits, text, session);
 }
 
 void DocumentController::removeLight(Id id) {

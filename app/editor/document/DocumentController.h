@@ -86,7 +86,11 @@ class DocumentController : public QObject {
 
     // --- Structure -------------------------------------------------------------------------------
     void rename(Target target, const QString& name);
-    Id addLight(LightType type);
+    Id addLight(LightType type); // as bright at the scene's centre as any other type
+    Id duplicateLight(Id light);
+    // What changes of the light becomes one step, or part of a drag. Type, place, direction, size:
+    // everything but its name.
+    void changeLight(const Light& light, DragSession session, const QString& text);
     void removeLight(Id light);
     Id addMaterial();
     Id duplicateMaterial(Id material);

@@ -46,9 +46,10 @@ void SelectionModel::repair(const Change& change) {
             }
         }
     }
-    const Id light = document.light(m_light)   ? m_light
-                     : document.lights.empty() ? 0
-                                               : document.lights.front().id;
+    const bool deselected = m_light == 0 && change.affects != Affects::Everything;
+    const Id light = document.light(m_light) || deselected ? m_light
+                     : document.lights.empty()             ? 0
+                                                           : document.lights.front().id;
     set(mesh ? m_mesh : 0, material, light);
 }
 

@@ -10,9 +10,11 @@
 #include "core/document/Lights.h"
 
 #include <QHBoxLayout>
+#include <QHeaderView>
 #include <QLabel>
-#include <QListWidget>
+#include <QStyledItemDelegate>
 #include <QToolButton>
+#include <QTreeWidget>
 #include <QVBoxLayout>
 
 namespace patina::editor {
@@ -45,17 +47,42 @@ bool applies(const ParameterInfo& info, const Document& document, Id id) {
     return true;
 }
 
-QToolButton* textButton(const QString& iconName, const QString& text, const QString& tip) {
+constexpr int kNameColumn = 0, kSoloColumn = 1;
+
+// The solo column has a switch and no text to edit.
+class NoEditor : public QStyledItemDelegate {
+  public:
+    using QStyledItemDelegate::QStyledItemDelegate;
+    QWidget* createEditor(QWidget*, const QStyleOptionViewItem&,
+                          const QModelIndex&) const override {
+        return nullptr;
+    }
+};
+
+QToolButton* iconButton(const QString& iconName, const QString& tip) {
     auto* button = new QToolButton;
-    button->setObjectName(QStringLiteral("raised"));
     button->setIcon(icon(iconName));
-    button->setText(text);
-    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     button->setToolTip(tip);
     button->setStatusTip(tip);
     button->setAccessibleName(tip);
     button->setFocusPolicy(Qt::TabFocus);
     return button;
+}
+
+QString iconOf(LightType type) {
+    switch (type) {
+    case LightType::Point:
+        return QStringLiteral("light-point");
+    case LightType::Directional:
+        return QStringLiteral("light-sun");
+    case LightType::Spot:
+        return QStringLiteral("light-spot");
+    case LightType::Sphere:
+        return QStringLiteral("light-sphere");
+    case LightType::Rectangle:
+        return QStringLiteral("light-rectangle");
+    }
+    return {};
 }
 
 } // namespace
@@ -65,9 +92,10 @@ LightsPanel::LightsPanel(DocumentController& controller, SelectionModel& selecti
     : QWidget(parent)
     , m_controller(controller)
     , m_selection(selection)
-    , m_list(new QListWidget)
+    , m_list(new QTreeWidget)
     , m_empty(new QLabel(tr("Only the environment lights the scene.\nAdd a light above.")))
-    , m_remove(new QToolButton)
+    , m_duplicate(iconButton(QStringLiteral("duplicate"), tr("Duplicate the selected light")))
+    , m_remove(iconButton(QStringLiteral("remove"), tr("Remove the selected light")))
     , m_parameters(new ParameterList(controller, thumbnails,
                                      {Scope::Light,
                                       [&selection]() -> std::optional<Target> {
@@ -75,29 +103,47 @@ LightsPanel::LightsPanel(DocumentController& controller, SelectionModel& selecti
                                               return std::nullopt;
                                           return Target{Scope::Light, selection.light()};
                                       },
-                                      {"light.enabled"}, // the list has it
+                                      {"light.enabled", "light.solo"}, // the list has them
                                       applies})) {
-    auto* point = textButton(QStringLiteral("light-point"), tr("Point"), tr("Add a point light"));
-    auto* sun =
-        textButton(QStringLiteral("light-sun"), tr("Directional"), tr("Add a directional light"));
-    m_remove->setIcon(icon(QStringLiteral("remove")));
-    m_remove->setToolTip(tr("Remove the selected light"));
-    m_remove->setStatusTip(m_remove->toolTip());
-    m_remove->setAccessibleName(m_remove->toolTip());
-    m_remove->setFocusPolicy(Qt::TabFocus);
     m_list->setAccessibleName(tr("Lights"));
-    m_list->setStatusTip(tr("Tick to switch a light on, F2 to rename it"));
+    m_list->setStatusTip(tr("Tick to switch a light on or to hear it solo, F2 to rename it"));
     m_list->setEditTriggers(QAbstractItemView::EditKeyPressed | QAbstractItemView::DoubleClicked);
     m_list->setIconSize({16, 16});
-    m_list->setMaximumHeight(120);
+    m_list->setMaximumHeight(150);
+    m_list->setRootIsDecorated(false);
+    m_list->setColumnCount(2);
+    m_list->setHeaderLabels({tr("Light"), tr("Solo")});
+    m_list->headerItem()->setToolTip(kSoloColumn,
+                                     tr("While any light is solo, only solo lights shine"));
+    m_list->header()->setStretchLastSection(false);
+    m_list->header()->setSectionResizeMode(kNameColumn, QHeaderView::Stretch);
+    m_list->header()->setSectionResizeMode(kSoloColumn, QHeaderView::ResizeToContents);
+    m_list->setItemDelegateForColumn(kSoloColumn, new NoEditor(this));
     m_empty->setObjectName(QStringLiteral("dim"));
     m_empty->setAlignment(Qt::AlignCenter);
 
     auto* head = new QHBoxLayout;
     head->setSpacing(4);
-    head->addWidget(point);
-    head->addWidget(sun);
+    const struct {
+        LightType type;
+        QString tip;
+    } kinds[] = {{LightType::Point, tr("Add a point light")},
+                 {LightType::Directional, tr("Add a directional light")},
+                 {LightType::Spot, tr("Add a spot light")},
+                 {LightType::Sphere, tr("Add a sphere light")},
+                 {LightType::Rectangle, tr("Add a rectangle light")}};
+    auto* addLabel = new QLabel(tr("Add"));
+    addLabel->setObjectName(QStringLiteral("dim"));
+    head->addWidget(addLabel);
+    for (const auto& kind : kinds) {
+        QToolButton* button = iconButton(iconOf(kind.type), kind.tip);
+        button->setObjectName(QStringLiteral("raised"));
+        head->addWidget(button);
+        connect(button, &QToolButton::clicked, this,
+                [this, type = kind.type] { m_selection.selectLight(m_controller.addLight(type)); });
+    }
     head->addStretch(1);
+    head->addWidget(m_duplicate);
     head->addWidget(m_remove);
     auto* scroll = new PanelScroll;
     scroll->contents()->addLayout(head);
@@ -109,23 +155,24 @@ LightsPanel::LightsPanel(DocumentController& controller, SelectionModel& selecti
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(scroll);
 
-    connect(point, &QToolButton::clicked, this,
-            [this] { m_selection.selectLight(m_controller.addLight(LightType::Point)); });
-    connect(sun, &QToolButton::clicked, this,
-            [this] { m_selection.selectLight(m_controller.addLight(LightType::Directional)); });
+    connect(m_duplicate, &QToolButton::clicked, this,
+            [this] { m_selection.selectLight(m_controller.duplicateLight(m_selection.light())); });
     connect(m_remove, &QToolButton::clicked, this,
             [this] { m_controller.removeLight(m_selection.light()); });
-    connect(m_list, &QListWidget::currentItemChanged, this, [this](QListWidgetItem* item) {
+    connect(m_list, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* item) {
         if (!m_refreshing && item)
-            m_selection.selectLight(item->data(Qt::UserRole).toUInt());
+            m_selection.selectLight(item->data(kNameColumn, Qt::UserRole).toUInt());
     });
-    connect(m_list, &QListWidget::itemChanged, this, [this](QListWidgetItem* item) {
+    connect(m_list, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* item) {
         if (m_refreshing)
             return;
-        const Target target{Scope::Light, item->data(Qt::UserRole).toUInt()};
-        m_controller.setParameter(parameter("light.enabled"), target,
-                                  item->checkState() == Qt::Checked);
-        m_controller.rename(target, item->text());
+        const Target target{Scope::Light, item->data(kNameColumn, Qt::UserRole).toUInt()};
+        const QString name = item->text(kNameColumn);
+        const bool enabled = item->checkState(kNameColumn) == Qt::Checked;
+        const bool solo = item->checkState(kSoloColumn) == Qt::Checked;
+        m_controller.setParameter(parameter("light.enabled"), target, enabled);
+        m_controller.setParameter(parameter("light.solo"), target, solo);
+        m_controller.rename(target, name);
     });
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
         if (touches(change.affects, Affects::Structure))
@@ -142,26 +189,34 @@ void LightsPanel::refreshList() {
     m_refreshing = true;
     const std::vector<Light>& lights = m_controller.document().lights;
     // Items are kept where they are: rebuilding the list would end an edit of a name.
-    while (m_list->count() > static_cast<int>(lights.size()))
-        delete m_list->takeItem(m_list->count() - 1);
-    while (m_list->count() < static_cast<int>(lights.size()))
-        m_list->addItem(new QListWidgetItem);
-    for (int row = 0; row < m_list->count(); ++row) {
+    const int count = static_cast<int>(lights.size());
+    while (m_list->topLevelItemCount() > count)
+        delete m_list->takeTopLevelItem(m_list->topLevelItemCount() - 1);
+    while (m_list->topLevelItemCount() < count)
+        m_list->addTopLevelItem(new QTreeWidgetItem);
+    for (int row = 0; row < count; ++row) {
         const Light& light = lights[static_cast<std::size_t>(row)];
-        QListWidgetItem* item = m_list->item(row);
-        item->setText(QString::fromStdString(light.name));
-        item->setIcon(icon(light.type == LightType::Point ? QStringLiteral("light-point")
-                                                          : QStringLiteral("light-sun")));
+        QTreeWidgetItem* item = m_list->topLevelItem(row);
+        item->setText(kNameColumn, QString::fromStdString(light.name));
+        item->setIcon(kNameColumn, icon(iconOf(light.type)));
         item->setFlags(item->flags() | Qt::ItemIsEditable | Qt::ItemIsUserCheckable);
-        item->setCheckState(light.enabled ? Qt::Checked : Qt::Unchecked);
-        item->setData(Qt::UserRole, light.id);
+        item->setCheckState(kNameColumn, light.enabled ? Qt::Checked : Qt::Unchecked);
+        item->setCheckState(kSoloColumn, light.solo ? Qt::Checked : Qt::Unchecked);
+        item->setData(kNameColumn, Qt::UserRole, light.id);
+        // What does not shine is dimmed, whoever silences it.
+        item->setForeground(kNameColumn, shines(m_controller.document(), light)
+                                             ? QBrush()
+                                             : QBrush(QColor(tokens::kTextOff)));
         if (light.id == m_selection.light())
-            m_list->setCurrentRow(row);
+            m_list->setCurrentItem(item);
     }
+    if (m_selection.light() == 0)
+        m_list->setCurrentItem(nullptr);
     const bool any = !lights.empty();
     m_list->setVisible(any);
-    m_parameters->setVisible(any);
+    m_parameters->setVisible(m_selection.light() != 0);
     m_empty->setVisible(!any);
+    m_duplicate->setEnabled(m_selection.light() != 0);
     m_remove->setEnabled(m_selection.light() != 0);
     m_refreshing = false;
 }

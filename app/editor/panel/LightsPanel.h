@@ -1,11 +1,12 @@
-// The Lights dock: the list with a switch for each, and the parameters of the selected one.
+// The Lights dock: the list with two switches for each, on and solo, and the parameters of the
+// selected one.
 #pragma once
 
 #include <QWidget>
 
 class QLabel;
-class QListWidget;
 class QToolButton;
+class QTreeWidget;
 
 namespace patina::editor {
 
@@ -20,16 +21,16 @@ class LightsPanel : public QWidget {
     LightsPanel(DocumentController& controller, SelectionModel& selection, Thumbnails& thumbnails,
                 QWidget* parent = nullptr);
 
-    [[nodiscard]] QListWidget* list() { return m_list; }
+    [[nodiscard]] QTreeWidget* list() { return m_list; }
 
   private:
     void refreshList();
 
     DocumentController& m_controller;
     SelectionModel& m_selection;
-    QListWidget* m_list;
+    QTreeWidget* m_list;
     QLabel* m_empty;
-    QToolButton* m_remove;
+    QToolButton *m_duplicate, *m_remove;
     ParameterList* m_parameters;
     bool m_refreshing = false;
 };

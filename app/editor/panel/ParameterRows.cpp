@@ -18,17 +18,15 @@
 namespace patina::editor {
 namespace {
 
+// "45°", but "0.5 EV".
+QString unitText(std::string_view text) {
+    const QString unit = toQString(text);
+    return unit.isEmpty() || unit == QStringLiteral("°") ? unit : QStringLiteral(" ") + unit;
+}
+
 NumberFormat formatOf(const ParameterInfo& info) {
-    const QString unit = toQString(info.unit);
-    // "45°", but "0.5 EV".
-    const bool tight = unit.isEmpty() || unit == QStringLiteral("°");
-    return {info.softMin,
-            info.softMax,
-            info.hardMin,
-            info.hardMax,
-            info.decimals,
-            info.wraps,
-            tight ? unit : QStringLiteral(" ") + unit};
+    return {info.softMin,  info.softMax, info.hardMin,       info.hardMax,
+            info.decimals, info.wraps,   unitText(info.unit)};
 }
 
 class FloatRow : public ParameterRow {
@@ -60,6 +58,9 @@ class FloatRow : public ParameterRow {
 
   protected:
     void show(const ParameterValue& value) override {
+        if (info().unitOf)
+            m_field->setUnit(
+                unitText(info().unitFor(context().controller.document(), target()->id)));
         m_slider->setValue(std::get<float>(value));
         m_field->setValue(std::get<float>(value));
     }

@@ -8,15 +8,18 @@
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/Navigator.h"
 #include "core/base/Log.h"
+#include "core/document/Lights.h"
 #include "render/Renderer.h"
 #include "render/gl/Context.h"
 
+#include <QApplication>
 #include <QFile>
 #include <QMouseEvent>
 #include <QOpenGLContext>
 #include <QOpenGLFramebufferObject>
 #include <QOpenGLFunctions>
 #include <QStandardPaths>
+#include <QStatusTipEvent>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -30,6 +33,7 @@ constexpr int kPreviewMs = 100;      // how often a bake is asked for a new pass
 constexpr int kAdaptationMs = 16;    // between the frames of an eye that adapts
 constexpr int kShaderPollMs = 500;   // hot reload in developers' builds
 constexpr double kClickPixels = 4.0; // a press that moves less selects
+constexpr float kTurnDegrees = 0.4f; // of the surroundings or a light, per pixel
 
 glm::vec2 toGlm(const QPointF& point) {
     return {static_cast<float>(point.x()), static_cast<float>(point.y())};
@@ -55,6 +59,7 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
         tr("The rendered scene. Drag to orbit, wheel to zoom, click to select."));
     setFocusPolicy(Qt::StrongFocus);
     setMinimumSize(320, 240);
+    setMouseTracking(true); // the cursor shows what can be dragged
 
     m_restTimer.setSingleShot(true);
     m_restTimer.setInterval(kRestMs);
@@ -246,6 +251,8 @@ void ViewportWidget::paintGL() {
         m_adaptation.beginFrame(static_cast<double>(m_clock.nsecsElapsed()) * 1e-9);
     frame.reuseScene = std::exchange(m_onlyExposure, false) && frame.camera == m_lastCamera;
     m_lastCamera = frame.camera;
+    frame.selectedLight = m_selection.light();
+    frame.overlayScale = m_pacing.scale();
     if (const Result<void> drawn = m_renderer->render(frame, target); !drawn)
         logError("the frame could not be drawn: {}", drawn.error().text());
     if (size != full)
@@ -365,8 +372,83 @@ void ViewportWidget::turnEnvironment(float pixels) {
     const ParameterInfo* rotation = findParameter("environment.rotationDeg");
     const float now = m_controller.document().environment.rotationDeg;
     // The surroundings follow the pointer: dragging right turns them right.
-    const float next = std::remainder(now + 0.4f * pixels, 360.0f);
+    const float next = std::remainder(now + kTurnDegrees * pixels, 360.0f);
     m_controller.setParameter(*rotation, Target{Scope::Environment, 0}, next, m_dragSession);
+}
+
+// --- Lights ----------------------------------------------------------------------------------
+
+render::GizmoView ViewportWidget::gizmoView() const {
+    // As the renderer sees it, in widget pixels: the marks of a dense screen have the same size.
+    const Camera& camera = m_controller.document().view.camera;
+    render::GizmoView view;
+    view.worldToClip = camera.projectionMatrix(viewAspect(), m_controller.document().bounds()) *
+                       camera.viewMatrix();
+    view.viewport = {static_cast<float>(width()), static_cast<float>(height())};
+    view.scale = std::max(static_cast<float>(1.0 / devicePixelRatioF()), view.viewport.y / 1000.0f);
+    return view;
+}
+
+render::GizmoHit ViewportWidget::gizmoAt(const QPointF& position) const {
+    if (!m_overlays)
+        return {};
+    const Document& document = m_controller.document();
+    const glm::vec2 pixel(static_cast<float>(position.x()),
+                          static_cast<float>(height() - position.y()));
+    return render::pickGizmo(document, document.bounds(), gizmoView(), m_selection.light(), pixel);
+}
+
+void ViewportWidget::dragGizmo(const QPointF& pixels) {
+    const Document& document = m_controller.document();
+    const Light* light = document.light(m_lightBefore.id);
+    if (!light)
+        return;
+    const Camera& camera = document.view.camera;
+    const Light dragged = render::draggedLight(
+        *light, m_handle, document.bounds(), gizmoView(), camera.right(), camera.up(),
+        {static_cast<float>(pixels.x()), static_cast<float>(-pixels.y())});
+    const bool turns = m_handle == render::GizmoHandle::Aim || !hasPosition(light->type);
+    m_controller.changeLight(
+        dragged, m_dragSession,
+        (turns ? tr("Turn %1") : tr("Move %1")).arg(QString::fromStdString(light->name)));
+    if (turns)
+        showHint(tr("Azimuth %1°, elevation %2° (Esc takes it back)")
+                     .arg(static_cast<double>(dragged.azimuthDeg), 0, 'f', 1)
+                     .arg(static_cast<double>(dragged.elevationDeg), 0, 'f', 1));
+    else
+        showHint(tr("X %1 m, Y %2 m, Z %3 m (Esc takes it back)")
+                     .arg(static_cast<double>(dragged.position.x), 0, 'f', 3)
+                     .arg(static_cast<double>(dragged.position.y), 0, 'f', 3)
+                     .arg(static_cast<double>(dragged.position.z), 0, 'f', 3));
+}
+
+void ViewportWidget::turnLight(const QPointF& pixels) {
+    const Document& document = m_controller.document();
+    const Light* light = document.light(m_lightBefore.id);
+    if (!light)
+        return;
+    // The side that faces the camera follows the pointer: dragging right takes the light to the
+    // right, dragging up takes it up.
+    const Light turned = turnedLight(*light, document.bounds().center(),
+                                     kTurnDegrees * static_cast<float>(pixels.x()),
+                                     -kTurnDegrees * static_cast<float>(pixels.y()));
+    m_controller.changeLight(turned, m_dragSession,
+                             tr("Turn %1").arg(QString::fromStdString(light->name)));
+    showHint(tr("%1 turns about the scene (Esc takes it back)")
+                 .arg(QString::fromStdString(light->name)));
+}
+
+// Back to where the drag began; a session that returns to its start leaves no step behind.
+void ViewportWidget::cancelLightDrag() {
+    m_controller.changeLight(m_lightBefore, m_dragSession, {});
+    m_drag = Drag::None;
+    m_pressIsClick = false;
+    showHint({});
+}
+
+void ViewportWidget::showHint(const QString& text) {
+    QStatusTipEvent event(text);
+    QApplication::sendEvent(this, &event);
 }
 
 void ViewportWidget::pickAt(const QPointF& position) {
@@ -378,6 +460,8 @@ void ViewportWidget::pickAt(const QPointF& position) {
         static_cast<int>(position.y() * m_lastFrameSize.height() / std::max(height(), 1)));
     doneCurrent();
     m_selection.selectMesh(mesh);
+    if (mesh == 0) // nothing at all: the light's handles go, too
+        m_selection.selectLight(0);
 }
 
 // --- Events ----------------------------------------------------------------------------------
@@ -386,15 +470,31 @@ void ViewportWidget::mousePressEvent(QMouseEvent* event) {
     if (m_drag != Drag::None)
         return; // a second button changes nothing
     const bool shift = event->modifiers() & Qt::ShiftModifier;
+    const bool ctrl = event->modifiers() & Qt::ControlModifier;
     switch (event->button()) {
     case Qt::LeftButton:
         m_drag = shift ? Drag::Pan : Drag::Orbit;
+        if (const render::GizmoHit hit = gizmoAt(event->position()); hit.light != 0 && !shift) {
+            m_drag = Drag::Gizmo;
+            m_handle = hit.handle;
+            m_selection.selectLight(hit.light);
+            m_lightBefore = *m_controller.document().light(hit.light);
+            m_dragSession = m_controller.newDragSession();
+        }
         break;
     case Qt::MiddleButton:
         m_drag = Drag::Pan;
         break;
     case Qt::RightButton:
         m_drag = shift ? Drag::TurnEnvironment : Drag::Look;
+        if (ctrl) {
+            const Light* light = m_controller.document().light(m_selection.light());
+            m_drag = light ? Drag::TurnLight : Drag::TurnEnvironment;
+            if (light)
+                m_lightBefore = *light;
+            else
+                showHint(tr("No light is selected: turning the environment"));
+        }
         m_dragSession = m_controller.newDragSession();
         break;
     default:
@@ -405,8 +505,14 @@ void ViewportWidget::mousePressEvent(QMouseEvent* event) {
 }
 
 void ViewportWidget::mouseMoveEvent(QMouseEvent* event) {
-    if (m_drag == Drag::None)
+    if (m_drag == Drag::None) {
+        // The hand says what can be taken hold of.
+        if (gizmoAt(event->position()).light != 0)
+            setCursor(Qt::OpenHandCursor);
+        else
+            unsetCursor();
         return;
+    }
     const QPointF moved = event->position() - m_lastPosition;
     if (m_pressIsClick) {
         const QPointF total = event->position() - m_pressPosition;
@@ -429,6 +535,13 @@ void ViewportWidget::mouseMoveEvent(QMouseEvent* event) {
     case Drag::TurnEnvironment:
         turnEnvironment(static_cast<float>(moved.x()));
         break;
+    case Drag::TurnLight:
+        turnLight(moved);
+        break;
+    case Drag::Gizmo:
+        setCursor(Qt::ClosedHandCursor);
+        dragGizmo(moved);
+        break;
     case Drag::None:
         break;
     }
@@ -437,6 +550,10 @@ void ViewportWidget::mouseMoveEvent(QMouseEvent* event) {
 void ViewportWidget::mouseReleaseEvent(QMouseEvent* event) {
     if (m_pressIsClick && event->button() == Qt::LeftButton && m_drag == Drag::Orbit)
         pickAt(event->position());
+    if (m_drag == Drag::Gizmo || m_drag == Drag::TurnLight) {
+        unsetCursor();
+        showHint({});
+    }
     m_drag = Drag::None;
     m_pressIsClick = false;
     m_flyKeys.clear();
@@ -454,6 +571,10 @@ void ViewportWidget::wheelEvent(QWheelEvent* event) {
 }
 
 void ViewportWidget::keyPressEvent(QKeyEvent* event) {
+    if (event->key() == Qt::Key_Escape && (m_drag == Drag::Gizmo || m_drag == Drag::TurnLight)) {
+        cancelLightDrag();
+        return;
+    }
     const bool flyKey = event->key() == Qt::Key_W || event->key() == Qt::Key_A ||
                         event->key() == Qt::Key_S || event->key() == Qt::Key_D ||
                         event->key() == Qt::Key_Q || event->key() == Qt::Key_E;
@@ -485,8 +606,9 @@ void ViewportWidget::focusOutEvent(QFocusEvent* event) {
 }
 
 bool ViewportWidget::event(QEvent* event) {
-    // While flying, letters belong to the camera, not to shortcuts.
-    if (event->type() == QEvent::ShortcutOverride && m_drag == Drag::Look) {
+    // While flying, letters belong to the camera, not to shortcuts; so does Esc to a drag.
+    if (event->type() == QEvent::ShortcutOverride &&
+        (m_drag == Drag::Look || m_drag == Drag::Gizmo || m_drag == Drag::TurnLight)) {
         event->accept();
         return true;
     }

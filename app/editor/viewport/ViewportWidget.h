@@ -4,11 +4,15 @@
 //  middle / Shift+left  pan              click          select
 //  right drag           look around, with W A S D Q E to fly; the wheel then sets the speed
 //  Shift+right drag     turn the environment (one undo step)
+//  Ctrl+right drag      turn the selected light about the scene, or the environment when none is
+//  drag a light's mark or handles to move and aim it; Esc takes the drag back
 #pragma once
 
 #include "app/editor/viewport/AdaptationClock.h"
 #include "app/editor/viewport/FramePacing.h"
+#include "core/document/Document.h"
 #include "core/math/Camera.h"
+#include "render/scene/LightGizmo.h"
 
 #include <QElapsedTimer>
 #include <QOpenGLWidget>
@@ -80,7 +84,7 @@ class ViewportWidget : public QOpenGLWidget {
     bool event(QEvent* event) override;
 
   private:
-    enum class Drag { None, Orbit, Pan, Look, TurnEnvironment };
+    enum class Drag { None, Orbit, Pan, Look, TurnEnvironment, TurnLight, Gizmo };
 
     void releaseGl();
     void applyChange(const Change& change);
@@ -92,6 +96,12 @@ class ViewportWidget : public QOpenGLWidget {
     void followLuminance();
     void turnEnvironment(float pixels);
     void pickAt(const QPointF& position);
+    void turnLight(const QPointF& pixels);
+    void dragGizmo(const QPointF& pixels);
+    void cancelLightDrag();
+    void showHint(const QString& text); // in the status bar
+    [[nodiscard]] render::GizmoView gizmoView() const;
+    [[nodiscard]] render::GizmoHit gizmoAt(const QPointF& position) const;
     [[nodiscard]] float viewAspect() const;
 
     DocumentController& m_controller;
@@ -126,6 +136,8 @@ class ViewportWidget : public QOpenGLWidget {
     QPointF m_pressPosition, m_lastPosition;
     bool m_pressIsClick = false; // no movement since the press
     quint64 m_dragSession = 0;
+    render::GizmoHandle m_handle = render::GizmoHandle::None; // that is dragged
+    Light m_lightBefore;                                      // the dragged light, for Esc
     std::set<int> m_flyKeys;
     float m_flySpeed = 1.0f; // scene radii per second
     bool m_overlays = true;

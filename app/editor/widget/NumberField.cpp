@@ -49,6 +49,12 @@ void NumberField::setValue(double value) {
         showValue();
 }
 
+void NumberField::setUnit(const QString& unit) {
+    m_format.unit = unit;
+    if (m_mode != Mode::Editing)
+        showValue();
+}
+
 void NumberField::showValue() {
     setText(format(m_value, m_format.decimals) + m_format.unit);
     setCursorPosition(0);

@@ -23,6 +23,7 @@ class NumberField : public QLineEdit {
     // Shows `value` and emits nothing. While the user types, the text stays.
     void setValue(double value);
     [[nodiscard]] double value() const { return m_value; }
+    void setUnit(const QString& unit); // with the space before it: " cd"
     [[nodiscard]] bool isEditing() const { return m_mode == Mode::Editing; }
 
     // "0.5", "0,5", "45°": nothing when it is no finite number.
