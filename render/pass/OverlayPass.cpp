@@ -145,8 +145,8 @@ Result<void> OverlayPass::drawLights(const Targets& targets, const GpuScene& sce
     const GizmoView view{frame.worldToClip, glm::vec2(frame.viewport), scale};
     const Document& document = scene.document();
     for (const Light& light : document.lights) {
-        const LightGizmo gizmo =
-            lightGizmo(document, light, scene.bounds(), view, light.id == settings.selectedLight);
+        const bool selected = light.id != 0 && light.id == settings.selectedLight;
+        const LightGizmo gizmo = lightGizmo(document, light, scene.bounds(), view, selected);
         if (!gizmo.visible)
             continue;
         for (const GizmoLine& line : gizmo.lines)

@@ -1,5 +1,6 @@
 // Whole pictures. Their scenes are made here, so that nothing but the renderer can change them.
 #include "tests/render/Golden.h"
+#include "core/document/Lights.h"
 #include "tests/render/RenderTest.h"
 
 #include <cmath>
@@ -177,6 +178,74 @@ TEST_F(Golden, Overlays) {
     settings.showOverlays = true;
     settings.selectedMesh = 1;
     expectPicture(document, "overlays", settings);
+}
+
+// Two bodies on a ground, under little other light.
+Document stage() {
+    Document document = daylightScene(makeSphere());
+    document.environment.exposureEv = -4.0f;
+    document.meshes[0].transform = at(-0.7f, 0.5f, 0.0f, 0.5f);
+    document.materials[0].metallic = 1.0f;
+    document.materials[0].baseColor = {0.95f, 0.9f, 0.85f};
+    document.materials[0].perceptualRoughness = 0.3f;
+    addObject(document, makeSphere(), at(0.7f, 0.5f, -0.2f, 0.5f)).perceptualRoughness = 0.8f;
+    Material& ground = addObject(document, makePlane(), at(0.0f, 0.0f, 0.0f, 3.0f));
+    ground.baseColor = glm::vec3(0.5f);
+    ground.perceptualRoughness = 0.35f;
+    document.view.camera.pitchDeg = 22.0f;
+    document.view.camera.yawDeg = 10.0f;
+    document.view.camera.distance = 8.0f;
+    document.view.camera.target = {0.0f, 0.5f, 0.0f};
+    return document;
+}
+
+Light lightAt(Document& document, LightType type, const glm::vec3& position, float intensity) {
+    Light light;
+    light.id = document.takeId();
+    light.type = type;
+    light.position = position;
+    light.intensity = intensity;
+    setDirectionToLight(light, position - glm::vec3(0.0f, 0.4f, 0.0f));
+    return light;
+}
+
+TEST_F(Golden, AreaLights) {
+    Document document = stage();
+    Light panel = lightAt(document, LightType::Rectangle, {-1.8f, 1.4f, 0.6f}, 8.0f);
+    panel.color = {1.0f, 0.7f, 0.4f};
+    panel.height = 0.6f;
+    panel.rollDeg = 20.0f;
+    Light ball = lightAt(document, LightType::Sphere, {0.1f, 1.2f, 1.0f}, 12.0f);
+    ball.color = {0.5f, 0.7f, 1.0f};
+    document.lights = {panel, ball};
+    expectPicture(document, "area-lights");
+}
+
+TEST_F(Golden, SoftShadows) {
+    Document document = stage();
+    Light sun = lightAt(document, LightType::Directional, {2.0f, 2.2f, 1.5f}, 2.0f);
+    sun.shadowSoftness = 4.0f;
+    Light spot = lightAt(document, LightType::Spot, {-2.2f, 2.6f, 1.8f}, 30.0f);
+    spot.usesTemperature = true;
+    spot.temperatureK = 3000.0f;
+    spot.shadowSoftness = 0.5f;
+    document.lights = {sun, spot};
+    expectPicture(document, "soft-shadows");
+}
+
+TEST_F(Golden, HandlesOfLights) {
+    Document document = stage();
+    Light spot = lightAt(document, LightType::Spot, {-1.2f, 2.4f, 1.0f}, 12.0f);
+    Light ball = lightAt(document, LightType::Sphere, {1.8f, 1.4f, 0.4f}, 6.0f);
+    Light panel = lightAt(document, LightType::Rectangle, {0.6f, 1.9f, -0.8f}, 6.0f);
+    Light off = lightAt(document, LightType::Point, {-2.2f, 0.8f, 0.0f}, 6.0f);
+    off.enabled = false;
+    document.lights = {spot, ball, panel, off};
+    document.view.camera.distance = 11.0f;
+    FrameSettings settings;
+    settings.showOverlays = true;
+    settings.selectedLight = spot.id;
+    expectPicture(document, "handles-of-lights", settings);
 }
 
 TEST_F(Golden, MissingMaps) {

@@ -17,6 +17,7 @@
 #include "app/editor/widget/RowLabel.h"
 #include "app/editor/widget/SkyGallery.h"
 #include "app/editor/widget/Slider.h"
+#include "core/document/Lights.h"
 #include "core/image/ImageIO.h"
 
 #include <QCheckBox>
@@ -24,11 +25,11 @@
 #include <QDockWidget>
 #include <QDropEvent>
 #include <QLineEdit>
-#include <QListWidget>
 #include <QMimeData>
 #include <QPushButton>
 #include <QToolButton>
 #include <QTreeView>
+#include <QTreeWidget>
 
 namespace patina::editor {
 namespace {
@@ -151,7 +152,7 @@ TEST_F(PanelTest, EveryParameterOfAPanelHasARow) {
     for (const ParameterInfo& info : parameters()) {
         if (info.scope == Scope::Mesh || info.type == ParameterType::Text ||
             info.id == "environment.kind" || info.id == "environment.image" ||
-            info.id == "light.enabled" || info.id == "softbox.enabled")
+            info.id == "light.enabled" || info.id == "light.solo" || info.id == "softbox.enabled")
             continue; // in the tree, the lists, the gallery and the buttons
         ParameterRow& found = row(info.id);
         EXPECT_EQ(&found.info(), findParameter(info.id));
@@ -272,10 +273,11 @@ TEST_F(PanelTest, LightsAreAddedSwitchedRenamedAndRemoved) {
     EXPECT_FALSE(row("light.position").isHidden());
     EXPECT_TRUE(row("light.azimuthDeg").isHidden());
 
-    QListWidgetItem* item = panel->list()->item(panel->list()->count() - 1);
-    item->setCheckState(Qt::Unchecked);
+    QTreeWidget* list = panel->list();
+    QTreeWidgetItem* item = list->topLevelItem(list->topLevelItemCount() - 1);
+    item->setCheckState(0, Qt::Unchecked);
     EXPECT_FALSE(document().light(id)->enabled);
-    item->setText(QStringLiteral("Lamp"));
+    item->setText(0, QStringLiteral("Lamp"));
     EXPECT_EQ(document().light(id)->name, "Lamp");
     EXPECT_FALSE(document().light(id)->enabled);
     EXPECT_EQ(undoCount(), 3);
@@ -288,7 +290,75 @@ TEST_F(PanelTest, LightsAreAddedSwitchedRenamedAndRemoved) {
     while (controller().undoStack().canUndo())
         controller().undoStack().undo();
     EXPECT_EQ(document().lights.size(), before);
-    EXPECT_EQ(panel->list()->count(), static_cast<int>(before));
+    EXPECT_EQ(list->topLevelItemCount(), static_cast<int>(before));
+}
+
+TEST_F(PanelTest, LightsOfEveryTypeShowTheirOwnRowsAndUnits) {
+    auto* panel = window->findChild<LightsPanel*>();
+    const struct {
+        const char* button;
+        LightType type;
+        const char* unit;
+        const char* shown;
+        const char* hidden;
+    } kinds[] = {
+        {"Add a spot light", LightType::Spot, "cd", "light.outerConeDeg", "light.radius"},
+        {"Add a sphere light", LightType::Sphere, "nit", "light.radius", "light.range"},
+        {"Add a rectangle light", LightType::Rectangle, "nit", "light.width", "light.castsShadow"},
+        {"Add a directional light", LightType::Directional, "lx", "light.castsShadow",
+         "light.position"}};
+    auto* intensity = row("light.intensity").findChild<NumberField*>();
+    for (const auto& kind : kinds) {
+        find<QToolButton>(*panel, QString::fromLatin1(kind.button))->click();
+        EXPECT_EQ(document().lights.back().type, kind.type);
+        EXPECT_TRUE(intensity->text().endsWith(QString::fromLatin1(kind.unit)))
+            << intensity->text().toStdString();
+        EXPECT_FALSE(row(kind.shown).isHidden()) << kind.shown;
+        EXPECT_TRUE(row(kind.hidden).isHidden()) << kind.hidden;
+    }
+    EXPECT_TRUE(row("light.temperatureK").isHidden());
+    controller().setParameter(parameter("light.usesTemperature"),
+                              {Scope::Light, session->selection.light()}, true);
+    EXPECT_FALSE(row("light.temperatureK").isHidden());
+    EXPECT_TRUE(row("light.color").isHidden());
+}
+
+TEST_F(PanelTest, SoloAndDuplicateAreInTheList) {
+    auto* panel = window->findChild<LightsPanel*>();
+    find<QToolButton>(*panel, QStringLiteral("Add a point light"))->click();
+    const Id id = session->selection.light();
+    QTreeWidget* list = panel->list();
+    list->topLevelItem(list->topLevelItemCount() - 1)->setCheckState(1, Qt::Checked);
+    EXPECT_TRUE(document().light(id)->solo);
+    EXPECT_TRUE(document().light(id)->enabled);
+    const std::size_t before = document().lights.size();
+    find<QToolButton>(*panel, QStringLiteral("Duplicate the selected light"))->click();
+    ASSERT_EQ(document().lights.size(), before + 1);
+    EXPECT_NE(session->selection.light(), id);
+    EXPECT_TRUE(document().light(session->selection.light())->solo);
+    controller().undoStack().undo();
+    controller().undoStack().undo();
+    EXPECT_FALSE(document().light(id)->solo);
+    EXPECT_EQ(list->topLevelItem(list->topLevelItemCount() - 1)->checkState(1), Qt::Unchecked);
+}
+
+TEST_F(PanelTest, SwitchingALightsTypeKeepsWhatItDoesAndIsOneStep) {
+    auto* panel = window->findChild<LightsPanel*>();
+    find<QToolButton>(*panel, QStringLiteral("Add a directional light"))->click();
+    const Id id = session->selection.light();
+    const Light before = *document().light(id);
+    const int steps = undoCount();
+    controller().setParameter(parameter("light.type"), {Scope::Light, id},
+                              static_cast<int>(LightType::Spot));
+    const Light after = *document().light(id);
+    EXPECT_EQ(after.type, LightType::Spot);
+    const glm::vec3 center = document().bounds().center();
+    EXPECT_NEAR(illuminanceAt(after, center), before.intensity, 1e-3f * before.intensity);
+    EXPECT_EQ(undoCount(), steps + 1);
+    controller().undoStack().undo();
+    EXPECT_EQ(*document().light(id), before); // to the bit
+    controller().undoStack().redo();
+    EXPECT_EQ(*document().light(id), after);
 }
 
 TEST_F(PanelTest, TheGalleryLightsTheScene) {

@@ -1,9 +1,12 @@
 // The viewport and the bakes, driven by real mouse and key events in the real window.
 
 #include "app/editor/job/JobManager.h"
+#include "core/document/Lights.h"
+#include "render/scene/LightGizmo.h"
 #include "tests/app/editor/EditorFixture.h"
 
 #include <QComboBox>
+#include <QDir>
 #include <QElapsedTimer>
 #include <QLabel>
 #include <QLocale>
@@ -102,6 +105,166 @@ TEST_F(ViewportWindowTest, ShiftRightDragTurnsTheEnvironmentInOneUndoStep) {
     EXPECT_EQ(undoCount(), 1);
     controller().undoStack().undo();
     EXPECT_EQ(document().environment.rotationDeg, 0.0f);
+}
+
+// --- Lights, by real events ---
+
+class LightGizmoWindowTest : public ViewportWindowTest {
+  protected:
+    // A light of the type, selected, in the middle of what the camera sees.
+    static Id addLight(LightType type) {
+        activate();
+        QTest::keyClick(&viewport(), Qt::Key_Home);
+        const Id id = controller().addLight(type);
+        session->selection.selectLight(id);
+        Light light = *document().light(id);
+        if (hasPosition(type))
+            light.position = document().bounds().center();
+        controller().changeLight(light, 0, QStringLiteral("Place"));
+        return id;
+    }
+    static render::GizmoView view() {
+        const auto width = static_cast<float>(viewport().width());
+        const auto height = static_cast<float>(viewport().height());
+        return {camera().projectionMatrix(width / height, document().bounds()) *
+                    camera().viewMatrix(),
+                {width, height},
+                std::max(1.0f, height / 1000.0f)};
+    }
+    static QPoint at(const glm::vec2& pixel) {
+        return {static_cast<int>(std::lround(pixel.x)),
+                viewport().height() - static_cast<int>(std::lround(pixel.y))};
+    }
+    static render::LightGizmo gizmo(Id id) {
+        return render::lightGizmo(document(), *document().light(id), document().bounds(), view(),
+                                  true);
+    }
+    static glm::vec2 handle(Id id, render::GizmoHandle handle) {
+        for (const render::GizmoPoint& point : gizmo(id).handles)
+            if (point.handle == handle)
+                return point.at;
+        ADD_FAILURE() << "no such handle";
+        return {};
+    }
+    static void keepPicture(const char* name) {
+        const QString folder = qEnvironmentVariable("PATINA_SCREENSHOTS");
+        if (folder.isEmpty())
+            return;
+        ASSERT_TRUE(QDir().mkpath(folder));
+        EXPECT_TRUE(window->grab().save(QDir(folder).filePath(QLatin1String(name))));
+    }
+    static void dragFrom(QPoint from, QPoint by, bool release = true) {
+        QTest::mousePress(&viewport(), Qt::LeftButton, {}, from);
+        for (int i = 1; i <= 8; ++i)
+            QTest::mouseMove(&viewport(), from + by * i / 8);
+        if (release)
+            QTest::mouseRelease(&viewport(), Qt::LeftButton, {}, from + by);
+    }
+};
+
+TEST_F(LightGizmoWindowTest, AMarkIsDraggedInThePlaneOfThePictureInOneStep) {
+    const Id id = addLight(LightType::Point);
+    const glm::vec3 before = document().light(id)->position;
+    const Camera seen = camera();
+    const int steps = undoCount();
+    const glm::vec2 mark = gizmo(id).mark;
+    dragFrom(at(mark), {80, -40});
+    const glm::vec3 moved = document().light(id)->position - before;
+    EXPECT_GT(glm::dot(moved, seen.right()), 0.0f);
+    EXPECT_GT(glm::dot(moved, seen.up()), 0.0f);
+    EXPECT_NEAR(glm::dot(moved, seen.forward()), 0.0f, 1e-4f * glm::length(moved));
+    // It follows the pointer.
+    EXPECT_LT(glm::distance(gizmo(id).mark, mark + glm::vec2(80, 40)), 6.0f);
+    EXPECT_EQ(camera(), seen);
+    EXPECT_EQ(undoCount(), steps + 1);
+    EXPECT_EQ(session->selection.light(), id);
+    keepPicture("light-dragged.png");
+    controller().undoStack().undo();
+    EXPECT_EQ(document().light(id)->position, before);
+}
+
+TEST_F(LightGizmoWindowTest, AnAxisMovesAlongItselfAlone) {
+    const Id id = addLight(LightType::Sphere);
+    for (const auto& [axis, k] : {std::pair{render::GizmoHandle::AxisX, 0},
+                                  {render::GizmoHandle::AxisY, 1},
+                                  {render::GizmoHandle::AxisZ, 2}}) {
+        const glm::vec3 before = document().light(id)->position;
+        const glm::vec2 end = handle(id, axis), along = end - gizmo(id).mark;
+        if (glm::length(along) < 20.0f)
+            continue; // seen end on
+        const glm::vec2 by = 60.0f * glm::normalize(along);
+        dragFrom(at(end), {static_cast<int>(by.x), static_cast<int>(-by.y)});
+        const glm::vec3 moved = document().light(id)->position - before;
+        EXPECT_GT(moved[k], 0.0f);
+        EXPECT_EQ(moved[(k + 1) % 3], 0.0f);
+        EXPECT_EQ(moved[(k + 2) % 3], 0.0f);
+    }
+}
+
+TEST_F(LightGizmoWindowTest, TheAimHandleTurnsASpotWhereItStands) {
+    const Id id = addLight(LightType::Spot);
+    const Light before = *document().light(id);
+    const glm::vec2 end = handle(id, render::GizmoHandle::Aim);
+    dragFrom(at(end), {70, 10});
+    const Light after = *document().light(id);
+    EXPECT_EQ(after.position, before.position);
+    EXPECT_LT(glm::dot(after.directionToLight(), before.directionToLight()), 0.999f);
+    // It shines more to the right than before.
+    EXPECT_LT(glm::dot(after.directionToLight(), camera().right()),
+              glm::dot(before.directionToLight(), camera().right()));
+}
+
+TEST_F(LightGizmoWindowTest, EscTakesADragBackAndLeavesNoStep) {
+    for (const LightType type : {LightType::Rectangle, LightType::Directional}) {
+        const Id id = addLight(type);
+        const Light before = *document().light(id);
+        const int steps = undoCount();
+        const QPoint mark = at(gizmo(id).mark);
+        dragFrom(mark, {50, 30}, false);
+        EXPECT_NE(*document().light(id), before);
+        QTest::keyClick(&viewport(), Qt::Key_Escape);
+        EXPECT_EQ(*document().light(id), before);
+        EXPECT_EQ(undoCount(), steps);
+        QTest::mouseMove(&viewport(), mark + QPoint(90, 60)); // the button is still down
+        QTest::mouseRelease(&viewport(), Qt::LeftButton, {}, mark + QPoint(90, 60));
+        EXPECT_EQ(*document().light(id), before);
+    }
+}
+
+TEST_F(LightGizmoWindowTest, CtrlRightDragTurnsTheSelectedLightOrElseTheEnvironment) {
+    const Id id = addLight(LightType::Directional);
+    const Light before = *document().light(id);
+    const Camera seen = camera();
+    const int steps = undoCount();
+    drag(Qt::RightButton, Qt::ControlModifier, {50, -20});
+    EXPECT_GT(document().light(id)->azimuthDeg, before.azimuthDeg + 5.0f);
+    EXPECT_GT(document().light(id)->elevationDeg, before.elevationDeg);
+    EXPECT_EQ(document().environment.rotationDeg, 0.0f);
+    EXPECT_EQ(undoCount(), steps + 1);
+    EXPECT_EQ(camera(), seen);
+    keepPicture("light-turned.png");
+
+    session->selection.selectLight(0);
+    const Light turned = *document().light(id);
+    drag(Qt::RightButton, Qt::ControlModifier, {50, 0});
+    EXPECT_EQ(*document().light(id), turned);
+    EXPECT_GT(document().environment.rotationDeg, 5.0f);
+    EXPECT_EQ(undoCount(), steps + 2);
+}
+
+TEST_F(LightGizmoWindowTest, AClickSelectsALightAndOneOnNothingLetsItGo) {
+    const Id first = addLight(LightType::Point);
+    const Id second = controller().addLight(LightType::Spot);
+    session->selection.selectLight(second);
+    QTest::mouseClick(&viewport(), Qt::LeftButton, {}, at(gizmo(first).mark));
+    EXPECT_EQ(session->selection.light(), first);
+    QTest::mouseClick(&viewport(), Qt::LeftButton, {}, {4, 4}); // the sky
+    EXPECT_EQ(session->selection.light(), 0u);
+    // With overlays off there is nothing to take hold of.
+    viewport().setOverlaysVisible(false);
+    QTest::mouseClick(&viewport(), Qt::LeftButton, {}, at(gizmo(first).mark));
+    EXPECT_EQ(session->selection.light(), 0u);
+    viewport().setOverlaysVisible(true);
 }
 
 TEST_F(ViewportWindowTest, AClickSelectsWhatIsUnderThePointer) {
