@@ -109,6 +109,7 @@ LightsPanel::LightsPanel(DocumentController& controller, SelectionModel& selecti
     m_list->setStatusTip(tr("Tick to switch a light on or to hear it solo, F2 to rename it"));
     m_list->setEditTriggers(QAbstractItemView::EditKeyPressed | QAbstractItemView::DoubleClicked);
     m_list->setIconSize({16, 16});
+    m_list->setMinimumHeight(104); // three lights, where the dock is low
     m_list->setMaximumHeight(150);
     m_list->setRootIsDecorated(false);
     m_list->setColumnCount(2);

@@ -22,6 +22,7 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDir>
 #include <QDockWidget>
 #include <QDropEvent>
 #include <QLineEdit>
@@ -295,6 +296,7 @@ TEST_F(PanelTest, LightsAreAddedSwitchedRenamedAndRemoved) {
 
 TEST_F(PanelTest, LightsOfEveryTypeShowTheirOwnRowsAndUnits) {
     auto* panel = window->findChild<LightsPanel*>();
+    QTreeWidget* list = panel->list();
     const struct {
         const char* button;
         LightType type;
@@ -321,6 +323,12 @@ TEST_F(PanelTest, LightsOfEveryTypeShowTheirOwnRowsAndUnits) {
                               {Scope::Light, session->selection.light()}, true);
     EXPECT_FALSE(row("light.temperatureK").isHidden());
     EXPECT_TRUE(row("light.color").isHidden());
+
+    const QString pictures = qEnvironmentVariable("PATINA_SCREENSHOTS", folder.path());
+    list->setCurrentItem(list->topLevelItem(list->topLevelItemCount() - 4)); // the spot
+    window->findChild<QDockWidget*>(QStringLiteral("lights"))->raise();
+    ASSERT_TRUE(QDir().mkpath(pictures));
+    EXPECT_TRUE(window->grab().save(QDir(pictures).filePath(QStringLiteral("lights-panel.png"))));
 }
 
 TEST_F(PanelTest, SoloAndDuplicateAreInTheList) {
