@@ -18,14 +18,15 @@
 namespace patina::cli {
 namespace {
 
-constexpr std::array kCommands = {"info", "render", "bake", "export", "compare", "parameters"};
+constexpr std::array kCommands = {"info",   "render",  "bake",      "environment",
+                                  "export", "compare", "parameters"};
 
 constexpr const char* kAbout =
     "Patina: a desktop editor for physically based materials you can trust.\n\n"
     "  patina [FILE …] [--environment HDR]   start the editor (also: patina edit …)\n"
     "  patina COMMAND …                      do one thing without a window\n\n"
     "SCENE is a model (glTF, GLB, OBJ, FBX, COLLADA, PLY, STL), a .patina project or\n"
-    "builtin:NAME; HDR is a lat-long image or builtin:NAME. `patina info builtin:list`\n"
+    "builtin:NAME; HDR is an image of any layout or builtin:NAME. `patina info builtin:list`\n"
     "prints the built-in names.";
 constexpr const char* kFooter =
     "Exit status: 0 done, 2 wrong usage, 65 an input is broken, 66 an input is missing, 69 no\n"
@@ -52,6 +53,7 @@ class Parser {
         addInfo();
         addRender();
         addBakes();
+        addEnvironment();
         addExport();
         addCompare();
         addParameters();
@@ -290,6 +292,33 @@ class Parser {
         addThreads(c);
     }
 
+    void addEnvironment() {
+        EnvironmentOptions& o = m_environment;
+        CLI::App* c = addCommand(m_app, "environment", "An environment in another layout", o);
+        c->add_option("HDR", o.environment,
+                      "Image, one of six faces, builtin:NAME, or a .patina project for its "
+                      "surroundings")
+            ->required()
+            ->type_name("");
+        c->add_option("-o,--output", o.output, ".exr or .hdr; six faces are OUT_px, OUT_nx …")
+            ->required()
+            ->type_name("OUT");
+        c->add_option("--layout", o.layout, "Layout to write: " + kLayouts)
+            ->capture_default_str()
+            ->type_name("NAME");
+        c->add_option("--size", o.size,
+                      "Width of a lat-long, diameter of a disc, side of a face (default: what "
+                      "keeps the detail)")
+            ->check(plain(CLI::Range(1, 32768)))
+            ->type_name("N");
+        addLayout(c, o.environmentLayout);
+        c->add_flag("--openexr-envmap", o.openExrEnvmap,
+                    "Write a lat-long or vertical strip in OpenEXR's own convention, with its "
+                    "envmap attribute");
+        addSets(c);
+        addThreads(c);
+    }
+
     void addExport() {
         ExportOptions& o = m_export;
         CLI::App* c = addCommand(m_app, "export", "A package for another program", o);
@@ -342,6 +371,7 @@ class Parser {
     BakeAoOptions m_ao;
     BakePrtOptions m_prt;
     BakeIblOptions m_ibl;
+    EnvironmentOptions m_environment;
     ExportOptions m_export;
     CompareOptions m_compare;
     ParametersOptions m_parameters;

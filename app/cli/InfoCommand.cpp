@@ -1,5 +1,6 @@
 #include "app/cli/Commands.h"
 #include "app/cli/SceneSetup.h"
+#include "core/document/EnvironmentFile.h"
 #include "core/document/Lights.h"
 #include "core/document/Scene.h"
 #include "core/document/Source.h"
@@ -12,6 +13,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 
 namespace patina::cli {
@@ -175,6 +177,19 @@ void describeScene(Report& report, const OpenedScene& scene) {
         report.table(fmt::format("Missing files ({})", missing.size()), missing);
 }
 
+// How a floating-point picture shows its surroundings; nothing when it looks like none.
+std::optional<EnvironmentPicture> surroundingsOf(Session& session, const std::string& file,
+                                                 const ImageInfo& info) {
+    if (info.pixelType != "float" && info.pixelType != "half")
+        return std::nullopt;
+    std::vector<Notice> notices; // doubts are for those who light with it
+    Result<EnvironmentPicture> picture = readEnvironmentPicture(
+        session.worker(), file, EnvironmentLayout::Automatic, notices, session.job());
+    if (!picture || (picture->mapping.isCommonLatLong() && info.width != 2 * info.height))
+        return std::nullopt;
+    return *std::move(picture);
+}
+
 // Images, environments and bakes: everything that is pixels.
 Result<void> describeImage(Session& session, const std::string& file) {
     Result<ImageInfo> info = inspectImage(session.worker(), file);
@@ -182,14 +197,18 @@ Result<void> describeImage(Session& session, const std::string& file) {
         return info.error();
     const bool bake = std::any_of(info->attributes.begin(), info->attributes.end(),
                                   [](auto& a) { return a.first.starts_with("patina:"); });
-    // Float pictures twice as wide as high are lat-long surroundings, by the field's convention.
-    const bool surroundings = !bake && info->width == 2 * info->height &&
-                              (info->pixelType == "float" || info->pixelType == "half");
+    const std::optional<EnvironmentPicture> surroundings =
+        bake ? std::nullopt : surroundingsOf(session, file, *info);
     const char* kind = bake ? "bake" : surroundings ? "environment" : "image";
     Report& report = session.report();
     Json& json = report.json();
     json["kind"] = kind;
     json["format"] = info->format;
+    if (surroundings) {
+        const auto choices = findParameter("environment.layout")->choices;
+        json["layout"] = choices[static_cast<std::size_t>(surroundings->layout)];
+        json["openExrConvention"] = surroundings->convention == EnvironmentConvention::OpenExr;
+    }
     json["width"] = info->width;
     json["height"] = info->height;
     json["channels"] = info->channels;
@@ -201,12 +220,19 @@ Result<void> describeImage(Session& session, const std::string& file) {
         json["attributes"] = info->attributes;
 
     Rows rows = {{"kind", bake           ? "Patina bake"
-                          : surroundings ? "lat-long environment"
+                          : surroundings ? "environment"
                                          : "image"},
                  {"format", info->format},
                  {"size", fmt::format("{} × {} pixels", info->width, info->height)},
                  {"channels", fmt::format("{} ({}), {}", info->channels,
                                           fmt::join(info->channelNames, " "), info->pixelType)}};
+    if (surroundings)
+        rows.insert(
+            rows.begin() + 1,
+            {"layout", fmt::format("{}{}", layoutLabel(surroundings->layout),
+                                   surroundings->convention == EnvironmentConvention::OpenExr
+                                       ? ", in OpenEXR's own convention"
+                                       : "")});
     if (info->partNames.size() > 1)
         rows.emplace_back("parts", fmt::format("{}", fmt::join(info->partNames, ", ")));
     for (const auto& [key, value] : info->attributes)
@@ -243,7 +269,10 @@ Result<void> run(Session& session, const InfoOptions& options) {
             return image.error();
         report.json()["kind"] = "environment";
         report.json().update(imageJson(**image));
-        report.table({}, {{"kind", "lat-long environment"}, {"size", imageText(**image)}});
+        report.json()["layout"] = "latLong";
+        report.table({}, {{"kind", "environment"},
+                          {"layout", std::string(layoutLabel(EnvironmentLayout::LatLong))},
+                          {"size", imageText(**image)}});
         return {};
     }
     if (!isBuiltin(options.file) && !isScene(options.file))

@@ -63,6 +63,14 @@ struct BakeIblOptions {
     std::optional<TexelFormat> texels;
 };
 
+struct EnvironmentOptions {
+    std::string environment, output;
+    std::string environmentLayout; // of the input; empty: guessed
+    std::string layout = "lat-long";
+    int size = 0; // 0: keeps the detail
+    bool openExrEnvmap = false;
+};
+
 struct ExportOptions {
     std::string scene, output;
     std::vector<std::string> bakes;
@@ -85,7 +93,7 @@ struct ParametersOptions {
 struct Invocation {
     CommonOptions common;
     std::variant<InfoOptions, RenderOptions, BakeAoOptions, BakePrtOptions, BakeIblOptions,
-                 ExportOptions, CompareOptions, ParametersOptions>
+                 EnvironmentOptions, ExportOptions, CompareOptions, ParametersOptions>
         options;
 };
 

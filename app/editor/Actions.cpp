@@ -18,6 +18,8 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
     , save(make(tr("&Save"), QStringLiteral("save"), {QKeySequence::Save}, tr("Save the project")))
     , saveAs(make(tr("Save &As…"), QStringLiteral("save-as"), {tr("Ctrl+Shift+S")},
                   tr("Save the project under another name")))
+    , saveEnvironment(make(tr("Save En&vironment As…"), QStringLiteral("environment"), {},
+                           tr("Write the surroundings as an HDR or EXR file of any layout")))
     , exportScene(make(tr("&Export…"), QStringLiteral("export"), {tr("Ctrl+E")},
                        tr("Write the scene as glTF or GLB for other programs")))
     , quit(make(tr("&Quit"), QStringLiteral("quit"), {tr("Ctrl+Q")}, tr("Leave Patina")))
@@ -78,9 +80,9 @@ void Actions::describe(QAction* action, const QString& sentence) {
 }
 
 QList<QAction*> Actions::all() const {
-    return {newScene,    open,        addModel,   save,        saveAs,    exportScene,
-            quit,        undo,        redo,       frame,       home,      overlays,
-            lightingIbl, lightingPrt, fullScreen, resetLayout, shortcuts, about};
+    return {newScene,    open,       addModel,    save,      saveAs, saveEnvironment, exportScene,
+            quit,        undo,       redo,        frame,     home,   overlays,        lightingIbl,
+            lightingPrt, fullScreen, resetLayout, shortcuts, about};
 }
 
 } // namespace patina::editor

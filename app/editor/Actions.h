@@ -17,7 +17,7 @@ class Actions : public QObject {
   public:
     Actions(QUndoStack& undoStack, QObject* parent);
 
-    QAction *newScene, *open, *addModel, *save, *saveAs, *exportScene, *quit;
+    QAction *newScene, *open, *addModel, *save, *saveAs, *saveEnvironment, *exportScene, *quit;
     QAction *undo, *redo;
     QAction *frame, *home, *overlays, *lightingIbl, *lightingPrt;
     QAction *fullScreen, *resetLayout;

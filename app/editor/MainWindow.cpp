@@ -1,6 +1,7 @@
 #include "app/editor/MainWindow.h"
 
 #include "app/editor/Actions.h"
+#include "app/editor/EnvironmentSaveDialog.h"
 #include "app/editor/ExportDialog.h"
 #include "app/editor/FileFlow.h"
 #include "app/editor/HelpDialogs.h"
@@ -207,7 +208,7 @@ void MainWindow::makeMenus() {
         Actions::describe(action, QString::fromStdString(entry.help));
     }
     file->addSeparator();
-    file->addActions({a.save, a.saveAs, a.exportScene});
+    file->addActions({a.save, a.saveAs, a.saveEnvironment, a.exportScene});
     file->addSeparator();
     file->addAction(a.quit);
 
@@ -297,6 +298,7 @@ void MainWindow::connectActions() {
     connect(a.save, &QAction::triggered, m_files, qOverload<>(&FileFlow::save));
     connect(a.saveAs, &QAction::triggered, m_files, qOverload<>(&FileFlow::saveAs));
     connect(a.exportScene, &QAction::triggered, this, &MainWindow::openExportDialog);
+    connect(a.saveEnvironment, &QAction::triggered, this, &MainWindow::openEnvironmentSaveDialog);
     connect(a.quit, &QAction::triggered, this, &QWidget::close);
     connect(a.frame, &QAction::triggered, m_viewport, &ViewportWidget::frameSelection);
     connect(a.home, &QAction::triggered, m_viewport, &ViewportWidget::resetCamera);
@@ -403,6 +405,12 @@ void MainWindow::notice(const UserNotice& notice) {
 
 void MainWindow::openExportDialog() {
     auto* dialog = new ExportDialog(m_session.controller, m_session.jobs, this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->open();
+}
+
+void MainWindow::openEnvironmentSaveDialog() {
+    auto* dialog = new EnvironmentSaveDialog(m_session.controller, m_session.jobs, this);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->open();
 }

@@ -53,6 +53,7 @@ class MainWindow : public QMainWindow {
     void showFrameTime(double milliseconds);
     void notice(const UserNotice& notice);
     void openExportDialog();
+    void openEnvironmentSaveDialog();
 
     Session& m_session;
     Actions* m_actions;

@@ -49,8 +49,10 @@ Reply decodeRadiance(const json& request, int payloadFd) {
                        {"offset", 0}};
     Reply reply;
     reply.header = toJsonText({{"format", "hdr"}, {"parts", json::array({part})}});
-    if (inspect)
+    if (inspect) {
+        reply.payload = allocate(0);
         return reply;
+    }
     const std::vector<float> pixels =
         readRadiancePixels(file.bytes(), header, size.width, size.height);
     reply.payload = allocate(pixels.size() * sizeof(float));

@@ -9,6 +9,7 @@
 #include "app/editor/style/Style.h"
 
 #include <QApplication>
+#include <QComboBox>
 #include <QDialog>
 #include <QDir>
 #include <QDockWidget>
@@ -117,6 +118,18 @@ int main(int argc, char* argv[]) {
     runUntil([&] { return session.jobs.runningCount() == 0; }, 300'000);
     settle(3000);
     ok &= save(window, folder.filePath(QStringLiteral("prt.png")));
+
+    window.actions().saveEnvironment->trigger();
+    settle(800);
+    if (auto* dialog = window.findChild<QDialog*>(QStringLiteral("environmentSaveDialog"))) {
+        dialog->findChild<QLineEdit*>(QStringLiteral("environmentSavePath"))
+            ->setText(QStringLiteral("/home/artist/studio.exr"));
+        auto* layout = dialog->findChild<QComboBox*>(QStringLiteral("environmentSaveLayout"));
+        layout->setCurrentIndex(layout->count() - 1); // six faces
+        settle(800);
+        ok &= save(*dialog, folder.filePath(QStringLiteral("save-environment.png")));
+        dialog->reject();
+    }
 
     window.actions().exportScene->trigger();
     settle(800);

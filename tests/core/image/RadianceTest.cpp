@@ -221,6 +221,17 @@ TEST_F(Radiance, WindowsLineEndsAndPrimariesAreUnderstood) {
               "0.64 0.33 0.29 0.6 0.15 0.06 0.3333 0.3333");
 }
 
+TEST_F(Radiance, InspectTellsTheSizeAsSeen) {
+    const test::TemporaryFolder folder;
+    const auto info =
+        inspectImage(worker(), folder.write("x.hdr", bytesOf(file(kFormat, "+X 3 -Y 2", kGrey))));
+    ASSERT_TRUE(info.ok()) << info.error().text();
+    EXPECT_EQ(info->width, 3);
+    EXPECT_EQ(info->height, 2);
+    EXPECT_EQ(info->channels, 3);
+    EXPECT_EQ(info->format, "hdr");
+}
+
 TEST_F(Radiance, LargePicturesAreAveragedWhileTheyAreRead) {
     Image image(96, 24, 3, PixelType::F32, ColorEncoding::Linear);
     for (int y = 0; y < 24; ++y)

@@ -1,0 +1,55 @@
+#include "app/cli/Commands.h"
+#include "app/cli/SceneSetup.h"
+#include "core/document/EnvironmentFile.h"
+#include "core/document/EnvironmentSave.h"
+
+#include <nlohmann/json.hpp>
+
+namespace patina::cli {
+
+Result<void> run(Session& session, const EnvironmentOptions& options) {
+    EnvironmentSaveSettings settings;
+    settings.output = options.output;
+    settings.size = options.size;
+    settings.openExrEnvmap = options.openExrEnvmap;
+    const Result<EnvironmentLayout> layout = parseLayout(options.layout);
+    if (!layout)
+        return layout.error();
+    if (*layout == EnvironmentLayout::Automatic)
+        return Error{ErrorKind::Usage,
+                     "a file that is written needs a layout; name it with --layout",
+                     {},
+                     {}};
+    settings.layout = *layout;
+    const Result<std::vector<std::filesystem::path>> files = environmentOutputs(settings);
+    if (!files)
+        return files.error();
+    for (const std::filesystem::path& file : *files)
+        if (Result<void> output = checkOutput(file); !output)
+            return output;
+
+    session.report().json()["settings"] = {{"environment", options.environment},
+                                           {"layout", options.layout}};
+    session.beginPhase();
+    const Result<Document> document =
+        openEnvironmentFor(session, options.environment, options.environmentLayout);
+    if (!document)
+        return document.error();
+    const Environment& environment = document->environment;
+    if (settings.size == 0)
+        settings.size = environmentSaveSize(settings.layout, environment.image->width());
+    session.report().json()["settings"]["size"] = settings.size;
+
+    session.beginPhase();
+    const auto written = saveEnvironment(session.worker(), environment, settings, session.job());
+    if (!written)
+        return written.error();
+    const ImageSize size = EnvironmentMapping::imageSize(settings.layout, settings.size);
+    session.report().json()["width"] = size.width;
+    session.report().json()["height"] = size.height;
+    for (const std::filesystem::path& file : *written)
+        session.report().output(file, std::string(layoutLabel(settings.layout)));
+    return {};
+}
+
+} // namespace patina::cli

@@ -1,0 +1,239 @@
+#include "app/editor/EnvironmentSaveDialog.h"
+
+#include "app/editor/document/DocumentController.h"
+#include "app/editor/job/JobManager.h"
+#include "app/editor/style/Tokens.h"
+#include "core/document/EnvironmentFile.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QFormLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSettings>
+#include <QSpinBox>
+#include <QStandardPaths>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+namespace patina::editor {
+namespace {
+
+constexpr const char* kFolderKey = "folders/environments";
+constexpr int kSmallestSize = 2, kLargestSize = 16384;
+
+QString fromPath(const std::filesystem::path& path) {
+    return QFile::decodeName(path.string().c_str());
+}
+
+QString suggestedPath() {
+    const QString documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
+    const QString folder = QSettings().value(kFolderKey, documents).toString();
+    return QDir(folder.isEmpty() ? QDir::homePath() : folder)
+        .filePath(QStringLiteral("environment.exr"));
+}
+
+template <class Widget>
+Widget* withHelp(Widget* widget, const QString& help) {
+    widget->setToolTip(help);
+    widget->setAccessibleDescription(help);
+    return widget;
+}
+
+} // namespace
+
+EnvironmentSaveDialog::EnvironmentSaveDialog(DocumentController& controller, JobManager& jobs,
+                                             QWidget* parent)
+    : QDialog(parent)
+    , m_controller(controller)
+    , m_jobs(jobs) {
+    setObjectName(QStringLiteral("environmentSaveDialog"));
+    setWindowTitle(tr("Save Environment As"));
+    resize(620, 300);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(20, 20, 20, 20);
+    layout->setSpacing(tokens::kMargin);
+    layout->addWidget(makeSettings());
+    m_summary = new QLabel;
+    m_summary->setObjectName(QStringLiteral("environmentSaveSummary"));
+    m_summary->setWordWrap(true);
+    layout->addWidget(m_summary);
+    layout->addStretch(1);
+
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
+    m_save = buttons->addButton(tr("Save"), QDialogButtonBox::AcceptRole);
+    m_save->setObjectName(QStringLiteral("environmentSaveRun"));
+    m_save->setProperty("primary", true);
+    m_save->setDefault(true);
+    layout->addWidget(buttons);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    connect(m_save, &QPushButton::clicked, this, &EnvironmentSaveDialog::run);
+    layoutChosen();
+}
+
+QWidget* EnvironmentSaveDialog::makeSettings() {
+    auto* widget = new QWidget;
+    auto* form = new QFormLayout(widget);
+    form->setContentsMargins(0, 0, 0, 0);
+    form->setHorizontalSpacing(20);
+    form->setVerticalSpacing(tokens::kGap);
+    form->setFieldGrowthPolicy(QFormLayout::ExpandingFieldsGrow);
+
+    m_layout = withHelp(new QComboBox, tr("How the picture shows the surroundings"));
+    m_layout->setObjectName(QStringLiteral("environmentSaveLayout"));
+    for (int i = static_cast<int>(EnvironmentLayout::LatLong);
+         i <= static_cast<int>(EnvironmentLayout::SixFaces); ++i) {
+        const std::string_view label = layoutLabel(static_cast<EnvironmentLayout>(i));
+        m_layout->addItem(QString::fromUtf8(label.data(), static_cast<qsizetype>(label.size())), i);
+    }
+    form->addRow(tr("&Layout"), m_layout);
+    m_format =
+        withHelp(new QComboBox, tr("OpenEXR is exact, Radiance smaller and read everywhere"));
+    m_format->setObjectName(QStringLiteral("environmentSaveFormat"));
+    m_format->addItem(tr("OpenEXR (32-bit float)"), QStringLiteral("exr"));
+    m_format->addItem(tr("Radiance HDR"), QStringLiteral("hdr"));
+    form->addRow(tr("&Format"), m_format);
+    m_size = withHelp(new QSpinBox, tr("Width of a lat-long, diameter of a disc, side of a face"));
+    m_size->setObjectName(QStringLiteral("environmentSaveSize"));
+    m_size->setRange(kSmallestSize, kLargestSize);
+    m_size->setSuffix(tr(" px"));
+    form->addRow(tr("&Size"), m_size);
+
+    m_path = withHelp(new QLineEdit(suggestedPath()), tr("Where to write it"));
+    m_path->setObjectName(QStringLiteral("environmentSavePath"));
+    auto* choose = withHelp(new QToolButton, tr("Choose the file"));
+    choose->setText(tr("Browse…"));
+    choose->setObjectName(QStringLiteral("raised"));
+    choose->setAccessibleName(tr("Browse for the environment file"));
+    auto* pathRow = new QHBoxLayout;
+    pathRow->setSpacing(tokens::kGap);
+    pathRow->addWidget(m_path, 1);
+    pathRow->addWidget(choose);
+    auto* pathLabel = new QLabel(tr("Fi&le"));
+    pathLabel->setBuddy(m_path);
+    form->addRow(pathLabel, pathRow);
+
+    m_asShown = withHelp(new QCheckBox(tr("Turned and brightened as in the scene")),
+                         tr("Applies the environment's rotation and brightness to the file"));
+    m_asShown->setObjectName(QStringLiteral("environmentSaveAsShown"));
+    m_asShown->setChecked(true);
+    form->addRow(QString(), m_asShown);
+    m_envmap = withHelp(new QCheckBox(tr("OpenEXR's own convention (envmap attribute)")),
+                        tr("For programs that follow OpenEXR's envmap attribute; others see such a "
+                           "lat-long half a turn away"));
+    m_envmap->setObjectName(QStringLiteral("environmentSaveEnvmap"));
+    form->addRow(QString(), m_envmap);
+
+    connect(m_layout, &QComboBox::currentIndexChanged, this, &EnvironmentSaveDialog::layoutChosen);
+    connect(m_format, &QComboBox::currentIndexChanged, this, &EnvironmentSaveDialog::formatChosen);
+    connect(m_size, &QSpinBox::valueChanged, this, &EnvironmentSaveDialog::refresh);
+    connect(m_path, &QLineEdit::textChanged, this, &EnvironmentSaveDialog::refresh);
+    connect(m_envmap, &QCheckBox::toggled, this, &EnvironmentSaveDialog::refresh);
+    connect(choose, &QToolButton::clicked, this, &EnvironmentSaveDialog::browse);
+    return widget;
+}
+
+EnvironmentSaveSettings EnvironmentSaveDialog::settings() const {
+    EnvironmentSaveSettings settings;
+    settings.output = QFile::encodeName(m_path->text().trimmed()).toStdString();
+    settings.layout = static_cast<EnvironmentLayout>(m_layout->currentData().toInt());
+    settings.size = m_size->value();
+    settings.openExrEnvmap = m_envmap->isEnabled() && m_envmap->isChecked();
+    return settings;
+}
+
+void EnvironmentSaveDialog::browse() {
+    const QString file = QFileDialog::getSaveFileName(
+        this, tr("Save Environment As"), m_path->text(),
+        tr("OpenEXR (*.exr);;Radiance HDR (*.hdr)"), nullptr,
+        QFileDialog::DontConfirmOverwrite); // the dialog says what is overwritten
+    if (file.isEmpty())
+        return;
+    m_path->setText(file);
+    const int format = m_format->findData(QFileInfo(file).suffix().toLower());
+    if (format >= 0)
+        m_format->setCurrentIndex(format);
+}
+
+// The extension follows the format.
+void EnvironmentSaveDialog::formatChosen() {
+    const QFileInfo info(m_path->text());
+    m_path->setText(info.dir().filePath(info.completeBaseName() + QLatin1Char('.') +
+                                        m_format->currentData().toString()));
+    refresh();
+}
+
+void EnvironmentSaveDialog::layoutChosen() {
+    const ImagePtr& image = m_controller.document().environment.image;
+    const auto layout = static_cast<EnvironmentLayout>(m_layout->currentData().toInt());
+    m_size->setSingleStep(layout == EnvironmentLayout::LatLong ? 2 : 1);
+    m_size->setValue(environmentSaveSize(layout, image ? image->width() : kSmallestSize));
+    refresh();
+}
+
+void EnvironmentSaveDialog::refresh() {
+    const EnvironmentSaveSettings wanted = settings();
+    m_envmap->setEnabled(m_format->currentData().toString() == QLatin1String("exr") &&
+                         (wanted.layout == EnvironmentLayout::LatLong ||
+                          wanted.layout == EnvironmentLayout::VerticalStrip));
+    const auto files = environmentOutputs(settings());
+    const bool possible = files.ok() && m_controller.document().environment.image != nullptr;
+    bool overwrites = false;
+    QString summary;
+    if (possible) {
+        for (const std::filesystem::path& file : *files)
+            overwrites = overwrites || QFileInfo::exists(fromPath(file));
+        const ImageSize size = files->size() > 1
+                                   ? ImageSize{wanted.size, wanted.size}
+                                   : EnvironmentMapping::imageSize(wanted.layout, wanted.size);
+        summary = files->size() > 1
+                      ? tr("Six files of %1 × %2 pixels: %3 …")
+                            .arg(size.width)
+                            .arg(size.height)
+                            .arg(QFileInfo(fromPath(files->front())).fileName())
+                      : tr("One file of %1 × %2 pixels").arg(size.width).arg(size.height);
+        if (overwrites)
+            summary += tr("; existing files will be overwritten");
+    } else if (!files) {
+        summary = QString::fromStdString(files.error().message);
+    }
+    m_summary->setText(summary);
+    m_summary->setStyleSheet(overwrites || !possible
+                                 ? QStringLiteral("color: %1").arg(QColor(tokens::kCopper).name())
+                                 : QString());
+    m_save->setEnabled(possible);
+    m_save->setText(overwrites ? tr("Overwrite") : tr("Save"));
+}
+
+void EnvironmentSaveDialog::run() {
+    // The job works on a snapshot: editing goes on meanwhile.
+    Environment environment = m_controller.document().environment;
+    if (!m_asShown->isChecked()) {
+        environment.rotationDeg = 0.0f;
+        environment.exposureEv = 0.0f;
+    }
+    QSettings().setValue(kFolderKey, QFileInfo(m_path->text()).absolutePath());
+    m_jobs.start(tr("Save environment: %1").arg(QFileInfo(m_path->text()).fileName()), false,
+                 [environment, wanted = settings(), worker = &m_controller.worker(),
+                  controller = &m_controller](const JobContext& job) -> JobOutcome {
+                     const auto written = saveEnvironment(*worker, environment, wanted, job);
+                     if (!written)
+                         return {written.error(), {}, {}};
+                     const QString file = fromPath(written->front());
+                     return {
+                         std::nullopt, file, [controller, file] {
+                             UserNotice notice;
+                             notice.text =
+                                 EnvironmentSaveDialog::tr("Saved the environment to %1").arg(file);
+                             Q_EMIT controller->noticed(notice);
+                         }};
+                 });
+    accept();
+}
+
+} // namespace patina::editor

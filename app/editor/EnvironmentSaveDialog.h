@@ -1,0 +1,47 @@
+// Asks how the surroundings are to be written to a file, and writes them as a job.
+#pragma once
+
+#include "core/document/EnvironmentSave.h"
+
+#include <QDialog>
+
+class QCheckBox;
+class QComboBox;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QSpinBox;
+
+namespace patina::editor {
+
+class DocumentController;
+class JobManager;
+
+class EnvironmentSaveDialog : public QDialog {
+    Q_OBJECT
+  public:
+    EnvironmentSaveDialog(DocumentController& controller, JobManager& jobs,
+                          QWidget* parent = nullptr);
+
+  private:
+    QWidget* makeSettings();
+    void browse();
+    void formatChosen();
+    void layoutChosen();
+    void refresh(); // shows what will be written, or why not
+    void run();
+    [[nodiscard]] EnvironmentSaveSettings settings() const;
+
+    DocumentController& m_controller;
+    JobManager& m_jobs;
+    QComboBox* m_format = nullptr;
+    QComboBox* m_layout = nullptr;
+    QSpinBox* m_size = nullptr;
+    QLineEdit* m_path = nullptr;
+    QCheckBox* m_asShown = nullptr;
+    QCheckBox* m_envmap = nullptr;
+    QLabel* m_summary = nullptr;
+    QPushButton* m_save = nullptr;
+};
+
+} // namespace patina::editor
