@@ -171,7 +171,7 @@ void addNotices(const ReadImage& read, const fs::path& file, std::vector<Notice>
 
 // Six square pictures of one size, stacked.
 Result<EnvironmentPicture> readSixFaces(WorkerClient& worker, const fs::path& file,
-                                        const std::vector<fs::path>& files, ReadImage first,
+                                        const std::vector<fs::path>& files, const ReadImage& first,
                                         std::vector<Notice>& notices, const JobContext& job) {
     const int size = std::min(first.image.width(), kMaxFace);
     Image stacked(size, 6 * size, 3, PixelType::F32, ColorEncoding::Linear);
@@ -181,9 +181,10 @@ Result<EnvironmentPicture> readSixFaces(WorkerClient& worker, const fs::path& fi
             return Error{ErrorKind::Cancelled, "reading was cancelled", file, {}};
         job.setProgress(static_cast<double>(i) / 6.0);
         std::error_code ignored;
-        Result<ReadImage> face = fs::equivalent(files[i], file, ignored)
-                                     ? Result<ReadImage>(std::move(first))
-                                     : readImage(worker, files[i], kMaxFace);
+        Result<ReadImage> face =
+            fs::equivalent(files[i], file, ignored)
+                ? Result<ReadImage>(first) // perhaps more than once: files may be links
+                : readImage(worker, files[i], kMaxFace);
         if (!face)
             return face.error();
         const Image image = shrinkImage(face->image, kMaxFace); // integers come as they are
@@ -289,7 +290,7 @@ Result<EnvironmentPicture> readEnvironmentPicture(WorkerClient& worker, const fs
                          file,
                          {}};
         if (layout == Layout::SixFaces || exist(files)) {
-            return readSixFaces(worker, file, files, std::move(*read), notices, job);
+            return readSixFaces(worker, file, files, *read, notices, job);
         }
     }
 

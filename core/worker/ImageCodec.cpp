@@ -193,7 +193,8 @@ bool selectColor(PartLayout& part, bool named) {
         }
         return false;
     };
-    return select({"R", "G", "B"}) || select({"Y"});
+    const bool chroma = std::find(names.begin(), names.end(), "RY") != names.end();
+    return select({"R", "G", "B"}) || (!chroma && select({"Y"})); // Y alone would lose the colours
 }
 
 [[noreturn]] void damaged(const std::string& format, OIIO::ImageInput& input) {

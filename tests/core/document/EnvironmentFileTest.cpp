@@ -153,6 +153,15 @@ TEST_F(EnvironmentFile, SixFilesAreFoundByTheirNames) {
         expectOctants(load(path(set[3]), L::SixFaces));
         EXPECT_TRUE(m_notices.empty());
     }
+    // One picture may serve as several faces.
+    for (const char* end : {"px", "nx", "py", "ny", "pz", "nz"})
+        std::filesystem::create_symlink(path("sky_px.exr"),
+                                        m_folder / fmt::format("link_{}.exr", end));
+    const auto links = load(path("link_nz.exr"));
+    EXPECT_EQ(links->width(), 96);
+    // ahead and to the left
+    EXPECT_LT(glm::length(links->linear(48, 24) - links->linear(24, 24)), 1e-5f);
+
     // Missing, of another size, of no such name
     std::filesystem::remove(path("sky_ny.exr"));
     const Error missing = failure(path("sky_px.exr"), L::SixFaces);

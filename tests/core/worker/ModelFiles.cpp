@@ -221,6 +221,10 @@ std::map<std::string, std::vector<std::string>> seedFiles(WorkerClient& worker) 
     add("exr", floats, ImageFileFormat::Exr);
     add("exr", floats, ImageFileFormat::Exr, true);
     add("hdr", floats, ImageFileFormat::Hdr);
+    seeds["hdr"].push_back("#?RADIANCE\nFORMAT=32-bit_rle_xyze\nEXPOSURE=2\n\n+X 3 -Y 9\n" +
+                           std::string("\x80\x70\x60\x81\x01\x01\x01\x08") +
+                           std::string("\x90\x70\x60\x82\x01\x01\x01\x08") +
+                           std::string("\xa0\x70\x60\x83\x01\x01\x01\x08"));
 
     GltfBuilder gltf;
     gltf.root["images"] = {{{"bufferView", gltf.view(seeds["png"].empty() ? "" : seeds["png"][0])},
