@@ -24,8 +24,8 @@ CubeAtlas makeCubeAtlas(const std::vector<CubeLevel>& levels) {
     int top = 0; // row of the level's border
     for (std::size_t k = 0; k < levels.size(); ++k) {
         const CubeLevel& level = levels[k];
-        CHECK_EQ(level.size, atlas.side >> k);
-        CHECK(level.size > 0);
+        CHECK_EQ(static_cast<float>(level.size),
+                 shading::cubeLevelSide(static_cast<float>(k), static_cast<float>(atlas.side)));
         for (int face = 0; face < 6; ++face)
             for (int y = -1; y <= level.size; ++y) {
                 glm::vec3* row =

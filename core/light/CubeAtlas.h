@@ -16,7 +16,8 @@ struct CubeAtlas {
     std::vector<glm::vec3> texels; // what no face covers is black
 };
 
-// `levels`: each half as large as the one before; the first a power of two.
+// `levels`: at most 7, the first a power of two; their sides are cubeLevelSide() of
+// shaders/shared/ibl.glsl, as computeIbl() makes them by default.
 [[nodiscard]] CubeAtlas makeCubeAtlas(const std::vector<CubeLevel>& levels);
 
 } // namespace patina

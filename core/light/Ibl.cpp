@@ -23,7 +23,9 @@ Result<IblMaps> computeIbl(const Image& environment, const IblSettings& settings
     CHECK(environment.type() == PixelType::F32);
     CHECK_LE(3, environment.channels());
     CHECK(settings.cubeSize > 0 && std::has_single_bit(static_cast<unsigned>(settings.cubeSize)));
-    CHECK(settings.levels >= 2 && settings.cubeSize >> (settings.levels - 1) >= 1);
+    CHECK(settings.levels >= 2 && settings.levels <= 16);
+    CHECK(settings.smallestLevel > 0 &&
+          std::has_single_bit(static_cast<unsigned>(settings.smallestLevel)));
     const Error cancelled{ErrorKind::Cancelled, "The image-based light was cancelled.", {}, {}};
 
     IblMaps maps;
@@ -47,21 +49,25 @@ Result<IblMaps> computeIbl(const Image& environment, const IblSettings& settings
     job.setProgress(0.2);
 
     job.setActivity("filtering reflections");
-    double done = 0.0, total = 0.0; // texels
+    const auto sideOf = [&](int level) {
+        return std::max(settings.cubeSize >> level,
+                        std::min(settings.cubeSize, settings.smallestLevel));
+    };
+    double done = 0.0, total = 0.0; // texels of a face
     for (int i = 1; i < settings.levels; ++i)
-        total += 1.0 / (1 << (2 * i));
+        total += sideOf(i) * sideOf(i);
     for (int i = 1; i < settings.levels; ++i) {
         const float perceptualRoughness =
             static_cast<float>(i) / static_cast<float>(settings.levels - 1);
         // The largest level costs three quarters of the time; far from its narrow lobe finer cells
         // gain least.
         const float widest = (i == 1 ? 0.7f : 0.35f) * settings.cellSize;
-        maps.prefiltered.push_back(prefilterGGX(pyramid, settings.cubeSize >> i,
+        maps.prefiltered.push_back(prefilterGGX(pyramid, sideOf(i),
                                                 perceptualRoughness * perceptualRoughness,
                                                 {settings.cellSize, widest}, job));
         if (job.cancelled())
             return cancelled;
-        done += 1.0 / (1 << (2 * i));
+        done += sideOf(i) * sideOf(i);
         job.setProgress(0.2 + 0.8 * done / total);
     }
 

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Changes whenever computeIbl() would compute something else.
-constexpr std::uint32_t kAlgorithm = 2;
+constexpr std::uint32_t kAlgorithm = 3;
 constexpr char kMagic[8] = {'P', 'T', 'I', 'B', 'L', '0', '0', '1'};
 constexpr const char* kExtension = ".ibl";
 constexpr std::size_t kMaxFile = std::size_t{1} << 30;
@@ -25,9 +25,9 @@ constexpr std::uint32_t kMaxLevels = 16, kMaxSize = 4096;
 struct Header {
     char magic[8];
     std::uint32_t levels;
-    std::uint32_t size; // of level 0; the others halve
+    std::uint32_t size;     // of level 0; the others halve…
+    std::uint32_t smallest; // …down to this
     std::uint32_t irradianceSize;
-    std::uint32_t reserved;
 };
 
 std::size_t texelsOf(std::size_t size) {
@@ -45,6 +45,7 @@ Bytes encode(const IblMaps& maps) {
     std::memcpy(header.magic, kMagic, sizeof(kMagic));
     header.levels = static_cast<std::uint32_t>(maps.prefiltered.size());
     header.size = static_cast<std::uint32_t>(maps.prefiltered.front().size);
+    header.smallest = static_cast<std::uint32_t>(maps.prefiltered.back().size);
     header.irradianceSize = static_cast<std::uint32_t>(maps.irradiance.size);
     Bytes bytes;
     bytes.reserve(memoryBytes(maps) + sizeof(Header) + sizeof(Hash));
@@ -72,7 +73,7 @@ std::optional<IblMaps> decode(const Bytes& bytes) {
         hashBytes(std::span(bytes).first(content)) != hash)
         return std::nullopt;
     if (header.levels < 1 || header.levels > kMaxLevels || header.size > kMaxSize ||
-        header.size >> (header.levels - 1) == 0 || header.irradianceSize > kMaxSize)
+        header.smallest == 0 || header.smallest > header.size || header.irradianceSize > kMaxSize)
         return std::nullopt;
 
     IblMaps maps;
@@ -95,7 +96,8 @@ std::optional<IblMaps> decode(const Bytes& bytes) {
     bool complete = take(maps.irradianceSh.data(), maps.irradianceSh.size()) &&
                     take(maps.radianceSh.data(), maps.radianceSh.size());
     for (std::uint32_t i = 0; i < header.levels && complete; ++i)
-        complete = takeLevel(maps.prefiltered.emplace_back(), header.size >> i);
+        complete =
+            takeLevel(maps.prefiltered.emplace_back(), std::max(header.size >> i, header.smallest));
     if (complete && header.irradianceSize > 0)
         complete = takeLevel(maps.irradiance, header.irradianceSize);
     if (!complete || at != content)
@@ -115,6 +117,7 @@ Hash IblCache::key(const Image& environment, const IblSettings& settings) {
         .value(kAlgorithm)
         .value(settings.cubeSize)
         .value(settings.levels)
+        .value(settings.smallestLevel)
         .value(settings.irradianceSize)
         .value(settings.cellSize)
         .value(environment.width())

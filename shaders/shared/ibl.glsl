@@ -38,11 +38,20 @@ PT_FN float prefilteredLevel(float perceptualRoughness, int levels) {
     return clamp(perceptualRoughness, 0.0f, 1.0f) * float(levels - 1);
 }
 
+// The faces of a prefiltered level halve from level to level, but not below this: a bilinear lookup
+// in fewer texels shows its seams on a rough metal, however smooth the filtered light is.
+PT_CONST float kSmallestCubeLevel = 16.0f;
+
+// Side of a face of whole level `level`; `side` is that of level 0, a power of two.
+PT_FN float cubeLevelSide(float level, float side) {
+    return max(side * exp2(-level), min(side, kSmallestCubeLevel));
+}
+
 // The prefiltered cubemap lies in one flat texture (core/light/CubeAtlas.h): a row of six faces for
-// each level, +X -X +Y -Y +Z -Z, each with a border of one texel; `side` is that of a face of level
-// 0, a power of two. The size leaves room for 16 levels.
+// each level, +X -X +Y -Y +Z -Z, each with a border of one texel. The size leaves room for 7
+// levels at least.
 PT_FN vec2 cubeAtlasSize(float side) {
-    return vec2(6.0f * (side + 2.0f), 2.0f * (side + 16.0f));
+    return vec2(6.0f * (side + 2.0f), 2.0f * side + 6.0f * (kSmallestCubeLevel + 2.0f));
 }
 
 // Face 0…5 and position 0…1 on it of a direction, not necessarily unit: OpenGL 4.6, table 8.19.
@@ -60,11 +69,13 @@ PT_FN vec3 cubeFacePosition(vec3 d) {
 }
 
 // Where in the atlas, in texels, `at` (cubeFacePosition) lies on whole level `level`: above it lie
-// side (1 + 1/2 + …) = 2 (side - size) rows of texels and 2 of borders for each level.
+// side (1 + 1/2 + …) = 2 (side - size) rows of texels while the sides halve, then `size` for each
+// level, and 2 of borders for each.
 PT_FN vec2 cubeAtlasTexel(vec3 at, float level, float side) {
-    float size = side * exp2(-level);
-    return vec2(at.x * (size + 2.0f) + 1.0f + at.y * size,
-                2.0f * (side - size) + 2.0f * level + 1.0f + at.z * size);
+    float size = cubeLevelSide(level, side);
+    float notHalved = max(level - log2(side / min(side, kSmallestCubeLevel)), 0.0f);
+    float top = 2.0f * (side - size) + size * notHalved + 2.0f * level;
+    return vec2(at.x * (size + 2.0f) + 1.0f + at.y * size, top + 1.0f + at.z * size);
 }
 
 // ---- Light -------------------------------------------------------------------------------------

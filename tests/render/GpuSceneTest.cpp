@@ -151,7 +151,7 @@ TEST_F(GpuSceneTest, APreparedEnvironmentFitsIntoSixtyMebibytes) {
     const IblSettings settings;
     IblMaps maps;
     for (int i = 0; i < settings.levels; ++i) {
-        const int side = settings.cubeSize >> i;
+        const int side = std::max(settings.cubeSize >> i, settings.smallestLevel);
         maps.prefiltered.push_back({side, std::vector<glm::vec3>(6u * side * side)});
     }
     EnvironmentLight light(context());

@@ -233,7 +233,7 @@ std::vector<SharedTermCase> makeCases() {
             CASE("cube atlas", directions, 1.0f, vec3 at = cubeFacePosition(vec3(I(0), I(1), I(2)));
                  OUT3(0, at); vec2 texel = cubeAtlasTexel(at, floor(3.0f * abs(I(3))), 64.0f);
                  O(3) = texel.x; O(4) = texel.y; vec2 size = cubeAtlasSize(64.0f * abs(I(4)));
-                 O(5) = size.x; O(6) = size.y;),
+                 O(5) = size.x; O(6) = size.y; O(7) = cubeLevelSide(floor(7.0f * abs(I(3))), 64.0f);),
             CASE("spherical harmonics", directions, 1e-1f, float y9[9]; float y25[25];
                  shBasis9(vec3(I(0), I(1), I(2)), y9); shBasis25(vec3(I(0), I(1), I(2)), y25);
                  for (int i = 0; i < 25; ++i) O(i) = y25[i];

@@ -16,8 +16,10 @@ namespace {
 // A different picture on every level.
 std::vector<CubeLevel> levels(int size, int count) {
     std::vector<CubeLevel> result;
-    for (int k = 0; k < count; ++k, size /= 2) {
+    for (int k = 0; k < count; ++k) {
         CubeLevel level;
+        if (k > 0 && size > 16)
+            size /= 2;
         level.size = size;
         for (int i = 0; i < 6 * size * size; ++i) {
             const auto centre = [&](int j) {
@@ -49,11 +51,11 @@ glm::vec3 bilinear(const CubeAtlas& atlas, const glm::vec2& texel) {
 } // namespace
 
 TEST(CubeAtlas, ReadsLikeTheSeamlessCubemapOnEveryLevel) {
-    for (const int count : {1, 5, 6}) { // 6: down to one texel a face
-        const std::vector<CubeLevel> cube = levels(32, count);
+    for (const int count : {1, 3, 7}) { // sides 64 32 16 16 …
+        const std::vector<CubeLevel> cube = levels(64, count);
         const CubeAtlas atlas = makeCubeAtlas(cube);
         ASSERT_EQ(atlas.texels.size(), static_cast<std::size_t>(atlas.width * atlas.height));
-        EXPECT_EQ(atlas.side, 32);
+        EXPECT_EQ(atlas.side, 64);
         EXPECT_EQ(atlas.levels, count);
         for (std::uint32_t i = 0; i < 20'000; ++i) {
             const glm::vec3 d = 3.0f * uniformSphere(sobolOwen2D(i, 5));
@@ -64,7 +66,7 @@ TEST(CubeAtlas, ReadsLikeTheSeamlessCubemapOnEveryLevel) {
             ASSERT_NEAR(at.z, expected.t, 1e-6f);
             const int level = static_cast<int>(i) % count;
             const glm::vec3 seen =
-                bilinear(atlas, shading::cubeAtlasTexel(at, static_cast<float>(level), 32.0f));
+                bilinear(atlas, shading::cubeAtlasTexel(at, static_cast<float>(level), 64.0f));
             const glm::vec3 cubes = sampleCube(cube[static_cast<std::size_t>(level)], d);
             ASSERT_LT(glm::length(seen - cubes), 2e-4f) << "level " << level << " sample " << i;
         }

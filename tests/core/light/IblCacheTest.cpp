@@ -67,8 +67,9 @@ TEST(IblCache, KeyIsOfContentAndSettings) {
     EXPECT_NE(IblCache::key(changed, {}), key);
     EXPECT_NE(IblCache::key(image, {128, 7}), key);
     EXPECT_NE(IblCache::key(image, {256, 6}), key);
-    EXPECT_NE(IblCache::key(image, {256, 7, 32}), key);
-    EXPECT_NE(IblCache::key(image, {256, 7, 0, 0.2f}), key);
+    EXPECT_NE(IblCache::key(image, {256, 7, 8}), key);
+    EXPECT_NE(IblCache::key(image, {256, 7, 16, 32}), key);
+    EXPECT_NE(IblCache::key(image, {256, 7, 16, 0, 0.2f}), key);
     // The same numbers in another shape
     Image tall(8, 16, 3, PixelType::F32, ColorEncoding::Linear);
     std::ranges::copy(image.f32(), tall.f32().begin());

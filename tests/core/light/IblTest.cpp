@@ -38,12 +38,13 @@ glm::vec3 lookUp(const CubeLevel& level, const glm::vec3& d) {
 TEST(Ibl, LevelsHalveAndGrowRougher) {
     const Image sky = latLong(
         128, 64, [](glm::vec3 d) { return glm::vec3(d.y > 0.0f ? 1.0f : 0.0f, d.x + 1.0f, 1.0f); });
-    const auto maps = computeIbl(sky, {32, 4}, {});
+    const auto maps = computeIbl(sky, {32, 4, 8}, {});
     ASSERT_TRUE(maps.ok());
     ASSERT_EQ(maps.value().prefiltered.size(), 4u);
     for (int i = 0; i < 4; ++i) {
-        EXPECT_EQ(maps.value().prefiltered[i].size, 32 >> i);
-        EXPECT_EQ(maps.value().prefiltered[i].texels.size(), 6u * (32 >> i) * (32 >> i));
+        const int side = std::max(32 >> i, 8);
+        EXPECT_EQ(maps.value().prefiltered[i].size, side);
+        EXPECT_EQ(maps.value().prefiltered[i].texels.size(), 6u * side * side);
     }
     // Level 0 is the environment: a sharp horizon; then +x looks ever less bright from +x.
     EXPECT_NEAR(lookUp(maps.value().prefiltered[0], {0.3f, 0.8f, 0.1f}).x, 1.0f, 1e-5f);
@@ -95,7 +96,7 @@ TEST(Ibl, IrradianceCubeIsTheRoughestLevelTimesPi) {
     const Image image = latLong(256, 128, [](glm::vec3 d) {
         return glm::vec3(1.0f + d.y, d.y * d.y, d.y > 0.0f ? 1.0f : 0.0f);
     });
-    const auto maps = computeIbl(image, {64, 4, 8}, {});
+    const auto maps = computeIbl(image, {64, 4, 8, 8}, {});
     ASSERT_TRUE(maps.ok());
     ASSERT_EQ(maps->irradiance.size, 8);
     ASSERT_EQ(maps->irradiance.texels.size(), 6u * 8 * 8);
