@@ -65,9 +65,12 @@ FrameBlock Renderer::Impl::packFrame(const FrameSettings& frame) {
 
 Result<void> Renderer::Impl::drawScene(const FrameSettings& frame, const FrameBlock& block) {
     const Document& document = scene.document();
-    const SurfaceSettings settings{document.view.lighting, block.lightEnds.y > 0,
-                                   block.lightEnds.w > block.lightEnds.y, block.lightEnds,
-                                   static_cast<int>(shadows.lights().size()), document.model};
+    const SurfaceSettings settings{document.view.lighting,
+                                   block.lightEnds.y > 0,
+                                   block.lightEnds.w > block.lightEnds.y,
+                                   block.lightEnds,
+                                   static_cast<int>(shadows.lights().size()),
+                                   document.model};
     shadows.bind();
     const DrawList list = makeDrawList(scene.items(), block.worldToClip, frame.camera.position());
 

@@ -175,9 +175,9 @@ struct View {
     ExposureMode exposureMode = ExposureMode::Fixed;
     float exposureEv = 0.0f;
     ToneMap toneMap = ToneMap::PbrNeutral;
-    float reinhardKey = 0.18f;  // 0.045…0.72
+    float reinhardKey = 0.18f;    // 0.045…0.72
     bool reinhardAutoKey = false; // the key follows from the picture's luminances
-    float reinhardWhite = 0.0f; // smallest scaled luminance that becomes white; 0: none
+    float reinhardWhite = 0.0f;   // smallest scaled luminance that becomes white; 0: none
     float exponentialK = 1.0f;
     DisplayTransfer displayTransfer = DisplayTransfer::Srgb;
     float displayGamma = 2.2f;

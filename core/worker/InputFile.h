@@ -1,8 +1,8 @@
 // Opening a file that may be anything: the checks that need no decoder.
 #pragma once
 
-#include "core/base/Result.h"
 #include "core/base/FileDescriptor.h"
+#include "core/base/Result.h"
 
 #include <cstddef>
 #include <filesystem>

@@ -5,8 +5,8 @@
 // *thread* that started the worker ends, and requests come from pool threads.)
 #pragma once
 
-#include "core/base/Result.h"
 #include "core/base/FileDescriptor.h"
+#include "core/base/Result.h"
 
 #include <filesystem>
 #include <sys/types.h>

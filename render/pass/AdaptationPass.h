@@ -29,7 +29,7 @@ class AdaptationPass {
 
     // The newest result that the GPU has finished; nothing before the first.
     [[nodiscard]] std::optional<Luminance> poll();
-    [[nodiscard]] std::optional<Luminance> read(); // waits for the GPU
+    [[nodiscard]] std::optional<Luminance> read();                // waits for the GPU
     [[nodiscard]] bool pending() const { return m_underWay > 0; } // poll() will have a newer one
 
     // Compiles the programs, so that a broken one is found when the renderer is made.

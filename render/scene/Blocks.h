@@ -14,7 +14,7 @@ inline constexpr unsigned kFrameBinding = 0, kInstanceBinding = 1, kMaterialBind
                           kModelBinding = 3, kShadowBinding = 4;
 inline constexpr unsigned kVisibilityBinding = 0, kTransferBinding = 1; // storage blocks
 inline constexpr int kMaxLights = 16;
-inline constexpr int kMaxShadows = 4; // lights that have a shadow map
+inline constexpr int kMaxShadows = 4;        // lights that have a shadow map
 inline constexpr int kMaxTransferCount = 25; // order 5
 
 struct LightBlock {

@@ -103,7 +103,7 @@ void extremes(InputMaker& make, In in) {
 
 // Colours of every exponent, with the numbers at which the format ends mixed in.
 void rgbe(InputMaker& make, In in) {
-    static constexpr float kEdges[] = {0.0f,        -1.0f, 1e-32f,          1.1e-32f, 1.6e38f,
+    static constexpr float kEdges[] = {0.0f,        -1.0f, 1e-32f,           1.1e-32f, 1.6e38f,
                                        1.69477e38f, 3e38f, 1.7014118346e38f, 65504.0f, 0.9999f};
     for (float& value : in)
         value = make.uniform() < 0.2f ? kEdges[static_cast<int>(make.uniform(0.0f, 9.99f))]
@@ -233,7 +233,8 @@ std::vector<SharedTermCase> makeCases() {
             CASE("cube atlas", directions, 1.0f, vec3 at = cubeFacePosition(vec3(I(0), I(1), I(2)));
                  OUT3(0, at); vec2 texel = cubeAtlasTexel(at, floor(3.0f * abs(I(3))), 64.0f);
                  O(3) = texel.x; O(4) = texel.y; vec2 size = cubeAtlasSize(64.0f * abs(I(4)));
-                 O(5) = size.x; O(6) = size.y; O(7) = cubeLevelSide(floor(7.0f * abs(I(3))), 64.0f);),
+                 O(5) = size.x; O(6) = size.y;
+                 O(7) = cubeLevelSide(floor(7.0f * abs(I(3))), 64.0f);),
             CASE("spherical harmonics", directions, 1e-1f, float y9[9]; float y25[25];
                  shBasis9(vec3(I(0), I(1), I(2)), y9); shBasis25(vec3(I(0), I(1), I(2)), y25);
                  for (int i = 0; i < 25; ++i) O(i) = y25[i];

@@ -191,12 +191,12 @@ void DocumentController::readEnvironment(const QString& source, EnvironmentLayou
                 MapSlot sky;
                 sky.source = name;
                 sky.image = image->value();
-                pushParameters(environment,
-                               {{&parameter("environment.kind"),
-                                 static_cast<int>(EnvironmentKind::Image)},
-                                {&parameter("environment.image"), sky},
-                                {&parameter("environment.layout"), static_cast<int>(layout)}},
-                               0, undoText);
+                pushParameters(
+                    environment,
+                    {{&parameter("environment.kind"), static_cast<int>(EnvironmentKind::Image)},
+                     {&parameter("environment.image"), sky},
+                     {&parameter("environment.layout"), static_cast<int>(layout)}},
+                    0, undoText);
                 const UserNotice notice = UserNotice::fromImport(title, *notices, {});
                 if (!notice.text.isEmpty())
                     Q_EMIT noticed(notice);

@@ -254,8 +254,9 @@ TEST(Furnace, NothingIsLostAndNothingIsMade) {
 
 TEST(Furnace, EnvironmentShadingAgreesWithDirectShading) {
     // A constant environment: irradiance pi, prefiltered radiance 1.
-    const SurfaceTerms s = surfaceOf(vec3(0.6f), 0.2f, 0.5f, vec3(0, 0, 1),
-                                     normalize(vec3(0.5f, 0, 1)), vec2(integrateDfg(0.894427f, 0.5f)));
+    const SurfaceTerms s =
+        surfaceOf(vec3(0.6f), 0.2f, 0.5f, vec3(0, 0, 1), normalize(vec3(0.5f, 0, 1)),
+                  vec2(integrateDfg(0.894427f, 0.5f)));
     const ShadedLight light = shadeEnvironment(s, vec3(kPi), vec3(1.0f));
     const Furnace expected = furnace(s);
     EXPECT_NEAR(light.diffuse.x, expected.diffuse, 2e-3);
