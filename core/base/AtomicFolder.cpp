@@ -44,9 +44,10 @@ Error cancelledError(const fs::path& folder) {
 // The folder that the name stands for: links followed, "out/" is "out".
 fs::path target(const fs::path& folder) {
     std::error_code error;
-    fs::path path = fs::weakly_canonical(folder, error);
+    const fs::path absolute = fs::absolute(folder, error); // a name alone has no folder around it
+    fs::path path = fs::weakly_canonical(absolute, error);
     if (error)
-        path = fs::absolute(folder).lexically_normal();
+        path = absolute.lexically_normal();
     return path.has_filename() ? path : path.parent_path();
 }
 

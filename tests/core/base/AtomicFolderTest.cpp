@@ -49,6 +49,15 @@ TEST_F(AtomicFolderTest, AppearsWithExactlyItsFiles) {
     EXPECT_NE(allowed & fs::perms::owner_read, fs::perms::none);
 }
 
+TEST_F(AtomicFolderTest, ANameAloneLiesInTheCurrentFolder) {
+    const fs::path before = fs::current_path();
+    fs::current_path(m_around.path());
+    const Result<void> written = write("out", m_files);
+    fs::current_path(before);
+    ASSERT_TRUE(written.ok()) << written.error().text();
+    EXPECT_THAT(contents(m_around / "out"), ElementsAre("a.txt", "b.txt"));
+}
+
 TEST_F(AtomicFolderTest, TakesANameWithASlashAndAnEmptyFolder) {
     fs::create_directory(m_around / "out");
     ASSERT_TRUE(write(m_around / "out/", m_files).ok());
