@@ -14,8 +14,6 @@
 namespace patina {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr int kMaxEnvironmentWidth = 4096;
 
 Error missingEmbedded(const EmbeddedSource& source) {
