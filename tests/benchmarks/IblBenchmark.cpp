@@ -34,7 +34,13 @@ namespace {
 
 using namespace patina;
 
-constexpr int kWidth = 2048, kCube = 256, kLevels = 7, kIrradiance = 32, kSamples = 1024;
+constexpr int kWidth = 2048, kCube = 256, kLevels = 7, kSmallest = 16, kIrradiance = 32,
+              kSamples = 1024;
+
+// Of a face of a level: as computeIbl() makes them.
+int sideOf(int level) {
+    return std::max(kCube >> level, kSmallest);
+}
 
 // ---- Environments
 // --------------------------------------------------------------------------------
@@ -202,7 +208,7 @@ IblMaps yardstick(const Image& environment) {
         mips.push_back(halveCube(mips.back()));
     for (int i = 1; i < kLevels; ++i) {
         const float r = static_cast<float>(i) / (kLevels - 1);
-        maps.prefiltered.push_back(importanceSampled(mips, kCube >> i, r * r));
+        maps.prefiltered.push_back(importanceSampled(mips, sideOf(i), r * r));
     }
     maps.irradiance = importanceSampled(mips, kIrradiance, 1.0f);
     for (glm::vec3& texel : maps.irradiance.texels)
@@ -212,7 +218,7 @@ IblMaps yardstick(const Image& environment) {
 }
 
 IblMaps ours(const Image& environment) {
-    IblMaps maps = *computeIbl(environment, {kCube, kLevels, kIrradiance}, {});
+    IblMaps maps = *computeIbl(environment, {kCube, kLevels, kSmallest, kIrradiance}, {});
     benchmark::DoNotOptimize(computeDfgTable(128).width());
     return maps;
 }
@@ -237,7 +243,7 @@ Truth exactSums(const Image& environment) {
         cells.emplace_back(texelDirection(kCube, i), omega[i % omega.size()]);
     Truth truth;
     for (int i = 1; i < kLevels; ++i) {
-        const int size = kCube >> i;
+        const int size = sideOf(i);
         const double r = static_cast<double>(i) / (kLevels - 1), a2 = std::pow(r, 4.0);
         const std::size_t count = 6u * size * size,
                           step = std::max<std::size_t>(count / 200, 1) | 1u;

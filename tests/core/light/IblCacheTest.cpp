@@ -24,7 +24,7 @@ Image sky(float brightness) {
 }
 
 IblMaps mapsOf(const Image& image) {
-    return *computeIbl(image, {16, 3, 4}, {});
+    return *computeIbl(image, {16, 3, 4, 4}, {});
 }
 
 void expectSame(const IblMaps& a, const IblMaps& b) {
