@@ -8,6 +8,9 @@
 
 namespace patina::editor {
 
+// Of the surroundings, or of a light about the scene, per widget pixel.
+inline constexpr float kTurnDegrees = 0.4f;
+
 // `pixels`: the drag since the last call, y down, in widget pixels; `height`: of the widget.
 [[nodiscard]] Camera orbit(Camera camera, glm::vec2 pixels);
 // The point at the target's depth stays under the pointer.

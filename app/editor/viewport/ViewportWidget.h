@@ -1,26 +1,18 @@
-// The picture of the document, and the hand's way into it: orbit, pan, zoom, fly, pick.
-//
-//  left drag            orbit            wheel          zoom
-//  middle / Shift+left  pan              click          select
-//  right drag           look around, with W A S D Q E to fly; the wheel then sets the speed
-//  Shift+right drag     turn the environment (one undo step)
-//  Ctrl+right drag      turn the selected light about the scene, or the environment when none is
-//  drag a light's mark or handles to move and aim it; Esc takes the drag back
+// The picture of the document: draws it as fast as the hand moves and as fine as rest allows.
 #pragma once
 
 #include "app/editor/viewport/AdaptationClock.h"
 #include "app/editor/viewport/FramePacing.h"
+#include "app/editor/viewport/PreviewFeed.h"
+#include "app/editor/viewport/ScaledTarget.h"
+#include "app/editor/viewport/ViewportHand.h"
 #include "core/document/Document.h"
 #include "core/math/Camera.h"
-#include "render/scene/LightGizmo.h"
 
 #include <QElapsedTimer>
 #include <QOpenGLWidget>
 #include <QTimer>
 #include <memory>
-#include <set>
-
-class QOpenGLFramebufferObject;
 
 namespace patina {
 struct Change;
@@ -31,7 +23,8 @@ class Context;
 }
 namespace patina::render {
 class Renderer;
-}
+struct FrameSettings;
+} // namespace patina::render
 
 namespace patina::editor {
 
@@ -74,50 +67,29 @@ class ViewportWidget : public QOpenGLWidget {
   protected:
     void initializeGL() override;
     void paintGL() override;
-    void mousePressEvent(QMouseEvent* event) override;
-    void mouseMoveEvent(QMouseEvent* event) override;
-    void mouseReleaseEvent(QMouseEvent* event) override;
-    void wheelEvent(QWheelEvent* event) override;
-    void keyPressEvent(QKeyEvent* event) override;
-    void keyReleaseEvent(QKeyEvent* event) override;
-    void focusOutEvent(QFocusEvent* event) override;
-    bool event(QEvent* event) override;
 
   private:
-    enum class Drag { None, Orbit, Pan, Look, TurnEnvironment, TurnLight, Gizmo };
-
     void releaseGl();
     void applyChange(const Change& change);
     void setCamera(const Camera& camera);
     void touch(); // the hand moved something: draw fast now, refine when it rests
-    void flyStep();
-    void pollPreview();
+    [[nodiscard]] render::FrameSettings nextFrame(const QSize& size);
     void takeDisplay();
     void followLuminance();
-    void turnEnvironment(float pixels);
     void pickAt(const QPointF& position);
-    void turnLight(const QPointF& pixels);
-    void dragGizmo(const QPointF& pixels);
-    void cancelLightDrag();
-    void showHint(const QString& text); // in the status bar
-    [[nodiscard]] render::GizmoView gizmoView() const;
-    [[nodiscard]] render::GizmoHit gizmoAt(const QPointF& position) const;
     [[nodiscard]] float viewAspect() const;
 
     DocumentController& m_controller;
     SelectionModel& m_selection;
-    JobManager* m_jobs = nullptr;
     DisplayLoader* m_displays = nullptr;
     IblUpdater* m_ibl;
+    ViewportHand m_hand;
+    PreviewFeed m_preview;
 
     std::unique_ptr<gl::Context> m_context;
     std::unique_ptr<render::Renderer> m_renderer;
-    std::unique_ptr<QOpenGLFramebufferObject> m_reduced; // target of reduced frames
-    bool m_iblPending = true;                            // m_ibl->maps() is not in the renderer yet
-    bool m_previewShown = false;
-    bool m_previewPending = false; // a new pass is to be uploaded
-    int m_previewSamples = 0;      // of the pass seen last
-
+    ScaledTarget m_target;
+    bool m_iblPending = true;     // m_ibl->maps() is not in the renderer yet
     bool m_displayPending = true; // m_displays->transform() is not in the renderer yet
     bool m_luminanceWanted = false;
     std::optional<Luminance> m_luminance; // as announced last
@@ -127,19 +99,10 @@ class ViewportWidget : public QOpenGLWidget {
     Camera m_lastCamera;         // of the last frame
 
     FramePacing m_pacing;
-    QTimer m_restTimer, m_flyTimer, m_previewTimer, m_shaderTimer, m_adaptationTimer;
-    QElapsedTimer m_flyClock;
+    QTimer m_restTimer, m_shaderTimer, m_adaptationTimer;
     double m_slowestFrameMs = 0.0;
     QSize m_lastFrameSize;
 
-    Drag m_drag = Drag::None;
-    QPointF m_pressPosition, m_lastPosition;
-    bool m_pressIsClick = false; // no movement since the press
-    quint64 m_dragSession = 0;
-    render::GizmoHandle m_handle = render::GizmoHandle::None; // that is dragged
-    Light m_lightBefore;                                      // the dragged light, for Esc
-    std::set<int> m_flyKeys;
-    float m_flySpeed = 1.0f; // scene radii per second
     bool m_overlays = true;
 };
 

@@ -1,0 +1,69 @@
+#include "app/editor/viewport/PreviewFeed.h"
+
+#include "app/editor/job/JobManager.h"
+#include "app/editor/job/LivePreview.h"
+#include "render/Renderer.h"
+
+namespace patina::editor {
+namespace {
+
+constexpr int kPollMs = 100; // how often a bake is asked for a new pass
+
+} // namespace
+
+PreviewFeed::PreviewFeed(QObject* parent)
+    : QObject(parent) {
+    m_timer.setInterval(kPollMs);
+    connect(&m_timer, &QTimer::timeout, this, &PreviewFeed::poll);
+}
+
+void PreviewFeed::setJobs(JobManager& jobs) {
+    m_jobs = &jobs;
+    connect(&jobs, &JobManager::previewChanged, this, [this] {
+        m_samples = 0;
+        m_pending = m_jobs->preview() != nullptr;
+        if (m_pending)
+            m_timer.start();
+        else
+            m_timer.stop();
+        Q_EMIT changed(); // also at the end: upload() drops the preview
+    });
+}
+
+void PreviewFeed::restart() {
+    if (!m_jobs || !m_jobs->preview())
+        return;
+    m_jobs->preview()->markAllChanged();
+    m_pending = true;
+}
+
+void PreviewFeed::upload(render::Renderer& renderer) {
+    const std::shared_ptr<LivePreview> preview = m_jobs ? m_jobs->preview() : nullptr;
+    if (m_pending && preview) {
+        m_pending = false;
+        m_shown |= preview->collect(
+            [&renderer, kind = preview->kind()](Id mesh, int stride,
+                                                std::span<const float> values) {
+                renderer.previewVertices(kind, mesh, stride, values);
+            },
+            [&renderer](Id material, int size, std::span<const float> values) {
+                renderer.previewTexels(material, size, values);
+            });
+    } else if (m_shown && !preview) {
+        renderer.clearPreview();
+        m_shown = false;
+    }
+}
+
+// Each complete pass is a usable picture. Showing unfinished ones would redraw all the time and
+// take the cores from the bake.
+void PreviewFeed::poll() {
+    const std::shared_ptr<LivePreview> preview = m_jobs->preview();
+    if (!preview || preview->samplesDone() == m_samples)
+        return;
+    m_samples = preview->samplesDone();
+    m_pending = true;
+    Q_EMIT changed();
+}
+
+} // namespace patina::editor

@@ -1,0 +1,39 @@
+// Brings a running bake's results from the job manager into the renderer.
+#pragma once
+
+#include <QObject>
+#include <QTimer>
+
+namespace patina::render {
+class Renderer;
+}
+
+namespace patina::editor {
+
+class JobManager;
+
+class PreviewFeed : public QObject {
+    Q_OBJECT
+  public:
+    explicit PreviewFeed(QObject* parent = nullptr);
+
+    void setJobs(JobManager& jobs); // whose live preview is shown
+    // The renderer is a new one, which knows nothing yet.
+    void restart();
+    // With the renderer's context current: what has come since the last call, or the end of it.
+    void upload(render::Renderer& renderer);
+
+  Q_SIGNALS:
+    void changed(); // there is something to upload
+
+  private:
+    void poll();
+
+    JobManager* m_jobs = nullptr;
+    QTimer m_timer;
+    bool m_shown = false;
+    bool m_pending = false; // a new pass is to be uploaded
+    int m_samples = 0;      // of the pass seen last
+};
+
+} // namespace patina::editor
