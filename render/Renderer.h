@@ -9,6 +9,8 @@
 #include "core/image/DisplayTransform.h"
 #include "core/light/Ibl.h"
 #include "render/gl/Context.h"
+#include "render/view/Inspection.h"
+#include "render/view/ViewSettings.h"
 
 #include <filesystem>
 #include <limits>
@@ -39,6 +41,15 @@ struct FrameSettings {
     // The scene looks as in the last frame: only exposure, tone curve and overlays are done anew.
     // Without effect when size, samples or what the renderer was given have changed since.
     bool reuseScene = false;
+
+    ViewSettings view; // which terms of the shading equation are shown
+};
+
+// Several views drawn small, side by side in one picture.
+struct ViewSheet {
+    std::vector<ViewKind> kinds;
+    ViewMode mode = ViewMode::Raw;
+    int width = 0, height = 0; // pixels of each
 };
 
 class Renderer {
@@ -83,6 +94,21 @@ class Renderer {
     // The last frame as displayed: 8-bit RGBA sRGB, top row first, straight alpha (as PNG wants
     // it).
     [[nodiscard]] Image readDisplayed();
+
+    // The numbers of a view for the camera and size of the last frame: linear RGBA floats, top row
+    // first; alpha 1 where a surface is (radiance: premultiplied by its opacity). One sample per
+    // pixel. CHECKs that there was a frame. Errors: Internal from the driver.
+    [[nodiscard]] Result<Image> readView(ViewKind kind, ViewMode mode = ViewMode::Raw);
+    // The views of `sheet` as displayed, each 8-bit RGBA, top row first, for the camera of the last
+    // frame; up to eight are drawn in one pass.
+    [[nodiscard]] Result<std::vector<Image>> drawSheet(const FrameSettings& frame,
+                                                       const ViewSheet& sheet);
+    // Everything the shader computes at a pixel of the last frame (top-left origin): one pass over
+    // one pixel. CHECKs that the pixel lies inside the frame.
+    [[nodiscard]] Result<Inspection> inspect(int x, int y);
+    // The range that the last frame's view was shown over: the locked one, the table's, or the
+    // picture's own; nothing for views without one.
+    [[nodiscard]] std::optional<ViewRange> shownRange() const;
 
     // Recompiles shaders that changed on disk; a shader that does not compile keeps the last good
     // program. Returns the messages (file, line) of what failed.

@@ -5,6 +5,8 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/job/JobManager.h"
+#include "app/editor/viewport/PixelProbe.h"
+#include "app/editor/viewport/ViewState.h"
 #include "app/editor/widget/Thumbnails.h"
 #include "core/worker/WorkerClient.h"
 
@@ -16,6 +18,8 @@ struct Session {
     DisplayLoader displays{controller};
     SelectionModel selection{controller};
     Thumbnails thumbnails;
+    ViewState views;
+    PixelProbe probe;
     JobManager jobs{controller};
 };
 

@@ -1,0 +1,48 @@
+// What the shader computed under the pointer and at the pinned point. The viewport fills it after a
+// frame while somebody wants it; panels read it.
+#pragma once
+
+#include "render/view/Inspection.h"
+
+#include <QObject>
+#include <optional>
+
+namespace patina::editor {
+
+class PixelProbe : public QObject {
+    Q_OBJECT
+  public:
+    explicit PixelProbe(QObject* parent = nullptr)
+        : QObject(parent) {}
+
+    // Who shows values takes part, so that nothing is computed for nobody.
+    void addListener() { ++m_listeners; }
+    void removeListener() { --m_listeners; }
+    [[nodiscard]] bool wanted() const { return m_listeners > 0; }
+
+    [[nodiscard]] const std::optional<render::Inspection>& hover() const { return m_hover; }
+    [[nodiscard]] const std::optional<render::Inspection>& pin() const { return m_pin; }
+    // The pin, else what lies under the pointer.
+    [[nodiscard]] const std::optional<render::Inspection>& shown() const {
+        return m_pin ? m_pin : m_hover;
+    }
+
+    void setHover(std::optional<render::Inspection> inspection) {
+        m_hover = std::move(inspection);
+        Q_EMIT hoverChanged();
+    }
+    void setPin(std::optional<render::Inspection> inspection) {
+        m_pin = std::move(inspection);
+        Q_EMIT pinChanged();
+    }
+
+  Q_SIGNALS:
+    void hoverChanged();
+    void pinChanged(); // set, taken away, or its numbers are new
+
+  private:
+    int m_listeners = 0;
+    std::optional<render::Inspection> m_hover, m_pin;
+};
+
+} // namespace patina::editor

@@ -1,0 +1,294 @@
+#include "core/document/Views.h"
+
+#include "core/base/Check.h"
+#include "core/document/Lights.h"
+
+#include <algorithm>
+#include <array>
+
+namespace patina {
+namespace {
+
+using namespace shading;
+
+constexpr auto kPicture = ViewGroup::Picture;
+constexpr auto kMaterial = ViewGroup::Material;
+constexpr auto kGeometry = ViewGroup::Geometry;
+constexpr auto kFactors = ViewGroup::Factors;
+constexpr auto kDirect = ViewGroup::Direct;
+constexpr auto kIbl = ViewGroup::Ibl;
+
+constexpr std::string_view kRadianceUnit = "cd/m²";
+constexpr std::string_view kScaledLight = "The part of the picture that this factor scales.";
+
+// What the rows of one kind of value have in common.
+constexpr ViewInfo radiance(ViewKind kind, std::string_view id, std::string_view label,
+                            std::string_view symbol, ViewGroup group, std::string_view help,
+                            std::string_view contribution = {}) {
+    return {kind, id,    label, symbol,        group, ViewValue::Radiance, ColorMap::Grey, 0.0f,
+            1.0f, false, false, kRadianceUnit, help,  contribution};
+}
+constexpr ViewInfo color(ViewKind kind, std::string_view id, std::string_view label,
+                         std::string_view symbol, ViewGroup group, std::string_view help,
+                         std::string_view contribution = {}) {
+    return {kind, id,    label, symbol, group, ViewValue::Color, ColorMap::Grey, 0.0f,
+            1.0f, false, false, {},     help,  contribution};
+}
+constexpr ViewInfo direction(ViewKind kind, std::string_view id, std::string_view label,
+                             std::string_view symbol, std::string_view help) {
+    return {kind,           id,    label, symbol, kGeometry, ViewValue::Direction,
+            ColorMap::Grey, -1.0f, 1.0f,  false,  false,     {},
+            help,           {}};
+}
+constexpr ViewInfo scalar(ViewKind kind, std::string_view id, std::string_view label,
+                          std::string_view symbol, ViewGroup group, ColorMap map, float min,
+                          float max, std::string_view help, std::string_view contribution = {}) {
+    return {kind, id,    label, symbol, group, ViewValue::Scalar, map, min,
+            max,  false, false, {},     help,  contribution};
+}
+constexpr ViewInfo judged(ViewKind kind, std::string_view id, std::string_view label,
+                          std::string_view help) {
+    return {
+        kind,  id,    label, {},   kPicture, ViewValue::Picture, ColorMap::Sequential, 0.0f, 1.0f,
+        false, false, {},    help, {}};
+}
+constexpr ViewInfo identity(ViewKind kind, std::string_view id, std::string_view label,
+                            std::string_view help) {
+    return {kind,  id,    label, {},   kGeometry, ViewValue::Identity, ColorMap::Grey, 0.0f, 1.0f,
+            false, false, {},    help, {}};
+}
+constexpr ViewInfo measured(ViewInfo info, std::string_view unit, bool logarithmic) {
+    info.unit = unit;
+    info.logarithmic = logarithmic;
+    info.automaticRange = true;
+    return info;
+}
+
+constexpr std::array<ViewInfo, kViewCount> kViews{{
+    radiance(kViewFinal, "final", "Final", "L", kPicture,
+             "The picture: every term of the shading equation together"),
+    {kViewLuminance,
+     "luminance",
+     "Luminance",
+     "Y",
+     kPicture,
+     ViewValue::Picture,
+     ColorMap::Sequential,
+     -8.0f,
+     8.0f,
+     false,
+     false,
+     "EV",
+     "Luminance of the picture after exposure, in steps of EV around middle grey",
+     {}},
+    judged(kViewInvalid, "invalid", "Invalid Numbers",
+           "Marks pixels that are not a number (magenta), infinite (yellow) or negative (cyan)"),
+    judged(kViewClipped, "clipped", "Clipped",
+           "Marks what the display cannot show: a channel at its end (red), all at their end "
+           "(white), black (blue)"),
+    judged(kViewOutOfGamut, "outOfGamut", "Out of Gamut",
+           "Marks colours outside of the sRGB gamut: a channel below zero before the display"),
+    scalar(kViewFurnace, "furnace", "Energy", "ρ", kPicture, ColorMap::Diverging, 0.0f, 2.0f,
+           "What the surface returns of an even surrounding of radiance 1: below 1 it absorbs, "
+           "above 1 it makes energy"),
+
+    color(kViewBaseColor, "baseColor", "Base Colour", "", kMaterial,
+          "Base colour with its map, linear",
+          "The light that base colour tints: all diffuse light, and the reflection of metals"),
+    scalar(kViewMetallic, "metallic", "Metallic", "", kMaterial, ColorMap::Grey, 0.0f, 1.0f,
+           "Metallic with its map: 0 dielectric, 1 metal", "The reflection of the metallic share"),
+    scalar(kViewPerceptualRoughness, "perceptualRoughness", "Roughness", "r", kMaterial,
+           ColorMap::Grey, 0.0f, 1.0f, "Perceptual roughness with its map; α = r²",
+           "The reflections that it spreads"),
+    scalar(kViewAo, "ao", "Ambient Occlusion", "", kMaterial, ColorMap::Grey, 0.0f, 1.0f,
+           "Share of the surroundings that is not hidden: map or bake, with its strength",
+           "The image-based light that it takes away"),
+    color(kViewNormalMap, "normalMap", "Normal Map", "", kMaterial,
+          "The normal map in its tangent space, as OpenGL maps are stored (green up)"),
+    radiance(kViewEmissive, "emissive", "Emission", "Lₑ", kMaterial,
+             "Light that the material sends out by itself",
+             "Emission as it stands in the picture's sum"),
+    scalar(kViewAlpha, "alpha", "Opacity", "α", kMaterial, ColorMap::Grey, 0.0f, 1.0f,
+           "Opacity: alpha of base colour with its map"),
+
+    direction(kViewShadingNormal, "shadingNormal", "Shading Normal", "n",
+              "The normal that shading uses, normal map included, in world space"),
+    direction(kViewGeometricNormal, "geometricNormal", "Geometric Normal", "nᵍ",
+              "The normal of the triangle itself, in world space"),
+    direction(kViewTangent, "tangent", "Tangent", "t",
+              "The tangent, along which u grows, in world space"),
+    direction(kViewBitangent, "bitangent", "Bitangent", "b",
+              "The bitangent, along which v grows in OpenGL's sense, in world space"),
+    color(kViewUvChecker, "uvChecker", "UV Checker", "uv", kGeometry,
+          "A numbered board in texture space: shows stretching, mirroring and seams"),
+    measured(
+        scalar(kViewTexelDensity, "texelDensity", "Texel Density", "", kGeometry,
+               ColorMap::Sequential, 10.0f, 10000.0f,
+               "Texels of the base colour map, or of a 1024² map when there is none, per metre"),
+        "texel/m", true),
+    identity(kViewMaterialId, "materialId", "Materials", "A colour for each material"),
+    identity(kViewMeshId, "meshId", "Meshes", "A colour for each mesh"),
+    measured(scalar(kViewDepth, "depth", "Depth", "z", kGeometry, ColorMap::Sequential, 0.0f, 10.0f,
+                    "Distance from the camera's plane"),
+             "m", false),
+    {kViewWireframe,
+     "wireframe",
+     "Wireframe",
+     {},
+     kGeometry,
+     ViewValue::Picture,
+     ColorMap::Grey,
+     0.0f,
+     1.0f,
+     false,
+     false,
+     {},
+     "The edges of the triangles over the picture",
+     {}},
+    radiance(kViewFlat, "flat", "Flat Shading", "", kGeometry,
+             "The picture with the triangles' own normals"),
+
+    measured(scalar(kViewD, "d", "D: Normal Distribution", "D", kFactors, ColorMap::Sequential,
+                    1e-3f, 1e3f,
+                    "Density of microfacets that face the half vector of the chosen direction",
+                    kScaledLight),
+             "1/sr", true),
+    scalar(kViewG, "g", "G: Masking and Shadowing", "G", kFactors, ColorMap::Sequential, 0.0f, 1.0f,
+           "Share of those facets that light reaches and the viewer sees",
+           "The specular light that masking takes away"),
+    color(kViewF, "f", "F: Fresnel", "F", kFactors,
+          "Share of the light that a facet reflects at the angle of the half vector",
+          "The specular light that Fresnel adds to the reflection at normal incidence"),
+    measured(scalar(kViewDGF, "dgf", "D·G·F / (4 N·L N·V)", "fₛ", kFactors, ColorMap::Sequential,
+                    1e-3f, 1e3f, "The specular BRDF of the chosen direction, by its luminance",
+                    kScaledLight),
+             "1/sr", true),
+    scalar(kViewNoL, "nol", "N·L", "N·L", kFactors, ColorMap::Sequential, 0.0f, 1.0f,
+           "Cosine between normal and chosen direction", kScaledLight),
+    scalar(kViewNoV, "nov", "N·V", "N·V", kFactors, ColorMap::Sequential, 0.0f, 1.0f,
+           "Cosine between normal and viewer"),
+    scalar(kViewNoH, "noh", "N·H", "N·H", kFactors, ColorMap::Sequential, 0.0f, 1.0f,
+           "Cosine between normal and half vector"),
+    scalar(kViewVoH, "voh", "V·H", "V·H", kFactors, ColorMap::Sequential, 0.0f, 1.0f,
+           "Cosine between viewer and half vector, which Fresnel depends on"),
+
+    radiance(kViewDirect, "direct", "Direct Light", "", kDirect,
+             "Light of all analytic lights, shadows included"),
+    radiance(kViewDirectDiffuse, "directDiffuse", "Direct Diffuse", "", kDirect,
+             "Diffuse reflection of the analytic lights",
+             "Direct diffuse light as it stands in the picture's sum"),
+    radiance(kViewDirectSpecular, "directSpecular", "Direct Specular", "", kDirect,
+             "Specular reflection of the analytic lights",
+             "Direct specular light as it stands in the picture's sum"),
+    scalar(kViewShadow, "shadow", "Shadow", "", kDirect, ColorMap::Grey, 0.0f, 1.0f,
+           "Share of the chosen light, or of all that cast shadows, that arrives",
+           "The direct light that shadows take away"),
+
+    radiance(kViewIrradiance, "irradiance", "Irradiance", "E(n)", kIbl,
+             "Light from all the surroundings that falls on the surface, before occlusion"),
+    radiance(kViewDiffuseIbl, "diffuseIbl", "Diffuse Image-Based", "", kIbl,
+             "Diffuse reflection of the surroundings",
+             "Diffuse image-based light as it stands in the picture's sum"),
+    radiance(kViewPrefiltered, "prefiltered", "Prefiltered Radiance", "Lₚ", kIbl,
+             "The surroundings, blurred as the roughness asks, in the direction of reflection"),
+    measured(scalar(kViewPrefilteredLevel, "prefilteredLevel", "Prefiltered Level", "", kIbl,
+                    ColorMap::Sequential, 0.0f, 5.0f,
+                    "Which level of the prefiltered cube is read: 0 mirror, last fully rough"),
+             "", false),
+    scalar(kViewDfgScale, "dfgScale", "Environment BRDF: Scale", "A", kIbl, ColorMap::Sequential,
+           0.0f, 1.0f, "What F0 is multiplied with in the split sum"),
+    scalar(kViewDfgBias, "dfgBias", "Environment BRDF: Bias", "B", kIbl, ColorMap::Sequential, 0.0f,
+           1.0f, "What is added to the scaled F0 in the split sum"),
+    color(kViewIblFresnel, "iblFresnel", "Image-Based Fresnel", "F̄", kIbl,
+          "Mean Fresnel reflectance over the lobe: (F0 A + B) / (A + B)",
+          "The reflection that Fresnel adds to the one at normal incidence"),
+    color(kViewTransmission, "kd", "kD: Share for Diffuse", "kD", kIbl,
+          "What the specular layer lets through to the diffuse lobe: 1 - its albedo",
+          "The diffuse light that the specular layer takes away"),
+    radiance(kViewSpecularIbl, "specularIbl", "Specular Image-Based", "", kIbl,
+             "Specular reflection of the surroundings",
+             "Specular image-based light as it stands in the picture's sum"),
+    scalar(kViewMultiScatterGain, "multiScatterGain", "Multi-Scatter Gain", "", kIbl,
+           ColorMap::Sequential, 1.0f, 2.0f,
+           "Factor for light that is reflected more than once between facets, by its luminance",
+           "The reflection that multiple scattering adds"),
+    radiance(kViewAmbient, "ambient", "All Image-Based", "", kIbl,
+             "Diffuse and specular reflection of the surroundings together"),
+}};
+
+constexpr bool numbered() {
+    for (std::size_t i = 0; i < kViews.size(); ++i)
+        if (kViews[i].kind != static_cast<ViewKind>(i))
+            return false;
+    return true;
+}
+static_assert(numbered(), "a row for every kView… of views.glsl, in its order");
+
+bool anyShines(const Document& document) {
+    return std::any_of(document.lights.begin(), document.lights.end(),
+                       [&](const Light& light) { return shines(document, light); });
+}
+
+template <class Has>
+bool anyMaterial(const Document& document, Has has) {
+    return std::any_of(document.meshes.begin(), document.meshes.end(),
+                       [&](const MeshInstance& mesh) {
+                           const Material* material = document.material(mesh.material);
+                           return mesh.visible && material != nullptr && has(*material);
+                       });
+}
+
+} // namespace
+
+std::string_view viewGroupLabel(ViewGroup group) {
+    constexpr std::array<std::string_view, kViewGroupCount> kLabels{
+        "Picture", "Material", "Geometry", "BRDF Factors", "Direct Light", "Image-Based Light"};
+    return kLabels[static_cast<std::size_t>(group)];
+}
+
+std::span<const ViewInfo> views() {
+    return kViews;
+}
+
+const ViewInfo& viewInfo(ViewKind kind) {
+    CHECK(kind >= 0 && kind < kViewCount);
+    return kViews[static_cast<std::size_t>(kind)];
+}
+
+const ViewInfo* findView(std::string_view id) {
+    const auto found = std::find_if(kViews.begin(), kViews.end(),
+                                    [&](const ViewInfo& info) { return info.id == id; });
+    return found == kViews.end() ? nullptr : &*found;
+}
+
+std::string whyEmpty(ViewKind kind, const Document& document) {
+    switch (kind) {
+    case kViewDirect:
+    case kViewDirectDiffuse:
+    case kViewDirectSpecular:
+        return anyShines(document) ? "" : "No light shines: add one, or switch one on.";
+    case kViewShadow:
+        return std::any_of(document.lights.begin(), document.lights.end(),
+                           [&](const Light& light) {
+                               return shines(document, light) && light.castsShadow &&
+                                      canCastShadow(light.type);
+                           })
+                   ? ""
+                   : "No light casts a shadow: directional lights and spots can.";
+    case kViewEmissive:
+        return anyMaterial(document,
+                           [](const Material& m) {
+                               return m.emissiveStrength > 0.0f && m.emissive != glm::vec3(0.0f);
+                           })
+                   ? ""
+                   : "No material sends out light.";
+    case kViewNormalMap:
+        return anyMaterial(document, [](const Material& m) { return m.normalMap.image != nullptr; })
+                   ? ""
+                   : "No material has a normal map.";
+    default:
+        return "";
+    }
+}
+
+} // namespace patina

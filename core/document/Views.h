@@ -1,0 +1,73 @@
+// THE table of views: every term of the shading equation that can be looked at, described once. It
+// drives the renderer, the menu, the strip, the keys, `--list-views`, the channel names of
+// `--view all` and the documentation. The numbers are those of shaders/shared/views.glsl.
+#pragma once
+
+#include "core/image/ColorMap.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#define PT_CPP 1
+#define PT_CONST inline constexpr
+namespace patina::shading {
+// clang-format off
+#include "../../shaders/shared/views.glsl"
+// clang-format on
+} // namespace patina::shading
+#undef PT_CPP
+#undef PT_CONST
+
+namespace patina {
+
+struct Document;
+
+using ViewKind = int; // one of shading::kView…
+
+enum class ViewGroup { Picture, Material, Geometry, Factors, Direct, Ibl };
+inline constexpr int kViewGroupCount = 6;
+[[nodiscard]] std::string_view viewGroupLabel(ViewGroup group);
+
+// What the numbers of a view are, and so how they are shown.
+enum class ViewValue {
+    Radiance,  // rgb, scene-linear: exposed and tone mapped like the picture
+    Color,     // rgb 0…1, scene-linear: encoded for the display, neither exposed nor tone mapped
+    Scalar,    // one number: through the colour map over the range
+    Direction, // unit vector, world space: 0.5 + 0.5 n, as normal maps show it
+    Identity,  // whole number: a colour of its own for each
+    Picture    // judged from the finished picture: luminance, clipping …
+};
+
+struct ViewInfo {
+    ViewKind kind = 0;
+    std::string_view id;     // "perceptualRoughness": `--view`, files
+    std::string_view label;  // "Roughness"
+    std::string_view symbol; // as in formulas: "E(n)", "D"; empty when it has none
+    ViewGroup group = ViewGroup::Picture;
+    ViewValue value = ViewValue::Scalar;
+    ColorMap colorMap = ColorMap::Grey;  // of Scalar
+    float rangeMin = 0.0f, rangeMax = 1; // of Scalar, when it is not automatic
+    bool logarithmic = false;            // Scalar: shown by its logarithm (rangeMin > 0)
+    bool automaticRange = false;         // Scalar: by default the range follows the picture
+    std::string_view unit;               // "m", "W/(m² sr)", "" for ratios
+    std::string_view help;               // one sentence: what it is
+    std::string_view contribution;       // one sentence: what its contribution shows; empty: none
+};
+
+[[nodiscard]] std::span<const ViewInfo> views(); // by number, kViewCount of them
+[[nodiscard]] const ViewInfo& viewInfo(ViewKind kind);
+[[nodiscard]] const ViewInfo* findView(std::string_view id); // null: no such view
+
+// The terms of the picture's sum: diffuse and specular image-based light, diffuse and specular
+// direct light, emission. Their views are kViewDiffuseIbl …; the picture is their sum.
+inline constexpr int kTermCount = 5;
+inline constexpr ViewKind kTermViews[kTermCount] = {
+    shading::kViewDiffuseIbl, shading::kViewSpecularIbl, shading::kViewDirectDiffuse,
+    shading::kViewDirectSpecular, shading::kViewEmissive};
+
+// Why a view shows nothing in this document ("No light shines: add one or switch one on."), as a
+// sentence for the legend; empty when it applies.
+[[nodiscard]] std::string whyEmpty(ViewKind kind, const Document& document);
+
+} // namespace patina
