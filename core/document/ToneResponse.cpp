@@ -38,11 +38,14 @@ float exposureInForce(const View& view, const Luminance& luminance) {
     return std::log2(exposureScale(view, luminance) * key);
 }
 
-float displayedGrey(const View& view, const Luminance& luminance, float exposed) {
+shading::ToneCurve toneCurve(const View& view, const Luminance& luminance) {
     CHECK(view.toneMap != ToneMap::OpenColorIo);
-    const shading::ToneCurve curve{static_cast<int>(view.toneMap), keyScale(view, luminance),
-                                   view.reinhardWhite, view.exponentialK};
-    return shading::displayEncode(shading::toneMap(glm::vec3(exposed), curve),
+    return {static_cast<int>(view.toneMap), keyScale(view, luminance), view.reinhardWhite,
+            view.exponentialK};
+}
+
+float displayedGrey(const View& view, const Luminance& luminance, float exposed) {
+    return shading::displayEncode(shading::toneMap(glm::vec3(exposed), toneCurve(view, luminance)),
                                   static_cast<int>(view.displayTransfer), view.displayGamma)
         .y;
 }

@@ -6,6 +6,10 @@
 
 namespace patina {
 
+namespace shading {
+struct ToneCurve;
+}
+
 // How bright a picture is on the whole, and what the eye is used to meanwhile. Relative luminances,
 // never 0: kLogDelta of shaders/shared/tonemap.glsl is added to each.
 struct Luminance {
@@ -26,6 +30,9 @@ struct Luminance {
 
 // The whole exposure in EV: exposureScale() and what the photographic operator's key adds.
 [[nodiscard]] float exposureInForce(const View& view, const Luminance& luminance);
+
+// The tone curve for toneMap() of core/math/Shading.h. Not for ToneMap::OpenColorIo.
+[[nodiscard]] shading::ToneCurve toneCurve(const View& view, const Luminance& luminance);
 
 // The value, 0…1, that the display is sent for grey of this radiance after exposure. Not for
 // ToneMap::OpenColorIo: DisplayTransform::curve has that.
