@@ -240,6 +240,14 @@ glm::dvec3 integrateDfg(float NoV, float perceptualRoughness, Distribution distr
         .fine(kNodes, std::clamp(static_cast<double>(NoV), 1e-4, 1.0 - 1e-7), alpha);
 }
 
+glm::dvec2 estimateDfg(float NoV, float perceptualRoughness, Distribution distribution,
+                       Visibility visibility) {
+    const float r = std::clamp(perceptualRoughness, 0.0f, 1.0f);
+    static const TableNodes kNodes;
+    return chooseIntegrator(distribution, visibility)
+        .table(kNodes, std::clamp(NoV, 1e-3f, 1.0f - 1e-4f), std::max(r * r, 1e-5f));
+}
+
 Image computeDfgTable(int size, Distribution distribution, Visibility visibility) {
     CHECK_LE(1, size);
     Image table(size, size, 3, PixelType::F32, ColorEncoding::Data);

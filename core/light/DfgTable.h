@@ -22,6 +22,12 @@ namespace patina {
                                       Distribution distribution = Distribution::GGX,
                                       Visibility visibility = Visibility::SmithCorrelated);
 
+// Scale and bias of the same by the table's own quadrature, within 5e-4 (1e-3 for N·V < 0.05), in
+// some microseconds.
+[[nodiscard]] glm::dvec2 estimateDfg(float NoV, float perceptualRoughness,
+                                     Distribution distribution = Distribution::GGX,
+                                     Visibility visibility = Visibility::SmithCorrelated);
+
 // size × size, F32, 3 channels as above; u = N·V, v = perceptualRoughness, texel centres at
 // (i + 0.5) / size. Entries are within 5e-4 of integrateDfg() (1e-3 for N·V < 0.05): a shorter
 // quadrature in single precision, SIMD. The result does not depend on the number of threads.

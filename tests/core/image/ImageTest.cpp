@@ -1,8 +1,10 @@
 #include "core/image/Image.h"
 
 #include "core/image/Srgb.h"
+#include "core/image/TexelRange.h"
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <gtest/gtest.h>
 #include <limits>
 
@@ -124,6 +126,41 @@ TEST(SanitizeHdr, ReplacesAndCounts) {
     EXPECT_EQ(sanitizeHdr(image), 0u);
     Image integers(2, 2, 1, PixelType::U8, ColorEncoding::Data);
     EXPECT_EQ(sanitizeHdr(integers), 0u);
+}
+
+// Integers are counted by value, floats one by one: both are what linear() says of every texel.
+TEST(TexelRange, IsThatOfLinearTexels) {
+    for (const PixelType type : {PixelType::U8, PixelType::U16, PixelType::F32})
+        for (const ColorEncoding encoding : {ColorEncoding::Srgb, ColorEncoding::Data})
+            for (int channels = 1; channels <= 4; ++channels) {
+                Image floats(5, 3, channels, PixelType::F32, encoding);
+                for (std::size_t i = 0; i < floats.f32().size(); ++i)
+                    floats.f32()[i] = static_cast<float>((i * 37 + 11) % 100) / 100.0f;
+                const Image image = convertImage(floats, type, encoding);
+                glm::vec4 low(2.0f), high(-1.0f);
+                glm::dvec4 sum(0.0);
+                for (int y = 0; y < 3; ++y)
+                    for (int x = 0; x < 5; ++x) {
+                        const glm::vec4 texel = image.linear(x, y);
+                        low = glm::min(low, texel);
+                        high = glm::max(high, texel);
+                        sum += glm::dvec4(texel);
+                    }
+                const TexelRange range = texelRange(image, JobContext());
+                EXPECT_EQ(range.low, low) << channels;
+                EXPECT_EQ(range.high, high) << channels;
+                for (int c = 0; c < 4; ++c)
+                    EXPECT_NEAR(range.mean[c], sum[c] / 15.0, 1e-6) << channels << " " << c;
+            }
+}
+
+TEST(TexelRange, LeavesOutWhatIsNoNumber) {
+    const float inf = std::numeric_limits<float>::infinity();
+    const TexelRange range =
+        texelRange(grey(4, 1, {std::nanf(""), 3.0f, inf, -1.0f}), JobContext());
+    EXPECT_EQ(range.low, glm::vec4(-1, -1, -1, 1));
+    EXPECT_EQ(range.mean, glm::vec4(1));
+    EXPECT_EQ(range.high, glm::vec4(3, 3, 3, 1));
 }
 
 } // namespace
