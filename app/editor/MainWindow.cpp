@@ -67,6 +67,7 @@ MainWindow::MainWindow(Session& session)
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
     m_viewport->setJobs(session.jobs);
     m_viewport->setDisplays(session.displays);
+    m_viewport->setViews(session.views);
 
     auto* centre = new QWidget;
     auto* layout = new QVBoxLayout(centre);

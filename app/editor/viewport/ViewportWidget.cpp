@@ -4,6 +4,7 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/viewport/IblUpdater.h"
+#include "app/editor/viewport/ViewState.h"
 #include "core/base/Log.h"
 #include "render/Renderer.h"
 #include "render/gl/Context.h"
@@ -85,10 +86,10 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     connect(&selection, &SelectionModel::selectionChanged, this, qOverload<>(&QWidget::update));
     connect(&m_hand, &ViewportHand::cameraMoved, this, &ViewportWidget::touch);
     connect(&m_hand, &ViewportHand::clicked, this, &ViewportWidget::pickAt);
-    connect(&m_preview, &PreviewFeed::changed, this, qOverload<>(&QWidget::update));
+    connect(&m_preview, &PreviewFeed::changed, this, &ViewportWidget::lookChanged);
     connect(m_ibl, &IblUpdater::ready, this, [this] {
         m_iblPending = true;
-        update();
+        lookChanged();
     });
     m_ibl->request(controller.document().environment.image);
 }
@@ -105,8 +106,30 @@ void ViewportWidget::setDisplays(DisplayLoader& displays) {
     m_displays = &displays;
     connect(&displays, &DisplayLoader::changed, this, [this] {
         m_displayPending = true;
-        update();
+        lookChanged();
     });
+}
+
+void ViewportWidget::setViews(ViewState& views) {
+    m_views = &views;
+    connect(&views, &ViewState::changed, this, &ViewportWidget::viewsChanged);
+}
+
+void ViewportWidget::viewsChanged() {
+    // Which view is shown, and where the split lies, is nothing that thumbnails depend on.
+    const auto sceneOf = [](render::ViewSettings settings) {
+        settings.shown = {};
+        settings.split.reset();
+        return settings;
+    };
+    if (sceneOf(m_views->settings()) != sceneOf(m_lastViews))
+        m_sheets.invalidate();
+    update();
+}
+
+void ViewportWidget::lookChanged() {
+    m_sheets.invalidate();
+    update();
 }
 
 void ViewportWidget::setLuminanceWanted(bool wanted) {
@@ -178,8 +201,12 @@ render::FrameSettings ViewportWidget::nextFrame(const QSize& size) {
     frame.measureLuminance = m_luminanceWanted && !m_pacing.moving();
     frame.adaptSeconds =
         m_adaptation.beginFrame(static_cast<double>(m_clock.nsecsElapsed()) * 1e-9);
-    frame.reuseScene = std::exchange(m_onlyExposure, false) && frame.camera == m_lastCamera;
+    if (m_views)
+        frame.view = m_views->settings();
+    frame.reuseScene = std::exchange(m_onlyExposure, false) && frame.camera == m_lastCamera &&
+                       frame.view == m_lastViews;
     m_lastCamera = frame.camera;
+    m_lastViews = frame.view;
     frame.selectedLight = m_selection.light();
     frame.overlayScale = m_pacing.scale();
     return frame;
@@ -220,6 +247,7 @@ void ViewportWidget::paintGL() {
     m_slowestFrameMs = std::max(m_slowestFrameMs, milliseconds);
     Q_EMIT frameRendered(milliseconds);
     followLuminance();
+    m_sheets.setResting(!m_pacing.moving());
 }
 
 void ViewportWidget::takeDisplay() {
@@ -238,6 +266,7 @@ void ViewportWidget::followLuminance() {
         m_adaptationTimer.start();
     if (luminance && luminance != m_luminance) {
         m_luminance = luminance;
+        m_sheets.invalidate(); // the eye adapts: they are exposed like the picture
         Q_EMIT luminanceMeasured(*luminance);
     }
 }
@@ -268,7 +297,8 @@ void ViewportWidget::applyChange(const Change& change) {
 void ViewportWidget::touch() {
     m_pacing.beginMoving();
     m_restTimer.start();
-    update();
+    m_sheets.setResting(false);
+    lookChanged();
 }
 
 void ViewportWidget::setCamera(const Camera& camera) {

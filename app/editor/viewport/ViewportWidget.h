@@ -5,6 +5,7 @@
 #include "app/editor/viewport/FramePacing.h"
 #include "app/editor/viewport/PreviewFeed.h"
 #include "app/editor/viewport/ScaledTarget.h"
+#include "app/editor/viewport/SheetScheduler.h"
 #include "app/editor/viewport/ViewportHand.h"
 #include "core/document/Document.h"
 #include "core/math/Camera.h"
@@ -33,6 +34,7 @@ class DocumentController;
 class IblUpdater;
 class JobManager;
 class SelectionModel;
+class ViewState;
 
 class ViewportWidget : public QOpenGLWidget {
     Q_OBJECT
@@ -43,7 +45,11 @@ class ViewportWidget : public QOpenGLWidget {
 
     void setJobs(JobManager& jobs);            // whose live preview is shown
     void setDisplays(DisplayLoader& displays); // whose view of OpenColorIO is shown
+    void setViews(ViewState& views);           // what of the scene is shown
     void setLuminanceWanted(bool wanted);      // even where the picture does not depend on it
+
+    // Thumbnails of views with this viewport's camera, drawn while it rests.
+    [[nodiscard]] SheetScheduler& sheets() { return m_sheets; }
 
     void frameSelection();                 // the selected mesh, or everything
     void resetCamera();                    // Home: the whole scene from the default side
@@ -72,7 +78,9 @@ class ViewportWidget : public QOpenGLWidget {
     void releaseGl();
     void applyChange(const Change& change);
     void setCamera(const Camera& camera);
-    void touch(); // the hand moved something: draw fast now, refine when it rests
+    void touch();       // the hand moved something: draw fast now, refine when it rests
+    void lookChanged(); // of the scene, other than by the hand: its thumbnails are old, too
+    void viewsChanged();
     [[nodiscard]] render::FrameSettings nextFrame(const QSize& size);
     void takeDisplay();
     void followLuminance();
@@ -82,9 +90,12 @@ class ViewportWidget : public QOpenGLWidget {
     DocumentController& m_controller;
     SelectionModel& m_selection;
     DisplayLoader* m_displays = nullptr;
+    ViewState* m_views = nullptr;
+    render::ViewSettings m_lastViews; // as drawn last
     IblUpdater* m_ibl;
     ViewportHand m_hand;
     PreviewFeed m_preview;
+    SheetScheduler m_sheets;
 
     std::unique_ptr<gl::Context> m_context;
     std::unique_ptr<render::Renderer> m_renderer;

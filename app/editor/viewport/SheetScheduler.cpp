@@ -1,0 +1,116 @@
+#include "app/editor/viewport/SheetScheduler.h"
+
+#include "core/base/Check.h"
+#include "core/base/Log.h"
+
+#include <QElapsedTimer>
+#include <algorithm>
+#include <cmath>
+
+namespace patina::editor {
+namespace {
+
+// A pass holds up the hand that begins to move: fewer views when it takes longer than this.
+constexpr double kLongMs = 50.0;
+
+QImage toQImage(const Image& image) {
+    CHECK(image.channels() == 4 && image.type() == PixelType::U8);
+    // A copy: the image's bytes do not live as long.
+    return QImage(image.u8().data(), image.width(), image.height(), 4 * image.width(),
+                  QImage::Format_RGBA8888)
+        .copy();
+}
+
+} // namespace
+
+SheetScheduler::SheetScheduler(QObject* parent)
+    : QObject(parent) {
+    m_timer.setSingleShot(true);
+    connect(&m_timer, &QTimer::timeout, this, &SheetScheduler::drawNext);
+}
+
+void SheetScheduler::add(SheetClient& client) {
+    m_entries.push_back({&client, {}, {}});
+    wake();
+}
+
+void SheetScheduler::remove(SheetClient& client) {
+    std::erase_if(m_entries, [&](const Entry& entry) { return entry.client == &client; });
+}
+
+void SheetScheduler::wake() {
+    if (m_resting && !m_timer.isActive())
+        m_timer.start(0);
+}
+
+void SheetScheduler::invalidate() {
+    ++m_version;
+    wake();
+}
+
+void SheetScheduler::setResting(bool resting) {
+    m_resting = resting;
+    if (resting)
+        wake();
+    else
+        m_timer.stop();
+}
+
+render::ViewSheet SheetScheduler::nextSheet(Entry& entry) const {
+    render::ViewSheet sheet = entry.client->wantedSheet();
+    render::ViewSheet& format = entry.format;
+    if (sheet.mode != format.mode || sheet.width != format.width || sheet.height != format.height) {
+        entry.drawnVersion.clear();
+        format = {{}, sheet.mode, sheet.width, sheet.height};
+    }
+    std::erase_if(sheet.kinds, [&](ViewKind kind) {
+        const auto drawn = entry.drawnVersion.find(kind);
+        return drawn != entry.drawnVersion.end() && drawn->second == m_version;
+    });
+    if (sheet.width <= 0 || sheet.height <= 0)
+        sheet.kinds.clear();
+    if (sheet.kinds.size() > static_cast<std::size_t>(m_passViews))
+        sheet.kinds.resize(static_cast<std::size_t>(m_passViews));
+    return sheet;
+}
+
+void SheetScheduler::drawNext() {
+    if (!m_resting || !m_draw)
+        return;
+    for (std::size_t i = 0; i < m_entries.size(); ++i) {
+        const std::size_t index = (m_turn + i) % m_entries.size();
+        Entry& entry = m_entries[index];
+        const render::ViewSheet sheet = nextSheet(entry);
+        if (sheet.kinds.empty())
+            continue;
+        m_turn = index + 1;
+
+        QElapsedTimer clock;
+        clock.start();
+        const quint64 version = m_version;
+        const Result<std::vector<Image>> drawn = m_draw(sheet);
+        const double milliseconds = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
+        // What failed is not tried again before the scene changes.
+        for (const ViewKind kind : sheet.kinds)
+            entry.drawnVersion[kind] = version;
+        if (milliseconds > kLongMs)
+            m_passViews = std::max(1, m_passViews / 2);
+        else if (milliseconds < kLongMs / 4)
+            m_passViews = std::min(kPassViews, 2 * m_passViews);
+        m_timer.start(static_cast<int>(std::ceil(pauseAfterMs(milliseconds))));
+
+        if (!drawn) {
+            logError("thumbnails could not be drawn: {}", drawn.error().text());
+            return;
+        }
+        CHECK(drawn->size() == sheet.kinds.size());
+        SheetClient& client = *entry.client; // a client may add or remove others
+        for (std::size_t k = 0; k < sheet.kinds.size(); ++k)
+            client.showThumbnail(sheet.kinds[k], toQImage((*drawn)[k]));
+        Q_EMIT passDrawn(static_cast<int>(sheet.kinds.size()), milliseconds);
+        return;
+    }
+    Q_EMIT allDrawn();
+}
+
+} // namespace patina::editor

@@ -1,0 +1,77 @@
+// Draws the thumbnails of views (strip, equation bar) in time that nothing else needs: one pass of
+// up to eight at a time, only while the hand rests, with pauses that keep all of them together at a
+// quarter of what frames cost.
+#pragma once
+
+#include "core/base/Result.h"
+#include "core/image/Image.h"
+#include "render/Renderer.h"
+
+#include <QImage>
+#include <QObject>
+#include <QTimer>
+#include <functional>
+#include <map>
+#include <vector>
+
+namespace patina::editor {
+
+// Who shows thumbnails: a widget that adds itself to the scheduler and calls wake() when what can
+// be seen of it changes (shown, scrolled, unfolded, resized).
+class SheetClient {
+  public:
+    // What can be seen of it now, in any number, the most important first; no kinds while it is
+    // hidden or folded. Sizes are device pixels.
+    [[nodiscard]] virtual render::ViewSheet wantedSheet() const = 0;
+    virtual void showThumbnail(ViewKind kind, const QImage& picture) = 0;
+
+  protected:
+    ~SheetClient() = default;
+};
+
+class SheetScheduler : public QObject {
+    Q_OBJECT
+  public:
+    // Draws the views of a sheet, at most kPassViews of them; takes its time on the UI thread.
+    using Draw = std::function<Result<std::vector<Image>>(const render::ViewSheet&)>;
+    static constexpr int kPassViews = 8;
+
+    explicit SheetScheduler(QObject* parent = nullptr);
+
+    void setDraw(Draw draw) { m_draw = std::move(draw); }
+    void add(SheetClient& client);
+    void remove(SheetClient& client);
+
+    void wake();                   // a client wants others, or another size
+    void invalidate();             // the scene looks different: every thumbnail is old
+    void setResting(bool resting); // false: a drag needs the time
+
+    // How long nothing is drawn after a pass, so that thumbnails cost a quarter of the rest.
+    [[nodiscard]] static double pauseAfterMs(double passMs) { return passMs / kShare; }
+
+  Q_SIGNALS:
+    void passDrawn(int views, double milliseconds);
+    void allDrawn(); // nothing is old any more
+
+  private:
+    static constexpr double kShare = 0.25;
+
+    struct Entry {
+        SheetClient* client;
+        render::ViewSheet format;                 // mode and size of what was drawn
+        std::map<ViewKind, quint64> drawnVersion; // of m_version
+    };
+    void drawNext();
+    // The oldest wishes of one client that one pass can fulfil; no kinds: it has none.
+    [[nodiscard]] render::ViewSheet nextSheet(Entry& entry) const;
+
+    Draw m_draw;
+    std::vector<Entry> m_entries;
+    std::size_t m_turn = 0; // whose pass it is, so that no client waits for another
+    quint64 m_version = 1;
+    int m_passViews = kPassViews;
+    bool m_resting = false;
+    QTimer m_timer; // single shot: runs during the pause, or 0 before the next pass
+};
+
+} // namespace patina::editor
