@@ -138,9 +138,24 @@ void Renderer::setDocument(const Document& document, const Change& change) {
     m_impl->sceneIsNew = true;
 }
 
-void Renderer::setIbl(const IblMaps& maps) {
-    m_impl->scene.setIbl(maps);
+void Renderer::setEnvironment(const EnvironmentTexels& texels) {
+    m_impl->scene.environment().set(texels);
     m_impl->sceneIsNew = true;
+}
+
+void Renderer::setIbl(const IblMaps& maps) {
+    m_impl->scene.environment().setIbl(maps);
+    m_impl->sceneIsNew = true;
+}
+
+void Renderer::beginEnvironment(EnvironmentTexelsPtr texels) {
+    m_impl->scene.environment().begin(std::move(texels));
+}
+
+bool Renderer::proceedEnvironment(std::size_t bytes) {
+    const bool done = m_impl->scene.environment().proceed(bytes);
+    m_impl->sceneIsNew |= done;
+    return done;
 }
 
 Result<void> Renderer::setDisplay(const DisplayTransformPtr& display) {

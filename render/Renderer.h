@@ -7,7 +7,7 @@
 #include "core/document/Document.h"
 #include "core/document/ToneResponse.h"
 #include "core/image/DisplayTransform.h"
-#include "core/light/Ibl.h"
+#include "core/light/EnvironmentTexels.h"
 #include "render/gl/Context.h"
 #include "render/view/Inspection.h"
 #include "render/view/ViewSettings.h"
@@ -63,9 +63,14 @@ class Renderer {
     // Takes over what `change` touched; the renderer keeps the snapshot.
     void setDocument(const Document& document, const Change& change);
 
-    // Image-based light of document.environment.image; computed elsewhere (a job in the editor,
-    // directly in the command line). Until set, the SH of a grey sky light the scene.
-    void setIbl(const IblMaps& maps);
+    // Light and background of document.environment.image; prepared elsewhere (a job in the editor,
+    // directly in the command line). Until set, a grey sky lights the scene.
+    void setEnvironment(const EnvironmentTexels& texels);
+    void setIbl(const IblMaps& maps); // light alone
+    // setEnvironment() in pieces between frames: the old environment is shown until the new one is
+    // complete. proceedEnvironment() uploads about so many bytes more; true when nothing is left.
+    void beginEnvironment(EnvironmentTexelsPtr texels);
+    bool proceedEnvironment(std::size_t bytes);
 
     // What ToneMap::OpenColorIo shows; null: nothing yet, the default curve stands in for it. Error
     // Internal when the driver refuses its shader; the stand-in is used then, too.

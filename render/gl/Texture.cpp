@@ -73,6 +73,8 @@ GLenum componentType(SampleType type) {
         return GL_UNSIGNED_BYTE;
     case SampleType::U16:
         return GL_UNSIGNED_SHORT;
+    case SampleType::F16:
+        return GL_HALF_FLOAT;
     case SampleType::F32:
         return GL_FLOAT;
     case SampleType::U32:
@@ -173,6 +175,15 @@ void Texture::upload(int level, int channels, SampleType type, const void* data)
         CHECK(m_settings.kind == TextureKind::Flat);
         glTextureSubImage2D(id(), level, 0, 0, w, h, layout, sample, data);
     }
+}
+
+void Texture::uploadRows(int level, int firstRow, int rows, int channels, SampleType type,
+                         const void* data) {
+    CHECK(m_settings.kind == TextureKind::Flat);
+    CHECK(firstRow >= 0 && firstRow + rows <= std::max(1, height() >> level));
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage2D(id(), level, 0, firstRow, std::max(1, width() >> level), rows,
+                        pixelLayout(m_settings.format, channels), componentType(type), data);
 }
 
 void Texture::uploadFace(int face, int level, int channels, SampleType type, const void* data) {

@@ -32,7 +32,7 @@ enum class PixelFormat {
 enum class TextureKind { Flat, Cube, Multisample, Line, Volume };
 
 // How the numbers handed to upload() are laid out: interleaved, rows without padding.
-enum class SampleType { U8, U16, F32, U32 };
+enum class SampleType { U8, U16, F16, F32, U32 };
 
 struct TextureSettings {
     TextureKind kind = TextureKind::Flat;
@@ -67,6 +67,9 @@ class Texture {
     // Fills a level; `data` holds width × height × channels samples. Cube: one face 0…5 in the
     // order +X -X +Y -Y +Z -Z. Volume: slice by slice.
     void upload(int level, int channels, SampleType type, const void* data);
+    // Rows of a level, `data` as above. Flat only.
+    void uploadRows(int level, int firstRow, int rows, int channels, SampleType type,
+                    const void* data);
     void uploadFace(int face, int level, int channels, SampleType type, const void* data);
     void generateMipmaps();
 

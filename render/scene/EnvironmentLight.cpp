@@ -2,7 +2,6 @@
 
 #include "core/base/Check.h"
 #include "core/base/Log.h"
-#include "core/light/CubeAtlas.h"
 #include "core/math/SphericalHarmonics.h"
 
 #include <algorithm>
@@ -10,27 +9,16 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
+#include <limits>
+#include <span>
 #include <utility>
 
 namespace patina::render {
 
 namespace {
 
-constexpr float kLargestHalf = 65504.0f;
 constexpr float kGreySky = 0.5f; // radiance that lights the scene before an environment is ready
-
-// Half floats hold up to 65504: more would become infinite and spread.
-glm::vec3 clampToHalf(const glm::vec3& texel) {
-    return glm::min(texel, glm::vec3(kLargestHalf));
-}
-
-std::size_t countClamped(const std::vector<CubeLevel>& levels) {
-    std::size_t count = 0;
-    for (const CubeLevel& level : levels)
-        for (const glm::vec3& texel : level.texels)
-            count += clampToHalf(texel) != texel ? 1u : 0u;
-    return count;
-}
+constexpr std::uint16_t kGreyHalf = 0x3800, kOneHalf = 0x3c00; // 0.5 and 1
 
 gl::Texture makeDfg(gl::Context& context, Distribution distribution, Visibility visibility) {
     const Image table = computeDfgTable(128, distribution, visibility);
@@ -42,12 +30,30 @@ gl::Texture makeDfg(gl::Context& context, Distribution distribution, Visibility 
     return texture;
 }
 
-gl::Texture makePrefiltered(gl::Context& context, const CubeAtlas& atlas) {
+gl::Texture makePrefiltered(gl::Context& context, const HalfPicture& atlas) {
     gl::Texture texture(
         context, "prefiltered environment",
         {.format = gl::PixelFormat::Rgba16f, .width = atlas.width, .height = atlas.height});
-    texture.upload(0, 3, gl::SampleType::F32, atlas.texels.data());
     texture.setSampling(gl::Filter::Linear, gl::Wrap::Clamp);
+    return texture;
+}
+
+// Pictures larger than textures may be are shown by the first of their mipmaps that is not.
+std::span<const HalfPicture> fittingLevels(const gl::Context& context, const HalfMipmaps& picture) {
+    const int limit = context.info().maxTextureSize;
+    const auto first = std::ranges::find_if(picture, [&](const HalfPicture& level) {
+        return std::max(level.width, level.height) <= limit;
+    });
+    return {first, picture.end()};
+}
+
+gl::Texture makeBackground(gl::Context& context, std::span<const HalfPicture> levels) {
+    gl::Texture texture(context, "background",
+                        {.format = gl::PixelFormat::Rgba16f,
+                         .width = levels[0].width,
+                         .height = levels[0].height,
+                         .levels = static_cast<int>(levels.size())});
+    texture.setSampling(gl::Filter::Trilinear, gl::Wrap::RepeatU);
     return texture;
 }
 
@@ -85,22 +91,80 @@ IblMaps uniformIbl(const glm::vec3& radiance) {
 EnvironmentLight::EnvironmentLight(gl::Context& context)
     : m_context(context) {
     setModel(ShadingModel{});
-    setIbl(uniformIbl(glm::vec3(kGreySky)));
-    setBackground(nullptr);
+    const auto grey = std::make_shared<const HalfMipmaps>(
+        HalfMipmaps{{1, 1, {kGreyHalf, kGreyHalf, kGreyHalf, kOneHalf}}});
+    set(makeEnvironmentTexels(nullptr, uniformIbl(glm::vec3(kGreySky)), grey));
+}
+
+void EnvironmentLight::set(const EnvironmentTexels& texels) {
+    // Not owned: it is gone from m_arriving when this returns.
+    begin(EnvironmentTexelsPtr(EnvironmentTexelsPtr(), &texels));
+    proceed(std::numeric_limits<std::size_t>::max());
 }
 
 void EnvironmentLight::setIbl(const IblMaps& maps) {
-    CubeAtlas atlas = makeCubeAtlas(maps.prefiltered);
-    for (glm::vec3& texel : atlas.texels)
-        texel = clampToHalf(texel);
-    m_clampedTexels = countClamped(maps.prefiltered);
-    m_prefilteredSide = atlas.side;
-    m_prefilteredLevels = atlas.levels;
-    m_prefiltered = makePrefiltered(m_context, atlas);
+    set(makeEnvironmentTexels(m_backgroundImage, maps, nullptr));
+}
+
+void EnvironmentLight::begin(EnvironmentTexelsPtr texels) {
+    Arriving next{texels, {makePrefiltered(m_context, texels->prefiltered)}, std::nullopt};
+    const bool shown = texels->image == m_backgroundImage && !m_background.empty();
+    if (m_arriving && m_arriving->background && m_arriving->texels->image == texels->image)
+        next.background = std::move(m_arriving->background);
+    else if (!shown)
+        next.background =
+            Filling{makeBackground(m_context, fittingLevels(m_context, *texels->background))};
+    m_arriving = std::move(next);
+}
+
+bool EnvironmentLight::proceed(std::size_t bytes) {
+    CHECK(bytes > 0);
+    // Returns whether all of the texture is filled.
+    const auto fill = [&bytes](Filling& filling, std::span<const HalfPicture> levels) {
+        while (filling.level < filling.texture.levels()) {
+            if (bytes == 0)
+                return false;
+            const HalfPicture& level = levels[static_cast<std::size_t>(filling.level)];
+            const std::size_t rowTexels = 4 * static_cast<std::size_t>(level.width);
+            const std::size_t rowBytes = rowTexels * sizeof(std::uint16_t);
+            const int rows =
+                static_cast<int>(std::clamp(bytes / rowBytes, std::size_t{1},
+                                            static_cast<std::size_t>(level.height - filling.row)));
+            filling.texture.uploadRows(filling.level, filling.row, rows, 4, gl::SampleType::F16,
+                                       level.texels.data() +
+                                           static_cast<std::size_t>(filling.row) * rowTexels);
+            bytes -= std::min(bytes, static_cast<std::size_t>(rows) * rowBytes);
+            filling.row += rows;
+            if (filling.row == level.height) {
+                ++filling.level;
+                filling.row = 0;
+            }
+        }
+        return true;
+    };
+    if (!m_arriving)
+        return true;
+    const EnvironmentTexels& texels = *m_arriving->texels;
+    if (!fill(m_arriving->prefiltered, std::span(&texels.prefiltered, 1)) ||
+        (m_arriving->background &&
+         !fill(*m_arriving->background, fittingLevels(m_context, *texels.background))))
+        return false;
+
+    // All there: from now on it is what is seen.
+    m_prefiltered = std::move(m_arriving->prefiltered.texture);
+    if (m_arriving->background) {
+        m_background = std::move(m_arriving->background->texture);
+        m_backgroundImage = texels.image;
+    }
+    m_prefilteredSide = texels.side;
+    m_prefilteredLevels = texels.levels;
+    m_irradianceSh = texels.irradianceSh;
+    m_radianceSh = texels.radianceSh;
+    m_clampedTexels = texels.clamped;
     if (m_clampedTexels > 0)
         logInfo("{} texels of the environment exceed 65504 and were limited", m_clampedTexels);
-    m_irradianceSh = maps.irradianceSh;
-    m_radianceSh = maps.radianceSh;
+    m_arriving.reset();
+    return true;
 }
 
 void EnvironmentLight::setModel(const ShadingModel& model) {
@@ -111,48 +175,13 @@ void EnvironmentLight::setModel(const ShadingModel& model) {
     m_dfg = &known->second;
 }
 
-void EnvironmentLight::setBackground(const ImagePtr& image) {
-    if (image == m_backgroundImage && !m_background.empty())
-        return;
-    m_backgroundImage = image;
-    if (!image) {
-        const glm::vec3 grey(kGreySky);
-        m_background = gl::Texture(m_context, "background",
-                                   {.format = gl::PixelFormat::Rgba16f, .width = 1, .height = 1});
-        m_background.upload(0, 3, gl::SampleType::F32, &grey);
-        return;
-    }
-    // Usually nothing has to be changed, and a copy of a large picture would hold a frame up.
-    Image changed;
-    const Image* picture = image.get();
-    const auto change = [&](Image other) {
-        changed = std::move(other);
-        picture = &changed;
-    };
-    if (image->type() != PixelType::F32 || image->encoding() != ColorEncoding::Linear)
-        change(convertImage(*image, PixelType::F32, ColorEncoding::Linear));
-    const int limit = m_context.info().maxTextureSize;
-    if (picture->width() > limit || picture->height() > limit)
-        change(shrinkImage(*picture, limit));
-    const std::span<const float> values = picture->f32();
-    if (std::any_of(values.begin(), values.end(), [](float v) { return v > kLargestHalf; })) {
-        change(Image(*picture));
-        for (float& value : changed.f32())
-            value = std::min(value, kLargestHalf);
-    }
-    m_background = gl::Texture(m_context, "background",
-                               {.format = gl::PixelFormat::Rgba16f,
-                                .width = picture->width(),
-                                .height = picture->height(),
-                                .levels = 0});
-    m_background.upload(0, std::min(picture->channels(), 4), gl::SampleType::F32,
-                        picture->f32().data());
-    m_background.generateMipmaps();
-    m_background.setSampling(gl::Filter::Trilinear, gl::Wrap::RepeatU);
-}
-
 std::size_t EnvironmentLight::memoryBytes() const {
     std::size_t bytes = m_prefiltered.memoryBytes() + m_background.memoryBytes();
+    if (m_arriving) {
+        bytes += m_arriving->prefiltered.texture.memoryBytes();
+        if (m_arriving->background)
+            bytes += m_arriving->background->texture.memoryBytes();
+    }
     for (const auto& [terms, table] : m_dfgTables)
         bytes += table.memoryBytes();
     return bytes;

@@ -3,25 +3,34 @@
 #pragma once
 
 #include "core/document/Document.h"
-#include "core/light/Ibl.h"
+#include "core/light/EnvironmentTexels.h"
 #include "render/gl/Texture.h"
 #include "render/scene/Blocks.h"
 
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace patina::render {
 
 class EnvironmentLight {
   public:
-    explicit EnvironmentLight(gl::Context& context); // a grey sky until setIbl()
+    explicit EnvironmentLight(gl::Context& context); // a grey sky until something is set
 
-    void setIbl(const IblMaps& maps);
+    // Light and the picture behind the scene, at once.
+    void set(const EnvironmentTexels& texels);
+    void setIbl(const IblMaps& maps); // light alone; the picture stays
+
+    // set() in pieces that hold no frame up. What is there stays until all of the new is; an
+    // environment that begins takes the place of an unfinished one. A picture that is there
+    // already, or partly, is not uploaded again.
+    void begin(EnvironmentTexelsPtr texels);
+    // Uploads about so many bytes more, at least one row; true when nothing is left to do.
+    bool proceed(std::size_t bytes);
+
     // Terms of the specular lobe that the DFG table is for: 25 ms (GGX) to 130 ms of processor time
     // when they are new, nothing when they have been in use before.
     void setModel(const ShadingModel& model);
-    // The picture behind the scene; null: grey.
-    void setBackground(const ImagePtr& image);
 
     // Rotation, exposure and coefficients of the environment for this frame.
     void fill(const Environment& environment, FrameBlock& frame) const;
@@ -31,16 +40,28 @@ class EnvironmentLight {
     [[nodiscard]] const gl::Texture& dfg() const { return *m_dfg; }
     [[nodiscard]] const gl::Texture& background() const { return m_background; }
     [[nodiscard]] std::size_t memoryBytes() const; // of the textures
-    // Texels of the last setIbl() that exceeded 65504, the largest half float.
+    // Texels of the light that exceeded 65504, the largest half float.
     [[nodiscard]] std::size_t clampedTexels() const { return m_clampedTexels; }
 
   private:
+    // A texture that is filled row by row, from the top of level 0.
+    struct Filling {
+        gl::Texture texture;
+        int level = 0, row = 0; // next
+    };
+    struct Arriving {
+        EnvironmentTexelsPtr texels;
+        Filling prefiltered;
+        std::optional<Filling> background; // none: the one shown stays
+    };
+
     gl::Context& m_context;
     gl::Texture m_prefiltered, m_background;
+    ImagePtr m_backgroundImage; // that m_background shows; null: grey
+    std::optional<Arriving> m_arriving;
     // By D and V, 128 KiB each: switching models to and fro, as one does to compare, is free.
     std::map<std::pair<Distribution, Visibility>, gl::Texture> m_dfgTables;
     const gl::Texture* m_dfg = nullptr; // one of them
-    ImagePtr m_backgroundImage;
     std::array<glm::vec3, 9> m_irradianceSh{};
     std::array<glm::vec3, kMaxTransferCount> m_radianceSh{};
     int m_prefilteredSide = 1, m_prefilteredLevels = 1;

@@ -85,8 +85,9 @@ void GpuScene::update(const Document& document, const Change& change) {
         logWarning("Only the first {} lights that cast shadows do so; the others shine through.",
                    kMaxShadows);
 
-    if (touched(Affects::EnvironmentMap))
-        m_environment.setBackground(m_document.environment.image);
+    // Whoever prepares its light hands it over.
+    if (change.affects == Affects::EnvironmentMap)
+        return;
     if (touched(Affects::Geometry) || touched(Affects::Structure))
         updateMeshes();
     updateMaterials();

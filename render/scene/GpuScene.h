@@ -34,7 +34,8 @@ class GpuScene {
     explicit GpuScene(gl::Context& context);
 
     void update(const Document& document, const Change& change);
-    void setIbl(const IblMaps& maps) { m_environment.setIbl(maps); }
+    // Light and the picture behind the scene come with it, not with the document.
+    [[nodiscard]] EnvironmentLight& environment() { return m_environment; }
 
     // AoVertex or PrtVertex.
     void previewVertices(BakeKind kind, Id mesh, int stride, std::span<const float> values);

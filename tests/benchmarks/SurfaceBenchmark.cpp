@@ -131,7 +131,7 @@ struct Study {
         if (variant.edit)
             variant.edit(document);
         scene.update(document, Change::everything());
-        scene.setIbl(ibl);
+        scene.environment().setIbl(ibl);
     }
 
     GpuScene scene;

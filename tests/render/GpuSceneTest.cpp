@@ -156,10 +156,9 @@ TEST_F(GpuSceneTest, APreparedEnvironmentFitsIntoSixtyMebibytes) {
     }
     EnvironmentLight light(context());
     const std::size_t before = light.memoryBytes();
-    light.setIbl(maps);
-    light.setBackground(image);
+    light.set(makeEnvironmentTexels(image, maps, *makeBackground(*image, JobContext())));
     const std::size_t picture = image->f32().size_bytes(), onGpu = light.memoryBytes();
-    const std::size_t total = picture + memoryBytes(maps) + onGpu;
+    const std::size_t total = picture + onGpu;
     EXPECT_EQ(picture, std::size_t{24} << 20);
     EXPECT_GT(onGpu, before);
     // Half floats, a third more for the background's mipmaps, and the table
@@ -167,9 +166,98 @@ TEST_F(GpuSceneTest, APreparedEnvironmentFitsIntoSixtyMebibytes) {
               2048u * 1024 * 8 * 4 / 3 + maps.prefiltered[0].texels.size() * 8 + 128u * 128 * 8);
     EXPECT_LE(total, std::size_t{60} << 20);
     RecordProperty("mebibytes", std::to_string(static_cast<double>(total) / (1 << 20)));
-    light.setBackground(nullptr);
+}
+
+// The red of a texture's texels.
+std::vector<float> reds(const gl::Texture& texture) {
+    return texture.readFloats(1);
+}
+
+EnvironmentTexelsPtr environment(float brightness, int height = 16, float light = 0.0f) {
+    const ImagePtr image =
+        makeEnvironment(height, [&](const glm::vec3&) { return glm::vec3(brightness); });
+    return std::make_shared<const EnvironmentTexels>(
+        makeEnvironmentTexels(image, uniformIbl(glm::vec3(light > 0.0f ? light : brightness)),
+                              *makeBackground(*image, JobContext())));
+}
+
+// What is seen is all of one environment, however small the pieces are it arrives in.
+TEST_F(GpuSceneTest, AnEnvironmentArrivesInPiecesAndShowsAsAWhole) {
+    EnvironmentLight light(context());
+    const auto seen = [&] {
+        FrameBlock frame;
+        light.fill(Environment{}, frame);
+        return glm::vec3(reds(light.prefiltered())[0], reds(light.background())[0],
+                         frame.radianceSh[0].x / std::sqrt(4.0f * glm::pi<float>()));
+    };
+    const EnvironmentTexelsPtr first = environment(2.0f), second = environment(4.0f);
+    light.begin(first);
+    EXPECT_NEAR(glm::length(seen() - glm::vec3(0.5f)), 0.0f, 1e-5f) << "the grey sky";
+    int pieces = 1;
+    for (; !light.proceed(1); ++pieces)
+        ASSERT_NEAR(glm::length(seen() - glm::vec3(0.5f)), 0.0f, 1e-5f) << pieces;
+    // A row at a time: 1 × 1 texels of light in rows of their own, 16 + 8 + 4 + 2 + 1 + 1 of the
+    // background.
+    EXPECT_EQ(pieces, first->prefiltered.height + 32);
+    EXPECT_NEAR(glm::length(seen() - glm::vec3(2.0f)), 0.0f, 1e-5f);
+    EXPECT_TRUE(light.proceed(1)) << "nothing left to do";
+    for (const float red : reds(light.background()))
+        ASSERT_EQ(red, 2.0f);
+
+    // The newest wins; nothing of the one it overtook is ever seen.
+    light.begin(environment(3.0f));
+    EXPECT_FALSE(light.proceed(1000));
+    light.begin(second);
+    while (!light.proceed(1000))
+        ASSERT_NEAR(glm::length(seen() - glm::vec3(2.0f)), 0.0f, 1e-5f);
+    EXPECT_NEAR(glm::length(seen() - glm::vec3(4.0f)), 0.0f, 1e-5f);
+    for (const float red : reds(light.background()))
+        ASSERT_EQ(red, 4.0f);
+    EXPECT_EQ(light.memoryBytes(), [&] {
+        EnvironmentLight other(context());
+        other.set(*second);
+        return other.memoryBytes();
+    }()) << "what was passed over is gone";
+}
+
+// Finer light of the same picture: the picture is neither uploaded twice nor started again.
+TEST_F(GpuSceneTest, BetterLightKeepsThePictureThatIsThere) {
+    EnvironmentLight light(context());
+    const EnvironmentTexelsPtr quick = environment(2.0f, 64);
+    auto finer = std::make_shared<EnvironmentTexels>(
+        makeEnvironmentTexels(quick->image, uniformIbl(glm::vec3(5.0f)), quick->background));
+    light.begin(quick);
+    EXPECT_FALSE(light.proceed(60'000)); // most of the 128 × 64 picture
+    light.begin(finer);
+    EXPECT_TRUE(light.proceed(60'000)) << "the rest of it, and the light";
+    EXPECT_EQ(reds(light.prefiltered())[0], 5.0f);
+    for (const float red : reds(light.background()))
+        ASSERT_EQ(red, 2.0f);
+
+    // A picture that is shown is not needed again at all.
+    const unsigned texture = light.background().id();
+    finer = std::make_shared<EnvironmentTexels>(
+        makeEnvironmentTexels(quick->image, uniformIbl(glm::vec3(7.0f)), nullptr));
+    light.begin(finer);
+    EXPECT_TRUE(light.proceed(100'000));
+    EXPECT_EQ(reds(light.prefiltered())[0], 7.0f);
+    EXPECT_EQ(light.background().id(), texture);
+
     light.setIbl(uniformIbl(glm::vec3(1.0f)));
-    EXPECT_EQ(light.memoryBytes(), before);
+    EXPECT_EQ(light.background().id(), texture);
+    EXPECT_EQ(reds(light.prefiltered())[0], 1.0f);
+}
+
+TEST_F(GpuSceneTest, PicturesTooLargeForATextureShowTheirFirstMipmapThatIsNot) {
+    const int limit = context().info().maxTextureSize;
+    const ImagePtr image = makeImage(2 * limit, 1, 3, PixelType::F32, ColorEncoding::Linear,
+                                     [](int x, int, int) { return x % 2 == 0 ? 1.0f : 3.0f; });
+    EnvironmentLight light(context());
+    light.set(makeEnvironmentTexels(image, uniformIbl(glm::vec3(1.0f)),
+                                    *makeBackground(*image, JobContext())));
+    EXPECT_EQ(light.background().width(), limit);
+    for (const float red : reds(light.background()))
+        ASSERT_EQ(red, 2.0f);
 }
 
 // Every kind of image reads in the shader as Image::linear() says.

@@ -151,7 +151,12 @@ void RenderTest::setIblOf(const Document& document) {
     const auto maps =
         computeIbl(*document.environment.image, {.cubeSize = 32, .levels = 5}, JobContext());
     ASSERT_TRUE(maps.ok()) << maps.error().text();
-    m_renderer->setIbl(*maps);
+    setBackground(document.environment.image, *maps);
+}
+
+void RenderTest::setBackground(const ImagePtr& image, const IblMaps& light) {
+    m_renderer->setEnvironment(
+        makeEnvironmentTexels(image, light, *makeBackground(*image, JobContext())));
 }
 
 } // namespace patina::render

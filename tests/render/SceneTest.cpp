@@ -93,7 +93,7 @@ TEST_F(Scene, BackgroundHasNoSeamAndMatchesTheImage) {
     const auto sky = [](const glm::vec3& d) {
         return glm::vec3(0.5f + 0.5f * d.x, 0.5f + 0.5f * d.y, 0.5f + 0.5f * d.z);
     };
-    document.environment.image = makeEnvironment(256, sky);
+    setBackground(makeEnvironment(256, sky), uniformIbl(glm::vec3(0.0f)));
     document.environment.background = BackgroundMode::Environment;
     document.view.camera.yawDeg = 180.0f; // looks along +Z
     document.view.camera.fovDeg = 60.0f;

@@ -60,13 +60,13 @@ Document planeSeenFromAbove() {
 }
 
 TEST_F(Surface, WhiteDielectricInAWhiteFurnaceDisappears) {
-    renderer().setIbl(uniformIbl(glm::vec3(1.0f)));
+    setBackground(makeEnvironment(8, [](auto) { return glm::vec3(1.0f); }),
+                  uniformIbl(glm::vec3(1.0f)));
     for (const float perceptualRoughness : {0.0f, 0.3f, 1.0f}) {
         Document document = makeScene(makeSphere());
         materialOf(document).baseColor = glm::vec3(1.0f);
         materialOf(document).perceptualRoughness = perceptualRoughness;
         document.environment.background = BackgroundMode::Environment;
-        document.environment.image = makeEnvironment(8, [](auto) { return glm::vec3(1.0f); });
         const Image image = draw(document);
         float low = 10.0f, high = 0.0f;
         for (const float value : image.f32()) {

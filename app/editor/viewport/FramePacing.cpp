@@ -51,6 +51,11 @@ bool FramePacing::refine() {
     return false;
 }
 
+void FramePacing::pictureChanged() {
+    if (m_stage == Stage::Antialiased)
+        m_stage = Stage::FullResolution;
+}
+
 void FramePacing::frameTook(double milliseconds) {
     if (samples() > 1)
         m_antialiasedMs = milliseconds;

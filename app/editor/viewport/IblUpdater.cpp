@@ -1,20 +1,34 @@
 #include "app/editor/viewport/IblUpdater.h"
 
 #include "core/base/Log.h"
+#include "core/job/Parallel.h"
 
 #include <QMetaObject>
 
 namespace patina::editor {
+namespace {
+
+constexpr IblSettings kFull;
+
+EnvironmentTexelsPtr makeTexels(const ImagePtr& environment, const IblMaps& maps,
+                                const HalfMipmapsPtr& background) {
+    return std::make_shared<const EnvironmentTexels>(
+        makeEnvironmentTexels(environment, maps, background));
+}
+
+} // namespace
 
 IblUpdater::IblUpdater(const std::filesystem::path& cacheFolder, QObject* parent)
     : QObject(parent)
     , m_cache(cacheFolder) {
     m_pool.setMaxThreadCount(1); // newest wins: a cancelled request ends quickly
+    m_finePool.setMaxThreadCount(1);
 }
 
 IblUpdater::~IblUpdater() {
     m_control.cancel();
-    m_pool.waitForDone();
+    m_pool.waitForDone(); // which may still start something in the other
+    m_finePool.waitForDone();
 }
 
 void IblUpdater::request(ImagePtr environment) {
@@ -27,6 +41,11 @@ void IblUpdater::request(ImagePtr environment) {
         start();
 }
 
+void IblUpdater::renew() {
+    if (m_environment && !m_texels && !m_firstUnderWay)
+        start();
+}
+
 void IblUpdater::start() {
     m_control.cancel();
     m_control = JobControl();
@@ -34,48 +53,63 @@ void IblUpdater::start() {
     m_waiting = false;
     const quint64 id = ++m_request;
     m_pool.start(
-        [this, id, image = m_environment, job = m_control.context()] { prepare(id, *image, job); });
+        [this, id, image = m_environment, job = m_control.context()] { prepare(id, image, job); });
 }
 
-void IblUpdater::prepare(quint64 request, const Image& environment, const JobContext& job) {
-    const IblSettings full;
-    const Hash key = IblCache::key(environment, full);
-    if (std::optional<IblMaps> known = m_cache.find(key)) {
-        post(request, std::make_shared<const IblMaps>(std::move(*known)));
-        return;
-    }
+void IblUpdater::prepare(quint64 request, const ImagePtr& environment, const JobContext& job) {
+    const Hash key = IblCache::key(*environment, kFull);
+    const std::optional<IblMaps> known = m_cache.find(key);
+    const Result<HalfMipmapsPtr> background = makeBackground(*environment, job);
+    if (!background)
+        return fail(request, background.error());
     // Reduced first: the eye gets light at once, the full resolution follows.
-    for (const IblSettings& settings : {IblSettings::quick(), full}) {
-        Result<IblMaps> maps = computeIbl(environment, settings, job);
-        if (!maps) {
-            if (maps.error().kind != ErrorKind::Cancelled)
-                logError("image-based light: {}", maps.error().text());
-            post(request, nullptr);
-            return;
-        }
-        const auto shared = std::make_shared<const IblMaps>(std::move(*maps));
-        post(request, shared);
-        // The disk may take its time: nobody waits for it. What a drag passes over is not kept.
-        if (settings == full && request == m_request)
-            if (const Result<void> stored = m_cache.store(key, *shared); !stored)
-                logWarning("The light of this environment could not be kept for next time: {}",
-                           stored.error().text());
-    }
+    const Result<IblMaps> maps =
+        known ? *known : computeIbl(*environment, IblSettings::quick(), job);
+    if (!maps)
+        return fail(request, maps.error());
+    post(request, makeTexels(environment, *maps, *background));
+    if (!known)
+        m_finePool.start([=, this, background = *background] {
+            lowerThreadPriority();
+            refine(request, key, environment, background, job);
+        });
 }
 
-void IblUpdater::post(quint64 request, std::shared_ptr<const IblMaps> maps) {
+void IblUpdater::refine(quint64 request, const Hash& key, const ImagePtr& environment,
+                        const HalfMipmapsPtr& background, const JobContext& job) {
+    const Result<IblMaps> maps = computeIbl(*environment, kFull, job);
+    if (!maps)
+        return fail(request, maps.error());
+    post(request, makeTexels(environment, *maps, background));
+    // The disk may take its time: nobody waits for it. What a drag passes over is not kept.
+    if (request == m_request)
+        if (const Result<void> stored = m_cache.store(key, *maps); !stored)
+            logWarning("The light of this environment could not be kept for next time: {}",
+                       stored.error().text());
+}
+
+void IblUpdater::fail(quint64 request, const Error& error) {
+    if (error.kind != ErrorKind::Cancelled)
+        logError("image-based light: {}", error.text());
+    post(request, nullptr);
+}
+
+void IblUpdater::post(quint64 request, EnvironmentTexelsPtr texels) {
     // The destructor waits for the pool, so `this` is alive.
     QMetaObject::invokeMethod(
-        this, [this, request, maps = std::move(maps)] { deliver(request, maps); },
+        this,
+        [this, request, texels = std::move(texels)]() mutable {
+            deliver(request, std::move(texels));
+        },
         Qt::QueuedConnection);
 }
 
-void IblUpdater::deliver(quint64 request, std::shared_ptr<const IblMaps> maps) {
+void IblUpdater::deliver(quint64 request, EnvironmentTexelsPtr texels) {
     if (request != m_request)
         return;
     m_firstUnderWay = false; // whichever it is: small, full from the cache, or none
-    if (maps) {
-        m_maps = std::move(maps);
+    if (texels) {
+        m_texels = std::move(texels);
         Q_EMIT ready();
     }
     if (m_waiting)

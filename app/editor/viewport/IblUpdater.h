@@ -1,16 +1,18 @@
-// Prepares image-based light in the background: from the cache, or else a small version within
-// some ten milliseconds and the full one when it is ready. The newest environment wins.
+// Prepares an environment in the background, as the viewport's textures take it: its light from the
+// cache, or else a small version within some ten milliseconds and the full one when it is ready.
+// The newest environment wins.
 #pragma once
 
 #include "core/image/Image.h"
 #include "core/job/JobContext.h"
+#include "core/light/EnvironmentTexels.h"
 #include "core/light/IblCache.h"
 
 #include <QObject>
 #include <QThreadPool>
 #include <atomic>
 #include <filesystem>
-#include <memory>
+#include <utility>
 
 namespace patina::editor {
 
@@ -25,25 +27,30 @@ class IblUpdater : public QObject {
     // follow each other quickly wait for the small version of the first, so that light keeps
     // coming while something is dragged.
     void request(ImagePtr environment);
-    // The last result, so that a new OpenGL context can be given it again; null before the first.
-    [[nodiscard]] std::shared_ptr<const IblMaps> maps() const { return m_maps; }
+    // The last result, once: it is large. Null when there is none, or it has been taken.
+    [[nodiscard]] EnvironmentTexelsPtr take() { return std::exchange(m_texels, nullptr); }
+    // What has been taken is lost and needed again, by a new OpenGL context.
+    void renew();
 
   Q_SIGNALS:
-    void ready(); // maps() is new
+    void ready(); // take() has something
 
   private:
     void start();
-    void prepare(quint64 request, const Image& environment, const JobContext& job);
-    void post(quint64 request, std::shared_ptr<const IblMaps> maps); // from the pool to deliver()
-    void deliver(quint64 request, std::shared_ptr<const IblMaps> maps);
+    void prepare(quint64 request, const ImagePtr& environment, const JobContext& job);
+    void refine(quint64 request, const Hash& key, const ImagePtr& environment,
+                const HalfMipmapsPtr& background, const JobContext& job);
+    void fail(quint64 request, const Error& error);
+    void post(quint64 request, EnvironmentTexelsPtr texels); // from the pool to deliver()
+    void deliver(quint64 request, EnvironmentTexelsPtr texels);
 
     IblCache m_cache;
-    QThreadPool m_pool;
+    QThreadPool m_pool, m_finePool; // first light in no time; full light when nobody is in a hurry
     JobControl m_control;
     ImagePtr m_environment;
     std::atomic<quint64> m_request = 0; // the newest
     bool m_firstUnderWay = false, m_waiting = false;
-    std::shared_ptr<const IblMaps> m_maps;
+    EnvironmentTexelsPtr m_texels; // until it is taken
 };
 
 } // namespace patina::editor

@@ -20,9 +20,10 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kRestMs = 250;       // without movement until the picture is refined
-constexpr int kAdaptationMs = 16;  // between the frames of an eye that adapts
-constexpr int kShaderPollMs = 500; // hot reload in developers' builds
+constexpr int kRestMs = 250;                        // without movement until the picture is refined
+constexpr int kAdaptationMs = 16;                   // between the frames of an eye that adapts
+constexpr std::size_t kEnvironmentBytes = 16 << 20; // of textures between frames: some 10 ms
+constexpr int kShaderPollMs = 500;                  // hot reload in developers' builds
 
 // Computed light outlives the session; the system may empty this folder at any time.
 std::filesystem::path iblCacheFolder() {
@@ -87,10 +88,11 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     connect(&m_hand, &ViewportHand::cameraMoved, this, &ViewportWidget::touch);
     connect(&m_hand, &ViewportHand::clicked, this, &ViewportWidget::pickAt);
     connect(&m_preview, &PreviewFeed::changed, this, &ViewportWidget::lookChanged);
-    connect(m_ibl, &IblUpdater::ready, this, [this] {
-        m_iblPending = true;
-        lookChanged();
-    });
+    // Between frames and input, so that neither waits for an environment.
+    m_environmentTimer.setSingleShot(true);
+    m_environmentTimer.setInterval(0);
+    connect(&m_environmentTimer, &QTimer::timeout, this, &ViewportWidget::feedEnvironment);
+    connect(m_ibl, &IblUpdater::ready, &m_environmentTimer, qOverload<>(&QTimer::start));
     m_ibl->request(controller.document().environment.image);
 }
 
@@ -159,7 +161,8 @@ void ViewportWidget::initializeGL() {
     }
     m_renderer = std::move(created).value();
     m_renderer->setDocument(m_controller.document(), Change::everything());
-    m_iblPending = true;
+    m_ibl->renew();
+    m_environmentTimer.start();
     m_displayPending = true;
     m_preview.restart();
     if (!shaderFolder.isEmpty())
@@ -223,10 +226,6 @@ void ViewportWidget::paintGL() {
     clock.start();
 
     // Bring in what the background has prepared since the last frame.
-    if (m_iblPending && m_ibl->maps()) {
-        m_renderer->setIbl(*m_ibl->maps());
-        m_iblPending = false;
-    }
     m_preview.upload(*m_renderer);
     takeDisplay();
 
@@ -248,6 +247,24 @@ void ViewportWidget::paintGL() {
     Q_EMIT frameRendered(milliseconds);
     followLuminance();
     m_sheets.setResting(!m_pacing.moving());
+}
+
+// A piece of the environment that has been prepared. The old one is shown until all are there.
+void ViewportWidget::feedEnvironment() {
+    if (!m_renderer)
+        return; // its making starts this again
+    makeCurrent();
+    if (EnvironmentTexelsPtr next = m_ibl->take())
+        m_renderer->beginEnvironment(std::move(next));
+    const bool complete = m_renderer->proceedEnvironment(kEnvironmentBytes);
+    doneCurrent();
+    if (!complete) {
+        m_environmentTimer.start();
+        return;
+    }
+    m_pacing.pictureChanged();
+    m_restTimer.start();
+    lookChanged();
 }
 
 void ViewportWidget::takeDisplay() {

@@ -82,6 +82,7 @@ class ViewportWidget : public QOpenGLWidget {
     void lookChanged(); // of the scene, other than by the hand: its thumbnails are old, too
     void viewsChanged();
     [[nodiscard]] render::FrameSettings nextFrame(const QSize& size);
+    void feedEnvironment();
     void takeDisplay();
     void followLuminance();
     void pickAt(const QPointF& position);
@@ -100,7 +101,6 @@ class ViewportWidget : public QOpenGLWidget {
     std::unique_ptr<gl::Context> m_context;
     std::unique_ptr<render::Renderer> m_renderer;
     ScaledTarget m_target;
-    bool m_iblPending = true;     // m_ibl->maps() is not in the renderer yet
     bool m_displayPending = true; // m_displays->transform() is not in the renderer yet
     bool m_luminanceWanted = false;
     std::optional<Luminance> m_luminance; // as announced last
@@ -110,7 +110,7 @@ class ViewportWidget : public QOpenGLWidget {
     Camera m_lastCamera;         // of the last frame
 
     FramePacing m_pacing;
-    QTimer m_restTimer, m_shaderTimer, m_adaptationTimer;
+    QTimer m_restTimer, m_environmentTimer, m_shaderTimer, m_adaptationTimer;
     double m_slowestFrameMs = 0.0;
     QSize m_lastFrameSize;
 

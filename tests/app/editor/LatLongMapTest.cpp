@@ -9,6 +9,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <numbers>
 
 namespace patina::editor {
 namespace {
@@ -109,14 +110,18 @@ TEST(IblUpdater, ADragIsNotStarved) {
     QTemporaryDir cache;
     IblUpdater updater{std::filesystem::path(cache.path().toStdString())};
     std::vector<float> lights;
-    QObject::connect(&updater, &IblUpdater::ready, &updater,
-                     [&] { lights.push_back(updater.maps()->prefiltered.back().texels[0].x); });
+    int side = 0;
+    QObject::connect(&updater, &IblUpdater::ready, &updater, [&] {
+        const EnvironmentTexelsPtr texels = updater.take();
+        lights.push_back(texels->radianceSh[0].x / std::sqrt(4.0f * std::numbers::pi_v<float>));
+        side = texels->side;
+    });
     for (const float radiance : {1.0f, 2.0f, 3.0f, 4.0f})
         updater.request(evenEnvironment(radiance));
     ASSERT_TRUE(QTest::qWaitFor(
         [&] {
-            return updater.maps() && !lights.empty() && std::abs(lights.back() - 4.0f) < 0.01f &&
-                   updater.maps()->prefiltered[0].size == IblSettings{}.cubeSize;
+            return !lights.empty() && std::abs(lights.back() - 4.0f) < 0.01f &&
+                   side == IblSettings{}.cubeSize;
         },
         60'000));
     EXPECT_NEAR(lights.front(), 1.0f, 0.01f); // the first was not thrown away

@@ -26,6 +26,22 @@ TEST(FramePacing, RestRefinesInStepsThatAreAffordable) {
     EXPECT_FALSE(pacing.refine()) << "would hold up the hand for more than a second";
 }
 
+TEST(FramePacing, AChangeAtRestIsShownBeforeItIsRefined) {
+    FramePacing pacing;
+    pacing.frameTook(90.0);
+    EXPECT_TRUE(pacing.refine());
+    pacing.frameTook(300.0);
+    pacing.pictureChanged();
+    EXPECT_EQ(pacing.samples(), 1);
+    EXPECT_EQ(pacing.scale(), 1.0f);
+    EXPECT_TRUE(pacing.refine());
+    EXPECT_EQ(pacing.samples(), 4);
+
+    pacing.beginMoving();
+    pacing.pictureChanged();
+    EXPECT_TRUE(pacing.moving()) << "the hand has not let go";
+}
+
 TEST(FramePacing, AFastGpuAlwaysDrawsAtFullQuality) {
     FramePacing pacing;
     pacing.frameTook(3.0);

@@ -41,9 +41,9 @@ class FrameTimeTest : public EditorTest {
     }
 };
 
-double processMs() {
+double clockMs(clockid_t clock) {
     timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    clock_gettime(clock, &now);
     return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
 }
 
@@ -54,14 +54,16 @@ class Drag {
         : m_viewport(viewport)
         , m_name(name)
         , m_connection(QObject::connect(&viewport, &ViewportWidget::frameRendered, &viewport,
-                                        [this](double ms) { m_times.push_back(ms); })) {}
+                                        [this](double ms) { frame(ms); })) {}
 
     void run(int milliseconds) {
         const QPoint center = m_viewport.rect().center();
         QTest::mousePress(&m_viewport, Qt::LeftButton, Qt::NoModifier, center);
         QElapsedTimer clock;
         clock.start();
-        const double cpu = processMs();
+        const double cpu = clockMs(CLOCK_PROCESS_CPUTIME_ID);
+        m_lastThread = clockMs(CLOCK_THREAD_CPUTIME_ID);
+        m_sinceFrame.start();
         for (int i = 0; clock.elapsed() < milliseconds; ++i) {
             const std::size_t frames = m_times.size();
             const int x = i % 160 < 80 ? i % 160 : 160 - i % 160;
@@ -70,7 +72,7 @@ class Drag {
             m_width = std::min(m_width, m_viewport.frameSize().width());
         }
         const double seconds = static_cast<double>(clock.elapsed()) * 1e-3;
-        const double cpuMs = processMs() - cpu;
+        const double cpuMs = clockMs(CLOCK_PROCESS_CPUTIME_ID) - cpu;
         QTest::mouseRelease(&m_viewport, Qt::LeftButton, Qt::NoModifier, center);
         ASSERT_FALSE(m_times.empty());
         std::vector<double> sorted = m_times;
@@ -80,17 +82,34 @@ class Drag {
         };
         std::printf(
             "[ figures  ] %s: %.1f frames/s; a frame takes %.1f ms (median), %.1f ms (95th "
-            "percentile), %.1f ms (slowest), %.1f ms of processor time; coarsest width %d\n",
+            "percentile), %.1f ms (slowest), %.1f ms of processor time; from frame to frame at "
+            "most "
+            "%.1f ms pass, and the window's thread computes for %.1f ms; coarsest width %d\n",
             m_name, static_cast<double>(sorted.size()) / seconds, quantile(0.5), quantile(0.95),
-            sorted.back(), cpuMs / static_cast<double>(sorted.size()), m_width);
+            sorted.back(), cpuMs / static_cast<double>(sorted.size()), m_longestGap,
+            m_longestThread, m_width);
     }
     ~Drag() { QObject::disconnect(m_connection); }
     [[nodiscard]] int coarsestWidth() const { return m_width; }
 
   private:
+    void frame(double ms) {
+        m_times.push_back(ms);
+        if (!m_sinceFrame.isValid())
+            return;
+        m_longestGap =
+            std::max(m_longestGap, static_cast<double>(m_sinceFrame.nsecsElapsed()) * 1e-6);
+        m_sinceFrame.start();
+        const double thread = clockMs(CLOCK_THREAD_CPUTIME_ID);
+        m_longestThread = std::max(m_longestThread, thread - m_lastThread);
+        m_lastThread = thread;
+    }
+
     ViewportWidget& m_viewport;
     const char* m_name;
     std::vector<double> m_times;
+    QElapsedTimer m_sinceFrame;
+    double m_lastThread = 0.0, m_longestGap = 0.0, m_longestThread = 0.0; // milliseconds
     int m_width = 1 << 16;
     QMetaObject::Connection m_connection;
 };

@@ -3,8 +3,10 @@
 #include "tests/support/TemporaryFolder.h"
 
 #include <QSignalSpy>
+#include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <numbers>
 
 namespace patina::editor {
 namespace {
@@ -16,59 +18,99 @@ ImagePtr sky(float brightness, int width = 256) {
     return std::make_shared<const Image>(std::move(image));
 }
 
-// Waits until the maps are as large as they get.
-void waitForFull(const IblUpdater& updater, QSignalSpy& ready) {
-    while (!updater.maps() || updater.maps()->prefiltered.front().size != IblSettings().cubeSize)
-        ASSERT_TRUE(ready.wait(30'000));
+// Of a uniform sky: L = L_00 Y_00.
+float brightness(const EnvironmentTexels& texels) {
+    return texels.radianceSh[0].x / std::sqrt(4.0f * std::numbers::pi_v<float>);
+}
+
+// Waits until the light is as fine as it gets, and takes it.
+EnvironmentTexelsPtr takeFull(IblUpdater& updater, QSignalSpy& ready) {
+    for (;;) {
+        if (EnvironmentTexelsPtr texels = updater.take();
+            texels && texels->side == IblSettings().cubeSize)
+            return texels;
+        if (!ready.wait(30'000)) {
+            ADD_FAILURE() << "nothing came";
+            return nullptr;
+        }
+    }
 }
 
 TEST(IblUpdater, AnswersSoonThenInFull) {
     const test::TemporaryFolder folder;
     IblUpdater updater(folder.path());
     QSignalSpy ready(&updater, &IblUpdater::ready);
-    EXPECT_EQ(updater.maps(), nullptr);
-    updater.request(sky(2.0f));
+    EXPECT_EQ(updater.take(), nullptr);
+    const ImagePtr image = sky(2.0f);
+    updater.request(image);
     ASSERT_TRUE(ready.wait(30'000));
-    EXPECT_EQ(updater.maps()->prefiltered.front().size, IblSettings::quick().cubeSize);
-    EXPECT_NEAR(updater.maps()->prefiltered.back().texels[0].x, 2.0f, 1e-4f);
-    waitForFull(updater, ready);
+    const EnvironmentTexelsPtr quick = updater.take();
+    ASSERT_NE(quick, nullptr);
+    EXPECT_EQ(updater.take(), nullptr) << "it is taken";
+    EXPECT_EQ(quick->side, IblSettings::quick().cubeSize);
+    EXPECT_EQ(quick->image, image);
+    EXPECT_EQ(quick->background->front().width, 256);
+    EXPECT_EQ(quick->background->front().texels[0], 0x4000) << "2 as a half float";
+    EXPECT_NEAR(brightness(*quick), 2.0f, 1e-4f);
+    const EnvironmentTexelsPtr full = takeFull(updater, ready);
     EXPECT_EQ(ready.count(), 2);
-    EXPECT_NEAR(updater.maps()->prefiltered.back().texels[0].x, 2.0f, 1e-4f);
+    EXPECT_EQ(full->image, image);
+    EXPECT_EQ(full->background, quick->background) << "made once";
+    EXPECT_NEAR(brightness(*full), 2.0f, 1e-4f);
 }
 
 TEST(IblUpdater, RemembersAcrossSessions) {
     const test::TemporaryFolder folder;
-    std::shared_ptr<const IblMaps> computed;
+    EnvironmentTexelsPtr computed;
     {
         IblUpdater updater(folder.path());
         QSignalSpy ready(&updater, &IblUpdater::ready);
         updater.request(sky(3.0f));
-        waitForFull(updater, ready);
-        computed = updater.maps();
+        computed = takeFull(updater, ready);
     } // its end waits for the file
     ASSERT_EQ(folder.files().size(), 1u);
     IblUpdater updater(folder.path());
     QSignalSpy ready(&updater, &IblUpdater::ready);
     updater.request(sky(3.0f)); // another image of the same content
     ASSERT_TRUE(ready.wait(30'000));
-    for (std::size_t i = 0; i < computed->prefiltered.size(); ++i)
-        EXPECT_EQ(updater.maps()->prefiltered[i].texels, computed->prefiltered[i].texels);
+    const EnvironmentTexelsPtr known = updater.take();
+    ASSERT_NE(known, nullptr);
+    EXPECT_EQ(known->prefiltered.texels, computed->prefiltered.texels);
+    EXPECT_EQ(known->background->front().texels, computed->background->front().texels);
+}
+
+// A new OpenGL context has lost what was taken.
+TEST(IblUpdater, PreparesAgainWhatWasLost) {
+    const test::TemporaryFolder folder;
+    IblUpdater updater(folder.path());
+    QSignalSpy ready(&updater, &IblUpdater::ready);
+    updater.renew(); // nothing was there
+    const ImagePtr image = sky(2.0f);
+    updater.request(image);
+    const EnvironmentTexelsPtr before = takeFull(updater, ready);
+    updater.renew();
+    const EnvironmentTexelsPtr again = takeFull(updater, ready);
+    ASSERT_NE(again, nullptr);
+    EXPECT_EQ(again->image, image);
+    EXPECT_EQ(again->prefiltered.texels, before->prefiltered.texels);
 }
 
 TEST(IblUpdater, TheNewestWins) {
     const test::TemporaryFolder folder;
     IblUpdater updater(folder.path());
     QSignalSpy ready(&updater, &IblUpdater::ready);
+    ImagePtr last;
     for (int i = 1; i <= 20; ++i)
-        updater.request(sky(static_cast<float>(i), 1024));
-    waitForFull(updater, ready);
-    EXPECT_NEAR(updater.maps()->prefiltered.back().texels[0].x, 20.0f, 1e-3f);
+        updater.request(last = sky(static_cast<float>(i), 1024));
+    const EnvironmentTexelsPtr full = takeFull(updater, ready);
+    EXPECT_EQ(full->image, last) << "light and background are of one environment";
+    EXPECT_NEAR(brightness(*full), 20.0f, 1e-3f);
     EXPECT_LE(ready.count(), 3) << "small of the first, small and full of the last: no others";
     const ImagePtr same = sky(5.0f);
     updater.request(same);
     updater.request(same);
     updater.request(nullptr);
-    waitForFull(updater, ready);
+    EXPECT_EQ(takeFull(updater, ready)->image, same);
 }
 
 TEST(IblUpdater, WorksWithoutAFolderToWriteTo) {
@@ -77,7 +119,7 @@ TEST(IblUpdater, WorksWithoutAFolderToWriteTo) {
     IblUpdater updater(folder.path() / "file" / "cache");
     QSignalSpy ready(&updater, &IblUpdater::ready);
     updater.request(sky(1.0f));
-    waitForFull(updater, ready);
+    EXPECT_NE(takeFull(updater, ready), nullptr);
 }
 
 } // namespace
