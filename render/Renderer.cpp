@@ -1,15 +1,6 @@
-#include "render/Renderer.h"
+#include "render/RendererImpl.h"
 
 #include "core/base/Log.h"
-#include "render/pass/AdaptationPass.h"
-#include "render/pass/OverlayPass.h"
-#include "render/pass/PickPass.h"
-#include "render/pass/ScreenPasses.h"
-#include "render/pass/ShadowPass.h"
-#include "render/pass/SurfacePass.h"
-#include "render/pass/Targets.h"
-#include "render/scene/DrawList.h"
-#include "render/scene/GpuScene.h"
 
 #include <algorithm>
 #include <epoxy/gl.h>
@@ -17,41 +8,7 @@
 
 namespace patina::render {
 
-struct Renderer::Impl {
-    Impl(gl::Context& c, const std::filesystem::path& shaderFolder)
-        : context(c)
-        , shaders(c, shaderFolder)
-        , scene(c)
-        , shadows(c, shaders)
-        , surface(shaders)
-        , adaptation(c, shaders)
-        , screen(c, shaders)
-        , overlay(c, shaders, screen)
-        , picking(c, shaders)
-        , frameBlock(c, "frame", sizeof(FrameBlock)) {}
-
-    gl::Context& context;
-    ShaderLibrary shaders;
-    GpuScene scene;
-    ShadowPass shadows;
-    SurfacePass surface;
-    AdaptationPass adaptation;
-    ScreenPasses screen;
-    OverlayPass overlay;
-    PickPass picking;
-    gl::Buffer frameBlock;
-    Targets targets;
-    glm::mat4 worldToClip{1.0f}; // of the last frame
-    int samples = 0;             // of the last frame
-    bool sceneIsNew = true;      // something was set since the last frame
-    bool luminanceIsNew = true;  // the last frame's scene has not been measured
-
-    FrameBlock packFrame(const FrameSettings& frame);
-    Result<void> drawScene(const FrameSettings& frame, const FrameBlock& block);
-    Result<void> adapt(const FrameSettings& frame);
-};
-
-FrameBlock Renderer::Impl::packFrame(const FrameSettings& frame) {
+FrameBlock Renderer::Impl::packFrame(const FrameSettings& frame) const {
     const auto width = static_cast<float>(frame.width), height = static_cast<float>(frame.height);
     FrameBlock block;
     block.worldToClip =
@@ -60,28 +17,47 @@ FrameBlock Renderer::Impl::packFrame(const FrameSettings& frame) {
     block.cameraPosition = glm::vec4(frame.camera.position(), 1.0f);
     block.viewport = {width, height, 1.0f / width, 1.0f / height};
     scene.fill(block, shadows.lights());
+    if (frame.view.furnace)
+        block.lightEnds = glm::ivec4(0);
     return block;
 }
 
-Result<void> Renderer::Impl::drawScene(const FrameSettings& frame, const FrameBlock& block) {
+void Renderer::Impl::useFrame(const FrameBlock& block) {
+    frameBlock.writeValue(block);
+    frameBlock.bindUniform(kFrameBinding);
+}
+
+SurfaceSettings Renderer::Impl::surfaceSettings(const FrameBlock& block,
+                                                SurfaceOutput output) const {
     const Document& document = scene.document();
-    const SurfaceSettings settings{document.view.lighting,
-                                   block.lightEnds.y > 0,
-                                   block.lightEnds.w > block.lightEnds.y,
-                                   block.lightEnds,
-                                   static_cast<int>(shadows.lights().size()),
-                                   document.model};
+    return {document.view.lighting,
+            block.lightEnds.y > 0,
+            block.lightEnds.w > block.lightEnds.y,
+            block.lightEnds,
+            static_cast<int>(shadows.lights().size()),
+            document.model,
+            output};
+}
+
+Result<void> Renderer::Impl::drawPicture(const FrameSettings& frame, const FrameBlock& block,
+                                         const gl::Framebuffer& target, SurfaceOutput output,
+                                         bool withBackground) {
+    const Document& document = scene.document();
+    const SurfaceSettings settings = surfaceSettings(block, output);
     shadows.bind();
     const DrawList list = makeDrawList(scene.items(), block.worldToClip, frame.camera.position());
 
-    targets.scene().bind();
-    const BackgroundMode background = document.environment.background;
-    const bool transparent = frame.transparentBackground || background == BackgroundMode::Off;
-    const glm::vec3 clear = transparent || background != BackgroundMode::Color
-                                ? glm::vec3(0.0f)
-                                : document.environment.backgroundColor;
-    targets.scene().clearColor(clear.r, clear.g, clear.b, transparent ? 0.0f : 1.0f);
-    targets.scene().clearDepth(1.0f);
+    target.bind();
+    const std::optional<glm::vec3>& furnace = frame.view.furnace;
+    const BackgroundMode background =
+        furnace ? BackgroundMode::Color : document.environment.background;
+    const bool transparent =
+        !withBackground || frame.transparentBackground || background == BackgroundMode::Off;
+    const glm::vec3 clear = transparent || background != BackgroundMode::Color ? glm::vec3(0.0f)
+                            : furnace                                          ? *furnace
+                                      : document.environment.backgroundColor;
+    target.clearColor(clear.r, clear.g, clear.b, transparent ? 0.0f : 1.0f);
+    target.clearDepth(1.0f);
 
     if (auto done = surface.drawOpaque(scene, list, settings); !done)
         return done;
@@ -90,10 +66,7 @@ Result<void> Renderer::Impl::drawScene(const FrameSettings& frame, const FrameBl
                                        document.environment.backgroundBlur);
             !done)
             return done;
-    if (auto done = surface.drawBlended(scene, list, settings); !done)
-        return done;
-    targets.resolve();
-    return {};
+    return surface.drawBlended(scene, list, settings);
 }
 
 // What exposure needs to know of the picture, where it or the caller asks for it.
@@ -106,6 +79,7 @@ Result<void> Renderer::Impl::adapt(const FrameSettings& frame) {
         if (auto done = adaptation.measure(targets); !done)
             return done;
     luminanceIsNew = false;
+    luminanceKnown = true;
     return adaptation.adapt(view.exposureMode == ExposureMode::Automatic
                                 ? frame.adaptSeconds
                                 : std::numeric_limits<float>::infinity());
@@ -184,14 +158,7 @@ void Renderer::clearPreview() {
     m_impl->sceneIsNew = true;
 }
 
-Result<void> Renderer::render(const FrameSettings& frame, unsigned targetFramebuffer) {
-    Impl& r = *m_impl;
-    if (frame.width != r.targets.width() || frame.height != r.targets.height() ||
-        frame.samples != r.samples)
-        r.sceneIsNew = true;
-    r.samples = frame.samples;
-    if (auto sized = r.targets.resize(r.context, frame.width, frame.height, frame.samples); !sized)
-        return sized;
+void Renderer::Impl::beginGl() {
     // The context may be shared with Qt, which leaves its own state behind.
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_STENCIL_TEST);
@@ -200,56 +167,62 @@ Result<void> Renderer::render(const FrameSettings& frame, unsigned targetFramebu
     glCullFace(GL_BACK);
     glEnable(GL_MULTISAMPLE);
     glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+}
 
-    const bool drawsScene = r.sceneIsNew || !frame.reuseScene;
-    if (drawsScene)
-        if (auto done = r.shadows.update(r.scene); !done)
-            return done;
-    const FrameBlock block = r.packFrame(frame);
-    r.worldToClip = block.worldToClip;
-    r.frameBlock.writeValue(block);
-    r.frameBlock.bindUniform(kFrameBinding);
-
-    Result<void> done;
-    if (drawsScene) {
-        done = r.drawScene(frame, block);
-        r.sceneIsNew = !done.ok();
-        r.luminanceIsNew = true;
-    }
-    if (done)
-        done = r.adapt(frame);
-    if (done)
-        done = r.screen.toneMap(r.targets, r.scene.document().view, frame.dither);
-    if (done && frame.showOverlays)
-        done = r.overlay.draw(r.targets, r.scene, block, frame.camera,
-                              {frame.selectedMesh, frame.selectedLight, frame.overlayScale});
-    if (done)
-        done = r.screen.present(r.targets, targetFramebuffer);
-
+void Renderer::Impl::endGl(unsigned targetFramebuffer) {
     glBindFramebuffer(GL_FRAMEBUFFER, targetFramebuffer);
     glBindVertexArray(0);
     glUseProgram(0);
-    r.shadows.unbind();
+    shadows.unbind();
     glDisable(GL_CULL_FACE);
     glDisable(GL_DEPTH_TEST);
     glFrontFace(GL_CCW);
+}
+
+Result<void> Renderer::render(const FrameSettings& frame, unsigned targetFramebuffer) {
+    Impl& r = *m_impl;
+    if (frame.width != r.targets.width() || frame.height != r.targets.height() ||
+        frame.samples != r.lastFrame.samples || !(frame.view == r.lastFrame.view))
+        r.sceneIsNew = true;
+    r.lastFrame = frame;
+    if (auto sized = r.targets.resize(r.context, frame.width, frame.height, frame.samples); !sized)
+        return sized;
+    r.beginGl();
+
+    const bool drawsScene = r.sceneIsNew || !frame.reuseScene || frame.view.split;
+    if (drawsScene)
+        if (auto done = r.shadows.update(r.scene); !done)
+            return done;
+    r.lastBlock = r.packFrame(frame);
+    r.useFrame(r.lastBlock);
+
+    Result<void> done = r.drawViews(frame, drawsScene);
+    if (drawsScene)
+        r.sceneIsNew = !done.ok();
+    if (done && frame.showOverlays)
+        done = r.overlay.draw(r.targets, r.scene, r.lastBlock, frame.camera,
+                              {frame.selectedMesh, frame.selectedLight, frame.overlayScale});
+    if (done)
+        done = r.screen.present(r.targets, targetFramebuffer);
+    r.endGl(targetFramebuffer);
     return done;
 }
 
-namespace {
-
-// OpenGL's rows go from bottom to top.
-template <class T>
-void flipRows(std::span<T> values, std::size_t rowLength) {
-    const std::size_t rows = values.size() / rowLength;
-    for (std::size_t top = 0; top < rows / 2; ++top) {
-        const auto a = values.begin() + static_cast<std::ptrdiff_t>(top * rowLength);
-        const auto b = values.begin() + static_cast<std::ptrdiff_t>((rows - 1 - top) * rowLength);
-        std::swap_ranges(a, a + static_cast<std::ptrdiff_t>(rowLength), b);
-    }
+void flipRows(Image& image) {
+    const auto flip = [&](auto values) {
+        const std::size_t row = static_cast<std::size_t>(image.width()) * 4;
+        const auto rows = static_cast<std::size_t>(image.height());
+        for (std::size_t top = 0; top < rows / 2; ++top) {
+            const auto a = values.begin() + static_cast<std::ptrdiff_t>(top * row);
+            const auto b = values.begin() + static_cast<std::ptrdiff_t>((rows - 1 - top) * row);
+            std::swap_ranges(a, a + static_cast<std::ptrdiff_t>(row), b);
+        }
+    };
+    if (image.type() == PixelType::F32)
+        flip(image.f32());
+    else
+        flip(image.u8());
 }
-
-} // namespace
 
 Image Renderer::readLinear() {
     const Targets& targets = m_impl->targets;
@@ -258,7 +231,7 @@ Image Renderer::readLinear() {
     Image image(targets.width(), targets.height(), 4, PixelType::F32, ColorEncoding::Linear);
     const auto values = targets.linear().readFloats(4);
     std::copy(values.begin(), values.end(), image.f32().begin());
-    flipRows(image.f32(), static_cast<std::size_t>(targets.width()) * 4);
+    flipRows(image);
     return image;
 }
 
@@ -269,7 +242,7 @@ Image Renderer::readDisplayed() {
     Image image(targets.width(), targets.height(), 4, PixelType::U8, ColorEncoding::Srgb);
     const auto bytes = targets.displayed().readBytes(4);
     std::copy(bytes.begin(), bytes.end(), image.u8().begin());
-    flipRows(image.u8(), static_cast<std::size_t>(targets.width()) * 4);
+    flipRows(image);
     return image;
 }
 
@@ -299,7 +272,8 @@ Id Renderer::pick(int x, int y) {
     if (x < 0 || y < 0 || x >= width || y >= height)
         return 0;
     r.frameBlock.bindUniform(kFrameBinding);
-    const Result<Id> id = r.picking.pick(r.scene, r.worldToClip, width, height, x, height - 1 - y);
+    const Result<Id> id =
+        r.picking.pick(r.scene, r.lastBlock.worldToClip, width, height, x, height - 1 - y);
     glBindVertexArray(0);
     glUseProgram(0);
     if (id)

@@ -9,6 +9,7 @@
 #ifdef HAS_SHADOWS
 #include "include/shadow.glsl"
 #endif
+#include "shared/color.glsl"
 #include "shared/ibl.glsl"
 #include "include/prefiltered.glsl"
 #include "shared/lights.glsl"
@@ -37,7 +38,11 @@ layout(binding = 8) uniform sampler2D u_dfg;
 layout(binding = 9) uniform sampler2D u_lobes; // core/light/LobeTable.h
 #endif
 
+#ifdef VIEWS
+#include "include/views.glsl"
+#else
 layout(location = 0) out vec4 o_radiance; // premultiplied by alpha
+#endif
 
 #ifndef LIGHT_ENDS
 #define LIGHT_ENDS u_lightEnds
@@ -90,6 +95,10 @@ vec3 storable(vec3 c) {
                 isnan(c.z) ? 0.0 : clamp(c.z, 0.0, 65504.0));
 }
 
+#ifdef VIEWS
+#include "include/records.glsl"
+#endif
+
 void main() {
     vec4 baseColor = baseColorAt(v_uv);
 #ifdef ALPHA_MASK
@@ -135,6 +144,11 @@ void main() {
 
     // The surface.
     vec3 n = shadingNormal();
+#ifdef VIEWS
+    vec3 triangle = normalize(cross(dFdx(v_position), dFdy(v_position)));
+    if (u_flat != 0)
+        n = triangle;
+#endif
     vec3 v = normalize(u_cameraPosition.xyz - v_position);
     float NoV = clamp(dot(n, v), kMinNoV, 1.0);
     perceptualRoughness = clamp(perceptualRoughness, 0.0, 1.0);
@@ -153,16 +167,28 @@ void main() {
 #else
     vec3 prefiltered = prefilteredRadiance(lobeDirection(s, dfg.z), s.perceptualRoughness);
 #endif
+    // Before occlusion, and with it.
 #if defined(CONSTANT_IRRADIANCE)
-    vec3 irradiance = vec3(0.5 * ao);
+    vec3 arriving = vec3(0.5);
 #elif defined(HAS_TRANSFER)
-    vec3 irradiance = kPi * max(v_exitRadiance, vec3(0.0));
+    vec3 arriving = kPi * max(v_exitRadiance, vec3(0.0));
 #else
-    vec3 irradiance = ao * irradianceAt(n);
+    vec3 arriving = irradianceAt(n);
+#endif
+#ifdef VIEWS
+    if (u_furnace.w > 0.0) {
+        arriving = kPi * u_furnace.rgb;
+        prefiltered = u_furnace.rgb;
+    }
+#endif
+#ifdef HAS_TRANSFER
+    vec3 irradiance = arriving;
+#else
+    vec3 irradiance = ao * arriving;
 #endif
     ShadedLight ambient = shadeEnvironment(s, irradiance, prefiltered);
-    vec3 radiance =
-        ambient.diffuse + ambient.specular * specularOcclusion(s.NoV, ao, s.alpha);
+    float open = specularOcclusion(s.NoV, ao, s.alpha);
+    vec3 specularIbl = ambient.specular * open;
 
     // Analytic lights, one loop for each kind. Where LIGHT_ENDS is known it is unrolled.
 #ifdef HAS_SHADOWS
@@ -181,14 +207,25 @@ void main() {
     visibility.w = shadowVisibility(u_shadows[3], v_position, face, n);
 #endif
 #endif
+    vec3 directDiffuse = vec3(0.0);
+    vec3 directSpecular = vec3(0.0);
+#ifdef VIEWS
+    LightSums sums = noLights();
+#endif
 #ifdef HAS_PUNCTUAL_LIGHTS
     for (int i = 0; i < LIGHT_ENDS.x; ++i) {
         vec3 E = u_lights[i].color.rgb;
+        float shadow = 1.0;
 #ifdef HAS_SHADOWS
-        E *= u_lights[i].place.w < 0.0 ? 1.0 : visibility[int(u_lights[i].place.w)];
+        shadow = u_lights[i].place.w < 0.0 ? 1.0 : visibility[int(u_lights[i].place.w)];
+        E *= shadow;
 #endif
         ShadedLight light = shadeDirect(s, u_lights[i].place.xyz, E);
-        radiance += light.diffuse + light.specular;
+        directDiffuse += light.diffuse;
+        directSpecular += light.specular;
+#ifdef VIEWS
+        recordLight(sums, s, i, u_lights[i].place.xyz, u_lights[i].color.rgb, shadow, light);
+#endif
     }
     for (int i = LIGHT_ENDS.x; i < LIGHT_ENDS.y; ++i) {
         vec3 toLight = u_lights[i].place.xyz - v_position;
@@ -196,11 +233,16 @@ void main() {
         vec3 l = toLight * inversesqrt(max(distance2, 1e-12));
         float reaches = pointFalloff(distance2, u_lights[i].color.w) *
                         spotFalloff(dot(u_lights[i].axis.xyz, l), 1.0, u_lights[i].axis.w);
+        float shadow = 1.0;
 #ifdef HAS_SHADOWS
-        reaches *= u_lights[i].place.w < 0.0 ? 1.0 : visibility[int(u_lights[i].place.w)];
+        shadow = u_lights[i].place.w < 0.0 ? 1.0 : visibility[int(u_lights[i].place.w)];
 #endif
-        ShadedLight light = shadeDirect(s, l, u_lights[i].color.rgb * reaches);
-        radiance += light.diffuse + light.specular;
+        ShadedLight light = shadeDirect(s, l, u_lights[i].color.rgb * (reaches * shadow));
+        directDiffuse += light.diffuse;
+        directSpecular += light.specular;
+#ifdef VIEWS
+        recordLight(sums, s, i, l, u_lights[i].color.rgb * reaches, shadow, light);
+#endif
     }
 #endif
 
@@ -211,13 +253,21 @@ void main() {
     for (int i = LIGHT_ENDS.y; i < LIGHT_ENDS.z; ++i) {
         ShadedLight light = shadeSphere(s, fit, u_lights[i].place.xyz - v_position,
                                         u_lights[i].axis.x, u_lights[i].color.rgb);
-        radiance += light.diffuse + light.specular;
+        directDiffuse += light.diffuse;
+        directSpecular += light.specular;
+#ifdef VIEWS
+        recordAreaLight(sums, i, light);
+#endif
     }
     for (int i = LIGHT_ENDS.z; i < LIGHT_ENDS.w; ++i) {
         ShadedLight light =
             shadeRectangle(s, fit, u_lights[i].place.xyz - v_position, u_lights[i].axis.xyz,
                            u_lights[i].side.xyz, u_lights[i].color.rgb);
-        radiance += light.diffuse + light.specular;
+        directDiffuse += light.diffuse;
+        directSpecular += light.specular;
+#ifdef VIEWS
+        recordAreaLight(sums, i, light);
+#endif
     }
 #endif
 
@@ -226,12 +276,23 @@ void main() {
 #ifdef HAS_EMISSIVE_MAP
     emission *= mapColor(u_emissiveMap, texture(u_emissiveTexture, mapUv(u_emissiveMap, v_uv)));
 #endif
-    radiance += emission;
 
 #ifdef ALPHA_BLEND
     float alpha = clamp(baseColor.a, 0.0, 1.0);
 #else
     float alpha = 1.0;
 #endif
+#ifdef VIEWS
+    recordSurface(s, baseColor, ao, dfg, alpha, triangle);
+    recordChosenDirection(s, sums, specularIbl, alpha);
+    recordIbl(s, dfg, arriving, prefiltered, ambient, open, alpha);
+    recordSum(s, ambient.diffuse, specularIbl, directDiffuse, directSpecular, emission, sums, alpha);
+#ifndef INSPECT
+    for (int i = 0; i < VIEW_OUTPUTS; ++i)
+        o_views[i] = u_halfFloats != 0 ? vec4(storable(s_views[i].rgb), s_views[i].a) : s_views[i];
+#endif
+#else
+    vec3 radiance = ambient.diffuse + specularIbl + directDiffuse + directSpecular + emission;
     o_radiance = vec4(storable(radiance) * alpha, alpha);
+#endif
 }

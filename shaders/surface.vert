@@ -29,6 +29,9 @@ layout(std430, binding = 1) readonly buffer VertexTransfer {
 centroid out vec3 v_exitRadiance;
 #endif
 
+// Passes over the same mesh meet at the same depth.
+invariant gl_Position;
+
 void main() {
     vec4 position = u_model * vec4(a_position, 1.0);
     v_position = position.xyz;

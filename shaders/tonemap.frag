@@ -3,6 +3,7 @@
 // TONE_MAP is one of kToneMap…: software renderers execute both sides of a branch, so that each
 // curve is a program of its own.
 #include "include/exposure.glsl"
+#include "include/side.glsl"
 
 layout(binding = 0) uniform sampler2D u_radiance; // premultiplied
 uniform int u_autoKey; // photographic: the key follows from the picture
@@ -11,6 +12,7 @@ uniform float u_exponentialK;
 uniform int u_transfer;
 uniform float u_gamma;
 uniform float u_ditherAmplitude; // of one step of the display's values
+uniform int u_markClipped; // marks instead of the picture
 
 layout(location = 0) out vec4 o_color; // straight alpha
 
@@ -42,12 +44,29 @@ float interleavedGradientNoise(vec2 pixel) {
     return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))) - 0.5;
 }
 
+// What the display cannot show: all channels at their end white, one of them red, black blue.
+vec3 marked(vec3 shown) {
+    const float kStep = 1.0 / 255.0;
+    float most = max(shown.r, max(shown.g, shown.b));
+    float least = min(shown.r, min(shown.g, shown.b));
+    if (least >= 1.0 - 0.5 * kStep)
+        return vec3(1.0);
+    if (most >= 1.0 - 0.5 * kStep)
+        return vec3(1.0, 0.15, 0.1);
+    if (most < 0.5 * kStep)
+        return vec3(0.1, 0.25, 1.0);
+    return vec3(0.1 + 0.4 * dot(shown, vec3(0.2126, 0.7152, 0.0722)));
+}
+
 void main() {
+    keepToSide(gl_FragCoord.xy);
     vec4 c = texelFetch(u_radiance, ivec2(gl_FragCoord.xy), 0);
     vec3 radiance = c.a > 0.0 ? c.rgb / c.a : vec3(0.0);
     vec3 shown = displayed(expose(radiance));
     // Half a step at most: what lies exactly on a step stays there, so black stays black.
     if (u_ditherAmplitude > 0.0)
         shown += u_ditherAmplitude * interleavedGradientNoise(gl_FragCoord.xy) / 255.0;
+    if (u_markClipped != 0)
+        shown = marked(shown);
     o_color = vec4(shown, c.a);
 }

@@ -18,6 +18,8 @@ class PickPass {
     // uniform block is bound.
     Result<Id> pick(const GpuScene& scene, const glm::mat4& worldToClip, int width, int height,
                     int x, int y);
+    // Where the last pixel was drawn: its depth is there.
+    [[nodiscard]] const gl::Framebuffer& target() const { return m_target; }
 
   private:
     gl::Context& m_context;

@@ -72,7 +72,8 @@ void ScreenPasses::setExposure(const gl::Program& program, const View& view) {
     program.set("u_automatic", automatic ? 1 : 0);
 }
 
-Result<void> ScreenPasses::toneMap(const Targets& targets, const View& view, bool dither) {
+Result<void> ScreenPasses::toneMap(const gl::Texture& radiance, const gl::Framebuffer& target,
+                                   const View& view, const ToneMapSettings& settings) {
     const gl::Program* shader = nullptr;
     if (view.toneMap == ToneMap::OpenColorIo && m_display) {
         shader = &m_display->program();
@@ -91,9 +92,11 @@ Result<void> ScreenPasses::toneMap(const Targets& targets, const View& view, boo
     shader->set("u_exponentialK", view.exponentialK);
     shader->set("u_transfer", static_cast<int>(view.displayTransfer));
     shader->set("u_gamma", view.displayGamma);
-    shader->set("u_ditherAmplitude", dither ? kDitherAmplitude : 0.0f);
-    targets.linear().bind(kPictureUnit);
-    targets.display().bind();
+    shader->set("u_ditherAmplitude", settings.dither ? kDitherAmplitude : 0.0f);
+    shader->set("u_markClipped", settings.markClipped ? 1 : 0);
+    shader->set("u_side", settings.side);
+    radiance.bind(kPictureUnit);
+    target.bind();
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     drawTriangle();

@@ -11,6 +11,12 @@
 
 namespace patina::render {
 
+struct ToneMapSettings {
+    bool dither = false;      // noise of half a display step hides bands
+    bool markClipped = false; // what the display cannot show instead of the picture
+    glm::vec3 side{0.0f};     // shaders/include/side.glsl
+};
+
 class ScreenPasses {
   public:
     ScreenPasses(gl::Context& context, ShaderLibrary& shaders);
@@ -20,10 +26,11 @@ class ScreenPasses {
     // perceptual roughness of the prefiltered level.
     Result<void> drawSky(const EnvironmentLight& environment, BackgroundMode mode, float blur);
 
-    // linear() to display(): exposure, tone curve, transfer function. The luminance that the view
-    // may ask for is bound (AdaptationPass). `dither`: noise of half a display step hides bands.
-    // Until setDisplay() has been given a view of OpenColorIO, the default curve stands in for it.
-    Result<void> toneMap(const Targets& targets, const View& view, bool dither);
+    // Premultiplied radiance to display values, of the same size: exposure, tone curve, transfer
+    // function. The luminance that the view may ask for is bound (AdaptationPass). Until
+    // setDisplay() has been given a view of OpenColorIO, the default curve stands in for it.
+    Result<void> toneMap(const gl::Texture& radiance, const gl::Framebuffer& target,
+                         const View& view, const ToneMapSettings& settings = {});
     void setDisplay(std::optional<DisplayProgram> display) { m_display = std::move(display); }
 
     // displayed() into a framebuffer of the window system, multisampled or not.

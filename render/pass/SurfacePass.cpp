@@ -47,9 +47,23 @@ constexpr unsigned kVisibilityUnit = 6, kPrefilteredUnit = 7, kDfgUnit = 8, kLob
 // area lights, whose code is long, run in loops. Zero: loops.
 glm::ivec4 unrolledEnds(const SurfaceSettings& settings) {
     constexpr int kMostUnrolled = 4;
-    const bool few = settings.hasPunctualLights && !settings.hasAreaLights &&
-                     settings.lightEnds.y <= kMostUnrolled;
+    const bool few = settings.output == SurfaceOutput::Picture && settings.hasPunctualLights &&
+                     !settings.hasAreaLights && settings.lightEnds.y <= kMostUnrolled;
     return few ? settings.lightEnds : glm::ivec4(0);
+}
+
+std::vector<const char*> outputDefines(SurfaceOutput output) {
+    switch (output) {
+    case SurfaceOutput::Picture:
+        break;
+    case SurfaceOutput::OneView:
+        return {"VIEWS", "VIEW_OUTPUTS 1"};
+    case SurfaceOutput::EightViews:
+        return {"VIEWS", "VIEW_OUTPUTS 8"};
+    case SurfaceOutput::Inspection:
+        return {"VIEWS", "INSPECT"};
+    }
+    return {};
 }
 
 // Eight bits each.
@@ -120,7 +134,8 @@ void drawItem(const DrawItem& item, bool cull) {
 
 Result<const gl::Program*> SurfacePass::program(unsigned features,
                                                 const SurfaceSettings& settings) {
-    const Variant variant{features, modelKey(settings.model), endsKey(unrolledEnds(settings))};
+    const Variant variant{features, modelKey(settings.model), endsKey(unrolledEnds(settings)),
+                          static_cast<unsigned>(settings.output)};
     const auto known = m_programs.find(variant);
     if (known != m_programs.end())
         return known->second;
@@ -130,6 +145,8 @@ Result<const gl::Program*> SurfacePass::program(unsigned features,
     if (const glm::ivec4 ends = unrolledEnds(settings); ends != glm::ivec4(0))
         defines.push_back(
             fmt::format("LIGHT_ENDS ivec4({}, {}, {}, {})", ends.x, ends.y, ends.z, ends.w));
+    for (const char* define : outputDefines(settings.output))
+        defines.emplace_back(define);
     defines.insert(defines.end(), m_studyDefines.begin(), m_studyDefines.end());
     auto made = m_shaders.program({{"surface.vert", "surface.frag"}, std::move(defines)});
     if (made)
@@ -139,8 +156,6 @@ Result<const gl::Program*> SurfacePass::program(unsigned features,
 
 Result<void> SurfacePass::draw(const GpuScene& scene, const std::vector<const DrawItem*>& items,
                                const SurfaceSettings& settings) {
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_LESS);
     scene.environment().prefiltered().bind(kPrefilteredUnit);
     scene.environment().dfg().bind(kDfgUnit);
     scene.modelBlock().bindUniform(kModelBinding);
@@ -168,6 +183,8 @@ Result<void> SurfacePass::draw(const GpuScene& scene, const std::vector<const Dr
 Result<void> SurfacePass::drawOpaque(const GpuScene& scene, const DrawList& list,
                                      const SurfaceSettings& settings) {
     glDisable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
     glDepthMask(GL_TRUE);
     return draw(scene, list.opaque, settings);
 }
@@ -176,6 +193,8 @@ Result<void> SurfacePass::drawBlended(const GpuScene& scene, const DrawList& lis
                                       const SurfaceSettings& settings) {
     if (list.blended.empty())
         return {};
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); // premultiplied
     glDepthMask(GL_FALSE);

@@ -11,6 +11,10 @@
 
 namespace patina::render {
 
+// Which variant of surface.frag: the picture, or one that records terms
+// (shaders/include/views.glsl).
+enum class SurfaceOutput { Picture, OneView, EightViews, Inspection };
+
 // What is the same for all items of a frame.
 struct SurfaceSettings {
     LightingMode lighting = LightingMode::Ibl;
@@ -19,6 +23,7 @@ struct SurfaceSettings {
     glm::ivec4 lightEnds{0}; // FrameBlock::lightEnds
     int shadows = 0;         // maps that ShadowPass::bind() has bound
     ShadingModel model;      // its choices; the numbers are in the scene's model block
+    SurfaceOutput output = SurfaceOutput::Picture;
 };
 
 class SurfacePass {
@@ -33,14 +38,16 @@ class SurfacePass {
                             const SurfaceSettings& settings);
     Result<void> drawBlended(const GpuScene& scene, const DrawList& list,
                              const SurfaceSettings& settings);
-
-  private:
+    // Depth test and blending as they are.
     Result<void> draw(const GpuScene& scene, const std::vector<const DrawItem*>& items,
                       const SurfaceSettings& settings);
+
+  private:
     Result<const gl::Program*> program(unsigned features, const SurfaceSettings& settings);
 
-    // What tells two variants apart: features, the choices of the model, the unrolled lights.
-    using Variant = std::array<unsigned, 3>;
+    // What tells two variants apart: features, the choices of the model, the unrolled lights, the
+    // output.
+    using Variant = std::array<unsigned, 4>;
 
     ShaderLibrary& m_shaders;
     std::vector<std::string> m_studyDefines;

@@ -52,6 +52,19 @@ Result<void> Targets::resize(gl::Context& context, int width, int height, int sa
     return {};
 }
 
+Result<const gl::Framebuffer*> Targets::dataTarget(gl::Context& context) {
+    if (m_dataTarget.empty()) {
+        m_data =
+            gl::Texture(context, "view data",
+                        {.format = gl::PixelFormat::Rgba32f, .width = m_width, .height = m_height});
+        auto made = gl::Framebuffer::create(context, "view data", {&m_data}, &m_depth);
+        if (!made)
+            return made.error();
+        m_dataTarget = std::move(*made);
+    }
+    return &m_dataTarget;
+}
+
 void Targets::resolve() const {
     if (m_samples > 1)
         m_multisampled.resolveTo(m_resolved, true);

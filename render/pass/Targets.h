@@ -26,10 +26,15 @@ class Targets {
     [[nodiscard]] const gl::Framebuffer& display() const { return m_display; }
     [[nodiscard]] const gl::Texture& displayed() const { return m_displayed; } // RGBA8, sRGB values
 
+    // Numbers of a view instead of radiance: RGBA32F with the depth of the resolved scene. Made
+    // when first asked for. Error Internal from the driver.
+    Result<const gl::Framebuffer*> dataTarget(gl::Context& context);
+    [[nodiscard]] const gl::Texture& data() const { return m_data; } // once there is a target
+
   private:
     int m_width = 0, m_height = 0, m_samples = 0;
-    gl::Texture m_linearSamples, m_depthSamples, m_linear, m_depth, m_displayed;
-    gl::Framebuffer m_multisampled, m_resolved, m_display;
+    gl::Texture m_linearSamples, m_depthSamples, m_linear, m_depth, m_displayed, m_data;
+    gl::Framebuffer m_multisampled, m_resolved, m_display, m_dataTarget;
 };
 
 } // namespace patina::render

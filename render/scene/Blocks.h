@@ -11,8 +11,9 @@
 namespace patina::render {
 
 inline constexpr unsigned kFrameBinding = 0, kInstanceBinding = 1, kMaterialBinding = 2,
-                          kModelBinding = 3, kShadowBinding = 4;
-inline constexpr unsigned kVisibilityBinding = 0, kTransferBinding = 1; // storage blocks
+                          kModelBinding = 3, kShadowBinding = 4, kViewsBinding = 6;
+inline constexpr unsigned kVisibilityBinding = 0, kTransferBinding = 1,
+                          kRecordsBinding = 2; // storage blocks
 inline constexpr int kMaxLights = 16;
 inline constexpr int kMaxShadows = 4;        // lights that have a shadow map
 inline constexpr int kMaxTransferCount = 25; // order 5
@@ -54,7 +55,7 @@ struct InstanceBlock {
     float handedness = 1.0f;
     std::int32_t transferCount = 0;
     std::uint32_t id = 0;
-    std::uint32_t reserved = 0;
+    std::uint32_t materialId = 0;
 };
 static_assert(sizeof(InstanceBlock) == 144);
 
@@ -84,5 +85,23 @@ struct ModelBlock {
     glm::vec4 conductorK{1.0f}; // rgb, ior
 };
 static_assert(sizeof(ModelBlock) == 32);
+
+// shaders/include/views.glsl.
+struct ViewsBlock {
+    std::array<std::int32_t, 8> kinds{-1, -1, -1, -1, -1, -1, -1, -1};
+    std::array<std::int32_t, 8> modes{};
+    glm::vec4 terms{1.0f};
+    float emissionTerm = 1.0f;
+    std::int32_t light = -1;
+    std::int32_t flat = 0;
+    std::int32_t halfFloats = 0;
+    glm::vec4 furnace{0.0f};
+};
+static_assert(sizeof(ViewsBlock) == 112);
+
+struct LightRecordBlock {
+    glm::vec4 toLight, arriving, diffuse, specular;
+};
+static_assert(sizeof(LightRecordBlock) == 64);
 
 } // namespace patina::render

@@ -27,6 +27,7 @@ InstanceBlock packInstance(const MeshInstance& mesh, int transferCount) {
     block.normalToWorld = glm::mat4(invertible ? glm::inverseTranspose(linear) : linear);
     block.transferCount = transferCount;
     block.id = mesh.id;
+    block.materialId = mesh.material;
     return block;
 }
 

@@ -63,14 +63,27 @@ std::vector<const Light*> shiningLights(const Document& document) {
     return lights;
 }
 
-} // namespace
-
-void packLights(const Document& document, std::span<const Id> shadowSlots, FrameBlock& frame) {
+// Those that the frame has room for, in its order.
+std::vector<const Light*> packedLights(const Document& document) {
     std::vector<const Light*> lights = shiningLights(document);
     lights.resize(std::min(lights.size(), std::size_t{kMaxLights})); // the caller has said so
     std::stable_sort(lights.begin(), lights.end(), [](const Light* a, const Light* b) {
         return loopOf(a->type) < loopOf(b->type);
     });
+    return lights;
+}
+
+} // namespace
+
+std::vector<Id> lightOrder(const Document& document) {
+    std::vector<Id> ids;
+    for (const Light* light : packedLights(document))
+        ids.push_back(light->id);
+    return ids;
+}
+
+void packLights(const Document& document, std::span<const Id> shadowSlots, FrameBlock& frame) {
+    const std::vector<const Light*> lights = packedLights(document);
     frame.lightEnds = glm::ivec4(0);
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const bool casts = canCastShadow(lights[i]->type) && lights[i]->castsShadow;

@@ -14,6 +14,9 @@ namespace patina::render {
 // At most kMaxLights are taken, in the document's order.
 void packLights(const Document& document, std::span<const Id> shadowSlots, FrameBlock& frame);
 
+// The lights of the frame by their place in it.
+[[nodiscard]] std::vector<Id> lightOrder(const Document& document);
+
 // Whether more lights shine than packLights() takes.
 [[nodiscard]] bool tooManyLights(const Document& document);
 

@@ -1,6 +1,7 @@
 // Everything the shader computed at one pixel, in its own numbers.
 #pragma once
 
+#include "core/document/ToneResponse.h"
 #include "core/document/Views.h"
 #include "core/material/Material.h"
 
@@ -28,7 +29,8 @@ struct Inspection {
     std::array<glm::vec4, shading::kViewCount> contributions{}; // radiance
     std::vector<LightShare> lights;                             // shining, in the document's order
     glm::vec4 radiance{0.0f};  // of the picture before exposure, premultiplied
-    glm::vec3 exposed{0.0f};   // after exposure
+    Luminance luminance;       // what exposure goes by, where it is automatic
+    glm::vec3 exposed{0.0f};   // after exposure, before the tone curve
     glm::vec4 displayed{0.0f}; // 0…1, encoded, as on the screen (straight alpha)
 
     [[nodiscard]] bool onSurface() const { return mesh != 0; }

@@ -8,6 +8,7 @@ layout(std140, binding = 1) uniform Instance {
     float u_handedness;   // -1 when the transform mirrors
     int u_transferCount;  // transfer coefficients per vertex
     uint u_id;
+    uint u_materialId;
 };
 
 #endif

@@ -77,7 +77,8 @@ PT_CONST int kRecordSpecularOcclusion = 53;
 PT_CONST int kRecordDfgMean = 54;
 PT_CONST int kRecordLobeDirection = 55;
 PT_CONST int kRecordToLight = 56;
+PT_CONST int kRecordEnergyCompensation = 57;
 
-PT_CONST int kRecordCount = 57;
+PT_CONST int kRecordCount = 58;
 
 #endif

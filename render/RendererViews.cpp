@@ -1,0 +1,353 @@
+// Views of the shading equation's terms, thumbnails of them, and the explanation of a pixel.
+#include "render/RendererImpl.h"
+
+#include "core/base/Check.h"
+#include "render/scene/LightBlocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <epoxy/gl.h>
+#include <glm/trigonometric.hpp>
+
+namespace patina::render {
+namespace {
+
+using namespace shading;
+
+// The half-plane right of the limit, in pixels from the bottom left: see shaders/include/side.glsl.
+glm::vec3 rightOf(const ViewSplit& split, int width, int height) {
+    const float angle = glm::radians(split.angleDeg);
+    const glm::vec2 normal(std::cos(angle), -std::sin(angle));
+    const glm::vec2 through(split.position.x * static_cast<float>(width),
+                            (1.0f - split.position.y) * static_cast<float>(height));
+    return {normal, -glm::dot(normal, through)};
+}
+
+// Whether the ordinary program of surface.frag draws it.
+bool isOrdinary(const ViewSettings& view, const ViewChoice& choice) {
+    const bool allTerms =
+        std::all_of(view.terms.begin(), view.terms.end(), [](bool on) { return on; });
+    return allTerms && !view.furnace && choice.mode == ViewMode::Raw &&
+           recordedFor(choice.kind) == kViewFinal && choice.kind != kViewFlat;
+}
+
+// Whether what is recorded is radiance with the opacity of its surface, to be laid over what is
+// behind; other numbers stand alone.
+bool blends(const ViewChoice& choice) {
+    return choice.mode == ViewMode::Contribution ||
+           viewInfo(recordedFor(choice.kind)).value == ViewValue::Radiance;
+}
+
+// With the sky behind: what is made of the whole picture.
+bool hasBackground(const ViewChoice& choice) {
+    return choice.mode == ViewMode::Raw && recordedFor(choice.kind) == kViewFinal;
+}
+
+} // namespace
+
+ViewsBlock Renderer::Impl::viewsBlock(const ViewSettings& view, std::span<const ViewChoice> choices,
+                                      bool halfFloats) const {
+    CHECK(choices.size() <= 8);
+    ViewsBlock block;
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+        block.kinds[i] = recordedFor(choices[i].kind);
+        block.modes[i] = choices[i].mode == ViewMode::Contribution ? 1 : 0;
+        block.flat |= choices[i].kind == kViewFlat ? 1 : 0;
+    }
+    const auto on = [&](int i) { return view.terms[static_cast<std::size_t>(i)] ? 1.0f : 0.0f; };
+    block.terms = {on(0), on(1), on(2), on(3)};
+    block.emissionTerm = on(4);
+    const std::vector<Id> order = lightOrder(scene.document());
+    const auto chosen = std::find(order.begin(), order.end(), view.light);
+    if (view.light != 0 && chosen != order.end())
+        block.light = static_cast<int>(chosen - order.begin());
+    block.halfFloats = halfFloats ? 1 : 0;
+    if (view.furnace)
+        block.furnace = glm::vec4(*view.furnace, 1.0f);
+    return block;
+}
+
+Result<void> Renderer::Impl::drawNumbers(const FrameSettings& frame, const FrameBlock& block,
+                                         const gl::Framebuffer& target, const ViewsBlock& settings,
+                                         bool asPicture, SurfaceOutput output) {
+    views.setBlock(settings);
+    if (asPicture)
+        return drawPicture(frame, block, target, output, settings.kinds[0] == kViewFinal);
+    shadows.bind();
+    const DrawList list = makeDrawList(scene.items(), block.worldToClip, frame.camera.position());
+    target.bind();
+    constexpr std::array<float, 4> kNothing{};
+    for (int i = 0; i < (output == SurfaceOutput::EightViews ? 8 : 1); ++i)
+        glClearNamedFramebufferfv(target.id(), GL_COLOR, i, kNothing.data());
+    target.clearDepth(1.0f);
+    // Blended surfaces, too, stand for themselves.
+    if (auto done = surface.drawOpaque(scene, list, surfaceSettings(block, output)); !done)
+        return done;
+    return surface.draw(scene, list.blended, surfaceSettings(block, output));
+}
+
+Result<ViewRange> Renderer::Impl::rangeFor(const ViewChoice& choice, const gl::Texture& values) {
+    const ViewInfo& info = viewInfo(choice.kind);
+    ViewRange range{info.rangeMin, info.rangeMax};
+    if (choice.range) {
+        range = *choice.range;
+    } else if (info.automaticRange) {
+        const auto measured = views.measure(values, info.logarithmic);
+        if (!measured)
+            return measured.error();
+        if (*measured)
+            range = **measured;
+    }
+    // A single value lies in the middle of a range of its own.
+    if (!(range.max > range.min)) {
+        const float half = std::max(std::abs(range.min) * 0.05f, 1e-6f);
+        range = info.logarithmic ? ViewRange{range.min / 1.1f, range.min * 1.1f}
+                                 : ViewRange{range.min - half, range.min + half};
+    }
+    if (info.logarithmic)
+        range.min = std::max(range.min, range.max * 1e-6f);
+    return range;
+}
+
+Result<void> Renderer::Impl::drawSide(const FrameSettings& frame, const ViewChoice& choice,
+                                      const glm::vec3& side, bool drawsScene) {
+    const ViewInfo& info = viewInfo(choice.kind);
+    const View& look = scene.document().view;
+    const bool ordinary = isOrdinary(frame.view, choice);
+    if (showsRadiance(choice)) {
+        if (drawsScene) {
+            views.setBlock(viewsBlock(frame.view, std::span(&choice, 1), true));
+            if (auto done = drawPicture(frame, lastBlock, targets.scene(),
+                                        ordinary ? SurfaceOutput::Picture : SurfaceOutput::OneView,
+                                        hasBackground(choice));
+                !done)
+                return done;
+            targets.resolve();
+            luminanceIsNew = ordinary;
+        }
+        // The eye is used to the picture, not to one of its terms.
+        if (ordinary)
+            if (auto done = adapt(frame); !done)
+                return done;
+        adaptation.bind();
+        if (auto done = screen.toneMap(
+                targets.linear(), targets.display(), look,
+                {.dither = frame.dither, .markClipped = choice.kind == kViewClipped, .side = side});
+            !done)
+            return done;
+        if (choice.kind != kViewWireframe)
+            return {};
+        return wires.draw(
+            makeDrawList(scene.items(), lastBlock.worldToClip, frame.camera.position()), side,
+            frame.width, frame.height, targets.display());
+    }
+    const auto target = targets.dataTarget(context);
+    if (!target)
+        return target.error();
+    if (drawsScene)
+        if (auto done = drawNumbers(frame, lastBlock, **target,
+                                    viewsBlock(frame.view, std::span(&choice, 1), false),
+                                    blends(choice), SurfaceOutput::OneView);
+            !done)
+            return done;
+    const auto range = rangeFor(choice, targets.data());
+    if (!range)
+        return range.error();
+    if (info.value == ViewValue::Scalar || choice.kind == kViewLuminance)
+        shownRange = *range;
+    adaptation.bind();
+    return views.show(targets.data(), info, *range, look, side, frame.view.flags,
+                      targets.display());
+}
+
+Result<void> Renderer::Impl::drawViews(const FrameSettings& frame, bool drawsScene) {
+    shownRange.reset();
+    // Exposure follows the whole picture, even where only a term of it is shown.
+    if (needsLuminance(scene.document().view) && !luminanceKnown &&
+        !isOrdinary(frame.view, frame.view.shown)) {
+        if (auto done =
+                drawPicture(frame, lastBlock, targets.scene(), SurfaceOutput::Picture, true);
+            !done)
+            return done;
+        targets.resolve();
+        luminanceIsNew = true;
+        if (auto done = adapt(frame); !done)
+            return done;
+    }
+    const std::optional<ViewSplit>& split = frame.view.split;
+    if (!split)
+        return drawSide(frame, frame.view.shown, glm::vec3(0.0f), drawsScene);
+    const glm::vec3 right = rightOf(*split, frame.width, frame.height);
+    if (auto done = drawSide(frame, split->other, right, true); !done)
+        return done;
+    shownRange.reset();
+    return drawSide(frame, frame.view.shown, -right, true);
+}
+
+Result<void> Renderer::Impl::showOnSheet(const FrameSettings& frame, const FrameBlock& block,
+                                         const ViewChoice& choice, const gl::Texture& values) {
+    const View& look = scene.document().view;
+    adaptation.bind();
+    if (!showsRadiance(choice)) {
+        const auto range = rangeFor(choice, values);
+        if (!range)
+            return range.error();
+        return views.show(values, viewInfo(choice.kind), *range, look, glm::vec3(0.0f), 1.0f,
+                          sheet.display());
+    }
+    if (auto done = screen.toneMap(values, sheet.display(), look,
+                                   {.markClipped = choice.kind == kViewClipped});
+        !done)
+        return done;
+    if (choice.kind != kViewWireframe)
+        return {};
+    return wires.draw(makeDrawList(scene.items(), block.worldToClip, frame.camera.position()),
+                      glm::vec3(0.0f), frame.width, frame.height, sheet.display());
+}
+
+std::optional<ViewRange> Renderer::shownRange() const {
+    return m_impl->shownRange;
+}
+
+Result<Image> Renderer::readView(ViewKind kind, ViewMode mode) {
+    Impl& r = *m_impl;
+    CHECK(r.targets.width() > 0);
+    const auto target = r.targets.dataTarget(r.context);
+    if (!target)
+        return target.error();
+    r.beginGl();
+    r.useFrame(r.lastBlock);
+    const ViewChoice choice{kind, mode, {}};
+    Result<void> done = r.drawNumbers(r.lastFrame, r.lastBlock, **target,
+                                      r.viewsBlock(r.lastFrame.view, std::span(&choice, 1), false),
+                                      blends(choice), SurfaceOutput::OneView);
+    Image image;
+    if (done) {
+        image =
+            Image(r.targets.width(), r.targets.height(), 4, PixelType::F32, ColorEncoding::Linear);
+        const auto values = r.targets.data().readFloats(4);
+        std::copy(values.begin(), values.end(), image.f32().begin());
+        flipRows(image);
+    }
+    r.endGl(0);
+    // The numbers of the last frame's own view are gone.
+    r.sceneIsNew = true;
+    if (!done)
+        return done.error();
+    return image;
+}
+
+Result<std::vector<Image>> Renderer::drawSheet(const FrameSettings& frame, const ViewSheet& sheet) {
+    Impl& r = *m_impl;
+    if (auto sized = r.sheet.resize(r.context, sheet.width, sheet.height); !sized)
+        return sized.error();
+    FrameSettings small = frame;
+    small.width = sheet.width;
+    small.height = sheet.height;
+    small.samples = 1;
+    r.beginGl();
+    Result<void> done = r.shadows.update(r.scene);
+    const FrameBlock block = r.packFrame(small);
+    r.useFrame(block);
+
+    std::vector<Image> pictures;
+    std::size_t next = 0;
+    while (done && next < sheet.kinds.size()) {
+        // Flat shading changes every term: it has a pass of its own.
+        std::vector<ViewChoice> choices;
+        while (next < sheet.kinds.size() && choices.size() < SheetTargets::kViews) {
+            const bool flat = sheet.kinds[next] == kViewFlat;
+            if (flat && !choices.empty())
+                break;
+            choices.push_back({sheet.kinds[next++], sheet.mode, {}});
+            if (flat)
+                break;
+        }
+        done =
+            r.drawNumbers(small, block, r.sheet.numbers(), r.viewsBlock(small.view, choices, false),
+                          false, SurfaceOutput::EightViews);
+        for (std::size_t i = 0; done && i < choices.size(); ++i) {
+            done = r.showOnSheet(small, block, choices[i], r.sheet.values(i));
+            if (done)
+                pictures.push_back(r.sheet.readDisplayed());
+        }
+    }
+    r.useFrame(r.lastBlock);
+    r.endGl(0);
+    if (!done)
+        return done.error();
+    return pictures;
+}
+
+Result<Inspection> Renderer::inspect(int x, int y) {
+    Impl& r = *m_impl;
+    Inspection result;
+    result.x = x;
+    result.y = y;
+    result.width = r.targets.width();
+    result.height = r.targets.height();
+    CHECK(x >= 0 && y >= 0 && x < result.width && y < result.height);
+    const int fromBottom = result.height - 1 - y;
+    r.beginGl();
+    r.useFrame(r.lastBlock);
+    const auto inspectSurface = [&]() -> Result<void> {
+        const Result<Id> id = r.picking.pick(r.scene, r.lastBlock.worldToClip, result.width,
+                                             result.height, x, fromBottom);
+        if (!id)
+            return id.error();
+        const auto& items = r.scene.items();
+        const auto item = std::find_if(items.begin(), items.end(),
+                                       [&](const DrawItem& i) { return i.id == *id; });
+        if (item == items.end())
+            return {};
+        result.mesh = *id;
+        result.material = r.scene.document().mesh(*id)->material;
+        r.views.setBlock(r.viewsBlock(r.lastFrame.view, {}, false));
+        r.shadows.bind();
+        return r.inspection.draw(r.scene, *item, r.picking, r.surface,
+                                 r.surfaceSettings(r.lastBlock, SurfaceOutput::Inspection), x,
+                                 fromBottom, result);
+    };
+    const auto inspectPicture = [&]() -> Result<void> {
+        const auto target = r.targets.dataTarget(r.context);
+        if (!target)
+            return target.error();
+        const ViewChoice final;
+        glScissor(x, fromBottom, 1, 1);
+        glEnable(GL_SCISSOR_TEST);
+        Result<void> done =
+            r.drawNumbers(r.lastFrame, r.lastBlock, **target,
+                          r.viewsBlock(r.lastFrame.view, std::span(&final, 1), false), true,
+                          SurfaceOutput::OneView);
+        if (done) {
+            r.adaptation.bind();
+            done = r.screen.toneMap(r.targets.data(), r.targets.display(), r.scene.document().view,
+                                    {});
+        }
+        glDisable(GL_SCISSOR_TEST);
+        if (!done)
+            return done;
+        glPixelStorei(GL_PACK_ALIGNMENT, 1);
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, (*target)->id());
+        glReadPixels(x, fromBottom, 1, 1, GL_RGBA, GL_FLOAT, &result.radiance);
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, r.targets.display().id());
+        glReadPixels(x, fromBottom, 1, 1, GL_RGBA, GL_FLOAT, &result.displayed);
+        return {};
+    };
+    Result<void> done = inspectSurface();
+    if (done)
+        done = inspectPicture();
+    const View& view = r.scene.document().view;
+    if (needsLuminance(view))
+        result.luminance = r.adaptation.read().value_or(Luminance());
+    const float opacity = result.radiance.a > 0.0f ? result.radiance.a : 1.0f;
+    result.exposed = glm::vec3(result.radiance) / opacity * exposureScale(view, result.luminance);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    r.endGl(0);
+    r.sceneIsNew = true; // one pixel of the last frame has changed
+    if (!done)
+        return done.error();
+    return result;
+}
+
+} // namespace patina::render
