@@ -1,11 +1,10 @@
-// `patina bake ibl` from the outside, with radiance known in closed form: L(d) = 2 + d, red along
-// x, green along y, blue along z. No two directions are alike, so that a face turned, mirrored or
-// exchanged, a wrong sign of a harmonic or a wrong scale shows. GGX prefiltering multiplies the
-// linear part by lambda_1(alpha), irradiance is 2 pi + 2 pi / 3 n.
+// `patina bake ibl` from the outside, with radiance known in closed form: L(d) = 2 + d. GGX
+// prefiltering multiplies the linear part by lambda_1(alpha), irradiance is 2 pi + 2 pi / 3 n.
 #include "CommandRunner.h"
 #include "core/document/DocumentIO.h"
 #include "core/image/ImageIO.h"
 #include "core/worker/WorkerClient.h"
+#include "tests/support/KnownRadiance.h"
 #include "tests/support/TextureFiles.h"
 
 #include <algorithm>
@@ -29,9 +28,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-// lambda_1 at perceptual roughness 0, 1/4, 1/2, 3/4, 1: closed form of the filter N = V = R with
-// weight N·L (docs/maths/ibl.md).
-constexpr std::array kLambda1 = {1.0, 0.976093, 0.867396, 0.745131, 2.0 / 3.0};
 
 glm::dvec3 along(const glm::dvec3& d) {
     return d;
@@ -39,26 +35,11 @@ glm::dvec3 along(const glm::dvec3& d) {
 
 class BakeIbl : public testing::Test {
   protected:
-    BakeIbl() {
-        writeLatLong(m_folder / "linear.exr", [](const glm::dvec3& d) { return 2.0 + d; });
-    }
+    BakeIbl() { writeLatLong(m_folder / "linear.exr", linearRadiance); }
 
     void writeLatLong(const std::string& file,
                       const std::function<glm::dvec3(const glm::dvec3&)>& radiance) {
-        constexpr int kWidth = 256, kHeight = 128;
-        Image image(kWidth, kHeight, 3, PixelType::F32, ColorEncoding::Linear);
-        for (int y = 0; y < kHeight; ++y)
-            for (int x = 0; x < kWidth; ++x) {
-                const double theta = kPi * (y + 0.5) / kHeight;
-                const double phi = 2 * kPi * ((x + 0.5) / kWidth - 0.5);
-                const glm::dvec3 value = radiance({std::sin(theta) * std::sin(phi), std::cos(theta),
-                                                   -std::sin(theta) * std::cos(phi)});
-                for (int c = 0; c < 3; ++c)
-                    image.f32()[static_cast<std::size_t>((y * kWidth + x) * 3 + c)] =
-                        static_cast<float>(value[c]);
-            }
-        const Result<void> saved = saveImage(m_worker, image, file);
-        EXPECT_TRUE(saved.ok());
+        EXPECT_TRUE(saveImage(m_worker, latLongImage(radiance), file).ok());
     }
 
     Outcome bake(const std::string& input, const std::string& folder,
@@ -199,10 +180,7 @@ TEST_F(BakeIbl, LatLongIsAnImagePerLevel) {
         double worst = 0;
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
-                const double theta = kPi * (y + 0.5) / height;
-                const double phi = 2 * kPi * ((x + 0.5) / width - 0.5);
-                const glm::dvec3 d(std::sin(theta) * std::sin(phi), std::cos(theta),
-                                   -std::sin(theta) * std::cos(phi));
+                const glm::dvec3 d = latLongDirection(x, y, width, height);
                 for (int c = 0; c < 3; ++c)
                     worst =
                         std::max(worst, std::abs(level.sample(x, y, c) - 2 - kLambda1[i] * d[c]));

@@ -5,6 +5,7 @@
 #include "core/image/ImageIO.h"
 #include "core/mesh/MeshImport.h"
 #include "core/worker/WorkerClient.h"
+#include "tests/support/KnownRadiance.h"
 #include "tests/support/TemporaryFolder.h"
 #include "tests/support/TextureFiles.h"
 
@@ -25,20 +26,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-ImagePtr latLong(glm::dvec3 (*radiance)(const glm::dvec3&)) {
-    constexpr int kWidth = 256, kHeight = 128;
-    Image image(kWidth, kHeight, 3, PixelType::F32, ColorEncoding::Linear);
-    for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x) {
-            const double theta = kPi * (y + 0.5) / kHeight;
-            const double phi = 2 * kPi * ((x + 0.5) / kWidth - 0.5);
-            const glm::dvec3 value = radiance({std::sin(theta) * std::sin(phi), std::cos(theta),
-                                               -std::sin(theta) * std::cos(phi)});
-            for (int c = 0; c < 3; ++c)
-                image.f32()[static_cast<std::size_t>((y * kWidth + x) * 3 + c)] =
-                    static_cast<float>(value[c]);
-        }
-    return std::make_shared<const Image>(std::move(image));
+ImagePtr latLong(const std::function<glm::dvec3(const glm::dvec3&)>& radiance) {
+    return std::make_shared<const Image>(latLongImage(radiance));
 }
 
 class GltfEnvironmentFile : public testing::Test {
@@ -130,23 +119,22 @@ class GltfEnvironmentFile : public testing::Test {
 } // namespace
 
 TEST_F(GltfEnvironmentFile, ReconstructsTheFilteredRadiance) {
-    m_document.environment.image = latLong([](const glm::dvec3& d) { return 2.0 + d; });
+    m_document.environment.image = latLong(linearRadiance);
     for (const char* name : {"scene.glb", "scene.gltf"}) {
         exportAndRead(name);
         EXPECT_EQ(m_light["intensity"], 1.0);
         EXPECT_EQ(m_light["name"], "linear");
         EXPECT_EQ(m_light["specularImageSize"], 256);
         ASSERT_EQ(m_light["specularImages"].size(), 5u);
-        // Levels spread evenly over perceptual roughness: lambda_1 at 0, 1/4, 1/2, 3/4, 1.
-        const std::array lambda1 = {1.0, 0.976093, 0.867396, 0.745131, 2.0 / 3.0};
+        // Levels spread evenly over perceptual roughness.
         for (int level = 0; level < 5; ++level) // half a code at 3: 0.9 % of the brightest
-            EXPECT_LT(worstError(level, 2.0, lambda1[static_cast<std::size_t>(level)]), 0.032)
+            EXPECT_LT(worstError(level, 2.0, kLambda1[static_cast<std::size_t>(level)]), 0.032)
                 << level;
     }
 }
 
 TEST_F(GltfEnvironmentFile, IrradianceIsInOrthonormalHarmonics) {
-    m_document.environment.image = latLong([](const glm::dvec3& d) { return 2.0 + d; });
+    m_document.environment.image = latLong(linearRadiance);
     exportAndRead("scene.glb");
     const Json& e = m_light["irradianceCoefficients"];
     ASSERT_EQ(e.size(), 9u);
@@ -176,7 +164,7 @@ TEST_F(GltfEnvironmentFile, AWhiteSkyIsTheAnchor) {
 }
 
 TEST_F(GltfEnvironmentFile, TurnAndBrightnessAreTheLightsOwn) {
-    m_document.environment.image = latLong([](const glm::dvec3& d) { return 2.0 + d; });
+    m_document.environment.image = latLong(linearRadiance);
     m_document.environment.rotationDeg = 90.0f;
     m_document.environment.exposureEv = 3.0f;
     exportAndRead("scene.glb");
