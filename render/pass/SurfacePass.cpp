@@ -44,7 +44,9 @@ unsigned modelKey(const ShadingModel& model) {
 constexpr unsigned kVisibilityUnit = 6, kPrefilteredUnit = 7, kDfgUnit = 8, kLobesUnit = 9;
 
 // A few lights are unrolled into the program, which is much faster on software OpenGL; many, or
-// area lights, whose code is long, run in loops. Zero: loops.
+// area lights, whose code is long, run in loops. Zero: loops. Shadows are unrolled with their
+// lights: a loop would index their visibilities by a variable, which takes llvmpipe longer to
+// compile and to draw.
 glm::ivec4 unrolledEnds(const SurfaceSettings& settings) {
     constexpr int kMostUnrolled = 4;
     const bool few = settings.output == SurfaceOutput::Picture && settings.hasPunctualLights &&
