@@ -3,28 +3,25 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/job/JobManager.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/OutputFile.h"
 #include "core/document/EnvironmentFile.h"
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QDialogButtonBox>
 #include <QDir>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QLabel>
-#include <QLineEdit>
-#include <QPushButton>
 #include <QSettings>
 #include <QSpinBox>
 #include <QStandardPaths>
-#include <QToolButton>
 #include <QVBoxLayout>
 
 namespace patina::editor {
 namespace {
 
 constexpr const char* kFolderKey = "folders/environments";
+constexpr int kOpenExr = 0; // of the formats
 constexpr int kSmallestSize = 2, kLargestSize = 16384;
 
 QString fromPath(const std::filesystem::path& path) {
@@ -38,20 +35,20 @@ QString suggestedPath() {
         .filePath(QStringLiteral("environment.exr"));
 }
 
-template <class Widget>
-Widget* withHelp(Widget* widget, const QString& help) {
-    widget->setToolTip(help);
-    widget->setAccessibleDescription(help);
-    return widget;
-}
-
 } // namespace
 
 EnvironmentSaveDialog::EnvironmentSaveDialog(DocumentController& controller, JobManager& jobs,
                                              QWidget* parent)
     : QDialog(parent)
     , m_controller(controller)
-    , m_jobs(jobs) {
+    , m_jobs(jobs)
+    , m_output(new OutputFile(
+          QStringLiteral("environmentSave"),
+          {{tr("OpenEXR (32-bit float)"), QStringLiteral("exr"), QStringLiteral("OpenEXR")},
+           {tr("Radiance HDR"), QStringLiteral("hdr"), QStringLiteral("Radiance HDR")}},
+          suggestedPath(), *this)) {
+    connect(m_output, &OutputFile::changed, this, &EnvironmentSaveDialog::refresh);
+    connect(m_output, &OutputFile::accepted, this, &EnvironmentSaveDialog::run);
     setObjectName(QStringLiteral("environmentSaveDialog"));
     setWindowTitle(tr("Save Environment As"));
     resize(620, 300);
@@ -65,14 +62,7 @@ EnvironmentSaveDialog::EnvironmentSaveDialog(DocumentController& controller, Job
     layout->addWidget(m_summary);
     layout->addStretch(1);
 
-    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
-    m_save = buttons->addButton(tr("Save"), QDialogButtonBox::AcceptRole);
-    m_save->setObjectName(QStringLiteral("environmentSaveRun"));
-    m_save->setProperty("primary", true);
-    m_save->setDefault(true);
-    layout->addWidget(buttons);
-    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-    connect(m_save, &QPushButton::clicked, this, &EnvironmentSaveDialog::run);
+    m_output->addButtons(*layout, tr("Save"));
     layoutChosen();
 }
 
@@ -92,32 +82,14 @@ QWidget* EnvironmentSaveDialog::makeSettings() {
         m_layout->addItem(QString::fromUtf8(label.data(), static_cast<qsizetype>(label.size())), i);
     }
     form->addRow(tr("&Layout"), m_layout);
-    m_format =
-        withHelp(new QComboBox, tr("OpenEXR is exact, Radiance smaller and read everywhere"));
-    m_format->setObjectName(QStringLiteral("environmentSaveFormat"));
-    m_format->addItem(tr("OpenEXR (32-bit float)"), QStringLiteral("exr"));
-    m_format->addItem(tr("Radiance HDR"), QStringLiteral("hdr"));
-    form->addRow(tr("&Format"), m_format);
+    m_output->addFormatRow(*form, tr("OpenEXR is exact, Radiance smaller and read everywhere"));
     m_size = withHelp(new QSpinBox, tr("Width of a lat-long, diameter of a disc, side of a face"));
     m_size->setObjectName(QStringLiteral("environmentSaveSize"));
     m_size->setRange(kSmallestSize, kLargestSize);
     m_size->setSuffix(tr(" px"));
     form->addRow(tr("&Size"), m_size);
 
-    m_path = withHelp(new QLineEdit(suggestedPath()), tr("Where to write it"));
-    m_path->setObjectName(QStringLiteral("environmentSavePath"));
-    auto* choose = withHelp(new QToolButton, tr("Choose the file"));
-    choose->setText(tr("Browse…"));
-    choose->setObjectName(QStringLiteral("raised"));
-    choose->setAccessibleName(tr("Browse for the environment file"));
-    auto* pathRow = new QHBoxLayout;
-    pathRow->setSpacing(tokens::kGap);
-    pathRow->addWidget(m_path, 1);
-    pathRow->addWidget(choose);
-    auto* pathLabel = new QLabel(tr("Fi&le"));
-    pathLabel->setBuddy(m_path);
-    form->addRow(pathLabel, pathRow);
-
+    m_output->addFileRow(*form);
     m_asShown = withHelp(new QCheckBox(tr("Turned and brightened as in the scene")),
                          tr("Applies the environment's rotation and brightness to the file"));
     m_asShown->setObjectName(QStringLiteral("environmentSaveAsShown"));
@@ -130,42 +102,18 @@ QWidget* EnvironmentSaveDialog::makeSettings() {
     form->addRow(QString(), m_envmap);
 
     connect(m_layout, &QComboBox::currentIndexChanged, this, &EnvironmentSaveDialog::layoutChosen);
-    connect(m_format, &QComboBox::currentIndexChanged, this, &EnvironmentSaveDialog::formatChosen);
     connect(m_size, &QSpinBox::valueChanged, this, &EnvironmentSaveDialog::refresh);
-    connect(m_path, &QLineEdit::textChanged, this, &EnvironmentSaveDialog::refresh);
     connect(m_envmap, &QCheckBox::toggled, this, &EnvironmentSaveDialog::refresh);
-    connect(choose, &QToolButton::clicked, this, &EnvironmentSaveDialog::browse);
     return widget;
 }
 
 EnvironmentSaveSettings EnvironmentSaveDialog::settings() const {
     EnvironmentSaveSettings settings;
-    settings.output = QFile::encodeName(m_path->text().trimmed()).toStdString();
+    settings.output = QFile::encodeName(m_output->path()).toStdString();
     settings.layout = static_cast<EnvironmentLayout>(m_layout->currentData().toInt());
     settings.size = m_size->value();
     settings.openExrEnvmap = m_envmap->isEnabled() && m_envmap->isChecked();
     return settings;
-}
-
-void EnvironmentSaveDialog::browse() {
-    const QString file = QFileDialog::getSaveFileName(
-        this, tr("Save Environment As"), m_path->text(),
-        tr("OpenEXR (*.exr);;Radiance HDR (*.hdr)"), nullptr,
-        QFileDialog::DontConfirmOverwrite); // the dialog says what is overwritten
-    if (file.isEmpty())
-        return;
-    m_path->setText(file);
-    const int format = m_format->findData(QFileInfo(file).suffix().toLower());
-    if (format >= 0)
-        m_format->setCurrentIndex(format);
-}
-
-// The extension follows the format.
-void EnvironmentSaveDialog::formatChosen() {
-    const QFileInfo info(m_path->text());
-    m_path->setText(info.dir().filePath(info.completeBaseName() + QLatin1Char('.') +
-                                        m_format->currentData().toString()));
-    refresh();
 }
 
 void EnvironmentSaveDialog::layoutChosen() {
@@ -178,7 +126,7 @@ void EnvironmentSaveDialog::layoutChosen() {
 
 void EnvironmentSaveDialog::refresh() {
     const EnvironmentSaveSettings wanted = settings();
-    m_envmap->setEnabled(m_format->currentData().toString() == QLatin1String("exr") &&
+    m_envmap->setEnabled(m_output->format() == kOpenExr &&
                          (wanted.layout == EnvironmentLayout::LatLong ||
                           wanted.layout == EnvironmentLayout::VerticalStrip));
     const auto files = environmentOutputs(settings());
@@ -206,8 +154,7 @@ void EnvironmentSaveDialog::refresh() {
     m_summary->setStyleSheet(overwrites || !possible
                                  ? QStringLiteral("color: %1").arg(QColor(tokens::kCopper).name())
                                  : QString());
-    m_save->setEnabled(possible);
-    m_save->setText(overwrites ? tr("Overwrite") : tr("Save"));
+    m_output->setRunnable(possible, overwrites ? tr("Overwrite") : tr("Save"));
 }
 
 void EnvironmentSaveDialog::run() {
@@ -217,8 +164,8 @@ void EnvironmentSaveDialog::run() {
         environment.rotationDeg = 0.0f;
         environment.exposureEv = 0.0f;
     }
-    QSettings().setValue(kFolderKey, QFileInfo(m_path->text()).absolutePath());
-    m_jobs.start(tr("Save environment: %1").arg(QFileInfo(m_path->text()).fileName()), false,
+    QSettings().setValue(kFolderKey, QFileInfo(m_output->path()).absolutePath());
+    m_jobs.start(tr("Save environment: %1").arg(QFileInfo(m_output->path()).fileName()), false,
                  [environment, wanted = settings(), worker = &m_controller.worker(),
                   controller = &m_controller](const JobContext& job) -> JobOutcome {
                      const auto written = saveEnvironment(*worker, environment, wanted, job);

@@ -8,14 +8,13 @@
 class QCheckBox;
 class QComboBox;
 class QLabel;
-class QLineEdit;
-class QPushButton;
 class QSpinBox;
 
 namespace patina::editor {
 
 class DocumentController;
 class JobManager;
+class OutputFile;
 
 class EnvironmentSaveDialog : public QDialog {
     Q_OBJECT
@@ -25,8 +24,6 @@ class EnvironmentSaveDialog : public QDialog {
 
   private:
     QWidget* makeSettings();
-    void browse();
-    void formatChosen();
     void layoutChosen();
     void refresh(); // shows what will be written, or why not
     void run();
@@ -34,14 +31,12 @@ class EnvironmentSaveDialog : public QDialog {
 
     DocumentController& m_controller;
     JobManager& m_jobs;
-    QComboBox* m_format = nullptr;
+    OutputFile* m_output;
     QComboBox* m_layout = nullptr;
     QSpinBox* m_size = nullptr;
-    QLineEdit* m_path = nullptr;
     QCheckBox* m_asShown = nullptr;
     QCheckBox* m_envmap = nullptr;
     QLabel* m_summary = nullptr;
-    QPushButton* m_save = nullptr;
 };
 
 } // namespace patina::editor

@@ -3,21 +3,17 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/job/JobManager.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/OutputFile.h"
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QDialogButtonBox>
 #include <QDir>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QHeaderView>
 #include <QLabel>
-#include <QLineEdit>
-#include <QPushButton>
 #include <QStandardPaths>
 #include <QTableWidget>
-#include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -47,19 +43,18 @@ QString containerOf(const PlannedFile& file) {
     return name.left(name.lastIndexOf(QLatin1Char('#')));
 }
 
-template <class Widget>
-Widget* withHelp(Widget* widget, const QString& help) {
-    widget->setToolTip(help);
-    widget->setAccessibleDescription(help);
-    return widget;
-}
-
 } // namespace
 
 ExportDialog::ExportDialog(DocumentController& controller, JobManager& jobs, QWidget* parent)
     : QDialog(parent)
     , m_controller(controller)
-    , m_jobs(jobs) {
+    , m_jobs(jobs)
+    , m_output(new OutputFile(QStringLiteral("export"),
+                              {{tr("GLB (one file)"), QStringLiteral("glb"), tr("glTF binary")},
+                               {tr("glTF (separate files)"), QStringLiteral("gltf"), tr("glTF")}},
+                              suggestedPath(controller), *this)) {
+    connect(m_output, &OutputFile::changed, this, &ExportDialog::refresh);
+    connect(m_output, &OutputFile::accepted, this, &ExportDialog::run);
     setObjectName(QStringLiteral("exportDialog"));
     setWindowTitle(tr("Export"));
     resize(860, 560);
@@ -93,14 +88,7 @@ ExportDialog::ExportDialog(DocumentController& controller, JobManager& jobs, QWi
     m_warnings->setStyleSheet(QStringLiteral("color: %1").arg(QColor(tokens::kCopper).name()));
     layout->addWidget(m_warnings);
 
-    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
-    m_export = buttons->addButton(tr("Export"), QDialogButtonBox::AcceptRole);
-    m_export->setObjectName(QStringLiteral("exportRun"));
-    m_export->setProperty("primary", true);
-    m_export->setDefault(true);
-    layout->addWidget(buttons);
-    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-    connect(m_export, &QPushButton::clicked, this, &ExportDialog::run);
+    m_output->addButtons(*layout, tr("Export"));
     refresh();
 }
 
@@ -112,26 +100,8 @@ QWidget* ExportDialog::makeSettings() {
     form->setVerticalSpacing(tokens::kGap);
     form->setFieldGrowthPolicy(QFormLayout::ExpandingFieldsGrow);
 
-    m_format = withHelp(new QComboBox, tr("One binary file, or a .gltf with its files beside it"));
-    m_format->setObjectName(QStringLiteral("exportFormat"));
-    m_format->addItem(tr("GLB (one file)"), static_cast<int>(ExportFormat::Glb));
-    m_format->addItem(tr("glTF (separate files)"), static_cast<int>(ExportFormat::Gltf));
-    form->addRow(tr("&Format"), m_format);
-
-    m_path = withHelp(new QLineEdit(suggestedPath(m_controller)), tr("Where to write it"));
-    m_path->setObjectName(QStringLiteral("exportPath"));
-    auto* choose = withHelp(new QToolButton, tr("Choose the file"));
-    choose->setText(tr("Browse…"));
-    choose->setObjectName(QStringLiteral("raised"));
-    choose->setAccessibleName(tr("Browse for the export file"));
-    auto* pathRow = new QHBoxLayout;
-    pathRow->setSpacing(tokens::kGap);
-    pathRow->addWidget(m_path, 1);
-    pathRow->addWidget(choose);
-    auto* pathLabel = new QLabel(tr("Fi&le"));
-    pathLabel->setBuddy(m_path);
-    form->addRow(pathLabel, pathRow);
-
+    m_output->addFormatRow(*form, tr("One binary file, or a .gltf with its files beside it"));
+    m_output->addFileRow(*form);
     m_textures = withHelp(new QComboBox, tr("PNG loses nothing, JPEG is smaller"));
     m_textures->addItem(tr("PNG"), static_cast<int>(ExportTextureFormat::Png));
     m_textures->addItem(tr("JPEG"), static_cast<int>(ExportTextureFormat::Jpeg));
@@ -157,18 +127,15 @@ QWidget* ExportDialog::makeSettings() {
         connect(box, &QCheckBox::toggled, this, &ExportDialog::refresh);
     }
 
-    connect(m_format, &QComboBox::currentIndexChanged, this, &ExportDialog::formatChosen);
-    connect(m_path, &QLineEdit::textChanged, this, &ExportDialog::refresh);
     connect(m_textures, &QComboBox::currentIndexChanged, this, &ExportDialog::refresh);
     connect(m_size, &QComboBox::currentIndexChanged, this, &ExportDialog::refresh);
-    connect(choose, &QToolButton::clicked, this, &ExportDialog::browse);
     return widget;
 }
 
 ExportSettings ExportDialog::settings() const {
     ExportSettings settings;
-    settings.output = toPath(m_path->text().trimmed());
-    settings.format = static_cast<ExportFormat>(m_format->currentData().toInt());
+    settings.output = toPath(m_output->path());
+    settings.format = m_output->format() == 0 ? ExportFormat::Glb : ExportFormat::Gltf;
     settings.textures = static_cast<ExportTextureFormat>(m_textures->currentData().toInt());
     settings.maxTextureSize = m_size->currentData().toInt();
     settings.includeBakedAo = m_bakedAo->isChecked();
@@ -176,30 +143,6 @@ ExportSettings ExportDialog::settings() const {
     settings.includeEnvironment = m_environment->isChecked();
     settings.visibleOnly = m_visible->isChecked();
     return settings;
-}
-
-void ExportDialog::browse() {
-    const QString file = QFileDialog::getSaveFileName(
-        this, tr("Export to"), m_path->text(), tr("glTF binary (*.glb);;glTF (*.gltf)"), nullptr,
-        QFileDialog::DontConfirmOverwrite); // the table says what is overwritten
-    if (file.isEmpty())
-        return;
-    m_path->setText(file);
-    const bool text = file.endsWith(QStringLiteral(".gltf"), Qt::CaseInsensitive);
-    m_format->setCurrentIndex(
-        m_format->findData(static_cast<int>(text ? ExportFormat::Gltf : ExportFormat::Glb)));
-}
-
-// The extension follows the format.
-void ExportDialog::formatChosen() {
-    const QString extension =
-        settings().format == ExportFormat::Glb ? QStringLiteral(".glb") : QStringLiteral(".gltf");
-    const QFileInfo info(m_path->text());
-    const QString renamed = info.dir().filePath(info.completeBaseName() + extension);
-    if (renamed != m_path->text())
-        m_path->setText(renamed); // refreshes
-    else
-        refresh();
 }
 
 void ExportDialog::refresh() {
@@ -231,16 +174,15 @@ void ExportDialog::refresh() {
         warnings << QString::fromStdString(warning);
     m_warnings->setText(warnings.join(QLatin1Char('\n')));
     m_warnings->setVisible(!warnings.isEmpty());
-    m_export->setEnabled(!m_plan.files.empty() && !m_path->text().trimmed().isEmpty());
-    m_export->setText(std::any_of(m_plan.files.begin(), m_plan.files.end(),
-                                  [](const PlannedFile& file) { return file.overwrites; })
-                          ? tr("Export and overwrite")
-                          : tr("Export"));
+    const bool overwrites = std::any_of(m_plan.files.begin(), m_plan.files.end(),
+                                        [](const PlannedFile& file) { return file.overwrites; });
+    m_output->setRunnable(!m_plan.files.empty() && !m_output->path().isEmpty(),
+                          overwrites ? tr("Export and overwrite") : tr("Export"));
 }
 
 void ExportDialog::run() {
     // The job works on a snapshot: editing goes on meanwhile.
-    m_jobs.start(tr("Export: %1").arg(QFileInfo(m_path->text()).fileName()), false,
+    m_jobs.start(tr("Export: %1").arg(QFileInfo(m_output->path()).fileName()), false,
                  [document = m_controller.document(), plan = m_plan,
                   worker = &m_controller.worker(),
                   controller = &m_controller](const JobContext& job) -> JobOutcome {

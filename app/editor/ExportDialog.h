@@ -8,14 +8,13 @@
 class QCheckBox;
 class QComboBox;
 class QLabel;
-class QLineEdit;
-class QPushButton;
 class QTableWidget;
 
 namespace patina::editor {
 
 class DocumentController;
 class JobManager;
+class OutputFile;
 
 class ExportDialog : public QDialog {
     Q_OBJECT
@@ -26,8 +25,6 @@ class ExportDialog : public QDialog {
 
   private:
     QWidget* makeSettings();
-    void browse();
-    void formatChosen();
     void refresh(); // plans anew and shows the plan
     void run();
     [[nodiscard]] ExportSettings settings() const;
@@ -36,8 +33,7 @@ class ExportDialog : public QDialog {
     JobManager& m_jobs;
     ExportPlan m_plan;
 
-    QComboBox* m_format = nullptr;
-    QLineEdit* m_path = nullptr;
+    OutputFile* m_output;
     QComboBox* m_textures = nullptr;
     QComboBox* m_size = nullptr;
     QCheckBox* m_bakedAo = nullptr;
@@ -46,7 +42,6 @@ class ExportDialog : public QDialog {
     QCheckBox* m_visible = nullptr;
     QTableWidget* m_files = nullptr;
     QLabel* m_warnings = nullptr;
-    QPushButton* m_export = nullptr;
 };
 
 } // namespace patina::editor

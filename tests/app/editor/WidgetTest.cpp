@@ -5,11 +5,16 @@
 #include "app/editor/widget/MapSlotWidget.h"
 #include "app/editor/widget/NoticeArea.h"
 #include "app/editor/widget/NumberField.h"
+#include "app/editor/widget/OutputFile.h"
 #include "app/editor/widget/Slider.h"
 #include "app/editor/widget/Thumbnails.h"
 
 #include <QApplication>
+#include <QComboBox>
+#include <QDialog>
+#include <QFormLayout>
 #include <QLineEdit>
+#include <QPushButton>
 #include <QSignalSpy>
 #include <QTest>
 #include <QToolButton>
@@ -313,6 +318,42 @@ TEST(NoticeAreaTest, StacksCountsAndDismisses) {
     for (int i = 0; i < 20; ++i)
         area.add({NoticeKind::Error, QString::number(i), {}});
     EXPECT_LE(area.bars().size(), 4);
+}
+
+TEST(OutputFileTest, FormatAndExtensionFollowEachOther) {
+    QDialog dialog;
+    QFormLayout form(&dialog);
+    OutputFile output(QStringLiteral("x"),
+                      {{QStringLiteral("Exact"), QStringLiteral("exr"), QStringLiteral("OpenEXR")},
+                       {QStringLiteral("Small"), QStringLiteral("hdr"), QStringLiteral("HDR")}},
+                      QStringLiteral("/a/sky.v2.exr"), dialog);
+    output.addFormatRow(form, QStringLiteral("help"));
+    output.addFileRow(form);
+    output.addButtons(form, QStringLiteral("Save"));
+    auto* format = dialog.findChild<QComboBox*>(QStringLiteral("xFormat"));
+    auto* path = dialog.findChild<QLineEdit*>(QStringLiteral("xPath"));
+    auto* run = dialog.findChild<QPushButton*>(QStringLiteral("xRun"));
+    ASSERT_TRUE(format && path && run);
+    const QSignalSpy changed(&output, &OutputFile::changed);
+    const QSignalSpy accepted(&output, &OutputFile::accepted);
+
+    format->setCurrentIndex(1);
+    EXPECT_EQ(output.path(), QStringLiteral("/a/sky.v2.hdr"));
+    EXPECT_EQ(changed.count(), 1);
+    path->setText(QStringLiteral(" /b/Dawn.EXR "));
+    EXPECT_EQ(output.format(), 0);
+    EXPECT_EQ(output.path(), QStringLiteral("/b/Dawn.EXR")); // as typed
+    EXPECT_EQ(changed.count(), 2);
+    path->setText(QStringLiteral("/b/Dawn.txt")); // of no format
+    EXPECT_EQ(output.format(), 0);
+
+    output.setRunnable(false, QStringLiteral("Save"));
+    run->click();
+    EXPECT_EQ(accepted.count(), 0);
+    output.setRunnable(true, QStringLiteral("Overwrite"));
+    EXPECT_EQ(run->text(), QStringLiteral("Overwrite"));
+    run->click();
+    EXPECT_EQ(accepted.count(), 1);
 }
 
 } // namespace
