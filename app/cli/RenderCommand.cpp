@@ -143,8 +143,14 @@ Result<DisplayTransformPtr> openDisplay(Session& session, const View& view) {
     return std::make_shared<const DisplayTransform>(std::move(*display));
 }
 
-Result<Image> draw(Session& session, const Document& document, const render::FrameSettings& frame,
-                   bool linear) {
+// A renderer that holds the document and its light; the context lives as long as it.
+struct Prepared {
+    std::unique_ptr<gl::Context> context;
+    std::unique_ptr<render::Renderer> renderer;
+};
+
+Result<Prepared> prepare(Session& session, const Document& document,
+                         const render::FrameSettings& frame, bool linear) {
     // Linear pictures need no display.
     Result<DisplayTransformPtr> display =
         linear ? DisplayTransformPtr() : openDisplay(session, document.view);
@@ -169,24 +175,16 @@ Result<Image> draw(Session& session, const Document& document, const render::Fra
     session.beginPhase();
     session.job().setActivity("preparing light");
     if (document.environment.image != nullptr) {
-        const ImagePtr& image = document.environment.image;
-        Result<IblMaps> ibl = computeIbl(*image, {}, session.job());
+        Result<IblMaps> ibl = computeIbl(*document.environment.image, {}, session.job());
         if (!ibl)
             return ibl.error();
-        Result<HalfMipmapsPtr> background = makeBackground(*image, session.job());
-        if (!background)
-            return background.error();
-        (*renderer)->setEnvironment(makeEnvironmentTexels(image, *ibl, std::move(*background)));
+        (*renderer)->setIbl(*ibl);
     }
     if (Result<void> set = (*renderer)->setDisplay(*display); !set)
         return set.error();
     session.job().setActivity("drawing");
     (*renderer)->setDocument(document, Change::everything());
-    if (Result<void> drawn = (*renderer)->render(frame, 0); !drawn)
-        return drawn.error();
-    if (const std::optional<Luminance> luminance = (*renderer)->readLuminance())
-        session.report().json()["logAverageLuminance"] = luminance->logAverage;
-    return linear ? (*renderer)->readLinear() : (*renderer)->readDisplayed();
+    return Prepared{std::move(*context), std::move(*renderer)};
 }
 
 } // namespace
@@ -234,14 +232,20 @@ Result<void> run(Session& session, const RenderOptions& options) {
     json["settings"]["lighting"] = document->view.lighting == LightingMode::Prt ? "prt" : "ibl";
 
     const bool linear = *format == ImageFileFormat::Exr || *format == ImageFileFormat::Hdr;
-    Result<Image> picture = draw(session, *document, *frame, linear);
-    if (!picture)
-        return picture.error();
+    Result<Prepared> prepared = prepare(session, *document, *frame, linear);
+    if (!prepared)
+        return prepared.error();
+    render::Renderer& renderer = *prepared->renderer;
+    if (Result<void> drawn = renderer.render(*frame, 0); !drawn)
+        return drawn;
+    if (const std::optional<Luminance> luminance = renderer.readLuminance())
+        json["logAverageLuminance"] = luminance->logAverage;
+    Image picture = linear ? renderer.readLinear() : renderer.readDisplayed();
     if (!frame->transparentBackground)
-        picture = withoutAlpha(*picture);
+        picture = withoutAlpha(picture);
     if (session.job().cancelled())
         return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
-    if (Result<void> saved = saveImage(session.worker(), *picture, options.output); !saved)
+    if (Result<void> saved = saveImage(session.worker(), picture, options.output); !saved)
         return saved;
     session.report().output(options.output,
                             fmt::format("{} × {} pixels", frame->width, frame->height));
