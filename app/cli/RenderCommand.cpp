@@ -175,10 +175,14 @@ Result<Prepared> prepare(Session& session, const Document& document,
     session.beginPhase();
     session.job().setActivity("preparing light");
     if (document.environment.image != nullptr) {
-        Result<IblMaps> ibl = computeIbl(*document.environment.image, {}, session.job());
+        const ImagePtr& image = document.environment.image;
+        Result<IblMaps> ibl = computeIbl(*image, {}, session.job());
         if (!ibl)
             return ibl.error();
-        (*renderer)->setIbl(*ibl);
+        Result<HalfMipmapsPtr> background = makeBackground(*image, session.job());
+        if (!background)
+            return background.error();
+        (*renderer)->setEnvironment(makeEnvironmentTexels(image, *ibl, std::move(*background)));
     }
     if (Result<void> set = (*renderer)->setDisplay(*display); !set)
         return set.error();
