@@ -18,7 +18,8 @@ namespace {
 
 constexpr int kFacePlusZ = 4;
 constexpr std::size_t kMostLamps = 1024;
-constexpr float kLampBrightness = 4.0f; // times the mean
+constexpr float kLampContrast = 1.0f; // times the mean
+constexpr int kBlock = 8;             // texels on a side
 
 // The matrix that takes cubeDirection(+Z, s, t) to cubeDirection(face, s, t).
 glm::mat3 faceMatrix(int face) {
@@ -28,9 +29,10 @@ glm::mat3 faceMatrix(int face) {
             middle};
 }
 
-CubeSymmetry makeSymmetry(int face, bool mirrorX, bool mirrorY) {
+CubeSymmetry makeSymmetry(int face, bool mirrorX, bool mirrorY, bool transposed) {
     CubeSymmetry result;
     result.face = face;
+    result.transposed = transposed;
     result.mirrorX = mirrorX;
     result.mirrorY = mirrorY;
     result.matrix = faceMatrix(face);
@@ -38,6 +40,8 @@ CubeSymmetry makeSymmetry(int face, bool mirrorX, bool mirrorY) {
         result.matrix[0] = -result.matrix[0];
     if (mirrorY)
         result.matrix[1] = -result.matrix[1];
+    if (transposed) // rows of texels run along -Y
+        result.matrix = {-result.matrix[1], -result.matrix[0], result.matrix[2]};
     for (int from = 0; from < 6; ++from) {
         // Three points tell where the axes of the face go.
         const auto image = [&](float s, float t) {
@@ -54,10 +58,10 @@ CubeSymmetry makeSymmetry(int face, bool mirrorX, bool mirrorY) {
     return result;
 }
 
-std::array<CubeSymmetry, 24> makeSymmetries() {
-    std::array<CubeSymmetry, 24> result;
-    for (int i = 0; i < 24; ++i)
-        result[i] = makeSymmetry(i % 6, i / 6 % 2 == 1, i / 12 == 1);
+std::array<CubeSymmetry, 48> makeSymmetries() {
+    std::array<CubeSymmetry, 48> result;
+    for (int i = 0; i < 48; ++i)
+        result[i] = makeSymmetry(i % 6, i / 6 % 2 == 1, i / 12 % 2 == 1, i / 24 == 1);
     return result;
 }
 
@@ -67,8 +71,8 @@ float brightest(const glm::vec4& c) {
 
 } // namespace
 
-const std::array<CubeSymmetry, 24>& cubeSymmetries() {
-    static const std::array<CubeSymmetry, 24> kSymmetries = makeSymmetries();
+const std::array<CubeSymmetry, 48>& cubeSymmetries() {
+    static const std::array<CubeSymmetry, 48> kSymmetries = makeSymmetries();
     return kSymmetries;
 }
 
@@ -136,56 +140,82 @@ CubePyramid::CubePyramid(const CubeLevel& base) {
     }
 }
 
-// A small bright texel far from the lobe's peak would be smeared over a large cell: an error of
-// many times the threshold. Taken apart, it is summed where it is.
+// Bright and dark in one cell far from the lobe's peak would be smeared over it: a sun, a lamp, the
+// edge of a window. What stands out of its surroundings, a block of texels, is taken apart and
+// summed where it is; what is left is nearly even, which is what cells are weighed for.
 void CubePyramid::separateLamps(const std::vector<float>& solidAngles) {
-    const std::size_t count = 6 * solidAngles.size();
+    const std::size_t face = solidAngles.size(), count = 6 * face;
     double sum = 0.0;
     for (std::size_t i = 0; i < count; ++i)
-        sum += static_cast<double>(brightest(m_radiance[i])) * solidAngles[i % solidAngles.size()];
-    auto limit = kLampBrightness * static_cast<float>(sum / (4.0 * std::numbers::pi));
-
-    std::vector<float> bright;
-    for (std::size_t i = 0; i < count; ++i)
-        if (brightest(m_radiance[i]) > limit)
-            bright.push_back(brightest(m_radiance[i]));
-    if (bright.size() > kMostLamps) {
-        std::ranges::nth_element(bright, bright.begin() + kMostLamps, std::greater());
-        limit = bright[kMostLamps];
-    }
-    if (bright.empty() || !std::isfinite(limit))
+        sum += static_cast<double>(brightest(m_radiance[i])) * solidAngles[i % face];
+    const float limit = kLampContrast * static_cast<float>(sum / (4.0 * std::numbers::pi));
+    if (!std::isfinite(limit))
         return;
-    std::vector<Lamp> lamps;
-    std::vector<std::size_t> texels;
-    for (std::size_t i = 0; i < count; ++i) {
-        const float value = brightest(m_radiance[i]);
-        if (!(value > limit) || !std::isfinite(value))
-            continue;
-        const std::size_t inFace = i % solidAngles.size();
-        const glm::vec3 direction =
-            cubeSymmetries()[i / solidAngles.size()].matrix * glm::vec3(m_levels[0].cells[inFace]);
-        const glm::vec4 kept = m_radiance[i] * (limit / value);
-        lamps.push_back({direction, glm::vec3(m_radiance[i] - kept) * solidAngles[inFace]});
-        texels.push_back(i);
-        m_radiance[i] = kept;
+
+    std::vector<Outlier> outliers = findOutliers(limit);
+    if (outliers.size() > kMostLamps) {
+        std::ranges::stable_sort(outliers, std::greater(), &Outlier::contrast);
+        outliers.resize(kMostLamps);
+        std::ranges::sort(outliers, {}, &Outlier::texel);
     }
-    groupLamps(std::move(texels), std::move(lamps));
+    std::vector<Lamp> lamps;
+    for (const Outlier& outlier : outliers) {
+        const std::size_t inFace = outlier.texel % face;
+        glm::vec4& radiance = m_radiance[outlier.texel];
+        lamps.push_back(
+            {cubeSymmetries()[outlier.texel / face].matrix * glm::vec3(m_levels[0].cells[inFace]),
+             glm::vec3(radiance - outlier.surroundings) * solidAngles[inFace]});
+        radiance = outlier.surroundings;
+    }
+    groupLamps(outliers, std::move(lamps));
 }
 
-void CubePyramid::groupLamps(std::vector<std::size_t> texels, std::vector<Lamp> lamps) {
+// By texel.
+std::vector<CubePyramid::Outlier> CubePyramid::findOutliers(float limit) const {
+    const int n = m_levels[0].size, side = std::min(kBlock, n);
+    std::vector<Outlier> outliers;
+    std::vector<std::size_t> block;
+    const auto value = [&](std::size_t i) {
+        const float v = brightest(m_radiance[i]);
+        return v > 0.0f ? v : 0.0f; // also of what is no number
+    };
+    for (int top = 0; top < 6 * n; top += side)
+        for (int left = 0; left < n; left += side) {
+            block.clear();
+            for (int y = 0; y < side; ++y)
+                for (int x = 0; x < side; ++x)
+                    block.push_back(static_cast<std::size_t>(top + y) * n + left + x);
+            const auto [least, most] = std::ranges::minmax(block, {}, value);
+            if (!(value(most) - value(least) > limit))
+                continue;
+            const auto middle = block.begin() + static_cast<std::ptrdiff_t>(block.size() / 2);
+            std::ranges::nth_element(block, middle, {}, value);
+            const std::size_t median = *middle;
+            for (const std::size_t i : block) {
+                const float contrast = std::abs(value(i) - value(median));
+                if (contrast > limit)
+                    outliers.push_back({i, m_radiance[median], contrast});
+            }
+        }
+    std::ranges::sort(outliers, {}, &Outlier::texel);
+    return outliers;
+}
+
+void CubePyramid::groupLamps(const std::vector<Outlier>& outliers, std::vector<Lamp> lamps) {
     const auto n = static_cast<std::size_t>(m_levels[0].size);
     const auto cell = [&](std::size_t texel) { // two by two texels
         return (texel / (n * n) * n + texel / n % n / 2) * n + texel % n / 2;
     };
     std::vector<std::size_t> order(lamps.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return cell(texels[i]); });
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return cell(outliers[i].texel); });
     for (std::size_t k = 0; k < order.size(); ++k) {
         const Lamp& lamp = lamps[order[k]];
-        if (k == 0 || cell(texels[order[k]]) != cell(texels[order[k - 1]]))
+        if (k == 0 || cell(outliers[order[k]].texel) != cell(outliers[order[k - 1]].texel))
             m_lampGroups.push_back({{glm::vec3(0.0f), glm::vec3(0.0f)}, k, 0});
         LampGroup& group = m_lampGroups.back();
-        group.all.direction += lamp.direction * (lamp.flux.x + lamp.flux.y + lamp.flux.z);
+        const glm::vec3 size = glm::abs(lamp.flux);
+        group.all.direction += lamp.direction * (size.x + size.y + size.z);
         group.all.flux += lamp.flux;
         ++group.count;
         m_lamps.push_back(lamp);

@@ -12,7 +12,7 @@
 namespace patina {
 
 // A map of the cube onto itself that carries face +Z, perhaps mirrored, to `face`: what is computed
-// for a tile of face +Z holds for its 24 images, with the radiance found where the map leads.
+// for a tile of face +Z holds for its 48 images, with the radiance found where the map leads.
 struct CubeSymmetry {
     // Where the texels of a face go: x' = originX + xx x + xy y and so on, in units of texels, with
     // origins 0 or n - 1.
@@ -21,15 +21,17 @@ struct CubeSymmetry {
         int xx = 0, xy = 0, yx = 0, yy = 0; // -1, 0 or 1
     };
 
-    int face = 0; // that +Z goes to
+    int face = 0;            // that +Z goes to
+    bool transposed = false; // first: column and row change places
     bool mirrorX = false, mirrorY = false;
     glm::mat3 matrix{1.0f}; // of directions; a signed permutation
     std::array<FaceMap, 6> faces;
 };
 
 // The six maps that take the texel (x, y) of +Z to the texel (x, y) of a face, in the faces' order;
-// then the same behind a mirroring in x, in y, and in both.
-[[nodiscard]] const std::array<CubeSymmetry, 24>& cubeSymmetries();
+// then the same behind a mirroring in x, in y, and in both; then all of these behind the exchange
+// of x and y.
+[[nodiscard]] const std::array<CubeSymmetry, 48>& cubeSymmetries();
 
 class CubePyramid {
   public:
@@ -46,8 +48,9 @@ class CubePyramid {
     // Mean radiance of every cell but for the lamps, all levels one after another; w is unused.
     [[nodiscard]] const std::vector<glm::vec4>& radiance() const { return m_radiance; }
 
-    // What a texel of the base has beyond `4 ×` the mean brightness, times its solid angle; at most
-    // 1024 of them.
+    // How much a texel of the base differs from the median of its 8 × 8 neighbours, times its solid
+    // angle, where that is more than the mean brightness; at most 1024 of them. Negative where it
+    // is darker.
     struct Lamp {
         glm::vec3 direction;
         glm::vec3 flux;
@@ -61,8 +64,14 @@ class CubePyramid {
     [[nodiscard]] const std::vector<LampGroup>& lampGroups() const { return m_lampGroups; }
 
   private:
+    struct Outlier {
+        std::size_t texel;
+        glm::vec4 surroundings;
+        float contrast;
+    };
     void separateLamps(const std::vector<float>& solidAngles);
-    void groupLamps(std::vector<std::size_t> texels, std::vector<Lamp> lamps);
+    [[nodiscard]] std::vector<Outlier> findOutliers(float limit) const;
+    void groupLamps(const std::vector<Outlier>& outliers, std::vector<Lamp> lamps);
 
     std::vector<Level> m_levels;
     std::vector<glm::vec4> m_radiance, m_cells;

@@ -31,18 +31,18 @@ struct IblMaps {
 [[nodiscard]] std::size_t memoryBytes(const IblMaps& maps); // of all texels
 
 struct IblSettings {
-    int cubeSize = 256; // of level 0, a power of two
-    int levels = 7;     // at least 2: 256 128 64 32 16 16 16
+    int cubeSize = 256;     // of level 0, a power of two
+    int levels = 7;         // at least 2: 256 128 64 32 16 16 16
+    int irradianceSize = 0; // of the irradiance cube, a power of two; 0: none
+    // Share of the kernel's scale that a cell of the sum may span; 0.09 errs by some hundredths of
+    // a percent (docs/maths/ibl.md), and the time goes with its inverse square.
+    float cellSize = 0.09f;
     // The sides halve down to this power of two and stay: lookups in fewer texels show seams. The
     // viewport needs 16 (shaders/shared/ibl.glsl), a mip chain 1.
     int smallestLevel = 16;
-    int irradianceSize = 0; // of the irradiance cube, a power of two; 0: none
-    // Share of the kernel's scale that a cell of the sum may span; 0.1 errs by some hundredths of a
-    // percent (docs/maths/ibl.md), and the time goes with its inverse square.
-    float cellSize = 0.1f;
 
     // For a first picture while the full maps are computed: within about one percent.
-    static IblSettings quick() { return {64, 5, 16, 0, 0.3f}; }
+    static IblSettings quick() { return {64, 5, 0, 0.3f}; }
     friend bool operator==(const IblSettings&, const IblSettings&) = default;
 };
 

@@ -139,11 +139,10 @@ class TileFilter {
         const Tile tile(m_out.size, x0, y0);
         m_list.collect(tile);
         alignas(64) float total[kTileTexels] = {};
-        std::array<TileSums, 24> sums;
+        std::array<TileSums, 48> sums;
         for (std::size_t level = 0; level < m_pyramid.levels().size(); ++level)
             for (int face = 0; face < 6; ++face)
-                addGroup(tile, m_list.group(level, face), m_pyramid.levels()[level], face, images,
-                         total, sums);
+                addGroup(tile, m_list.group(level, face), level, face, images, total, sums);
         for (int i = 0; i < images; ++i) {
             const CubeSymmetry& symmetry = cubeSymmetries()[i];
             addLamps(tile, symmetry, sums[i]);
@@ -152,26 +151,28 @@ class TileFilter {
     }
 
   private:
-    void addGroup(const Tile& tile, const CellList::Group& group, const CubePyramid::Level& level,
-                  int face, int images, float* total, std::array<TileSums, 24>& sums) {
-        std::array<int, kChunk> index;
+    void addGroup(const Tile& tile, const CellList::Group& group, std::size_t index, int face,
+                  int images, float* total, std::array<TileSums, 48>& sums) {
+        const CubePyramid::Level& level = m_pyramid.levels()[index];
+        // A cell of 4^k points has that much of the second moment of an even one.
+        const float spread = (1.0f - std::exp2(-2.0f * static_cast<float>(index))) / 24.0f;
         const int n = level.size;
         for (std::size_t first = 0; first < group.cells.size(); first += kChunk) {
             const std::size_t count = std::min<std::size_t>(kChunk, group.cells.size() - first);
             m_arithmetic.weigh(tile.directions, std::span(group.cells).subspan(first, count),
-                               m_alpha2, m_weights, total);
+                               spread, m_alpha2, m_weights, total);
+            CellPlaces places{std::span(group.x).subspan(first, count),
+                              std::span(group.y).subspan(first, count)};
             for (int i = 0; i < images; ++i) {
                 // Where the symmetry finds the cells' radiance
                 const CubeSymmetry::FaceMap& map = cubeSymmetries()[i].faces[face];
                 const int originX = std::min(map.xx, map.xy) < 0 ? n - 1 : 0;
                 const int originY = std::min(map.yx, map.yy) < 0 ? n - 1 : 0;
-                const int origin =
+                places.first =
                     static_cast<int>(level.first) + (map.face * n + originY) * n + originX;
-                const int alongX = map.yx * n + map.xx, alongY = map.yy * n + map.xy;
-                for (std::size_t k = 0; k < count; ++k)
-                    index[k] = origin + alongX * group.x[first + k] + alongY * group.y[first + k];
-                m_arithmetic.add(m_weights, std::span(index).first(count),
-                                 m_pyramid.radiance().data(), sums[i]);
+                places.alongX = map.yx * n + map.xx;
+                places.alongY = map.yy * n + map.xy;
+                m_arithmetic.add(m_weights, places, m_pyramid.radiance().data(), sums[i]);
             }
         }
     }
@@ -215,8 +216,9 @@ class TileFilter {
         const int n = m_out.size;
         for (int i = 0; i < tile.side * tile.side; ++i) {
             const int x = tile.x0 + i % tile.side, y = tile.y0 + i / tile.side;
-            const int column = symmetry.mirrorX ? n - 1 - x : x;
-            const int row = symmetry.mirrorY ? n - 1 - y : y;
+            const int across = symmetry.transposed ? y : x, down = symmetry.transposed ? x : y;
+            const int column = symmetry.mirrorX ? n - 1 - across : across;
+            const int row = symmetry.mirrorY ? n - 1 - down : down;
             m_out.texels[(static_cast<std::size_t>(symmetry.face) * n + row) * n + column] =
                 glm::vec3(sums.red[i], sums.green[i], sums.blue[i]) / total[i];
         }
@@ -241,17 +243,21 @@ CubeLevel prefilterGGX(const CubePyramid& pyramid, int size, float alpha,
     out.size = size;
     out.texels.resize(6 * static_cast<std::size_t>(size) * size);
 
-    // A quarter of a face's tiles; mirrored, they are all. A single tile is mirrored into itself.
+    // A quarter of a face's tiles on one side of its diagonal; their images are all. A single tile
+    // is mirrored into itself, one on the diagonal transposed into itself.
     const int tiles = (size + kTile - 1) / kTile;
-    const int across = (tiles + 1) / 2;
-    const int images = tiles > 1 ? 24 : 6;
-    parallelFor(job, static_cast<std::size_t>(across) * across, 1,
-                [&](std::size_t begin, std::size_t end) {
-                    const auto filter = std::make_unique<TileFilter>(pyramid, alpha, quality, out);
-                    for (std::size_t i = begin; i < end; ++i)
-                        filter->filter(static_cast<int>(i) % across * kTile,
-                                       static_cast<int>(i) / across * kTile, images);
-                });
+    std::vector<glm::ivec2> corners;
+    for (int y = 0; y < (tiles + 1) / 2; ++y)
+        for (int x = 0; x <= y; ++x)
+            corners.emplace_back(x, y);
+    parallelFor(job, corners.size(), 1, [&](std::size_t begin, std::size_t end) {
+        const auto filter = std::make_unique<TileFilter>(pyramid, alpha, quality, out);
+        for (std::size_t i = begin; i < end; ++i) {
+            const glm::ivec2 corner = corners[i];
+            const int images = tiles == 1 ? 6 : corner.x == corner.y ? 24 : 48;
+            filter->filter(corner.x * kTile, corner.y * kTile, images);
+        }
+    });
     return out;
 }
 

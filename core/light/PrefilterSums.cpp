@@ -1,5 +1,7 @@
 #include "core/light/PrefilterSums.h"
 
+#include <cmath>
+
 namespace patina::detail {
 
 namespace {
@@ -24,50 +26,93 @@ struct Simd {
     }
 };
 
-// max(c, 0) / ((1 + c)/2 (alpha² - 1) + 1)², c = N·L: D(h) N·L but for a constant. With
-// t = |N - L|² / 4 = (1 - c) / 2 the bracket is t + alpha² (1 - t): no cancellation at the peak.
-template <int lanes, typename V = typename Simd<lanes>::Type>
-[[gnu::always_inline]] inline V kernel(const TileDirections& tile, int first, float x, float y,
-                                       float z, float alpha2) {
-    const V dx = Simd<lanes>::load(tile.x + first) - x;
-    const V dy = Simd<lanes>::load(tile.y + first) - y;
-    const V dz = Simd<lanes>::load(tile.z + first) - z;
-    const V t = (dx * dx + dy * dy + dz * dz) * 0.25f;
-    const V cosine = 1.0f - 2.0f * t;
-    const V d = t + alpha2 * (1.0f - t);
-    const V zero = {};
-    return (cosine > zero ? cosine : zero) / (d * d);
-}
+// The lobe D(h) N·L, but for a constant, is c / s² with c = N·L and s = (1 + c)/2 (alpha² - 1) + 1.
+// With d = |N - L|² = 2 (1 - c), s is alpha² + (1 - alpha²) d / 4: no cancellation at the peak.
+template <int lanes>
+struct Lobe {
+    using V = typename Simd<lanes>::Type;
+    V c, inverse; // 1 / s
 
+    [[gnu::always_inline]] Lobe(const TileDirections& tile, int first, float x, float y, float z,
+                                float alpha2) {
+        const V dx = Simd<lanes>::load(tile.x + first) - x;
+        const V dy = Simd<lanes>::load(tile.y + first) - y;
+        const V dz = Simd<lanes>::load(tile.z + first) - z;
+        const V d = dx * dx + dy * dy + dz * dz;
+        c = 1.0f - 0.5f * d;
+        inverse = 1.0f / (alpha2 + (0.25f - 0.25f * alpha2) * d);
+    }
+    [[gnu::always_inline]] V value() const {
+        const V zero = {};
+        return (c > zero ? c : zero) * (inverse * inverse);
+    }
+    // Its Laplacian on the sphere, (1 - c²) f'' - 2c f' with ' = d/dc, times s²; b = 1 - alpha².
+    [[gnu::always_inline]] V laplacian(float b) const {
+        const V c2 = c * c;
+        return inverse * b * (2.0f - 4.0f * c2 + 1.5f * b * inverse * (c - c * c2)) - 2.0f * c;
+    }
+};
+
+// A cell weighs what the lobe is on average over it, to fourth order in its width: to the value in
+// the middle comes half the second moment of the area along an axis, `spread` times its solid
+// angle, times the Laplacian. Cells across the horizon have the mean of max(c, 0), (c + h)² / 4h,
+// where they reach h to either side.
 template <int lanes>
 [[gnu::always_inline]] inline void weigh(const TileDirections& tile,
-                                         std::span<const glm::vec4> cells, float alpha2,
-                                         CellWeights& weights, float* total) {
-    for (int group = 0; group < Simd<lanes>::kGroups; ++group) {
-        typename Simd<lanes>::Type sum = {};
-        for (std::size_t i = 0; i < cells.size(); ++i) {
-            const glm::vec4& cell = cells[i];
-            const auto weight =
-                kernel<lanes>(tile, group * lanes, cell.x, cell.y, cell.z, alpha2) * cell.w;
+                                         std::span<const glm::vec4> cells, float spread,
+                                         float alpha2, CellWeights& weights, float* total) {
+    using V = typename Simd<lanes>::Type;
+    constexpr int kGroups = Simd<lanes>::kGroups;
+    const V zero = {};
+    V sum[kGroups] = {};
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const glm::vec4& cell = cells[i];
+        const float moment = spread * cell.w, h = std::sqrt(6.0f * moment);
+        const float overFourH = spread > 0.0f ? 0.25f / h : 0.0f;
+#pragma GCC unroll 16
+        for (int group = 0; group < kGroups; ++group) {
+            const Lobe<lanes> lobe(tile, group * lanes, cell.x, cell.y, cell.z, alpha2);
+            V weight;
+            if (spread > 0.0f) {
+                const V above = lobe.c > zero ? lobe.c : zero;
+                const V reach = h + lobe.c - 2.0f * above; // h - |c|
+                const V inside = reach > zero ? reach : zero;
+                const V smooth = moment * lobe.laplacian(1.0f - alpha2);
+                weight = (above + inside * inside * overFourH + (lobe.c > zero ? smooth : zero)) *
+                         (lobe.inverse * lobe.inverse);
+            } else
+                weight = lobe.value();
+            weight *= cell.w;
             Simd<lanes>::store(weights.of[i] + group * lanes, weight);
-            sum += weight;
+            sum[group] += weight;
         }
-        Simd<lanes>::add(total + group * lanes, sum);
     }
+    for (int group = 0; group < kGroups; ++group)
+        Simd<lanes>::add(total + group * lanes, sum[group]);
 }
 
 // Four registers of texels by three colours: twelve accumulators that depend on nothing else.
 template <int lanes>
-[[gnu::always_inline]] inline void add(const CellWeights& weights, std::span<const int> index,
+[[gnu::always_inline]] inline void add(const CellWeights& weights, const CellPlaces& places,
                                        const glm::vec4* radiance, TileSums& sums) {
     constexpr int kAtOnce = 4;
+    const std::size_t count = places.x.size();
+    alignas(64) int index[kChunk];
+    for (std::size_t i = 0; i < count; ++i)
+        index[i] = places.first + places.alongX * places.x[i] + places.alongY * places.y[i];
     for (int first = 0; first < kTileTexels; first += kAtOnce * lanes) {
         typename Simd<lanes>::Type red[kAtOnce] = {}, green[kAtOnce] = {}, blue[kAtOnce] = {};
-        for (std::size_t i = 0; i < index.size(); ++i) {
+        for (std::size_t i = 0; i < count; ++i) {
             const glm::vec4& light = radiance[index[i]];
 #pragma GCC unroll 4
             for (int k = 0; k < kAtOnce; ++k) {
-                const auto weight = Simd<lanes>::load(weights.of[i] + first + k * lanes);
+                auto weight = Simd<lanes>::load(weights.of[i] + first + k * lanes);
+#if defined(__x86_64__)
+                // Keeps it in a register where there are enough: the compiler would rather load it
+                // three times, and loads are what limits this loop.
+                if constexpr (lanes == 16)
+                    asm("" : "+v"(weight));
+#endif
                 red[k] += weight * light.x;
                 green[k] += weight * light.y;
                 blue[k] += weight * light.z;
@@ -88,8 +133,9 @@ template <int lanes>
     for (int first = 0; first < kTileTexels; first += lanes) {
         typename Simd<lanes>::Type red = {}, green = {}, blue = {};
         for (const CubePyramid::Lamp& lamp : lamps) {
-            const auto weight = kernel<lanes>(tile, first, lamp.direction.x, lamp.direction.y,
-                                              lamp.direction.z, alpha2);
+            const Lobe<lanes> lobe(tile, first, lamp.direction.x, lamp.direction.y,
+                                   lamp.direction.z, alpha2);
+            const auto weight = lobe.value();
             red += weight * lamp.flux.x;
             green += weight * lamp.flux.y;
             blue += weight * lamp.flux.z;
@@ -105,12 +151,12 @@ template <int lanes>
 
 #define PT_SUMS(name, lanes, ...)                                                                  \
     __VA_ARGS__ void weigh##name(const TileDirections& tile, std::span<const glm::vec4> cells,     \
-                                 float alpha2, CellWeights& weights, float* total) {               \
-        weigh<lanes>(tile, cells, alpha2, weights, total);                                         \
+                                 float spread, float alpha2, CellWeights& weights, float* total) { \
+        weigh<lanes>(tile, cells, spread, alpha2, weights, total);                                 \
     }                                                                                              \
-    __VA_ARGS__ void add##name(const CellWeights& weights, std::span<const int> index,             \
+    __VA_ARGS__ void add##name(const CellWeights& weights, const CellPlaces& places,               \
                                const glm::vec4* radiance, TileSums& sums) {                        \
-        add<lanes>(weights, index, radiance, sums);                                                \
+        add<lanes>(weights, places, radiance, sums);                                               \
     }                                                                                              \
     __VA_ARGS__ void addLamps##name(const TileDirections& tile,                                    \
                                     std::span<const CubePyramid::Lamp> lamps, float alpha2,        \

@@ -24,13 +24,20 @@ struct alignas(64) CellWeights {
     float of[kChunk][kTileTexels];
 };
 
+// Where the radiance of some cells is found: index first + alongX x + alongY y.
+struct CellPlaces {
+    std::span<const int> x, y; // of as many cells; at most kChunk
+    int first = 0, alongX = 1, alongY = 0;
+};
+
 struct PrefilterSums {
-    // Weights of `cells` (direction, solid angle; at most kChunk): the lobe's kernel times the
-    // solid angle; adds them up in `total`.
-    void (*weigh)(const TileDirections& tile, std::span<const glm::vec4> cells, float alpha2,
-                  CellWeights& weights, float* total);
-    // Adds weight · radiance[index] of each cell.
-    void (*add)(const CellWeights& weights, std::span<const int> index, const glm::vec4* radiance,
+    // Weights of `cells` (direction, solid angle; at most kChunk): the lobe's mean kernel times the
+    // solid angle; adds them up in `total`. `spread`: half the second moment of a cell's light
+    // along an axis over its solid angle: 1/24 for an even square, 0 for a point.
+    void (*weigh)(const TileDirections& tile, std::span<const glm::vec4> cells, float spread,
+                  float alpha2, CellWeights& weights, float* total);
+    // Adds weight · radiance of each cell.
+    void (*add)(const CellWeights& weights, const CellPlaces& places, const glm::vec4* radiance,
                 TileSums& sums);
     // Adds kernel · flux of each lamp.
     void (*addLamps)(const TileDirections& tile, std::span<const CubePyramid::Lamp> lamps,

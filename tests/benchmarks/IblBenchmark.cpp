@@ -218,7 +218,12 @@ IblMaps yardstick(const Image& environment) {
 }
 
 IblMaps ours(const Image& environment) {
-    IblMaps maps = *computeIbl(environment, {kCube, kLevels, kSmallest, kIrradiance}, {});
+    IblMaps maps = *computeIbl(environment,
+                               {.cubeSize = kCube,
+                                .levels = kLevels,
+                                .irradianceSize = kIrradiance,
+                                .smallestLevel = kSmallest},
+                               {});
     benchmark::DoNotOptimize(computeDfgTable(128).width());
     return maps;
 }
@@ -346,7 +351,8 @@ void addSteps() {
     add("step/harmonics", [sky] { benchmark::DoNotOptimize(projectLatLong(*sky, 5).data()); });
     add("step/cubemap", [sky] { benchmark::DoNotOptimize(cubeFromLatLong(*sky, kCube, {}).size); });
     add("step/prefilter_128", [pyramid] {
-        benchmark::DoNotOptimize(prefilterGGX(*pyramid, 128, 1.0f / 36.0f, {0.1f, 0.07f}, {}).size);
+        benchmark::DoNotOptimize(
+            prefilterGGX(*pyramid, 128, 1.0f / 36.0f, {0.09f, 0.063f}, {}).size);
     });
     add("step/prefilter_64", [pyramid] {
         benchmark::DoNotOptimize(prefilterGGX(*pyramid, 64, 1.0f / 9.0f, {}, {}).size);

@@ -24,7 +24,8 @@ Image sky(float brightness) {
 }
 
 IblMaps mapsOf(const Image& image) {
-    return *computeIbl(image, {16, 3, 4, 4}, {});
+    return *computeIbl(image,
+                       {.cubeSize = 16, .levels = 3, .irradianceSize = 4, .smallestLevel = 4}, {});
 }
 
 void expectSame(const IblMaps& a, const IblMaps& b) {
@@ -65,11 +66,11 @@ TEST(IblCache, KeyIsOfContentAndSettings) {
     const Hash key = IblCache::key(image, {});
     EXPECT_EQ(IblCache::key(Image(image), {}), key);
     EXPECT_NE(IblCache::key(changed, {}), key);
-    EXPECT_NE(IblCache::key(image, {128, 7}), key);
-    EXPECT_NE(IblCache::key(image, {256, 6}), key);
-    EXPECT_NE(IblCache::key(image, {256, 7, 8}), key);
-    EXPECT_NE(IblCache::key(image, {256, 7, 16, 32}), key);
-    EXPECT_NE(IblCache::key(image, {256, 7, 16, 0, 0.2f}), key);
+    EXPECT_NE(IblCache::key(image, {.cubeSize = 128}), key);
+    EXPECT_NE(IblCache::key(image, {.levels = 6}), key);
+    EXPECT_NE(IblCache::key(image, {.smallestLevel = 8}), key);
+    EXPECT_NE(IblCache::key(image, {.irradianceSize = 32}), key);
+    EXPECT_NE(IblCache::key(image, {.cellSize = 0.2f}), key);
     // The same numbers in another shape
     Image tall(8, 16, 3, PixelType::F32, ColorEncoding::Linear);
     std::ranges::copy(image.f32(), tall.f32().begin());
