@@ -11,6 +11,7 @@
 #endif
 #include "shared/color.glsl"
 #include "shared/ibl.glsl"
+#include "include/dfg.glsl"
 #include "include/prefiltered.glsl"
 #include "shared/lights.glsl"
 #include "shared/normalmap.glsl"
@@ -33,7 +34,6 @@ layout(binding = 3) uniform sampler2D u_normalTexture;
 layout(binding = 4) uniform sampler2D u_occlusionTexture;
 layout(binding = 5) uniform sampler2D u_emissiveTexture;
 layout(binding = 6) uniform sampler2D u_visibilityTexture; // baked
-layout(binding = 8) uniform sampler2D u_dfg;
 #ifdef HAS_AREA_LIGHTS
 layout(binding = 9) uniform sampler2D u_lobes; // core/light/LobeTable.h
 #endif
@@ -155,7 +155,7 @@ void main() {
 #ifdef CONSTANT_DFG
     vec3 dfg = vec3(0.9, 0.05, 0.5);
 #else
-    vec3 dfg = textureLod(u_dfg, vec2(NoV, perceptualRoughness), 0.0).rgb;
+    vec3 dfg = dfgEntry(NoV, perceptualRoughness);
 #endif
     SurfaceTerms s =
         makeSurface(shadingModel(), clamp(baseColor.rgb, 0.0, 1.0), clamp(metallic, 0.0, 1.0),

@@ -240,27 +240,43 @@ glm::dvec3 integrateDfg(float NoV, float perceptualRoughness, Distribution distr
         .fine(kNodes, std::clamp(static_cast<double>(NoV), 1e-4, 1.0 - 1e-7), alpha);
 }
 
-glm::dvec2 estimateDfg(float NoV, float perceptualRoughness, Distribution distribution,
-                       Visibility visibility) {
-    const float r = std::clamp(perceptualRoughness, 0.0f, 1.0f);
-    static const TableNodes kNodes;
-    return chooseIntegrator(distribution, visibility)
-        .table(kNodes, std::clamp(NoV, 1e-3f, 1.0f - 1e-4f), std::max(r * r, 1e-5f));
+namespace {
+
+// The table's quadrature, kept off the limits: N·V = 0, where the lobe has no density, N·V = 1,
+// where n and R are one, and a mirror.
+glm::dvec3 tableEntry(const Integrator& integrator, const TableNodes& nodes, float NoV,
+                      float perceptualRoughness) {
+    return integrator.table(nodes, std::clamp(NoV, 1e-3f, 1.0f - 1e-4f),
+                            std::max(perceptualRoughness * perceptualRoughness, 1e-5f));
 }
 
-Image computeDfgTable(int size, Distribution distribution, Visibility visibility) {
-    CHECK_LE(1, size);
+} // namespace
+
+glm::dvec2 estimateDfg(float NoV, float perceptualRoughness, Distribution distribution,
+                       Visibility visibility) {
+    static const TableNodes kNodes;
+    return tableEntry(chooseIntegrator(distribution, visibility), kNodes, NoV,
+                      std::clamp(perceptualRoughness, 0.0f, 1.0f));
+}
+
+Image computeDfgTable(int size, Distribution distribution, Visibility visibility,
+                      DfgTexels texels) {
+    CHECK_LE(2, size);
     Image table(size, size, 3, PixelType::F32, ColorEncoding::Data);
     const std::span<float> out = table.f32();
     const TableNodes nodes;
     const Integrator integrator = chooseIntegrator(distribution, visibility);
-    parallelFor(JobContext(), size, 4, [&](std::size_t begin, std::size_t end) {
+    const auto position = [&](std::size_t i) {
+        return texels == DfgTexels::Inside
+                   ? (static_cast<float>(i) + 0.5f) / static_cast<float>(size)
+                   : static_cast<float>(i) / static_cast<float>(size - 1);
+    };
+    const auto count = static_cast<std::size_t>(size);
+    parallelFor(JobContext(), count, 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t y = begin; y < end; ++y)
-            for (int x = 0; x < size; ++x) {
-                const float NoV = (static_cast<float>(x) + 0.5f) / static_cast<float>(size);
-                const float r = (static_cast<float>(y) + 0.5f) / static_cast<float>(size);
-                const glm::vec3 dfg(integrator.table(nodes, NoV, r * r));
-                std::copy_n(&dfg.x, 3, out.data() + (y * size + x) * 3);
+            for (std::size_t x = 0; x < count; ++x) {
+                const glm::vec3 dfg(tableEntry(integrator, nodes, position(x), position(y)));
+                std::copy_n(&dfg.x, 3, out.data() + (y * count + x) * 3);
             }
     });
     return table;

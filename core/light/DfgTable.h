@@ -28,11 +28,21 @@ namespace patina {
                                      Distribution distribution = Distribution::GGX,
                                      Visibility visibility = Visibility::SmithCorrelated);
 
-// size × size, F32, 3 channels as above; u = N·V, v = perceptualRoughness, texel centres at
-// (i + 0.5) / size. Entries are within 5e-4 of integrateDfg() (1e-3 for N·V < 0.05): a shorter
-// quadrature in single precision, SIMD. The result does not depend on the number of threads.
+// Where the texels of a table lie in 0…1.
+enum class DfgTexels {
+    // At (i + 0.5) / size, as everybody expects of a file: looked up at (N·V, perceptualRoughness)
+    // as they are. The outermost half texels repeat their texel, E is 1.5 % high at N·V = r = 1.
+    Inside,
+    // At i / (size - 1), looked up through dfgTableUv() of shaders/shared/ibl.glsl: the renderer's.
+    ToTheEnds
+};
+
+// size × size, F32, 3 channels as above; u = N·V, v = perceptualRoughness. Entries are within 5e-4
+// of integrateDfg() (1e-3 for N·V < 0.05): a shorter quadrature in single precision, SIMD. The
+// result does not depend on the number of threads. `size`: at least 2.
 [[nodiscard]] Image computeDfgTable(int size = 128, Distribution distribution = Distribution::GGX,
-                                    Visibility visibility = Visibility::SmithCorrelated);
+                                    Visibility visibility = Visibility::SmithCorrelated,
+                                    DfgTexels texels = DfgTexels::Inside);
 
 // The visibility whose table image-based light uses: the chosen one, but for the k = (r + 1)² / 8
 // that Karis 2013 made for lamps only; light from all sides takes his k = alpha / 2.

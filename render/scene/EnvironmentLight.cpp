@@ -2,6 +2,8 @@
 
 #include "core/base/Check.h"
 #include "core/base/Log.h"
+#include "core/light/DfgTable.h"
+#include "core/math/Shading.h"
 #include "core/math/SphericalHarmonics.h"
 
 #include <algorithm>
@@ -21,7 +23,8 @@ constexpr float kGreySky = 0.5f; // radiance that lights the scene before an env
 constexpr std::uint16_t kGreyHalf = 0x3800, kOneHalf = 0x3c00; // 0.5 and 1
 
 gl::Texture makeDfg(gl::Context& context, Distribution distribution, Visibility visibility) {
-    const Image table = computeDfgTable(128, distribution, visibility);
+    const Image table = computeDfgTable(static_cast<int>(shading::kDfgTableSize), distribution,
+                                        visibility, DfgTexels::ToTheEnds);
     gl::Texture texture(
         context, "DFG table",
         {.format = gl::PixelFormat::Rgba16f, .width = table.width(), .height = table.height()});

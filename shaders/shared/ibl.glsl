@@ -78,6 +78,16 @@ PT_FN vec2 cubeAtlasTexel(vec3 at, float level, float side) {
     return vec2(at.x * (size + 2.0f) + 1.0f + at.y * size, top + 1.0f + at.z * size);
 }
 
+// Side of the DFG table (core/light/DfgTable.h). Its outer texels lie on the ends of both ranges:
+// at N·V = 1 and at perceptualRoughness 1 much is looked at, and half a texel short of both E is
+// 1.5 % high.
+PT_CONST float kDfgTableSize = 128.0f;
+
+PT_FN vec2 dfgTableUv(float NoV, float perceptualRoughness) {
+    float scale = (kDfgTableSize - 1.0f) / kDfgTableSize;
+    return vec2(NoV, perceptualRoughness) * scale + vec2(0.5f / kDfgTableSize);
+}
+
 // ---- Light -------------------------------------------------------------------------------------
 
 // Irradiance from irradiance coefficients (radiance coefficients times A_l).

@@ -20,11 +20,9 @@ Material& materialOf(Document& document) {
 
 // Bilinear lookup in the table the renderer uses.
 glm::vec2 dfgAt(float NoV, float perceptualRoughness) {
-    static const Image table = computeDfgTable();
-    const auto at = [](float x, int n) {
-        return std::clamp(x * static_cast<float>(n) - 0.5f, 0.0f, static_cast<float>(n - 1));
-    };
-    const float x = at(NoV, table.width()), y = at(perceptualRoughness, table.height());
+    static const Image table =
+        computeDfgTable(128, Distribution::GGX, Visibility::SmithCorrelated, DfgTexels::ToTheEnds);
+    const float x = NoV * 127.0f, y = perceptualRoughness * 127.0f;
     const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
     const int x1 = std::min(x0 + 1, table.width() - 1), y1 = std::min(y0 + 1, table.height() - 1);
     const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);

@@ -134,20 +134,21 @@ TEST(KarisIntegrator, SamplesAreAroundTheQuadrature) {
 }
 
 // Kulla & Conty 2017: the lobe (1 - E(o)) (1 - E(i)) / (pi (1 - Eavg)) returns what is missing. Its
-// scale for height-correlated Smith at r = 0.25, 0.5, 0.75, 1.
+// scale for height-correlated Smith at r = 0.1, 0.25, 0.5, 0.75, 1.
 TEST(KullaConty, TheLobeReturnsWhatIsMissing) {
-    constexpr double kScale[4] = {24.966023081, 2.70495441844, 0.925861553551, 0.538720373537};
+    constexpr double kScale[5] = {624.805573697, 24.966023081, 2.70495441844, 0.925861553551,
+                                  0.538720373537};
     const GaussLegendre rule(48);
-    for (int r = 0; r < 4; ++r) {
+    for (int r = 0; r < 5; ++r) {
         const auto albedo = [r](double mu) {
-            const glm::dvec3 entry = integrateDfg(static_cast<float>(mu), kRoughness[r + 1]);
+            const glm::dvec3 entry = integrateDfg(static_cast<float>(mu), kRoughness[r]);
             return entry.x + entry.y;
         };
         double average = 0.0;
         for (int i = 0; i < rule.size(); ++i)
             average += rule.weight01(i) * 2.0 * rule.node01(i) * albedo(rule.node01(i));
         const double scale = 1.0 / (std::numbers::pi * (1.0 - average));
-        EXPECT_NEAR(scale / kScale[r], 1.0, 1e-3) << kRoughness[r + 1];
+        EXPECT_NEAR(scale / kScale[r], 1.0, 1e-3) << kRoughness[r];
         const double missing = 1.0 - albedo(0.5);
         double returned = 0.0;
         for (int i = 0; i < rule.size(); ++i)

@@ -6,6 +6,7 @@
 #include "core/light/PrefilterSums.h"
 #include "core/math/Sampling.h"
 #include "core/math/SphericalHarmonics.h"
+#include "tests/core/light/PrefilterReference.h"
 
 #include <gtest/gtest.h>
 
@@ -19,22 +20,7 @@
 namespace patina {
 namespace {
 
-constexpr float kRoughness[5] = {0.1f, 0.25f, 0.5f, 0.75f, 1.0f};
-
-glm::vec3 texelDirection(int size, std::size_t index) {
-    const int face = static_cast<int>(index) / (size * size);
-    const int x = static_cast<int>(index) % size, y = static_cast<int>(index) / size % size;
-    return glm::normalize(cubeDirection(face, (x + 0.5f) / static_cast<float>(size),
-                                        (y + 0.5f) / static_cast<float>(size)));
-}
-
-CubeLevel cubeOf(int size, const std::function<glm::vec3(glm::vec3)>& radiance) {
-    CubeLevel level;
-    level.size = size;
-    for (std::size_t i = 0; i < 6u * size * size; ++i)
-        level.texels.push_back(radiance(texelDirection(size, i)));
-    return level;
-}
+using namespace reference;
 
 // The definition, in double: every texel of the base level, textbook form of D.
 glm::dvec3 exactSum(const CubeLevel& base, glm::dvec3 n, double alpha) {
@@ -53,11 +39,7 @@ glm::dvec3 exactSum(const CubeLevel& base, glm::dvec3 n, double alpha) {
     return sum / weights;
 }
 
-// D(h) N·L but for a constant, textbook form, and its Laplacian on the sphere by differences.
-double lobe(double c, double alpha2) {
-    const double d = 0.5 * (1.0 + c) * (alpha2 - 1.0) + 1.0;
-    return std::max(c, 0.0) / (d * d);
-}
+// The lobe's Laplacian on the sphere, by differences.
 double laplacian(double c, double alpha2) {
     const auto f = [&](double x) { // without the clamp
         const double d = 0.5 * (1.0 + x) * (alpha2 - 1.0) + 1.0;
@@ -70,36 +52,13 @@ double laplacian(double c, double alpha2) {
 }
 
 TEST(Prefilter, MultipliesBandsByTheirFactors) {
-    // lambda_1 … lambda_4 of the filter with N = V = R and weight N·L: a constant stays, P_l of the
-    // angle to an axis becomes lambda_l P_l. Without the weight, or with alpha for the slider,
-    // every one of them is different. At r = 0.05 the texels are five times as wide as the lobe.
-    constexpr struct {
-        float perceptualRoughness;
-        double lambda[4];
-    } kRows[] = {
-        {0.05f, {0.999883857004, 0.999660942803, 0.999344792271, 0.998947243679}},
-        {0.1f, {0.998693503699, 0.996229938117, 0.992824773157, 0.988665743355}},
-        {0.25f, {0.976092604298, 0.933738270618, 0.880606983182, 0.822958863625}},
-        {0.5f, {0.867395662812, 0.662405687279, 0.460387585347, 0.305538297757}},
-        {0.75f, {0.745131342455, 0.398824737791, 0.140121157544, 0.0289846076205}},
-        {1.0f, {0.666666666667, 0.25, 0.0, -0.0416666666667}},
-    };
-    const auto legendre = [](double x, int l) {
-        const double x2 = x * x;
-        return l == 1   ? x
-               : l == 2 ? 0.5 * (3.0 * x2 - 1.0)
-               : l == 3 ? 0.5 * x * (5.0 * x2 - 3.0)
-                        : 0.125 * ((35.0 * x2 - 30.0) * x2 + 3.0);
-    };
-    const glm::dvec3 axis = glm::normalize(glm::dvec3(0.3, -0.5, 0.8));
-    const auto band = [&](glm::vec3 d, int l) {
-        return legendre(glm::dot(glm::dvec3(d), axis), l);
-    };
+    // A constant stays, P_l becomes lambda_l P_l. Without the weight, or with alpha for the slider,
+    // every lambda is different. At r = 0.05 the texels are five times as wide as the lobe.
     const CubePyramid odd(
-        cubeOf(128, [&](glm::vec3 d) { return glm::vec3(1.0, 2.0 + band(d, 1), band(d, 3)); }));
+        cubeOf(128, [](glm::vec3 d) { return glm::vec3(1.0, 2.0 + band(d, 1), band(d, 3)); }));
     const CubePyramid even(
-        cubeOf(128, [&](glm::vec3 d) { return glm::vec3(0.0, band(d, 2), band(d, 4)); }));
-    for (const auto& row : kRows) {
+        cubeOf(128, [](glm::vec3 d) { return glm::vec3(0.0, band(d, 2), band(d, 4)); }));
+    for (const BandFactors& row : kBandFactors) {
         const float alpha = row.perceptualRoughness * row.perceptualRoughness;
         const CubeLevel a = prefilterGGX(odd, 16, alpha, {}, {});
         const CubeLevel b = prefilterGGX(even, 16, alpha, {}, {});
@@ -115,109 +74,33 @@ TEST(Prefilter, MultipliesBandsByTheirFactors) {
 }
 
 TEST(Prefilter, RespondsToAPointOfLightWithItsKernel) {
-    // K(t) = D(t / 2) cos t / (4 W): response at angle t from R to unit integrated radiance.
-    constexpr float kAngleDeg[8] = {0, 5, 10, 20, 30, 45, 60, 80};
-    constexpr double kKernel[5][8] = {
-        {797.053020629, 1.98017439223, 0.13255018851, 0.00818470273818, 0.00153399510852,
-         0.0002624868001, 6.37260003148e-05, 8.10520679947e-06},
-        {21.0957001062, 9.52757393885, 2.40843045642, 0.262555479877, 0.0558782922431,
-         0.010145809629, 0.00251584801732, 0.000323823737212},
-        {1.67025672741, 1.57284266925, 1.32559130272, 0.744137473127, 0.359888235795,
-         0.115575213166, 0.0370139994995, 0.005598521862},
-        {0.534055233168, 0.527675877133, 0.509094726092, 0.442336735447, 0.352950647382,
-         0.217920161614, 0.11257581728, 0.0258886473299},
-        {0.318309886184, 0.317098620966, 0.313474043774, 0.29911345117, 0.275664447711,
-         0.225079079039, 0.159154943092, 0.0552739316692}};
     // A lamp of one texel next to the middle of +X.
     constexpr int kSize = 256, kOut = 128;
     CubeLevel base = cubeOf(kSize, [](glm::vec3) { return glm::vec3(0.0f); });
     const std::size_t lamp = kSize / 2 * kSize + kSize / 2;
     base.texels[lamp] = glm::vec3(1e5f);
     const double flux = 1e5 * cubeSolidAngles(kSize)[lamp];
-    const glm::dvec3 lampDirection(texelDirection(kSize, lamp));
     const CubePyramid pyramid(base);
     for (int r = 0; r < 5; ++r) {
-        const double alpha2 = std::pow(kRoughness[r], 4.0);
-        const CubeLevel out = prefilterGGX(pyramid, kOut, kRoughness[r] * kRoughness[r], {}, {});
+        const float alpha = kFilterRoughness[r] * kFilterRoughness[r];
+        const CubeLevel out = prefilterGGX(pyramid, kOut, alpha, {}, {});
         for (int k = 0; k < 8; ++k) {
-            // The texel whose angle is closest, and from there by the ratio of the lobe's values.
-            const double wanted = glm::radians(static_cast<double>(kAngleDeg[k]));
-            double angle = 1e9, value = 0.0;
-            for (std::size_t i = 0; i < out.texels.size(); ++i) {
-                const glm::dvec3 d = lampDirection - glm::dvec3(texelDirection(kOut, i));
-                const double t = 2.0 * std::asin(std::min(0.5 * glm::length(d), 1.0));
-                if (std::abs(t - wanted) < std::abs(angle - wanted)) {
-                    angle = t;
-                    value = out.texels[i].x;
-                }
-            }
-            const double expected =
-                kKernel[r][k] * lobe(std::cos(angle), alpha2) / lobe(std::cos(wanted), alpha2);
-            EXPECT_NEAR(value / (flux * expected), 1.0, 1e-4)
-                << "roughness " << kRoughness[r] << " at " << kAngleDeg[k] << " degrees";
+            const KernelSample at = kernelSample(kOut, texelDirection(kSize, lamp), r, k);
+            EXPECT_NEAR(out.texels[at.texel].x / (flux * at.exact), 1.0, 1e-4)
+                << "roughness " << kFilterRoughness[r] << " at " << kKernelAngleDeg[k]
+                << " degrees";
         }
     }
 }
 
 TEST(Prefilter, DiscLightsLookedAtDirectly) {
-    // Fraction of the kernel inside a disc of half-angle 0.2666° (the Sun), 2.5° and 10°; r = 0.1,
-    // 0.25, 0.5, 0.75, 1. Texels of width w, each a point of light at its centre, make the peak of
-    // a lobe w² / (12 alpha²) too high: at r = 0.1 by 5 % where 256 texels are a right angle, by
-    // 0.08 % where 1024 are and the disc lies near a corner of the cube.
-    constexpr struct {
-        double halfAngleDeg;
-        double fraction[5];
-    } kDiscs[] = {
-        {0.2666,
-         {0.0514302096453, 0.00143290266601, 0.000113597751254, 3.63247689137e-05,
-          2.16506974444e-05}},
-        {2.5,
-         {0.827566121667, 0.112452461214, 0.0099129653364, 0.00318895909711, 0.00190265095413}},
-        {10.0, {0.988017070715, 0.68222336265, 0.142079213488, 0.0497765768298, 0.030153689607}}};
-    // Each disc stands on a texel of the output; a texel it covers in part has that share.
-    constexpr int kSize = 1024, kOut = 64, kParts = 16;
-    const std::size_t texel = (4u * kOut + 61) * kOut + 61;
-    const glm::vec3 towards = texelDirection(kOut, texel);
-    const std::vector<float> omega = cubeSolidAngles(kSize);
-    for (const auto& disc : kDiscs) {
-        const auto edge = static_cast<float>(2.0 * std::sin(glm::radians(disc.halfAngleDeg) / 2.0));
-        CubeLevel base{kSize, std::vector<glm::vec3>(6u * kSize * kSize, glm::vec3(0.0f))};
-        double flux = 0.0;
-        for (std::size_t i = 0; i < base.texels.size(); ++i) {
-            if (i % 64 == 0 && glm::length(texelDirection(kSize, i) - towards) > edge + 0.15f) {
-                i += 63; // none of a row of 64 is near
-                continue;
-            }
-            const float distance = glm::length(texelDirection(kSize, i) - towards);
-            if (distance > edge + 0.002f)
-                continue;
-            int inside = 0;
-            for (int k = 0; k < kParts * kParts && distance > edge - 0.002f; ++k) {
-                const auto at = [&](std::size_t whole, int part) {
-                    return (static_cast<float>(whole) +
-                            (static_cast<float>(part) + 0.5f) / kParts) /
-                           kSize;
-                };
-                const glm::vec3 part = glm::normalize(
-                    cubeDirection(static_cast<int>(i / (kSize * kSize)), at(i % kSize, k % kParts),
-                                  at(i / kSize % kSize, k / kParts)));
-                inside += glm::length(part - towards) < edge ? 1 : 0;
-            }
-            const float share =
-                distance > edge - 0.002f ? static_cast<float>(inside) / (kParts * kParts) : 1.0f;
-            base.texels[i] = glm::vec3(share);
-            flux += static_cast<double>(share) * omega[i % omega.size()];
-        }
-        // Its flux exactly: the parts of a texel count too coarsely for the Sun.
-        const double half = std::sin(glm::radians(disc.halfAngleDeg) / 2.0);
-        for (glm::vec3& value : base.texels)
-            value *= static_cast<float>(4.0 * M_PI * half * half / flux);
-        const CubePyramid pyramid(base);
+    for (const Disc& disc : kDiscs) {
+        const CubePyramid pyramid(discCube(disc.halfAngleDeg));
         for (int r = 0; r < 5; ++r) {
-            const CubeLevel out =
-                prefilterGGX(pyramid, kOut, kRoughness[r] * kRoughness[r], {}, {});
-            EXPECT_NEAR(out.texels[texel].x / disc.fraction[r], 1.0, 1e-3)
-                << disc.halfAngleDeg << " degrees, " << kRoughness[r];
+            const float alpha = kFilterRoughness[r] * kFilterRoughness[r];
+            const CubeLevel out = prefilterGGX(pyramid, 16, alpha, {}, {});
+            EXPECT_NEAR(out.texels[kDiscTexel].x / disc.fraction[r], 1.0, 1e-3)
+                << disc.halfAngleDeg << " degrees, " << kFilterRoughness[r];
         }
     }
 }
