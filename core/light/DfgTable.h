@@ -38,8 +38,8 @@ enum class DfgTexels {
 };
 
 // size × size, F32, 3 channels as above; u = N·V, v = perceptualRoughness. Entries are within 5e-4
-// of integrateDfg() (1e-3 for N·V < 0.05): a shorter quadrature in single precision, SIMD. The
-// result does not depend on the number of threads. `size`: at least 2.
+// of integrateDfg() (1e-3 for N·V < 0.05, 3e-3 for the tilt at N·V = 1): a shorter quadrature in
+// single precision, SIMD. The result does not depend on the number of threads. `size`: at least 2.
 [[nodiscard]] Image computeDfgTable(int size = 128, Distribution distribution = Distribution::GGX,
                                     Visibility visibility = Visibility::SmithCorrelated,
                                     DfgTexels texels = DfgTexels::Inside);

@@ -380,9 +380,11 @@ TEST(Dfg, TableHoldsTheIntegralsAtItsTexels) {
                                      Distribution::GGX, reference.visibility);
                     const float* texel = &table.f32()[(static_cast<std::size_t>(y) * 32 + x) * 3];
                     for (int c = 0; c < 3; ++c)
-                        // The tilt at N·V = 1, where n and R are one, is a quotient of two small
-                        // numbers.
-                        ASSERT_NEAR(texel[c], exact[c], x < 2 || (x == 31 && c == 2) ? 2e-3 : 5e-4)
+                        // The tilt where n and R are nearly one is a quotient of small numbers.
+                        ASSERT_NEAR(texel[c], exact[c],
+                                    c == 2 && x == 31 ? 3e-3
+                                    : x < 2           ? 1e-3
+                                                      : 5e-4)
                             << x << " " << y << " channel " << c;
                 }
         }
