@@ -31,7 +31,6 @@ struct FrameSettings {
     Id selectedMesh = 0;                // outlined when showOverlays
     Id selectedLight = 0;               // shown with its handles when showOverlays
     float overlayScale = 1.0f; // of a frame that is to be enlarged: share of its final size
-    bool coarse = false;       // fewer triangles, where a reduced frame hides it (the editor)
     bool dither = false;       // hides the bands of 8-bit values (the editor)
 
     // Seconds since the last frame, for automatic exposure; infinite: the eye is used to the
@@ -113,8 +112,9 @@ class Renderer {
     // one pixel. CHECKs that the pixel lies inside the frame.
     [[nodiscard]] Result<Inspection> inspect(int x, int y);
     // The range that the last frame's view was shown over: the locked one, the table's, or the
-    // picture's own; nothing for views without one.
+    // picture's own; nothing for views without one. The other: that right of the split.
     [[nodiscard]] std::optional<ViewRange> shownRange() const;
+    [[nodiscard]] std::optional<ViewRange> otherRange() const;
 
     // Recompiles shaders that changed on disk; a shader that does not compile keeps the last good
     // program. Returns the messages (file, line) of what failed.

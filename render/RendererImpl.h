@@ -57,7 +57,7 @@ struct Renderer::Impl {
     bool sceneIsNew = true;      // something was set since the last frame
     bool luminanceIsNew = true;  // the last frame's scene has not been measured
     bool luminanceKnown = false; // some frame has been measured
-    std::optional<ViewRange> shownRange;
+    std::optional<ViewRange> shownRange, otherRange;
 
     // --- Renderer.cpp
     [[nodiscard]] FrameBlock packFrame(const FrameSettings& frame) const;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <epoxy/gl.h>
 #include <glm/trigonometric.hpp>
+#include <utility>
 
 namespace patina::render {
 namespace {
@@ -98,12 +99,11 @@ Result<ViewRange> Renderer::Impl::rangeFor(const ViewChoice& choice, const gl::T
         if (*measured)
             range = **measured;
     }
-    // A single value, give or take rounding, lies in the middle of a range of its own.
-    const float middle = 0.5f * (range.min + range.max);
-    if (!(range.max - range.min > 0.02f * std::abs(middle))) {
-        const float half = std::max(0.05f * std::abs(middle), 1e-6f);
-        range = info.logarithmic ? ViewRange{0.5f * middle, 2.0f * middle}
-                                 : ViewRange{middle - half, middle + half};
+    // A single value lies in the middle of a range of its own.
+    if (!(range.max > range.min)) {
+        const float half = std::max(std::abs(range.min) * 0.05f, 1e-6f);
+        range = info.logarithmic ? ViewRange{range.min / 1.1f, range.min * 1.1f}
+                                 : ViewRange{range.min - half, range.min + half};
     }
     if (info.logarithmic)
         range.min = std::max(range.min, range.max * 1e-6f);
@@ -115,19 +115,6 @@ Result<void> Renderer::Impl::drawSide(const FrameSettings& frame, const ViewChoi
     const ViewInfo& info = viewInfo(choice.kind);
     const View& look = scene.document().view;
     const bool ordinary = isOrdinary(frame.view, choice);
-    if (!whyEmpty(choice.kind, scene.document()).empty()) {
-        const auto target = targets.dataTarget(context);
-        if (!target)
-            return target.error();
-        const ViewChoice shape{kViewNoV, ViewMode::Raw, {}};
-        if (drawsScene)
-            if (auto done = drawNumbers(frame, lastBlock, **target,
-                                        viewsBlock(frame.view, std::span(&shape, 1), false), false,
-                                        SurfaceOutput::OneView);
-                !done)
-                return done;
-        return views.showEmpty(targets.data(), side, targets.display());
-    }
     if (showsRadiance(choice)) {
         if (drawsScene) {
             views.setBlock(viewsBlock(frame.view, std::span(&choice, 1), true));
@@ -144,13 +131,9 @@ Result<void> Renderer::Impl::drawSide(const FrameSettings& frame, const ViewChoi
             if (auto done = adapt(frame); !done)
                 return done;
         adaptation.bind();
-        if (auto done =
-                screen.toneMap(targets.linear(), targets.display(), look,
-                               {.dither = frame.dither,
-                                .scale = choice.mode == ViewMode::Raw ? info.displayScale : 1.0f,
-                                .fillEmpty = !hasBackground(choice),
-                                .markClipped = choice.kind == kViewClipped,
-                                .side = side});
+        if (auto done = screen.toneMap(
+                targets.linear(), targets.display(), look,
+                {.dither = frame.dither, .markClipped = choice.kind == kViewClipped, .side = side});
             !done)
             return done;
         if (choice.kind != kViewWireframe)
@@ -180,6 +163,7 @@ Result<void> Renderer::Impl::drawSide(const FrameSettings& frame, const ViewChoi
 
 Result<void> Renderer::Impl::drawViews(const FrameSettings& frame, bool drawsScene) {
     shownRange.reset();
+    otherRange.reset();
     // Exposure follows the whole picture, even where only a term of it is shown.
     if (needsLuminance(scene.document().view) && !luminanceKnown &&
         !isOrdinary(frame.view, frame.view.shown)) {
@@ -198,7 +182,7 @@ Result<void> Renderer::Impl::drawViews(const FrameSettings& frame, bool drawsSce
     const glm::vec3 right = rightOf(*split, frame.width, frame.height);
     if (auto done = drawSide(frame, split->other, right, true); !done)
         return done;
-    shownRange.reset();
+    otherRange = std::exchange(shownRange, std::nullopt);
     return drawSide(frame, frame.view.shown, -right, true);
 }
 
@@ -206,8 +190,6 @@ Result<void> Renderer::Impl::showOnSheet(const FrameSettings& frame, const Frame
                                          const ViewChoice& choice, const gl::Texture& values) {
     const View& look = scene.document().view;
     adaptation.bind();
-    if (!whyEmpty(choice.kind, scene.document()).empty())
-        return views.showEmpty(values, glm::vec3(0.0f), sheet.display());
     if (!showsRadiance(choice)) {
         const auto range = rangeFor(choice, values);
         if (!range)
@@ -215,11 +197,8 @@ Result<void> Renderer::Impl::showOnSheet(const FrameSettings& frame, const Frame
         return views.show(values, viewInfo(choice.kind), *range, look, glm::vec3(0.0f), 1.0f,
                           sheet.display());
     }
-    if (auto done = screen.toneMap(
-            values, sheet.display(), look,
-            {.scale = choice.mode == ViewMode::Raw ? viewInfo(choice.kind).displayScale : 1.0f,
-             .fillEmpty = true,
-             .markClipped = choice.kind == kViewClipped});
+    if (auto done = screen.toneMap(values, sheet.display(), look,
+                                   {.markClipped = choice.kind == kViewClipped});
         !done)
         return done;
     if (choice.kind != kViewWireframe)
@@ -230,6 +209,10 @@ Result<void> Renderer::Impl::showOnSheet(const FrameSettings& frame, const Frame
 
 std::optional<ViewRange> Renderer::shownRange() const {
     return m_impl->shownRange;
+}
+
+std::optional<ViewRange> Renderer::otherRange() const {
+    return m_impl->otherRange;
 }
 
 Result<Image> Renderer::readView(ViewKind kind, ViewMode mode) {

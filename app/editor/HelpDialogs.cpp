@@ -47,6 +47,16 @@ QWidget* page(const QString& title, const Lines& lines) {
     return widget;
 }
 
+// What has a shortcut, with the first one.
+Lines linesOf(const QList<QAction*>& actions) {
+    Lines lines;
+    for (const QAction* action : actions)
+        if (!action->shortcut().isEmpty())
+            lines << qMakePair(action->shortcut().toString(QKeySequence::NativeText),
+                               action->iconText());
+    return lines;
+}
+
 QDialogButtonBox* closeButton(QDialog* dialog) {
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
     QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
@@ -55,19 +65,17 @@ QDialogButtonBox* closeButton(QDialog* dialog) {
 
 } // namespace
 
-QDialog* makeShortcutsDialog(const QList<QAction*>& actions, QWidget* parent) {
+QDialog* makeShortcutsDialog(const QList<QAction*>& commands, const QList<QAction*>& views,
+                             QWidget* parent) {
     auto* dialog = new QDialog(parent);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->setWindowTitle(tr("Keyboard and Mouse"));
 
-    Lines keys;
-    for (const QAction* action : actions) {
-        QString text = action->iconText();
-        const QString shortcuts =
-            QKeySequence::listToString(action->shortcuts(), QKeySequence::NativeText);
-        if (!shortcuts.isEmpty())
-            keys << qMakePair(shortcuts.split(QStringLiteral("; ")).first(), text);
-    }
+    const Lines looking = {
+        {tr("Hold a key"), tr("Look only while it is held")},
+        {tr("Drag the split"), tr("Move it; its ring turns it (Shift: in steps); Esc removes it")},
+        {tr("Double-click a thumbnail"), tr("Show it on the other side of the split")},
+    };
     const Lines viewport = {
         {tr("Left drag"), tr("Orbit")},
         {tr("Middle drag"), tr("Pan (also Shift + left drag)")},
@@ -94,7 +102,8 @@ QDialog* makeShortcutsDialog(const QList<QAction*>& actions, QWidget* parent) {
     right->addStretch(1);
     auto* columns = new QHBoxLayout;
     columns->setSpacing(4 * tokens::kMargin);
-    columns->addWidget(page(tr("Commands"), keys), 0, Qt::AlignTop);
+    columns->addWidget(page(tr("Commands"), linesOf(commands)), 0, Qt::AlignTop);
+    columns->addWidget(page(tr("Views"), linesOf(views) + looking), 0, Qt::AlignTop);
     columns->addLayout(right);
     auto* layout = new QVBoxLayout(dialog);
     layout->setContentsMargins(2 * tokens::kMargin, 2 * tokens::kMargin, 2 * tokens::kMargin,

@@ -6,6 +6,7 @@
 #include "app/editor/FileFlow.h"
 #include "app/editor/HelpDialogs.h"
 #include "app/editor/Session.h"
+#include "app/editor/ViewActions.h"
 #include "app/editor/document/Commands.h"
 #include "app/editor/panel/BakePanel.h"
 #include "app/editor/panel/EnvironmentPanel.h"
@@ -17,6 +18,8 @@
 #include "app/editor/panel/ScenePanel.h"
 #include "app/editor/panel/ViewPanel.h"
 #include "app/editor/style/Icons.h"
+#include "app/editor/viewport/ViewOverlay.h"
+#include "app/editor/viewport/ViewStrip.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "app/editor/widget/BusyIndicator.h"
 #include "app/editor/widget/NoticeArea.h"
@@ -56,6 +59,7 @@ QStringList droppedFiles(const QMimeData* data) {
 MainWindow::MainWindow(Session& session)
     : m_session(session)
     , m_actions(new Actions(session.controller.undoStack(), this))
+    , m_looks(new ViewActions(session.views, session.controller, this))
     , m_files(new FileFlow(session, *this))
     , m_notices(new NoticeArea)
     , m_viewport(new ViewportWidget(session.controller, session.selection)) {
@@ -75,6 +79,14 @@ MainWindow::MainWindow(Session& session)
     layout->setSpacing(0);
     layout->addWidget(m_notices);
     layout->addWidget(m_viewport, 1);
+    new ViewOverlay(session.views, session.controller, *m_viewport);
+    auto* strip = new ViewStrip(session.views, session.controller, m_viewport->sheets());
+    layout->addWidget(strip);
+    connect(m_looks->strip, &QAction::toggled, strip,
+            [strip](bool shown) { strip->setFolded(!shown); });
+    connect(strip, &ViewStrip::foldedChanged, m_looks->strip,
+            [this](bool folded) { m_looks->strip->setChecked(!folded); });
+    m_looks->strip->setChecked(!strip->isFolded());
     setCentralWidget(centre);
 
     makeDocks();
@@ -219,6 +231,8 @@ void MainWindow::makeMenus() {
     QMenu* view = menuBar()->addMenu(tr("&View"));
     view->addActions({a.frame, a.home, a.overlays});
     view->addSeparator();
+    m_looks->fillMenu(*view->addMenu(tr("Look &At")));
+    view->addSeparator();
     view->addActions({a.lightingIbl, a.lightingPrt});
     view->addSeparator();
     for (const QDockWidget* dock : std::as_const(m_docks))
@@ -232,6 +246,7 @@ void MainWindow::makeMenus() {
 
     // Shortcuts go on in full screen, where the menu bar may be hidden.
     addActions(a.all());
+    addActions(m_looks->all());
 }
 
 void MainWindow::makeToolBar() {
@@ -315,7 +330,7 @@ void MainWindow::connectActions() {
             [this](bool on) { setWindowState(windowState().setFlag(Qt::WindowFullScreen, on)); });
     connect(a.resetLayout, &QAction::triggered, this, &MainWindow::resetLayout);
     connect(a.shortcuts, &QAction::triggered, this,
-            [this] { makeShortcutsDialog(m_actions->all(), this)->show(); });
+            [this] { makeShortcutsDialog(m_actions->all(), m_looks->all(), this)->show(); });
     connect(a.about, &QAction::triggered, this, [this] { makeAboutDialog(this)->show(); });
 
     connect(m_files, &FileFlow::recentFilesChanged, this, &MainWindow::fillRecentMenu);

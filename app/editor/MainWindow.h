@@ -14,6 +14,7 @@ class BusyIndicator;
 class FileFlow;
 class MaterialPanel;
 class NoticeArea;
+class ViewActions;
 class ViewportWidget;
 struct Session;
 struct UserNotice;
@@ -25,6 +26,7 @@ class MainWindow : public QMainWindow {
     ~MainWindow() override;
 
     [[nodiscard]] Actions& actions() { return *m_actions; }
+    [[nodiscard]] ViewActions& looks() { return *m_looks; }
     [[nodiscard]] FileFlow& files() { return *m_files; }
     [[nodiscard]] NoticeArea& notices() { return *m_notices; }
     [[nodiscard]] ViewportWidget& viewport() { return *m_viewport; }
@@ -57,6 +59,7 @@ class MainWindow : public QMainWindow {
 
     Session& m_session;
     Actions* m_actions;
+    ViewActions* m_looks;
     FileFlow* m_files;
     NoticeArea* m_notices;
     ViewportWidget* m_viewport;

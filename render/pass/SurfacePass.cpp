@@ -125,19 +125,13 @@ std::vector<std::string> modelDefines(const ShadingModel& model) {
     return defines;
 }
 
-void drawItem(const DrawItem& item, bool cull, bool coarse) {
+void drawItem(const DrawItem& item, bool cull) {
     (cull ? glEnable : glDisable)(GL_CULL_FACE);
     glFrontFace(item.mirrored ? GL_CW : GL_CCW);
     item.instanceBlock->bindUniform(kInstanceBinding);
     item.material->block.bindUniform(kMaterialBinding);
     item.mesh->array.bind();
-    const GpuMesh& mesh = *item.mesh;
-    if (coarse && mesh.coarseCount > 0)
-        glDrawElements(GL_TRIANGLES, mesh.coarseCount, GL_UNSIGNED_INT,
-                       reinterpret_cast<const void*>(static_cast<std::uintptr_t>(mesh.indexCount) *
-                                                     sizeof(std::uint32_t)));
-    else
-        glDrawElements(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_INT, nullptr);
+    glDrawElements(GL_TRIANGLES, item.mesh->indexCount, GL_UNSIGNED_INT, nullptr);
 }
 
 Result<const gl::Program*> SurfacePass::program(unsigned features,
@@ -183,8 +177,7 @@ Result<void> SurfacePass::draw(const GpuScene& scene, const std::vector<const Dr
             item->visibility->bindStorage(kVisibilityBinding);
         if (features & HasTransfer)
             item->transfer->bindStorage(kTransferBinding);
-        drawItem(*item, !item->material->doubleSided,
-                 settings.coarseView && coarseSuffices(*item, *settings.coarseView));
+        drawItem(*item, !item->material->doubleSided);
     }
     return {};
 }

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,8 +24,6 @@ struct SurfaceSettings {
     int shadows = 0;         // maps that ShadowPass::bind() has bound
     ShadingModel model;      // its choices; the numbers are in the scene's model block
     SurfaceOutput output = SurfaceOutput::Picture;
-    // Set: meshes may be drawn with fewer triangles where this view (worldToClip) hides it.
-    std::optional<glm::mat4> coarseView = std::nullopt;
 };
 
 class SurfacePass {
@@ -64,7 +61,6 @@ class SurfacePass {
 [[nodiscard]] std::vector<std::string> modelDefines(const ShadingModel& model);
 
 // Binds blocks and buffers of an item and issues the draw call; front faces and culling included.
-// `coarse`: with fewer triangles, if its mesh has any.
-void drawItem(const DrawItem& item, bool cull, bool coarse = false);
+void drawItem(const DrawItem& item, bool cull);
 
 } // namespace patina::render

@@ -271,6 +271,7 @@ std::vector<SharedTermCase> makeCases() {
                     O(i) = shown.x + 2.0f * shown.y + 4.0f * shown.z;
                 } OUT3(7, finiteRadiance(c));
                 O(10) = finiteRadiance(-I(6));),
+            CASE("identity colour", unit, 1e-2f, OUT3(0, identityColor(floor(200.0f * I(0))));),
             CASE(
                 "display", unit, 1e-2f,
                 OUT3(0, displayEncode(vec3(I(0), I(1), I(2)), kDisplaySrgb, 2.2f));

@@ -4,7 +4,6 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/viewport/IblUpdater.h"
-#include "app/editor/viewport/ViewState.h"
 #include "core/base/Log.h"
 #include "render/Renderer.h"
 #include "render/gl/Context.h"
@@ -16,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <glm/trigonometric.hpp>
 
 namespace patina::editor {
 namespace {
@@ -39,7 +39,8 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     , m_controller(controller)
     , m_selection(selection)
     , m_ibl(new IblUpdater(iblCacheFolder(), this))
-    , m_hand(controller, selection, *this) {
+    , m_hand(controller, selection, *this)
+    , m_viewFeed(controller) {
     setObjectName(QStringLiteral("viewport"));
     setAccessibleName(tr("Viewport"));
     setAccessibleDescription(
@@ -66,7 +67,7 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     m_adaptationTimer.setSingleShot(true);
     m_adaptationTimer.setInterval(kAdaptationMs);
     connect(&m_adaptationTimer, &QTimer::timeout, this, [this] {
-        m_onlyExposure = true;
+        m_onlyDisplay = true;
         update();
     });
     m_shaderTimer.setInterval(kShaderPollMs);
@@ -87,6 +88,18 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     connect(&selection, &SelectionModel::selectionChanged, this, qOverload<>(&QWidget::update));
     connect(&m_hand, &ViewportHand::cameraMoved, this, &ViewportWidget::touch);
     connect(&m_hand, &ViewportHand::clicked, this, &ViewportWidget::pickAt);
+    connect(&m_viewFeed, &ViewFeed::changed, this, [this] {
+        hurry(); // the next frame shows it, however slow the GPU is
+        update();
+    });
+    connect(&m_viewFeed, &ViewFeed::termsChanged, this, &ViewportWidget::lookChanged);
+    connect(&m_viewFeed, &ViewFeed::blinked, this, [this] {
+        if (m_pacing.moving())
+            return; // the time is needed
+        m_onlyDisplay = true;
+        update();
+    });
+    m_sheets.setDraw([this](const render::ViewSheet& sheet) { return drawSheet(sheet); });
     connect(&m_preview, &PreviewFeed::changed, this, &ViewportWidget::lookChanged);
     // Between frames and input, so that neither waits for an environment.
     m_environmentTimer.setSingleShot(true);
@@ -113,20 +126,7 @@ void ViewportWidget::setDisplays(DisplayLoader& displays) {
 }
 
 void ViewportWidget::setViews(ViewState& views) {
-    m_views = &views;
-    connect(&views, &ViewState::changed, this, &ViewportWidget::viewsChanged);
-}
-
-void ViewportWidget::viewsChanged() {
-    // Which view is shown, and where the split lies, is nothing that thumbnails depend on.
-    const auto sceneOf = [](render::ViewSettings settings) {
-        settings.shown = {};
-        settings.split.reset();
-        return settings;
-    };
-    if (sceneOf(m_views->settings()) != sceneOf(m_lastViews))
-        m_sheets.invalidate();
-    update();
+    m_viewFeed.setViews(views);
 }
 
 void ViewportWidget::lookChanged() {
@@ -174,6 +174,7 @@ void ViewportWidget::initializeGL() {
 void ViewportWidget::releaseGl() {
     if (!m_renderer && !m_context)
         return;
+    m_sheets.setResting(false);
     makeCurrent();
     m_target.reset();
     m_renderer.reset();
@@ -200,17 +201,14 @@ render::FrameSettings ViewportWidget::nextFrame(const QSize& size) {
     frame.showOverlays = m_overlays;
     frame.selectedMesh = m_selection.mesh();
     frame.dither = true;
-    frame.coarse = m_pacing.scale() < 1.0f;
     // The eye does not wait for what nobody looks at; while the hand moves there is no time for it.
     frame.measureLuminance = m_luminanceWanted && !m_pacing.moving();
     frame.adaptSeconds =
         m_adaptation.beginFrame(static_cast<double>(m_clock.nsecsElapsed()) * 1e-9);
-    if (m_views)
-        frame.view = m_views->settings();
-    frame.reuseScene = std::exchange(m_onlyExposure, false) && frame.camera == m_lastCamera &&
-                       frame.view == m_lastViews;
+    frame.view = m_viewFeed.beginFrame();
+    frame.reuseScene = std::exchange(m_onlyDisplay, false) && frame.camera == m_lastCamera &&
+                       m_viewFeed.sameAsBefore();
     m_lastCamera = frame.camera;
-    m_lastViews = frame.view;
     frame.selectedLight = m_selection.light();
     frame.overlayScale = m_pacing.scale();
     return frame;
@@ -238,6 +236,7 @@ void ViewportWidget::paintGL() {
     if (const Result<void> drawn = m_renderer->render(frame, target); !drawn)
         logError("the frame could not be drawn: {}", drawn.error().text());
     m_target.end();
+    m_viewFeed.endFrame(*m_renderer);
     gl->glFinish(); // so that the time below is the frame's, not that of the call
     m_lastFrameSize = size;
 
@@ -266,6 +265,21 @@ void ViewportWidget::feedEnvironment() {
     m_pacing.pictureChanged();
     m_restTimer.start();
     lookChanged();
+}
+
+Result<std::vector<Image>> ViewportWidget::drawSheet(const render::ViewSheet& sheet) {
+    makeCurrent();
+    render::FrameSettings frame;
+    frame.camera = m_lastCamera;
+    // The middle of what the viewport shows: a narrow one shows less to the sides.
+    const float aspect = static_cast<float>(sheet.width) / static_cast<float>(sheet.height);
+    if (const float part = viewAspect() / aspect; part < 1.0f)
+        frame.camera.fovDeg = glm::degrees(
+            2.0f * std::atan(part * std::tan(0.5f * glm::radians(frame.camera.fovDeg))));
+    frame.view = m_viewFeed.drawn();
+    Result<std::vector<Image>> drawn = m_renderer->drawSheet(frame, sheet);
+    doneCurrent();
+    return drawn;
 }
 
 void ViewportWidget::takeDisplay() {
@@ -313,10 +327,14 @@ void ViewportWidget::applyChange(const Change& change) {
 // --- Camera ----------------------------------------------------------------------------------
 
 void ViewportWidget::touch() {
+    hurry();
+    lookChanged();
+}
+
+void ViewportWidget::hurry() {
     m_pacing.beginMoving();
     m_restTimer.start();
     m_sheets.setResting(false);
-    lookChanged();
 }
 
 void ViewportWidget::setCamera(const Camera& camera) {

@@ -6,9 +6,11 @@
 #include "app/editor/viewport/PreviewFeed.h"
 #include "app/editor/viewport/ScaledTarget.h"
 #include "app/editor/viewport/SheetScheduler.h"
+#include "app/editor/viewport/ViewFeed.h"
 #include "app/editor/viewport/ViewportHand.h"
 #include "core/document/Document.h"
 #include "core/math/Camera.h"
+#include "render/Renderer.h"
 
 #include <QElapsedTimer>
 #include <QOpenGLWidget>
@@ -22,10 +24,6 @@ struct Error;
 namespace patina::gl {
 class Context;
 }
-namespace patina::render {
-class Renderer;
-struct FrameSettings;
-} // namespace patina::render
 
 namespace patina::editor {
 
@@ -80,7 +78,8 @@ class ViewportWidget : public QOpenGLWidget {
     void setCamera(const Camera& camera);
     void touch();       // the hand moved something: draw fast now, refine when it rests
     void lookChanged(); // of the scene, other than by the hand: its thumbnails are old, too
-    void viewsChanged();
+    void hurry();       // the next frames must be fast
+    [[nodiscard]] Result<std::vector<Image>> drawSheet(const render::ViewSheet& sheet);
     [[nodiscard]] render::FrameSettings nextFrame(const QSize& size);
     void feedEnvironment();
     void takeDisplay();
@@ -91,11 +90,10 @@ class ViewportWidget : public QOpenGLWidget {
     DocumentController& m_controller;
     SelectionModel& m_selection;
     DisplayLoader* m_displays = nullptr;
-    ViewState* m_views = nullptr;
-    render::ViewSettings m_lastViews; // as drawn last
     IblUpdater* m_ibl;
     ViewportHand m_hand;
     PreviewFeed m_preview;
+    ViewFeed m_viewFeed;
     SheetScheduler m_sheets;
 
     std::unique_ptr<gl::Context> m_context;
@@ -105,9 +103,9 @@ class ViewportWidget : public QOpenGLWidget {
     bool m_luminanceWanted = false;
     std::optional<Luminance> m_luminance; // as announced last
     AdaptationClock m_adaptation;
-    QElapsedTimer m_clock;       // since the viewport was made
-    bool m_onlyExposure = false; // the next frame is drawn for adaptation alone
-    Camera m_lastCamera;         // of the last frame
+    QElapsedTimer m_clock;      // since the viewport was made
+    bool m_onlyDisplay = false; // the next frame is drawn for adaptation or marks alone
+    Camera m_lastCamera;        // of the last frame
 
     FramePacing m_pacing;
     QTimer m_restTimer, m_environmentTimer, m_shaderTimer, m_adaptationTimer;

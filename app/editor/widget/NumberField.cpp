@@ -22,6 +22,12 @@ int tenths(Qt::KeyboardModifiers modifiers) {
     return modifiers & Qt::ControlModifier ? kTenthsCoarse : kTenthsNormal;
 }
 
+bool startsNumber(const QKeyEvent& event) {
+    const QString text = event.text();
+    return !text.isEmpty() && !(event.modifiers() & (Qt::ControlModifier | Qt::AltModifier)) &&
+           (text[0].isDigit() || QStringLiteral("-+.,").contains(text[0]));
+}
+
 // A hundredth of the range, as a round number: 1, 2 or 5 times a power of ten.
 double roundStep(double range) {
     const double raw = range / 100;
@@ -51,6 +57,12 @@ void NumberField::setValue(double value) {
 
 void NumberField::setUnit(const QString& unit) {
     m_format.unit = unit;
+    if (m_mode != Mode::Editing)
+        showValue();
+}
+
+void NumberField::setFormat(const NumberFormat& format) {
+    m_format = format;
     if (m_mode != Mode::Editing)
         showValue();
 }
@@ -179,11 +191,14 @@ void NumberField::step(double steps, Qt::KeyboardModifiers modifiers) {
 }
 
 bool NumberField::event(QEvent* event) {
-    // Keys that end a scrub or an entry must not trigger shortcuts of the window.
-    if (event->type() == QEvent::ShortcutOverride && m_mode != Mode::Idle &&
-        static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
-        event->accept();
-        return true;
+    // Keys that end a scrub or an entry, or begin one, must not trigger shortcuts of the window.
+    if (event->type() == QEvent::ShortcutOverride) {
+        const auto& key = *static_cast<QKeyEvent*>(event);
+        const bool ends = m_mode != Mode::Idle && key.key() == Qt::Key_Escape;
+        if (ends || startsNumber(key)) {
+            event->accept();
+            return true;
+        }
     }
     return QLineEdit::event(event);
 }
@@ -214,12 +229,9 @@ void NumberField::keyPressEvent(QKeyEvent* event) {
     case Mode::Pressed:
         break;
     }
-    const QString text = event->text();
-    const bool startsNumber =
-        !text.isEmpty() && (text[0].isDigit() || QStringLiteral("-+.,").contains(text[0]));
     if (key == Qt::Key_Return || key == Qt::Key_Enter || key == Qt::Key_F2) {
         beginEditing();
-    } else if (startsNumber && !(event->modifiers() & (Qt::ControlModifier | Qt::AltModifier))) {
+    } else if (startsNumber(*event)) {
         beginEditing();
         QLineEdit::keyPressEvent(event);
     } else {

@@ -24,6 +24,7 @@ class NumberField : public QLineEdit {
     void setValue(double value);
     [[nodiscard]] double value() const { return m_value; }
     void setUnit(const QString& unit); // with the space before it: " cd"
+    void setFormat(const NumberFormat& format);
     [[nodiscard]] bool isEditing() const { return m_mode == Mode::Editing; }
 
     // "0.5", "0,5", "45°": nothing when it is no finite number.

@@ -4,6 +4,7 @@
 
 #include "app/editor/Actions.h"
 #include "app/editor/HelpDialogs.h"
+#include "app/editor/ViewActions.h"
 #include "app/editor/document/Commands.h"
 #include "app/editor/widget/NoticeArea.h"
 
@@ -345,7 +346,8 @@ TEST_F(WindowTest, PicturesOfTheWindowAreKept) {
          {QStringLiteral("Missing: a.png"), QStringLiteral("Missing: b.png")}});
     QTest::qWait(50);
     keep(window.get(), QStringLiteral("window"));
-    QDialog* shortcuts = makeShortcutsDialog(window->actions().all(), window.get());
+    QDialog* shortcuts =
+        makeShortcutsDialog(window->actions().all(), window->looks().all(), window.get());
     shortcuts->show();
     keep(shortcuts, QStringLiteral("shortcuts"));
     shortcuts->close();

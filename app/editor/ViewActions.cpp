@@ -1,0 +1,259 @@
+#include "app/editor/ViewActions.h"
+
+#include "app/editor/Actions.h"
+#include "app/editor/document/DocumentController.h"
+#include "app/editor/viewport/ViewState.h"
+#include "core/document/Lights.h"
+
+#include <QActionGroup>
+#include <QCoreApplication>
+#include <QKeyEvent>
+#include <QMenu>
+#include <algorithm>
+
+namespace patina::editor {
+
+using render::ViewMode;
+using render::ViewSettings;
+
+namespace {
+
+using namespace shading;
+
+// Letters of views that are looked at often. W A S D Q E fly the camera, F and G are commands.
+struct ViewKey {
+    ViewKind kind;
+    char key;
+};
+constexpr ViewKey kKeys[] = {
+    {kViewLuminance, 'Y'},
+    {kViewClipped, 'X'},
+    {kViewBaseColor, 'B'},
+    {kViewMetallic, 'M'},
+    {kViewPerceptualRoughness, 'R'},
+    {kViewAo, 'O'},
+    {kViewShadingNormal, 'N'},
+    {kViewUvChecker, 'U'},
+    {kViewDepth, 'Z'},
+    {kViewWireframe, 'H'},
+    {kViewDirect, 'L'},
+    {kViewIrradiance, 'I'},
+    {kViewPrefiltered, 'P'},
+    {kViewTransmission, 'K'},
+};
+
+QString text(std::string_view utf8) {
+    return QString::fromUtf8(utf8.data(), static_cast<qsizetype>(utf8.size()));
+}
+
+// An ampersand in a name is no mnemonic.
+QString menuText(QString name) {
+    return name.replace(QLatin1Char('&'), QLatin1String("&&"));
+}
+
+bool isModifier(int key) {
+    return key == Qt::Key_Shift || key == Qt::Key_Control || key == Qt::Key_Alt ||
+           key == Qt::Key_AltGr || key == Qt::Key_Meta;
+}
+
+} // namespace
+
+QString ViewActions::keyOf(ViewKind kind) {
+    for (const ViewKey& entry : kKeys)
+        if (entry.kind == kind)
+            return QString(QLatin1Char(entry.key));
+    return {};
+}
+
+ViewActions::ViewActions(ViewState& views, DocumentController& controller, QObject* parent)
+    : QObject(parent)
+    , final(make(tr("&Picture, and Back"), QStringLiteral("0"),
+                 tr("Show the picture; once more: what was looked at before"), true))
+    , contribution(make(tr("&Contribution"), QStringLiteral("C"),
+                        tr("Show what a factor does to the picture instead of its own value"),
+                        false))
+    , lockRange(make(tr("L&ock Range"), {},
+                     tr("Keep the range of the colours while the picture changes"), false))
+    , split(make(tr("&Split"), QStringLiteral("V"),
+                 tr("Show another view on the other side of a line; Esc takes it away"), false))
+    , strip(make(tr("&Thumbnails"), QStringLiteral("T"),
+                 tr("Show or hide the strip of views under the viewport"), false))
+    , m_state(views)
+    , m_controller(controller) {
+    for (QAction* action : {contribution, lockRange, split, strip})
+        action->setCheckable(true);
+    connect(final, &QAction::triggered, &m_state, &ViewState::toggleFinal);
+    connect(contribution, &QAction::triggered, this,
+            [this](bool on) { m_state.setMode(on ? ViewMode::Contribution : ViewMode::Raw); });
+    connect(lockRange, &QAction::triggered, this, [this](bool on) {
+        const render::ViewChoice& shown = m_state.settings().shown;
+        m_state.setRange(shown.kind, on ? std::optional(m_state.rangeOf(shown)) : std::nullopt);
+    });
+    connect(split, &QAction::triggered, &m_state, &ViewState::toggleSplit);
+    makeViews();
+    makeCycles();
+    connect(&m_state, &ViewState::changed, this, &ViewActions::refresh);
+    // A light that is gone, or off, lights no factor.
+    connect(&m_controller, &DocumentController::changed, this, [this] {
+        const Id chosen = m_state.settings().light;
+        const Light* light = m_controller.document().light(chosen);
+        if (chosen != 0 && (light == nullptr || !shines(m_controller.document(), *light)))
+            m_state.edit([](ViewSettings& settings) { settings.light = 0; });
+    });
+    refresh();
+}
+
+QAction* ViewActions::make(const QString& label, const QString& keys, const QString& sentence,
+                           bool peeks) {
+    auto* action = new QAction(label, this);
+    if (!keys.isEmpty())
+        action->setShortcut(QKeySequence(keys));
+    action->setAutoRepeat(false); // a held key peeks
+    Actions::describe(action, sentence);
+    if (peeks)
+        action->installEventFilter(this);
+    return action;
+}
+
+void ViewActions::makeViews() {
+    auto* group = new QActionGroup(this);
+    for (const ViewInfo& info : views()) {
+        QAction* action = make(menuText(text(info.label)), keyOf(info.kind), text(info.help), true);
+        action->setObjectName(QStringLiteral("view.") + text(info.id));
+        action->setIconText(text(info.label));
+        action->setCheckable(true);
+        group->addAction(action);
+        connect(action, &QAction::triggered, this,
+                [this, kind = info.kind] { m_state.show(kind); });
+        m_views.push_back(action);
+    }
+}
+
+void ViewActions::makeCycles() {
+    for (int i = 0; i < kViewGroupCount; ++i) {
+        const auto group = static_cast<ViewGroup>(i);
+        const QString name = text(viewGroupLabel(group));
+        for (const bool back : {false, true}) {
+            QAction* action =
+                make(back ? tr("%1: Previous View").arg(name) : tr("%1: Next View").arg(name),
+                     (back ? QStringLiteral("Shift+%1") : QStringLiteral("%1")).arg(i + 1),
+                     back ? tr("Look at the view before, in this group")
+                          : tr("Look at the next view of this group"),
+                     true);
+            connect(action, &QAction::triggered, this,
+                    [this, group, back] { m_state.cycle(group, back); });
+            m_cycles.push_back(action);
+        }
+    }
+}
+
+QList<QAction*> ViewActions::all() const {
+    QList<QAction*> actions{final, contribution, split, strip};
+    for (QAction* action : m_cycles)
+        actions << action;
+    for (QAction* action : m_views)
+        if (!action->shortcut().isEmpty())
+            actions << action;
+    return actions;
+}
+
+void ViewActions::refresh() {
+    const ViewSettings& settings = m_state.settings();
+    view(settings.shown.kind)->setChecked(true);
+    contribution->setChecked(m_state.mode() == ViewMode::Contribution);
+    split->setChecked(settings.split.has_value());
+    lockRange->setChecked(settings.shown.range.has_value());
+    lockRange->setEnabled(hasRange(settings.shown));
+}
+
+// --- Menu ------------------------------------------------------------------------------------
+
+void ViewActions::fillMenu(QMenu& menu) {
+    menu.setToolTipsVisible(true);
+    menu.addAction(final);
+    menu.addSeparator();
+    for (int i = 0; i < kViewGroupCount; ++i) {
+        const auto group = static_cast<ViewGroup>(i);
+        QMenu* submenu = menu.addMenu(menuText(text(viewGroupLabel(group))));
+        submenu->setToolTipsVisible(true);
+        for (const ViewInfo& info : views())
+            if (info.group == group)
+                submenu->addAction(view(info.kind));
+        submenu->addSeparator();
+        submenu->addAction(m_cycles[static_cast<std::size_t>(2 * i)]);
+        submenu->addAction(m_cycles[static_cast<std::size_t>(2 * i + 1)]);
+    }
+    menu.addSeparator();
+    menu.addActions({contribution, lockRange});
+    QMenu* lights = menu.addMenu(tr("&Light of D, G, F"));
+    lights->setToolTipsVisible(true);
+    connect(lights, &QMenu::aboutToShow, this, [this, lights] { fillLights(*lights); });
+    QMenu* steps = menu.addMenu(tr("&False Colour of Luminance"));
+    steps->setToolTipsVisible(true);
+    for (const float ev : {4.0f, 8.0f, 12.0f}) {
+        QAction* action = steps->addAction(tr("±%1 EV").arg(ev), this, [this, ev] {
+            m_state.setRange(kViewLuminance, render::ViewRange{-ev, ev});
+            m_state.show(kViewLuminance);
+        });
+        Actions::describe(action, tr("Colours for this many steps around middle grey"));
+    }
+    menu.addSeparator();
+    menu.addActions({split, strip});
+}
+
+void ViewActions::fillLights(QMenu& menu) {
+    menu.clear();
+    auto* group = new QActionGroup(&menu);
+    const auto add = [&](const QString& name, Id id, const QString& sentence) {
+        QAction* action = menu.addAction(menuText(name));
+        action->setCheckable(true);
+        action->setChecked(m_state.settings().light == id);
+        Actions::describe(action, sentence);
+        group->addAction(action);
+        connect(action, &QAction::triggered, this,
+                [this, id] { m_state.edit([id](ViewSettings& s) { s.light = id; }); });
+    };
+    add(tr("Mirror Direction"), 0, tr("The factors for light from where a mirror would look"));
+    for (const Light& light : m_controller.document().lights)
+        if (shines(m_controller.document(), light))
+            add(text(light.name), light.id, tr("The factors for the light of this lamp"));
+}
+
+// --- Keys that are held ------------------------------------------------------------------------
+
+bool ViewActions::eventFilter(QObject* watched, QEvent* event) {
+    switch (event->type()) {
+    case QEvent::Shortcut: // to one of the actions; it is triggered next
+        if (!m_held.isValid())
+            QCoreApplication::instance()->installEventFilter(this);
+        m_beforeHold = m_state.settings();
+        m_held.start();
+        break;
+    case QEvent::KeyRelease: {
+        const auto* key = static_cast<QKeyEvent*>(event);
+        if (m_held.isValid() && !key->isAutoRepeat() && !isModifier(key->key()))
+            endHold(m_held.elapsed() > kPeekMs);
+        break;
+    }
+    case QEvent::ApplicationDeactivate: // the release goes elsewhere
+        if (m_held.isValid())
+            endHold(m_held.elapsed() > kPeekMs);
+        break;
+    default:
+        break;
+    }
+    return QObject::eventFilter(watched, event);
+}
+
+void ViewActions::endHold(bool restore) {
+    m_held.invalidate();
+    QCoreApplication::instance()->removeEventFilter(this);
+    if (!restore)
+        return;
+    m_state.edit([this](ViewSettings& settings) {
+        settings.shown = m_beforeHold.shown;
+        settings.split = m_beforeHold.split;
+    });
+}
+
+} // namespace patina::editor

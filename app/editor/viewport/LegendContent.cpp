@@ -1,0 +1,148 @@
+#include "app/editor/viewport/LegendContent.h"
+
+#include "app/editor/viewport/ViewState.h"
+#include "core/document/Document.h"
+#include "core/document/Lights.h"
+#include "core/math/Shading.h"
+
+#include <QCoreApplication>
+#include <algorithm>
+
+namespace patina::editor {
+namespace {
+
+using namespace shading;
+
+constexpr std::size_t kMostSwatches = 8;
+
+QString tr(const char* text) {
+    return QCoreApplication::translate("LegendContent", text);
+}
+
+QString text(std::string_view utf8) {
+    return QString::fromUtf8(utf8.data(), static_cast<qsizetype>(utf8.size()));
+}
+
+bool dependsOnLight(ViewKind kind) {
+    switch (kind) {
+    case kViewD:
+    case kViewG:
+    case kViewF:
+    case kViewDGF:
+    case kViewNoL:
+    case kViewNoH:
+    case kViewVoH:
+    case kViewShadow:
+        return true;
+    default:
+        return false;
+    }
+}
+
+// Names of what is visible, in the colours of shaders/view.frag.
+template <class Things, class Keep>
+void addIdentities(LegendContent& content, const Things& things, Keep keep) {
+    for (const auto& thing : things) {
+        if (!keep(thing))
+            continue;
+        if (content.swatches.size() == kMostSwatches) {
+            ++content.moreSwatches;
+            continue;
+        }
+        const glm::vec3 color = identityColor(static_cast<float>(thing.id));
+        content.swatches.push_back(
+            {QColor::fromRgbF(color.r, color.g, color.b), QString::fromStdString(thing.name)});
+    }
+}
+
+// The colours of shaders/view.frag and tonemap.frag.
+void addMarks(LegendContent& content) {
+    switch (content.kind) {
+    case kViewInvalid:
+        content.swatches = {{QColor::fromRgbF(1.0f, 0.0f, 1.0f), tr("Not a number")},
+                            {QColor::fromRgbF(1.0f, 0.9f, 0.0f), tr("Infinite")},
+                            {QColor::fromRgbF(0.0f, 0.9f, 0.9f), tr("Negative")}};
+        break;
+    case kViewClipped:
+        content.swatches = {{QColor::fromRgbF(1.0f, 0.15f, 0.1f), tr("One channel at its end")},
+                            {Qt::white, tr("All channels at their end")},
+                            {QColor::fromRgbF(0.1f, 0.25f, 1.0f), tr("Black")}};
+        break;
+    case kViewOutOfGamut:
+        content.swatches = {{QColor::fromRgbF(1.0f, 0.2f, 0.8f), tr("A channel below zero")}};
+        break;
+    default:
+        break;
+    }
+}
+
+void describeColors(LegendContent& content, const ViewInfo& info, const Document& document) {
+    switch (info.value) {
+    case ViewValue::Radiance:
+        content.note = tr("Exposed and tone mapped like the picture");
+        break;
+    case ViewValue::Color:
+        content.note = tr("0…1, not exposed");
+        break;
+    case ViewValue::Scalar:
+        content.hasScale = true;
+        break;
+    case ViewValue::Direction:
+        content.note = tr("Red, green, blue: X, Y, Z from −1 to 1");
+        break;
+    case ViewValue::Identity:
+        if (info.kind == kViewMaterialId)
+            addIdentities(content, document.materials, [&](const Material& material) {
+                return std::any_of(document.meshes.begin(), document.meshes.end(),
+                                   [&](const MeshInstance& mesh) {
+                                       return mesh.visible && mesh.material == material.id;
+                                   });
+            });
+        else
+            addIdentities(content, document.meshes,
+                          [](const MeshInstance& mesh) { return mesh.visible; });
+        break;
+    case ViewValue::Picture:
+        content.hasScale = info.kind == kViewLuminance;
+        addMarks(content);
+        break;
+    }
+}
+
+} // namespace
+
+LegendContent describeView(const render::ViewSettings& settings, const render::ViewChoice& choice,
+                           const Document& document) {
+    const ViewInfo& info = viewInfo(choice.kind);
+    LegendContent content;
+    content.kind = choice.kind;
+    content.symbol = text(info.symbol);
+    content.title = text(info.label);
+    content.help = text(info.help) + QLatin1Char('.');
+    content.contribution = choice.mode == render::ViewMode::Contribution;
+    content.hasModes = !info.contribution.empty();
+    if (content.hasModes)
+        content.help += tr("\nContribution: ") + text(info.contribution);
+    content.why = QString::fromStdString(whyEmpty(choice.kind, document));
+    if (!content.why.isEmpty()) {
+        content.hasModes = false;
+        return content;
+    }
+    if (content.contribution) {
+        content.note = text(info.contribution);
+    } else {
+        content.unit = text(info.unit);
+        describeColors(content, info, document);
+    }
+    if (dependsOnLight(choice.kind)) {
+        content.light = settings.light;
+        content.lights.push_back(
+            {0, choice.kind == kViewShadow ? tr("All lights") : tr("Mirror direction")});
+        for (const Light& light : document.lights)
+            if (shines(document, light))
+                content.lights.push_back({light.id, QString::fromStdString(light.name)});
+    }
+    return content;
+}
+
+} // namespace patina::editor

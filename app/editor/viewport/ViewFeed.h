@@ -1,0 +1,52 @@
+// Brings what the user looks at into the viewport's frames: the chosen views, the picture where a
+// view does not apply, marks that blink; and back how the frame showed them.
+#pragma once
+
+#include "app/editor/viewport/Blink.h"
+#include "render/view/ViewSettings.h"
+
+#include <QObject>
+
+namespace patina::render {
+class Renderer;
+}
+
+namespace patina::editor {
+
+class DocumentController;
+class ViewState;
+
+class ViewFeed : public QObject {
+    Q_OBJECT
+  public:
+    explicit ViewFeed(DocumentController& controller, QObject* parent = nullptr);
+
+    void setViews(ViewState& views);
+
+    // Of the frame that is drawn next.
+    [[nodiscard]] render::ViewSettings beginFrame();
+    // Without marks that fade; for thumbnails.
+    [[nodiscard]] const render::ViewSettings& drawn() const { return m_drawn; }
+    // Whether that frame shows the scene of the frame before, apart from how strong marks are.
+    [[nodiscard]] bool sameAsBefore() const { return m_same; }
+    void endFrame(const render::Renderer& renderer);
+
+  Q_SIGNALS:
+    void changed();      // something else is shown
+    void termsChanged(); // and thumbnails, too, look different
+    void blinked();      // only marks look different
+
+  private:
+    void follow();
+    // The view, or the picture where the legend says why it does not apply.
+    void standIn(render::ViewChoice& choice) const;
+
+    DocumentController& m_controller;
+    ViewState* m_views = nullptr;
+    render::ViewSettings m_followed; // as announced last
+    render::ViewSettings m_drawn;    // as drawn last, with marks at full strength
+    bool m_same = false;
+    Blink m_blink;
+};
+
+} // namespace patina::editor

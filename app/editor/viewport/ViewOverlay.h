@@ -1,0 +1,33 @@
+// What lies over the viewport while a view is shown: its legend, or two of them and the limit
+// between them. Sees to their places.
+#pragma once
+
+#include <QObject>
+
+class QWidget;
+
+namespace patina::editor {
+
+class DocumentController;
+class SplitHandle;
+class ViewLegend;
+class ViewState;
+
+class ViewOverlay : public QObject {
+    Q_OBJECT
+  public:
+    ViewOverlay(ViewState& views, DocumentController& controller, QWidget& viewport);
+
+  protected:
+    bool eventFilter(QObject* viewport, QEvent* event) override;
+
+  private:
+    void place();
+
+    ViewState& m_views;
+    QWidget& m_viewport;
+    SplitHandle* m_split;
+    ViewLegend *m_shown, *m_other;
+};
+
+} // namespace patina::editor

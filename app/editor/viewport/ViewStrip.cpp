@@ -1,0 +1,224 @@
+#include "app/editor/viewport/ViewStrip.h"
+
+#include "app/editor/document/DocumentController.h"
+#include "app/editor/style/Icons.h"
+#include "app/editor/style/Tokens.h"
+#include "app/editor/viewport/ViewState.h"
+#include "app/editor/viewport/ViewThumb.h"
+
+#include <QContextMenuEvent>
+#include <QHBoxLayout>
+#include <QMenu>
+#include <QScreen>
+#include <QScrollArea>
+#include <QScrollBar>
+#include <QSettings>
+#include <QTabBar>
+#include <QToolButton>
+#include <QWheelEvent>
+
+namespace patina::editor {
+namespace {
+
+constexpr int kRoomyScreen = 640; // height from which the strip is open at first
+const char* const kFoldedKey = "viewStrip/folded";
+
+} // namespace
+
+ViewStrip::ViewStrip(ViewState& views, DocumentController& controller, SheetScheduler& sheets,
+                     QWidget* parent)
+    : QWidget(parent)
+    , m_views(views)
+    , m_controller(controller)
+    , m_sheets(sheets)
+    , m_fold(new QToolButton)
+    , m_groups(new QTabBar)
+    , m_scroll(new QScrollArea) {
+    setObjectName(QStringLiteral("viewStrip"));
+    setAttribute(Qt::WA_StyledBackground);
+    m_fold->setObjectName(QStringLiteral("foldViews"));
+    m_fold->setText(tr("Views"));
+    m_fold->setAccessibleName(tr("Show the thumbnails of views"));
+    m_fold->setToolTip(tr("Show or hide the thumbnails of the views (T)"));
+    m_fold->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    m_fold->setIconSize({14, 14});
+    m_fold->setFocusPolicy(Qt::TabFocus);
+    connect(m_fold, &QToolButton::clicked, this, [this] { setFolded(!isFolded()); });
+    m_groups->setObjectName(QStringLiteral("viewGroups"));
+    m_groups->setAccessibleName(tr("Groups of views"));
+    m_groups->setDrawBase(false);
+    m_groups->setExpanding(false);
+    m_groups->setFocusPolicy(Qt::TabFocus);
+    for (int i = 0; i < kViewGroupCount; ++i) {
+        const std::string_view label = viewGroupLabel(static_cast<ViewGroup>(i));
+        const QString name = QString::fromUtf8(label.data(), static_cast<qsizetype>(label.size()));
+        m_groups->addTab(tr("%1  %2").arg(i + 1).arg(name));
+        m_groups->setTabToolTip(i, tr("The key %1 shows one view after another").arg(i + 1));
+    }
+
+    auto* header = new QHBoxLayout;
+    header->setContentsMargins(tokens::kGap, 0, tokens::kGap, 0);
+    header->setSpacing(tokens::kGap);
+    header->addWidget(m_fold);
+    header->addWidget(m_groups, 1);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 2, 0, 2);
+    layout->setSpacing(2);
+    layout->addLayout(header);
+    layout->addWidget(m_scroll);
+    makeThumbs();
+
+    connect(m_groups, &QTabBar::currentChanged, this, &ViewStrip::showGroup);
+    connect(&m_views, &ViewState::changed, this, &ViewStrip::refreshShown);
+    connect(&m_controller, &DocumentController::changed, this, &ViewStrip::refreshWhy);
+    refreshWhy();
+    refreshShown();
+    showGroup(m_groups->currentIndex());
+    const bool small = screen()->availableSize().height() < kRoomyScreen;
+    setFolded(QSettings().value(QLatin1String(kFoldedKey), small).toBool());
+    m_sheets.add(*this);
+}
+
+ViewStrip::~ViewStrip() {
+    m_sheets.remove(*this);
+}
+
+void ViewStrip::makeThumbs() {
+    auto* row = new QWidget;
+    row->setObjectName(QStringLiteral("panelContents"));
+    auto* thumbs = new QHBoxLayout(row);
+    thumbs->setContentsMargins(tokens::kGap, 0, tokens::kGap, 0);
+    thumbs->setSpacing(6);
+    for (const ViewInfo& info : views()) {
+        auto* thumb = new ViewThumb(info.kind);
+        connect(thumb, &ViewThumb::clicked, this, [this, kind = info.kind] { click(kind); });
+        connect(thumb, &ViewThumb::doubleClicked, this,
+                [this, kind = info.kind] { doubleClick(kind); });
+        thumb->installEventFilter(this);
+        thumbs->addWidget(thumb);
+        m_thumbs.push_back(thumb);
+    }
+    thumbs->addStretch(1);
+    m_scroll->setWidget(row);
+    m_scroll->setWidgetResizable(true);
+    m_scroll->setFrameShape(QFrame::NoFrame);
+    m_scroll->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    m_scroll->setFocusPolicy(Qt::NoFocus);
+    m_scroll->setFixedHeight(m_thumbs.front()->sizeHint().height() +
+                             m_scroll->horizontalScrollBar()->sizeHint().height());
+    m_scroll->viewport()->installEventFilter(this);
+    connect(m_scroll->horizontalScrollBar(), &QScrollBar::valueChanged, &m_sheets,
+            &SheetScheduler::wake);
+}
+
+bool ViewStrip::isFolded() const {
+    return m_scroll->isHidden();
+}
+
+void ViewStrip::setFolded(bool folded) {
+    m_scroll->setVisible(!folded);
+    m_groups->setVisible(!folded);
+    m_fold->setIcon(icon(folded ? QStringLiteral("chevron-right") : QStringLiteral("chevron-down"),
+                         tokens::kTextDim));
+    QSettings().setValue(QLatin1String(kFoldedKey), folded);
+    m_sheets.wake();
+    Q_EMIT foldedChanged(folded);
+}
+
+void ViewStrip::showGroup(int group) {
+    for (ViewThumb* thumb : m_thumbs)
+        thumb->setVisible(static_cast<int>(viewInfo(thumb->kind()).group) == group);
+    m_scroll->horizontalScrollBar()->setValue(0);
+    m_sheets.wake();
+}
+
+void ViewStrip::refreshShown() {
+    const render::ViewSettings& settings = m_views.settings();
+    const ViewKind shown = settings.shown.kind;
+    for (ViewThumb* thumb : m_thumbs)
+        thumb->setCurrent(thumb->kind() == shown,
+                          settings.split && thumb->kind() == settings.split->other.kind);
+    if (shown == m_marked)
+        return;
+    m_marked = shown;
+    m_groups->setCurrentIndex(static_cast<int>(viewInfo(shown).group));
+    // When the thumbnails of its group have their places.
+    QMetaObject::invokeMethod(
+        this,
+        [this, shown] {
+            m_scroll->ensureWidgetVisible(m_thumbs[static_cast<std::size_t>(shown)],
+                                          ViewThumb::kPicture.width() / 2, 0);
+        },
+        Qt::QueuedConnection);
+}
+
+void ViewStrip::refreshWhy() {
+    for (ViewThumb* thumb : m_thumbs)
+        thumb->setWhyEmpty(
+            QString::fromStdString(whyEmpty(thumb->kind(), m_controller.document())));
+    m_sheets.wake();
+}
+
+// --- Thumbnails ------------------------------------------------------------------------------
+
+render::ViewSheet ViewStrip::wantedSheet() const {
+    const double ratio = devicePixelRatioF();
+    render::ViewSheet sheet;
+    sheet.width = qRound(ViewThumb::kPicture.width() * ratio);
+    sheet.height = qRound(ViewThumb::kPicture.height() * ratio);
+    for (const ViewThumb* thumb : m_thumbs)
+        if (!thumb->isEmpty() && !thumb->visibleRegion().isEmpty())
+            sheet.kinds.push_back(thumb->kind());
+    return sheet;
+}
+
+void ViewStrip::showThumbnail(ViewKind kind, const QImage& picture) {
+    m_thumbs[static_cast<std::size_t>(kind)]->setPicture(picture);
+}
+
+void ViewStrip::showEvent(QShowEvent*) {
+    m_sheets.wake();
+}
+
+// --- The hand --------------------------------------------------------------------------------
+
+void ViewStrip::click(ViewKind kind) {
+    m_beforeClick = m_views.shown();
+    m_views.show(kind);
+}
+
+void ViewStrip::doubleClick(ViewKind kind) {
+    // The first of the two clicks has shown it already.
+    m_views.show(m_beforeClick);
+    m_views.showOther(kind);
+}
+
+void ViewStrip::openMenu(ViewKind kind, const QPoint& global) {
+    auto* menu = new QMenu(this);
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    menu->addAction(tr("&Show"), this, [this, kind] { m_views.show(kind); });
+    menu->addAction(tr("Show on the &Other Side"), this, [this, kind] { m_views.showOther(kind); });
+    menu->popup(global);
+}
+
+bool ViewStrip::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() == QEvent::Resize || event->type() == QEvent::Show)
+        m_sheets.wake();
+    if (event->type() == QEvent::ContextMenu) {
+        if (const auto* thumb = qobject_cast<ViewThumb*>(watched)) {
+            openMenu(thumb->kind(), static_cast<QContextMenuEvent*>(event)->globalPos());
+            return true;
+        }
+    }
+    // The wheel turns sideways: there is nothing to scroll the other way.
+    if (event->type() == QEvent::Wheel && watched == m_scroll->viewport()) {
+        const QPoint angle = static_cast<QWheelEvent*>(event)->angleDelta();
+        const int delta = angle.x() != 0 ? angle.x() : angle.y();
+        QScrollBar* bar = m_scroll->horizontalScrollBar();
+        bar->setValue(bar->value() - delta);
+        return true;
+    }
+    return QWidget::eventFilter(watched, event);
+}
+
+} // namespace patina::editor

@@ -1,0 +1,498 @@
+// Looking at the terms of shading in the real window, by real keys and mouse: keys, menu, legend,
+// strip, split.
+
+#include "app/editor/ViewActions.h"
+#include "app/editor/viewport/SplitHandle.h"
+#include "app/editor/viewport/ViewLegend.h"
+#include "app/editor/viewport/ViewState.h"
+#include "app/editor/viewport/ViewStrip.h"
+#include "app/editor/viewport/ViewThumb.h"
+#include "app/editor/widget/ColorScale.h"
+#include "app/editor/widget/NumberField.h"
+#include "core/document/Lights.h"
+#include "tests/app/editor/EditorFixture.h"
+
+#include <QComboBox>
+#include <QDir>
+#include <QElapsedTimer>
+#include <QLabel>
+#include <QMenu>
+#include <QTabBar>
+#include <QToolButton>
+#include <algorithm>
+#include <cstdio>
+
+namespace patina::editor {
+namespace {
+
+using namespace shading;
+using ::testing::HasSubstr;
+
+class ViewsWindowTest : public EditorTest {
+  protected:
+    void SetUp() override {
+        EditorTest::SetUp();
+        session->views.setMode(render::ViewMode::Raw);
+        session->views.set({});
+        window->activateWindow();
+        ASSERT_TRUE(QTest::qWaitForWindowActive(window.get(), 30'000));
+        viewport().setFocus();
+    }
+    static ViewportWidget& viewport() { return window->viewport(); }
+    static ViewState& views() { return session->views; }
+    static ViewKind shown() { return views().shown(); }
+    static void key(int code, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
+        QTest::keyClick(&viewport(), static_cast<Qt::Key>(code), modifiers);
+    }
+    static ViewLegend& legend(const char* name = "legend") {
+        return *window->findChild<ViewLegend*>(QLatin1String(name));
+    }
+    static ViewStrip& strip() { return *window->findChild<ViewStrip*>(); }
+    static ViewThumb& thumb(ViewKind kind) {
+        const auto thumbs = window->findChildren<ViewThumb*>();
+        return **std::find_if(thumbs.begin(), thumbs.end(),
+                              [&](const ViewThumb* thumb) { return thumb->kind() == kind; });
+    }
+    static std::string legendText(const char* name = "legend") {
+        QString text;
+        for (const QLabel* label : legend(name).findChildren<QLabel*>())
+            text += label->text() + QLatin1Char('\n');
+        return text.toStdString();
+    }
+    static bool rested() {
+        const QSize full = viewport().size() * viewport().devicePixelRatioF();
+        return eventually([&] { return viewport().frameSize() == full; });
+    }
+    // The next frame is on the screen.
+    static bool frameCame() {
+        bool came = false;
+        const auto connection = QObject::connect(&viewport(), &ViewportWidget::frameRendered,
+                                                 &viewport(), [&] { came = true; });
+        viewport().update();
+        const bool ok = eventually([&] { return came; });
+        QObject::disconnect(connection);
+        return ok;
+    }
+    static void keepPicture(const char* name) {
+        const QString pictures = qEnvironmentVariable("PATINA_SCREENSHOTS");
+        if (pictures.isEmpty())
+            return;
+        ASSERT_TRUE(QDir().mkpath(pictures));
+        EXPECT_TRUE(window->grab().save(QDir(pictures).filePath(QLatin1String(name))));
+    }
+    static void drag(QWidget& widget, QPoint from, QPoint to,
+                     Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
+        QTest::mousePress(&widget, Qt::LeftButton, Qt::NoModifier, from);
+        for (int i = 1; i <= 4; ++i) {
+            QMouseEvent move(QEvent::MouseMove, from + (to - from) * i / 4,
+                             widget.mapToGlobal(from + (to - from) * i / 4), Qt::NoButton,
+                             Qt::LeftButton, modifiers);
+            QApplication::sendEvent(&widget, &move);
+        }
+        QTest::mouseRelease(&widget, Qt::LeftButton, Qt::NoModifier, to);
+    }
+};
+
+// --- Keys ------------------------------------------------------------------------------------
+
+TEST_F(ViewsWindowTest, NumberKeysGoThroughTheirGroupAndBack) {
+    key(Qt::Key_3);
+    EXPECT_EQ(shown(), kViewShadingNormal);
+    key(Qt::Key_3);
+    EXPECT_EQ(shown(), kViewGeometricNormal);
+    key(Qt::Key_3, Qt::ShiftModifier);
+    key(Qt::Key_3, Qt::ShiftModifier);
+    EXPECT_EQ(shown(), kViewFlat) << "round the end";
+    key(Qt::Key_6);
+    EXPECT_EQ(shown(), kViewIrradiance);
+    key(Qt::Key_3);
+    EXPECT_EQ(shown(), kViewFlat) << "where the group was left";
+    key(Qt::Key_1);
+    EXPECT_EQ(shown(), kViewLuminance);
+    EXPECT_EQ(undoCount(), 0);
+    EXPECT_FALSE(controller().isModified());
+}
+
+TEST_F(ViewsWindowTest, ZeroReturnsToThePictureAndGoesBack) {
+    key(Qt::Key_B);
+    EXPECT_EQ(shown(), kViewBaseColor);
+    key(Qt::Key_0);
+    EXPECT_EQ(shown(), kViewFinal);
+    key(Qt::Key_0);
+    EXPECT_EQ(shown(), kViewBaseColor);
+}
+
+TEST_F(ViewsWindowTest, EveryLetterShowsItsView) {
+    int letters = 0;
+    for (const ViewInfo& info : patina::views()) {
+        const QString letter = ViewActions::keyOf(info.kind);
+        if (letter.isEmpty())
+            continue;
+        ++letters;
+        EXPECT_FALSE(QStringLiteral("WASDQEFG").contains(letter)) << info.id;
+        key(letter[0].unicode());
+        EXPECT_EQ(shown(), info.kind) << info.id;
+    }
+    EXPECT_GE(letters, 10);
+}
+
+TEST_F(ViewsWindowTest, NoTwoActionsShareAKey) {
+    QList<QKeySequence> keys;
+    for (const auto& actions : {window->actions().all(), window->looks().all()})
+        for (const QAction* action : actions)
+            keys += action->shortcuts();
+    for (const QKeySequence& sequence : keys)
+        EXPECT_EQ(keys.count(sequence), 1) << sequence.toString().toStdString();
+}
+
+TEST_F(ViewsWindowTest, AKeyThatIsHeldPeeks) {
+    key(Qt::Key_B);
+    QTest::keyPress(&viewport(), Qt::Key_N);
+    EXPECT_EQ(shown(), kViewShadingNormal) << "at once";
+    QTest::qWait(ViewActions::kPeekMs + 60);
+    EXPECT_EQ(shown(), kViewShadingNormal);
+    QTest::keyRelease(&viewport(), Qt::Key_N);
+    EXPECT_EQ(shown(), kViewBaseColor);
+    // Zero, too.
+    QTest::keyPress(&viewport(), Qt::Key_0);
+    EXPECT_EQ(shown(), kViewFinal);
+    QTest::qWait(ViewActions::kPeekMs + 60);
+    QTest::keyRelease(&viewport(), Qt::Key_0);
+    EXPECT_EQ(shown(), kViewBaseColor);
+}
+
+TEST_F(ViewsWindowTest, KeysBelongToTheFieldThatIsTypedInto) {
+    auto* roughness = find<NumberField>(*window, QStringLiteral("Roughness"));
+    ASSERT_NE(roughness, nullptr);
+    roughness->setFocus();
+    QTest::keyClicks(roughness, QStringLiteral("0.25"));
+    QTest::keyClick(roughness, Qt::Key_Return);
+    EXPECT_EQ(shown(), kViewFinal);
+    EXPECT_EQ(selectedMaterial().perceptualRoughness, 0.25f);
+}
+
+TEST_F(ViewsWindowTest, FlyingKeepsItsLetters) {
+    QTest::mousePress(&viewport(), Qt::RightButton, Qt::NoModifier, {200, 200});
+    key(Qt::Key_B);
+    QTest::mouseRelease(&viewport(), Qt::RightButton, Qt::NoModifier, {200, 200});
+    EXPECT_EQ(shown(), kViewFinal);
+}
+
+// --- Menu ------------------------------------------------------------------------------------
+
+TEST_F(ViewsWindowTest, TheMenuHasEveryViewOnceAndMarksTheOneThatIsShown) {
+    QMenu menu;
+    window->looks().fillMenu(menu);
+    QList<QAction*> found;
+    for (const QMenu* submenu : menu.findChildren<QMenu*>())
+        for (QAction* action : submenu->actions())
+            if (action->objectName().startsWith(QStringLiteral("view.")))
+                found << action;
+    EXPECT_EQ(found.size(), kViewCount);
+    window->looks().view(kViewDfgScale)->trigger();
+    EXPECT_EQ(shown(), kViewDfgScale);
+    for (const QAction* action : found) {
+        EXPECT_EQ(action->isChecked(), action == window->looks().view(kViewDfgScale));
+        EXPECT_FALSE(action->statusTip().isEmpty());
+    }
+}
+
+// --- Legend ----------------------------------------------------------------------------------
+
+TEST_F(ViewsWindowTest, TheLegendNamesTheViewAndLeavesThePictureAlone) {
+    EXPECT_FALSE(legend().isVisible());
+    key(Qt::Key_Z);
+    ASSERT_TRUE(legend().isVisible());
+    EXPECT_THAT(legendText(), HasSubstr("Depth"));
+    EXPECT_THAT(legendText(), HasSubstr("m\n"));
+    EXPECT_TRUE(viewport().rect().contains(legend().geometry()));
+    key(Qt::Key_0);
+    EXPECT_FALSE(legend().isVisible());
+}
+
+TEST_F(ViewsWindowTest, AnAutomaticRangeFollowsThePictureUntilItIsLocked) {
+    key(Qt::Key_Z);
+    ASSERT_TRUE(rested() && frameCame());
+    const auto* scale = legend().findChild<ColorScale*>();
+    ASSERT_NE(scale, nullptr);
+    const Camera camera = document().view.camera;
+    const auto distance = static_cast<double>(camera.distance);
+    EXPECT_GT(scale->min(), 0.3 * distance);
+    EXPECT_LT(scale->max(), 3.0 * distance);
+
+    auto* automatic = find<QToolButton>(legend(), QStringLiteral("Automatic range"));
+    EXPECT_TRUE(automatic->isChecked());
+    auto* max = find<NumberField>(legend(), QStringLiteral("Largest value"));
+    max->setFocus();
+    QTest::keyClicks(max, QStringLiteral("50"));
+    QTest::keyClick(max, Qt::Key_Return);
+    ASSERT_TRUE(views().settings().shown.range.has_value());
+    EXPECT_EQ(views().settings().shown.range->max, 50.0f);
+    EXPECT_FALSE(automatic->isChecked());
+    EXPECT_TRUE(window->looks().lockRange->isChecked());
+    // Another view has a range of its own, and this one keeps its.
+    key(Qt::Key_M);
+    EXPECT_FALSE(views().settings().shown.range.has_value());
+    key(Qt::Key_Z);
+    EXPECT_EQ(views().settings().shown.range->max, 50.0f);
+    QTest::mouseClick(find<QToolButton>(legend(), QStringLiteral("Automatic range")),
+                      Qt::LeftButton);
+    EXPECT_FALSE(views().settings().shown.range.has_value());
+}
+
+TEST_F(ViewsWindowTest, DraggingTheScaleLocksTheRangeAndADoubleClickGivesItBack) {
+    key(Qt::Key_M);
+    auto* scale = legend().findChild<ColorScale*>();
+    ASSERT_NE(scale, nullptr);
+    EXPECT_EQ(scale->max(), 1.0);
+    const int y = 5;
+    drag(*scale, {scale->width() - 20, y}, {scale->width() - 60, y});
+    ASSERT_TRUE(views().settings().shown.range.has_value());
+    EXPECT_EQ(views().settings().shown.range->min, 0.0f);
+    EXPECT_GT(views().settings().shown.range->max, 1.1f);
+    QTest::mouseDClick(scale, Qt::LeftButton, Qt::NoModifier, {scale->width() / 2, y});
+    EXPECT_FALSE(views().settings().shown.range.has_value());
+    EXPECT_EQ(scale->max(), 1.0);
+    EXPECT_EQ(document().view.camera.yawDeg, Camera{}.yawDeg) << "no orbit below the legend";
+}
+
+TEST_F(ViewsWindowTest, ContributionsAreAWishThatOtherViewsOutlive) {
+    key(Qt::Key_M);
+    QTest::mouseClick(find<QToolButton>(legend(), QStringLiteral("Contribution")), Qt::LeftButton);
+    EXPECT_EQ(views().settings().shown.mode, render::ViewMode::Contribution);
+    EXPECT_THAT(legendText(), HasSubstr(std::string(viewInfo(kViewMetallic).contribution)));
+    key(Qt::Key_Z);
+    EXPECT_EQ(views().settings().shown.mode, render::ViewMode::Raw) << "depth has none";
+    key(Qt::Key_M);
+    EXPECT_EQ(views().settings().shown.mode, render::ViewMode::Contribution);
+    key(Qt::Key_C);
+    EXPECT_EQ(views().settings().shown.mode, render::ViewMode::Raw);
+}
+
+TEST_F(ViewsWindowTest, AViewThatDoesNotApplySaysWhyAndIsNoBlackPicture) {
+    key(Qt::Key_0);
+    key(Qt::Key_L); // direct light
+    EXPECT_THAT(legendText(), HasSubstr("No light shines"));
+    EXPECT_EQ(legend().findChild<ColorScale*>(), nullptr);
+    ASSERT_TRUE(rested() && frameCame());
+    const QImage picture = viewport().grabFramebuffer();
+    EXPECT_GT(qGray(picture.pixel(picture.rect().center())), 5);
+    controller().addLight(LightType::Point);
+    EXPECT_THAT(legendText(), Not(HasSubstr("No light shines")));
+}
+
+TEST_F(ViewsWindowTest, FactorsAreComputedForTheLightThatIsChosen) {
+    const Id id = controller().addLight(LightType::Point);
+    views().show(kViewD);
+    auto* box = find<QComboBox>(legend(), QStringLiteral("Light of the factors"));
+    ASSERT_NE(box, nullptr);
+    EXPECT_EQ(box->currentIndex(), 0);
+    ASSERT_EQ(box->count(), 2);
+    box->setFocus();
+    QTest::keyClick(box, Qt::Key_Down);
+    EXPECT_EQ(views().settings().light, id);
+    controller().undoStack().undo(); // the light is gone
+    EXPECT_EQ(views().settings().light, Id{0});
+    EXPECT_EQ(find<QComboBox>(legend(), QStringLiteral("Light of the factors"))->count(), 1);
+}
+
+TEST_F(ViewsWindowTest, InvalidPixelsBlinkOnlyWhileTheyAreLookedAt) {
+    ASSERT_TRUE(rested());
+    views().show(kViewInvalid);
+    EXPECT_THAT(legendText(), HasSubstr("Not a number"));
+    int frames = 0;
+    const auto counting = QObject::connect(&viewport(), &ViewportWidget::frameRendered, &viewport(),
+                                           [&] { ++frames; });
+    EXPECT_TRUE(eventually([&] { return frames >= 4; }));
+    views().show(kViewFinal);
+    // What was under way comes to rest.
+    int before = -1;
+    EXPECT_TRUE(eventually([&] {
+        const bool still = frames == before;
+        before = frames;
+        QTest::qWait(800);
+        return still;
+    }));
+    QObject::disconnect(counting);
+}
+
+// --- Strip -----------------------------------------------------------------------------------
+
+TEST_F(ViewsWindowTest, TheStripShowsThumbnailsAndAClickShowsTheView) {
+    strip().setFolded(false);
+    auto* groups = strip().findChild<QTabBar*>(QStringLiteral("viewGroups"));
+    QTest::mouseClick(groups, Qt::LeftButton, Qt::NoModifier, groups->tabRect(1).center());
+    ASSERT_TRUE(thumb(kViewBaseColor).isVisible());
+    EXPECT_FALSE(thumb(kViewDepth).isVisible());
+    ASSERT_TRUE(eventually([] { return !thumb(kViewBaseColor).picture().isNull(); }));
+    EXPECT_EQ(thumb(kViewBaseColor).picture().size(),
+              ViewThumb::kPicture * viewport().devicePixelRatioF());
+    QTest::mouseClick(&thumb(kViewBaseColor), Qt::LeftButton);
+    EXPECT_EQ(shown(), kViewBaseColor);
+    EXPECT_FALSE(views().settings().split);
+    // A key that shows another group brings its thumbnails.
+    key(Qt::Key_Z);
+    EXPECT_TRUE(thumb(kViewDepth).isVisible());
+    EXPECT_EQ(groups->currentIndex(), 2);
+}
+
+TEST_F(ViewsWindowTest, ThumbnailsFollowTheMaterial) {
+    strip().setFolded(false);
+    views().show(kViewBaseColor);
+    const auto picture = [] { return thumb(kViewBaseColor).picture(); };
+    ASSERT_TRUE(eventually([&] { return !picture().isNull(); }));
+    const QImage before = picture();
+    controller().setParameter(*findParameter("material.baseColor"),
+                              {Scope::Material, selectedMaterial().id},
+                              glm::vec3(0.9f, 0.1f, 0.1f));
+    EXPECT_TRUE(eventually([&] { return picture() != before; }));
+}
+
+TEST_F(ViewsWindowTest, AFoldedStripDrawsNothing) {
+    strip().setFolded(false);
+    views().show(kViewBaseColor);
+    ASSERT_TRUE(rested());
+    key(Qt::Key_T);
+    EXPECT_TRUE(strip().isFolded());
+    QTest::qWait(300);
+    int passes = 0;
+    const auto counting = QObject::connect(&viewport().sheets(), &SheetScheduler::passDrawn,
+                                           &viewport(), [&] { ++passes; });
+    viewport().sheets().invalidate();
+    QTest::qWait(200);
+    EXPECT_EQ(passes, 0);
+    QTest::mouseClick(strip().findChild<QToolButton*>(QStringLiteral("foldViews")), Qt::LeftButton);
+    EXPECT_FALSE(strip().isFolded());
+    EXPECT_TRUE(eventually([&] { return passes > 0; }));
+    QObject::disconnect(counting);
+}
+
+TEST_F(ViewsWindowTest, ADoubleClickPutsTheViewOnTheOtherSide) {
+    strip().setFolded(false);
+    views().show(kViewBaseColor);
+    QTest::mouseClick(&thumb(kViewMetallic), Qt::LeftButton);
+    QTest::mouseDClick(&thumb(kViewMetallic), Qt::LeftButton);
+    ASSERT_TRUE(views().settings().split.has_value());
+    EXPECT_EQ(views().settings().split->other.kind, kViewMetallic);
+    EXPECT_EQ(shown(), kViewBaseColor) << "as before the first of the clicks";
+}
+
+// --- Split -----------------------------------------------------------------------------------
+
+TEST_F(ViewsWindowTest, ASplitIsDraggedTurnedAndTakenAway) {
+    key(Qt::Key_B);
+    key(Qt::Key_V);
+    ASSERT_TRUE(views().settings().split.has_value());
+    EXPECT_EQ(views().settings().split->other.kind, kViewFinal);
+    const auto line = [] { return SplitLine(*views().settings().split, viewport().size()); };
+    const float yaw = document().view.camera.yawDeg;
+
+    const QPoint center = line().center.toPoint();
+    drag(viewport(), center, center + QPoint(80, 30));
+    EXPECT_NEAR(line().center.x(), center.x() + 80, 1.5);
+    EXPECT_NEAR(line().center.y(), center.y() + 30, 1.5);
+    // Anywhere along the line.
+    const QPoint far(line().center.toPoint().x() + 2, viewport().height() - 20);
+    drag(viewport(), far, far - QPoint(40, 0));
+    EXPECT_NEAR(line().center.x(), center.x() + 40, 2.5);
+
+    drag(viewport(), line().ring().toPoint(), line().center.toPoint() + QPoint(90, 1));
+    EXPECT_NEAR(views().settings().split->angleDeg, 90.0f, 2.0f);
+    drag(viewport(), line().ring().toPoint(), line().center.toPoint() + QPoint(60, -70),
+         Qt::ShiftModifier);
+    EXPECT_FLOAT_EQ(views().settings().split->angleDeg, 45.0f);
+    EXPECT_EQ(document().view.camera.yawDeg, yaw) << "the camera stays";
+
+    // Esc takes a drag back, and then the split away.
+    const render::ViewSplit before = *views().settings().split;
+    QTest::mousePress(&viewport(), Qt::LeftButton, Qt::NoModifier, line().center.toPoint());
+    QTest::mouseMove(&viewport(), line().center.toPoint() + QPoint(30, 30));
+    EXPECT_NE(views().settings().split->position, before.position);
+    key(Qt::Key_Escape);
+    EXPECT_EQ(*views().settings().split, before);
+    QTest::mouseRelease(&viewport(), Qt::LeftButton, Qt::NoModifier, line().center.toPoint());
+    key(Qt::Key_Escape);
+    EXPECT_FALSE(views().settings().split);
+    drag(viewport(), center, center + QPoint(80, 0));
+    EXPECT_NE(document().view.camera.yawDeg, yaw) << "the hand has its drags again";
+}
+
+TEST_F(ViewsWindowTest, EachSideShowsItsViewAndHasItsLegend) {
+    views().show(kViewBaseColor);
+    views().showOther(kViewShadingNormal);
+    ASSERT_TRUE(rested() && frameCame());
+    EXPECT_TRUE(legend().isVisible());
+    EXPECT_TRUE(legend("legendOther").isVisible());
+    EXPECT_THAT(legendText("legendOther"), HasSubstr("Shading Normal"));
+    EXPECT_LT(legend().x(), legend("legendOther").x());
+    const QImage both = viewport().grabFramebuffer();
+    views().edit([](render::ViewSettings& settings) { settings.split->angleDeg = 180.0f; });
+    EXPECT_GT(legend().x(), legend("legendOther").x()) << "legends lie on the sides of their views";
+    ASSERT_TRUE(rested() && frameCame());
+    const QImage turned = viewport().grabFramebuffer();
+    views().edit([](render::ViewSettings& settings) { settings.split.reset(); });
+    ASSERT_TRUE(rested() && frameCame());
+    const QImage whole = viewport().grabFramebuffer();
+    // Near the middle, where the model is.
+    const QPoint left(whole.width() / 2 - 12, whole.height() / 2);
+    const QPoint right(whole.width() / 2 + 12, whole.height() / 2);
+    EXPECT_EQ(both.pixel(left), whole.pixel(left));
+    EXPECT_NE(both.pixel(right), whole.pixel(right));
+    EXPECT_EQ(turned.pixel(right), whole.pixel(right));
+    EXPECT_NE(turned.pixel(left), whole.pixel(left));
+}
+
+// --- Times and pictures ----------------------------------------------------------------------
+
+// Printed, not asserted: they depend on the machine.
+TEST_F(ViewsWindowTest, SwitchingTimes) {
+    ASSERT_TRUE(rested());
+    double longest = 0;
+    std::string longestId;
+    for (const ViewInfo& info : patina::views()) {
+        QElapsedTimer clock;
+        double frameMs = -1;
+        const auto connection = QObject::connect(&viewport(), &ViewportWidget::frameRendered,
+                                                 &viewport(), [&](double ms) { frameMs = ms; });
+        clock.start();
+        window->looks().view(info.kind)->trigger();
+        const double handled = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
+        viewport().update();
+        ASSERT_TRUE(eventually([&] { return frameMs >= 0; }));
+        QObject::disconnect(connection);
+        if (frameMs > longest) {
+            longest = frameMs;
+            longestId = info.id;
+        }
+        std::printf("[ figures  ] %-20s handled in %.1f ms, frame %.1f ms\n",
+                    std::string(info.id).c_str(), handled, frameMs);
+    }
+    std::printf("[ figures  ] longest: %s %.1f ms\n", longestId.c_str(), longest);
+}
+
+TEST_F(ViewsWindowTest, Pictures) {
+    strip().setFolded(false);
+    controller().addLight(LightType::Directional);
+    const auto keep = [](const char* name) {
+        ASSERT_TRUE(rested());
+        QTest::qWait(1500); // thumbnails
+        keepPicture(name);
+    };
+    views().show(kViewD);
+    keep("views-d.png");
+    views().show(kViewMeshId);
+    keep("views-mesh.png");
+    views().show(kViewNormalMap);
+    keep("views-why.png");
+    views().show(kViewLuminance);
+    views().showOther(kViewTexelDensity);
+    keep("views-split.png");
+    views().edit([](render::ViewSettings& s) {
+        s.split.reset();
+        s.shown.kind = kViewFinal;
+    });
+    keep("views-final.png");
+}
+
+} // namespace
+} // namespace patina::editor
