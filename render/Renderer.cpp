@@ -43,7 +43,9 @@ Result<void> Renderer::Impl::drawPicture(const FrameSettings& frame, const Frame
                                          const gl::Framebuffer& target, SurfaceOutput output,
                                          bool withBackground) {
     const Document& document = scene.document();
-    const SurfaceSettings settings = surfaceSettings(block, output);
+    SurfaceSettings settings = surfaceSettings(block, output);
+    if (frame.coarse)
+        settings.coarseView = block.worldToClip;
     shadows.bind();
     const DrawList list = makeDrawList(scene.items(), block.worldToClip, frame.camera.position());
 
@@ -182,7 +184,8 @@ void Renderer::Impl::endGl(unsigned targetFramebuffer) {
 Result<void> Renderer::render(const FrameSettings& frame, unsigned targetFramebuffer) {
     Impl& r = *m_impl;
     if (frame.width != r.targets.width() || frame.height != r.targets.height() ||
-        frame.samples != r.lastFrame.samples || !(frame.view == r.lastFrame.view))
+        frame.samples != r.lastFrame.samples || frame.coarse != r.lastFrame.coarse ||
+        !(frame.view == r.lastFrame.view))
         r.sceneIsNew = true;
     r.lastFrame = frame;
     if (auto sized = r.targets.resize(r.context, frame.width, frame.height, frame.samples); !sized)

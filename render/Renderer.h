@@ -31,6 +31,7 @@ struct FrameSettings {
     Id selectedMesh = 0;                // outlined when showOverlays
     Id selectedLight = 0;               // shown with its handles when showOverlays
     float overlayScale = 1.0f; // of a frame that is to be enlarged: share of its final size
+    bool coarse = false;       // fewer triangles, where a reduced frame hides it (the editor)
     bool dither = false;       // hides the bands of 8-bit values (the editor)
 
     // Seconds since the last frame, for automatic exposure; infinite: the eye is used to the

@@ -99,11 +99,12 @@ Result<ViewRange> Renderer::Impl::rangeFor(const ViewChoice& choice, const gl::T
         if (*measured)
             range = **measured;
     }
-    // A single value lies in the middle of a range of its own.
-    if (!(range.max > range.min)) {
-        const float half = std::max(std::abs(range.min) * 0.05f, 1e-6f);
-        range = info.logarithmic ? ViewRange{range.min / 1.1f, range.min * 1.1f}
-                                 : ViewRange{range.min - half, range.min + half};
+    // A single value, give or take rounding, lies in the middle of a range of its own.
+    const float middle = 0.5f * (range.min + range.max);
+    if (!(range.max - range.min > 0.02f * std::abs(middle))) {
+        const float half = std::max(0.05f * std::abs(middle), 1e-6f);
+        range = info.logarithmic ? ViewRange{0.5f * middle, 2.0f * middle}
+                                 : ViewRange{middle - half, middle + half};
     }
     if (info.logarithmic)
         range.min = std::max(range.min, range.max * 1e-6f);
@@ -115,6 +116,19 @@ Result<void> Renderer::Impl::drawSide(const FrameSettings& frame, const ViewChoi
     const ViewInfo& info = viewInfo(choice.kind);
     const View& look = scene.document().view;
     const bool ordinary = isOrdinary(frame.view, choice);
+    if (!whyEmpty(choice.kind, scene.document()).empty()) {
+        const auto target = targets.dataTarget(context);
+        if (!target)
+            return target.error();
+        const ViewChoice shape{kViewNoV, ViewMode::Raw, {}};
+        if (drawsScene)
+            if (auto done = drawNumbers(frame, lastBlock, **target,
+                                        viewsBlock(frame.view, std::span(&shape, 1), false), false,
+                                        SurfaceOutput::OneView);
+                !done)
+                return done;
+        return views.showEmpty(targets.data(), side, targets.display());
+    }
     if (showsRadiance(choice)) {
         if (drawsScene) {
             views.setBlock(viewsBlock(frame.view, std::span(&choice, 1), true));
@@ -131,9 +145,13 @@ Result<void> Renderer::Impl::drawSide(const FrameSettings& frame, const ViewChoi
             if (auto done = adapt(frame); !done)
                 return done;
         adaptation.bind();
-        if (auto done = screen.toneMap(
-                targets.linear(), targets.display(), look,
-                {.dither = frame.dither, .markClipped = choice.kind == kViewClipped, .side = side});
+        if (auto done =
+                screen.toneMap(targets.linear(), targets.display(), look,
+                               {.dither = frame.dither,
+                                .scale = choice.mode == ViewMode::Raw ? info.displayScale : 1.0f,
+                                .fillEmpty = !hasBackground(choice),
+                                .markClipped = choice.kind == kViewClipped,
+                                .side = side});
             !done)
             return done;
         if (choice.kind != kViewWireframe)
@@ -190,6 +208,8 @@ Result<void> Renderer::Impl::showOnSheet(const FrameSettings& frame, const Frame
                                          const ViewChoice& choice, const gl::Texture& values) {
     const View& look = scene.document().view;
     adaptation.bind();
+    if (!whyEmpty(choice.kind, scene.document()).empty())
+        return views.showEmpty(values, glm::vec3(0.0f), sheet.display());
     if (!showsRadiance(choice)) {
         const auto range = rangeFor(choice, values);
         if (!range)
@@ -197,8 +217,11 @@ Result<void> Renderer::Impl::showOnSheet(const FrameSettings& frame, const Frame
         return views.show(values, viewInfo(choice.kind), *range, look, glm::vec3(0.0f), 1.0f,
                           sheet.display());
     }
-    if (auto done = screen.toneMap(values, sheet.display(), look,
-                                   {.markClipped = choice.kind == kViewClipped});
+    if (auto done = screen.toneMap(
+            values, sheet.display(), look,
+            {.scale = choice.mode == ViewMode::Raw ? viewInfo(choice.kind).displayScale : 1.0f,
+             .fillEmpty = true,
+             .markClipped = choice.kind == kViewClipped});
         !done)
         return done;
     if (choice.kind != kViewWireframe)

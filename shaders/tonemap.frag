@@ -12,6 +12,7 @@ uniform float u_exponentialK;
 uniform int u_transfer;
 uniform float u_gamma;
 uniform float u_ditherAmplitude; // of one step of the display's values
+uniform float u_empty; // display value of what has no surface; negative: it stays transparent
 uniform int u_markClipped; // marks instead of the picture
 
 layout(location = 0) out vec4 o_color; // straight alpha
@@ -68,5 +69,5 @@ void main() {
         shown += u_ditherAmplitude * interleavedGradientNoise(gl_FragCoord.xy) / 255.0;
     if (u_markClipped != 0)
         shown = marked(shown);
-    o_color = vec4(shown, c.a);
+    o_color = u_empty < 0.0 ? vec4(shown, c.a) : vec4(mix(vec3(u_empty), shown, c.a), 1.0);
 }

@@ -8,7 +8,9 @@
 layout(binding = 0) uniform sampler2D u_values; // premultiplied where they are radiance
 layout(binding = 1) uniform sampler2D u_colors; // rows: ColorMap
 uniform int u_kind;  // kView…
-uniform int u_value; // ViewValue: 1 colour, 2 scalar, 3 direction, 4 identity, 5 picture
+// ViewValue: 1 colour, 2 scalar, 3 direction, 4 identity, 5 picture; -1: the view does not apply, and
+// u_values hold N·V
+uniform int u_value;
 uniform vec2 u_range;
 uniform int u_logarithmic;
 uniform int u_colorMap;
@@ -37,10 +39,7 @@ vec3 judged(vec3 radiance) {
     float grey = 0.35 * srgbEncode(expose(max(radiance, vec3(0.0)))).g;
     if (u_kind == kViewLuminance) {
         float ev = log2(max(luminance(expose(radiance)), 1e-30) / kMiddleGrey);
-        float t = placed(ev);
-        // A thin line at every whole step.
-        float step_ = abs(fract(ev + 0.5) - 0.5) / max(fwidth(ev), 1e-4);
-        return mapped(t) * (step_ < 0.75 && fwidth(ev) < 0.25 ? 0.6 : 1.0);
+        return mapped(placed(ev));
     }
     vec3 mark = vec3(grey);
     if (u_kind == kViewInvalid) {
@@ -65,7 +64,11 @@ void main() {
     keepToSide(gl_FragCoord.xy);
     vec4 c = texelFetch(u_values, ivec2(gl_FragCoord.xy), 0);
     vec3 shown;
-    if (u_value == 1)
+    if (u_value < 0) {
+        // Stripes: nobody takes them for numbers.
+        float stripe = fract((gl_FragCoord.x + gl_FragCoord.y) / 16.0) < 0.5 ? 0.20 : 0.26;
+        shown = vec3(stripe * (0.4 + 0.6 * c.r));
+    } else if (u_value == 1)
         shown = displayEncode(c.rgb, u_transfer, u_gamma);
     else if (u_value == 2)
         shown = mapped(placed(c.r));

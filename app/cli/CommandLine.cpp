@@ -1,5 +1,6 @@
 #include "app/cli/CommandLine.h"
 
+#include "app/cli/RenderViews.h"
 #include "core/material/Parameters.h"
 
 #include <CLI/App.hpp>
@@ -37,6 +38,8 @@ const std::string kLayouts =
     "vertical-strip, six-faces";
 constexpr const char* kScene = "Model, .patina project or builtin:NAME";
 
+struct ListViews {}; // thrown by its flag, as CLI11 throws calls for help
+
 // A check whose bounds the help does not repeat in its own notation; errors still name them.
 template <class Check>
 CLI::Validator plain(const Check& check) {
@@ -72,6 +75,8 @@ class Parser {
             m_app.parse(argc, argv);
         } catch (const CLI::CallForHelp&) {
             return {HelpText{m_app.help()}};
+        } catch (const ListViews&) {
+            return {HelpText{listViews()}};
         } catch (const CLI::CallForVersion&) {
             return {HelpText{m_app.version() + "\n"}};
         } catch (const CLI::ParseError& error) {
@@ -202,6 +207,23 @@ class Parser {
         c->add_option("--lighting", o.lighting, "ibl, or prt with a radiance transfer bake")
             ->type_name("NAME");
         addBakeFiles(c, "--bake", o.bakes, "Bake file to light with (repeatable)");
+        c->add_option("--view", o.view,
+                      "A term of the shading equation instead of the picture (see --list-views); "
+                      "all: a part each of an .exr, else a contact sheet of pictures of this size")
+            ->type_name("VIEW|all");
+        c->add_option("--view-mode", o.viewMode,
+                      "The term's own value, or what it contributes to the picture")
+            ->check(plain(CLI::IsMember({"raw", "contribution"})))
+            ->capture_default_str()
+            ->type_name("raw|contribution");
+        c->add_option("--view-range", o.viewRange, "What the colours of a view's numbers span")
+            ->type_name("MIN,MAX");
+        c->add_option("--view-light", o.viewLight,
+                      "Whose D, G, F and cosines are shown (default: the mirror direction)")
+            ->type_name("NAME");
+        c->add_flag_callback(
+             "--list-views", [] { throw ListViews(); }, "Print the names of all views")
+            ->trigger_on_parse();
         addSets(c);
         addThreads(c);
     }

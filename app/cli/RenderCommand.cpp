@@ -1,4 +1,5 @@
 #include "app/cli/Commands.h"
+#include "app/cli/RenderViews.h"
 #include "app/cli/SceneSetup.h"
 #include "core/document/Edit.h"
 #include "core/image/DisplayTransform.h"
@@ -191,6 +192,28 @@ Result<Prepared> prepare(Session& session, const Document& document,
     return Prepared{std::move(*context), std::move(*renderer)};
 }
 
+// What the file will hold, after the frame has been drawn.
+Result<std::vector<ImagePart>> takePictures(Session& session, render::Renderer& renderer,
+                                            const Document& document, const RenderOptions& options,
+                                            const render::FrameSettings& frame, bool linear) {
+    const render::ViewChoice& shown = frame.view.shown;
+    if (linear && wantsAllViews(options))
+        return viewParts(renderer, shown.mode);
+    std::vector<ImagePart> parts(1);
+    const auto take = [&](Result<Image> image) -> Result<std::vector<ImagePart>> {
+        if (!image)
+            return image.error();
+        parts[0].image = std::move(*image);
+        return std::move(parts);
+    };
+    if (wantsAllViews(options))
+        return take(contactSheet(session, renderer, document, frame));
+    if (linear && (shown.kind != shading::kViewFinal || shown.mode != render::ViewMode::Raw))
+        return take(viewNumbers(renderer, shown));
+    const Image picture = linear ? renderer.readLinear() : renderer.readDisplayed();
+    return take(frame.transparentBackground ? picture : withoutAlpha(picture));
+}
+
 } // namespace
 
 Result<void> run(Session& session, const RenderOptions& options) {
@@ -215,6 +238,14 @@ Result<void> run(Session& session, const RenderOptions& options) {
         return document.error();
     if (Result<void> view = applyView(session, options, *document, *frame); !view)
         return view;
+    Result<render::ViewSettings> shown = viewSettings(options, *document);
+    if (!shown)
+        return shown.error();
+    frame->view = *shown;
+    if (!options.view.empty()) {
+        json["settings"]["view"] = options.view;
+        json["settings"]["viewMode"] = options.viewMode;
+    }
     const float aspect = static_cast<float>(frame->width) / static_cast<float>(frame->height);
     Result<Camera> camera = chooseCamera(options, *document, request.isProject, aspect);
     if (!camera)
@@ -244,15 +275,27 @@ Result<void> run(Session& session, const RenderOptions& options) {
         return drawn;
     if (const std::optional<Luminance> luminance = renderer.readLuminance())
         json["logAverageLuminance"] = luminance->logAverage;
-    Image picture = linear ? renderer.readLinear() : renderer.readDisplayed();
-    if (!frame->transparentBackground)
-        picture = withoutAlpha(picture);
+    if (const auto range = renderer.shownRange())
+        json["viewRange"] = {range->min, range->max};
+    Result<std::vector<ImagePart>> pictures =
+        takePictures(session, renderer, *document, options, *frame, linear);
+    if (!pictures)
+        return pictures.error();
     if (session.job().cancelled())
         return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
-    if (Result<void> saved = saveImage(session.worker(), picture, options.output); !saved)
+    Result<Bytes> bytes = encodeImage(session.worker(), *pictures, *format);
+    if (!bytes) {
+        Error error = bytes.error();
+        error.file = options.output;
+        return error;
+    }
+    if (Result<void> saved = writeFileAtomically(options.output, *bytes); !saved)
         return saved;
-    session.report().output(options.output,
-                            fmt::format("{} × {} pixels", frame->width, frame->height));
+    const Image& first = pictures->front().image;
+    session.report().output(
+        options.output,
+        fmt::format("{} × {} pixels{}", first.width(), first.height(),
+                    pictures->size() > 1 ? fmt::format(", {} views", pictures->size()) : ""));
     json["counts"] = {{"meshes", document->meshes.size()},
                       {"triangles", document->triangleCount()}};
     return {};

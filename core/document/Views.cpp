@@ -18,44 +18,69 @@ constexpr auto kFactors = ViewGroup::Factors;
 constexpr auto kDirect = ViewGroup::Direct;
 constexpr auto kIbl = ViewGroup::Ibl;
 
-constexpr std::string_view kRadianceUnit = "cd/m²";
 constexpr std::string_view kScaledLight = "The part of the picture that this factor scales.";
 
-// What the rows of one kind of value have in common.
+constexpr ViewInfo row(ViewKind kind, std::string_view id, std::string_view label,
+                       std::string_view symbol, ViewGroup group, ViewValue value,
+                       std::string_view help, std::string_view contribution = {}) {
+    ViewInfo info;
+    info.kind = kind;
+    info.id = id;
+    info.label = label;
+    info.symbol = symbol;
+    info.group = group;
+    info.value = value;
+    info.help = help;
+    info.contribution = contribution;
+    return info;
+}
 constexpr ViewInfo radiance(ViewKind kind, std::string_view id, std::string_view label,
                             std::string_view symbol, ViewGroup group, std::string_view help,
                             std::string_view contribution = {}) {
-    return {kind, id,    label, symbol,        group, ViewValue::Radiance, ColorMap::Grey, 0.0f,
-            1.0f, false, false, kRadianceUnit, help,  contribution};
+    ViewInfo info = row(kind, id, label, symbol, group, ViewValue::Radiance, help, contribution);
+    info.unit = "cd/m²";
+    return info;
 }
 constexpr ViewInfo color(ViewKind kind, std::string_view id, std::string_view label,
                          std::string_view symbol, ViewGroup group, std::string_view help,
                          std::string_view contribution = {}) {
-    return {kind, id,    label, symbol, group, ViewValue::Color, ColorMap::Grey, 0.0f,
-            1.0f, false, false, {},     help,  contribution};
+    return row(kind, id, label, symbol, group, ViewValue::Color, help, contribution);
 }
 constexpr ViewInfo direction(ViewKind kind, std::string_view id, std::string_view label,
                              std::string_view symbol, std::string_view help) {
-    return {kind,           id,    label, symbol, kGeometry, ViewValue::Direction,
-            ColorMap::Grey, -1.0f, 1.0f,  false,  false,     {},
-            help,           {}};
+    ViewInfo info = row(kind, id, label, symbol, kGeometry, ViewValue::Direction, help);
+    info.rangeMin = -1.0f;
+    return info;
 }
 constexpr ViewInfo scalar(ViewKind kind, std::string_view id, std::string_view label,
                           std::string_view symbol, ViewGroup group, ColorMap map, float min,
                           float max, std::string_view help, std::string_view contribution = {}) {
-    return {kind, id,    label, symbol, group, ViewValue::Scalar, map, min,
-            max,  false, false, {},     help,  contribution};
+    ViewInfo info = row(kind, id, label, symbol, group, ViewValue::Scalar, help, contribution);
+    info.colorMap = map;
+    info.rangeMin = min;
+    info.rangeMax = max;
+    return info;
 }
 constexpr ViewInfo judged(ViewKind kind, std::string_view id, std::string_view label,
                           std::string_view help) {
-    return {
-        kind,  id,    label, {},   kPicture, ViewValue::Picture, ColorMap::Sequential, 0.0f, 1.0f,
-        false, false, {},    help, {}};
+    return row(kind, id, label, {}, kPicture, ViewValue::Picture, help);
 }
 constexpr ViewInfo identity(ViewKind kind, std::string_view id, std::string_view label,
                             std::string_view help) {
-    return {kind,  id,    label, {},   kGeometry, ViewValue::Identity, ColorMap::Grey, 0.0f, 1.0f,
-            false, false, {},    help, {}};
+    return row(kind, id, label, {}, kGeometry, ViewValue::Identity, help);
+}
+// What a grey card of half the light would show of it.
+constexpr ViewInfo irradiance(ViewInfo info) {
+    info.displayScale = 0.5f * 0.318309886f;
+    info.unit = "lx";
+    return info;
+}
+constexpr ViewInfo luminance(ViewInfo info) {
+    info.colorMap = ColorMap::Sequential;
+    info.rangeMin = -6.0f;
+    info.rangeMax = 6.0f;
+    info.unit = "EV";
+    return info;
 }
 constexpr ViewInfo measured(ViewInfo info, std::string_view unit, bool logarithmic) {
     info.unit = unit;
@@ -67,20 +92,8 @@ constexpr ViewInfo measured(ViewInfo info, std::string_view unit, bool logarithm
 constexpr std::array<ViewInfo, kViewCount> kViews{{
     radiance(kViewFinal, "final", "Final", "L", kPicture,
              "The picture: every term of the shading equation together"),
-    {kViewLuminance,
-     "luminance",
-     "Luminance",
-     "Y",
-     kPicture,
-     ViewValue::Picture,
-     ColorMap::Sequential,
-     -8.0f,
-     8.0f,
-     false,
-     false,
-     "EV",
-     "Luminance of the picture after exposure, in steps of EV around middle grey",
-     {}},
+    luminance(judged(kViewLuminance, "luminance", "Luminance",
+                     "Luminance of the picture after exposure, in steps of EV around middle grey")),
     judged(kViewInvalid, "invalid", "Invalid Numbers",
            "Marks pixels that are not a number (magenta), infinite (yellow) or negative (cyan)"),
     judged(kViewClipped, "clipped", "Clipped",
@@ -131,20 +144,8 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
     measured(scalar(kViewDepth, "depth", "Depth", "z", kGeometry, ColorMap::Sequential, 0.0f, 10.0f,
                     "Distance from the camera's plane"),
              "m", false),
-    {kViewWireframe,
-     "wireframe",
-     "Wireframe",
-     {},
-     kGeometry,
-     ViewValue::Picture,
-     ColorMap::Grey,
-     0.0f,
-     1.0f,
-     false,
-     false,
-     {},
-     "The edges of the triangles over the picture",
-     {}},
+    row(kViewWireframe, "wireframe", "Wireframe", {}, kGeometry, ViewValue::Picture,
+        "The edges of the triangles over the picture"),
     radiance(kViewFlat, "flat", "Flat Shading", "", kGeometry,
              "The picture with the triangles' own normals"),
 
@@ -184,8 +185,9 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
            "Share of the chosen light, or of all that cast shadows, that arrives",
            "The direct light that shadows take away"),
 
-    radiance(kViewIrradiance, "irradiance", "Irradiance", "E(n)", kIbl,
-             "Light from all the surroundings that falls on the surface, before occlusion"),
+    irradiance(radiance(kViewIrradiance, "irradiance", "Irradiance", "E(n)", kIbl,
+                        "Light from all the surroundings that falls on the surface, before "
+                        "occlusion; shown as a grey card of 50 % would reflect it")),
     radiance(kViewDiffuseIbl, "diffuseIbl", "Diffuse Image-Based", "", kIbl,
              "Diffuse reflection of the surroundings",
              "Diffuse image-based light as it stands in the picture's sum"),
@@ -208,10 +210,12 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
     radiance(kViewSpecularIbl, "specularIbl", "Specular Image-Based", "", kIbl,
              "Specular reflection of the surroundings",
              "Specular image-based light as it stands in the picture's sum"),
-    scalar(kViewMultiScatterGain, "multiScatterGain", "Multi-Scatter Gain", "", kIbl,
-           ColorMap::Sequential, 1.0f, 2.0f,
-           "Factor for light that is reflected more than once between facets, by its luminance",
-           "The reflection that multiple scattering adds"),
+    measured(scalar(kViewMultiScatterGain, "multiScatterGain", "Multi-Scatter Gain", "", kIbl,
+                    ColorMap::Sequential, 1.0f, 2.0f,
+                    "Factor for light that is reflected more than once between facets, by its "
+                    "luminance",
+                    "The reflection that multiple scattering adds"),
+             "", false),
     radiance(kViewAmbient, "ambient", "All Image-Based", "", kIbl,
              "Diffuse and specular reflection of the surroundings together"),
 }};
@@ -282,6 +286,15 @@ std::string whyEmpty(ViewKind kind, const Document& document) {
                            })
                    ? ""
                    : "No material sends out light.";
+    case kViewUvChecker:
+    case kViewTexelDensity:
+    case kViewTangent:
+    case kViewBitangent:
+        return std::any_of(
+                   document.meshes.begin(), document.meshes.end(),
+                   [](const MeshInstance& mesh) { return mesh.visible && !mesh.mesh->uvs.empty(); })
+                   ? ""
+                   : "No mesh has texture coordinates.";
     case kViewNormalMap:
         return anyMaterial(document, [](const Material& m) { return m.normalMap.image != nullptr; })
                    ? ""

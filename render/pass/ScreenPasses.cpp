@@ -1,5 +1,6 @@
 #include "render/pass/ScreenPasses.h"
 
+#include <cmath>
 #include <epoxy/gl.h>
 
 namespace patina::render {
@@ -86,6 +87,7 @@ Result<void> ScreenPasses::toneMap(const gl::Texture& radiance, const gl::Frameb
     }
     shader->use();
     setExposure(*shader, view);
+    shader->set("u_exposureEv", view.exposureEv + std::log2(settings.scale));
     shader->set("u_autoKey", view.reinhardAutoKey ? 1 : 0);
     shader->set("u_reinhardKey", view.reinhardKey);
     shader->set("u_reinhardWhite", view.reinhardWhite);
@@ -93,6 +95,7 @@ Result<void> ScreenPasses::toneMap(const gl::Texture& radiance, const gl::Frameb
     shader->set("u_transfer", static_cast<int>(view.displayTransfer));
     shader->set("u_gamma", view.displayGamma);
     shader->set("u_ditherAmplitude", settings.dither ? kDitherAmplitude : 0.0f);
+    shader->set("u_empty", settings.fillEmpty ? static_cast<float>(kEmptyDisplay) / 255.0f : -1.0f);
     shader->set("u_markClipped", settings.markClipped ? 1 : 0);
     shader->set("u_side", settings.side);
     radiance.bind(kPictureUnit);

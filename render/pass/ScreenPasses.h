@@ -11,8 +11,13 @@
 
 namespace patina::render {
 
+// Display value, of 255, of what has no surface in views of terms.
+inline constexpr int kEmptyDisplay = 28;
+
 struct ToneMapSettings {
     bool dither = false;      // noise of half a display step hides bands
+    float scale = 1.0f;       // on radiance, beside the exposure
+    bool fillEmpty = false;   // kEmptyDisplay instead of transparency
     bool markClipped = false; // what the display cannot show instead of the picture
     glm::vec3 side{0.0f};     // shaders/include/side.glsl
 };

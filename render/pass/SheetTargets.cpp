@@ -44,14 +44,6 @@ Image SheetTargets::readDisplayed() const {
     const auto bytes = m_displayed.readBytes(4);
     std::copy(bytes.begin(), bytes.end(), image.u8().begin());
     flipRows(image);
-    const auto pixels = image.u8();
-    for (std::size_t i = 0; i < pixels.size(); i += 4) {
-        const int alpha = pixels[i + 3];
-        for (std::size_t c = 0; c < 3; ++c)
-            pixels[i + c] = static_cast<std::uint8_t>(
-                (pixels[i + c] * alpha + kEmptyDisplay * (255 - alpha) + 127) / 255);
-        pixels[i + 3] = 255;
-    }
     return image;
 }
 

@@ -19,7 +19,7 @@ class SheetTargets {
     [[nodiscard]] const gl::Framebuffer& numbers() const { return m_numbers; } // all eight
     [[nodiscard]] const gl::Texture& values(std::size_t i) const { return m_values[i]; }
     [[nodiscard]] const gl::Framebuffer& display() const { return m_display; }
-    // Opaque 8-bit RGBA, top row first; where no surface is, the grey of empty views.
+    // 8-bit RGBA, top row first.
     [[nodiscard]] Image readDisplayed() const;
 
   private:

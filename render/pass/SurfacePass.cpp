@@ -125,13 +125,19 @@ std::vector<std::string> modelDefines(const ShadingModel& model) {
     return defines;
 }
 
-void drawItem(const DrawItem& item, bool cull) {
+void drawItem(const DrawItem& item, bool cull, bool coarse) {
     (cull ? glEnable : glDisable)(GL_CULL_FACE);
     glFrontFace(item.mirrored ? GL_CW : GL_CCW);
     item.instanceBlock->bindUniform(kInstanceBinding);
     item.material->block.bindUniform(kMaterialBinding);
     item.mesh->array.bind();
-    glDrawElements(GL_TRIANGLES, item.mesh->indexCount, GL_UNSIGNED_INT, nullptr);
+    const GpuMesh& mesh = *item.mesh;
+    if (coarse && mesh.coarseCount > 0)
+        glDrawElements(GL_TRIANGLES, mesh.coarseCount, GL_UNSIGNED_INT,
+                       reinterpret_cast<const void*>(static_cast<std::uintptr_t>(mesh.indexCount) *
+                                                     sizeof(std::uint32_t)));
+    else
+        glDrawElements(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_INT, nullptr);
 }
 
 Result<const gl::Program*> SurfacePass::program(unsigned features,
@@ -177,7 +183,8 @@ Result<void> SurfacePass::draw(const GpuScene& scene, const std::vector<const Dr
             item->visibility->bindStorage(kVisibilityBinding);
         if (features & HasTransfer)
             item->transfer->bindStorage(kTransferBinding);
-        drawItem(*item, !item->material->doubleSided);
+        drawItem(*item, !item->material->doubleSided,
+                 settings.coarseView && coarseSuffices(*item, *settings.coarseView));
     }
     return {};
 }

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct SurfaceSettings {
     int shadows = 0;         // maps that ShadowPass::bind() has bound
     ShadingModel model;      // its choices; the numbers are in the scene's model block
     SurfaceOutput output = SurfaceOutput::Picture;
+    // Set: meshes may be drawn with fewer triangles where this view (worldToClip) hides it.
+    std::optional<glm::mat4> coarseView = std::nullopt;
 };
 
 class SurfacePass {
@@ -61,6 +64,7 @@ class SurfacePass {
 [[nodiscard]] std::vector<std::string> modelDefines(const ShadingModel& model);
 
 // Binds blocks and buffers of an item and issues the draw call; front faces and culling included.
-void drawItem(const DrawItem& item, bool cull);
+// `coarse`: with fewer triangles, if its mesh has any.
+void drawItem(const DrawItem& item, bool cull, bool coarse = false);
 
 } // namespace patina::render

@@ -10,7 +10,6 @@ namespace {
 
 constexpr unsigned kValuesUnit = 0, kColorsUnit = 1, kRangeBinding = 0;
 constexpr int kColorSteps = 256;
-constexpr glm::vec3 kEmpty{static_cast<float>(kEmptyDisplay) / 255.0f};
 
 gl::Texture makeColors(gl::Context& context) {
     std::vector<float> rows;
@@ -72,30 +71,49 @@ Result<std::optional<ViewRange>> ViewPass::measure(const gl::Texture& values, bo
     return std::optional(range);
 }
 
-Result<void> ViewPass::show(const gl::Texture& values, const ViewInfo& info, const ViewRange& range,
-                            const View& view, const glm::vec3& side, float marks,
-                            const gl::Framebuffer& target) {
+Result<const gl::Program*> ViewPass::useProgram(int value, const glm::vec3& side) {
     const auto shader = m_shaders.program({{"screen.vert", "view.frag"}, {}});
-    if (!shader)
-        return shader.error();
-    (*shader)->use();
-    ScreenPasses::setExposure(**shader, view);
-    (*shader)->set("u_kind", info.kind);
-    (*shader)->set("u_value", static_cast<int>(info.value));
-    (*shader)->set("u_range", glm::vec2(range.min, range.max));
-    (*shader)->set("u_logarithmic", info.logarithmic ? 1 : 0);
-    (*shader)->set("u_colorMap", static_cast<int>(info.colorMap));
-    (*shader)->set("u_marks", marks);
-    (*shader)->set("u_transfer", static_cast<int>(view.displayTransfer));
-    (*shader)->set("u_gamma", view.displayGamma);
-    (*shader)->set("u_empty", kEmpty);
-    (*shader)->set("u_side", side);
+    if (shader) {
+        (*shader)->use();
+        (*shader)->set("u_value", value);
+        (*shader)->set("u_empty", glm::vec3(static_cast<float>(kEmptyDisplay) / 255.0f));
+        (*shader)->set("u_side", side);
+    }
+    return shader;
+}
+
+void ViewPass::draw(const gl::Texture& values, const gl::Framebuffer& target) {
     values.bind(kValuesUnit);
     m_colors.bind(kColorsUnit);
     target.bind();
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     m_screen.drawTriangle();
+}
+
+Result<void> ViewPass::showEmpty(const gl::Texture& cosines, const glm::vec3& side,
+                                 const gl::Framebuffer& target) {
+    if (const auto shader = useProgram(-1, side); !shader)
+        return shader.error();
+    draw(cosines, target);
+    return {};
+}
+
+Result<void> ViewPass::show(const gl::Texture& values, const ViewInfo& info, const ViewRange& range,
+                            const View& view, const glm::vec3& side, float marks,
+                            const gl::Framebuffer& target) {
+    const auto shader = useProgram(static_cast<int>(info.value), side);
+    if (!shader)
+        return shader.error();
+    ScreenPasses::setExposure(**shader, view);
+    (*shader)->set("u_kind", info.kind);
+    (*shader)->set("u_range", glm::vec2(range.min, range.max));
+    (*shader)->set("u_logarithmic", info.logarithmic ? 1 : 0);
+    (*shader)->set("u_colorMap", static_cast<int>(info.colorMap));
+    (*shader)->set("u_marks", marks);
+    (*shader)->set("u_transfer", static_cast<int>(view.displayTransfer));
+    (*shader)->set("u_gamma", view.displayGamma);
+    draw(values, target);
     return {};
 }
 

@@ -25,6 +25,10 @@ class ViewPass {
     // `positive`: numbers above 0 only. Waits for the GPU.
     Result<std::optional<ViewRange>> measure(const gl::Texture& values, bool positive);
 
+    // Where a view does not apply: the shape of what is there, in stripes. `cosines`: N·V.
+    Result<void> showEmpty(const gl::Texture& cosines, const glm::vec3& side,
+                           const gl::Framebuffer& target);
+
     // The whole of `values` into `target`, of the same size. `side`: shaders/include/side.glsl;
     // `marks`: ViewSettings::flags.
     Result<void> show(const gl::Texture& values, const ViewInfo& info, const ViewRange& range,
@@ -32,15 +36,15 @@ class ViewPass {
                       const gl::Framebuffer& target);
 
   private:
+    Result<const gl::Program*> useProgram(int value, const glm::vec3& side);
+    void draw(const gl::Texture& values, const gl::Framebuffer& target);
+
     gl::Context& m_context;
     ShaderLibrary& m_shaders;
     const ScreenPasses& m_screen;
     gl::Buffer m_block, m_range;
     gl::Texture m_colors;
 };
-
-// Display value of what has no surface, in every view.
-inline constexpr int kEmptyDisplay = 28;
 
 // What surface.frag records for this view: itself, or the picture that it judges.
 [[nodiscard]] ViewKind recordedFor(ViewKind kind);

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
+#include <limits>
 
 namespace patina::render {
 
@@ -20,6 +21,28 @@ bool insideFrustum(const Bounds& bounds, const glm::mat4& worldToClip) {
                                plane.z > 0 ? bounds.max.z : bounds.min.z);
         return glm::dot(plane, glm::vec4(corner, 1.0f)) < 0.0f;
     });
+}
+
+bool coarseSuffices(const DrawItem& item, const glm::mat4& worldToClip) {
+    constexpr float kShare = 1.0f / 45.0f;
+    if (item.mesh->coarseCount == 0)
+        return false;
+    // The world's size of a cell: the box of the instance has as many as the mesh's own, and
+    // turning it makes it larger.
+    const glm::vec3 own = item.mesh->bounds.size(), world = item.bounds.size();
+    const float cell = item.mesh->coarseCell * std::max({world.x, world.y, world.z}) /
+                       std::max({own.x, own.y, own.z});
+    // Where the box is nearest, w is the distance along the view (1 when it is orthographic).
+    float nearest = std::numeric_limits<float>::max();
+    for (int corner = 0; corner < 8; ++corner) {
+        const Bounds& b = item.bounds;
+        const glm::vec4 at =
+            worldToClip * glm::vec4(corner & 1 ? b.max.x : b.min.x, corner & 2 ? b.max.y : b.min.y,
+                                    corner & 4 ? b.max.z : b.min.z, 1.0f);
+        nearest = std::min(nearest, at.w);
+    }
+    const glm::vec3 up(worldToClip[0][1], worldToClip[1][1], worldToClip[2][1]);
+    return nearest > 0.0f && 0.5f * glm::length(up) * cell < kShare * nearest;
 }
 
 DrawList makeDrawList(const std::vector<DrawItem>& items, const glm::mat4& worldToClip,

@@ -12,6 +12,10 @@ namespace patina::render {
 // False only when the box lies wholly outside one of the six clip planes.
 [[nodiscard]] bool insideFrustum(const Bounds& bounds, const glm::mat4& worldToClip);
 
+// Whether the cells to which the mesh's coarse triangles are rounded stay below a 45th of the
+// picture's height: 16 pixels of 720, 4 when a frame is drawn at a quarter.
+[[nodiscard]] bool coarseSuffices(const DrawItem& item, const glm::mat4& worldToClip);
+
 struct DrawList {
     std::vector<const DrawItem*> opaque;  // front to back: hidden fragments are not shaded
     std::vector<const DrawItem*> blended; // back to front

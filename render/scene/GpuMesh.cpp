@@ -1,6 +1,9 @@
 #include "render/scene/GpuMesh.h"
 
 #include "core/base/Check.h"
+#include "core/mesh/CoarseMesh.h"
+
+#include <algorithm>
 
 namespace patina::render {
 
@@ -12,6 +15,9 @@ struct Vertex {
     glm::vec2 uv;
 };
 static_assert(sizeof(Vertex) == 48);
+
+constexpr std::size_t kManyTriangles = 30'000;
+constexpr float kCoarseCells = 64.0f; // along the longest side
 
 } // namespace
 
@@ -32,7 +38,18 @@ GpuMesh makeGpuMesh(gl::Context& context, const Mesh& mesh) {
         result.bounds.add(mesh.positions[i]);
     }
     result.vertices = gl::Buffer::of<Vertex>(context, "vertices", vertices);
-    result.indices = gl::Buffer::of<std::uint32_t>(context, "indices", mesh.indices);
+    std::vector<std::uint32_t> indices = mesh.indices;
+    const glm::vec3 size = result.bounds.size();
+    const float cell = std::max({size.x, size.y, size.z}) / kCoarseCells;
+    if (mesh.triangleCount() >= kManyTriangles && cell > 0.0f) {
+        const std::vector<std::uint32_t> coarse = coarseTriangles(mesh, cell);
+        if (!coarse.empty() && coarse.size() < indices.size() / 2) {
+            indices.insert(indices.end(), coarse.begin(), coarse.end());
+            result.coarseCount = static_cast<int>(coarse.size());
+            result.coarseCell = cell;
+        }
+    }
+    result.indices = gl::Buffer::of<std::uint32_t>(context, "indices", indices);
     result.array = gl::VertexArray(context, "mesh");
     result.array.setFloats(0, 3, result.vertices, offsetof(Vertex, position), sizeof(Vertex));
     result.array.setFloats(1, 3, result.vertices, offsetof(Vertex, normal), sizeof(Vertex));

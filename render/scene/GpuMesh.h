@@ -11,6 +11,9 @@ struct GpuMesh {
     gl::Buffer vertices, indices;
     gl::VertexArray array;
     int indexCount = 0;
+    // For small pictures, after the others in the buffer; 0: the mesh is simple enough as it is.
+    int coarseCount = 0;
+    float coarseCell = 0.0f; // no vertex of them is farther away than this cube's diagonal
     std::size_t vertexCount = 0;
     Bounds bounds;
 };

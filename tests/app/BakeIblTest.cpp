@@ -191,7 +191,7 @@ TEST_F(BakeIbl, LatLongIsAnImagePerLevel) {
     expectComplete("out");
 }
 
-TEST_F(BakeIbl, TheDfgTableIsTheOneThatTheRendererUses) {
+TEST_F(BakeIbl, TheDfgTableHasItsTexelsWhereOthersLookThemUp) {
     ASSERT_EQ(bake("builtin:white", "out", {"--precision", "float"}).status, 0);
     const Image table = image("out/dfg.exr");
     ASSERT_EQ(table.width(), 128);

@@ -86,6 +86,37 @@ TEST_F(Scene, BackgroundIsAsBlurredAsAskedOrOff) {
     EXPECT_EQ(centerPixel(draw(document)), glm::vec4(0.0f));
 }
 
+// Fewer triangles may be drawn where that is hardly seen, only when asked for, and never close up.
+TEST_F(Scene, ACoarseFrameLooksLikeTheFineOne) {
+    Document document = makeScene(makeSphere(128));
+    ASSERT_GT(document.triangleCount(), 30'000u);
+    renderer().setIbl(uniformIbl(glm::vec3(1.0f)));
+    document.materials[0].metallic = 1.0f;
+    FrameSettings fine, coarse;
+    fine.samples = coarse.samples = 1;
+    coarse.coarse = true;
+    const auto compare = [&] {
+        const Image before = draw(document, 64, fine);
+        coarse.reuseScene = true; // in vain: it is not the same scene
+        const Image between = draw(document, 64, coarse);
+        EXPECT_EQ(draw(document, 64, fine), before) << "nothing of it is left";
+        double sum = 0.0;
+        for (std::size_t i = 0; i < before.f32().size(); ++i)
+            sum += static_cast<double>(std::abs(between.f32()[i] - before.f32()[i]));
+        return sum / static_cast<double>(before.f32().size());
+    };
+    const double difference = compare();
+    EXPECT_GT(difference, 0.0);
+    EXPECT_LT(difference, 0.01);
+    document.meshes[0].transform = glm::scale(glm::mat4(1.0f), glm::vec3(0.01f));
+    document.view.camera.distance = 0.05f;
+    EXPECT_GT(compare(), 0.0) << "the size in the picture counts, not that in the world";
+    document.view.camera.distance = 0.015f;
+    EXPECT_EQ(compare(), 0.0) << "close up";
+    document.view.camera.distance = 0.0f;
+    EXPECT_EQ(compare(), 0.0) << "inside";
+}
+
 TEST_F(Scene, BackgroundHasNoSeamAndMatchesTheImage) {
     // A smooth sky: the column behind the seam (+Z) must be as smooth as any other.
     Document document = makeScene(makeSphere());

@@ -7,9 +7,9 @@ namespace patina::editor {
 namespace {
 
 constexpr std::array kScales = {1.0f, 0.8f, 0.65f, 0.5f, 0.4f, 1.0f / 3.0f, 0.25f};
-// 24 frames per second leave 41 ms, of which stretching and showing the picture takes Qt up to 10.
-constexpr double kSlowMs = 30.0;
-constexpr double kFastMs = 16.0; // room for the next finer scale (at most 1.8 times the pixels)
+// 24 frames per second leave 41 ms, of which Qt takes 16 to put the window together on two cores.
+constexpr double kSlowMs = 25.0;
+constexpr double kFastMs = 13.0; // room for the next finer scale (at most 1.8 times the pixels)
 constexpr int kFastFramesBeforeFiner = 12; // so that the resolution does not flicker
 constexpr double kAlwaysMs = 12.0;         // anti-aliased frames this fast need no pacing at all
 constexpr double kAffordableMs = 170.0;    // slower ones would triple to a hitch of half a second

@@ -201,6 +201,7 @@ render::FrameSettings ViewportWidget::nextFrame(const QSize& size) {
     frame.showOverlays = m_overlays;
     frame.selectedMesh = m_selection.mesh();
     frame.dither = true;
+    frame.coarse = m_pacing.scale() < 1.0f;
     // The eye does not wait for what nobody looks at; while the hand moves there is no time for it.
     frame.measureLuminance = m_luminanceWanted && !m_pacing.moving();
     frame.adaptSeconds =

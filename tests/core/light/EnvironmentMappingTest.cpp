@@ -80,6 +80,18 @@ TEST(EnvironmentMapping, AngularMapHasMinusZInTheMiddle) {
     expectAt(at(L::AngularMap, kA), 0.678016818711, 1.0 - 0.856033637422);
     expectAt(at(L::AngularMap, kB), 0.38027176477, 1.0 - 0.559864117615);
     EXPECT_NEAR(glm::length(at(L::AngularMap, {0, 0, 1}) - 0.5f), 0.5, 1e-6);
+    // As the formula is published, with acos(z), it is ours of the mirrored direction.
+    const auto published = [](const glm::vec3& d) {
+        return at(L::AngularMap, d * glm::vec3(1, 1, -1));
+    };
+    expectAt(published({1, 0, 0}), 0.75, 0.5);
+    expectAt(published({-1, 0, 0}), 0.25, 0.5);
+    expectAt(published({0, 1, 0}), 0.5, 1.0 - 0.75);
+    expectAt(published({0, -1, 0}), 0.5, 1.0 - 0.25);
+    expectAt(published({0, 0, 1}), 0.5, 0.5);
+    expectAt(published(kA), 0.545589979039, 1.0 - 0.591179958078);
+    expectAt(published(kB), 0.17251463973, 1.0 - 0.663742680135);
+    EXPECT_NEAR(glm::length(published({0, 0, -1}) - 0.5f), 0.5, 1e-6);
     const EnvironmentMapping map = mapping({L::AngularMap}, 512);
     EXPECT_NEAR(map.ray({0.75f * 512, 256})->direction.x, 1.0, 1e-6);
     EXPECT_NEAR(map.ray({256, 0.0f})->direction.z, 1.0, 1e-6);
@@ -165,6 +177,19 @@ TEST(EnvironmentMapping, OpenExrConventionIsOpenExrs) {
     const Imath::Box2i window({0, 0}, {63, 31});
     const EnvironmentMapping cube = mapping({L::VerticalStrip, C::OpenExr}, 16);
     const Imath::Box2i column({0, 0}, {15, 95});
+    // u = x / (W - 1): +Z in the middle, seen from the middle of the outer pixels.
+    const auto expectLatLong = [&](const glm::vec3& d, double u, double v) {
+        const glm::vec2 p = (latLong.position(d) - 0.5f) / glm::vec2(63.0f, 31.0f);
+        EXPECT_NEAR(p.x, u, 1e-6);
+        EXPECT_NEAR(p.y, v, 1e-6);
+    };
+    expectLatLong({1, 0, 0}, 0.25, 0.5);
+    expectLatLong({-1, 0, 0}, 0.75, 0.5);
+    EXPECT_NEAR(latLong.position({0, 1, 0}).y - 0.5f, 0.0, 1e-5);
+    EXPECT_NEAR(latLong.position({0, -1, 0}).y - 0.5f, 31.0, 1e-5);
+    expectLatLong({0, 0, 1}, 0.5, 0.5);
+    expectLatLong(kA, 0.448791808825, 0.320491482014);
+    expectLatLong(kB, 0.875, 0.391826552031);
     std::mt19937 random(1);
     for (int i = 0; i < 200; ++i) {
         const auto pick = [&] { return static_cast<float>(random() % 2001) / 1000.0f - 1.0f; };
@@ -222,13 +247,25 @@ TEST(EnvironmentMapping, SolidAnglesAreExact) {
     const struct {
         int size;
         double corner, centre;
-    } cube[] = {
-        {1, 2.09439510239, 2.09439510239},          {2, 0.523598775598, 0.523598775598},
-        {4, 0.0814555875953, 0.20135792079},        {8, 0.0155686078666, 0.0588575059471},
-        {16, 0.00341458592363, 0.0153852223374},    {64, 0.000193931510235, 0.000975609910864},
-        {128, 4.77264025671e-05, 0.000244081037327}};
+        double approximate; // relative error of the total of 4/N² (1 + u² + v²)^-3/2 at the centres
+    } cube[] = {{1, 2.09439510239, 2.09439510239, 0.909859317103},
+                {2, 0.523598775598, 0.523598775598, 0.0395957349782},
+                {4, 0.0814555875953, 0.20135792079, 0.0152660136901},
+                {8, 0.0155686078666, 0.0588575059471, 0.00382948555355},
+                {16, 0.00341458592363, 0.0153852223374, 0.000957239329347},
+                {64, 0.000193931510235, 0.000975609910864, 5.98233164453e-05},
+                {128, 4.77264025671e-05, 0.000244081037327, 1.49557724409e-05}};
     for (const auto& c : cube) {
         const EnvironmentMapping map = mapping({L::HorizontalStrip}, c.size);
+        double usual = 0.0, total = 0.0;
+        for (int y = 0; y < c.size; ++y)
+            for (int x = 0; x < c.size; ++x) {
+                const double u = (2.0 * x + 1.0) / c.size - 1.0, v = (2.0 * y + 1.0) / c.size - 1.0;
+                usual += 4.0 / (c.size * c.size) * std::pow(1.0 + u * u + v * v, -1.5);
+                total += map.solidAngle(x, y);
+            }
+        EXPECT_NEAR(total, 2.09439510239, 1e-9) << "a face";
+        EXPECT_NEAR(std::abs(usual / total - 1.0), c.approximate, 1e-9);
         EXPECT_NEAR(map.solidAngle(0, 0), c.corner, 1e-9);
         EXPECT_NEAR(map.solidAngle(c.size / 2, c.size / 2), c.centre, 1e-9);
     }
@@ -236,11 +273,18 @@ TEST(EnvironmentMapping, SolidAnglesAreExact) {
     const struct {
         int height;
         double row0, middle;
-    } latLong[] = {{4, 0.230037796128, 0.55536036727},
-                   {64, 5.91279052618e-05, 0.00240860383118},
-                   {512, 1.15507019309e-07, 3.76493166739e-05}};
+        double usual; // relative error of the total of the weight sin theta at the centres
+    } latLong[] = {{4, 0.230037796128, 0.55536036727, 0.026172152977},
+                   {64, 5.91279052618e-05, 0.00240860383118, 0.000100405864184},
+                   {512, 1.15507019309e-07, 3.76493166739e-05, 1.56873309409e-06}};
     for (const auto& c : latLong) {
         const EnvironmentMapping map = mapping({L::LatLong}, 2 * c.height);
+        double usual = 0.0, total = 0.0;
+        for (int y = 0; y < c.height; ++y) {
+            usual += 2.0 * kPi * kPi / c.height * std::sin(kPi * (y + 0.5) / c.height);
+            total += 2.0 * c.height * map.solidAngle(0, y);
+        }
+        EXPECT_NEAR(usual / total - 1.0, c.usual, 1e-9);
         EXPECT_NEAR(map.solidAngle(0, 0), c.row0, 1e-9);
         EXPECT_NEAR(map.solidAngle(1, c.height / 2), c.middle, 1e-9);
     }

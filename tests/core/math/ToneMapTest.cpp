@@ -293,6 +293,7 @@ TEST(Adaptation, WeightsOfTime) {
     EXPECT_EQ(adaptationWeight(0.0f), 0.0f);
     EXPECT_NEAR(adaptationWeight(0.5718269748586f), 0.5, 1e-6) << "half-life";
     EXPECT_NEAR(adaptationWeight(0.8249719408754f), 1.0 - std::exp(-1.0), 1e-6) << "tau";
+    EXPECT_NEAR(adaptationWeight(2.47139506806f), 0.95, 1e-6);
 }
 
 TEST(Adaptation, DoesNotDependOnTheFrameRate) {

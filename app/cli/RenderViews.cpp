@@ -1,0 +1,317 @@
+#include "app/cli/RenderViews.h"
+
+#include "core/document/Lights.h"
+#include "core/image/TextRaster.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <fmt/format.h>
+
+namespace patina::cli {
+namespace {
+
+using render::ViewChoice;
+using render::ViewMode;
+using render::ViewRange;
+
+Error usage(std::string message) {
+    return {ErrorKind::Usage, std::move(message), {}, {}};
+}
+
+std::string viewNames() {
+    std::string names;
+    for (const ViewInfo& info : views())
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", info.id);
+    return names;
+}
+
+bool hasNumbers(const ViewInfo& info) {
+    return info.value != ViewValue::Picture && info.kind != shading::kViewUvChecker;
+}
+
+// Channels of a part: which of the four floats, under which names.
+struct Channels {
+    int colors;
+    std::vector<std::string> names;
+};
+
+Channels channelsOf(const ViewChoice& choice) {
+    const ViewInfo& info = viewInfo(choice.kind);
+    if (choice.mode == ViewMode::Contribution)
+        return {3, {"R", "G", "B", "A"}};
+    switch (info.value) {
+    case ViewValue::Scalar:
+        return {1, {choice.kind == shading::kViewDepth ? "Z" : "Y", "A"}};
+    case ViewValue::Identity:
+        return {1, {"id", "A"}};
+    case ViewValue::Direction:
+        return {3, {"X", "Y", "Z", "A"}};
+    default:
+        return {3, {"R", "G", "B", "A"}};
+    }
+}
+
+// --- Contact sheet
+
+constexpr int kColumns = 6, kMargin = 16, kGap = 12;
+constexpr int kHeading = 20, kLabel = 14, kSmall = 11; // pixels per em
+constexpr int kCaption = 42, kHeadingRow = 44;
+constexpr glm::vec3 kPaper{0.085f}, kWhite{0.94f}, kGrey{0.62f}, kAmber{0.95f, 0.70f, 0.30f};
+
+void fill(Image& image, int x, int y, int width, int height, const glm::vec3& color) {
+    const auto pixels = image.u8();
+    for (int row = std::max(y, 0); row < std::min(y + height, image.height()); ++row)
+        for (int column = std::max(x, 0); column < std::min(x + width, image.width()); ++column)
+            for (int c = 0; c < 3; ++c)
+                pixels[(static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width()) +
+                        static_cast<std::size_t>(column)) *
+                           3 +
+                       static_cast<std::size_t>(c)] =
+                    static_cast<std::uint8_t>(color[c] * 255.0f + 0.5f);
+}
+
+// Straight alpha over the paper.
+void paste(Image& sheet, int x, int y, const Image& tile) {
+    for (int row = 0; row < tile.height(); ++row)
+        for (int column = 0; column < tile.width(); ++column) {
+            const float alpha = tile.sample(column, row, 3);
+            glm::vec3 color(0.0f);
+            for (int c = 0; c < 3; ++c)
+                color[c] = alpha * tile.sample(column, row, c) + (1.0f - alpha) * kPaper[c];
+            fill(sheet, x + column, y + row, 1, 1, color);
+        }
+}
+
+std::string number(float value) {
+    return fmt::format("{:.3g}", value);
+}
+
+// The longest beginning that fits, with an ellipsis when it is not all.
+std::string fitting(const TextRaster& text, std::string_view line, int size, int width) {
+    if (text.width(line, size) <= width)
+        return std::string(line);
+    std::string shorter(line);
+    while (!shorter.empty() && text.width(shorter + "…", size) > width) {
+        while (!shorter.empty() && (static_cast<unsigned char>(shorter.back()) & 0xc0u) == 0x80u)
+            shorter.pop_back();
+        if (!shorter.empty())
+            shorter.pop_back();
+    }
+    return shorter + "…";
+}
+
+// "0 [bar] 1 m": the colours that the numbers have.
+void drawLegend(Image& sheet, const TextRaster& text, int x, int baseline, const ViewInfo& info,
+                const ViewRange& range) {
+    constexpr int kBar = 84;
+    const std::string low = number(range.min);
+    text.draw(sheet, x, baseline, kSmall, kGrey, low);
+    x += text.width(low, kSmall) + 6;
+    for (int i = 0; i < kBar; ++i)
+        fill(sheet, x + i, baseline - 8, 1, 8,
+             mapColor(info.colorMap, static_cast<float>(i) / (kBar - 1)));
+    x += kBar + 6;
+    const std::string high =
+        fmt::format("{}{}{}{}", number(range.max), info.unit.empty() ? "" : " ", info.unit,
+                    info.logarithmic ? "  log" : "");
+    text.draw(sheet, x, baseline, kSmall, kGrey, high);
+}
+
+struct Sheet {
+    std::vector<const ViewInfo*> shown;
+    int tileWidth, tileHeight;
+
+    // Where each tile lies; returns the height of the sheet.
+    template <class Heading, class Tile>
+    int layOut(Heading heading, Tile tile) const {
+        int y = kMargin, column = 0;
+        const ViewInfo* last = nullptr;
+        for (const ViewInfo* info : shown) {
+            if (!last || last->group != info->group) {
+                if (column > 0)
+                    y += tileHeight + kCaption + kGap;
+                column = 0;
+                heading(y, viewGroupLabel(info->group));
+                y += kHeadingRow;
+            } else if (column == kColumns) {
+                column = 0;
+                y += tileHeight + kCaption + kGap;
+            }
+            tile(kMargin + column * (tileWidth + kGap), y, *info);
+            ++column;
+            last = info;
+        }
+        return y + tileHeight + kCaption + kMargin;
+    }
+};
+
+} // namespace
+
+std::string listViews() {
+    std::string text;
+    for (int group = 0; group < kViewGroupCount; ++group) {
+        text += fmt::format("{}{}\n", group > 0 ? "\n" : "",
+                            viewGroupLabel(static_cast<ViewGroup>(group)));
+        for (const ViewInfo& info : views())
+            if (info.group == static_cast<ViewGroup>(group))
+                text += fmt::format("  {:<20} {}{}\n", info.id, info.help,
+                                    info.unit.empty() ? "" : fmt::format(" [{}]", info.unit));
+    }
+    return text;
+}
+
+bool wantsAllViews(const RenderOptions& options) {
+    return options.view == "all";
+}
+
+Result<render::ViewSettings> viewSettings(const RenderOptions& options, const Document& document) {
+    render::ViewSettings settings;
+    if (!options.view.empty() && !wantsAllViews(options)) {
+        const ViewInfo* info = findView(options.view);
+        if (!info)
+            return usage(fmt::format("there is no view \"{}\"; --view wants all or one of {}",
+                                     options.view, viewNames()));
+        settings.shown.kind = info->kind;
+    }
+    if (options.viewMode == "contribution") {
+        settings.shown.mode = ViewMode::Contribution;
+        if (!wantsAllViews(options) && viewInfo(settings.shown.kind).contribution.empty())
+            return usage(fmt::format("the view \"{}\" has no contribution of its own to the "
+                                     "picture; leave --view-mode out",
+                                     viewInfo(settings.shown.kind).id));
+    }
+    if (!options.viewRange.empty()) {
+        const std::string& text = options.viewRange;
+        const char* end = text.data() + text.size();
+        ViewRange range;
+        const auto low = std::from_chars(text.data(), end, range.min);
+        const bool comma = low.ec == std::errc() && low.ptr != end && *low.ptr == ',';
+        const auto high = comma ? std::from_chars(low.ptr + 1, end, range.max) : low;
+        if (!comma || high.ec != std::errc() || high.ptr != end || !(range.min < range.max))
+            return usage(fmt::format("--view-range wants MIN,MAX with MIN below MAX, not \"{}\"",
+                                     options.viewRange));
+        settings.shown.range = range;
+    }
+    if (!options.viewLight.empty()) {
+        const auto light =
+            std::find_if(document.lights.begin(), document.lights.end(), [&](const Light& l) {
+                return l.name == options.viewLight && shines(document, l);
+            });
+        if (light == document.lights.end()) {
+            std::string names;
+            for (const Light& l : document.lights)
+                if (shines(document, l))
+                    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", l.name);
+            return usage(
+                names.empty()
+                    ? "--view-light: no light of this scene shines"
+                    : fmt::format("--view-light: no light named \"{}\" shines; these do: {}",
+                                  options.viewLight, names));
+        }
+        settings.light = light->id;
+    }
+    return settings;
+}
+
+Result<Image> viewNumbers(render::Renderer& renderer, const ViewChoice& choice) {
+    if (!hasNumbers(viewInfo(choice.kind)))
+        return usage(fmt::format("the view \"{}\" judges the displayed picture and has no numbers; "
+                                 "write it as .png",
+                                 viewInfo(choice.kind).id));
+    Result<Image> read = renderer.readView(choice.kind, choice.mode);
+    if (!read)
+        return read;
+    const Channels channels = channelsOf(choice);
+    Image image(read->width(), read->height(), channels.colors + 1, PixelType::F32,
+                ColorEncoding::Linear);
+    const auto from = read->f32();
+    const auto to = image.f32();
+    const auto colors = static_cast<std::size_t>(channels.colors);
+    for (std::size_t i = 0; i < from.size() / 4; ++i) {
+        std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(4 * i), colors,
+                    to.begin() + static_cast<std::ptrdiff_t>((colors + 1) * i));
+        to[(colors + 1) * i + colors] = from[4 * i + 3];
+    }
+    image.setChannelNames(channels.names);
+    return image;
+}
+
+Result<std::vector<ImagePart>> viewParts(render::Renderer& renderer, ViewMode mode) {
+    std::vector<ImagePart> parts;
+    for (const ViewInfo& info : views()) {
+        if (!hasNumbers(info) || (mode == ViewMode::Contribution && info.contribution.empty()))
+            continue;
+        Result<Image> numbers = viewNumbers(renderer, {info.kind, mode, {}});
+        if (!numbers)
+            return numbers.error();
+        ImagePart part;
+        part.name = info.id;
+        part.image = std::move(*numbers);
+        part.attributes["patina:view"] = info.label;
+        if (!info.unit.empty())
+            part.attributes["patina:units"] = info.unit;
+        parts.push_back(std::move(part));
+    }
+    return parts;
+}
+
+Result<Image> contactSheet(Session& session, render::Renderer& renderer, const Document& document,
+                           render::FrameSettings frame) {
+    Result<TextRaster> text = TextRaster::create();
+    if (!text)
+        return text.error();
+    const ViewMode mode = frame.view.shown.mode;
+    Sheet sheet{{}, frame.width, frame.height};
+    for (const ViewInfo& info : views())
+        if (mode == ViewMode::Raw || !info.contribution.empty())
+            sheet.shown.push_back(&info);
+    const int width = 2 * kMargin + kColumns * frame.width + (kColumns - 1) * kGap;
+    const int height = sheet.layOut([](int, std::string_view) {}, [](int, int, const ViewInfo&) {});
+    if (width > 16384 || height > 16384)
+        return usage("the contact sheet would have more than 16384 pixels a side; choose a smaller "
+                     "--size for its pictures");
+    // Numbers are drawn without anti-aliasing: twice as large, then averaged.
+    if (frame.samples > 1) {
+        frame.width *= 2;
+        frame.height *= 2;
+    }
+    Image image(width, height, 3, PixelType::U8, ColorEncoding::Srgb);
+    fill(image, 0, 0, width, height, kPaper);
+
+    Result<void> done;
+    sheet.layOut(
+        [&](int y, std::string_view label) {
+            text->draw(image, kMargin, y + 28, kHeading, kWhite, label);
+        },
+        [&](int x, int y, const ViewInfo& info) {
+            if (!done || session.job().cancelled())
+                return;
+            frame.view.shown.kind = info.kind;
+            done = renderer.render(frame, 0);
+            if (!done)
+                return;
+            paste(
+                image, x, y,
+                shrinkImage(renderer.readDisplayed(), std::max(sheet.tileWidth, sheet.tileHeight)));
+            const int first = y + sheet.tileHeight + 18, second = first + 17;
+            text->draw(image, x, first, kLabel, kWhite,
+                       fitting(*text, info.label, kLabel, sheet.tileWidth));
+            const std::string why = whyEmpty(info.kind, document);
+            const auto range = mode == ViewMode::Raw ? renderer.shownRange() : std::nullopt;
+            if (!why.empty())
+                text->draw(image, x, second, kSmall, kAmber,
+                           fitting(*text, why, kSmall, sheet.tileWidth));
+            else if (range)
+                drawLegend(image, *text, x, second, info, *range);
+            else
+                text->draw(image, x, second, kSmall, kGrey,
+                           fitting(*text, mode == ViewMode::Raw ? info.help : info.contribution,
+                                   kSmall, sheet.tileWidth));
+        });
+    if (!done)
+        return done.error();
+    return image;
+}
+
+} // namespace patina::cli

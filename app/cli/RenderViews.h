@@ -1,0 +1,37 @@
+// What `patina render --view` makes: one view, all of them as parts of one OpenEXR file, or all on
+// a contact sheet with captions.
+#pragma once
+
+#include "app/cli/Session.h"
+#include "core/document/Document.h"
+#include "core/image/ImageIO.h"
+#include "render/Renderer.h"
+
+#include <string>
+#include <vector>
+
+namespace patina::cli {
+
+// `patina render --list-views`: a line for each view, by groups.
+[[nodiscard]] std::string listViews();
+
+[[nodiscard]] bool wantsAllViews(const RenderOptions& options);
+
+// The view of --view, --view-mode, --view-range and --view-light. Usage errors name what exists.
+[[nodiscard]] Result<render::ViewSettings> viewSettings(const RenderOptions& options,
+                                                        const Document& document);
+
+// A part for each view that has numbers, 32-bit floats: R, G, B of radiance and colours
+// (radiance premultiplied by A), X, Y, Z of directions, Z of depth, id of identities, else Y; A is
+// 1 where a surface is. The frame has been drawn.
+[[nodiscard]] Result<std::vector<ImagePart>> viewParts(render::Renderer& renderer,
+                                                       render::ViewMode mode);
+// The numbers of one view, the same way. Usage error for views that are judgements.
+[[nodiscard]] Result<Image> viewNumbers(render::Renderer& renderer,
+                                        const render::ViewChoice& choice);
+
+// Every view in a picture of frame.width × frame.height, with name, range and why it may be empty.
+[[nodiscard]] Result<Image> contactSheet(Session& session, render::Renderer& renderer,
+                                         const Document& document, render::FrameSettings frame);
+
+} // namespace patina::cli

@@ -1,0 +1,23 @@
+// A lobe drawn in space without OpenGL, on any thread: shaded, with rings at equal values, over the
+// disc of the surface and with the light that makes it.
+#pragma once
+
+#include "core/light/LobeMesh.h"
+
+#include <QColor>
+#include <QImage>
+
+namespace patina::editor {
+
+// Looks at the point from outside, in parallel. The light stands at -x.
+struct LobeCamera {
+    double yawDeg = 28.0;       // about the normal; 0 sees the plane of incidence face on
+    double elevationDeg = 20.0; // above the surface
+    friend bool operator==(const LobeCamera&, const LobeCamera&) = default;
+};
+
+// `ring`: of the disc's rim, so that a lobe is known by its colour.
+[[nodiscard]] QImage lobePicture(const LobeMesh& mesh, const LobeCamera& camera, float incidenceRad,
+                                 QSize pixels, QColor ring);
+
+} // namespace patina::editor

@@ -1,0 +1,46 @@
+// What all plots share: colours and dashes of compared curves, round axis steps, numbers as text,
+// and the box that reads values out under the pointer.
+#pragma once
+
+#include <QColor>
+#include <QFont>
+#include <QPainter>
+#include <QPointF>
+#include <QRectF>
+#include <QString>
+#include <vector>
+
+namespace patina::editor {
+
+// Curves that are compared differ in colour and in dash. The colours are Okabe and Ito's, which
+// people with any colour vision can tell apart ("Color Universal Design", 2008).
+inline constexpr int kPlotLooks = 4;
+[[nodiscard]] QColor plotColor(int look);
+[[nodiscard]] Qt::PenStyle plotDash(int look);
+[[nodiscard]] QPen plotPen(int look, double width = 1.8);
+
+[[nodiscard]] QFont plotFont(const QFont& font);                              // of axes
+[[nodiscard]] QPointF plotPoint(const std::vector<QPointF>& curve, double x); // linear between
+
+// Round steps, about `count` of them; ascending, all inside.
+[[nodiscard]] std::vector<double> roundSteps(double min, double max, int count);
+// Three significant digits: "0.25", "1 230", "4.1·10⁻⁵".
+[[nodiscard]] QString plotNumber(double value);
+
+struct ReadoutRow {
+    int look = -1; // whose sample line stands before it; -1: none
+    QString text;
+};
+// Beside `at`, inside `area`.
+void paintReadout(QPainter& painter, const QRectF& area, const QPointF& at, const QString& title,
+                  const std::vector<ReadoutRow>& rows);
+
+// The well that plots are drawn in, their title, and the dim words in place of curves.
+void paintPlotWell(QPainter& painter, const QRectF& rect, const QString& title);
+void paintPlotMessage(QPainter& painter, const QRectF& rect, const QString& message);
+[[nodiscard]] double plotTitleHeight(const QFont& font);
+
+// `count` cells as near to squares as the area allows, row by row.
+[[nodiscard]] std::vector<QRectF> plotCells(const QRectF& area, int count, double gap);
+
+} // namespace patina::editor
