@@ -320,8 +320,8 @@ constexpr std::array<Text, 3> kDistributionLabels{"GGX", "Beckmann", "Blinn-Phon
 constexpr std::array<Text, 6> kVisibilities{"smithCorrelated", "smithSeparable", "schlickDirect",
                                             "schlickIbl",      "kelemen",        "implicit"};
 constexpr std::array<Text, 6> kVisibilityLabels{
-    "Smith, height-correlated", "Smith, separable", "Schlick-GGX, k = (r + 1)² / 8",
-    "Schlick-GGX, k = α / 2",   "Kelemen",          "Implicit"};
+    "Smith, correlated", "Smith, separable", "Schlick-GGX, lights",
+    "Schlick-GGX, IBL",  "Kelemen",          "Implicit"};
 constexpr std::array<Text, 4> kFresnels{"schlick", "schlickF90", "dielectric", "conductor"};
 constexpr std::array<Text, 4> kFresnelLabels{"Schlick", "Schlick with f90", "Exact dielectric",
                                              "Exact conductor"};
@@ -397,7 +397,7 @@ constexpr std::array kParameters{
     number<&B::softness>("softbox.softness", "Edge softness", "Softbox", kUnit, kUnit, 2, "", "How much of it fades out towards its edges: 0 is a sharp rectangle.", kSurroundings),
 
     choice<&S::distribution>("model.distribution", "Distribution", "Highlight", kDistributions, kDistributionLabels, "How the tiny facets of a rough surface are tilted: GGX has the long tails that real materials show."),
-    choice<&S::visibility>("model.visibility", "Visibility", "Highlight", kVisibilities, kVisibilityLabels, "How facets hide each other: Smith's models are derived, Schlick's fits are those of the Unreal Engine 4, the last two are shortcuts of old."),
+    choice<&S::visibility>("model.visibility", "Visibility", "Highlight", kVisibilities, kVisibilityLabels, "How facets hide each other: Smith's models are derived (correlated: with their heights), Schlick's fits are those of the Unreal Engine 4 for lights, k = (r + 1)² / 8, and for image-based light, k = α / 2; the last two are shortcuts of old."),
     flag<&S::multiScatter>("model.multiScatter", "Energy compensation", "Highlight", "Gives back the light that bounces more than once between facets; without it rough metals are too dark."),
     choice<&S::fresnel>("model.fresnel", "Fresnel", "Fresnel", kFresnels, kFresnelLabels, "How reflection grows towards grazing angles: by Schlick's approximation, or by Fresnel's exact equations for non-metals or for metals."),
     number<&S::f90>("model.f90", "Grazing reflectance", "Fresnel", kUnit, kUnit, 3, "", "Reflectance at grazing angles for Schlick with f90; real surfaces reach 1."),
@@ -419,8 +419,8 @@ constexpr std::array kParameters{
     text<&View::ocioConfig>("view.ocioConfig", "OpenColorIO configuration", "Display", "File with OpenColorIO's displays and views; empty means the one that the environment variable OCIO names.", kUniform),
     text<&View::ocioDisplay>("view.ocioDisplay", "OpenColorIO display", "Display", "Display of the OpenColorIO configuration; empty means its default.", kUniform),
     text<&View::ocioView>("view.ocioView", "OpenColorIO view", "Display", "View of the OpenColorIO display; empty means the display's default.", kUniform),
-    number<&View::camera, &Camera::fovDeg>("view.fovDeg", "Field of view", "Camera", {10.0f, 90.0f}, {1.0f, 170.0f}, 1, "°", "Vertical angle that the camera sees: small like a telephoto lens, large like a wide-angle lens."),
-    choice<&View::lighting>("view.lighting", "Lighting", "Camera", kLightings, kLightingLabels, "Light from the environment with every reflection, or from a precomputed transfer bake with its soft shadows."),
+    number<&View::camera, &Camera::fovDeg>("view.fovDeg", "Field of view", "Camera and lighting", {10.0f, 90.0f}, {1.0f, 170.0f}, 1, "°", "Vertical angle that the camera sees: small like a telephoto lens, large like a wide-angle lens."),
+    choice<&View::lighting>("view.lighting", "Lighting", "Camera and lighting", kLightings, kLightingLabels, "Light from the environment with every reflection, or from a precomputed transfer bake with its soft shadows."),
 
     text<&L::name>("light.name", "Name", "Light", "What the light is called in lists, exports and scripts."),
     choice<&L::type>("light.type", "Type", "Light", kLightTypes, kLightTypeLabels, "A point shines from one place in all directions, a directional light like the sun from far away, a spot in a cone; spheres and rectangles shine from an area and make soft highlights.", kUniform | Affects::Structure),

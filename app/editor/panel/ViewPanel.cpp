@@ -121,7 +121,7 @@ ViewPanel::ViewPanel(DocumentController& controller, DisplayLoader& displays,
     // What OpenColorIO has to choose from stands right below the tone curve and the display.
     std::vector<std::string_view> light;
     for (const ParameterInfo& info : parameters())
-        if (info.scope == Scope::View && info.group != "Camera")
+        if (info.scope == Scope::View && info.group != "Camera and lighting")
             light.push_back(info.id);
     ParameterListSpec camera = listWithout(light);
     camera.loneHeading = true;
@@ -266,7 +266,7 @@ void ViewPanel::refreshCurve() {
 void ViewPanel::refreshDisplay() {
     const View& view = m_controller.document().view;
     const QString config = QString::fromStdString(openColorIoConfig(view.ocioConfig));
-    m_config->setText(config.isEmpty() ? tr("no configuration") : QFileInfo(config).fileName());
+    m_config->setText(config.isEmpty() ? tr("No configuration") : QFileInfo(config).fileName());
     m_config->setToolTip(view.ocioConfig.empty() && !config.isEmpty()
                              ? tr("%1\nas the environment variable OCIO says").arg(config)
                              : config);

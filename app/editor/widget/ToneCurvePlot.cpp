@@ -20,6 +20,10 @@ QString signedNumber(double value, int decimals = 0) {
     return value < 0 ? QStringLiteral("−") + digits : QStringLiteral("+") + digits;
 }
 
+QString percentText(int percent) {
+    return QStringLiteral("%1 %").arg(percent);
+}
+
 QFont smallFont(const QFont& font) {
     QFont small = font;
     small.setPointSizeF(font.pointSizeF() * 0.85);
@@ -69,7 +73,7 @@ QSize ToneCurvePlot::minimumSizeHint() const {
 
 QRectF ToneCurvePlot::plotArea() const {
     const QFontMetricsF metrics(smallFont(font()));
-    const double left = kPad + metrics.horizontalAdvance(QStringLiteral("100")) + kPad;
+    const double left = kPad + metrics.horizontalAdvance(percentText(100)) + kPad;
     const double bottom = kPad + metrics.height() + 2.0;
     return QRectF(left, kPad + 4.0, width() - left - 2.0 * kPad, height() - bottom - kPad - 4.0);
 }
@@ -117,7 +121,7 @@ void ToneCurvePlot::paintGrid(QPainter& painter) const {
         painter.drawLine(QPointF(area.left(), y), QPointF(area.right(), y));
         if (percent % 50 != 0)
             continue;
-        const QString label = QString::number(percent);
+        const QString label = percentText(percent);
         painter.setPen(text);
         painter.drawText(QPointF(area.left() - kPad - metrics.horizontalAdvance(label),
                                  y + metrics.ascent() / 2 - 1.0),
