@@ -148,7 +148,7 @@ void EnvironmentSaveDialog::refresh() {
         if (overwrites)
             summary += tr("; existing files will be overwritten");
     } else if (!files) {
-        summary = QString::fromStdString(files.error().message);
+        summary = UserNotice::fromError(files.error()).text;
     }
     m_summary->setText(summary);
     m_summary->setStyleSheet(overwrites || !possible

@@ -129,9 +129,11 @@ void MainWindow::makeDocks() {
     addDock(QStringLiteral("material"), tr("Material"), QStringLiteral("material"),
             tr("Show or hide the parameters of the material"),
             new MaterialPanel(controller, m_session.selection, m_session.thumbnails));
+    auto* environment = new EnvironmentPanel(controller, m_session.thumbnails);
+    connect(environment, &EnvironmentPanel::saveRequested, m_actions->saveEnvironment,
+            &QAction::trigger);
     addDock(QStringLiteral("environment"), tr("Environment"), QStringLiteral("environment"),
-            tr("Show or hide what surrounds and lights the scene"),
-            new EnvironmentPanel(controller, m_session.thumbnails));
+            tr("Show or hide what surrounds and lights the scene"), environment);
     addDock(QStringLiteral("lights"), tr("Lights"), QStringLiteral("light-sun"),
             tr("Show or hide the list of lights"),
             new LightsPanel(controller, m_session.selection, m_session.thumbnails));

@@ -118,6 +118,15 @@ QWidget* EnvironmentPanel::makeKinds() {
             refresh(); // the mark follows the document, not the click
         });
     }
+    auto* save = new QToolButton;
+    save->setIcon(icon(QStringLiteral("save-as")));
+    save->setToolTip(tr("Write the surroundings as an HDR or EXR file of any layout"));
+    save->setStatusTip(save->toolTip());
+    save->setAccessibleName(tr("Save the environment"));
+    save->setFocusPolicy(Qt::TabFocus);
+    row->addSpacing(tokens::kGap);
+    row->addWidget(save);
+    connect(save, &QToolButton::clicked, this, &EnvironmentPanel::saveRequested);
     return kinds;
 }
 

@@ -29,6 +29,9 @@ class EnvironmentPanel : public QWidget {
     [[nodiscard]] LatLongView* view() { return m_view; }
     [[nodiscard]] SoftboxList* softboxes() { return m_softboxes; }
 
+  Q_SIGNALS:
+    void saveRequested();
+
   protected:
     void showEvent(QShowEvent* event) override;
 
