@@ -85,6 +85,16 @@ QString iconOf(LightType type) {
     return {};
 }
 
+// Keeps the selected light in sight when its parameters take the room.
+class LightList : public QTreeWidget {
+  protected:
+    void resizeEvent(QResizeEvent* event) override {
+        QTreeWidget::resizeEvent(event);
+        if (currentItem())
+            scrollToItem(currentItem());
+    }
+};
+
 } // namespace
 
 LightsPanel::LightsPanel(DocumentController& controller, SelectionModel& selection,
@@ -92,7 +102,7 @@ LightsPanel::LightsPanel(DocumentController& controller, SelectionModel& selecti
     : QWidget(parent)
     , m_controller(controller)
     , m_selection(selection)
-    , m_list(new QTreeWidget)
+    , m_list(new LightList)
     , m_empty(new QLabel(tr("Only the environment lights the scene.\nAdd a light above.")))
     , m_duplicate(iconButton(QStringLiteral("duplicate"), tr("Duplicate the selected light")))
     , m_remove(iconButton(QStringLiteral("remove"), tr("Remove the selected light")))

@@ -23,13 +23,16 @@ ParameterList::ParameterList(DocumentController& controller, Thumbnails& thumbna
     std::set<std::string_view> groups;
     int labelWidth = 0;
     for (const ParameterInfo& info : parameters()) {
-        if (info.scope != m_spec.scope || info.type == ParameterType::Reference ||
-            info.type == ParameterType::Text ||
+        if ((info.scope != m_spec.scope && info.scope != m_spec.alignedWith) ||
+            info.type == ParameterType::Reference || info.type == ParameterType::Text)
+            continue;
+        // Labels of rows that stand elsewhere in the dock count, so that all columns agree.
+        labelWidth = std::max(labelWidth, fontMetrics().horizontalAdvance(toQString(info.label)));
+        if (info.scope != m_spec.scope ||
             std::count(m_spec.without.begin(), m_spec.without.end(), info.id) > 0)
             continue;
         infos.push_back(&info);
         groups.insert(info.group);
-        labelWidth = std::max(labelWidth, fontMetrics().horizontalAdvance(toQString(info.label)));
     }
 
     const RowContext context{controller, thumbnails, m_spec.target, labelWidth + 2};

@@ -20,6 +20,8 @@ struct ParameterListSpec {
     // always.
     std::function<bool(const ParameterInfo&, const Document&, Id)> applies;
     bool loneHeading = false; // a lone group has a heading, too
+    // Of another list of the dock, whose labels stand in the same column.
+    std::optional<Scope> alignedWith = std::nullopt;
 };
 
 class ParameterList : public QWidget {

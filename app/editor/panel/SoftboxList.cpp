@@ -50,7 +50,9 @@ SoftboxList::SoftboxList(DocumentController& controller, Thumbnails& thumbnails,
                                           return Target{Scope::Softbox, m_selected};
                                       },
                                       {"softbox.enabled"}, // the list has it
-                                      {}})) {
+                                      {},
+                                      false,
+                                      Scope::Environment})) {
     m_list->setAccessibleName(tr("Softboxes"));
     m_list->setStatusTip(tr("Tick to switch a softbox on, F2 to rename it"));
     m_list->setEditTriggers(QAbstractItemView::EditKeyPressed | QAbstractItemView::DoubleClicked);
