@@ -66,9 +66,7 @@ LatLongView::LatLongView(QWidget* parent)
     setAccessibleName(tr("Surroundings"));
     setFocusPolicy(Qt::StrongFocus);
     setMouseTracking(true);
-    QSizePolicy policy(QSizePolicy::Preferred, QSizePolicy::Fixed);
-    policy.setHeightForWidth(true);
-    setSizePolicy(policy);
+    setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
     updateHelp();
 }
 
@@ -386,7 +384,13 @@ void LatLongView::focusInEvent(QFocusEvent*) {
 void LatLongView::focusOutEvent(QFocusEvent*) {
     update();
 }
+// Twice as wide as high in a dock of any width. Not by heightForWidth(): a scroll area does not ask
+// for it. A scroll bar that comes with the height and goes with it must not make it swing.
 void LatLongView::resizeEvent(QResizeEvent*) {
+    constexpr int kSlack = 8;
+    const int wanted = width() / 2;
+    if (wanted > height() || wanted < height() - kSlack)
+        setFixedHeight(wanted);
     Q_EMIT resized();
 }
 

@@ -25,8 +25,6 @@ class LatLongView : public QWidget {
     [[nodiscard]] LatLongMap map() const;
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override;
-    [[nodiscard]] bool hasHeightForWidth() const override { return true; }
-    [[nodiscard]] int heightForWidth(int width) const override { return width / 2; }
 
   Q_SIGNALS:
     // What follows until dragFinished() is one edit; after dragCancelled() nothing follows, and all

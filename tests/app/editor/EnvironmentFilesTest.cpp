@@ -10,15 +10,22 @@
 #include <QComboBox>
 #include <QDialog>
 #include <QDir>
+#include <QDockWidget>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSpinBox>
+#include <QToolButton>
 
 namespace patina::editor {
 namespace {
 
 struct EnvironmentFiles : EditorTest {
+    // Nothing here is seen in the viewport, and drawing takes long.
+    void SetUp() override {
+        window->findChild<ViewportWidget*>()->hide();
+        EditorTest::SetUp();
+    }
     QString path(const char* name) { return folder.filePath(QString::fromLatin1(name)); }
     std::filesystem::path write(const char* name, EnvironmentLayout layout) {
         const EnvironmentSaveSettings settings{path(name).toStdString(), layout, 64, false};
@@ -62,7 +69,11 @@ TEST_F(EnvironmentFiles, ChangingTheLayoutReadsTheFileAnewAsOneStep) {
 }
 
 TEST_F(EnvironmentFiles, TheDialogWritesWhatItSays) {
-    window->actions().saveEnvironment->trigger();
+    window->findChild<QDockWidget*>(QStringLiteral("environment"))->raise();
+    QApplication::processEvents();
+    auto* saveAs = find<QToolButton>(*window, QStringLiteral("Save the environment"));
+    ASSERT_NE(saveAs, nullptr);
+    QTest::mouseClick(saveAs, Qt::LeftButton);
     auto* dialog = window->findChild<QDialog*>(QStringLiteral("environmentSaveDialog"));
     ASSERT_NE(dialog, nullptr);
     auto* layout = dialog->findChild<QComboBox*>(QStringLiteral("environmentSaveLayout"));

@@ -12,7 +12,6 @@
 #include "core/light/GeneratedEnvironment.h"
 #include "core/light/LatLongGrid.h"
 
-#include <QDockWidget>
 #include <QListWidget>
 #include <QMenu>
 #include <QToolButton>
@@ -21,16 +20,27 @@
 namespace patina::editor {
 namespace {
 
+// The panel in a window of its own: a viewport would draw each step and filter its light, which
+// takes long and shows nothing of the panel.
 struct EnvironmentPanelTest : EditorTest {
-    static EnvironmentPanel& panel() { return *window->findChild<EnvironmentPanel*>(); }
+    static void SetUpTestSuite() {
+        session = std::make_unique<Session>();
+        alone = std::make_unique<EnvironmentPanel>(session->controller, session->thumbnails);
+        alone->resize(400, 700);
+        alone->show();
+        ASSERT_TRUE(QTest::qWaitForWindowExposed(alone.get(), 60'000));
+    }
+    static void TearDownTestSuite() {
+        alone.reset();
+        session.reset();
+    }
+    static EnvironmentPanel& panel() { return *alone; }
     static LatLongView& view() { return *panel().view(); }
     static const Environment& environment() { return document().environment; }
     static const Softbox& softbox(std::size_t index) { return environment().softboxes.at(index); }
 
     void SetUp() override {
         EditorTest::SetUp();
-        window->findChild<QDockWidget*>(QStringLiteral("environment"))->raise();
-        QApplication::processEvents();
         ASSERT_TRUE(view().isVisible());
     }
     static void choose(const char* kind) {
@@ -90,6 +100,8 @@ struct EnvironmentPanelTest : EditorTest {
             .g;
     }
     static double degreesPerPixel() { return 360.0 / view().map().area().width(); }
+
+    static inline std::unique_ptr<EnvironmentPanel> alone;
 };
 
 Softbox plainBox(float azimuthDeg, float elevationDeg) {
@@ -167,6 +179,17 @@ TEST_F(EnvironmentPanelTest, DraggingASoftboxMovesItsLight) {
     controller().undoStack().redo();
     EXPECT_EQ(softbox(0).azimuthDeg, azimuth);
     EXPECT_LT(radiance(180, 0), 0.1f);
+}
+
+TEST_F(EnvironmentPanelTest, TheSurroundingsKeepTheirShapeInADockOfAnyWidth) {
+    choose("Softboxes"); // longer than the dock is high
+    for (const int width : {311, 520, 400}) {
+        alone->resize(width, 700);
+        QApplication::processEvents();
+        ASSERT_TRUE(eventually([] { return view().width() <= 2 * view().height() + 1; })) << width;
+        EXPECT_GE(view().width(), width - 60);
+        EXPECT_NEAR(view().height(), view().width() / 2.0, 8.5) << width;
+    }
 }
 
 TEST_F(EnvironmentPanelTest, EscapeCancelsADrag) {
