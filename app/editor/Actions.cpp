@@ -35,6 +35,12 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
                        tr("Light from the environment, with every reflection")))
     , lightingPrt(make(tr("&Precomputed Transfer"), {}, {tr("Ctrl+Shift+L")},
                        tr("Light through the baked transfer, with its soft shadows")))
+    , energy(make(tr("&Energy"), QStringLiteral("energy"), {tr("Ctrl+4")},
+                  tr("Show what the material loses and makes of the light, and what compensation "
+                     "gives back")))
+    , furnace(make(tr("&White Furnace"), QStringLiteral("furnace"), {tr("Shift+F")},
+                   tr("Look at the scene in even white surroundings without lights, where a "
+                      "material that loses nothing cannot be seen")))
     , fullScreen(make(tr("F&ull Screen"), QStringLiteral("full-screen"), {tr("F11")},
                       tr("Fill the screen with the window")))
     , resetLayout(make(tr("Reset &Layout"), QStringLiteral("layout"), {},
@@ -53,6 +59,8 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
     describe(redo, tr("Make the change again that was taken back"));
     overlays->setCheckable(true);
     overlays->setChecked(true);
+    energy->setCheckable(true);
+    furnace->setCheckable(true);
     fullScreen->setCheckable(true);
     auto* lighting = new QActionGroup(this);
     for (QAction* action : {lightingIbl, lightingPrt}) {
@@ -80,9 +88,9 @@ void Actions::describe(QAction* action, const QString& sentence) {
 }
 
 QList<QAction*> Actions::all() const {
-    return {newScene,    open,       addModel,    save,      saveAs, saveEnvironment, exportScene,
-            quit,        undo,       redo,        frame,     home,   overlays,        lightingIbl,
-            lightingPrt, fullScreen, resetLayout, shortcuts, about};
+    return {newScene,    open,   addModel, save,       saveAs,      saveEnvironment, exportScene,
+            quit,        undo,   redo,     frame,      home,        overlays,        lightingIbl,
+            lightingPrt, energy, furnace,  fullScreen, resetLayout, shortcuts,       about};
 }
 
 } // namespace patina::editor

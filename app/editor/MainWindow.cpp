@@ -9,6 +9,7 @@
 #include "app/editor/ViewActions.h"
 #include "app/editor/document/Commands.h"
 #include "app/editor/panel/BakePanel.h"
+#include "app/editor/panel/EnergyPanel.h"
 #include "app/editor/panel/EnvironmentPanel.h"
 #include "app/editor/panel/JobsPanel.h"
 #include "app/editor/panel/LightsPanel.h"
@@ -43,7 +44,8 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kLayoutVersion = 2;    // raise when docks come or go: older layouts are ignored
+constexpr int kLayoutVersion = 3; // raise when docks come or go: older layouts are ignored
+constexpr int kInstrumentHeight = 280;
 constexpr qint64 kFrameTimeMs = 250; // how often the number changes, so that it can be read
 
 QStringList droppedFiles(const QMimeData* data) {
@@ -153,7 +155,28 @@ void MainWindow::makeDocks() {
             tr("Show or hide what runs in the background"), new JobsPanel(m_session.jobs));
     addDock(QStringLiteral("log"), tr("Log"), QStringLiteral("log"),
             tr("Show or hide the messages of this session"), new LogPanel);
+    addInstrument(m_actions->energy, QStringLiteral("energy"),
+                  new EnergyPanel(controller, m_session.selection, m_session.views));
     resetLayout();
+}
+
+QDockWidget* MainWindow::addInstrument(QAction* toggle, const QString& name, QWidget* panel) {
+    const QString title = toggle->iconText(); // without the mnemonic
+    QDockWidget* dock = addDock(name, title, QStringLiteral("view"), toggle->statusTip(), panel);
+    dock->toggleViewAction()->setIcon(toggle->icon());
+    m_instruments << dock;
+    // Not the dock's own action: that one counts a dock behind a tab as shown, and would close it.
+    connect(dock, &QDockWidget::visibilityChanged, toggle, &QAction::setChecked);
+    connect(toggle, &QAction::triggered, dock, [this, dock](bool on) {
+        dock->setVisible(on);
+        if (!on)
+            return;
+        dock->raise();
+        if (!dock->isFloating() && dock->height() < kInstrumentHeight &&
+            dockWidgetArea(dock) == Qt::BottomDockWidgetArea)
+            resizeDocks({dock}, {kInstrumentHeight}, Qt::Vertical);
+    });
+    return dock;
 }
 
 void MainWindow::refreshDockTitles() {
@@ -186,8 +209,11 @@ void MainWindow::resetLayout() {
     tabifyDockWidget(m_docks[Model], m_docks[Bake]);
     addDockWidget(Qt::BottomDockWidgetArea, m_docks[Jobs]);
     tabifyDockWidget(m_docks[Jobs], m_docks[Log]);
+    for (QDockWidget* dock : std::as_const(m_instruments))
+        tabifyDockWidget(m_docks[Log], dock);
     for (QDockWidget* dock : std::as_const(m_docks))
-        dock->setVisible(dock != m_docks[Jobs] && dock != m_docks[Log]);
+        dock->setVisible(dock != m_docks[Jobs] && dock != m_docks[Log] &&
+                         !m_instruments.contains(dock));
     m_docks[EnvironmentDock]->raise();
     m_docks[MaterialDock]->raise();
     resizeDocks({m_docks[Scene], m_docks[MaterialDock]}, {304, 356}, Qt::Horizontal);
@@ -237,8 +263,12 @@ void MainWindow::makeMenus() {
     view->addSeparator();
     view->addActions({a.lightingIbl, a.lightingPrt});
     view->addSeparator();
-    for (const QDockWidget* dock : std::as_const(m_docks))
-        view->addAction(dock->toggleViewAction());
+    for (QDockWidget* dock : std::as_const(m_docks))
+        if (!m_instruments.contains(dock))
+            view->addAction(dock->toggleViewAction());
+    view->addSeparator();
+    view->addActions({a.energy, a.furnace});
+    view->addSeparator();
     view->addAction(a.resetLayout);
     view->addSeparator();
     view->addAction(a.fullScreen);
@@ -328,6 +358,14 @@ void MainWindow::connectActions() {
     };
     connect(a.lightingIbl, &QAction::triggered, this, [=] { lighting(LightingMode::Ibl); });
     connect(a.lightingPrt, &QAction::triggered, this, [=] { lighting(LightingMode::Prt); });
+    connect(a.furnace, &QAction::triggered, this, [this](bool on) {
+        m_session.views.edit([on](render::ViewSettings& s) {
+            s.furnace = on ? std::optional(glm::vec3(1.0f)) : std::nullopt;
+        });
+    });
+    connect(&m_session.views, &ViewState::changed, this, [this] {
+        m_actions->furnace->setChecked(m_session.views.settings().furnace.has_value());
+    });
     connect(a.fullScreen, &QAction::toggled, this,
             [this](bool on) { setWindowState(windowState().setFlag(Qt::WindowFullScreen, on)); });
     connect(a.resetLayout, &QAction::triggered, this, &MainWindow::resetLayout);

@@ -43,6 +43,8 @@ class MainWindow : public QMainWindow {
     void makeDocks();
     QDockWidget* addDock(const QString& name, const QString& title, const QString& iconName,
                          const QString& help, QWidget* panel);
+    // A dock to look closer with: below the viewport, hidden at first; `toggle` shows and hides it.
+    QDockWidget* addInstrument(QAction* toggle, const QString& name, QWidget* panel);
     void refreshDockTitles();
     void makeMenus();
     void makeToolBar();
@@ -64,6 +66,7 @@ class MainWindow : public QMainWindow {
     NoticeArea* m_notices;
     ViewportWidget* m_viewport;
     QList<QDockWidget*> m_docks;
+    QList<QDockWidget*> m_instruments; // of m_docks
     QMenu* m_recentMenu = nullptr;
     BusyIndicator* m_busy = nullptr;
     QLabel *m_gpu = nullptr, *m_frameTime = nullptr, *m_triangles = nullptr;

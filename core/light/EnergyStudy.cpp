@@ -42,6 +42,14 @@ EnergyPoint energyPoint(const ShadingModel& model, const SurfacePoint& point, fl
             returnedFromLights(model, point, NoV)};
 }
 
+EnergyPoint averageEnergy(const ShadingModel& model, const SurfacePoint& point) {
+    const auto average = [&](const ShadingModel& of) {
+        return averageReturned([&](float NoV) { return returnedFromSurroundings(of, point, NoV); });
+    };
+    return {average(withCompensation(model, false)), average(withCompensation(model, true)),
+            averageReturned([&](float NoV) { return returnedFromLights(model, point, NoV); })};
+}
+
 // The brightest numbers the maps hold, over the roughnesses they hold: what reflects most shows
 // what is made. `low` and `high` each bound a number, so that their corners bound the material.
 void findFaults(EnergyStudy& study, const JobContext& job) {
@@ -137,13 +145,10 @@ std::optional<EnergyStudy> studyEnergy(const ShadingModel& model, const SurfaceR
                                       static_cast<float>(EnergyStudy::kAngles - 1))));
 
     // Seen from all sides.
-    const auto average = [&](const ShadingModel& of) {
-        return averageReturned([&](float mu) { return returnedFromSurroundings(of, mean, mu); });
-    };
-    study.average.single = average(withCompensation(model, false));
-    study.average.compensated = average(withCompensation(model, true));
-    study.average.lights =
-        averageReturned([&](float mu) { return returnedFromLights(model, mean, mu); });
+    study.average = averageEnergy(model, mean);
+    SurfacePoint roughest = mean;
+    roughest.perceptualRoughness = surface.high.perceptualRoughness;
+    study.roughest = averageEnergy(model, roughest);
 
     // The plane that the cuts are taken from.
     constexpr int n = EnergyStudy::kMapSize;

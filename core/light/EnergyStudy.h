@@ -51,6 +51,7 @@ struct EnergyStudy {
     std::vector<EnergyPoint> byRoughness; // perceptual roughness i / (kRoughnesses - 1)
     std::vector<EnergyPoint> byAngle;     // at the mean roughness, from 0° to 90° in even steps
     EnergyPoint average;                  // at the mean roughness, seen from all sides
+    EnergyPoint roughest;                 // the same at the highest roughness
     // What returns of surroundings as the model is; roughness (x + 0.5) / size, angle
     // (y + 0.5) / size · 90°, row by row.
     std::vector<glm::vec3> map;

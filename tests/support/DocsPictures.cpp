@@ -101,6 +101,33 @@ int main(int argc, char* argv[]) {
     ok &= save(window, folder.filePath(QStringLiteral("model.png")));
     session.controller.undoStack().undo();
 
+    // A rough white metal that loses light, in the furnace.
+    {
+        auto& controller = session.controller;
+        const patina::Id metal = controller.addMaterial();
+        for (const patina::MeshInstance& mesh : controller.document().meshes)
+            controller.assignMaterial(mesh.id, metal);
+        session.selection.selectMaterial(metal);
+        const auto set = [&](const char* id, const patina::ParameterValue& value) {
+            const patina::ParameterInfo& info = *patina::findParameter(id);
+            controller.setParameter(
+                info, {info.scope, info.scope == patina::Scope::Material ? metal : 0}, value);
+        };
+        set("material.baseColor", glm::vec3(1.0f));
+        set("material.metallic", 1.0f);
+        set("material.perceptualRoughness", 0.9f);
+        set("model.multiScatter", false);
+        raiseDock(window, QStringLiteral("material"));
+        window.actions().energy->trigger();
+        window.actions().furnace->trigger();
+        settle(5000);
+        ok &= save(window, folder.filePath(QStringLiteral("energy.png")));
+        window.actions().furnace->trigger();
+        window.actions().energy->trigger();
+        while (controller.undoStack().canUndo())
+            controller.undoStack().undo();
+    }
+
     raiseDock(window, QStringLiteral("bake"));
     raiseDock(window, QStringLiteral("jobs"));
     auto* start = window.findChild<QPushButton*>(QStringLiteral("bakeStart"));

@@ -27,6 +27,11 @@ QSize CurvePlot::minimumSizeHint() const {
     return {140, 110};
 }
 
+void CurvePlot::setTitle(const QString& title) {
+    m_title = title;
+    update();
+}
+
 void CurvePlot::setAxes(const PlotAxes& axes) {
     m_axes = axes;
     fitRange();

@@ -32,6 +32,7 @@ class CurvePlot : public QWidget {
   public:
     explicit CurvePlot(const QString& title, QWidget* parent = nullptr);
 
+    void setTitle(const QString& title);
     void setAxes(const PlotAxes& axes);
     void setCurves(std::vector<PlotCurve> curves);
     void setMessage(const QString& message); // in place of curves; empty: none

@@ -1,0 +1,61 @@
+#include "app/editor/widget/PlotLegend.h"
+
+#include "app/editor/style/Tokens.h"
+
+#include <QPainter>
+
+namespace patina::editor {
+namespace {
+constexpr int kSample = 18; // a line's length
+constexpr int kGap = 5;
+
+QPen samplePen(const PlotCurve& curve) {
+    if (curve.shape != CurveShape::Thin)
+        return plotPen(curve.look);
+    QPen pen(plotColor(curve.look), 1.0, Qt::CustomDashLine);
+    pen.setDashPattern({2.0, 4.0});
+    return pen;
+}
+
+} // namespace
+
+PlotLegend::PlotLegend(QWidget* parent)
+    : QWidget(parent) {
+    setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
+    setFont(plotFont(font()));
+}
+
+void PlotLegend::setCurves(std::vector<PlotCurve> curves) {
+    m_curves = std::move(curves);
+    QStringList names;
+    for (const PlotCurve& curve : m_curves)
+        names << curve.name;
+    setAccessibleName(names.join(QStringLiteral(", ")));
+    updateGeometry();
+    update();
+}
+
+QSize PlotLegend::sizeHint() const {
+    int width = 0;
+    for (const PlotCurve& curve : m_curves)
+        width += kSample + kGap + fontMetrics().horizontalAdvance(curve.name) + 2 * kGap;
+    return {width, tokens::kRowHeight};
+}
+
+void PlotLegend::paintEvent(QPaintEvent*) {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    int x = 0;
+    for (const PlotCurve& curve : m_curves) {
+        painter.setPen(samplePen(curve));
+        const double y = height() / 2.0;
+        painter.drawLine(QPointF(x, y), QPointF(x + kSample, y));
+        x += kSample + kGap;
+        painter.setPen(QColor(tokens::kTextDim));
+        painter.drawText(QRect(x, 0, width() - x, height()), Qt::AlignLeft | Qt::AlignVCenter,
+                         curve.name);
+        x += fontMetrics().horizontalAdvance(curve.name) + 2 * kGap;
+    }
+}
+
+} // namespace patina::editor
