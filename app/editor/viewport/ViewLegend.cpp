@@ -140,7 +140,7 @@ void ViewLegend::addTitle(QVBoxLayout& rows) {
                             .pixmap(QSize(16, 16), devicePixelRatioF()));
         row->addWidget(sign);
     }
-    // "D: Normal Distribution" and "N·L" say their symbol.
+    // "D: Distribution" and "N·L" say their symbol.
     if (!m_content.symbol.isEmpty() && !m_content.title.startsWith(m_content.symbol)) {
         auto* symbol = new QLabel(m_content.symbol);
         symbol->setObjectName(QStringLiteral("symbol"));
