@@ -58,16 +58,18 @@ void IblUpdater::start() {
 
 void IblUpdater::prepare(quint64 request, const ImagePtr& environment, const JobContext& job) {
     const Hash key = IblCache::key(*environment, kFull);
-    const std::optional<IblMaps> known = m_cache.find(key);
+    std::optional<IblMaps> found = m_cache.find(key);
+    const bool known = found.has_value();
     const Result<HalfMipmapsPtr> background = makeBackground(*environment, job);
     if (!background)
         return fail(request, background.error());
     // Reduced first: the eye gets light at once, the full resolution follows.
-    const Result<IblMaps> maps =
-        known ? *known : computeIbl(*environment, IblSettings::quick(), job);
+    Result<IblMaps> maps =
+        known ? std::move(*found) : computeIbl(*environment, IblSettings::quick(), job);
     if (!maps)
         return fail(request, maps.error());
-    post(request, makeTexels(environment, *maps, *background));
+    const auto shared = std::make_shared<const IblMaps>(std::move(*maps));
+    post(request, makeTexels(environment, *shared, *background), shared);
     if (!known)
         m_finePool.start([=, this, background = *background] {
             lowerThreadPriority();
@@ -77,13 +79,14 @@ void IblUpdater::prepare(quint64 request, const ImagePtr& environment, const Job
 
 void IblUpdater::refine(quint64 request, const Hash& key, const ImagePtr& environment,
                         const HalfMipmapsPtr& background, const JobContext& job) {
-    const Result<IblMaps> maps = computeIbl(*environment, kFull, job);
+    Result<IblMaps> maps = computeIbl(*environment, kFull, job);
     if (!maps)
         return fail(request, maps.error());
-    post(request, makeTexels(environment, *maps, background));
+    const auto shared = std::make_shared<const IblMaps>(std::move(*maps));
+    post(request, makeTexels(environment, *shared, background), shared);
     // The disk may take its time: nobody waits for it. What a drag passes over is not kept.
     if (request == m_request)
-        if (const Result<void> stored = m_cache.store(key, *maps); !stored)
+        if (const Result<void> stored = m_cache.store(key, *shared); !stored)
             logWarning("The light of this environment could not be kept for next time: {}",
                        stored.error().text());
 }
@@ -91,25 +94,28 @@ void IblUpdater::refine(quint64 request, const Hash& key, const ImagePtr& enviro
 void IblUpdater::fail(quint64 request, const Error& error) {
     if (error.kind != ErrorKind::Cancelled)
         logError("image-based light: {}", error.text());
-    post(request, nullptr);
+    post(request, nullptr, nullptr);
 }
 
-void IblUpdater::post(quint64 request, EnvironmentTexelsPtr texels) {
+void IblUpdater::post(quint64 request, EnvironmentTexelsPtr texels,
+                      std::shared_ptr<const IblMaps> maps) {
     // The destructor waits for the pool, so `this` is alive.
     QMetaObject::invokeMethod(
         this,
-        [this, request, texels = std::move(texels)]() mutable {
-            deliver(request, std::move(texels));
+        [this, request, texels = std::move(texels), maps = std::move(maps)]() mutable {
+            deliver(request, std::move(texels), std::move(maps));
         },
         Qt::QueuedConnection);
 }
 
-void IblUpdater::deliver(quint64 request, EnvironmentTexelsPtr texels) {
+void IblUpdater::deliver(quint64 request, EnvironmentTexelsPtr texels,
+                         std::shared_ptr<const IblMaps> maps) {
     if (request != m_request)
         return;
     m_firstUnderWay = false; // whichever it is: small, full from the cache, or none
     if (texels) {
         m_texels = std::move(texels);
+        m_maps = std::move(maps);
         Q_EMIT ready();
     }
     if (m_waiting)

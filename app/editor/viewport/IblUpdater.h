@@ -29,11 +29,13 @@ class IblUpdater : public QObject {
     void request(ImagePtr environment);
     // The last result, once: it is large. Null when there is none, or it has been taken.
     [[nodiscard]] EnvironmentTexelsPtr take() { return std::exchange(m_texels, nullptr); }
+    // What it was made of, for whoever else shows it; null before the first.
+    [[nodiscard]] std::shared_ptr<const IblMaps> maps() const { return m_maps; }
     // What has been taken is lost and needed again, by a new OpenGL context.
     void renew();
 
   Q_SIGNALS:
-    void ready(); // take() has something
+    void ready(); // take() has something, and maps() is of the same
 
   private:
     void start();
@@ -41,8 +43,9 @@ class IblUpdater : public QObject {
     void refine(quint64 request, const Hash& key, const ImagePtr& environment,
                 const HalfMipmapsPtr& background, const JobContext& job);
     void fail(quint64 request, const Error& error);
-    void post(quint64 request, EnvironmentTexelsPtr texels); // from the pool to deliver()
-    void deliver(quint64 request, EnvironmentTexelsPtr texels);
+    // From the pool to deliver(); null where there is no light.
+    void post(quint64 request, EnvironmentTexelsPtr texels, std::shared_ptr<const IblMaps> maps);
+    void deliver(quint64 request, EnvironmentTexelsPtr texels, std::shared_ptr<const IblMaps> maps);
 
     IblCache m_cache;
     QThreadPool m_pool, m_finePool; // first light in no time; full light when nobody is in a hurry
@@ -51,6 +54,7 @@ class IblUpdater : public QObject {
     std::atomic<quint64> m_request = 0; // the newest
     bool m_firstUnderWay = false, m_waiting = false;
     EnvironmentTexelsPtr m_texels; // until it is taken
+    std::shared_ptr<const IblMaps> m_maps;
 };
 
 } // namespace patina::editor

@@ -49,6 +49,9 @@ class ViewportWidget : public QOpenGLWidget {
     // Thumbnails of views with this viewport's camera, drawn while it rests.
     [[nodiscard]] SheetScheduler& sheets() { return m_sheets; }
 
+    // The light of the document's environment, for whoever shows it, too.
+    [[nodiscard]] IblUpdater& ibl() { return *m_ibl; }
+
     void frameSelection();                 // the selected mesh, or everything
     void resetCamera();                    // Home: the whole scene from the default side
     void setOverlaysVisible(bool visible); // ground grid, selection outline, light icons
