@@ -35,6 +35,9 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
                        tr("Light from the environment, with every reflection")))
     , lightingPrt(make(tr("&Precomputed Transfer"), {}, {tr("Ctrl+Shift+L")},
                        tr("Light through the baked transfer, with its soft shadows")))
+    , lightLab(make(tr("Light La&b"), QStringLiteral("light-lab"), {tr("Ctrl+2")},
+                    tr("Show what shading makes of the environment: faces, harmonics, irradiance, "
+                       "prefiltered levels, DFG table")))
     , energy(make(tr("&Energy"), QStringLiteral("energy"), {tr("Ctrl+4")},
                   tr("Show what the material loses and makes of the light, and what compensation "
                      "gives back")))
@@ -59,6 +62,7 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
     describe(redo, tr("Make the change again that was taken back"));
     overlays->setCheckable(true);
     overlays->setChecked(true);
+    lightLab->setCheckable(true);
     energy->setCheckable(true);
     furnace->setCheckable(true);
     fullScreen->setCheckable(true);
@@ -88,9 +92,10 @@ void Actions::describe(QAction* action, const QString& sentence) {
 }
 
 QList<QAction*> Actions::all() const {
-    return {newScene,    open,   addModel, save,       saveAs,      saveEnvironment, exportScene,
-            quit,        undo,   redo,     frame,      home,        overlays,        lightingIbl,
-            lightingPrt, energy, furnace,  fullScreen, resetLayout, shortcuts,       about};
+    return {newScene,    open,        addModel,    save,     saveAs, saveEnvironment,
+            exportScene, quit,        undo,        redo,     frame,  home,
+            overlays,    lightingIbl, lightingPrt, lightLab, energy, furnace,
+            fullScreen,  resetLayout, shortcuts,   about};
 }
 
 } // namespace patina::editor

@@ -12,6 +12,7 @@
 #include "app/editor/panel/EnergyPanel.h"
 #include "app/editor/panel/EnvironmentPanel.h"
 #include "app/editor/panel/JobsPanel.h"
+#include "app/editor/panel/LightLabPanel.h"
 #include "app/editor/panel/LightsPanel.h"
 #include "app/editor/panel/LogPanel.h"
 #include "app/editor/panel/MaterialPanel.h"
@@ -155,6 +156,10 @@ void MainWindow::makeDocks() {
             tr("Show or hide what runs in the background"), new JobsPanel(m_session.jobs));
     addDock(QStringLiteral("log"), tr("Log"), QStringLiteral("log"),
             tr("Show or hide the messages of this session"), new LogPanel);
+    auto* lightLab = new LightLabPanel(controller, m_viewport->ibl(), m_session.probe);
+    connect(m_viewport, &ViewportWidget::luminanceMeasured, lightLab, &LightLabPanel::setLuminance);
+    connect(addInstrument(m_actions->lightLab, QStringLiteral("lightLab"), lightLab),
+            &QDockWidget::visibilityChanged, lightLab, &LightLabPanel::setSeen);
     addInstrument(m_actions->energy, QStringLiteral("energy"),
                   new EnergyPanel(controller, m_session.selection, m_session.views));
     resetLayout();
@@ -267,7 +272,7 @@ void MainWindow::makeMenus() {
         if (!m_instruments.contains(dock))
             view->addAction(dock->toggleViewAction());
     view->addSeparator();
-    view->addActions({a.energy, a.furnace});
+    view->addActions({a.lightLab, a.energy, a.furnace});
     view->addSeparator();
     view->addAction(a.resetLayout);
     view->addSeparator();

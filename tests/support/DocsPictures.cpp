@@ -5,6 +5,7 @@
 #include "app/editor/FileFlow.h"
 #include "app/editor/MainWindow.h"
 #include "app/editor/Session.h"
+#include "app/editor/panel/LightLabPanel.h"
 #include "app/editor/panel/SoftboxList.h"
 #include "app/editor/style/Style.h"
 
@@ -55,6 +56,22 @@ void raiseDock(const MainWindow& window, const QString& name) {
         dock->raise();
 }
 
+// The sums of harmonics of the sunset, which has something for every band.
+bool saveLightLab(Session& session, MainWindow& window, const QString& file) {
+    const QString before = QString::fromStdString(session.controller.document().environment.source);
+    session.controller.setEnvironment(QStringLiteral("builtin:night"));
+    window.actions().lightLab->trigger();
+    auto* lab = window.findChild<LightLabPanel*>();
+    settle(4000);
+    Q_EMIT lab->picture({LabKind::Prefiltered, 2})->chosen();
+    runUntil([&] { return lab->idle(); }, 30'000);
+    settle(1000);
+    const bool ok = save(window, file);
+    window.actions().lightLab->trigger();
+    session.controller.setEnvironment(before);
+    return ok;
+}
+
 } // namespace
 
 int main(int argc, char* argv[]) {
@@ -91,6 +108,8 @@ int main(int argc, char* argv[]) {
     settle(6000);
     ok &= save(window, folder.filePath(QStringLiteral("softboxes.png")));
     session.controller.setEnvironmentKind(patina::EnvironmentKind::Image);
+
+    ok &= saveLightLab(session, window, folder.filePath(QStringLiteral("light-lab.png")));
 
     // Gold by its refractive index: what the Model dock offers beyond its presets.
     raiseDock(window, QStringLiteral("model"));

@@ -8,9 +8,10 @@
 
 namespace patina::editor {
 
-LatestJob::LatestJob(const char* what, QObject* parent)
+LatestJob::LatestJob(const char* what, QObject* parent, Priority priority)
     : QObject(parent)
-    , m_what(what) {
+    , m_what(what)
+    , m_priority(priority) {
     m_pool.setMaxThreadCount(1);
 }
 
@@ -40,7 +41,8 @@ void LatestJob::start(Work work) {
     // The destructor waits for the pool, so `this` is alive whenever the work runs; a call queued
     // for an object that is gone is dropped by Qt.
     m_pool.start([this, id, job = m_control.context(), work = std::move(work)] {
-        lowerThreadPriority();
+        if (m_priority == Priority::Low)
+            lowerThreadPriority();
         Apply apply;
         try {
             apply = work(job);

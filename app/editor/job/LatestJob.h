@@ -17,8 +17,12 @@ class LatestJob : public QObject {
     using Apply = std::function<void()>;
     using Work = std::function<Apply(const JobContext&)>;
 
+    // Low: whatever else the user does goes first. Normal: what the user is watching, and short.
+    enum class Priority { Low, Normal };
+
     // `what`, for the log: "light lab".
-    explicit LatestJob(const char* what, QObject* parent = nullptr);
+    explicit LatestJob(const char* what, QObject* parent = nullptr,
+                       Priority priority = Priority::Low);
     ~LatestJob() override; // cancels and waits
 
     // What runs goes on to its end and is applied, so that results keep coming during a drag.
@@ -31,6 +35,7 @@ class LatestJob : public QObject {
     void finish(quint64 id, const Apply& apply);
 
     const char* m_what;
+    Priority m_priority;
     QThreadPool m_pool;
     JobControl m_control;
     bool m_running = false;

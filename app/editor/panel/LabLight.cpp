@@ -1,0 +1,278 @@
+#include "app/editor/panel/LabLight.h"
+
+#include "core/image/ColorMap.h"
+#include "core/job/Parallel.h"
+#include "core/light/CubeSampling.h"
+#include "core/light/Cubemap.h"
+#include "core/light/EnvironmentMapping.h"
+#include "core/light/EnvironmentResample.h"
+#include "core/math/Shading.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace patina::editor {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+constexpr int kSumHeight = 64; // eight bands have nothing finer
+constexpr int kReducedWidths[] = {1024, 512, 256};
+constexpr int kToneSteps = 1 << 16;
+// Light below zero is none: shown in a colour that no light around has.
+const glm::vec3 kNegative(1.0f, 0.0f, 0.75f);
+
+EnvironmentMapping mapping(EnvironmentLayout layout, int width, int height) {
+    return EnvironmentMapping::create(layout, {width, height}).value();
+}
+
+glm::vec3 lookUp(const Image& latLong, const glm::vec3& direction) {
+    return mapping(EnvironmentLayout::LatLong, latLong.width(), latLong.height())
+        .lookup(latLong, direction);
+}
+
+// The two levels beside a roughness, and how much of the second there is.
+struct LevelPair {
+    std::size_t first = 0, second = 0;
+    float share = 0.0f;
+};
+LevelPair levelsOf(LabView view, std::size_t count) {
+    if (view.isCross())
+        return {};
+    const float level =
+        shading::prefilteredLevel(labRoughness(view.index), static_cast<int>(count));
+    const auto first = static_cast<std::size_t>(level);
+    return {first, std::min(first + 1, count - 1), level - static_cast<float>(first)};
+}
+
+glm::vec3 samplePair(const CubeLevel& first, const CubeLevel& second, float share,
+                     const glm::vec3& direction) {
+    const glm::vec3 value = sampleCube(first, direction);
+    return share > 0.0f ? glm::mix(value, sampleCube(second, direction), share) : value;
+}
+
+// As many texels as a picture of this width can show.
+CubeLevel fittingLevel(const CubeLevel& level, int width) {
+    CubeLevel fitting = level;
+    while (fitting.size >= 2 * std::max(1, width / 4))
+        fitting = halveCube(fitting);
+    return fitting;
+}
+
+} // namespace
+
+LabAnalysisPtr analyseLight(const ImagePtr& environment, const JobContext& job) {
+    auto analysis = std::make_shared<LabAnalysis>();
+    analysis->environment = environment;
+    const std::span<const float> samples = environment->f32();
+    if (std::any_of(samples.begin(), samples.end(),
+                    [](float v) { return !(v >= 0.0f) || !std::isfinite(v); })) {
+        auto repaired = std::make_shared<Image>(*environment);
+        analysis->invalidSamples = sanitizeHdr(*repaired);
+        analysis->environment = std::move(repaired);
+    }
+    for (const int width : kReducedWidths) {
+        const ImagePtr& from =
+            analysis->reduced.empty() ? analysis->environment : analysis->reduced.back();
+        if (job.cancelled())
+            return nullptr;
+        analysis->reduced.push_back(std::make_shared<const Image>(shrinkLatLong(*from, width)));
+    }
+    analysis->bands = computeShBands(*analysis->environment, job);
+    for (int n = 1; n <= kMaxShOrder; ++n)
+        analysis->sums[static_cast<std::size_t>(n - 1)] = std::make_shared<const Image>(
+            shLatLong(analysis->bands.coefficients, n, kSumHeight, job));
+    if (job.cancelled())
+        return nullptr;
+    return analysis;
+}
+
+std::optional<glm::vec3> LabLight::value(LabView view, const glm::vec3& world) const {
+    const glm::vec3 d = shading::rotateY(world, -glm::radians(rotationDeg));
+    switch (view.kind) {
+    case LabKind::Environment:
+        if (!analysis)
+            return std::nullopt;
+        return scale * lookUp(*analysis->environment, d);
+    case LabKind::Harmonics:
+        if (!analysis)
+            return std::nullopt;
+        return scale * shSum(analysis->bands.coefficients, view.index, d);
+    case LabKind::Irradiance:
+        if (!maps)
+            return std::nullopt;
+        return scale * shading::irradianceFromSh9(maps->irradianceSh.data(), d);
+    case LabKind::IrradianceExact:
+        if (!maps)
+            return std::nullopt;
+        return scale * kPi * sampleCube(maps->prefiltered.back(), d);
+    case LabKind::Faces:
+    case LabKind::Prefiltered: {
+        if (!maps)
+            return std::nullopt;
+        const LevelPair levels = levelsOf(view, maps->prefiltered.size());
+        return scale * samplePair(maps->prefiltered[levels.first], maps->prefiltered[levels.second],
+                                  levels.share, d);
+    }
+    case LabKind::Dfg:
+        break;
+    }
+    return std::nullopt;
+}
+
+double LabLight::irradianceError(const IblMaps& maps) {
+    const CubeLevel& exact = maps.prefiltered.back();
+    const std::vector<float> solidAngles = cubeSolidAngles(exact.size);
+    double difference = 0.0, all = 0.0;
+    for (int face = 0; face < 6; ++face)
+        for (int y = 0; y < exact.size; ++y)
+            for (int x = 0; x < exact.size; ++x) {
+                const auto n = static_cast<float>(exact.size);
+                const glm::vec3 d = glm::normalize(cubeDirection(
+                    face, (static_cast<float>(x) + 0.5f) / n, (static_cast<float>(y) + 0.5f) / n));
+                const glm::dvec3 e(kPi * cubeTexel(exact, face, x, y));
+                const glm::dvec3 nine(shading::irradianceFromSh9(maps.irradianceSh.data(), d));
+                const double weight =
+                    static_cast<double>(solidAngles[static_cast<std::size_t>(y * exact.size + x)]);
+                difference += weight * glm::dot(nine - e, nine - e);
+                all += weight * glm::dot(e, e);
+            }
+    return all > 0.0 ? std::sqrt(difference / all) : 0.0;
+}
+
+// --- Pictures ------------------------------------------------------------------------------------
+
+LabTone::LabTone(const View& view, const Luminance& luminance, float offsetEv)
+    : m_view(view)
+    , m_luminance(luminance)
+    , m_encoded(kToneSteps) {
+    if (m_view.toneMap == ToneMap::OpenColorIo)
+        m_view.toneMap = View().toneMap;
+    m_scale = exposureScale(m_view, luminance) * std::exp2(offsetEv);
+    for (int i = 0; i < kToneSteps; ++i) {
+        const float value = static_cast<float>(i) / (kToneSteps - 1);
+        const float shown =
+            shading::displayEncode(glm::vec3(value), static_cast<int>(m_view.displayTransfer),
+                                   m_view.displayGamma)
+                .x;
+        m_encoded[static_cast<std::size_t>(i)] =
+            static_cast<unsigned char>(std::lround(255.0f * std::clamp(shown, 0.0f, 1.0f)));
+    }
+}
+
+QRgb LabTone::pixel(const glm::vec3& radiance) const {
+    glm::vec3 c = m_scale * radiance;
+    const float below = -std::min({c.x, c.y, c.z, 0.0f});
+    c = glm::max(c, 0.0f) + below * kNegative;
+    const glm::vec3 shown = shading::toneMap(c, toneCurve(m_view, m_luminance));
+    const auto encoded = [&](float value) {
+        return m_encoded[static_cast<std::size_t>(std::clamp(value, 0.0f, 1.0f) * (kToneSteps - 1) +
+                                                  0.5f)];
+    };
+    return qRgb(encoded(shown.x), encoded(shown.y), encoded(shown.z));
+}
+
+QImage labPicture(const LabLight& light, LabView view, const QSize& size, const LabTone& tone,
+                  const JobContext& job) {
+    if (view.isTable() || size.isEmpty() || !light.value(view, {0.0f, 1.0f, 0.0f}))
+        return {};
+    // Many texels become one pixel: something of about the picture's size stands in for them.
+    const float angle = glm::radians(light.rotationDeg);
+    std::function<glm::vec3(const glm::vec3&)> radiance;
+    if (view.kind == LabKind::Environment || view.kind == LabKind::Harmonics) {
+        ImagePtr image = light.analysis->environment;
+        if (view.kind == LabKind::Harmonics)
+            image = light.analysis->sums[static_cast<std::size_t>(view.index - 1)];
+        else
+            for (const ImagePtr& reduced : light.analysis->reduced)
+                if (reduced->width() >= size.width())
+                    image = reduced;
+        radiance = [image, angle, scale = light.scale,
+                    from = mapping(EnvironmentLayout::LatLong, image->width(), image->height())](
+                       const glm::vec3& d) {
+            return scale * from.lookup(*image, shading::rotateY(d, -angle));
+        };
+    } else if (view.isIrradiance()) {
+        radiance = [&light, view](const glm::vec3& d) {
+            return light.value(view, d).value() / kPi;
+        };
+    } else {
+        const LevelPair levels = levelsOf(view, light.maps->prefiltered.size());
+        radiance = [levels, angle, scale = light.scale,
+                    first = fittingLevel(light.maps->prefiltered[levels.first], size.width()),
+                    second = fittingLevel(light.maps->prefiltered[levels.second], size.width())](
+                       const glm::vec3& d) {
+            return scale * samplePair(first, second, levels.share, shading::rotateY(d, -angle));
+        };
+    }
+
+    const EnvironmentMapping to =
+        mapping(view.isCross() ? EnvironmentLayout::HorizontalCross : EnvironmentLayout::LatLong,
+                size.width(), size.height());
+    QImage picture(size, QImage::Format_ARGB32_Premultiplied);
+    picture.fill(Qt::transparent);
+    // Through the bits: scanLine() would detach on several threads.
+    auto* pixels = reinterpret_cast<QRgb*>(picture.bits());
+    const auto stride = static_cast<std::size_t>(picture.bytesPerLine()) / sizeof(QRgb);
+    parallelFor(
+        job, static_cast<std::size_t>(size.height()), 8, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t y = begin; y < end; ++y)
+                for (int x = 0; x < size.width(); ++x) {
+                    const auto ray =
+                        to.ray({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
+                    if (!ray)
+                        continue; // beside a cross
+                    pixels[y * stride + static_cast<std::size_t>(x)] =
+                        tone.pixel(radiance(ray->direction));
+                }
+        });
+    return job.cancelled() ? QImage() : picture;
+}
+
+// --- DFG table -----------------------------------------------------------------------------------
+
+glm::vec3 LabDfg::value(float NoV, float perceptualRoughness) const {
+    const auto axis = [](float at, int size) {
+        const float texel =
+            std::clamp(at * static_cast<float>(size) - 0.5f, 0.0f, static_cast<float>(size - 1));
+        const int first = std::min(static_cast<int>(texel), std::max(0, size - 2));
+        return std::pair(first, texel - static_cast<float>(first));
+    };
+    const auto [x, fx] = axis(NoV, table.width());
+    const auto [y, fy] = axis(perceptualRoughness, table.height());
+    const auto at = [&, x = x, y = y](int i, int j) {
+        return glm::vec3(table.sample(x + i, y + j, 0), table.sample(x + i, y + j, 1),
+                         table.sample(x + i, y + j, 2));
+    };
+    return glm::mix(glm::mix(at(0, 0), at(1, 0), fx), glm::mix(at(0, 1), at(1, 1), fx), fy);
+}
+
+LabDfg computeLabDfg(Distribution distribution, Visibility visibility) {
+    LabDfg dfg;
+    dfg.table = computeDfgTable(128, distribution, iblVisibility(visibility));
+    const int size = dfg.table.width();
+    for (int channel = 0; channel < 3; ++channel) {
+        float largest = 0.0f;
+        for (int y = 0; y < size; ++y)
+            for (int x = 0; x < size; ++x)
+                largest = std::max(largest, dfg.table.sample(x, y, channel));
+        // Shares of light are seen against all of it; a tilt above 1 leads beyond the mirror.
+        const float top = std::max(1.0f, largest);
+        dfg.range[static_cast<std::size_t>(channel)] = {0.0f, top};
+        QImage picture(size, size, QImage::Format_RGB32);
+        for (int y = 0; y < size; ++y)
+            for (int x = 0; x < size; ++x) {
+                const glm::vec3 color =
+                    255.0f * mapColor(ColorMap::Sequential, dfg.table.sample(x, y, channel) / top);
+                picture.setPixel(x, size - 1 - y,
+                                 qRgb(static_cast<int>(std::lround(color.x)),
+                                      static_cast<int>(std::lround(color.y)),
+                                      static_cast<int>(std::lround(color.z))));
+            }
+        dfg.pictures[static_cast<std::size_t>(channel)] = picture;
+    }
+    return dfg;
+}
+
+} // namespace patina::editor

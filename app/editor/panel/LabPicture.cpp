@@ -1,0 +1,531 @@
+#include "app/editor/panel/LabPicture.h"
+
+#include "app/editor/style/Tokens.h"
+#include "core/image/ColorMap.h"
+#include "core/light/EnvironmentMapping.h"
+
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QPainterPath>
+#include <algorithm>
+#include <cmath>
+
+namespace patina::editor {
+namespace {
+
+constexpr int kPad = 4;       // around a thumbnail
+constexpr double kMark = 4.5; // radius
+constexpr int kLegend = 12;   // width of the colour bar
+constexpr double kLabelPad = 6;
+constexpr int kFinest = 4096; // pixels that a picture's positions are counted in
+
+QFont smallFont(const QFont& font) {
+    QFont small = font;
+    small.setPointSizeF(font.pointSizeF() * 0.85);
+    return small;
+}
+
+// Positions are shares of the area.
+EnvironmentMapping unitMapping(LabView view) {
+    const ImageSize size =
+        view.isCross() ? ImageSize{kFinest, kFinest / 4 * 3} : ImageSize{kFinest, kFinest / 2};
+    return EnvironmentMapping::create(view.isCross() ? EnvironmentLayout::HorizontalCross
+                                                     : EnvironmentLayout::LatLong,
+                                      size)
+        .value();
+}
+
+// A word on a picture, readable on anything.
+void paintLabel(QPainter& painter, const QString& text, const QPointF& topLeft) {
+    painter.save();
+    painter.setFont(smallFont(painter.font()));
+    const QFontMetricsF metrics(painter.font());
+    const QRectF label(topLeft,
+                       QSizeF(metrics.horizontalAdvance(text) + kLabelPad, metrics.height()));
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(QColor(0, 0, 0, 120));
+    painter.drawRoundedRect(label, 2, 2);
+    painter.setPen(QColor(255, 255, 255, 225));
+    painter.drawText(label, Qt::AlignCenter, text);
+    painter.restore();
+}
+
+QString number(double value) {
+    QString text = QString::number(value, 'g', 3);
+    return text.replace(QLatin1Char('-'), QStringLiteral("−"));
+}
+
+} // namespace
+
+LabPicture::LabPicture(LabView view, Role role, QWidget* parent)
+    : QWidget(parent)
+    , m_view(view)
+    , m_role(role) {
+    setMouseTracking(true);
+    if (role == Role::Thumbnail) {
+        QSizePolicy policy(QSizePolicy::Preferred, QSizePolicy::Preferred);
+        policy.setHeightForWidth(true);
+        setSizePolicy(policy);
+        setFocusPolicy(Qt::ClickFocus);
+        setCursor(Qt::PointingHandCursor);
+    } else {
+        setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+        setCursor(Qt::CrossCursor);
+    }
+}
+
+void LabPicture::setView(LabView view) {
+    m_view = view;
+    m_picture = {};
+    m_pointer.reset();
+    m_lowest.reset();
+    update();
+}
+
+void LabPicture::setCaption(const QString& title, const QString& detail, const QString& warning) {
+    if (title == m_title && detail == m_detail && warning == m_warning)
+        return;
+    m_title = title;
+    m_detail = detail;
+    m_warning = warning;
+    describe();
+    update();
+}
+
+void LabPicture::setMessage(const QString& message) {
+    if (message == m_message)
+        return;
+    m_message = message;
+    describe();
+    update();
+}
+
+void LabPicture::describe() {
+    setAccessibleName(m_role == Role::Stage ? tr("Enlarged: %1").arg(m_title) : m_title);
+    QStringList parts{m_detail, m_warning, m_message};
+    parts.removeAll(QString());
+    setAccessibleDescription(parts.join(QStringLiteral(", ")));
+}
+
+void LabPicture::setPicture(const QImage& picture) {
+    m_picture = picture;
+    update();
+}
+
+void LabPicture::setColorRange(const glm::vec2& range) {
+    m_range = range;
+    update();
+}
+
+void LabPicture::setSelected(bool selected) {
+    m_selected = selected;
+    // One of all is reached with Tab, the others with the arrow keys.
+    setFocusPolicy(selected ? Qt::StrongFocus : Qt::ClickFocus);
+    update();
+}
+
+void LabPicture::setPointer(const std::optional<LabPlace>& place) {
+    if (place == m_pointer)
+        return;
+    m_pointer = place;
+    update();
+}
+
+void LabPicture::setPicked(const std::optional<LabPlace>& place, const QString& label) {
+    if (place == m_picked && label == m_pickedLabel)
+        return;
+    m_picked = place;
+    m_pickedLabel = label;
+    update();
+}
+
+void LabPicture::setLowest(const std::optional<glm::vec3>& direction) {
+    if (direction == m_lowest)
+        return;
+    m_lowest = direction;
+    update();
+}
+
+// --- Geometry ------------------------------------------------------------------------------------
+
+int LabPicture::captionHeight() const {
+    const int line = QFontMetrics(smallFont(font())).height();
+    if (m_role == Role::Stage)
+        return fontMetrics().height() + 4;
+    // The sums of harmonics may have a third line: all have room for it, so that rows stay even.
+    return (m_view.kind == LabKind::Harmonics ? 3 : 2) * line + 2;
+}
+
+QRectF LabPicture::box() const {
+    const int pad = m_role == Role::Thumbnail ? kPad : 0;
+    const QRectF inside = QRectF(rect()).adjusted(pad, pad, -pad, -pad);
+    if (m_role == Role::Stage)
+        return inside.adjusted(0, captionHeight(), 0, 0);
+    return inside.adjusted(0, 0, 0, -captionHeight());
+}
+
+QRectF LabPicture::pictureArea() const {
+    QRectF area = box();
+    double aspect = m_view.isTable() ? 1.0 : m_view.isCross() ? 4.0 / 3.0 : 2.0;
+    if (m_view.isTable() && m_role == Role::Stage) {
+        // Left: the axis' name and numbers; right: the legend and its numbers; below: the axis.
+        const QFontMetricsF metrics(smallFont(font()));
+        const double numbers = metrics.horizontalAdvance(QStringLiteral("0.75")) + 6;
+        area.adjust(metrics.height() + numbers, 4, -(kLegend + 10 + numbers),
+                    -2 * metrics.height() - 2);
+        aspect = std::clamp(area.width() / std::max(1.0, area.height()), 0.8, 1.6);
+    }
+    double width = std::min(area.width(), area.height() * aspect);
+    double height = width / aspect;
+    if (m_view.isCross()) { // faces of whole pixels
+        const double ratio = devicePixelRatioF();
+        const double face = std::max(1.0, std::floor(width * ratio / 4.0)) / ratio;
+        width = 4.0 * face;
+        height = 3.0 * face;
+    }
+    const double x = std::floor(area.center().x() - 0.5 * width);
+    const double y = m_role == Role::Stage ? std::floor(area.top())
+                                           : std::floor(area.center().y() - 0.5 * height);
+    return {x, y, std::max(1.0, width), std::max(1.0, height)};
+}
+
+QSize LabPicture::pictureSize() const {
+    const QSizeF size = pictureArea().size() * devicePixelRatioF();
+    return {std::max(1, qRound(size.width())), std::max(1, qRound(size.height()))};
+}
+
+QPointF LabPicture::position(const LabPlace& place) const {
+    const QRectF area = pictureArea();
+    if (m_view.isTable())
+        return {area.left() + static_cast<double>(place.NoV) * area.width(),
+                area.bottom() - static_cast<double>(place.perceptualRoughness) * area.height()};
+    const EnvironmentMapping mapping = unitMapping(m_view);
+    const glm::vec2 p = mapping.position(place.direction);
+    return {area.left() + static_cast<double>(p.x) / mapping.size().width * area.width(),
+            area.top() + static_cast<double>(p.y) / mapping.size().height * area.height()};
+}
+
+std::optional<LabPlace> LabPicture::place(const QPointF& position) const {
+    const QRectF area = pictureArea();
+    if (!area.contains(position))
+        return std::nullopt;
+    const double x = (position.x() - area.left()) / area.width();
+    const double y = (position.y() - area.top()) / area.height();
+    LabPlace place;
+    if (m_view.isTable()) {
+        place.NoV = static_cast<float>(x);
+        place.perceptualRoughness = static_cast<float>(1.0 - y);
+        return place;
+    }
+    const EnvironmentMapping mapping = unitMapping(m_view);
+    const auto ray = mapping.ray({static_cast<float>(x * mapping.size().width),
+                                  static_cast<float>(y * mapping.size().height)});
+    if (!ray)
+        return std::nullopt;
+    place.direction = ray->direction;
+    return place;
+}
+
+QColor LabPicture::colorAt(const LabPlace& place) const {
+    if (m_picture.isNull())
+        return tokens::kWell;
+    const QRectF area = pictureArea();
+    const QPointF at = position(place) - area.topLeft();
+    const auto pixel = [](double share, int count) {
+        return std::clamp(static_cast<int>(share * count), 0, count - 1);
+    };
+    return m_picture.pixelColor(pixel(at.x() / area.width(), m_picture.width()),
+                                pixel(at.y() / area.height(), m_picture.height()));
+}
+
+QSize LabPicture::sizeHint() const {
+    if (m_role == Role::Stage)
+        return {320, 160 + captionHeight()};
+    return {120, heightForWidth(120)};
+}
+
+int LabPicture::heightForWidth(int width) const {
+    if (m_role == Role::Stage)
+        return (m_view.isTable() ? width * 3 / 5 : width / 2) + captionHeight();
+    const int inside = width - 2 * kPad;
+    return (m_view.isTable() ? inside * 4 / 5 : inside / 2) + captionHeight() + 2 * kPad;
+}
+
+// --- Input ---------------------------------------------------------------------------------------
+
+void LabPicture::resizeEvent(QResizeEvent*) {
+    Q_EMIT resized();
+}
+
+void LabPicture::mousePressEvent(QMouseEvent* event) {
+    if (event->button() == Qt::LeftButton && m_role == Role::Thumbnail)
+        Q_EMIT chosen();
+}
+
+void LabPicture::mouseMoveEvent(QMouseEvent* event) {
+    if (!m_hovered && m_role == Role::Thumbnail) {
+        m_hovered = true;
+        update();
+    }
+    Q_EMIT pointed(place(event->position()));
+}
+
+void LabPicture::leaveEvent(QEvent*) {
+    m_hovered = false;
+    update();
+    Q_EMIT pointed(std::nullopt);
+}
+
+void LabPicture::keyPressEvent(QKeyEvent* event) {
+    switch (event->key()) {
+    case Qt::Key_Left:
+    case Qt::Key_Up:
+        Q_EMIT stepped(-1);
+        return;
+    case Qt::Key_Right:
+    case Qt::Key_Down:
+        Q_EMIT stepped(1);
+        return;
+    case Qt::Key_Space:
+    case Qt::Key_Return:
+        Q_EMIT chosen();
+        return;
+    default:
+        QWidget::keyPressEvent(event);
+    }
+}
+
+void LabPicture::focusInEvent(QFocusEvent*) {
+    update();
+}
+void LabPicture::focusOutEvent(QFocusEvent*) {
+    update();
+}
+
+// --- Painting ------------------------------------------------------------------------------------
+
+void LabPicture::paintEvent(QPaintEvent*) {
+    QPainter painter(this);
+    painter.setRenderHints(QPainter::Antialiasing | QPainter::SmoothPixmapTransform);
+    if (m_role == Role::Thumbnail && (m_selected || m_hovered)) {
+        painter.setPen(m_selected && hasFocus() ? QPen(QColor(tokens::kAccent), 1)
+                                                : QPen(Qt::NoPen));
+        painter.setBrush(QColor(m_selected ? tokens::kAccentDeep : tokens::kRaised));
+        painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), tokens::kRadius,
+                                tokens::kRadius);
+    }
+    const QRectF area = pictureArea();
+    painter.save();
+    if (!m_view.isCross()) {
+        QPainterPath frame;
+        frame.addRoundedRect(area, 2, 2);
+        painter.setClipPath(frame);
+    }
+    if (m_picture.isNull() || !m_message.isEmpty()) {
+        painter.fillRect(area, QColor(tokens::kWell));
+        if (m_role == Role::Stage) {
+            painter.setPen(QColor(tokens::kTextDim));
+            painter.drawText(area.adjusted(8, 8, -8, -8), Qt::AlignCenter | Qt::TextWordWrap,
+                             m_message.isEmpty() ? tr("Computing…") : m_message);
+        }
+    } else {
+        painter.drawImage(area, m_picture);
+    }
+    painter.restore();
+    if (m_message.isEmpty()) {
+        if (m_view.isCross())
+            paintCross(painter);
+        else if (m_view.isTable())
+            paintAxes(painter);
+        else
+            paintHorizon(painter);
+        paintMarks(painter);
+    }
+    paintCaption(painter);
+}
+
+void LabPicture::paintCaption(QPainter& painter) const {
+    const QColor dim(m_selected && m_role == Role::Thumbnail ? tokens::kText : tokens::kTextDim);
+    if (m_role == Role::Stage) {
+        // On one line: the title, what matters of it, and the warning.
+        QFont bold = font();
+        bold.setWeight(QFont::DemiBold);
+        painter.setFont(bold);
+        painter.setPen(QColor(tokens::kText));
+        const QFontMetrics titleMetrics(bold);
+        const int height = titleMetrics.height();
+        double x = 0;
+        const QString title = titleMetrics.elidedText(m_title, Qt::ElideRight, width());
+        painter.drawText(QRectF(x, 0, width(), height), Qt::AlignLeft | Qt::AlignVCenter, title);
+        x += titleMetrics.horizontalAdvance(title) + 10;
+        painter.setFont(font());
+        for (const auto& [text, color] :
+             {std::pair(m_warning, QColor(tokens::kCopper)), std::pair(m_detail, dim)}) {
+            if (text.isEmpty() || x > width() - 24)
+                continue;
+            const QString fitting =
+                fontMetrics().elidedText(text, Qt::ElideRight, static_cast<int>(width() - x));
+            painter.setPen(color);
+            painter.drawText(QRectF(x, 0, width() - x, height), Qt::AlignLeft | Qt::AlignVCenter,
+                             fitting);
+            x += fontMetrics().horizontalAdvance(fitting) + 10;
+        }
+        return;
+    }
+    painter.setFont(smallFont(font()));
+    const QFontMetrics metrics(painter.font());
+    QRectF line(kPad, height() - kPad - captionHeight() + 2, width() - 2 * kPad, metrics.height());
+    for (const auto& [text, color] :
+         {std::pair(m_title, QColor(tokens::kText)), std::pair(m_detail, dim),
+          std::pair(m_warning, QColor(tokens::kCopper))}) {
+        painter.setPen(color);
+        painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter,
+                         metrics.elidedText(text, Qt::ElideRight, static_cast<int>(line.width())));
+        line.translate(0, metrics.height());
+    }
+}
+
+// Each face by its axis, in a corner where little is covered.
+void LabPicture::paintCross(QPainter& painter) const {
+    const QRectF area = pictureArea();
+    const double face = area.width() / 4.0;
+    struct Face {
+        const char* name;
+        int x, y;
+    };
+    constexpr Face kFaces[] = {{"+X", 2, 1}, {"−X", 0, 1}, {"+Y", 1, 0},
+                               {"−Y", 1, 2}, {"+Z", 3, 1}, {"−Z", 1, 1}};
+    for (const Face& f : kFaces) {
+        const QRectF cell(area.left() + f.x * face, area.top() + f.y * face, face, face);
+        painter.setPen(QPen(QColor(tokens::kPanel), 1));
+        painter.setBrush(Qt::NoBrush);
+        painter.drawRect(cell);
+        const QString name = QString::fromUtf8(f.name);
+        if (m_role == Role::Stage || face >= 30)
+            paintLabel(painter, name, cell.topLeft() + QPointF(2, 2));
+    }
+}
+
+// The horizon, and on the stage the axes of the world.
+void LabPicture::paintHorizon(QPainter& painter) const {
+    const QRectF area = pictureArea();
+    painter.setPen(QPen(QColor(255, 255, 255, 40), 1));
+    const double y = std::round(area.center().y()) + 0.5;
+    painter.drawLine(QPointF(area.left(), y), QPointF(area.right(), y));
+    if (m_role == Role::Thumbnail)
+        return;
+    const QFontMetricsF metrics(smallFont(font()));
+    const char* names[] = {"+Z", "−X", "−Z", "+X", "+Z"};
+    for (int quarter = 0; quarter <= 4; ++quarter) {
+        const QString name = QString::fromUtf8(names[quarter]);
+        const double width = metrics.horizontalAdvance(name) + kLabelPad;
+        const double x = area.left() + 0.25 * quarter * area.width() - 0.5 * width;
+        paintLabel(painter, name,
+                   {std::clamp(x, area.left() + 2, area.right() - width - 2),
+                    area.bottom() - metrics.height() - 2});
+    }
+}
+
+void LabPicture::paintAxes(QPainter& painter) const {
+    const QRectF area = pictureArea();
+    painter.setBrush(Qt::NoBrush);
+    painter.setPen(QPen(QColor(tokens::kLine), 1));
+    painter.drawRect(area);
+    if (m_role == Role::Thumbnail)
+        return;
+    painter.setFont(smallFont(font()));
+    const QFontMetricsF metrics(painter.font());
+    painter.setPen(QColor(tokens::kTextDim));
+    const bool roomy = area.height() > 5 * metrics.height();
+    for (int i = 0; i <= 4; ++i) {
+        if (!roomy && i % 2 == 1)
+            continue;
+        const double share = i / 4.0;
+        const QString text = QString::number(share, 'g', 3);
+        const double x = area.left() + share * area.width();
+        const double y = area.bottom() - share * area.height();
+        painter.drawLine(QPointF(x, area.bottom()), QPointF(x, area.bottom() + 3));
+        painter.drawLine(QPointF(area.left() - 3, y), QPointF(area.left(), y));
+        painter.drawText(QRectF(x - 30, area.bottom() + 3, 60, metrics.height()), Qt::AlignHCenter,
+                         text);
+        painter.drawText(QRectF(area.left() - 66, y - 0.5 * metrics.height(), 60, metrics.height()),
+                         Qt::AlignRight | Qt::AlignVCenter, text);
+    }
+    painter.drawText(
+        QRectF(area.left(), area.bottom() + 2 + metrics.height(), area.width(), metrics.height()),
+        Qt::AlignHCenter, tr("N·V"));
+    painter.save();
+    painter.translate(area.left() - metrics.horizontalAdvance(QStringLiteral("0.75")) - 8,
+                      area.center().y());
+    painter.rotate(-90);
+    painter.drawText(QRectF(-90, -metrics.height(), 180, metrics.height()), Qt::AlignHCenter,
+                     tr("perceptual roughness"));
+    painter.restore();
+
+    // The legend: which colour is which value.
+    const QRectF bar(area.right() + 10, area.top(), kLegend, area.height());
+    QLinearGradient gradient(bar.bottomLeft(), bar.topLeft());
+    for (int i = 0; i <= 16; ++i) {
+        const glm::vec3 color = mapColor(ColorMap::Sequential, static_cast<float>(i) / 16.0f);
+        gradient.setColorAt(i / 16.0, QColor::fromRgbF(color.x, color.y, color.z));
+    }
+    painter.fillRect(bar, gradient);
+    for (int i = 0; i <= 2; ++i) {
+        const double value =
+            static_cast<double>(glm::mix(m_range.x, m_range.y, 0.5f * static_cast<float>(i)));
+        const double y = bar.bottom() - 0.5 * i * bar.height();
+        painter.drawText(QRectF(bar.right() + 4,
+                                std::clamp(y - 0.5 * metrics.height(), bar.top() - 2,
+                                           bar.bottom() - metrics.height() + 2),
+                                60, metrics.height()),
+                         Qt::AlignLeft | Qt::AlignVCenter, number(value));
+    }
+}
+
+void LabPicture::paintMarks(QPainter& painter) const {
+    const auto ring = [&](const QPointF& at, double radius, const QColor& color) {
+        painter.setBrush(Qt::NoBrush);
+        painter.setPen(QPen(QColor(0, 0, 0, 170), 3.5));
+        painter.drawEllipse(at, radius, radius);
+        painter.setPen(QPen(color, 1.6));
+        painter.drawEllipse(at, radius, radius);
+    };
+    const bool small = m_role == Role::Thumbnail;
+    if (m_lowest && !small)
+        paintLabel(painter, tr("magenta: below zero"), pictureArea().topLeft() + QPointF(4, 4));
+    if (m_lowest)
+        ring(position({*m_lowest, 0, 0}), small ? 3.0 : kMark, QColor(tokens::kCopper));
+    if (m_pointer) {
+        const QPointF at = position(*m_pointer);
+        const double arm = small ? 4.0 : 7.0;
+        for (const auto& [color, width] :
+             {std::pair(QColor(0, 0, 0, 170), 3.0), std::pair(QColor(255, 255, 255, 230), 1.2)}) {
+            painter.setPen(QPen(color, width));
+            painter.drawLine(at - QPointF(arm, 0), at + QPointF(arm, 0));
+            painter.drawLine(at - QPointF(0, arm), at + QPointF(0, arm));
+        }
+    }
+    if (!m_picked)
+        return;
+    const QPointF at = position(*m_picked);
+    ring(at, small ? 3.5 : kMark + 1, QColor(tokens::kAccent));
+    if (small || m_pickedLabel.isEmpty())
+        return;
+    painter.setFont(smallFont(font()));
+    const QFontMetricsF metrics(painter.font());
+    QRectF label(0, 0, metrics.horizontalAdvance(m_pickedLabel) + 10, metrics.height() + 4);
+    const QRectF area = pictureArea();
+    label.moveLeft(at.x() + 12 + label.width() < area.right()
+                       ? at.x() + 12
+                       : std::max(area.left() + 2, at.x() - 12 - label.width()));
+    label.moveTop(std::clamp(at.y() - 0.5 * label.height(), area.top() + 2,
+                             std::max(area.top() + 2, area.bottom() - label.height() - 2)));
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(QColor(22, 24, 26, 215));
+    painter.drawRoundedRect(label, 3, 3);
+    painter.setPen(QColor(tokens::kText));
+    painter.drawText(label, Qt::AlignCenter, m_pickedLabel);
+}
+
+} // namespace patina::editor

@@ -1,0 +1,150 @@
+#include "app/editor/panel/LabTexts.h"
+
+#include <QCoreApplication>
+#include <QStringList>
+#include <algorithm>
+#include <cmath>
+
+namespace patina::editor {
+namespace {
+
+constexpr float kBelowZero = 1e-3f; // of the RMS: smaller dips are rounding
+
+QString tr(const char* text) {
+    return QCoreApplication::translate("LightLab", text);
+}
+
+// 81.49, 3.210, 0.04300: neighbours can be compared, for the last digits do not come and go.
+QString fourDigits(double value) {
+    const double order = value > 0.0 ? std::floor(std::log10(value)) : 0.0;
+    return labFixed(value, static_cast<int>(std::clamp(3.0 - order, 0.0, 8.0)));
+}
+
+} // namespace
+
+QString labNumber(double value) {
+    return QString::number(value, 'g', 3).replace(QLatin1Char('-'), QStringLiteral("−"));
+}
+
+QString labFixed(double value, int decimals) {
+    return QString::number(value, 'f', decimals).replace(QLatin1Char('-'), QStringLiteral("−"));
+}
+
+QString labColor(const glm::vec3& c) {
+    return QStringLiteral("%1  %2  %3")
+        .arg(labNumber(static_cast<double>(c.x)), labNumber(static_cast<double>(c.y)),
+             labNumber(static_cast<double>(c.z)));
+}
+
+std::vector<LabSection> labSections() {
+    std::vector<LabSection> sections{
+        {tr("Light"), tr("The surroundings, the cube and the irradiance"), {}},
+        {tr("Harmonics"),
+         tr("The surroundings from their first 1 to 8 bands of spherical harmonics; magenta is "
+            "below "
+            "zero"),
+         {}},
+        {tr("Prefilter"),
+         tr("What reflections are looked up in: the surroundings blurred with the lobe of each "
+            "roughness"),
+         {}},
+        {tr("DFG"),
+         tr("What the lobe reflects, by angle and roughness: albedo = F0 · scale + bias"),
+         {}}};
+    for (const LabKind kind :
+         {LabKind::Environment, LabKind::Faces, LabKind::Irradiance, LabKind::IrradianceExact})
+        sections[0].views.push_back({kind, 0});
+    for (int bands = 1; bands <= kMaxShOrder; ++bands)
+        sections[1].views.push_back({LabKind::Harmonics, bands});
+    for (int level = 0; level < kLabLevels; ++level)
+        sections[2].views.push_back({LabKind::Prefiltered, level});
+    for (int channel = 0; channel < 3; ++channel)
+        sections[3].views.push_back({LabKind::Dfg, channel});
+    return sections;
+}
+
+LabCaption labCaption(LabView view, bool whole, const LabLight& light, double irradianceError) {
+    LabCaption c;
+    const auto faces = [&](std::size_t level) {
+        return tr("%1 × %1").arg(light.maps->prefiltered[level].size);
+    };
+    const bool draft = light.maps && static_cast<int>(light.maps->prefiltered.size()) < kLabLevels;
+    switch (view.kind) {
+    case LabKind::Environment: {
+        c.title = tr("Environment");
+        QStringList parts;
+        if (light.analysis)
+            parts << tr("%1 × %2")
+                         .arg(light.analysis->environment->width())
+                         .arg(light.analysis->environment->height());
+        if (light.rotationDeg != 0.0f && !whole)
+            parts.clear(); // room for one of both
+        if (light.rotationDeg != 0.0f)
+            parts << tr("turned %1°").arg(labFixed(static_cast<double>(light.rotationDeg), 1));
+        if (whole && light.analysis)
+            parts << tr("RMS %1").arg(
+                labNumber(light.analysis->bands.rms * static_cast<double>(light.scale)));
+        c.detail = parts.join(QStringLiteral(" · "));
+        break;
+    }
+    case LabKind::Faces:
+        c.title = tr("Cube faces");
+        if (light.maps)
+            c.detail = whole ? tr("%1 texels each, axes of the world").arg(faces(0))
+                             : tr("%1 each").arg(faces(0));
+        break;
+    case LabKind::Irradiance:
+        c.title = whole ? tr("Irradiance from 9 coefficients") : tr("Irradiance, SH 9");
+        if (light.maps)
+            c.detail = tr("%1 % off").arg(labFixed(100.0 * irradianceError, 1));
+        if (whole && light.maps)
+            c.detail = tr("as surfaces take it, %1 % RMS from the exact one, shown over π")
+                           .arg(labFixed(100.0 * irradianceError, 1));
+        break;
+    case LabKind::IrradianceExact:
+        c.title = whole ? tr("Irradiance, exact") : tr("Irradiance");
+        c.detail =
+            whole ? tr("∫ L cos, the widest prefiltered level times π; shown over π") : tr("exact");
+        break;
+    case LabKind::Harmonics: {
+        const int n = view.index;
+        c.title = n == 1 ? tr("1 band") : tr("%1 bands").arg(n);
+        if (!light.analysis)
+            break;
+        const ShBands& bands = light.analysis->bands;
+        const ShBandSum& sum = bands.sums[static_cast<std::size_t>(n - 1)];
+        const auto scale = static_cast<double>(light.scale);
+        c.detail = tr("RMSE %1").arg(fourDigits(scale * sum.rmse));
+        if (whole)
+            c.detail =
+                tr("%1, %2 % of the light's RMS; %3")
+                    .arg(c.detail, labFixed(bands.rms > 0 ? 100.0 * sum.rmse / bands.rms : 0, 2),
+                         n == 1 ? tr("1 coefficient") : tr("%1 coefficients").arg(n * n));
+        if (static_cast<double>(sum.lowest) < -static_cast<double>(kBelowZero) * bands.rms)
+            c.warning = tr("lowest %1").arg(labNumber(scale * static_cast<double>(sum.lowest)));
+        break;
+    }
+    case LabKind::Prefiltered: {
+        c.title = tr("Level %1").arg(view.index);
+        c.detail =
+            tr("roughness %1").arg(labFixed(static_cast<double>(labRoughness(view.index)), 2));
+        if (whole && light.maps)
+            c.detail = draft ? tr("perceptual %1, draft").arg(c.detail)
+                             : tr("perceptual %1, %2 texels per face")
+                                   .arg(c.detail, faces(static_cast<std::size_t>(view.index)));
+        break;
+    }
+    case LabKind::Dfg: {
+        const QString titles[] = {tr("Scale A"), tr("Bias B"), tr("Mean direction")};
+        const QString shorts[] = {tr("times F0"), tr("for any F0"), tr("lean to the mirror")};
+        const QString wholes[] = {tr("albedo = F0 · A + B"), tr("albedo = F0 · A + B"),
+                                  tr("0 along the normal, 1 along the mirror direction")};
+        c.title = titles[view.index];
+        c.detail = whole ? wholes[view.index] : shorts[view.index];
+        break;
+    }
+    }
+    return c;
+}
+
+} // namespace patina::editor
