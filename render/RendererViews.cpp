@@ -315,6 +315,7 @@ Result<Inspection> Renderer::inspect(int x, int y) {
     result.y = y;
     result.width = r.targets.width();
     result.height = r.targets.height();
+    result.view = r.lastFrame.view;
     CHECK(x >= 0 && y >= 0 && x < result.width && y < result.height);
     const int fromBottom = result.height - 1 - y;
     r.beginGl();

@@ -135,8 +135,12 @@ class Parser {
             ->allow_extra_args(false);
     }
     template <class Options>
-    void addSceneAndOutput(CLI::App* command, Options& options, const char* outputHelp) {
+    void addScene(CLI::App* command, Options& options) {
         command->add_option("SCENE", options.scene, kScene)->required()->type_name("");
+    }
+    template <class Options>
+    void addSceneAndOutput(CLI::App* command, Options& options, const char* outputHelp) {
+        addScene(command, options);
         command->add_option("-o,--output", options.output, outputHelp)
             ->required()
             ->type_name("OUT");
@@ -180,8 +184,11 @@ class Parser {
     void addRender() {
         RenderOptions& o = m_render;
         CLI::App* c = addCommand(m_app, "render", "One picture, without a window", o);
-        addSceneAndOutput(c, o,
-                          "Picture: .png, .jpg, .tif, .tga as displayed, .exr or .hdr linear");
+        addScene(c, o);
+        // With --inspect a picture need not be written: run() sees to that.
+        c->add_option("-o,--output", o.output,
+                      "Picture: .png, .jpg, .tif, .tga as displayed, .exr or .hdr linear")
+            ->type_name("OUT");
         c->add_option("--environment", o.environment, "Surroundings that light the scene")
             ->type_name("HDR");
         addLayout(c, o.environmentLayout);
@@ -221,6 +228,10 @@ class Parser {
         c->add_option("--view-light", o.viewLight,
                       "Whose D, G, F and cosines are shown (default: the mirror direction)")
             ->type_name("NAME");
+        c->add_option("--inspect", o.inspect,
+                      "Explain this pixel, counted from the top left: maps, factors, formulas, "
+                      "sum, display; with --json as JSON. OUT may then be left out")
+            ->type_name("X,Y");
         c->add_flag_callback(
              "--list-views", [] { throw ListViews(); }, "Print the names of all views")
             ->trigger_on_parse();

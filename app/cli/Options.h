@@ -31,6 +31,7 @@ struct RenderOptions {
     std::string exposure, toneMap, fov, lighting; // as for --set; empty: as the scene has it
     std::string background;                       // visible, blurred, transparent or a colour
     std::string view;                             // of core/document/Views.h, or all
+    std::string inspect;                          // X,Y of a pixel to explain
     std::string viewMode = "raw", viewRange, viewLight;
     std::vector<std::string> bakes;
     int samples = 4;

@@ -1,4 +1,5 @@
 #include "app/cli/Commands.h"
+#include "app/cli/InspectPixel.h"
 #include "app/cli/RenderViews.h"
 #include "app/cli/SceneSetup.h"
 #include "core/document/Edit.h"
@@ -192,6 +193,10 @@ Result<Prepared> prepare(Session& session, const Document& document,
     return Prepared{std::move(*context), std::move(*renderer)};
 }
 
+bool isLinear(ImageFileFormat format) {
+    return format == ImageFileFormat::Exr || format == ImageFileFormat::Hdr;
+}
+
 // What the file will hold, after the frame has been drawn.
 Result<std::vector<ImagePart>> takePictures(Session& session, render::Renderer& renderer,
                                             const Document& document, const RenderOptions& options,
@@ -214,17 +219,50 @@ Result<std::vector<ImagePart>> takePictures(Session& session, render::Renderer& 
     return take(frame.transparentBackground ? picture : withoutAlpha(picture));
 }
 
+Result<void> writePictures(Session& session, render::Renderer& renderer, const Document& document,
+                           const RenderOptions& options, const render::FrameSettings& frame,
+                           ImageFileFormat format) {
+    Result<std::vector<ImagePart>> pictures =
+        takePictures(session, renderer, document, options, frame, isLinear(format));
+    if (!pictures)
+        return pictures.error();
+    if (session.job().cancelled())
+        return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
+    Result<Bytes> bytes = encodeImage(session.worker(), *pictures, format);
+    if (!bytes) {
+        Error error = bytes.error();
+        error.file = options.output;
+        return error;
+    }
+    if (Result<void> saved = writeFileAtomically(options.output, *bytes); !saved)
+        return saved;
+    const Image& first = pictures->front().image;
+    session.report().output(
+        options.output,
+        fmt::format("{} × {} pixels{}", first.width(), first.height(),
+                    pictures->size() > 1 ? fmt::format(", {} views", pictures->size()) : ""));
+    return {};
+}
+
 } // namespace
 
 Result<void> run(Session& session, const RenderOptions& options) {
-    Result<ImageFileFormat> format = imageFormatForPath(options.output);
+    const bool writes = !options.output.empty();
+    if (!writes && options.inspect.empty())
+        return usage("--output is required: where the picture goes; only --inspect does without");
+    Result<ImageFileFormat> format =
+        writes ? imageFormatForPath(options.output) : ImageFileFormat::Png;
     if (!format)
         return format.error();
     Result<render::FrameSettings> frame = frameSettings(options);
     if (!frame)
         return frame.error();
-    if (Result<void> output = checkOutput(options.output); !output)
-        return output;
+    const Result<std::optional<glm::ivec2>> inspected = parsePixel(options.inspect, *frame);
+    if (!inspected)
+        return inspected.error();
+    if (writes)
+        if (Result<void> output = checkOutput(options.output); !output)
+            return output;
 
     nlohmann::ordered_json& json = session.report().json();
     json["settings"] = {{"scene", options.scene},
@@ -266,8 +304,9 @@ Result<void> run(Session& session, const RenderOptions& options) {
         formatParameterValue(*findParameter("view.toneMap"), static_cast<int>(view.toneMap));
     json["settings"]["lighting"] = document->view.lighting == LightingMode::Prt ? "prt" : "ibl";
 
-    const bool linear = *format == ImageFileFormat::Exr || *format == ImageFileFormat::Hdr;
-    Result<Prepared> prepared = prepare(session, *document, *frame, linear);
+    // An explanation ends with the displayed colour, even where the picture is linear.
+    Result<Prepared> prepared =
+        prepare(session, *document, *frame, isLinear(*format) && !inspected->has_value());
     if (!prepared)
         return prepared.error();
     render::Renderer& renderer = *prepared->renderer;
@@ -277,25 +316,14 @@ Result<void> run(Session& session, const RenderOptions& options) {
         json["logAverageLuminance"] = luminance->logAverage;
     if (const auto range = renderer.shownRange())
         json["viewRange"] = {range->min, range->max};
-    Result<std::vector<ImagePart>> pictures =
-        takePictures(session, renderer, *document, options, *frame, linear);
-    if (!pictures)
-        return pictures.error();
-    if (session.job().cancelled())
-        return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
-    Result<Bytes> bytes = encodeImage(session.worker(), *pictures, *format);
-    if (!bytes) {
-        Error error = bytes.error();
-        error.file = options.output;
-        return error;
-    }
-    if (Result<void> saved = writeFileAtomically(options.output, *bytes); !saved)
-        return saved;
-    const Image& first = pictures->front().image;
-    session.report().output(
-        options.output,
-        fmt::format("{} × {} pixels{}", first.width(), first.height(),
-                    pictures->size() > 1 ? fmt::format(", {} views", pictures->size()) : ""));
+    if (writes)
+        if (Result<void> written =
+                writePictures(session, renderer, *document, options, *frame, *format);
+            !written)
+            return written;
+    if (*inspected)
+        if (Result<void> done = explainPixel(session, renderer, *document, **inspected); !done)
+            return done;
     json["counts"] = {{"meshes", document->meshes.size()},
                       {"triangles", document->triangleCount()}};
     return {};

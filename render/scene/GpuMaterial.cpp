@@ -102,6 +102,11 @@ float placeholderShare(const Material& m) {
 
 } // namespace
 
+glm::vec2 mapUv(const MapSlot& map, const glm::vec2& uv) {
+    const glm::vec4 m = uvMatrix(map);
+    return glm::vec2(m.x * uv.x + m.y * uv.y, m.z * uv.x + m.w * uv.y) + map.uvOffset;
+}
+
 MaterialBlock packMaterial(const Material& m) {
     MaterialBlock block;
     block.baseColor = glm::vec4(m.baseColor, m.opacity);

@@ -4,6 +4,7 @@
 #include "core/document/ToneResponse.h"
 #include "core/document/Views.h"
 #include "core/material/Material.h"
+#include "render/view/ViewSettings.h"
 
 #include <array>
 #include <glm/vec2.hpp>
@@ -32,6 +33,7 @@ struct Inspection {
     Luminance luminance;       // what exposure goes by, where it is automatic
     glm::vec3 exposed{0.0f};   // after exposure, before the tone curve
     glm::vec4 displayed{0.0f}; // 0…1, encoded, as on the screen (straight alpha)
+    ViewSettings view; // of the frame: the picture is the sum of its terms, whatever it shows
 
     [[nodiscard]] bool onSurface() const { return mesh != 0; }
     [[nodiscard]] glm::vec4 value(int record) const {

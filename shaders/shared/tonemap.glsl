@@ -129,22 +129,29 @@ PT_FN vec3 toneMapExponential(vec3 c, float k) {
 
 // Khronos PBR Neutral (Khronos Group 2024, "PBR Neutral Tone Mapper", specification): base colours
 // of 0.08 … 0.8 under white light come out as they are, less the 4 % of a dielectric's reflection.
-PT_FN vec3 toneMapPbrNeutral(vec3 c) {
-    float f90 = 0.04f;
-    float start = 0.8f - f90; // where compression begins
-    float desaturation = 0.15f;
+PT_CONST float kNeutralF90 = 0.04f;
+PT_CONST float kNeutralStart = 0.76f; // 0.8 less the reflection: where compression begins
 
-    // Take the Fresnel reflection away, less of it near black.
-    float x = min(c.x, min(c.y, c.z));
-    float f = x < 2.0f * f90 ? x - x * x / (4.0f * f90) : f90;
-    vec3 body = c - vec3(f);
+// The Fresnel reflection that is taken away, less of it near black. `x`: the smallest channel.
+PT_FN float pbrNeutralReflection(float x) {
+    return x < 2.0f * kNeutralF90 ? x - x * x / (4.0f * kNeutralF90) : kNeutralF90;
+}
+
+// What the largest channel becomes, for peak >= kNeutralStart: towards 1.
+PT_FN float pbrNeutralPeak(float peak) {
+    float d = 1.0f - kNeutralStart;
+    return 1.0f - d * d / (peak + d - kNeutralStart);
+}
+
+PT_FN vec3 toneMapPbrNeutral(vec3 c) {
+    vec3 body = c - vec3(pbrNeutralReflection(min(c.x, min(c.y, c.z))));
     float peak = max(body.x, max(body.y, body.z));
-    if (peak < start)
+    if (peak < kNeutralStart)
         return body;
 
-    // Compress the peak towards 1 and let its colour fade to white.
-    float d = 1.0f - start;
-    float compressed = 1.0f - d * d / (peak + d - start);
+    // Compress the peak and let its colour fade to white.
+    float desaturation = 0.15f;
+    float compressed = pbrNeutralPeak(peak);
     float g = 1.0f / (desaturation * (peak - compressed) + 1.0f);
     return mix(vec3(compressed), body * (compressed / peak), g);
 }
@@ -152,17 +159,26 @@ PT_FN vec3 toneMapPbrNeutral(vec3 c) {
 // ACES: Stephen Hill's fit of the reference rendering transform and the sRGB output transform of
 // ACES 1 (in M. Pettineo & S. Hill, "BakingLab", 2016). The matrices go from linear Rec.709 to
 // ACEScg with the RRT's desaturation, and back with the ODT's.
-PT_FN vec3 toneMapAces(vec3 c) {
-    vec3 v = vec3(0.59719f * c.x + 0.35458f * c.y + 0.04823f * c.z,
-                  0.07600f * c.x + 0.90834f * c.y + 0.01566f * c.z,
-                  0.02840f * c.x + 0.13383f * c.y + 0.83777f * c.z);
+PT_FN vec3 acesInput(vec3 c) {
+    return vec3(0.59719f * c.x + 0.35458f * c.y + 0.04823f * c.z,
+                0.07600f * c.x + 0.90834f * c.y + 0.01566f * c.z,
+                0.02840f * c.x + 0.13383f * c.y + 0.83777f * c.z);
+}
+
+PT_FN vec3 acesCurve(vec3 v) {
     vec3 a = v * (v + 0.0245786f) - 0.000090537f;
     vec3 b = v * (0.983729f * v + 0.4329510f) + 0.238081f;
-    v = a / b;
-    vec3 shown = vec3(1.60475f * v.x - 0.53108f * v.y - 0.07367f * v.z,
-                      -0.10208f * v.x + 1.10813f * v.y - 0.00605f * v.z,
-                      -0.00327f * v.x - 0.07276f * v.y + 1.07602f * v.z);
-    return clamp(shown, vec3(0.0f), vec3(1.0f));
+    return a / b;
+}
+
+PT_FN vec3 acesOutput(vec3 v) {
+    return vec3(1.60475f * v.x - 0.53108f * v.y - 0.07367f * v.z,
+                -0.10208f * v.x + 1.10813f * v.y - 0.00605f * v.z,
+                -0.00327f * v.x - 0.07276f * v.y + 1.07602f * v.z);
+}
+
+PT_FN vec3 toneMapAces(vec3 c) {
+    return clamp(acesOutput(acesCurve(acesInput(c))), vec3(0.0f), vec3(1.0f));
 }
 
 // The scale that lets slope * x / (1 + (slope * x / scale)^power)^(1 / power) reach y at x: solved
@@ -189,17 +205,27 @@ PT_FN float agxCurve(float x) {
 // AgX: primaries drawn together, 16.5 stops around middle grey as logarithm, the curve per channel,
 // primaries drawn apart again. Matrices: B. Wrensch 2023, "Minimal AgX Implementation", for linear
 // Rec.709. The curve makes values for a display of pure gamma 2.2, which is undone here.
-PT_FN vec3 toneMapAgX(vec3 c) {
-    vec3 v = vec3(0.8424790623f * c.x + 0.0784335999f * c.y + 0.0792237451f * c.z,
-                  0.0423282422f * c.x + 0.8784686365f * c.y + 0.0791661275f * c.z,
-                  0.0423756549f * c.x + 0.0784336000f * c.y + 0.8791429738f * c.z);
+PT_FN vec3 agxInset(vec3 c) {
+    return vec3(0.8424790623f * c.x + 0.0784335999f * c.y + 0.0792237451f * c.z,
+                0.0423282422f * c.x + 0.8784686365f * c.y + 0.0791661275f * c.z,
+                0.0423756549f * c.x + 0.0784336000f * c.y + 0.8791429738f * c.z);
+}
+
+// 0…1 over the 16.5 stops from 10 below middle grey.
+PT_FN vec3 agxStops(vec3 v) {
     float darkest = log2(kMiddleGrey) - 10.0f;
-    vec3 stops = (log2(max(v, vec3(1e-10f))) - darkest) / 16.5f;
-    stops = clamp(stops, vec3(0.0f), vec3(1.0f));
-    vec3 s = vec3(agxCurve(stops.x), agxCurve(stops.y), agxCurve(stops.z));
-    vec3 shown = vec3(1.1968790051f * s.x - 0.0980208811f * s.y - 0.0990297441f * s.z,
-                      -0.0528968518f * s.x + 1.1519031299f * s.y - 0.0989611768f * s.z,
-                      -0.0529716355f * s.x - 0.0980434501f * s.y + 1.1510736726f * s.z);
+    return clamp((log2(max(v, vec3(1e-10f))) - darkest) / 16.5f, vec3(0.0f), vec3(1.0f));
+}
+
+PT_FN vec3 agxOutset(vec3 s) {
+    return vec3(1.1968790051f * s.x - 0.0980208811f * s.y - 0.0990297441f * s.z,
+                -0.0528968518f * s.x + 1.1519031299f * s.y - 0.0989611768f * s.z,
+                -0.0529716355f * s.x - 0.0980434501f * s.y + 1.1510736726f * s.z);
+}
+
+PT_FN vec3 toneMapAgX(vec3 c) {
+    vec3 stops = agxStops(agxInset(c));
+    vec3 shown = agxOutset(vec3(agxCurve(stops.x), agxCurve(stops.y), agxCurve(stops.z)));
     return pow(clamp(shown, vec3(0.0f), vec3(1.0f)), vec3(2.2f));
 }
 

@@ -192,6 +192,46 @@ TEST_F(Commands, RenderLightsWithAGeneratedEnvironment) {
     EXPECT_EQ(load(m_folder / "white.exr").linear(0, 0).r, 1.0f);
 }
 
+TEST_F(Commands, RenderExplainsAPixel) {
+    const std::vector<std::string> scene{
+        "render",        "builtin:sphere", "--size",   "48x32",     "--environment",
+        "builtin:white", "--tone-map",     "reinhard", "--samples", "1"};
+    const auto with = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments = scene;
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runPatina(arguments);
+    };
+    const Outcome text = with({"--inspect", "24,16"});
+    ASSERT_EQ(text.status, 0) << text.err;
+    EXPECT_THAT(text.out, HasSubstr("Pixel 24, 16 of 48 × 32"));
+    EXPECT_THAT(text.out, HasSubstr("Lₚ · ρs · SO"));
+    EXPECT_THAT(text.out, HasSubstr("Tone Curve: Reinhard"));
+    EXPECT_THAT(text.out, HasSubstr("these numbers recombine to it within 0."));
+
+    // The same as JSON, with the picture beside it: its pixel is the explained one.
+    const Outcome outcome = with({"--inspect", "24,16", "--json", "-o", m_folder / "picture.png"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const nlohmann::json json = outcome.json()["inspection"];
+    EXPECT_EQ(json["agrees"], true);
+    const nlohmann::json& metallic = json["sections"]["maps"]["steps"]["metallic"]["factors"];
+    EXPECT_THAT(metallic["file"].get<std::string>(), HasSubstr("/metallic"));
+    // Even light of radiance 1 from everywhere: irradiance pi, and nothing brighter than 1.
+    const nlohmann::json& light = json["sections"]["environment"]["values"];
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(light["irradiance"][c].get<float>(), 3.14159f, 0.01f);
+        EXPECT_NEAR(light["prefiltered"][c].get<float>(), 1.0f, 0.003f);
+        EXPECT_LT(json["sum"][c].get<float>(), 1.0f);
+    }
+    const Image picture = load(m_folder / "picture.png");
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(json["displayed"][c].get<float>(), picture.sample(24, 16, c), 0.6f / 255.0f);
+
+    const Outcome beside = with({"--inspect", "0,0"});
+    ASSERT_EQ(beside.status, 0) << beside.err;
+    EXPECT_THAT(beside.out, HasSubstr("Pixel 0, 0 of 48 × 32: background"));
+    EXPECT_THAT(beside.out, HasSubstr("Radiance in the Picture"));
+}
+
 // The background has the radiance it was given: no tone curve, no rounding to 8 bits.
 TEST_F(Commands, RenderWritesLinearFloats) {
     const Outcome outcome =

@@ -77,6 +77,31 @@ BENCHMARK_CAPTURE(drawFrames, ibl_4x_overlays, true, 4, true)
     ->MeasureProcessCPUTime()
     ->Unit(benchmark::kMillisecond);
 
+// What looking at one pixel costs: which mesh lies there, and every number of the equation.
+void lookAtPixel(benchmark::State& state, bool everything) {
+    const auto stage = makeStage(true);
+    if (!stage) {
+        state.SkipWithError("no OpenGL 4.5");
+        return;
+    }
+    FrameSettings frame;
+    frame.width = 1280;
+    frame.height = 720;
+    frame.camera =
+        frameBounds(stage->document.view.camera, stage->document.bounds(), 1280.0f / 720.0f);
+    if (!stage->renderer->render(frame, 0))
+        state.SkipWithError("rendering failed");
+    for (auto _ : state)
+        if (everything)
+            benchmark::DoNotOptimize(stage->renderer->inspect(640, 360).ok());
+        else
+            benchmark::DoNotOptimize(stage->renderer->pick(640, 360));
+}
+BENCHMARK_CAPTURE(lookAtPixel, pick, false)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(lookAtPixel, inspect, true)
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
+
 // What a new environment of 2048 × 1024 costs the thread that draws when it takes it over at once.
 // The editor's comes in pieces; together they must not cost much more than this.
 void uploadEnvironment(benchmark::State& state) {

@@ -262,6 +262,11 @@ std::vector<SharedTermCase> makeCases() {
                  OUT3(0, toneMapAces(c)); OUT3(3, toneMapAgX(c));
                  O(6) = agxCurve(clamp(0.1f * I(3), 0.0f, 1.0f));
                  O(7) = agxScale(0.3f, 0.5f, 2.0f, 2.5f + min(I(4), 1.0f));),
+            CASE("steps of tone maps", hdr, 1e-2f, vec3 c = vec3(I(0), I(1), I(2));
+                 O(0) = pbrNeutralReflection(0.1f * I(3));
+                 O(1) = pbrNeutralPeak(kNeutralStart + I(4)); OUT3(2, acesInput(c));
+                 OUT3(5, acesCurve(c)); OUT3(8, acesOutput(c)); OUT3(11, agxInset(c));
+                 OUT3(14, agxStops(c)); OUT3(17, agxOutset(c));),
             CASE(
                 "tone map dispatch", hdr, 1e-2f, vec3 c = vec3(I(0), -I(1), 1e20f * I(2));
                 ToneCurve t; t.scale = I(3); t.white = I(4); t.k = I(5);

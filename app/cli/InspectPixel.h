@@ -1,0 +1,27 @@
+// `patina render --inspect X,Y`: why a pixel looks as it does.
+#pragma once
+
+#include "app/cli/Session.h"
+#include "core/document/Document.h"
+
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+
+namespace patina::render {
+class Renderer;
+struct FrameSettings;
+} // namespace patina::render
+
+namespace patina::cli {
+
+// Nothing for an empty text. Usage error when it is no pixel of the picture.
+Result<std::optional<glm::ivec2>> parsePixel(const std::string& text,
+                                             const render::FrameSettings& frame);
+
+// Prints the explanation of a pixel of the renderer's last frame, or puts it into the report as
+// "inspection".
+Result<void> explainPixel(Session& session, render::Renderer& renderer, const Document& document,
+                          const glm::ivec2& pixel);
+
+} // namespace patina::cli

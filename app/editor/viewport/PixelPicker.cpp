@@ -1,0 +1,227 @@
+#include "app/editor/viewport/PixelPicker.h"
+
+#include "app/editor/document/DocumentController.h"
+#include "app/editor/viewport/PinMarker.h"
+#include "core/base/Log.h"
+
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QWidget>
+#include <algorithm>
+#include <cmath>
+
+namespace patina::editor {
+namespace {
+
+constexpr int kLookMs = 33;         // between two looks, at least
+constexpr double kLookShare = 0.25; // of the time, at most, while something is dragged
+
+} // namespace
+
+PixelPicker::PixelPicker(DocumentController& controller, QWidget& viewport)
+    : m_controller(controller)
+    , m_viewport(viewport)
+    , m_mark(new PinMarker(viewport)) {
+    viewport.installEventFilter(this);
+    m_timer.setSingleShot(true);
+    connect(&m_timer, &QTimer::timeout, this, &PixelPicker::look);
+    connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
+        if (change.affects == Affects::Everything) { // another document
+            m_pointer.reset();
+            unpin();
+            if (m_probe)
+                m_probe->setHover(std::nullopt);
+        }
+        placeMark();
+    });
+}
+
+void PixelPicker::setProbe(PixelProbe& probe) {
+    m_probe = &probe;
+    connect(&probe, &PixelProbe::wantedChanged, this, &PixelPicker::lookSoon);
+    connect(&probe, &PixelProbe::pinChanged, this, [this] {
+        if (!m_probe->pin() && m_pin) { // a panel took it away
+            m_pin.reset();
+            placeMark();
+            lookSoon();
+        }
+    });
+}
+
+// --- When ----------------------------------------------------------------------------------------
+
+void PixelPicker::frameDrawn(const QSize& size, bool moving) {
+    m_frame = size;
+    m_moving = moving;
+    lookSoon();
+}
+
+void PixelPicker::cameraMoved() {
+    m_cameraMoved = true;
+    placeMark();
+}
+
+// Never at once: this is also called while a frame is drawn. While something is dragged, frames
+// have the larger part of the time.
+void PixelPicker::lookSoon() {
+    if (!m_probe || !m_probe->wanted() || m_timer.isActive())
+        return;
+    const double pause =
+        std::max<double>(kLookMs, m_moving ? m_lookMs / kLookShare - m_lookMs : 0.0);
+    const auto since = m_sinceLook.isValid() ? static_cast<double>(m_sinceLook.elapsed()) : pause;
+    m_timer.start(static_cast<int>(std::max(0.0, std::ceil(pause - since))));
+}
+
+void PixelPicker::look() {
+    if (!m_probe || !m_probe->wanted() || m_frame.isEmpty())
+        return;
+    if (m_pin) {
+        lookAtPin();
+    } else if (m_pointer && !(m_moving && m_cameraMoved) && !m_dragging) {
+        if (const auto pixel = pixelAt(*m_pointer))
+            if (auto inspection = inspect(*pixel))
+                m_probe->setHover(std::move(inspection));
+    }
+    if (!m_moving)
+        m_cameraMoved = false;
+}
+
+void PixelPicker::lookAtPin() {
+    const Document& document = m_controller.document();
+    if (!m_pin->position(document)) { // its mesh is gone
+        unpin();
+        return;
+    }
+    const auto place = m_pin->place(document, QSizeF(m_frame));
+    if (!place) {
+        m_probe->setPinState(PinState::Outside);
+    } else if (auto there = inspect({static_cast<int>(place->x()), static_cast<int>(place->y())})) {
+        if (m_pin->isSeen(*there, document))
+            m_probe->setPin(std::move(there));
+        else
+            m_probe->setPinState(PinState::Hidden);
+    }
+    placeMark();
+}
+
+std::optional<render::Inspection> PixelPicker::inspect(const QPoint& pixel) {
+    if (!m_inspect || !QRect(QPoint(), m_frame).contains(pixel))
+        return std::nullopt;
+    QElapsedTimer clock;
+    clock.start();
+    Result<render::Inspection> inspection = m_inspect(pixel);
+    m_lookMs = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
+    m_sinceLook.start();
+    if (inspection)
+        return std::move(*inspection);
+    logError("the pixel could not be looked at: {}", inspection.error().text());
+    return std::nullopt;
+}
+
+std::optional<QPoint> PixelPicker::pixelAt(const QPointF& position) const {
+    if (m_frame.isEmpty() || !QRectF(m_viewport.rect()).contains(position))
+        return std::nullopt;
+    const QPoint pixel(static_cast<int>(position.x() * m_frame.width() / m_viewport.width()),
+                       static_cast<int>(position.y() * m_frame.height() / m_viewport.height()));
+    return QRect(QPoint(), m_frame).contains(pixel) ? std::optional(pixel) : std::nullopt;
+}
+
+// --- The pin -------------------------------------------------------------------------------------
+
+void PixelPicker::placeMark() {
+    if (!m_pin) {
+        m_mark->setPlace(std::nullopt);
+        return;
+    }
+    m_mark->setPlace(m_pin->place(m_controller.document(), QSizeF(m_viewport.size())));
+    m_mark->setBroken(m_probe && m_probe->pinState() == PinState::Hidden);
+    m_mark->raise();
+}
+
+void PixelPicker::unpin() {
+    m_pin.reset();
+    placeMark();
+    if (m_probe && m_probe->pin())
+        m_probe->setPin(std::nullopt);
+}
+
+void PixelPicker::togglePin() {
+    if (m_pin)
+        unpin();
+    else if (m_pointer)
+        pinAt(*m_pointer);
+    lookSoon();
+}
+
+void PixelPicker::pinAt(const QPointF& at) {
+    const auto pixel = pixelAt(at);
+    if (!m_probe || !pixel)
+        return;
+    std::optional<render::Inspection> inspection = inspect(*pixel);
+    if (!inspection)
+        return;
+    if (!inspection->onSurface()) {
+        unpin();
+        return;
+    }
+    m_pin.emplace(*inspection, m_controller.document());
+    m_probe->setPin(std::move(inspection));
+    placeMark();
+    Q_EMIT pinned();
+}
+
+void PixelPicker::setPicking(bool picking) {
+    if (picking == m_picking)
+        return;
+    m_picking = picking;
+    if (picking)
+        m_viewport.setCursor(Qt::CrossCursor);
+    else
+        m_viewport.unsetCursor();
+    Q_EMIT pickingChanged(picking);
+}
+
+// --- The hand ------------------------------------------------------------------------------------
+
+bool PixelPicker::eventFilter(QObject*, QEvent* event) {
+    switch (event->type()) {
+    case QEvent::MouseButtonPress: {
+        const auto* mouse = static_cast<QMouseEvent*>(event);
+        if (mouse->button() == Qt::LeftButton &&
+            (m_picking || mouse->modifiers() == Qt::AltModifier)) {
+            m_pointer = mouse->position();
+            setPicking(false);
+            pinAt(mouse->position());
+            return true;
+        }
+        m_dragging = true;
+        return false;
+    }
+    case QEvent::MouseButtonRelease:
+        m_dragging = false;
+        lookSoon();
+        return false;
+    case QEvent::MouseMove: {
+        const auto* mouse = static_cast<QMouseEvent*>(event);
+        m_dragging = mouse->buttons() != Qt::NoButton;
+        m_pointer = mouse->position();
+        if (!m_dragging)
+            lookSoon();
+        return m_picking && !m_dragging; // the cursor is ours
+    }
+    case QEvent::ShortcutOverride:
+        if (m_picking && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) {
+            setPicking(false);
+            event->accept();
+            return true;
+        }
+        return false;
+    case QEvent::Resize:
+        placeMark();
+        return false;
+    default:
+        return false;
+    }
+}
+
+} // namespace patina::editor

@@ -1,0 +1,80 @@
+// Looks at the pixel under the pointer and at the pinned point, after frames and between them,
+// while somebody listens to the probe. Alt + click pins; the pin stays on the surface.
+#pragma once
+
+#include "app/editor/viewport/PixelProbe.h"
+#include "app/editor/viewport/SurfacePin.h"
+#include "core/base/Result.h"
+
+#include <QElapsedTimer>
+#include <QObject>
+#include <QPoint>
+#include <QSize>
+#include <QTimer>
+#include <functional>
+#include <optional>
+
+class QMouseEvent;
+
+namespace patina::editor {
+
+class DocumentController;
+class PinMarker;
+
+class PixelPicker : public QObject {
+    Q_OBJECT
+  public:
+    // How a pixel of the last frame is looked at; never called while a frame is being drawn.
+    using Inspect = std::function<Result<render::Inspection>(const QPoint& pixel)>;
+
+    PixelPicker(DocumentController& controller, QWidget& viewport);
+
+    void setProbe(PixelProbe& probe);
+    void setInspect(Inspect inspect) { m_inspect = std::move(inspect); }
+
+    // After a frame of `size` device pixels; `cameraMoves`: it will be followed by others.
+    void frameDrawn(const QSize& size, bool moving);
+    void cameraMoved(); // the mark goes along in the same frame
+
+    void togglePin();              // at the pointer, or take the pin away
+    void pinAt(const QPointF& at); // beside the model: takes the pin away
+    void setPicking(bool picking); // the next click pins
+    [[nodiscard]] bool isPicking() const { return m_picking; }
+
+    // Milliseconds that the last look took.
+    [[nodiscard]] double lookMs() const { return m_lookMs; }
+
+  Q_SIGNALS:
+    void pickingChanged(bool picking);
+    void pinned(); // by the user
+
+  protected:
+    bool eventFilter(QObject* viewport, QEvent* event) override;
+
+  private:
+    void look(); // at what is wanted
+    void lookSoon();
+    void lookAtPin();
+    void unpin();
+    [[nodiscard]] std::optional<QPoint> pixelAt(const QPointF& position) const;
+    [[nodiscard]] std::optional<render::Inspection> inspect(const QPoint& pixel);
+    void placeMark();
+
+    DocumentController& m_controller;
+    QWidget& m_viewport;
+    PixelProbe* m_probe = nullptr;
+    PinMarker* m_mark;
+    Inspect m_inspect;
+    QSize m_frame;                    // the last one's, in device pixels
+    std::optional<QPointF> m_pointer; // where it was last, inside
+    std::optional<SurfacePin> m_pin;
+    QTimer m_timer;
+    QElapsedTimer m_sinceLook;
+    double m_lookMs = 0.0;
+    bool m_moving = false;
+    bool m_cameraMoved = false; // since the last look
+    bool m_picking = false;
+    bool m_dragging = false; // a button is down
+};
+
+} // namespace patina::editor
