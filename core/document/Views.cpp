@@ -133,7 +133,8 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
     direction(kViewBitangent, "bitangent", "Bitangent", "b",
               "The bitangent, along which v grows in OpenGL's sense, in world space"),
     color(kViewUvChecker, "uvChecker", "UV Checker", "uv", kGeometry,
-          "A numbered board in texture space: shows stretching, mirroring and seams"),
+          "A board in texture space, red along u and green along v: shows stretching, mirroring "
+          "and seams"),
     measured(
         scalar(kViewTexelDensity, "texelDensity", "Texel Density", "", kGeometry,
                ColorMap::Sequential, 10.0f, 10000.0f,
