@@ -22,16 +22,24 @@
 namespace patina::editor {
 namespace {
 
-class EnergyTest : public EditorTest {
+// The panel on its own: a viewport would redraw its picture after each edit, for nobody.
+class EnergyTest : public ::testing::Test {
   protected:
+    static void SetUpTestSuite() {
+        session = std::make_unique<Session>();
+        panel =
+            std::make_unique<EnergyPanel>(session->controller, session->selection, session->views);
+        panel->resize(800, 300);
+        panel->show();
+        ASSERT_TRUE(QTest::qWaitForWindowExposed(panel.get(), 60'000));
+    }
+    static void TearDownTestSuite() {
+        panel.reset();
+        session.reset();
+    }
     void SetUp() override {
-        EditorTest::SetUp();
-        dock = window->findChild<QDockWidget*>(QStringLiteral("energy"));
-        ASSERT_NE(dock, nullptr);
-        window->actions().energy->trigger();
-        ASSERT_TRUE(dock->isVisible());
-        panel = window->findChild<EnergyPanel*>();
-        ASSERT_NE(panel, nullptr);
+        controller().newDocument();
+        ASSERT_TRUE(settled(*session));
         session->views.set({});
         panel->setAngle(45.0);
         // White metal without maps, the material whose losses are tabulated.
@@ -40,10 +48,12 @@ class EnergyTest : public EditorTest {
         set("material.metallic", 1.0f);
         set("material.perceptualRoughness", 0.75f);
     }
-    void TearDown() override {
-        session->views.set({});
-        window->actions().energy->trigger();
-        EXPECT_FALSE(dock->isVisible());
+
+    static DocumentController& controller() { return session->controller; }
+    static const Document& document() { return session->controller.document(); }
+    static int undoCount() { return session->controller.undoStack().count(); }
+    static const Material& selectedMaterial() {
+        return *document().material(session->selection.material());
     }
 
     void set(const char* id, const ParameterValue& value) {
@@ -77,9 +87,12 @@ class EnergyTest : public EditorTest {
         return texts;
     }
 
-    QDockWidget* dock = nullptr;
-    EnergyPanel* panel = nullptr;
+    static std::unique_ptr<Session> session;
+    static std::unique_ptr<EnergyPanel> panel;
 };
+
+std::unique_ptr<Session> EnergyTest::session;
+std::unique_ptr<EnergyPanel> EnergyTest::panel;
 
 // Eavg of GGX with correlated Smith is 0.6562 at roughness 0.75 (2 ∫ E mu dmu), its largest loss
 // 1 - E = 0.3731 at normal incidence.
@@ -102,7 +115,7 @@ TEST_F(EnergyTest, SaysWhatIsLostAndTheButtonBringsItBack) {
     EXPECT_EQ(bars->accessibleDescription().toStdString(),
               "Highlight 100.0 %, Body 0.0 %, Kept by colour 0.0 %, Lost 0.0 %");
     EXPECT_EQ(compensate()->text(), QStringLiteral("Turn Off Compensation"));
-    window->actions().undo->trigger();
+    controller().undoStack().undo();
     EXPECT_FALSE(document().model.multiScatter);
     ASSERT_TRUE(current());
     EXPECT_TRUE(ledger().startsWith(QStringLiteral("The specular lobe loses 34.4 %")));
@@ -236,14 +249,50 @@ TEST_F(EnergyTest, TheFurnaceIsOneClickAndNoEdit) {
     session->views.edit([](render::ViewSettings& s) { s.furnace = glm::vec3(1.0f); });
     EXPECT_TRUE(furnace->isChecked());
     EXPECT_EQ(find<NumberField>(*panel, QStringLiteral("Furnace intensity"))->value(), 1.0);
-    EXPECT_TRUE(window->actions().furnace->isChecked());
+}
+
+// ---- In the window ----
+
+class EnergyDockTest : public EditorTest {};
+
+TEST_F(EnergyDockTest, OpensBelowTheViewportWithRoomAndFollowsADraggedSlider) {
+    auto* dock = window->findChild<QDockWidget*>(QStringLiteral("energy"));
+    ASSERT_NE(dock, nullptr);
+    EXPECT_FALSE(dock->isVisible());
     QApplication::setActiveWindow(window.get()); // there is no window manager
     window->viewport().setFocus();
-    QTest::keyClick(&window->viewport(), Qt::Key_F, Qt::ShiftModifier);
-    EXPECT_FALSE(session->views.settings().furnace);
-    EXPECT_FALSE(furnace->isChecked());
+    QTest::keyClick(&window->viewport(), Qt::Key_4, Qt::ControlModifier);
+    ASSERT_TRUE(dock->isVisible());
+    EXPECT_EQ(window->dockWidgetArea(dock), Qt::BottomDockWidgetArea);
+    EXPECT_TRUE(eventually([&] { return dock->height() > 200; })) << dock->height();
+
+    auto* panel = window->findChild<EnergyPanel*>();
+    session->selection.selectMaterial(controller().addMaterial());
+    auto* field = find<NumberField>(*window, QStringLiteral("Roughness"));
+    ASSERT_NE(field, nullptr);
+    ASSERT_TRUE(eventually([&] { return panel->study().has_value(); }));
+    const QPoint centre = field->rect().center();
+    QTest::mousePress(field, Qt::LeftButton, {}, centre);
+    for (int x = 10; x <= 90; x += 20)
+        QTest::mouseMove(field, centre + QPoint(x, 0));
+    QTest::mouseRelease(field, Qt::LeftButton, {}, centre + QPoint(90, 0));
+    EXPECT_GT(selectedMaterial().perceptualRoughness, 0.55f);
+    EXPECT_TRUE(eventually([&] {
+        return panel->study()->surface.mean.perceptualRoughness ==
+               selectedMaterial().perceptualRoughness;
+    }));
+
+    // The furnace by its key: looking is no edit.
+    const int before = undoCount();
     QTest::keyClick(&window->viewport(), Qt::Key_F, Qt::ShiftModifier);
     EXPECT_EQ(session->views.settings().furnace, glm::vec3(1.0f));
+    EXPECT_TRUE(find<QToolButton>(*panel, QStringLiteral("Furnace"))->isChecked());
+    QTest::keyClick(&window->viewport(), Qt::Key_F, Qt::ShiftModifier);
+    EXPECT_FALSE(session->views.settings().furnace);
+    EXPECT_FALSE(window->actions().furnace->isChecked());
+    EXPECT_EQ(undoCount(), before);
+    QTest::keyClick(&window->viewport(), Qt::Key_4, Qt::ControlModifier);
+    EXPECT_FALSE(dock->isVisible());
 }
 
 // ---- The layout that reflows ----
