@@ -175,19 +175,21 @@ void main() {
 #else
     vec3 arriving = irradianceAt(n);
 #endif
+    float unoccluded = ao;
 #ifdef VIEWS
     if (u_furnace.w > 0.0) {
         arriving = kPi * u_furnace.rgb;
         prefiltered = u_furnace.rgb;
+        unoccluded = 1.0; // what hides the surroundings is as bright as they are
     }
 #endif
 #ifdef HAS_TRANSFER
     vec3 irradiance = arriving;
 #else
-    vec3 irradiance = ao * arriving;
+    vec3 irradiance = unoccluded * arriving;
 #endif
     ShadedLight ambient = shadeEnvironment(s, irradiance, prefiltered);
-    float open = specularOcclusion(s.NoV, ao, s.alpha);
+    float open = specularOcclusion(s.NoV, unoccluded, s.alpha);
     vec3 specularIbl = ambient.specular * open;
 
     // Analytic lights, one loop for each kind. Where LIGHT_ENDS is known it is unrolled.

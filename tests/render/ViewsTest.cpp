@@ -205,6 +205,28 @@ TEST_F(Views, AWhiteMetalVanishesInTheFurnace) {
             ASSERT_NEAR(pixel(picture, x, y).g, 0.5f, 0.5f * 0.006f) << x << ' ' << y;
 }
 
+// What hides the surroundings is as bright as they are: occlusion darkens nothing.
+TEST_F(Views, AWhiteBodyWithOcclusionVanishesInTheFurnace) {
+    Document document = makeScene(makeSphere());
+    document.materials[0].baseColor = glm::vec3(1.0f);
+    document.materials[0].metallic = 0.0f;
+    Image dark(2, 2, 3, PixelType::U8, ColorEncoding::Data);
+    std::fill(dark.u8().begin(), dark.u8().end(), std::uint8_t{40});
+    document.materials[0].occlusionMap.image = std::make_shared<const Image>(dark);
+    document.environment.image = makeEnvironment(8, [](auto) { return glm::vec3(0.5f); });
+    setIblOf(document);
+    FrameSettings settings = oneSample();
+    settings.view.furnace = glm::vec3(0.5f, 0.25f, 1.0f);
+    const Image picture = draw(document, 64, settings);
+    for (int y = 0; y < 64; y += 3)
+        for (int x = 0; x < 64; x += 3) {
+            ASSERT_NEAR(pixel(picture, x, y).g, 0.25f, 0.25f * 0.006f) << x << ' ' << y;
+            ASSERT_NEAR(pixel(picture, x, y).b, 1.0f, 0.006f) << x << ' ' << y;
+        }
+    settings.view = {};
+    EXPECT_LT(pixel(draw(document, 64, settings), 32, 32).g, 0.2f); // elsewhere it darkens
+}
+
 TEST_F(Views, RangesFollowThePictureOrAreLocked) {
     const Document document = lit();
     setIblOf(document);
