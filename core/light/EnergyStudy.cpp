@@ -11,6 +11,7 @@ namespace patina {
 namespace {
 
 constexpr double kMadeLight = 1.005;   // beyond what the quadratures themselves err
+constexpr double kAlike = 0.005;       // channels that need no telling apart
 constexpr double kDisagreement = 0.03; // more than exact Fresnel terms differ by
 
 // A scalar map's channel. "RGB" of a scalar is read as red by the shader.
@@ -50,14 +51,31 @@ EnergyPoint averageEnergy(const ShadingModel& model, const SurfacePoint& point) 
             averageReturned([&](float NoV) { return returnedFromLights(model, point, NoV); })};
 }
 
+// The channel farthest from 0; none when they are alike.
+struct Worst {
+    std::optional<int> channel;
+    double value = 0.0;
+};
+
+Worst worstChannel(const glm::dvec3& rgb) {
+    int worst = 0;
+    for (int c = 1; c < 3; ++c)
+        if (std::abs(rgb[c]) > std::abs(rgb[worst]))
+            worst = c;
+    double spread = 0.0;
+    for (int c = 0; c < 3; ++c)
+        spread = std::max(spread, std::abs(rgb[worst] - rgb[c]));
+    return {spread > kAlike ? std::optional(worst) : std::nullopt, rgb[worst]};
+}
+
 // The brightest numbers the maps hold, over the roughnesses they hold: what reflects most shows
 // what is made. `low` and `high` each bound a number, so that their corners bound the material.
 void findFaults(EnergyStudy& study, const JobContext& job) {
     constexpr std::array<float, 10> kViews{0.02f, 0.05f, 0.1f, 0.2f, 0.3f,
                                            0.45f, 0.6f,  0.8f, 0.9f, 1.0f};
     const SurfacePoint low = limited(study.surface.low), high = limited(study.surface.high);
-    EnergyFault most{EnergyFault::Kind::MakesLight, 0, kMadeLight, 1.0f, 0.0f};
-    EnergyFault gap{EnergyFault::Kind::LightsDiffer, 0, 0.0, 1.0f, 0.0f};
+    EnergyFault most{EnergyFault::Kind::MakesLight, {}, kMadeLight, 1.0f, 0.0f};
+    EnergyFault gap{EnergyFault::Kind::LightsDiffer, {}, 0.0, 1.0f, 0.0f};
     const int roughnesses = low.perceptualRoughness == high.perceptualRoughness ? 1 : 5;
     const int metallics = low.metallic == high.metallic ? 1 : 2;
     for (int r = 0; r < roughnesses && !job.cancelled(); ++r)
@@ -72,23 +90,22 @@ void findFaults(EnergyStudy& study, const JobContext& job) {
                 const glm::dvec3 lights = returnedFromLights(study.model, point, NoV).total();
                 const glm::dvec3 difference =
                     lights - returnedFromSurroundings(study.model, point, NoV).total();
-                for (int c = 0; c < 3; ++c) {
-                    if (lights[c] > most.value)
-                        most = {most.kind, c, lights[c], NoV, point.perceptualRoughness};
-                    if (std::abs(difference[c]) > std::abs(gap.value))
-                        gap = {gap.kind, c, difference[c], NoV, point.perceptualRoughness};
-                }
+                const Worst made = worstChannel(lights);
+                if (made.value > most.value)
+                    most = {most.kind, made.channel, made.value, NoV, point.perceptualRoughness};
+                const Worst apart = worstChannel(difference);
+                if (std::abs(apart.value) > std::abs(gap.value))
+                    gap = {gap.kind, apart.channel, apart.value, NoV, point.perceptualRoughness};
             }
     if (most.value > kMadeLight)
         study.faults.push_back(most);
     else if (std::abs(gap.value) > kDisagreement) // light that is made differs, too
         study.faults.push_back(gap);
 
-    const glm::vec3& brightest = study.surface.high.baseColor;
-    const int c = brightest.x >= brightest.y ? (brightest.x >= brightest.z ? 0 : 2)
-                                             : (brightest.y >= brightest.z ? 1 : 2);
-    if (brightest[c] > 1.0f)
-        study.faults.push_back({EnergyFault::Kind::ColorAboveOne, c, brightest[c], 1.0f, 0.0f});
+    const Worst brightest = worstChannel(glm::dvec3(study.surface.high.baseColor));
+    if (brightest.value > 1.0)
+        study.faults.push_back(
+            {EnergyFault::Kind::ColorAboveOne, brightest.channel, brightest.value, 1.0f, 0.0f});
 }
 
 } // namespace

@@ -37,7 +37,7 @@ struct EnergyFault {
         ColorAboveOne // texels of the base colour; value: the brightest
     };
     Kind kind = Kind::MakesLight;
-    int channel = 0; // 0…2
+    std::optional<int> channel; // 0…2, the worst; nothing: all alike
     double value = 0.0;
     float NoV = 1.0f, perceptualRoughness = 0.0f; // not of ColorAboveOne
 };

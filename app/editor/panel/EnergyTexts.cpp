@@ -47,8 +47,11 @@ QString place(const EnergyStudy& study, EnergyChannel channel) {
     return text;
 }
 
-QString channelName(int channel) {
-    return channel == 0 ? tr("red") : channel == 1 ? tr("green") : tr("blue");
+// " in red"; nothing when all channels are alike.
+QString inWhich(std::optional<int> channel) {
+    if (!channel)
+        return {};
+    return *channel == 0 ? tr(" in red") : *channel == 1 ? tr(" in green") : tr(" in blue");
 }
 
 bool madeByBlinnPhong(const ShadingModel& model) {
@@ -124,10 +127,10 @@ EnergyFix fixOf(const EnergyFault& fault, const ShadingModel& model) {
 QString faultText(const EnergyFault& fault, const ShadingModel& model) {
     const QString where =
         tr("at %1 and roughness %2").arg(angle(fault.NoV), number(fault.perceptualRoughness));
-    const QString channel = channelName(fault.channel);
+    const QString channel = inWhich(fault.channel);
     switch (fault.kind) {
     case EnergyFault::Kind::MakesLight: {
-        const QString made = tr("Makes light: %1 of what lights send comes back in %2, %3.")
+        const QString made = tr("Makes light: %1 of what lights send comes back%2, %3.")
                                  .arg(percent(fault.value), channel, where);
         if (madeByBlinnPhong(model))
             return made + QLatin1Char(' ') +
@@ -140,8 +143,8 @@ QString faultText(const EnergyFault& fault, const ShadingModel& model) {
     }
     case EnergyFault::Kind::LightsDiffer: {
         const QString differ =
-            (fault.value < 0.0 ? tr("Lights return %1 less than surroundings do in %2, %3.")
-                               : tr("Lights return %1 more than surroundings do in %2, %3."))
+            (fault.value < 0.0 ? tr("Lights return %1 less than surroundings do%2, %3.")
+                               : tr("Lights return %1 more than surroundings do%2, %3."))
                 .arg(percent(std::abs(fault.value)), channel, where);
         if (model.visibility == Visibility::SchlickDirect)
             return differ + QLatin1Char(' ') +
@@ -149,7 +152,7 @@ QString faultText(const EnergyFault& fault, const ShadingModel& model) {
         return differ;
     }
     default:
-        return tr("The base colour reaches %1 in %2, more than all light. It is cut at 1.")
+        return tr("The base colour reaches %1%2, more than all light. It is cut at 1.")
             .arg(number(fault.value), channel);
     }
 }

@@ -27,11 +27,8 @@ FurnaceControls::FurnaceControls(ViewState& views, QWidget* parent)
                          tr("Show in colours how much of the light each pixel returns; more than "
                             "all of it is marked"));
     connect(m_furnace, &QToolButton::clicked, this, &FurnaceControls::setFurnace);
-    connect(m_energy, &QToolButton::clicked, this, [this](bool on) {
-        m_views.edit([on](render::ViewSettings& s) {
-            s.shown.kind = on ? shading::kViewFurnace : shading::kViewFinal;
-        });
-    });
+    connect(m_energy, &QToolButton::clicked, this,
+            [this](bool on) { m_views.show(on ? shading::kViewFurnace : shading::kViewFinal); });
     m_colorButton->setAccessibleName(tr("Furnace colour"));
     m_colorButton->setFixedWidth(tokens::kFieldWidth - 2);
     m_colorButton->setToolTip(tr("Colour of the furnace"));
@@ -91,7 +88,7 @@ void FurnaceControls::refresh() {
         m_color = *s.furnace / brightest;
     }
     m_furnace->setChecked(s.furnace.has_value());
-    m_energy->setChecked(s.shown.kind == shading::kViewFurnace);
+    m_energy->setChecked(m_views.shown() == shading::kViewFurnace);
     m_colorButton->setColor(m_color);
     m_intensityField->setValue(m_intensity);
 }

@@ -100,7 +100,7 @@ void EnergyMap::paintEvent(QPaintEvent*) {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setRenderHint(QPainter::SmoothPixmapTransform);
-    paintPlotWell(painter, rect(), tr("By roughness and angle"));
+    paintPlotWell(painter, rect(), tr("Roughness × angle"));
     const QRectF plot = area();
     painter.setFont(plotFont(font()));
     if (m_image.isNull())

@@ -81,6 +81,9 @@ TEST(EnergyStudy, BlinnPhongWithSmithMakesLight) {
     EXPECT_EQ(fault->perceptualRoughness, 0.9f);
     EXPECT_NEAR(fault->value, returnedFromLights(model, copper.high, fault->NoV).total().x, 1e-9);
     EXPECT_TRUE(study(withCompensation(model, true), copper).faults.empty());
+    const EnergyStudy white = study(model, uniform({glm::vec3(1.0f), 1.0f, 0.9f, 0.0f}));
+    ASSERT_EQ(white.faults.size(), 1u);
+    EXPECT_FALSE(white.faults.front().channel); // all alike
     // Smooth facets hide none: nothing is made below roughness 0.5.
     EXPECT_TRUE(study(model, uniform({glm::vec3(1.0f), 1.0f, 0.3f, 0.0f})).faults.empty());
 }
