@@ -22,38 +22,49 @@ namespace {
 
 using testing::HasSubstr;
 
-struct LightLabTest : EditorTest {
+// A session with its panel and nothing that draws the scene.
+struct LightLabTest : testing::Test {
+    static void SetUpTestSuite() {
+        s_cache = std::make_unique<QTemporaryDir>();
+        s_session = std::make_unique<Session>();
+        s_ibl = std::make_unique<IblUpdater>(s_cache->path().toStdString());
+        QObject::connect(&controller(), &DocumentController::changed, s_ibl.get(),
+                         [] { s_ibl->request(document().environment.image); });
+        s_panel = std::make_unique<LightLabPanel>(controller(), *s_ibl, s_session->probe);
+    }
+    static void TearDownTestSuite() {
+        s_panel.reset();
+        s_ibl.reset();
+        s_session.reset();
+        s_cache.reset();
+    }
     void SetUp() override {
-        EditorTest::SetUp();
-        window->resize(1440, 900);
-        window->resetLayout();
-        session->probe.setPin(std::nullopt);
-        find<QToolButton>(panel(), QStringLiteral("Show All"))->click();
-        Q_EMIT panel().picture({LabKind::Environment, 0})->chosen();
-        QApplication::processEvents();
+        s_session->probe.setPin(std::nullopt);
+        controller().newDocument();
+        ASSERT_TRUE(settled(*s_session));
+        panel().resize(780, 280);
+        panel().show();
+        panel().activateWindow();
+        ASSERT_TRUE(QTest::qWaitForWindowActive(&panel(), 60'000));
+        showSection("All");
+        choose({LabKind::Environment, 0});
     }
-    static LightLabPanel& panel() { return *window->findChild<LightLabPanel*>(); }
-    static QDockWidget& dock() {
-        return *window->findChild<QDockWidget*>(QStringLiteral("lightLab"));
-    }
+    void TearDown() override { panel().hide(); }
+
+    static DocumentController& controller() { return s_session->controller; }
+    static const Document& document() { return controller().document(); }
+    static int undoCount() { return controller().undoStack().count(); }
+    static PixelProbe& probe() { return s_session->probe; }
+    static LightLabPanel& panel() { return *s_panel; }
     static bool drawn() {
         return eventually([] {
-            return panel().idle() && panel().light().analysis && panel().light().maps &&
-                   panel().light().maps->prefiltered.size() == 7 && panel().dfg() &&
-                   !panel().stage()->picture().isNull();
+            return panel().idle() && panel().light().analysis &&
+                   panel().light().analysis->environment == document().environment.image &&
+                   panel().light().maps &&
+                   panel().light().maps->prefiltered.size() ==
+                       static_cast<std::size_t>(kLabLevels) &&
+                   panel().dfg() && !panel().stage()->picture().isNull();
         });
-    }
-    static void pressKeys() {
-        // Shortcuts belong to the active window; without a window manager nobody else activates it.
-        window->activateWindow();
-        ASSERT_TRUE(QTest::qWaitForWindowActive(window.get(), 60'000));
-        QTest::keyClick(window.get(), Qt::Key_2, Qt::ControlModifier);
-    }
-    static void open() {
-        if (!panel().isVisible())
-            pressKeys();
-        ASSERT_TRUE(eventually([] { return panel().isVisible(); }));
-        ASSERT_TRUE(drawn());
     }
     static void showSection(const char* name) {
         QTest::mouseClick(find<QToolButton>(panel(), QStringLiteral("Show %1").arg(name)),
@@ -95,42 +106,19 @@ struct LightLabTest : EditorTest {
         put(shading::kViewPrefilteredLevel, glm::vec4(2.1f));
         return inspection;
     }
+
+    static std::unique_ptr<QTemporaryDir> s_cache;
+    static std::unique_ptr<Session> s_session;
+    static std::unique_ptr<IblUpdater> s_ibl;
+    static std::unique_ptr<LightLabPanel> s_panel;
 };
 
-TEST_F(LightLabTest, OpensByItsKeysAtAUsefulHeight) {
-    ASSERT_FALSE(panel().isVisible());
-    EXPECT_EQ(panel().light().analysis, nullptr) << "nothing is computed for nobody";
-    EXPECT_FALSE(session->probe.wanted());
-    open();
-    EXPECT_TRUE(window->actions().lightLab->isChecked());
-    EXPECT_TRUE(session->probe.wanted());
-    EXPECT_GE(dock().height(), 240);
-    EXPECT_GE(window->viewport().height(), 300) << "the viewport stays usable";
-    keep(QStringLiteral("light-lab.png"), *window);
-
-    // Behind another tab the keys bring it to the front; in front they close it.
-    auto* log = window->findChild<QDockWidget*>(QStringLiteral("log"));
-    log->show();
-    QApplication::processEvents(); // it becomes a tab
-    log->raise();
-    ASSERT_TRUE(eventually([] { return !window->actions().lightLab->isChecked(); }));
-    EXPECT_FALSE(session->probe.wanted());
-    const float before = panel().light().rotationDeg;
-    set("environment.rotationDeg", 50.0f);
-    EXPECT_EQ(panel().light().rotationDeg, before) << "nobody sees it";
-    controller().undoStack().undo();
-    controller().undoStack().clear();
-    pressKeys();
-    ASSERT_TRUE(eventually([] { return window->actions().lightLab->isChecked(); }));
-    EXPECT_TRUE(session->probe.wanted());
-    pressKeys();
-    EXPECT_FALSE(panel().isVisible());
-    EXPECT_FALSE(window->actions().lightLab->isChecked());
-    EXPECT_EQ(undoCount(), 0);
-}
+std::unique_ptr<QTemporaryDir> LightLabTest::s_cache;
+std::unique_ptr<Session> LightLabTest::s_session;
+std::unique_ptr<IblUpdater> LightLabTest::s_ibl;
+std::unique_ptr<LightLabPanel> LightLabTest::s_panel;
 
 TEST_F(LightLabTest, ClickingEnlargesAndArrowKeysGoOn) {
-    open();
     EXPECT_EQ(panel().stage()->view(), (LabView{LabKind::Environment, 0}));
     choose({LabKind::Harmonics, 3});
     EXPECT_EQ(panel().stage()->view(), (LabView{LabKind::Harmonics, 3}));
@@ -153,7 +141,6 @@ TEST_F(LightLabTest, ClickingEnlargesAndArrowKeysGoOn) {
 
 TEST_F(LightLabTest, ThePointerReadsDirectionAndLight) {
     set("environment.rotationDeg", 30.0f);
-    open();
     choose({LabKind::Prefiltered, 3});
     LabPicture& stage = *panel().stage();
     const glm::vec3 d = glm::vec3(directionFromAngles(-60.0, 25.0));
@@ -181,7 +168,6 @@ TEST_F(LightLabTest, ThePointerReadsDirectionAndLight) {
 }
 
 TEST_F(LightLabTest, FollowsWhileTheSurroundingsAreDragged) {
-    open();
     LabPicture& picture = *panel().picture({LabKind::Environment, 0});
     QImage last = picture.picture();
     const QString error = panel().picture({LabKind::Harmonics, 8})->detail();
@@ -205,7 +191,6 @@ TEST_F(LightLabTest, FollowsWhileTheSurroundingsAreDragged) {
 }
 
 TEST_F(LightLabTest, FollowsTheSunOfASky) {
-    open();
     controller().setEnvironmentKind(EnvironmentKind::Sky);
     ASSERT_TRUE(drawn());
     const LabAnalysisPtr noon = panel().light().analysis;
@@ -226,7 +211,6 @@ TEST_F(LightLabTest, FollowsTheSunOfASky) {
 }
 
 TEST_F(LightLabTest, ExposureIsOfThePicturesOnly) {
-    open();
     LabPicture& picture = *panel().picture({LabKind::Irradiance, 0});
     panel().findChild<QScrollArea*>()->ensureWidgetVisible(&picture);
     ASSERT_TRUE(drawn());
@@ -253,9 +237,8 @@ TEST_F(LightLabTest, ExposureIsOfThePicturesOnly) {
 }
 
 TEST_F(LightLabTest, ThePickedPixelIsMarkedWhereItsLightComesFrom) {
-    open();
     choose({LabKind::Dfg, 1});
-    session->probe.setPin(pixel(0.62f, 0.35f));
+    probe().setPin(pixel(0.62f, 0.35f));
     LabPicture& stage = *panel().stage();
     ASSERT_TRUE(stage.picked().has_value());
     EXPECT_FLOAT_EQ(stage.picked()->NoV, 0.62f);
@@ -284,14 +267,13 @@ TEST_F(LightLabTest, ThePickedPixelIsMarkedWhereItsLightComesFrom) {
     EXPECT_EQ(stage.pickedLabel(), QStringLiteral("picked: level 2.10"));
 
     // A new pixel moves it, the background takes it away.
-    session->probe.setPin(pixel(0.1f, 0.9f));
+    probe().setPin(pixel(0.1f, 0.9f));
     EXPECT_FLOAT_EQ(panel().picture({LabKind::Dfg, 0})->picked()->NoV, 0.1f);
-    session->probe.setPin(render::Inspection{});
+    probe().setPin(render::Inspection{});
     EXPECT_FALSE(panel().picture({LabKind::Dfg, 0})->picked());
 }
 
 TEST_F(LightLabTest, TheTableIsTheModels) {
-    open();
     showSection("DFG");
     const QImage before = panel().picture({LabKind::Dfg, 0})->picture();
     const glm::vec3 ggx = panel().dfg()->value(0.3f, 0.8f);
@@ -306,7 +288,7 @@ TEST_F(LightLabTest, TheTableIsTheModels) {
 }
 
 TEST_F(LightLabTest, APictureOfOnePixel) {
-    open();
+    const QTemporaryDir folder;
     const QString path = folder.filePath(QStringLiteral("one.hdr"));
     QFile file(path);
     ASSERT_TRUE(file.open(QIODevice::WriteOnly));
@@ -314,12 +296,60 @@ TEST_F(LightLabTest, APictureOfOnePixel) {
     file.close();
     const LabAnalysisPtr before = panel().light().analysis;
     controller().setEnvironment(path);
-    ASSERT_TRUE(settled(*session));
-    ASSERT_TRUE(eventually([&] { return panel().idle() && panel().light().analysis != before; }));
+    ASSERT_TRUE(settled(*s_session));
+    ASSERT_TRUE(eventually([&] { return panel().light().analysis != before; }));
     ASSERT_TRUE(drawn());
     for (const LabView view : {LabView{LabKind::Harmonics, 8}, LabView{LabKind::Prefiltered, 3}})
         EXPECT_NEAR(panel().light().value(view, {0, 1, 0})->x, 0.5f, 1e-5f);
     EXPECT_EQ(panel().picture({LabKind::Harmonics, 8})->warning(), QString());
+}
+
+struct LightLabWindowTest : EditorTest {
+    static LightLabPanel& panel() { return *window->findChild<LightLabPanel*>(); }
+    static void pressKeys() {
+        // Shortcuts belong to the active window; without a window manager nobody else activates it.
+        window->activateWindow();
+        ASSERT_TRUE(QTest::qWaitForWindowActive(window.get(), 60'000));
+        QTest::keyClick(window.get(), Qt::Key_2, Qt::ControlModifier);
+    }
+};
+
+TEST_F(LightLabWindowTest, OpensByItsKeysAtAUsefulHeight) {
+    window->resize(1440, 900);
+    window->resetLayout();
+    ASSERT_FALSE(panel().isVisible());
+    EXPECT_EQ(panel().light().analysis, nullptr) << "nothing is computed for nobody";
+    EXPECT_FALSE(session->probe.wanted());
+    pressKeys();
+    ASSERT_TRUE(eventually([] { return panel().isVisible(); }));
+    EXPECT_TRUE(window->actions().lightLab->isChecked());
+    EXPECT_TRUE(session->probe.wanted());
+    auto* dock = window->findChild<QDockWidget*>(QStringLiteral("lightLab"));
+    ASSERT_TRUE(eventually([&] { return dock->height() >= 240; }));
+    EXPECT_GE(window->viewport().height(), 300) << "the viewport stays usable";
+    ASSERT_TRUE(eventually([] { return panel().idle() && panel().light().maps; }));
+    EXPECT_EQ(panel().light().maps, window->viewport().ibl().maps()) << "the viewport's own";
+
+    // Behind another tab the keys bring it to the front; in front they close it.
+    auto* log = window->findChild<QDockWidget*>(QStringLiteral("log"));
+    log->show();
+    QApplication::processEvents(); // it becomes a tab
+    log->raise();
+    ASSERT_TRUE(eventually([] { return !window->actions().lightLab->isChecked(); }));
+    EXPECT_FALSE(session->probe.wanted());
+    const float before = panel().light().rotationDeg;
+    controller().setParameter(*findParameter("environment.rotationDeg"), {Scope::Environment, 0},
+                              50.0f);
+    EXPECT_EQ(panel().light().rotationDeg, before) << "nobody sees it";
+    controller().undoStack().undo();
+    controller().undoStack().clear();
+    pressKeys();
+    ASSERT_TRUE(eventually([] { return window->actions().lightLab->isChecked(); }));
+    EXPECT_TRUE(session->probe.wanted());
+    pressKeys();
+    EXPECT_FALSE(panel().isVisible());
+    EXPECT_FALSE(window->actions().lightLab->isChecked());
+    EXPECT_EQ(undoCount(), 0);
 }
 
 TEST(LightLabWithoutADocument, SaysThatThereIsNoEnvironment) {
@@ -343,14 +373,9 @@ TEST(LightLabWithoutADocument, SaysThatThereIsNoEnvironment) {
 
 // As a low, wide dock and as a high, narrow one.
 TEST_F(LightLabTest, ReflowsWithItsShape) {
-    open();
-    dock().setFloating(true);
     for (const QSize size : {QSize(800, 260), QSize(356, 600), QSize(1200, 800), QSize(320, 220)}) {
-        dock().resize(size);
-        ASSERT_TRUE(eventually([&] {
-            return std::abs(panel().width() - size.width()) < 40 &&
-                   std::abs(panel().height() - size.height()) < 60;
-        }));
+        panel().resize(size);
+        QTest::qWait(50);
         ASSERT_TRUE(drawn());
         const auto* scroll = panel().findChild<QScrollArea*>();
         const int available = scroll->viewport()->width();
@@ -370,7 +395,6 @@ TEST_F(LightLabTest, ReflowsWithItsShape) {
         EXPECT_GE(scroll->height(), 60) << size.width();
         keep(QStringLiteral("light-lab-%1.png").arg(size.width()), panel());
     }
-    dock().setFloating(false);
 }
 
 } // namespace

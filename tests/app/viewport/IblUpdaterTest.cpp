@@ -47,6 +47,8 @@ TEST(IblUpdater, AnswersSoonThenInFull) {
     const EnvironmentTexelsPtr quick = updater.take();
     ASSERT_NE(quick, nullptr);
     EXPECT_EQ(updater.take(), nullptr) << "it is taken";
+    ASSERT_NE(updater.maps(), nullptr) << "these stay";
+    EXPECT_EQ(updater.maps()->prefiltered.front().size, quick->side);
     EXPECT_EQ(quick->side, IblSettings::quick().cubeSize);
     EXPECT_EQ(quick->image, image);
     EXPECT_EQ(quick->background->front().width, 256);
@@ -55,6 +57,8 @@ TEST(IblUpdater, AnswersSoonThenInFull) {
     const EnvironmentTexelsPtr full = takeFull(updater, ready);
     EXPECT_EQ(ready.count(), 2);
     EXPECT_EQ(full->image, image);
+    EXPECT_EQ(updater.maps()->prefiltered.front().size, full->side);
+    EXPECT_NEAR(updater.maps()->prefiltered.back().texels[0].x, 2.0f, 1e-4f);
     EXPECT_EQ(full->background, quick->background) << "made once";
     EXPECT_NEAR(brightness(*full), 2.0f, 1e-4f);
 }
