@@ -19,7 +19,7 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr int kSumHeight = 64; // eight bands have nothing finer
 constexpr int kReducedWidths[] = {1024, 512, 256};
-constexpr int kToneSteps = 1 << 16;
+constexpr int kToneSteps = 4096; // over the square root of light: even to the eye
 // Light below zero is none: shown in a colour that no light around has.
 const glm::vec3 kNegative(1.0f, 0.0f, 0.75f);
 
@@ -151,9 +151,9 @@ LabTone::LabTone(const View& view, const Luminance& luminance, float offsetEv)
         m_view.toneMap = View().toneMap;
     m_scale = exposureScale(m_view, luminance) * std::exp2(offsetEv);
     for (int i = 0; i < kToneSteps; ++i) {
-        const float value = static_cast<float>(i) / (kToneSteps - 1);
+        const float root = static_cast<float>(i) / (kToneSteps - 1);
         const float shown =
-            shading::displayEncode(glm::vec3(value), static_cast<int>(m_view.displayTransfer),
+            shading::displayEncode(glm::vec3(root * root), static_cast<int>(m_view.displayTransfer),
                                    m_view.displayGamma)
                 .x;
         m_encoded[static_cast<std::size_t>(i)] =
@@ -167,66 +167,144 @@ QRgb LabTone::pixel(const glm::vec3& radiance) const {
     c = glm::max(c, 0.0f) + below * kNegative;
     const glm::vec3 shown = shading::toneMap(c, toneCurve(m_view, m_luminance));
     const auto encoded = [&](float value) {
-        return m_encoded[static_cast<std::size_t>(std::clamp(value, 0.0f, 1.0f) * (kToneSteps - 1) +
-                                                  0.5f)];
+        return m_encoded[static_cast<std::size_t>(
+            std::sqrt(std::clamp(value, 0.0f, 1.0f)) * (kToneSteps - 1) + 0.5f)];
     };
     return qRgb(encoded(shown.x), encoded(shown.y), encoded(shown.z));
 }
+
+namespace {
+
+// Lights a picture row by row; x and y are its pixels. Directions are those of the environment.
+using PixelRadiance = std::function<glm::vec3(int x, int y, const glm::vec3& direction)>;
+
+// From one lat-long to another that is turned: straight from pixel to pixel, without angles.
+PixelRadiance latLongRadiance(const ImagePtr& image, const QSize& size, float rotationDeg) {
+    struct Tap {
+        int first, second;
+        float share;
+    };
+    const auto tap = [](float at, int count, bool wraps) {
+        const float texel = at * static_cast<float>(count) - 0.5f;
+        const auto first = static_cast<int>(std::floor(texel));
+        const float share = texel - static_cast<float>(first);
+        const auto index = [&](int i) {
+            return wraps ? (i % count + count) % count : std::clamp(i, 0, count - 1);
+        };
+        return Tap{index(first), index(first + 1), share};
+    };
+    std::vector<Tap> columns, rows;
+    for (int x = 0; x < size.width(); ++x)
+        columns.push_back(tap((static_cast<float>(x) + 0.5f) / static_cast<float>(size.width()) +
+                                  rotationDeg / 360.0f,
+                              image->width(), true));
+    for (int y = 0; y < size.height(); ++y)
+        rows.push_back(tap((static_cast<float>(y) + 0.5f) / static_cast<float>(size.height()),
+                           image->height(), false));
+    return [image, columns, rows](int x, int y, const glm::vec3&) {
+        const Tap &c = columns[static_cast<std::size_t>(x)], &r = rows[static_cast<std::size_t>(y)];
+        const auto at = [&](int column, int row) {
+            const float* texel =
+                image->f32().data() +
+                static_cast<std::ptrdiff_t>(row * image->width() + column) * image->channels();
+            return glm::vec3(texel[0], texel[1], texel[2]);
+        };
+        return glm::mix(glm::mix(at(c.first, r.first), at(c.second, r.first), c.share),
+                        glm::mix(at(c.first, r.second), at(c.second, r.second), c.share), r.share);
+    };
+}
+
+// Many texels become one pixel: something of about the picture's size stands in for them.
+PixelRadiance pixelRadiance(const LabLight& light, LabView view, const QSize& size) {
+    if (view.kind == LabKind::Harmonics)
+        return latLongRadiance(light.analysis->sums[static_cast<std::size_t>(view.index - 1)], size,
+                               light.rotationDeg);
+    if (view.kind == LabKind::Environment) {
+        ImagePtr image = light.analysis->environment;
+        for (const ImagePtr& reduced : light.analysis->reduced)
+            if (reduced->width() >= size.width())
+                image = reduced;
+        return latLongRadiance(image, size, light.rotationDeg);
+    }
+    if (view.kind == LabKind::Irradiance)
+        return [maps = light.maps](int, int, const glm::vec3& d) {
+            return shading::irradianceFromSh9(maps->irradianceSh.data(), d) / kPi;
+        };
+    // Irradiance over pi is the last level as it is.
+    const std::size_t count = light.maps->prefiltered.size();
+    const LevelPair levels = view.kind == LabKind::IrradianceExact
+                                 ? LevelPair{count - 1, count - 1, 0.0f}
+                                 : levelsOf(view, count);
+    return [share = levels.share,
+            first = fittingLevel(light.maps->prefiltered[levels.first], size.width()),
+            second = fittingLevel(light.maps->prefiltered[levels.second], size.width())](
+               int, int, const glm::vec3& d) { return samplePair(first, second, share, d); };
+}
+
+// Unit vectors to the pixels of a lat-long that is turned.
+class LatLongDirections {
+  public:
+    LatLongDirections(const QSize& size, float rotationDeg) {
+        for (int x = 0; x < size.width(); ++x) {
+            const float phi =
+                2.0f * kPi *
+                    ((static_cast<float>(x) + 0.5f) / static_cast<float>(size.width()) - 0.5f) +
+                glm::radians(rotationDeg);
+            m_columns.emplace_back(std::sin(phi), std::cos(phi));
+        }
+        for (int y = 0; y < size.height(); ++y) {
+            const float theta =
+                kPi * (static_cast<float>(y) + 0.5f) / static_cast<float>(size.height());
+            m_rows.emplace_back(std::sin(theta), std::cos(theta));
+        }
+    }
+    [[nodiscard]] glm::vec3 at(int x, int y) const {
+        const glm::vec2 &c = m_columns[static_cast<std::size_t>(x)],
+                        &r = m_rows[static_cast<std::size_t>(y)];
+        return {r.x * c.x, r.y, -r.x * c.y};
+    }
+
+  private:
+    std::vector<glm::vec2> m_columns, m_rows; // sine and cosine
+};
+
+} // namespace
 
 QImage labPicture(const LabLight& light, LabView view, const QSize& size, const LabTone& tone,
                   const JobContext& job) {
     if (view.isTable() || size.isEmpty() || !light.value(view, {0.0f, 1.0f, 0.0f}))
         return {};
-    // Many texels become one pixel: something of about the picture's size stands in for them.
-    const float angle = glm::radians(light.rotationDeg);
-    std::function<glm::vec3(const glm::vec3&)> radiance;
-    if (view.kind == LabKind::Environment || view.kind == LabKind::Harmonics) {
-        ImagePtr image = light.analysis->environment;
-        if (view.kind == LabKind::Harmonics)
-            image = light.analysis->sums[static_cast<std::size_t>(view.index - 1)];
-        else
-            for (const ImagePtr& reduced : light.analysis->reduced)
-                if (reduced->width() >= size.width())
-                    image = reduced;
-        radiance = [image, angle, scale = light.scale,
-                    from = mapping(EnvironmentLayout::LatLong, image->width(), image->height())](
-                       const glm::vec3& d) {
-            return scale * from.lookup(*image, shading::rotateY(d, -angle));
-        };
-    } else if (view.isIrradiance()) {
-        radiance = [&light, view](const glm::vec3& d) {
-            return light.value(view, d).value() / kPi;
-        };
-    } else {
-        const LevelPair levels = levelsOf(view, light.maps->prefiltered.size());
-        radiance = [levels, angle, scale = light.scale,
-                    first = fittingLevel(light.maps->prefiltered[levels.first], size.width()),
-                    second = fittingLevel(light.maps->prefiltered[levels.second], size.width())](
-                       const glm::vec3& d) {
-            return scale * samplePair(first, second, levels.share, shading::rotateY(d, -angle));
-        };
-    }
+    const PixelRadiance radiance = pixelRadiance(light, view, size);
+    const LatLongDirections directions(size, light.rotationDeg);
+    const float back = -glm::radians(light.rotationDeg);
+    std::optional<EnvironmentMapping> cross;
+    if (view.isCross())
+        cross = mapping(EnvironmentLayout::HorizontalCross, size.width(), size.height());
 
-    const EnvironmentMapping to =
-        mapping(view.isCross() ? EnvironmentLayout::HorizontalCross : EnvironmentLayout::LatLong,
-                size.width(), size.height());
     QImage picture(size, QImage::Format_ARGB32_Premultiplied);
     picture.fill(Qt::transparent);
     // Through the bits: scanLine() would detach on several threads.
     auto* pixels = reinterpret_cast<QRgb*>(picture.bits());
     const auto stride = static_cast<std::size_t>(picture.bytesPerLine()) / sizeof(QRgb);
-    parallelFor(
-        job, static_cast<std::size_t>(size.height()), 8, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t y = begin; y < end; ++y)
-                for (int x = 0; x < size.width(); ++x) {
-                    const auto ray =
-                        to.ray({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
-                    if (!ray)
-                        continue; // beside a cross
-                    pixels[y * stride + static_cast<std::size_t>(x)] =
-                        tone.pixel(radiance(ray->direction));
-                }
-        });
+    const auto paintRow = [&](int y) {
+        for (int x = 0; x < size.width(); ++x) {
+            glm::vec3 direction = directions.at(x, y);
+            if (cross) {
+                const auto ray =
+                    cross->ray({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
+                if (!ray)
+                    continue; // beside a face
+                direction = shading::rotateY(ray->direction, back);
+            }
+            pixels[static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x)] =
+                tone.pixel(light.scale * radiance(x, y, direction));
+        }
+    };
+    parallelFor(job, static_cast<std::size_t>(size.height()), 16,
+                [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t y = begin; y < end; ++y)
+                        paintRow(static_cast<int>(y));
+                });
     return job.cancelled() ? QImage() : picture;
 }
 

@@ -83,7 +83,7 @@ class LabTone {
     View m_view;
     Luminance m_luminance;
     float m_scale;
-    std::vector<unsigned char> m_encoded; // display-linear 0…1 in even steps
+    std::vector<unsigned char> m_encoded; // by the square root of display-linear light
 };
 
 // A picture of `view`, `size` device pixels; null while there is nothing to show or after a cancel.

@@ -27,7 +27,7 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kColumn = 108;        // narrowest thumbnail
+constexpr int kColumn = 100;        // narrowest thumbnail
 constexpr double kMaxOffsetEv = 8;  // of the exposure
 constexpr double kWideAspect = 1.4; // from here on the large picture is beside the sheet
 
