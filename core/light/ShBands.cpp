@@ -2,6 +2,7 @@
 
 #include "core/base/Check.h"
 #include "core/job/Parallel.h"
+#include "core/math/ShRotation.h"
 #include "core/math/Shading.h"
 
 #include <algorithm>

@@ -3,10 +3,10 @@
 #include "core/base/Check.h"
 #include "core/job/Parallel.h"
 #include "core/math/Quadrature.h"
+#include "core/math/ShRotation.h"
 
 #include <array>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
 namespace patina {
@@ -14,6 +14,16 @@ namespace patina {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+
+// To the last bit: Newton's method in the x87's 64 bits, rounded once.
+constexpr double squareRoot(double x) {
+    long double root = x > 1.0 ? x : 1.0;
+    for (long double next = root; true; root = next) {
+        next = (root + x / root) / 2;
+        if (next >= root)
+            return static_cast<double>(root);
+    }
+}
 
 // Factors of the normalised Legendre recurrences in l, so that evaluation takes no square roots:
 //   P(m, m)     = start[m]                       (times sin^m, which the azimuth factors carry)
@@ -23,39 +33,38 @@ struct Recurrence {
     std::array<double, kMaxShOrder> start{};
     std::array<std::array<double, kMaxShOrder>, kMaxShOrder> a{}, b{};
 
-    Recurrence() {
-        double normalisation = std::sqrt(1.0 / (4.0 * kPi));
+    constexpr Recurrence() {
+        double normalisation = squareRoot(1.0 / (4.0 * kPi));
         start[0] = normalisation;
         for (int m = 1; m < kMaxShOrder; ++m) {
-            normalisation *= -std::sqrt((2.0 * m + 1.0) / (2.0 * m));
+            normalisation *= -squareRoot((2.0 * m + 1.0) / (2.0 * m));
             start[m] = normalisation * std::numbers::sqrt2;
         }
         for (int m = 0; m < kMaxShOrder; ++m)
             for (int l = m + 1; l < kMaxShOrder; ++l) {
                 const double l2 = l * l, m2 = m * m;
-                a[l][m] = std::sqrt((4.0 * l2 - 1.0) / (l2 - m2));
+                a[l][m] = squareRoot((4.0 * l2 - 1.0) / (l2 - m2));
                 b[l][m] = l == m + 1 ? 0.0
-                                     : std::sqrt((2.0 * l + 1.0) * ((l - 1.0) * (l - 1.0) - m2) /
-                                                 ((2.0 * l - 3.0) * (l2 - m2)));
+                                     : squareRoot((2.0 * l + 1.0) * ((l - 1.0) * (l - 1.0) - m2) /
+                                                  ((2.0 * l - 3.0) * (l2 - m2)));
             }
     }
 };
 
-const Recurrence& recurrence() {
-    static const Recurrence factors;
-    return factors;
-}
+constexpr Recurrence kRecurrence;
 
 // Calls visit(l, m, P) for m >= 0 and l = m … order-1, where Y_l,±m = P (sin^m) {cos, sin}(m phi).
-template <class Real, class Visit>
-void forEachLegendre(int order, Real z, Visit&& visit) {
-    const Recurrence& f = recurrence();
+// Real is a number or a vector of them; Scalar its element.
+template <class Scalar, class Real, class Visit>
+[[gnu::always_inline]] inline void forEachLegendre(int order, const Real& z, Visit&& visit) {
+#pragma GCC unroll 8
     for (int m = 0; m < order; ++m) {
-        Real previous = 0, current = static_cast<Real>(f.start[m]);
+        Real previous{}, current = Real{} + static_cast<Scalar>(kRecurrence.start[m]);
         visit(m, m, current);
+#pragma GCC unroll 8
         for (int l = m + 1; l < order; ++l) {
-            const Real next = static_cast<Real>(f.a[l][m]) * z * current -
-                              static_cast<Real>(f.b[l][m]) * previous;
+            const Real next = static_cast<Scalar>(kRecurrence.a[l][m]) * z * current -
+                              static_cast<Scalar>(kRecurrence.b[l][m]) * previous;
             previous = current;
             current = next;
             visit(l, m, current);
@@ -63,21 +72,58 @@ void forEachLegendre(int order, Real z, Visit&& visit) {
     }
 }
 
-template <class Real>
-void evaluate(int order, Real x, Real y, Real z, std::span<Real> out) {
-    CHECK(order >= 1 && order <= kMaxShOrder);
-    CHECK_LE(static_cast<std::size_t>(shCount(order)), out.size());
+// Calls store(i, Y_i). With a constant order all loops unroll and all factors become constants.
+template <int order, class Scalar, class Real, class Store>
+[[gnu::always_inline]] inline void evaluate(const Real& x, const Real& y, const Real& z,
+                                            Store&& store) {
     // sin^m(theta) {cos, sin}(m phi) are the real and imaginary parts of (x + iy)^m.
-    std::array<Real, kMaxShOrder> re{}, im{};
-    re[0] = 1;
+    Real re[order], im[order];
+    re[0] = Real{} + Scalar{1};
+    im[0] = Real{};
+#pragma GCC unroll 8
     for (int m = 1; m < order; ++m) {
         re[m] = x * re[m - 1] - y * im[m - 1];
         im[m] = x * im[m - 1] + y * re[m - 1];
     }
-    forEachLegendre(order, z, [&](int l, int m, Real p) {
-        out[shIndex(l, m)] = p * re[m];
+    forEachLegendre<Scalar>(order, z, [&](int l, int m, const Real& p) {
+        store(shIndex(l, m), p * re[m]);
         if (m > 0)
-            out[shIndex(l, -m)] = p * im[m];
+            store(shIndex(l, -m), p * im[m]);
+    });
+}
+
+// body.operator()<order>(): the step from an order known when running to one known when compiling.
+template <class Body>
+void withOrder(int order, Body&& body) {
+    static_assert(kMaxShOrder == 8);
+    switch (order) {
+    case 1:
+        return body.template operator()<1>();
+    case 2:
+        return body.template operator()<2>();
+    case 3:
+        return body.template operator()<3>();
+    case 4:
+        return body.template operator()<4>();
+    case 5:
+        return body.template operator()<5>();
+    case 6:
+        return body.template operator()<6>();
+    case 7:
+        return body.template operator()<7>();
+    case 8:
+        return body.template operator()<8>();
+    default:
+        CHECK(order >= 1 && order <= kMaxShOrder);
+    }
+}
+
+template <class Real>
+void evaluateOne(int order, const glm::vec<3, Real>& d, std::span<Real> out) {
+    CHECK(order >= 1 && order <= kMaxShOrder);
+    CHECK_LE(static_cast<std::size_t>(shCount(order)), out.size());
+    withOrder(order, [&]<int constantOrder>() {
+        evaluate<constantOrder, Real>(d.x, d.y, d.z, [&](int i, Real value) { out[i] = value; });
     });
 }
 
@@ -145,12 +191,35 @@ SumRow chooseSumRow() {
 
 } // namespace
 
-void evaluateSh(int order, const glm::dvec3& d, std::span<double> out) {
-    evaluate<double>(order, d.x, d.y, d.z, out);
+void evaluateSh(int order, const glm::dvec3& direction, std::span<double> out) {
+    evaluateOne(order, direction, out);
 }
 
-void evaluateSh(int order, const glm::vec3& d, std::span<float> out) {
-    evaluate<float>(order, d.x, d.y, d.z, out);
+void evaluateSh(int order, const glm::vec3& direction, std::span<float> out) {
+    evaluateOne(order, direction, out);
+}
+
+void sumSh(int order, std::span<const glm::vec3> directions, std::span<float> sums) {
+    CHECK(order >= 1 && order <= kMaxShOrder);
+    CHECK_LE(static_cast<std::size_t>(shCount(order)), sums.size());
+    withOrder(order, [&]<int constantOrder>() {
+        typedef float Lanes __attribute__((vector_size(4 * sizeof(float)))); // NOLINT: GCC's
+        constexpr int kCount = shCount(constantOrder);
+        const glm::vec3* d = directions.data();
+        std::size_t left = directions.size();
+        Lanes total[kCount] = {};
+        for (; left >= 4; left -= 4, d += 4)
+            evaluate<constantOrder, float>(Lanes{d[0].x, d[1].x, d[2].x, d[3].x},
+                                           Lanes{d[0].y, d[1].y, d[2].y, d[3].y},
+                                           Lanes{d[0].z, d[1].z, d[2].z, d[3].z},
+                                           [&](int i, const Lanes& value) { total[i] += value; });
+        float rest[kCount] = {};
+        for (; left > 0; --left, ++d)
+            evaluate<constantOrder, float>(d->x, d->y, d->z,
+                                           [&](int i, float value) { rest[i] += value; });
+        for (int i = 0; i < kCount; ++i)
+            sums[i] += ((total[i][0] + total[i][1]) + (total[i][2] + total[i][3])) + rest[i];
+    });
 }
 
 double cosineConvolution(int l) {
@@ -238,7 +307,7 @@ std::vector<glm::vec3> projectLatLong(const Image& environment, int order, const
             sinPower[0] = 1.0;
             for (int m = 1; m < order; ++m)
                 sinPower[m] = sinPower[m - 1] * sinTheta;
-            forEachLegendre(order, z, [&](int l, int m, double p) {
+            forEachLegendre<double>(order, z, [&](int l, int m, double p) {
                 const double weight = p * sinPower[m] * azimuth[m] * extent * rule.weight01(node);
                 local[shIndex(l, m)] += rows[y].cosine[m] * weight;
                 if (m > 0)
@@ -261,74 +330,6 @@ std::vector<glm::vec3> projectLatLong(const Image& environment, int order, const
             result[shIndex(l, row)] = glm::vec3(sum);
         }
     return result;
-}
-
-ShRotation::ShRotation(const glm::dmat3& rotation, int order)
-    : m_order(order) {
-    CHECK(order >= 1 && order <= kMaxShOrder);
-    std::size_t size = 0;
-    for (int l = 0; l < order; ++l)
-        size += static_cast<std::size_t>(2 * l + 1) * (2 * l + 1);
-    m_elements.assign(size, 0.0);
-
-    // M_ij = ∫ Y_i(R d) Y_j(d) dd. The integrand is a polynomial of degree 2(order - 1), which
-    // Gauss-Legendre in z times equal steps in azimuth integrates exactly.
-    const GaussLegendre rule(order);
-    const int azimuths = 2 * order;
-    std::array<double, kMaxShOrder * kMaxShOrder> from{}, to{};
-    for (int i = 0; i < rule.size(); ++i) {
-        const double z = 2.0 * rule.node01(i) - 1.0;
-        const double sinTheta = std::sqrt(1.0 - z * z);
-        const double weight = 2.0 * rule.weight01(i) * 2.0 * kPi / azimuths;
-        for (int k = 0; k < azimuths; ++k) {
-            const double phi = 2.0 * kPi * k / azimuths;
-            const glm::dvec3 d(sinTheta * std::cos(phi), sinTheta * std::sin(phi), z);
-            evaluateSh(order, d, from);
-            evaluateSh(order, rotation * d, to);
-            double* element = m_elements.data();
-            for (int l = 0; l < order; ++l)
-                for (int row = -l; row <= l; ++row)
-                    for (int column = -l; column <= l; ++column)
-                        *element++ += weight * to[shIndex(l, row)] * from[shIndex(l, column)];
-        }
-    }
-}
-
-ShRotation ShRotation::aboutAxis(const glm::dvec3& axis, double angleRad, int order) {
-    return {glm::dmat3(glm::rotate(glm::dmat4(1.0), angleRad, glm::normalize(axis))), order};
-}
-
-double ShRotation::element(int l, int row, int column) const {
-    CHECK(l >= 0 && l < m_order && std::abs(row) <= l && std::abs(column) <= l);
-    // Bands below l hold Σ (2k+1)² = l (2l - 1)(2l + 1) / 3 elements.
-    const int start = l * (2 * l - 1) * (2 * l + 1) / 3;
-    return m_elements[start + (row + l) * (2 * l + 1) + (column + l)];
-}
-
-void ShRotation::apply(std::span<const glm::vec3> in, std::span<glm::vec3> out) const {
-    CHECK_EQ(in.size(), static_cast<std::size_t>(shCount(m_order)));
-    CHECK_EQ(out.size(), in.size());
-    const double* element = m_elements.data();
-    for (int l = 0; l < m_order; ++l)
-        for (int row = -l; row <= l; ++row) {
-            glm::dvec3 sum(0.0);
-            for (int column = -l; column <= l; ++column)
-                sum += *element++ * glm::dvec3(in[shIndex(l, column)]);
-            out[shIndex(l, row)] = glm::vec3(sum);
-        }
-}
-
-void ShRotation::apply(std::span<const float> in, std::span<float> out) const {
-    CHECK_EQ(in.size(), static_cast<std::size_t>(shCount(m_order)));
-    CHECK_EQ(out.size(), in.size());
-    const double* element = m_elements.data();
-    for (int l = 0; l < m_order; ++l)
-        for (int row = -l; row <= l; ++row) {
-            double sum = 0.0;
-            for (int column = -l; column <= l; ++column)
-                sum += *element++ * in[shIndex(l, column)];
-            out[shIndex(l, row)] = static_cast<float>(sum);
-        }
 }
 
 } // namespace patina

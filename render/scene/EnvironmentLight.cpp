@@ -4,7 +4,7 @@
 #include "core/base/Log.h"
 #include "core/light/DfgTable.h"
 #include "core/math/Shading.h"
-#include "core/math/SphericalHarmonics.h"
+#include "core/math/ShRotation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// The basis, its convolution, projection and rotation against independently computed values.
+// The basis, its convolution and projection against independently computed values.
 #include "core/math/SphericalHarmonics.h"
 
 #include "core/math/Quadrature.h"
@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
 namespace patina {
@@ -73,6 +72,25 @@ TEST(ShBasis, SharedShaderTermsAreTheSameFunctions) {
             }
         }
     }
+}
+
+TEST(ShBasis, SumsOverDirectionsLeaveNoneOut) {
+    for (const std::size_t count : {0u, 1u, 3u, 4u, 5u, 102u})
+        for (int order = 1; order <= 8; ++order) {
+            std::vector<glm::vec3> directions(count);
+            std::array<double, 64> expected{}, y{};
+            for (std::size_t k = 0; k < count; ++k) {
+                directions[k] = uniformSphere(sobolOwen2D(static_cast<std::uint32_t>(k), 3));
+                evaluateSh(order, glm::dvec3(directions[k]), y);
+                for (int i = 0; i < 64; ++i)
+                    expected[i] += y[i];
+            }
+            std::vector<float> sums(shCount(order) + 1, -7.0f); // what is there is added to
+            sumSh(order, directions, sums);
+            for (int i = 0; i < shCount(order); ++i)
+                ASSERT_NEAR(sums[i], expected[i] - 7.0, 5e-5) << order << " " << i;
+            EXPECT_EQ(sums.back(), -7.0f);
+        }
 }
 
 TEST(ShBasis, AdditionTheorem) {
@@ -260,91 +278,6 @@ TEST(Projection, OneTexelSunKeepsItsEnergyAndPlace) {
             for (int i = 0; i < 25; ++i)
                 EXPECT_NEAR(c[i].x / (1e5 * solidAngle), mean[i], 2e-5) << row << " " << i;
         }
-}
-
-// Active rotation by 40° about (1, 2, 2) / 3.
-ShRotation knownRotation(int order) {
-    return ShRotation::aboutAxis({1, 2, 2}, glm::radians(40.0), order);
-}
-
-TEST(Rotation, MatchesIndependentBandMatrices) {
-    // 24 × 48 product quadrature, M Mᵀ = I to 1e-12.
-    constexpr double kL1[3][3] = {{0.870024690622, 0.11028228906, 0.480515196876},
-                                  {-0.318242784065, 0.870024690622, 0.376534949373},
-                                  {-0.376534949373, -0.480515196876, 0.792039504995}};
-    constexpr double kL2[5][5] = {
-        {0.508163159965, -0.459585221629, -0.0917853834445, -0.143546924792, 0.708181721512},
-        {0.174674208797, 0.721846419588, 0.166187355476, 0.459585221629, 0.457809845077},
-        {-0.207550835222, -0.479568633677, 0.635414443437, 0.567410669603, 0.0350741141481},
-        {-0.393839425258, -0.174674208797, -0.724101308704, 0.508163159965, 0.178401024328},
-        {-0.716290640415, 0.0849824509085, 0.189428049852, -0.433579334515, 0.505798058618}};
-    const ShRotation rotation = knownRotation(5);
-    for (int row = -1; row <= 1; ++row)
-        for (int column = -1; column <= 1; ++column)
-            EXPECT_NEAR(rotation.element(1, row, column), kL1[row + 1][column + 1], 1e-11);
-    for (int row = -2; row <= 2; ++row)
-        for (int column = -2; column <= 2; ++column)
-            EXPECT_NEAR(rotation.element(2, row, column), kL2[row + 2][column + 2], 1e-11);
-    EXPECT_NEAR(rotation.element(3, -3, -2), -0.395806057075, 1e-11);
-    EXPECT_NEAR(rotation.element(3, 2, -1), 0.0618727822935, 1e-11);
-    EXPECT_NEAR(rotation.element(3, 3, 3), 0.116363000323, 1e-11);
-}
-
-TEST(Rotation, RotatesAKnownVector) {
-    const std::array<float, 9> c = {0.7f, -0.3f, 0.9f, 0.2f, 0.5f, -0.4f, 0.1f, 0.3f, -0.6f};
-    constexpr std::array<double, 9> kRotated = {0.7,
-                                                -0.0656503076578,
-                                                0.953802046654,
-                                                -0.161095291377,
-                                                -0.0392359800558,
-                                                -0.321593068447,
-                                                0.300772212596,
-                                                -0.154051826588,
-                                                -0.806748131111};
-    std::array<float, 9> out{};
-    knownRotation(3).apply(std::span<const float>(c), std::span<float>(out));
-    for (int i = 0; i < 9; ++i)
-        EXPECT_NEAR(out[i], kRotated[i], 1e-6) << i;
-}
-
-TEST(Rotation, EqualsEvaluationInTheRotatedDirection) {
-    const glm::dvec3 axis = glm::normalize(glm::dvec3(0.3, -0.8, 0.5));
-    const ShRotation rotation = ShRotation::aboutAxis(axis, 2.1, 8);
-    const glm::dmat3 r(glm::rotate(glm::dmat4(1.0), 2.1, axis));
-    for (std::uint32_t i = 0; i < 50; ++i) {
-        const glm::dvec3 d = glm::normalize(glm::dvec3(uniformSphere(sobolOwen2D(i, 1))));
-        std::array<double, 64> y{}, yRotated{};
-        evaluateSh(8, d, y);
-        evaluateSh(8, r * d, yRotated);
-        for (int l = 0; l < 8; ++l)
-            for (int row = -l; row <= l; ++row) {
-                double sum = 0.0;
-                for (int column = -l; column <= l; ++column)
-                    sum += rotation.element(l, row, column) * y[shIndex(l, column)];
-                ASSERT_NEAR(sum, yRotated[shIndex(l, row)], 1e-12);
-            }
-    }
-}
-
-TEST(Rotation, AboutYTurnsAnEnvironmentLikeItsImage) {
-    // Counter-clockwise as seen from above: what was at +Z is then at +X.
-    const auto scene = [](const glm::dvec3& d) {
-        return glm::vec3(static_cast<float>(1.0 + d.x + 2.0 * d.z * d.x + d.y * d.z),
-                         static_cast<float>(d.z * d.z * d.z), static_cast<float>(d.y));
-    };
-    const glm::dmat3 turn(glm::rotate(glm::dmat4(1.0), kPi / 2, glm::dvec3(0, 1, 0)));
-    EXPECT_NEAR((turn * glm::dvec3(0, 0, 1)).x, 1.0, 1e-12);
-    const auto original = projectLatLong(latLong(128, 64, scene), 5);
-    const auto expected = projectLatLong(
-        latLong(128, 64, [&](const glm::dvec3& d) { return scene(glm::transpose(turn) * d); }), 5);
-    std::vector<glm::vec3> rotated(25);
-    ShRotation::aboutY(kPi / 2, 5).apply(std::span<const glm::vec3>(original), rotated);
-    for (int i = 0; i < 25; ++i)
-        EXPECT_LT(glm::length(rotated[i] - expected[i]), 2e-6f) << i;
-
-    // The shared rotateY turns directions the same way.
-    const glm::vec3 turned = shading::rotateY({0, 0, 1}, shading::kPi / 2);
-    EXPECT_NEAR(turned.x, 1.0f, 1e-6f);
 }
 
 } // namespace
