@@ -30,7 +30,7 @@ FurnacePlot::FurnacePlot(QWidget* parent)
     setToolTip(tr("How much of the light around it a white metal gives back, by roughness. "
                   "Anything below 100 % is light that the model loses."));
     setAccessibleName(tr("White furnace"));
-    setAxes({tr("roughness"), {}, {}, QStringLiteral(" %"), 0.0, 1.0, 0.25, false, 100.0});
+    setAxes({tr("roughness"), {}, {}, QStringLiteral(" %"), 0.0, 1.0, 0.5, false, 100.0});
     m_curve.points = averageReturn(m_model);
     refresh();
 }
