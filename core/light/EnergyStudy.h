@@ -61,7 +61,7 @@ struct EnergyStudy {
 // Cosine of the view angle 0…90°, as seen by the shading code (never quite 0).
 [[nodiscard]] float cosineOfAngle(float angleDeg);
 
-// About 30 ms on one core; nothing when cancelled.
+// 30 to 60 ms on one core, by the range of the roughness; nothing when cancelled.
 [[nodiscard]] std::optional<EnergyStudy> studyEnergy(const ShadingModel& model,
                                                      const SurfaceRange& surface, float NoV,
                                                      const JobContext& job);
