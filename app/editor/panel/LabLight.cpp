@@ -1,5 +1,6 @@
 #include "app/editor/panel/LabLight.h"
 
+#include "core/base/Check.h"
 #include "core/image/ColorMap.h"
 #include "core/job/Parallel.h"
 #include "core/light/CubeSampling.h"
@@ -38,7 +39,7 @@ struct LevelPair {
     float share = 0.0f;
 };
 LevelPair levelsOf(LabView view, std::size_t count) {
-    if (view.isCross())
+    if (view.kind == LabKind::Faces)
         return {};
     const float level =
         shading::prefilteredLevel(labRoughness(view.index), static_cast<int>(count));
@@ -61,6 +62,13 @@ CubeLevel fittingLevel(const CubeLevel& level, int width) {
 }
 
 } // namespace
+
+const LabFace& labFace(int index) {
+    static constexpr LabFace kFaces[] = {{"+X", 2, 1}, {"−X", 0, 1}, {"+Y", 1, 0},
+                                         {"−Y", 1, 2}, {"+Z", 3, 1}, {"−Z", 1, 1}};
+    CHECK(index >= 1 && index <= 6);
+    return kFaces[index - 1];
+}
 
 LabAnalysisPtr analyseLight(const ImagePtr& environment, const JobContext& job) {
     auto analysis = std::make_shared<LabAnalysis>();
@@ -230,15 +238,16 @@ PixelRadiance pixelRadiance(const LabLight& light, LabView view, const QSize& si
         return [maps = light.maps](int, int, const glm::vec3& d) {
             return shading::irradianceFromSh9(maps->irradianceSh.data(), d) / kPi;
         };
+    const int around = (view.isFace() ? 4 : 1) * size.width();
     // Irradiance over pi is the last level as it is.
     const std::size_t count = light.maps->prefiltered.size();
     const LevelPair levels = view.kind == LabKind::IrradianceExact
                                  ? LevelPair{count - 1, count - 1, 0.0f}
                                  : levelsOf(view, count);
-    return [share = levels.share,
-            first = fittingLevel(light.maps->prefiltered[levels.first], size.width()),
-            second = fittingLevel(light.maps->prefiltered[levels.second], size.width())](
-               int, int, const glm::vec3& d) { return samplePair(first, second, share, d); };
+    return
+        [share = levels.share, first = fittingLevel(light.maps->prefiltered[levels.first], around),
+         second = fittingLevel(light.maps->prefiltered[levels.second], around)](
+            int, int, const glm::vec3& d) { return samplePair(first, second, share, d); };
 }
 
 // Unit vectors to the pixels of a lat-long that is turned.
@@ -277,9 +286,17 @@ QImage labPicture(const LabLight& light, LabView view, const QSize& size, const 
     const PixelRadiance radiance = pixelRadiance(light, view, size);
     const LatLongDirections directions(size, light.rotationDeg);
     const float back = -glm::radians(light.rotationDeg);
+    // A face alone is a piece of a cross.
     std::optional<EnvironmentMapping> cross;
+    glm::vec2 corner(0.5f);
     if (view.isCross())
         cross = mapping(EnvironmentLayout::HorizontalCross, size.width(), size.height());
+    if (view.isFace()) {
+        const int side = size.width();
+        cross = mapping(EnvironmentLayout::HorizontalCross, 4 * side, 3 * side);
+        corner += static_cast<float>(side) *
+                  glm::vec2(labFace(view.index).column, labFace(view.index).row);
+    }
 
     QImage picture(size, QImage::Format_ARGB32_Premultiplied);
     picture.fill(Qt::transparent);
@@ -290,8 +307,7 @@ QImage labPicture(const LabLight& light, LabView view, const QSize& size, const 
         for (int x = 0; x < size.width(); ++x) {
             glm::vec3 direction = directions.at(x, y);
             if (cross) {
-                const auto ray =
-                    cross->ray({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
+                const auto ray = cross->ray(corner + glm::vec2(x, y));
                 if (!ray)
                     continue; // beside a face
                 direction = shading::rotateY(ray->direction, back);

@@ -17,7 +17,7 @@ namespace patina::editor {
 
 enum class LabKind {
     Environment,
-    Faces,           // of the cubemap that reflections start from
+    Faces,           // of the cubemap that reflections start from; `index` 1…6: one of them alone
     Irradiance,      // from nine coefficients, as surfaces take it
     IrradianceExact, // the last prefiltered level is irradiance / pi
     Harmonics,       // the sum of `index` bands, 1…8
@@ -37,12 +37,20 @@ struct LabView {
     int index = 0;
     friend bool operator==(const LabView&, const LabView&) = default;
 
-    [[nodiscard]] bool isCross() const { return kind == LabKind::Faces; }
+    [[nodiscard]] bool isCross() const { return kind == LabKind::Faces && index == 0; }
+    [[nodiscard]] bool isFace() const { return kind == LabKind::Faces && index > 0; }
     [[nodiscard]] bool isTable() const { return kind == LabKind::Dfg; }
     [[nodiscard]] bool isIrradiance() const {
         return kind == LabKind::Irradiance || kind == LabKind::IrradianceExact;
     }
 };
+
+// One of the faces +X -X +Y -Y +Z -Z, 1…6: its name, and its column and row in a cross.
+struct LabFace {
+    const char* name; // UTF-8
+    int column, row;
+};
+[[nodiscard]] const LabFace& labFace(int index);
 
 // Derived from one environment image.
 struct LabAnalysis {

@@ -26,14 +26,21 @@ QFont smallFont(const QFont& font) {
     return small;
 }
 
-// Positions are shares of the area.
-EnvironmentMapping unitMapping(LabView view) {
-    const ImageSize size =
-        view.isCross() ? ImageSize{kFinest, kFinest / 4 * 3} : ImageSize{kFinest, kFinest / 2};
-    return EnvironmentMapping::create(view.isCross() ? EnvironmentLayout::HorizontalCross
-                                                     : EnvironmentLayout::LatLong,
-                                      size)
+EnvironmentMapping mappingOf(LabView view) {
+    const bool cube = view.kind == LabKind::Faces;
+    return EnvironmentMapping::create(
+               cube ? EnvironmentLayout::HorizontalCross : EnvironmentLayout::LatLong,
+               cube ? ImageSize{kFinest, kFinest / 4 * 3} : ImageSize{kFinest, kFinest / 2})
         .value();
+}
+
+// What of the mapping's picture is shown: all, or a face of the cross.
+QRectF windowOf(LabView view, const EnvironmentMapping& mapping) {
+    if (!view.isFace())
+        return QRectF(0, 0, mapping.size().width, mapping.size().height);
+    const LabFace& face = labFace(view.index);
+    constexpr int kSide = kFinest / 4;
+    return QRectF(face.column * kSide, face.row * kSide, kSide, kSide);
 }
 
 // A word on a picture, readable on anything.
@@ -167,7 +174,7 @@ QRectF LabPicture::box() const {
 
 QRectF LabPicture::pictureArea() const {
     QRectF area = box();
-    double aspect = m_view.isTable() ? 1.0 : m_view.isCross() ? 4.0 / 3.0 : 2.0;
+    double aspect = m_view.isTable() || m_view.isFace() ? 1.0 : m_view.isCross() ? 4.0 / 3.0 : 2.0;
     if (m_view.isTable() && m_role == Role::Stage) {
         // Left: the axis' name and numbers; right: the legend and its numbers; below: the axis.
         const QFontMetricsF metrics(smallFont(font()));
@@ -200,10 +207,12 @@ QPointF LabPicture::position(const LabPlace& place) const {
     if (m_view.isTable())
         return {area.left() + static_cast<double>(place.NoV) * area.width(),
                 area.bottom() - static_cast<double>(place.perceptualRoughness) * area.height()};
-    const EnvironmentMapping mapping = unitMapping(m_view);
+    const EnvironmentMapping mapping = mappingOf(m_view);
+    const QRectF window = windowOf(m_view, mapping);
     const glm::vec2 p = mapping.position(place.direction);
-    return {area.left() + static_cast<double>(p.x) / mapping.size().width * area.width(),
-            area.top() + static_cast<double>(p.y) / mapping.size().height * area.height()};
+    return {
+        area.left() + (static_cast<double>(p.x) - window.left()) / window.width() * area.width(),
+        area.top() + (static_cast<double>(p.y) - window.top()) / window.height() * area.height()};
 }
 
 std::optional<LabPlace> LabPicture::place(const QPointF& position) const {
@@ -218,9 +227,10 @@ std::optional<LabPlace> LabPicture::place(const QPointF& position) const {
         place.perceptualRoughness = static_cast<float>(1.0 - y);
         return place;
     }
-    const EnvironmentMapping mapping = unitMapping(m_view);
-    const auto ray = mapping.ray({static_cast<float>(x * mapping.size().width),
-                                  static_cast<float>(y * mapping.size().height)});
+    const EnvironmentMapping mapping = mappingOf(m_view);
+    const QRectF window = windowOf(m_view, mapping);
+    const auto ray = mapping.ray({static_cast<float>(window.left() + x * window.width()),
+                                  static_cast<float>(window.top() + y * window.height())});
     if (!ray)
         return std::nullopt;
     place.direction = ray->direction;
@@ -259,8 +269,19 @@ void LabPicture::resizeEvent(QResizeEvent*) {
 }
 
 void LabPicture::mousePressEvent(QMouseEvent* event) {
-    if (event->button() == Qt::LeftButton && m_role == Role::Thumbnail)
+    if (event->button() != Qt::LeftButton)
+        return;
+    if (m_role == Role::Thumbnail) {
         Q_EMIT chosen();
+    } else if (m_view.isFace()) {
+        Q_EMIT faceChosen(0);
+    } else if (m_view.isCross()) {
+        const QPointF at = (event->position() - pictureArea().topLeft()) / pictureArea().width();
+        for (int face = 1; face <= 6; ++face)
+            if (static_cast<int>(std::floor(4 * at.x())) == labFace(face).column &&
+                static_cast<int>(std::floor(4 * at.y())) == labFace(face).row)
+                Q_EMIT faceChosen(face);
+    }
 }
 
 void LabPicture::mouseMoveEvent(QMouseEvent* event) {
@@ -338,7 +359,7 @@ void LabPicture::paintEvent(QPaintEvent*) {
             paintCross(painter);
         else if (m_view.isTable())
             paintAxes(painter);
-        else
+        else if (!m_view.isFace())
             paintHorizon(painter);
         paintMarks(painter);
     }
@@ -390,14 +411,9 @@ void LabPicture::paintCaption(QPainter& painter) const {
 void LabPicture::paintCross(QPainter& painter) const {
     const QRectF area = pictureArea();
     const double face = area.width() / 4.0;
-    struct Face {
-        const char* name;
-        int x, y;
-    };
-    constexpr Face kFaces[] = {{"+X", 2, 1}, {"−X", 0, 1}, {"+Y", 1, 0},
-                               {"−Y", 1, 2}, {"+Z", 3, 1}, {"−Z", 1, 1}};
-    for (const Face& f : kFaces) {
-        const QRectF cell(area.left() + f.x * face, area.top() + f.y * face, face, face);
+    for (int index = 1; index <= 6; ++index) {
+        const LabFace& f = labFace(index);
+        const QRectF cell(area.left() + f.column * face, area.top() + f.row * face, face, face);
         painter.setPen(QPen(QColor(tokens::kPanel), 1));
         painter.setBrush(Qt::NoBrush);
         painter.drawRect(cell);
@@ -492,11 +508,12 @@ void LabPicture::paintMarks(QPainter& painter) const {
         painter.drawEllipse(at, radius, radius);
     };
     const bool small = m_role == Role::Thumbnail;
+    const QRectF shown = pictureArea().adjusted(-1, -1, 1, 1);
     if (m_lowest && !small)
         paintLabel(painter, tr("magenta: below zero"), pictureArea().topLeft() + QPointF(4, 4));
     if (m_lowest)
         ring(position({*m_lowest, 0, 0}), small ? 3.0 : kMark, QColor(tokens::kCopper));
-    if (m_pointer) {
+    if (m_pointer && shown.contains(position(*m_pointer))) {
         const QPointF at = position(*m_pointer);
         const double arm = small ? 4.0 : 7.0;
         for (const auto& [color, width] :
@@ -506,7 +523,7 @@ void LabPicture::paintMarks(QPainter& painter) const {
             painter.drawLine(at - QPointF(0, arm), at + QPointF(0, arm));
         }
     }
-    if (!m_picked)
+    if (!m_picked || !shown.contains(position(*m_picked)))
         return;
     const QPointF at = position(*m_picked);
     ring(at, small ? 3.5 : kMark + 1, QColor(tokens::kAccent));

@@ -49,6 +49,7 @@ class LabPicture : public QWidget {
 
     [[nodiscard]] QRectF pictureArea() const; // of the image or the table, without axes
     [[nodiscard]] QSize pictureSize() const;  // device pixels that fill pictureArea()
+    // Outside of pictureArea() when it is on another face.
     [[nodiscard]] QPointF position(const LabPlace& place) const;
     [[nodiscard]] std::optional<LabPlace> place(const QPointF& position) const;
     [[nodiscard]] QColor colorAt(const LabPlace& place) const; // of the picture
@@ -59,7 +60,8 @@ class LabPicture : public QWidget {
 
   Q_SIGNALS:
     void chosen();
-    void stepped(int by); // an arrow key: to the neighbour
+    void faceChosen(int face); // of the large cross, 1…6; 0: a face alone, all are wanted again
+    void stepped(int by);      // an arrow key: to the neighbour
     void pointed(const std::optional<patina::editor::LabPlace>& place); // nothing: left
     void resized();
 

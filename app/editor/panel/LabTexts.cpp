@@ -88,10 +88,12 @@ LabCaption labCaption(LabView view, bool whole, const LabLight& light, double ir
         break;
     }
     case LabKind::Faces:
-        c.title = tr("Cube faces");
+        c.title = view.isFace() ? tr("Face %1").arg(QString::fromUtf8(labFace(view.index).name))
+                                : tr("Cube faces");
         if (light.maps)
-            c.detail = whole ? tr("%1 texels each, axes of the world").arg(faces(0))
-                             : tr("%1 each").arg(faces(0));
+            c.detail = view.isFace() ? tr("%1 texels, click for all faces").arg(faces(0))
+                       : whole       ? tr("%1 texels each, click one").arg(faces(0))
+                                     : tr("%1 each").arg(faces(0));
         break;
     case LabKind::Irradiance:
         c.title = whole ? tr("Irradiance from 9 coefficients") : tr("Irradiance, SH 9");

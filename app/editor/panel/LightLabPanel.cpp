@@ -106,6 +106,9 @@ LightLabPanel::LightLabPanel(DocumentController& controller, IblUpdater& ibl, Pi
     layout->addLayout(m_body, 1);
 
     connectPicture(m_stage);
+    connect(m_stage, &LabPicture::faceChosen, this, [this](int face) {
+        select({LabKind::Faces, face});
+    });
     connect(&controller, &DocumentController::changed, this, &LightLabPanel::follow);
     connect(&ibl, &IblUpdater::ready, this, &LightLabPanel::refreshMaps);
     connect(&probe, &PixelProbe::hoverChanged, this, &LightLabPanel::refreshPicked);
@@ -234,6 +237,8 @@ void LightLabPanel::connectPicture(LabPicture* widget) {
 }
 
 LabPicture* LightLabPanel::picture(LabView view) const {
+    if (view.isFace())
+        view.index = 0; // of the cross
     const auto found = std::ranges::find_if(
         m_cells, [&](const Cell& cell) { return cell.widget->view() == view; });
     return found == m_cells.end() ? nullptr : found->widget;
@@ -326,7 +331,7 @@ void LightLabPanel::showSection(int index) {
 
 void LightLabPanel::select(LabView view) {
     for (Cell& cell : m_cells)
-        cell.widget->setSelected(cell.widget->view() == view);
+        cell.widget->setSelected(cell.widget == picture(view));
     m_stage->setView(view);
     m_large.state = 0;
     arrange();
@@ -335,7 +340,8 @@ void LightLabPanel::select(LabView view) {
         m_stage->setPicture(m_dfg->pictures[channel]);
         m_stage->setColorRange(m_dfg->range[channel]);
     } else if (!view.isTable()) {
-        m_stage->setPicture(picture(view)->picture()); // until the large one is there
+        if (!view.isFace())
+            m_stage->setPicture(picture(view)->picture()); // until the large one is there
     }
     refreshCaptions();
     refreshPicked();
@@ -349,7 +355,7 @@ void LightLabPanel::step(int by) {
         if (cell.widget->isVisibleTo(this))
             shown.push_back(cell.widget);
     const auto current = std::ranges::find_if(
-        shown, [&](const LabPicture* p) { return p->view() == m_stage->view(); });
+        shown, [&](const LabPicture* p) { return p == picture(m_stage->view()); });
     if (current == shown.end())
         return;
     const auto index = std::clamp<std::ptrdiff_t>(current - shown.begin() + by, 0,

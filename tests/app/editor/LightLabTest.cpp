@@ -167,6 +167,38 @@ TEST_F(LightLabTest, ThePointerReadsDirectionAndLight) {
                 HasSubstr(QString::number(scale, 'f', 4).left(5).toStdString()));
 }
 
+TEST_F(LightLabTest, AFaceOfTheCrossOpensAndCloses) {
+    choose({LabKind::Faces, 0});
+    LabPicture& stage = *panel().stage();
+    const auto click = [&](const glm::vec3& direction) {
+        QTest::mouseClick(&stage, Qt::LeftButton, {}, stage.position({direction, 0, 0}).toPoint());
+    };
+    const struct {
+        glm::vec3 direction;
+        const char* name;
+    } faces[] = {{{1, 0, 0}, "+X"},  {{-1, 0, 0}, "−X"}, {{0, 1, 0}, "+Y"},
+                 {{0, -1, 0}, "−Y"}, {{0, 0, 1}, "+Z"},  {{0, 0, -1}, "−Z"}};
+    for (int i = 0; i < 6; ++i) {
+        click(faces[i].direction);
+        EXPECT_EQ(stage.view(), (LabView{LabKind::Faces, i + 1}));
+        EXPECT_EQ(stage.title(), QStringLiteral("Face %1").arg(QString::fromUtf8(faces[i].name)));
+        // It shows that direction in its middle, and another face's nowhere.
+        const QPointF middle = stage.pictureArea().center();
+        EXPECT_LT(QLineF(stage.position({faces[i].direction, 0, 0}), middle).length(), 0.5);
+        EXPECT_GT(glm::dot(stage.place(middle)->direction, faces[i].direction), 0.9999f);
+        EXPECT_FALSE(stage.pictureArea().contains(stage.position({-faces[i].direction, 0, 0})));
+        ASSERT_TRUE(drawn());
+        const QColor shown = stage.colorAt({faces[i].direction, 0, 0});
+        const QColor expected(
+            LabTone(document().view, {}, 0.0f)
+                .pixel(panel().light().value(stage.view(), faces[i].direction).value()));
+        EXPECT_NEAR(shown.green(), expected.green(), 6) << faces[i].name;
+        click(faces[i].direction);
+        EXPECT_EQ(stage.view(), (LabView{LabKind::Faces, 0}));
+    }
+    keep(QStringLiteral("light-lab-faces.png"), panel());
+}
+
 TEST_F(LightLabTest, FollowsWhileTheSurroundingsAreDragged) {
     LabPicture& picture = *panel().picture({LabKind::Environment, 0});
     QImage last = picture.picture();
