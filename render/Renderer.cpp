@@ -203,8 +203,9 @@ Result<void> Renderer::render(const FrameSettings& frame, unsigned targetFramebu
     if (drawsScene)
         r.sceneIsNew = !done.ok();
     if (done && frame.showOverlays)
-        done = r.overlay.draw(r.targets, r.scene, r.lastBlock, frame.camera,
-                              {frame.selectedMesh, frame.selectedLight, frame.overlayScale});
+        done = r.overlay.draw(
+            r.targets, r.scene, r.lastBlock, frame.camera,
+            {frame.selectedMesh, frame.selectedLight, frame.lobe.get(), frame.overlayScale});
     if (done)
         done = r.screen.present(r.targets, targetFramebuffer);
     r.endGl(targetFramebuffer);

@@ -9,6 +9,7 @@
 #include "core/image/DisplayTransform.h"
 #include "core/light/EnvironmentTexels.h"
 #include "render/gl/Context.h"
+#include "render/scene/SurfaceLobe.h"
 #include "render/view/Inspection.h"
 #include "render/view/ViewSettings.h"
 
@@ -26,10 +27,11 @@ struct FrameSettings {
     int width = 0, height = 0; // pixels
     int samples = 4;           // MSAA; 1: none
     Camera camera;
-    bool transparentBackground = false; // whatever the document says; its Off does the same
-    bool showOverlays = false;          // grid, light gizmos (the editor)
-    Id selectedMesh = 0;                // outlined when showOverlays
-    Id selectedLight = 0;               // shown with its handles when showOverlays
+    bool transparentBackground = false;      // whatever the document says; its Off does the same
+    bool showOverlays = false;               // grid, light gizmos (the editor)
+    Id selectedMesh = 0;                     // outlined when showOverlays
+    Id selectedLight = 0;                    // shown with its handles when showOverlays
+    std::shared_ptr<const SurfaceLobe> lobe; // drawn when showOverlays; null: none
     float overlayScale = 1.0f; // of a frame that is to be enlarged: share of its final size
     bool coarse = false;       // fewer triangles, where a reduced frame hides it (the editor)
     bool dither = false;       // hides the bands of 8-bit values (the editor)

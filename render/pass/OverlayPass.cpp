@@ -12,6 +12,9 @@ namespace patina::render {
 namespace {
 
 constexpr glm::vec3 kSelection{1.0f, 0.62f, 0.18f}; // amber: rare in materials
+// Of a point's frame, as axes are coloured everywhere, and of what is reflected there.
+constexpr glm::vec3 kTangent{0.93f, 0.33f, 0.36f}, kBitangent{0.45f, 0.78f, 0.33f},
+    kNormal{0.36f, 0.58f, 1.0f}, kMirror{0.85f}, kLightRay{1.0f, 0.94f, 0.72f};
 // Marks keep their size on a small picture and grow with a large or dense one.
 float markScale(float height, float share) {
     return share * std::max(1.0f, height / share / 1000.0f);
@@ -43,6 +46,8 @@ Result<void> OverlayPass::draw(const Targets& targets, const GpuScene& scene,
     if (auto done = drawOutline(targets, scene, settings); !done)
         return done;
     Result<void> done = drawLights(targets, scene, frame, settings);
+    if (done && settings.lobe)
+        done = drawLobe(targets, *settings.lobe, frame, settings.scale);
     glDisable(GL_BLEND);
     return done;
 }
@@ -136,6 +141,48 @@ Result<void> OverlayPass::drawLine(const GizmoLine& line, float scale) {
     const glm::vec2 side = 2.5f * scale * glm::vec2(-along.y, along.x) / length;
     return drawMark(line.dashed ? "DASHED" : "LINE", 0.5f * (line.from + line.to), 0.5f * along,
                     side, line.color, scale);
+}
+
+// The lobe, the frame it stands in, and what it reflects: where the light comes from, or the viewer
+// looks from, and the mirror direction of that.
+Result<void> OverlayPass::drawLobe(const Targets& targets, const SurfaceLobe& lobe,
+                                   const FrameBlock& frame, float share) {
+    const float scale = markScale(frame.viewport.y, share);
+    const GizmoView view{frame.worldToClip, glm::vec2(frame.viewport), scale};
+    const float perMetre = pixelsPerMetre(view, lobe.position);
+    if (!(perMetre > 0.0f)) // behind the camera
+        return {};
+    const float reach = kSurfaceLobeReach * scale / perMetre;
+    if (auto done = m_lobe.draw(targets, lobe, glm::vec3(frame.cameraPosition), reach); !done)
+        return done;
+    targets.display().bind();
+    const auto ray = [&](const glm::vec3& direction, float length, const glm::vec3& color,
+                         bool dashed) -> Result<void> {
+        const auto from = project(view, lobe.position);
+        const auto to = project(view, lobe.position + length * reach * direction);
+        if (!from || !to)
+            return {};
+        return drawLine({*from, *to, color, dashed}, scale);
+    };
+    const glm::vec3 mirror = glm::reflect(-lobe.toFixed, lobe.normal);
+    const struct {
+        glm::vec3 direction;
+        float length;
+        glm::vec3 color;
+        bool dashed;
+    } rays[] = {{lobe.tangent, 0.45f, kTangent, false},
+                {lobe.bitangent, 0.45f, kBitangent, false},
+                {lobe.normal, 0.6f, kNormal, false},
+                {mirror, 1.15f, kMirror, true},
+                {lobe.toFixed, 1.25f, lobe.end == LobeEnd::Light ? kLightRay : kMirror, false}};
+    for (const auto& r : rays) {
+        // The viewer's own ray is a point to him.
+        if (lobe.end == LobeEnd::Viewer && r.direction == lobe.toFixed)
+            continue;
+        if (auto done = ray(r.direction, r.length, r.color, r.dashed); !done)
+            return done;
+    }
+    return {};
 }
 
 Result<void> OverlayPass::drawLights(const Targets& targets, const GpuScene& scene,

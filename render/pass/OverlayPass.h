@@ -1,7 +1,9 @@
-// What the editor draws over the picture: ground grid, outline of the selection, lights.
+// What the editor draws over the picture: ground grid, outline of the selection, lights,
+// a lobe on the surface.
 // It is added after tone mapping, so exposure does not touch it.
 #pragma once
 
+#include "render/pass/LobePass.h"
 #include "render/pass/ScreenPasses.h"
 #include "render/scene/DrawList.h"
 #include "render/scene/LightGizmo.h"
@@ -11,7 +13,8 @@ namespace patina::render {
 struct OverlaySettings {
     Id selectedMesh = 0;  // outlined; 0: none
     Id selectedLight = 0; // shown with its handles; 0: none
-    float scale = 1.0f;   // of a frame that is to be enlarged: share of its final size
+    const SurfaceLobe* lobe = nullptr;
+    float scale = 1.0f; // of a frame that is to be enlarged: share of its final size
 };
 
 class OverlayPass {
@@ -20,6 +23,7 @@ class OverlayPass {
         : m_context(context)
         , m_shaders(shaders)
         , m_screen(screen)
+        , m_lobe(context, shaders)
         , m_noAttributes(context, "no attributes") {}
 
     // Into targets.display().
@@ -32,6 +36,8 @@ class OverlayPass {
                              const OverlaySettings& settings);
     Result<void> drawLights(const Targets& targets, const GpuScene& scene, const FrameBlock& frame,
                             const OverlaySettings& settings);
+    Result<void> drawLobe(const Targets& targets, const SurfaceLobe& lobe, const FrameBlock& frame,
+                          float share);
     Result<void> drawLine(const GizmoLine& line, float scale);
     Result<void> drawMark(const char* shape, const glm::vec2& center, const glm::vec2& axisX,
                           const glm::vec2& axisY, const glm::vec3& color, float scale);
@@ -39,6 +45,7 @@ class OverlayPass {
     gl::Context& m_context;
     ShaderLibrary& m_shaders;
     ScreenPasses& m_screen;
+    LobePass m_lobe;
     gl::VertexArray m_noAttributes;
     gl::Texture m_mask;
     gl::Framebuffer m_maskTarget;

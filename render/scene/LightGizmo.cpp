@@ -27,14 +27,6 @@ constexpr std::array<Axis, 3> kAxes{{{GizmoHandle::AxisX, {1, 0, 0}, {0.95f, 0.3
                                      {GizmoHandle::AxisY, {0, 1, 0}, {0.45f, 0.85f, 0.30f}},
                                      {GizmoHandle::AxisZ, {0, 0, 1}, {0.35f, 0.60f, 1.00f}}}};
 
-// Nothing behind the camera.
-std::optional<glm::vec2> project(const GizmoView& view, const glm::vec3& point) {
-    const glm::vec4 clip = view.worldToClip * glm::vec4(point, 1.0f);
-    if (!(clip.w > 1e-6f))
-        return std::nullopt;
-    return (glm::vec2(clip) / clip.w * 0.5f + 0.5f) * view.viewport;
-}
-
 // Hue of a light at full brightness.
 glm::vec3 markColor(const Light& light) {
     const glm::vec3 color = lightColor(light);
@@ -111,6 +103,13 @@ void drawShape(Drawing& drawing, const Light& light, const Bounds& scene) {
 }
 
 } // namespace
+
+std::optional<glm::vec2> project(const GizmoView& view, const glm::vec3& point) {
+    const glm::vec4 clip = view.worldToClip * glm::vec4(point, 1.0f);
+    if (!(clip.w > 1e-6f))
+        return std::nullopt;
+    return (glm::vec2(clip) / clip.w * 0.5f + 0.5f) * view.viewport;
+}
 
 glm::vec3 gizmoPlace(const Light& light, const Bounds& scene) {
     return hasPosition(light.type)

@@ -6,6 +6,7 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 namespace patina::render {
@@ -61,6 +62,8 @@ inline constexpr float kGizmoReach = 64.0f; // of the axes, in units
 [[nodiscard]] glm::vec3 gizmoPlace(const Light& light, const Bounds& scene);
 // Where the handle stands that turns it.
 [[nodiscard]] glm::vec3 aimPlace(const Light& light, const Bounds& scene, const GizmoView& view);
+// Pixel that a point of the world is seen at; nothing behind the camera.
+[[nodiscard]] std::optional<glm::vec2> project(const GizmoView& view, const glm::vec3& point);
 // Pixels that a metre across the view covers at `point`; 0 behind the camera.
 [[nodiscard]] float pixelsPerMetre(const GizmoView& view, const glm::vec3& point);
 
