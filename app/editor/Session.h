@@ -5,6 +5,7 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/job/JobManager.h"
+#include "app/editor/viewport/LobeOnSurface.h"
 #include "app/editor/viewport/PixelProbe.h"
 #include "app/editor/viewport/ViewState.h"
 #include "app/editor/widget/Thumbnails.h"
@@ -20,6 +21,7 @@ struct Session {
     Thumbnails thumbnails;
     ViewState views;
     PixelProbe probe;
+    LobeOnSurface lobe{controller, probe};
     JobManager jobs{controller};
 };
 

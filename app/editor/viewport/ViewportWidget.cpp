@@ -4,6 +4,7 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/viewport/IblUpdater.h"
+#include "app/editor/viewport/LobeOnSurface.h"
 #include "core/base/Log.h"
 #include "render/Renderer.h"
 #include "render/gl/Context.h"
@@ -134,6 +135,14 @@ void ViewportWidget::lookChanged() {
     update();
 }
 
+void ViewportWidget::setLobe(LobeOnSurface& lobe) {
+    m_lobe = &lobe;
+    connect(&lobe, &LobeOnSurface::changed, this, [this] {
+        m_onlyDisplay = true; // the scene itself is as it was
+        update();
+    });
+}
+
 void ViewportWidget::setLuminanceWanted(bool wanted) {
     if (wanted && !m_luminanceWanted)
         update();
@@ -212,6 +221,8 @@ render::FrameSettings ViewportWidget::nextFrame(const QSize& size) {
     m_lastCamera = frame.camera;
     frame.selectedLight = m_selection.light();
     frame.overlayScale = m_pacing.scale();
+    if (m_lobe)
+        frame.lobe = m_lobe->lobe();
     return frame;
 }
 

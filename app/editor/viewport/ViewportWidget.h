@@ -31,6 +31,7 @@ class DisplayLoader;
 class DocumentController;
 class IblUpdater;
 class JobManager;
+class LobeOnSurface;
 class SelectionModel;
 class ViewState;
 
@@ -44,6 +45,7 @@ class ViewportWidget : public QOpenGLWidget {
     void setJobs(JobManager& jobs);            // whose live preview is shown
     void setDisplays(DisplayLoader& displays); // whose view of OpenColorIO is shown
     void setViews(ViewState& views);           // what of the scene is shown
+    void setLobe(LobeOnSurface& lobe);         // which is drawn with the overlays
     void setLuminanceWanted(bool wanted);      // even where the picture does not depend on it
 
     // Thumbnails of views with this viewport's camera, drawn while it rests.
@@ -93,6 +95,7 @@ class ViewportWidget : public QOpenGLWidget {
     DocumentController& m_controller;
     SelectionModel& m_selection;
     DisplayLoader* m_displays = nullptr;
+    LobeOnSurface* m_lobe = nullptr;
     IblUpdater* m_ibl;
     ViewportHand m_hand;
     PreviewFeed m_preview;

@@ -138,8 +138,7 @@ QStringList CurvePlot::readout(double x) const {
     return lines;
 }
 
-// --- Painting
-// --------------------------------------------------------------------------------------
+// --- Painting ------------------------------------------------------------------------------------
 
 void CurvePlot::paintEvent(QPaintEvent*) {
     QPainter painter(this);

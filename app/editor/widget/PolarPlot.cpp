@@ -123,8 +123,7 @@ QStringList PolarPlot::readout(double degrees) const {
     return lines;
 }
 
-// --- Painting
-// --------------------------------------------------------------------------------------
+// --- Painting ------------------------------------------------------------------------------------
 
 void PolarPlot::paintEvent(QPaintEvent*) {
     QPainter painter(this);
@@ -266,8 +265,7 @@ void PolarPlot::paintProbe(QPainter& painter) const {
                      QStringLiteral("θo = %1°").arg(plotNumber(*m_probe)), rows);
 }
 
-// --- The hand
-// -------------------------------------------------------------------------------------
+// --- The hand ------------------------------------------------------------------------------------
 
 void PolarPlot::mousePressEvent(QMouseEvent* event) {
     if (event->button() != Qt::LeftButton || !m_message.isEmpty())

@@ -5,6 +5,7 @@
 
 #include "app/editor/Session.h"
 #include "app/editor/document/Commands.h"
+#include "app/editor/panel/LensControls.h"
 #include "app/editor/widget/CurvePlot.h"
 #include "app/editor/widget/LitSphere.h"
 #include "app/editor/widget/LobeView.h"
@@ -44,7 +45,7 @@ struct BrdfLensPanelTest : ::testing::Test {
         session->controller.newDocument();
         ASSERT_TRUE(eventually([] { return !session->controller.tasks().busy(); }));
         panel = std::make_unique<BrdfLensPanel>(session->controller, session->selection,
-                                                session->probe);
+                                                session->probe, session->lobe);
         panel->resize(800, 260);
         panel->show();
         ASSERT_TRUE(QTest::qWaitForWindowExposed(panel.get(), 60'000));
@@ -117,38 +118,39 @@ TEST_F(BrdfLensPanelTest, PlotsFollowTheMouseAndTheKeyboard) {
         return (middle + 0.8 * r * QPointF(-std::sin(a), -std::cos(a))).toPoint();
     };
     QTest::mousePress(&polar(), Qt::LeftButton, {}, onDial(30.0));
-    EXPECT_NEAR(panel->incidence(), 30.0, 1.0);
+    EXPECT_NEAR(panel->controls().incidence(), 30.0, 1.0);
     QTest::mouseMove(&polar(), onDial(62.0));
-    EXPECT_NEAR(panel->incidence(), 62.0, 1.0);
+    EXPECT_NEAR(panel->controls().incidence(), 62.0, 1.0);
     QTest::mouseRelease(&polar(), Qt::LeftButton, {}, onDial(62.0));
     QTest::mouseMove(&polar(), onDial(10.0));
-    EXPECT_NEAR(panel->incidence(), 62.0, 1.0) << "let go";
-    EXPECT_NEAR(named<NumberField>("Angle of incidence").value(), panel->incidence(), 0.05);
+    EXPECT_NEAR(panel->controls().incidence(), 62.0, 1.0) << "let go";
+    EXPECT_NEAR(named<NumberField>("Angle of incidence").value(), panel->controls().incidence(),
+                0.05);
     ASSERT_TRUE(settled());
-    EXPECT_NEAR(panel->result().request.incidence, panel->incidence() * std::numbers::pi / 180.0,
-                1e-4);
+    EXPECT_NEAR(panel->result().request.incidence,
+                panel->controls().incidence() * std::numbers::pi / 180.0, 1e-4);
 
     polar().setFocus();
-    const double before = panel->incidence();
+    const double before = panel->controls().incidence();
     QTest::keyClick(&polar(), Qt::Key_Right);
-    EXPECT_NEAR(panel->incidence(), before - 1.0, 1e-9);
+    EXPECT_NEAR(panel->controls().incidence(), before - 1.0, 1e-9);
     QTest::keyClick(&polar(), Qt::Key_Left, Qt::ShiftModifier);
-    EXPECT_NEAR(panel->incidence(), before + 9.0, 1e-9);
+    EXPECT_NEAR(panel->controls().incidence(), before + 9.0, 1e-9);
 
     // The slider, and a number that is typed.
     auto& slider = named<Slider>("Angle of incidence slider");
     QTest::mouseClick(&slider, Qt::LeftButton, {}, {slider.width() - 2, slider.height() / 2});
-    EXPECT_EQ(panel->incidence(), 89.0) << "light along the surface does not arrive";
+    EXPECT_EQ(panel->controls().incidence(), 89.0) << "light along the surface does not arrive";
     auto& field = named<NumberField>("Angle of incidence");
     QTest::mouseDClick(&field, Qt::LeftButton);
     QTest::keyClicks(&field, QStringLiteral("20"));
     QTest::keyClick(&field, Qt::Key_Return);
-    EXPECT_EQ(panel->incidence(), 20.0);
+    EXPECT_EQ(panel->controls().incidence(), 20.0);
     EXPECT_NEAR(polar().incidence(), 20.0, 1e-6);
 }
 
 TEST_F(PlainMetal, CurvesAreTheShadersNumbers) {
-    panel->setIncidence(60.0);
+    panel->controls().setIncidence(60.0);
     ASSERT_TRUE(settled());
     // D's peak is 1 / (pi alpha²); G2 at (N·V, N·L) = (1, 0.5) is G1; F of a white metal is 1.
     EXPECT_NEAR(scene().distribution.front().y, 5.09295817894f, 1e-4f);
@@ -351,7 +353,8 @@ TEST_F(PlainMetal, NothingToShowIsSaid) {
 
 TEST_F(BrdfLensPanelTest, WithoutAMaterialItSaysSo) {
     Session empty; // no document yet
-    panel = std::make_unique<BrdfLensPanel>(empty.controller, empty.selection, empty.probe);
+    panel =
+        std::make_unique<BrdfLensPanel>(empty.controller, empty.selection, empty.probe, empty.lobe);
     panel->resize(800, 260);
     panel->show();
     ASSERT_TRUE(QTest::qWaitForWindowExposed(panel.get(), 60'000));
@@ -434,8 +437,132 @@ TEST_F(BrdfLensPanelTest, NothingIsComputedForNobody) {
     EXPECT_NE(panel->result().request, before);
 }
 
-// --- The ball
-// --------------------------------------------------------------------------------------
+// --- The lobe on the surface ---------------------------------------------------------------------
+
+struct OnSurface : PlainMetal {
+    void SetUp() override {
+        PlainMetal::SetUp();
+        m_light = session->controller.addLight(LightType::Directional);
+        m_pin.mesh = session->controller.document().meshes.front().id;
+        m_pin.material = session->selection.material();
+        m_pin.values[shading::kRecordPosition] = glm::vec4(0.1f, 0.2f, 0.3f, 1.0f);
+        m_pin.values[shading::kViewShadingNormal] = glm::vec4(0, 0, 1, 0);
+        m_pin.values[shading::kViewTangent] = glm::vec4(0.6f, 0.8f, 0.1f, 0); // leans a little
+        m_pin.values[shading::kViewBitangent] = glm::vec4(0.8f, -0.6f, 0, 0); // a mirrored map
+        m_pin.values[shading::kViewBaseColor] = glm::vec4(1.0f);
+        m_pin.values[shading::kViewMetallic] = glm::vec4(1.0f);
+        m_pin.values[shading::kViewPerceptualRoughness] = glm::vec4(0.5f);
+        m_pin.lights = {{m_light, glm::normalize(glm::vec3(1, 0, 1)), glm::vec3(1), 1.0f, {}, {}}};
+        session->probe.setPin(m_pin);
+        Camera camera = session->controller.document().view.camera;
+        camera.target = glm::vec3(0);
+        camera.pitchDeg = 30.0f;
+        camera.yawDeg = 0.0f;
+        session->controller.setCamera(camera);
+    }
+    void TearDown() override {
+        session->probe.setPin(std::nullopt);
+        PlainMetal::TearDown();
+        EXPECT_EQ(lobe(), nullptr) << "it leaves with the lens";
+        EXPECT_FALSE(session->probe.wanted()) << "nobody looks any more";
+    }
+    static std::shared_ptr<const render::SurfaceLobe> lobe() { return session->lobe.lobe(); }
+    bool ready() {
+        return eventually([] { return session->lobe.upToDate(); }) && settled();
+    }
+    void choose(int index) {
+        auto& box = named<QComboBox>("Lobe on the surface");
+        box.setFocus();
+        while (box.currentIndex() != index)
+            QTest::keyClick(&box, box.currentIndex() < index ? Qt::Key_Down : Qt::Key_Up);
+    }
+
+    Id m_light = 0;
+    render::Inspection m_pin;
+};
+
+TEST_F(OnSurface, StandsInTheFrameOfThePinnedPoint) {
+    EXPECT_EQ(lobe(), nullptr);
+    EXPECT_FALSE(session->probe.wanted());
+    choose(1); // the viewer
+    EXPECT_TRUE(session->probe.wanted());
+    ASSERT_TRUE(ready());
+    ASSERT_NE(lobe(), nullptr);
+    EXPECT_EQ(lobe()->end, LobeEnd::Viewer);
+    EXPECT_EQ(lobe()->position, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(lobe()->normal, glm::vec3(0, 0, 1));
+    EXPECT_NEAR(glm::dot(lobe()->tangent, glm::vec3(0.6f, 0.8f, 0)), 1.0f, 1e-5f);
+    EXPECT_NEAR(glm::dot(lobe()->bitangent, glm::vec3(0.8f, -0.6f, 0)), 1.0f, 1e-5f);
+    const glm::vec3 eye = session->controller.document().view.camera.position();
+    EXPECT_NEAR(glm::dot(lobe()->toFixed, glm::normalize(eye - lobe()->position)), 1.0f, 1e-5f);
+
+    // Its peak lies near the mirror direction, in the world.
+    const auto peak = [&] {
+        glm::vec3 farthest(0.0f);
+        for (const glm::vec3& p : lobe()->mesh->positions)
+            if (glm::length(p) > glm::length(farthest))
+                farthest = p;
+        return glm::normalize(farthest.x * lobe()->tangent + farthest.y * lobe()->bitangent +
+                              farthest.z * lobe()->normal);
+    };
+    EXPECT_GT(glm::dot(peak(), glm::reflect(-lobe()->toFixed, lobe()->normal)), 0.95f);
+
+    // Looked at from elsewhere it turns.
+    Camera camera = session->controller.document().view.camera;
+    camera.yawDeg = 40.0f;
+    session->controller.setCamera(camera);
+    ASSERT_TRUE(ready());
+    EXPECT_LT(glm::dot(lobe()->toFixed, glm::normalize(eye - lobe()->position)), 0.9f);
+
+    // What becomes of the light's.
+    auto& box = named<QComboBox>("Lobe on the surface");
+    choose(box.count() - 1);
+    ASSERT_TRUE(ready());
+    EXPECT_EQ(lobe()->end, LobeEnd::Light);
+    EXPECT_GT(glm::dot(peak(), glm::normalize(glm::vec3(-1, 0, 1))), 0.95f);
+    choose(0);
+    EXPECT_EQ(lobe(), nullptr);
+}
+
+TEST_F(OnSurface, FollowsTheMaterialAndRestsWhenNothingChanges) {
+    choose(1);
+    ASSERT_TRUE(ready());
+    const auto before = lobe();
+    session->probe.setPin(m_pin); // another frame, the same answer
+    ASSERT_TRUE(ready());
+    EXPECT_EQ(lobe(), before) << "else every frame would ask for the next";
+    m_pin.values[shading::kViewPerceptualRoughness] = glm::vec4(0.2f);
+    session->probe.setPin(m_pin);
+    ASSERT_TRUE(ready());
+    EXPECT_NE(lobe(), before);
+    const auto after = lobe();
+    set("model.distribution", int(Distribution::Beckmann));
+    ASSERT_TRUE(ready());
+    EXPECT_NE(lobe(), after);
+}
+
+TEST_F(OnSurface, WhatCannotBeShownIsSaid) {
+    const auto note = [&] { return named<QLabel>("Looked at").text(); };
+    choose(1);
+    ASSERT_TRUE(ready());
+    session->probe.setPin(std::nullopt);
+    EXPECT_EQ(lobe(), nullptr);
+    EXPECT_TRUE(note().contains(QStringLiteral("Point at the model")));
+    auto& box = named<QComboBox>("Lobe on the surface");
+    choose(box.count() - 1);
+    m_pin.lights[0].toLight = glm::vec3(0, 0, -1);
+    session->probe.setPin(m_pin);
+    EXPECT_EQ(lobe(), nullptr);
+    EXPECT_TRUE(note().contains(QStringLiteral("behind the surface")));
+    m_pin.lights.clear();
+    session->probe.setPin(m_pin);
+    EXPECT_TRUE(note().contains(QStringLiteral("does not shine")));
+    session->controller.removeLight(m_light);
+    EXPECT_EQ(box.currentIndex(), 0) << "a light that is gone is no choice";
+    EXPECT_TRUE(session->lobe.problem().isEmpty());
+}
+
+// --- The ball ------------------------------------------------------------------------------------
 
 TEST(SpherePicture, IsShadedAsTheViewportShades) {
     ShadingModel model;
