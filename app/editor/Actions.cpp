@@ -38,6 +38,8 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
     , lightLab(make(tr("Light La&b"), QStringLiteral("light-lab"), {tr("Ctrl+2")},
                     tr("Show what shading makes of the environment: faces, harmonics, irradiance, "
                        "prefiltered levels, DFG table")))
+    , lens(make(tr("BRDF &Lens"), QStringLiteral("lens"), {tr("Ctrl+3")},
+                tr("Show how the material reflects: lobes, D, G and F, albedo, on a ball")))
     , energy(make(tr("&Energy"), QStringLiteral("energy"), {tr("Ctrl+4")},
                   tr("Show what the material loses and makes of the light, and what compensation "
                      "gives back")))
@@ -63,6 +65,7 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
     overlays->setCheckable(true);
     overlays->setChecked(true);
     lightLab->setCheckable(true);
+    lens->setCheckable(true);
     energy->setCheckable(true);
     furnace->setCheckable(true);
     fullScreen->setCheckable(true);
@@ -92,10 +95,10 @@ void Actions::describe(QAction* action, const QString& sentence) {
 }
 
 QList<QAction*> Actions::all() const {
-    return {newScene,    open,        addModel,    save,     saveAs, saveEnvironment,
-            exportScene, quit,        undo,        redo,     frame,  home,
-            overlays,    lightingIbl, lightingPrt, lightLab, energy, furnace,
-            fullScreen,  resetLayout, shortcuts,   about};
+    return {newScene,    open,        addModel,    save,      saveAs, saveEnvironment,
+            exportScene, quit,        undo,        redo,      frame,  home,
+            overlays,    lightingIbl, lightingPrt, lightLab,  lens,   energy,
+            furnace,     fullScreen,  resetLayout, shortcuts, about};
 }
 
 } // namespace patina::editor

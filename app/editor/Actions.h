@@ -20,7 +20,7 @@ class Actions : public QObject {
     QAction *newScene, *open, *addModel, *save, *saveAs, *saveEnvironment, *exportScene, *quit;
     QAction *undo, *redo;
     QAction *frame, *home, *overlays, *lightingIbl, *lightingPrt;
-    QAction *lightLab, *energy; // docks to look closer with
+    QAction *lightLab, *lens, *energy; // docks to look closer with
     QAction* furnace;
     QAction *fullScreen, *resetLayout;
     QAction *shortcuts, *about;

@@ -9,6 +9,7 @@
 #include "app/editor/ViewActions.h"
 #include "app/editor/document/Commands.h"
 #include "app/editor/panel/BakePanel.h"
+#include "app/editor/panel/BrdfLensPanel.h"
 #include "app/editor/panel/EnergyPanel.h"
 #include "app/editor/panel/EnvironmentPanel.h"
 #include "app/editor/panel/JobsPanel.h"
@@ -74,6 +75,7 @@ MainWindow::MainWindow(Session& session)
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
     m_viewport->setJobs(session.jobs);
     m_viewport->setDisplays(session.displays);
+    m_viewport->setLobe(session.lobe);
     m_viewport->setViews(session.views);
 
     auto* centre = new QWidget;
@@ -160,6 +162,9 @@ void MainWindow::makeDocks() {
     connect(m_viewport, &ViewportWidget::luminanceMeasured, lightLab, &LightLabPanel::setLuminance);
     connect(addInstrument(m_actions->lightLab, QStringLiteral("lightLab"), lightLab),
             &QDockWidget::visibilityChanged, lightLab, &LightLabPanel::setSeen);
+    addInstrument(
+        m_actions->lens, QStringLiteral("lens"),
+        new BrdfLensPanel(controller, m_session.selection, m_session.probe, m_session.lobe));
     addInstrument(m_actions->energy, QStringLiteral("energy"),
                   new EnergyPanel(controller, m_session.selection, m_session.views));
     resetLayout();
@@ -186,7 +191,12 @@ QDockWidget* MainWindow::addInstrument(QAction* toggle, const QString& name, QWi
 
 void MainWindow::refreshDockTitles() {
     for (QDockWidget* dock : std::as_const(m_docks)) {
-        const bool tabbed = !dock->isFloating() && !tabifiedDockWidgets(dock).isEmpty();
+        // Docks that are closed have no tab; those behind the current one are not hidden.
+        const QList<QDockWidget*> others = tabifiedDockWidgets(dock);
+        const bool tabbed = !dock->isFloating() &&
+                            std::any_of(others.begin(), others.end(), [](const QDockWidget* other) {
+                                return !other->isHidden();
+                            });
         QWidget* custom = dock->titleBarWidget();
         if (tabbed && !custom) {
             auto* none = new QWidget;
@@ -272,7 +282,7 @@ void MainWindow::makeMenus() {
         if (!m_instruments.contains(dock))
             view->addAction(dock->toggleViewAction());
     view->addSeparator();
-    view->addActions({a.lightLab, a.energy, a.furnace});
+    view->addActions({a.lightLab, a.lens, a.energy, a.furnace});
     view->addSeparator();
     view->addAction(a.resetLayout);
     view->addSeparator();

@@ -17,6 +17,6 @@ struct SurfaceLobe {
     glm::vec3 color{1.0f}; // of the display, 0…1
 };
 
-inline constexpr float kSurfaceLobeReach = 92.0f; // of its peak, in units of the overlay
+inline constexpr float kSurfaceLobeReach = 80.0f; // of its peak, in units of the overlay
 
 } // namespace patina::render

@@ -3,7 +3,6 @@
 
 #include "app/editor/panel/BrdfLensPanel.h"
 
-#include "app/editor/Session.h"
 #include "app/editor/document/Commands.h"
 #include "app/editor/panel/LensControls.h"
 #include "app/editor/widget/CurvePlot.h"
@@ -15,6 +14,7 @@
 #include "core/document/ModelPresets.h"
 #include "core/light/DfgTable.h"
 #include "core/material/Parameters.h"
+#include "tests/app/editor/EditorFixture.h"
 
 #include <QApplication>
 #include <QComboBox>
@@ -24,18 +24,11 @@
 #include <QTimer>
 #include <QToolButton>
 #include <cmath>
-#include <gmock/gmock.h>
-#include <memory>
 #include <numbers>
 #include <set>
 
 namespace patina::editor {
 namespace {
-
-template <class Condition>
-[[nodiscard]] bool eventually(Condition condition) {
-    return QTest::qWaitFor(condition, 60'000);
-}
 
 struct BrdfLensPanelTest : ::testing::Test {
     static void SetUpTestSuite() { session = std::make_unique<Session>(); }
