@@ -5,9 +5,11 @@
 #include "app/editor/FileFlow.h"
 #include "app/editor/MainWindow.h"
 #include "app/editor/Session.h"
+#include "app/editor/panel/BrdfLensPanel.h"
 #include "app/editor/panel/LightLabPanel.h"
 #include "app/editor/panel/SoftboxList.h"
 #include "app/editor/style/Style.h"
+#include "app/editor/viewport/ViewportWidget.h"
 
 #include <QApplication>
 #include <QComboBox>
@@ -16,11 +18,14 @@
 #include <QDockWidget>
 #include <QElapsedTimer>
 #include <QLineEdit>
+#include <QMenu>
+#include <QMouseEvent>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSettings>
 #include <QStandardPaths>
 #include <QSurfaceFormat>
+#include <QToolButton>
 #include <cstdio>
 #include <functional>
 #include <vector>
@@ -103,6 +108,37 @@ bool saveEnergy(Session& session, MainWindow& window, const QString& file) {
     return saved;
 }
 
+// The BRDF lens beside two other models, with its lobe on the model where a pixel is pinned.
+bool saveLens(Session& session, MainWindow& window, const QString& file) {
+    window.actions().lens->trigger();
+    settle(1000);
+    auto* panel = window.findChild<BrdfLensPanel*>();
+    auto* compare = panel->findChild<QToolButton*>(QStringLiteral("raised"));
+    for (const QString& name : {QStringLiteral("Unreal Engine 4"), QStringLiteral("Blinn-Phong")}) {
+        Q_EMIT compare->menu()->aboutToShow();
+        for (QAction* action : compare->menu()->actions())
+            if (action->text() == name)
+                action->trigger();
+    }
+    for (auto* choice : panel->findChildren<QComboBox*>())
+        if (choice->findData(0u) > 0)
+            choice->setCurrentIndex(choice->findData(0u)); // the viewer's lobe
+    ViewportWidget& viewport = window.viewport();
+    const QPointF place(0.47 * viewport.width(), 0.42 * viewport.height());
+    for (const QEvent::Type type : {QEvent::MouseButtonPress, QEvent::MouseButtonRelease}) {
+        QMouseEvent event(type, place, viewport.mapToGlobal(place), Qt::LeftButton,
+                          type == QEvent::MouseButtonPress ? Qt::LeftButton : Qt::NoButton,
+                          Qt::AltModifier);
+        QApplication::sendEvent(&viewport, &event);
+    }
+    const bool drawn = runUntil([&] { return session.lobe.lobe() != nullptr; }, 20'000);
+    settle(4000);
+    const bool saved = save(window, file);
+    session.probe.setPin(std::nullopt);
+    window.actions().lens->trigger();
+    return drawn && saved;
+}
+
 } // namespace
 
 int main(int argc, char* argv[]) {
@@ -132,6 +168,7 @@ int main(int argc, char* argv[]) {
         return 1;
     settle(6000); // image-based light at full resolution, then the refined frame
     bool ok = save(window, folder.filePath(QStringLiteral("start.png")));
+    ok &= saveLens(session, window, folder.filePath(QStringLiteral("lens.png")));
 
     session.controller.setEnvironmentKind(patina::EnvironmentKind::Softboxes);
     window.findChild<SoftboxList*>()->select(
