@@ -38,7 +38,7 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
     , lightLab(make(tr("Light La&b"), QStringLiteral("light-lab"), {tr("Ctrl+2")},
                     tr("Show what shading makes of the environment: faces, harmonics, irradiance, "
                        "prefiltered levels, DFG table")))
-    , lens(make(tr("BRDF &Lens"), QStringLiteral("lens"), {tr("Ctrl+3")},
+    , lens(make(tr("BRDF Le&ns"), QStringLiteral("lens"), {tr("Ctrl+3")},
                 tr("Show how the material reflects: lobes, D, G and F, albedo, on a ball")))
     , energy(make(tr("&Energy"), QStringLiteral("energy"), {tr("Ctrl+4")},
                   tr("Show what the material loses and makes of the light, and what compensation "

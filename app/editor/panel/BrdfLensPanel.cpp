@@ -156,7 +156,7 @@ void BrdfLensPanel::makePlots() {
     describe(m_cartesian, tr("How much of the light at θᵢ is reflected to viewers at θₒ, in the "
                              "plane of incidence; positive angles lie opposite the light"));
     describe(m_distribution, tr("D: how many facets of the surface face the half vector, which "
-                                "leans ∠(n,h) from the normal"));
+                                "leans θₕ from the normal"));
     describe(m_masking, tr("G: the share of facets that neither light nor viewer finds hidden, the "
                            "viewer at θₒ opposite the light"));
     describe(m_fresnel, tr("F: the reflectance of a facet that light meets at ∠(v,h)"));
@@ -373,8 +373,8 @@ void BrdfLensPanel::showCurves(const Looks& looks) {
                           scale.logarithmic, std::nullopt});
     m_cartesian->setMarker(incidence, tr("mirror"));
     m_cartesian->setCurves(curvesOf(&LensCurves::lobe));
-    m_distribution->setAxes({QStringLiteral("∠(n,h)"), QStringLiteral("D"), QStringLiteral("°"), sr,
-                             0, 90, 30, scale.logarithmic, std::nullopt});
+    m_distribution->setAxes({QStringLiteral("θₕ"), QStringLiteral("D"), QStringLiteral("°"), sr, 0,
+                             90, 30, scale.logarithmic, std::nullopt});
     m_distribution->setCurves(curvesOf(&LensCurves::distribution));
     m_masking->setAxes({QStringLiteral("θₒ"),
                         QStringLiteral("G"),

@@ -119,7 +119,7 @@ void rasterize(QImage& image, const LobeMesh& mesh, const Projection& view) {
     }
 }
 
-void paintDisc(QPainter& painter, const Projection& view, QColor ring) {
+void paintDisc(QPainter& painter, const Projection& view, QColor ring, double stroke) {
     const auto circle = [&](float radius) {
         QPainterPath path;
         for (int i = 0; i <= 96; ++i) {
@@ -136,42 +136,42 @@ void paintDisc(QPainter& painter, const Projection& view, QColor ring) {
     fill.setAlpha(150);
     painter.fillPath(circle(1.0f), fill);
     painter.setBrush(Qt::NoBrush);
-    painter.setPen(QPen(QColor(tokens::kHover), kOversampling));
+    painter.setPen(QPen(QColor(tokens::kHover), stroke));
     for (const float radius : {0.25f, 0.5f, 0.75f})
         painter.drawPath(circle(radius));
     painter.drawLine(view.point({-1, 0, 0}), view.point({1, 0, 0}));
     painter.drawLine(view.point({0, -1, 0}), view.point({0, 1, 0}));
-    painter.setPen(QPen(ring, 1.6 * kOversampling));
+    painter.setPen(QPen(ring, 1.6 * stroke));
     painter.drawPath(circle(1.0f));
-    painter.setPen(QPen(QColor(tokens::kTextOff), kOversampling, Qt::DashLine));
+    painter.setPen(QPen(QColor(tokens::kTextOff), stroke, Qt::DashLine));
     painter.drawLine(view.point({0, 0, 0}), view.point({0, 0, 1}));
 }
 
-void paintLight(QPainter& painter, const Projection& view, const glm::vec3& light) {
+void paintLight(QPainter& painter, const Projection& view, const glm::vec3& light, double stroke) {
     const QPointF from = view.point(light), to = view.point(glm::vec3(0.0f));
     const QColor sun(kSun);
-    painter.setPen(QPen(sun, 1.6 * kOversampling));
+    painter.setPen(QPen(sun, 1.6 * stroke));
     painter.drawLine(from, to);
     const QPointF way = to - from;
     const double length = std::hypot(way.x(), way.y());
-    if (length > 20.0 * kOversampling) {
+    if (length > 20.0 * stroke) {
         const QPointF along = way / length, across(-along.y(), along.x());
-        const QPointF tip = to - along * 5.0 * kOversampling;
+        const QPointF tip = to - along * 5.0 * stroke;
         QPainterPath head(tip);
-        head.lineTo(tip - along * 9.0 * kOversampling + across * 4.0 * kOversampling);
-        head.lineTo(tip - along * 9.0 * kOversampling - across * 4.0 * kOversampling);
+        head.lineTo(tip - along * 9.0 * stroke + across * 4.0 * stroke);
+        head.lineTo(tip - along * 9.0 * stroke - across * 4.0 * stroke);
         head.closeSubpath();
         painter.fillPath(head, sun);
     }
     painter.setPen(Qt::NoPen);
     painter.setBrush(sun);
-    painter.drawEllipse(from, 4.5 * kOversampling, 4.5 * kOversampling);
+    painter.drawEllipse(from, 4.5 * stroke, 4.5 * stroke);
 }
 
 } // namespace
 
 QImage lobePicture(const LobeMesh& mesh, const LobeCamera& camera, float incidenceRad, QSize pixels,
-                   QColor ring) {
+                   QColor ring, double ratio) {
     const QSize size = pixels * kOversampling;
     if (size.width() < 8 || size.height() < 8)
         return {};
@@ -184,14 +184,15 @@ QImage lobePicture(const LobeMesh& mesh, const LobeCamera& camera, float inciden
     picture.fill(Qt::transparent);
     QPainter painter(&picture);
     painter.setRenderHint(QPainter::Antialiasing);
-    paintDisc(painter, view, ring);
+    const double stroke = kOversampling * ratio;
+    paintDisc(painter, view, ring, stroke);
     const glm::vec3 light = lensDirection(-incidenceRad), mirror = lensDirection(incidenceRad);
     const bool behind = glm::dot(light, view.toCamera) < glm::dot(mirror, view.toCamera) - 1e-4f;
     if (behind)
-        paintLight(painter, view, light);
+        paintLight(painter, view, light, stroke);
     painter.drawImage(0, 0, lobe);
     if (!behind)
-        paintLight(painter, view, light);
+        paintLight(painter, view, light, stroke);
     painter.end();
     return picture.scaled(pixels, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
 }

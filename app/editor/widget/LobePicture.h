@@ -16,8 +16,9 @@ struct LobeCamera {
     friend bool operator==(const LobeCamera&, const LobeCamera&) = default;
 };
 
-// `ring`: of the disc's rim, so that a lobe is known by its colour.
+// `ring`: of the disc's rim, so that a lobe is known by its colour. `ratio`: pixels of a stroke of
+// width 1.
 [[nodiscard]] QImage lobePicture(const LobeMesh& mesh, const LobeCamera& camera, float incidenceRad,
-                                 QSize pixels, QColor ring);
+                                 QSize pixels, QColor ring, double ratio);
 
 } // namespace patina::editor

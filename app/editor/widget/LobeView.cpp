@@ -64,9 +64,9 @@ void LobeView::draw() {
         const std::vector<QRectF> cells = plotCells(QRectF(QPointF(), all.size() * ratio),
                                                     static_cast<int>(lobes.size()), kGap * ratio);
         for (std::size_t i = 0; i < lobes.size(); ++i)
-            painter.drawImage(cells[i].topLeft(),
-                              lobePicture(*lobes[i].mesh, camera, incidence,
-                                          cells[i].size().toSize(), plotColor(lobes[i].look)));
+            painter.drawImage(cells[i].topLeft(), lobePicture(*lobes[i].mesh, camera, incidence,
+                                                              cells[i].size().toSize(),
+                                                              plotColor(lobes[i].look), ratio));
         painter.end();
         picture.setDevicePixelRatio(ratio);
         return [this, picture] {
