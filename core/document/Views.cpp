@@ -82,6 +82,10 @@ constexpr ViewInfo luminance(ViewInfo info) {
     info.unit = "EV";
     return info;
 }
+constexpr ViewInfo inMaterials(ViewInfo info) {
+    info.group = kMaterial;
+    return info;
+}
 constexpr ViewInfo measured(ViewInfo info, std::string_view unit, bool logarithmic) {
     info.unit = unit;
     info.logarithmic = logarithmic;
@@ -116,8 +120,9 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
     scalar(kViewAo, "ao", "Ambient Occlusion", "", kMaterial, ColorMap::Grey, 0.0f, 1.0f,
            "Share of the surroundings that is not hidden: map or bake, with its strength",
            "The image-based light that it takes away"),
-    color(kViewNormalMap, "normalMap", "Normal Map", "", kMaterial,
-          "The normal map in its tangent space, as OpenGL maps are stored (green up)"),
+    inMaterials(
+        direction(kViewNormalMap, "normalMap", "Normal Map", "",
+                  "The normal map in its tangent space, as OpenGL maps are stored (green up)")),
     radiance(kViewEmissive, "emissive", "Emission", "Lₑ", kMaterial,
              "Light that the material sends out by itself",
              "Emission as it stands in the picture's sum"),

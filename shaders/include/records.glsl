@@ -73,7 +73,7 @@ void recordSurface(SurfaceTerms s, vec4 baseColor, float ao, vec3 dfg, float alp
     mapped = decodeNormalTs(texture(u_normalTexture, mapUv(u_normalMap, v_uv)).rgb, 1.0,
                             u_normalGreenUp);
 #endif
-    record(kViewNormalMap, 0.5 + 0.5 * mapped);
+    record(kViewNormalMap, mapped);
     record(kViewAlpha, alpha);
     record(kViewShadingNormal, s.n);
     record(kViewGeometricNormal, triangle);

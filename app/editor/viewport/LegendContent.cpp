@@ -88,7 +88,9 @@ void describeColors(LegendContent& content, const ViewInfo& info, const Document
         content.hasScale = true;
         break;
     case ViewValue::Direction:
-        content.note = tr("Red, green, blue: X, Y, Z from −1 to 1");
+        content.note = info.kind == kViewNormalMap
+                           ? tr("Red, green, blue: along the tangent, the bitangent, the normal")
+                           : tr("Red, green, blue: X, Y, Z from −1 to 1");
         break;
     case ViewValue::Identity:
         if (info.kind == kViewMaterialId)

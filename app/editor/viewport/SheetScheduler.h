@@ -10,6 +10,7 @@
 #include <QImage>
 #include <QObject>
 #include <QTimer>
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <vector>
@@ -46,15 +47,18 @@ class SheetScheduler : public QObject {
     void invalidate();             // the scene looks different: every thumbnail is old
     void setResting(bool resting); // false: a drag needs the time
 
-    // How long nothing is drawn after a pass, so that thumbnails cost a quarter of the rest.
-    [[nodiscard]] static double pauseAfterMs(double passMs) { return passMs / kShare; }
+    // How long nothing is drawn after a pass, so that thumbnails cost a quarter of the rest. A pass
+    // that took very long waited for the driver's compiler; the next one will not.
+    [[nodiscard]] static double pauseAfterMs(double passMs) {
+        return std::min(passMs / kShare, kLongestPauseMs);
+    }
 
   Q_SIGNALS:
     void passDrawn(int views, double milliseconds);
     void allDrawn(); // nothing is old any more
 
   private:
-    static constexpr double kShare = 0.25;
+    static constexpr double kShare = 0.25, kLongestPauseMs = 500.0;
 
     struct Entry {
         SheetClient* client;
