@@ -67,7 +67,7 @@ QString ViewActions::keyOf(ViewKind kind) {
 
 ViewActions::ViewActions(ViewState& views, DocumentController& controller, QObject* parent)
     : QObject(parent)
-    , final(make(tr("&Picture, and Back"), QStringLiteral("0"),
+    , toFinal(make(tr("&Picture, and Back"), QStringLiteral("0"),
                  tr("Show the picture; once more: what was looked at before"), true))
     , contribution(make(tr("&Contribution"), QStringLiteral("C"),
                         tr("Show what a factor does to the picture instead of its own value"),
@@ -82,7 +82,7 @@ ViewActions::ViewActions(ViewState& views, DocumentController& controller, QObje
     , m_controller(controller) {
     for (QAction* action : {contribution, lockRange, split, strip})
         action->setCheckable(true);
-    connect(final, &QAction::triggered, &m_state, &ViewState::toggleFinal);
+    connect(toFinal, &QAction::triggered, &m_state, &ViewState::toggleFinal);
     connect(contribution, &QAction::triggered, this,
             [this](bool on) { m_state.setMode(on ? ViewMode::Contribution : ViewMode::Raw); });
     connect(lockRange, &QAction::triggered, this, [this](bool on) {
@@ -148,7 +148,7 @@ void ViewActions::makeCycles() {
 }
 
 QList<QAction*> ViewActions::all() const {
-    QList<QAction*> actions{final, contribution, split, strip};
+    QList<QAction*> actions{toFinal, contribution, split, strip};
     for (QAction* action : m_cycles)
         actions << action;
     for (QAction* action : m_views)
@@ -170,7 +170,7 @@ void ViewActions::refresh() {
 
 void ViewActions::fillMenu(QMenu& menu) {
     menu.setToolTipsVisible(true);
-    menu.addAction(final);
+    menu.addAction(toFinal);
     menu.addSeparator();
     for (int i = 0; i < kViewGroupCount; ++i) {
         const auto group = static_cast<ViewGroup>(i);

@@ -26,7 +26,7 @@ class ViewActions : public QObject {
 
     ViewActions(ViewState& views, DocumentController& controller, QObject* parent);
 
-    QAction *final, *contribution, *lockRange, *split, *strip;
+    QAction *toFinal, *contribution, *lockRange, *split, *strip;
     [[nodiscard]] QAction* view(ViewKind kind) const {
         return m_views[static_cast<std::size_t>(kind)];
     }

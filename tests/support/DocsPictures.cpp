@@ -170,6 +170,15 @@ int main(int argc, char* argv[]) {
     bool ok = save(window, folder.filePath(QStringLiteral("start.png")));
     ok &= saveLens(session, window, folder.filePath(QStringLiteral("lens.png")));
 
+    // The picture beside one of its factors.
+    session.views.show(patina::shading::kViewFinal);
+    session.views.showOther(patina::shading::kViewD);
+    session.views.edit(
+        [](patina::render::ViewSettings& settings) { settings.split->angleDeg = 15.0f; });
+    settle(6000);
+    ok &= save(window, folder.filePath(QStringLiteral("looking.png")));
+    session.views.set({});
+
     session.controller.setEnvironmentKind(patina::EnvironmentKind::Softboxes);
     window.findChild<SoftboxList*>()->select(
         session.controller.document().environment.softboxes.front().id);

@@ -367,6 +367,27 @@ TEST_F(ViewsWindowTest, AFoldedStripDrawsNothing) {
     QObject::disconnect(counting);
 }
 
+TEST_F(ViewsWindowTest, NoThumbnailIsDrawnWhileTheHandMoves) {
+    strip().setFolded(false);
+    views().show(kViewBaseColor);
+    ASSERT_TRUE(rested());
+    int passes = 0;
+    const auto counting = QObject::connect(&viewport().sheets(), &SheetScheduler::passDrawn,
+                                           &viewport(), [&] { ++passes; });
+    const QPoint from = viewport().rect().center() + QPoint(60, 60);
+    QTest::mousePress(&viewport(), Qt::LeftButton, Qt::NoModifier, from);
+    QTest::mouseMove(&viewport(), from + QPoint(10, 0));
+    passes = 0;
+    for (int i = 0; i < 12; ++i) {
+        QTest::mouseMove(&viewport(), from + QPoint(12 + i, 0));
+        ASSERT_TRUE(frameCame());
+    }
+    EXPECT_EQ(passes, 0);
+    QTest::mouseRelease(&viewport(), Qt::LeftButton, Qt::NoModifier, from);
+    EXPECT_TRUE(eventually([&] { return passes > 0; })) << "from the new side, at rest";
+    QObject::disconnect(counting);
+}
+
 TEST_F(ViewsWindowTest, ADoubleClickPutsTheViewOnTheOtherSide) {
     strip().setFolded(false);
     views().show(kViewBaseColor);
@@ -468,6 +489,38 @@ TEST_F(ViewsWindowTest, SwitchingTimes) {
                     std::string(info.id).c_str(), handled, frameMs);
     }
     std::printf("[ figures  ] longest: %s %.1f ms\n", longestId.c_str(), longest);
+}
+
+TEST_F(ViewsWindowTest, WhatTheStripCosts) {
+    strip().setFolded(false);
+    views().show(kViewFinal);
+    ASSERT_TRUE(rested());
+    double frameMs = 0;
+    const auto timing = QObject::connect(&viewport(), &ViewportWidget::frameRendered, &viewport(),
+                                         [&](double ms) { frameMs = ms; });
+    ASSERT_TRUE(frameCame() && frameCame()); // the first one may wait for the compiler
+    double passMs = 0;
+    int passes = 0, drawn = 0;
+    bool all = false;
+    SheetScheduler& sheets = viewport().sheets();
+    const auto counting =
+        QObject::connect(&sheets, &SheetScheduler::passDrawn, &viewport(), [&](int n, double ms) {
+            ++passes;
+            drawn += n;
+            passMs += ms;
+        });
+    const auto ending =
+        QObject::connect(&sheets, &SheetScheduler::allDrawn, &viewport(), [&] { all = true; });
+    QElapsedTimer clock;
+    clock.start();
+    sheets.invalidate();
+    ASSERT_TRUE(eventually([&] { return all; }));
+    std::printf("[ figures  ] %d thumbnails in %d passes: %.1f ms, spread over %lld ms; a frame at "
+                "rest takes %.1f ms\n",
+                drawn, passes, passMs, static_cast<long long>(clock.elapsed()), frameMs);
+    EXPECT_GT(drawn, 0);
+    for (const auto& connection : {timing, counting, ending})
+        QObject::disconnect(connection);
 }
 
 TEST_F(ViewsWindowTest, Pictures) {
