@@ -10,6 +10,8 @@
 #include <QHBoxLayout>
 #include <QIcon>
 #include <QLabel>
+#include <QScreen>
+#include <QScrollArea>
 #include <QVBoxLayout>
 
 namespace patina::editor {
@@ -72,6 +74,7 @@ QDialog* makeShortcutsDialog(const QList<QAction*>& commands, const QList<QActio
     dialog->setWindowTitle(tr("Keyboard and Mouse"));
 
     const Lines looking = {
+        {tr("Shift + number"), tr("Backwards through the group")},
         {tr("Hold a key"), tr("Look only while it is held")},
         {tr("Drag the split"), tr("Move it; its ring turns it (Shift: in steps); Esc removes it")},
         {tr("Double-click a thumbnail"), tr("Show it on the other side of the split")},
@@ -98,19 +101,35 @@ QDialog* makeShortcutsDialog(const QList<QAction*>& commands, const QList<QActio
     auto* right = new QVBoxLayout;
     right->setSpacing(2 * tokens::kMargin);
     right->addWidget(page(tr("Viewport"), viewport));
+    right->addWidget(page(tr("Looking at views"), looking));
     right->addWidget(page(tr("Panels"), fields));
     right->addStretch(1);
-    auto* columns = new QHBoxLayout;
+    auto* pages = new QWidget;
+    auto* columns = new QHBoxLayout(pages);
+    columns->setContentsMargins(0, 0, 0, 0);
     columns->setSpacing(4 * tokens::kMargin);
     columns->addWidget(page(tr("Commands"), linesOf(commands)), 0, Qt::AlignTop);
-    columns->addWidget(page(tr("Views"), linesOf(views) + looking), 0, Qt::AlignTop);
+    columns->addWidget(page(tr("Views"), linesOf(views)), 0, Qt::AlignTop);
     columns->addLayout(right);
+    // Where a scaled screen is too small for them, they are scrolled.
+    auto* scroll = new QScrollArea;
+    scroll->setFrameShape(QFrame::NoFrame);
+    scroll->setWidgetResizable(true);
+    pages->setObjectName(QStringLiteral("helpPages"));
+    scroll->setWidget(pages);
     auto* layout = new QVBoxLayout(dialog);
     layout->setContentsMargins(2 * tokens::kMargin, 2 * tokens::kMargin, 2 * tokens::kMargin,
                                tokens::kMargin);
     layout->setSpacing(2 * tokens::kMargin);
-    layout->addLayout(columns);
+    layout->addWidget(scroll);
     layout->addWidget(closeButton(dialog));
+    // With air for what the style sheet adds to labels and buttons when they are shown.
+    const QMargins margins = layout->contentsMargins();
+    const int air = 2 * tokens::kMargin;
+    const QSize wanted =
+        pages->sizeHint() + QSize(margins.left() + margins.right() + air,
+                                  dialog->sizeHint().height() - scroll->sizeHint().height() + air);
+    dialog->resize(wanted.boundedTo(0.95 * parent->screen()->availableSize()));
     return dialog;
 }
 

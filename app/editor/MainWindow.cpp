@@ -385,7 +385,7 @@ void MainWindow::connectActions() {
             [this](bool on) { setWindowState(windowState().setFlag(Qt::WindowFullScreen, on)); });
     connect(a.resetLayout, &QAction::triggered, this, &MainWindow::resetLayout);
     connect(a.shortcuts, &QAction::triggered, this,
-            [this] { makeShortcutsDialog(m_actions->all(), m_looks->all(), this)->show(); });
+            [this] { makeShortcutsDialog(m_actions->all(), m_looks->listed(), this)->show(); });
     connect(a.about, &QAction::triggered, this, [this] { makeAboutDialog(this)->show(); });
 
     connect(m_files, &FileFlow::recentFilesChanged, this, &MainWindow::fillRecentMenu);

@@ -68,7 +68,7 @@ QString ViewActions::keyOf(ViewKind kind) {
 ViewActions::ViewActions(ViewState& views, DocumentController& controller, QObject* parent)
     : QObject(parent)
     , toFinal(make(tr("&Picture, and Back"), QStringLiteral("0"),
-                 tr("Show the picture; once more: what was looked at before"), true))
+                   tr("Show the picture; once more: what was looked at before"), true))
     , contribution(make(tr("&Contribution"), QStringLiteral("C"),
                         tr("Show what a factor does to the picture instead of its own value"),
                         false))
@@ -135,7 +135,7 @@ void ViewActions::makeCycles() {
         const QString name = text(viewGroupLabel(group));
         for (const bool back : {false, true}) {
             QAction* action =
-                make(back ? tr("%1: Previous View").arg(name) : tr("%1: Next View").arg(name),
+                make(back ? tr("%1: View Before").arg(name) : tr("%1, in Turn").arg(name),
                      (back ? QStringLiteral("Shift+%1") : QStringLiteral("%1")).arg(i + 1),
                      back ? tr("Look at the view before, in this group")
                           : tr("Look at the next view of this group"),
@@ -147,13 +147,20 @@ void ViewActions::makeCycles() {
     }
 }
 
-QList<QAction*> ViewActions::all() const {
+QList<QAction*> ViewActions::listed() const {
     QList<QAction*> actions{toFinal, contribution, split, strip};
-    for (QAction* action : m_cycles)
-        actions << action;
+    for (std::size_t i = 0; i < m_cycles.size(); i += 2)
+        actions << m_cycles[i];
     for (QAction* action : m_views)
         if (!action->shortcut().isEmpty())
             actions << action;
+    return actions;
+}
+
+QList<QAction*> ViewActions::all() const {
+    QList<QAction*> actions = listed();
+    for (std::size_t i = 1; i < m_cycles.size(); i += 2)
+        actions << m_cycles[i];
     return actions;
 }
 

@@ -30,8 +30,9 @@ class ViewActions : public QObject {
     [[nodiscard]] QAction* view(ViewKind kind) const {
         return m_views[static_cast<std::size_t>(kind)];
     }
-    // Those with a shortcut, in the order of the page of shortcuts.
     [[nodiscard]] QList<QAction*> all() const;
+    // Those of the page of shortcuts: going back through a group is the same key with Shift.
+    [[nodiscard]] QList<QAction*> listed() const;
     void fillMenu(QMenu& menu);
 
     // The key of a view, "B"; empty when it has none.

@@ -175,7 +175,10 @@ int main(int argc, char* argv[]) {
     session.views.showOther(patina::shading::kViewD);
     session.views.edit(
         [](patina::render::ViewSettings& settings) { settings.split->angleDeg = 15.0f; });
-    settle(6000);
+    settle(1000);
+    const QSize full = window.viewport().size() * window.viewport().devicePixelRatioF();
+    runUntil([&] { return window.viewport().frameSize() == full; }, 60'000);
+    settle(5000); // thumbnails
     ok &= save(window, folder.filePath(QStringLiteral("looking.png")));
     session.views.set({});
 

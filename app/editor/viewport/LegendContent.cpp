@@ -130,6 +130,8 @@ LegendContent describeView(const render::ViewSettings& settings, const render::V
         content.hasModes = false;
         return content;
     }
+    if (choice.kind == kViewFinal)
+        return content; // beside a split its name says it all
     if (content.contribution) {
         content.note = text(info.contribution);
     } else {

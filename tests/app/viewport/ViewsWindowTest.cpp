@@ -525,20 +525,18 @@ TEST_F(ViewsWindowTest, WhatTheStripCosts) {
 
 TEST_F(ViewsWindowTest, Pictures) {
     strip().setFolded(false);
-    controller().addLight(LightType::Directional);
     bool drawn = false;
     const auto drawing = QObject::connect(&viewport().sheets(), &SheetScheduler::allDrawn,
                                           &viewport(), [&] { drawn = true; });
     const auto keep = [&](const char* name) {
         drawn = false;
-        ASSERT_TRUE(rested() && eventually([&] { return drawn; }));
+        // A busy machine takes its time over the programs of so many views.
+        ASSERT_TRUE(rested() && QTest::qWaitFor([&] { return drawn; }, 240'000));
         keepPicture(name);
     };
     views().show(kViewD);
     keep("views-d.png");
-    views().show(kViewMeshId);
-    keep("views-mesh.png");
-    views().show(kViewNormalMap);
+    views().show(kViewEmissive);
     keep("views-why.png");
     views().show(kViewLuminance);
     views().showOther(kViewTexelDensity);
