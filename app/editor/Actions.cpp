@@ -35,6 +35,8 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
                        tr("Light from the environment, with every reflection")))
     , lightingPrt(make(tr("&Precomputed Transfer"), {}, {tr("Ctrl+Shift+L")},
                        tr("Light through the baked transfer, with its soft shadows")))
+    , pixel(make(tr("Pi&xel"), QStringLiteral("pixel"), {tr("Ctrl+1")},
+                 tr("Explain the pixel under the pointer: every factor, formula and share")))
     , lightLab(make(tr("Light La&b"), QStringLiteral("light-lab"), {tr("Ctrl+2")},
                     tr("Show what shading makes of the environment: faces, harmonics, irradiance, "
                        "prefiltered levels, DFG table")))
@@ -43,6 +45,9 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
     , energy(make(tr("&Energy"), QStringLiteral("energy"), {tr("Ctrl+4")},
                   tr("Show what the material loses and makes of the light, and what compensation "
                      "gives back")))
+    , pinPixel(make(tr("Pin Pixel"), QStringLiteral("pin"), {tr("P")},
+                    tr("Keep looking at the point of the surface under the pointer; once more: "
+                       "take the pin away")))
     , furnace(make(tr("&White Furnace"), QStringLiteral("furnace"), {tr("Shift+F")},
                    tr("Look at the scene in even white surroundings without lights, where a "
                       "material that loses nothing cannot be seen")))
@@ -64,6 +69,7 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
     describe(redo, tr("Make the change again that was taken back"));
     overlays->setCheckable(true);
     overlays->setChecked(true);
+    pixel->setCheckable(true);
     lightLab->setCheckable(true);
     lens->setCheckable(true);
     energy->setCheckable(true);
@@ -95,10 +101,10 @@ void Actions::describe(QAction* action, const QString& sentence) {
 }
 
 QList<QAction*> Actions::all() const {
-    return {newScene,    open,        addModel,    save,      saveAs, saveEnvironment,
-            exportScene, quit,        undo,        redo,      frame,  home,
-            overlays,    lightingIbl, lightingPrt, lightLab,  lens,   energy,
-            furnace,     fullScreen,  resetLayout, shortcuts, about};
+    return {newScene,    open,        addModel,  save,  saveAs, saveEnvironment, exportScene,
+            quit,        undo,        redo,      frame, home,   overlays,        lightingIbl,
+            lightingPrt, pixel,       lightLab,  lens,  energy, pinPixel,        furnace,
+            fullScreen,  resetLayout, shortcuts, about};
 }
 
 } // namespace patina::editor

@@ -84,6 +84,7 @@ QDialog* makeShortcutsDialog(const QList<QAction*>& commands, const QList<QActio
         {tr("Middle drag"), tr("Pan (also Shift + left drag)")},
         {tr("Wheel"), tr("Zoom")},
         {tr("Click"), tr("Select a mesh and its material, or a light")},
+        {tr("Alt + click"), tr("Pin a point of the surface for the Pixel dock")},
         {tr("Right drag"), tr("Look around")},
         {tr("W A S D Q E"), tr("Fly while the right button is held")},
         {tr("Shift + right drag"), tr("Turn the environment")},

@@ -18,6 +18,7 @@
 #include "app/editor/panel/LogPanel.h"
 #include "app/editor/panel/MaterialPanel.h"
 #include "app/editor/panel/ModelPanel.h"
+#include "app/editor/panel/PixelPanel.h"
 #include "app/editor/panel/ScenePanel.h"
 #include "app/editor/panel/ViewPanel.h"
 #include "app/editor/style/Icons.h"
@@ -77,6 +78,7 @@ MainWindow::MainWindow(Session& session)
     m_viewport->setDisplays(session.displays);
     m_viewport->setLobe(session.lobe);
     m_viewport->setViews(session.views);
+    m_viewport->setProbe(session.probe);
 
     auto* centre = new QWidget;
     auto* layout = new QVBoxLayout(centre);
@@ -158,6 +160,8 @@ void MainWindow::makeDocks() {
             tr("Show or hide what runs in the background"), new JobsPanel(m_session.jobs));
     addDock(QStringLiteral("log"), tr("Log"), QStringLiteral("log"),
             tr("Show or hide the messages of this session"), new LogPanel);
+    addInstrument(m_actions->pixel, QStringLiteral("pixel"),
+                  new PixelPanel(controller, m_session.probe, m_viewport->picker()));
     auto* lightLab = new LightLabPanel(controller, m_viewport->ibl(), m_session.probe);
     connect(m_viewport, &ViewportWidget::luminanceMeasured, lightLab, &LightLabPanel::setLuminance);
     connect(addInstrument(m_actions->lightLab, QStringLiteral("lightLab"), lightLab),
@@ -282,7 +286,7 @@ void MainWindow::makeMenus() {
         if (!m_instruments.contains(dock))
             view->addAction(dock->toggleViewAction());
     view->addSeparator();
-    view->addActions({a.lightLab, a.lens, a.energy, a.furnace});
+    view->addActions({a.pixel, a.lightLab, a.lens, a.energy, a.pinPixel, a.furnace});
     view->addSeparator();
     view->addAction(a.resetLayout);
     view->addSeparator();
@@ -384,6 +388,11 @@ void MainWindow::connectActions() {
     connect(a.fullScreen, &QAction::toggled, this,
             [this](bool on) { setWindowState(windowState().setFlag(Qt::WindowFullScreen, on)); });
     connect(a.resetLayout, &QAction::triggered, this, &MainWindow::resetLayout);
+    connect(a.pinPixel, &QAction::triggered, &m_viewport->picker(), &PixelPicker::togglePin);
+    connect(&m_viewport->picker(), &PixelPicker::pinned, this, [this] {
+        if (!m_session.probe.wanted()) // nobody shows what was asked for
+            m_actions->pixel->trigger();
+    });
     connect(a.shortcuts, &QAction::triggered, this,
             [this] { makeShortcutsDialog(m_actions->all(), m_looks->listed(), this)->show(); });
     connect(a.about, &QAction::triggered, this, [this] { makeAboutDialog(this)->show(); });

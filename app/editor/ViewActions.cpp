@@ -20,7 +20,7 @@ namespace {
 
 using namespace shading;
 
-// Letters of views that are looked at often. W A S D Q E fly the camera, F and G are commands.
+// Letters of views that are looked at often. W A S D Q E fly the camera, F, G and P are commands.
 struct ViewKey {
     ViewKind kind;
     char key;
@@ -38,7 +38,7 @@ constexpr ViewKey kKeys[] = {
     {kViewWireframe, 'H'},
     {kViewDirect, 'L'},
     {kViewIrradiance, 'I'},
-    {kViewPrefiltered, 'P'},
+    {kViewPrefiltered, 'J'},
     {kViewTransmission, 'K'},
 };
 

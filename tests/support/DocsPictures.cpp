@@ -9,7 +9,10 @@
 #include "app/editor/panel/LightLabPanel.h"
 #include "app/editor/panel/SoftboxList.h"
 #include "app/editor/style/Style.h"
+#include "app/editor/viewport/PixelPicker.h"
+#include "app/editor/viewport/PixelProbe.h"
 #include "app/editor/viewport/ViewportWidget.h"
+#include "app/editor/widget/ContributionChart.h"
 
 #include <QApplication>
 #include <QComboBox>
@@ -139,6 +142,21 @@ bool saveLens(Session& session, MainWindow& window, const QString& file) {
     return drawn && saved;
 }
 
+// A point of the worn edge pinned, its formulas open.
+bool savePixel(Session& session, MainWindow& window, const QString& file) {
+    window.actions().pixel->trigger();
+    settle(3000);
+    window.viewport().picker().pinAt(
+        QPointF(window.viewport().width() * 0.47, window.viewport().height() * 0.42));
+    settle(1000);
+    Q_EMIT window.findChild<ContributionChart*>()->chosen(QStringLiteral("diffuseIbl"));
+    settle(200);
+    const bool ok = save(window, file);
+    session.probe.setPin(std::nullopt);
+    window.actions().pixel->trigger();
+    return ok;
+}
+
 } // namespace
 
 int main(int argc, char* argv[]) {
@@ -190,6 +208,8 @@ int main(int argc, char* argv[]) {
     session.controller.setEnvironmentKind(patina::EnvironmentKind::Image);
 
     ok &= saveLightLab(session, window, folder.filePath(QStringLiteral("light-lab.png")));
+
+    ok &= savePixel(session, window, folder.filePath(QStringLiteral("pixel.png")));
 
     // Gold by its refractive index: what the Model dock offers beyond its presets.
     raiseDock(window, QStringLiteral("model"));

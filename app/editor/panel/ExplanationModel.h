@@ -5,6 +5,7 @@
 #include "render/view/Explanation.h"
 
 #include <QAbstractItemModel>
+#include <QColor>
 #include <vector>
 
 namespace patina::editor {

@@ -25,6 +25,7 @@ namespace patina::editor {
 namespace {
 
 constexpr int kBeside = 620;     // wide enough for waterfall and tree side by side
+constexpr int kOneRow = 440;     // wide enough for colour and buttons in one row
 constexpr int kChartWidth = 330; // beside the tree
 constexpr int kSwatch = 34;
 
@@ -60,10 +61,6 @@ PixelPanel::PixelPanel(DocumentController& controller, PixelProbe& probe, PixelP
     , m_picker(picker)
     , m_model(new ExplanationModel(this)) {
     setObjectName(QStringLiteral("pixelPanel"));
-    m_timer.setSingleShot(true);
-    m_timer.setInterval(0);
-    connect(&m_timer, &QTimer::timeout, this, &PixelPanel::refresh);
-
     auto* empty = new QLabel(tr("Move the pointer over the picture to see what each pixel is made "
                                 "of. P or Alt + click pins a point of the surface."));
     empty->setWordWrap(true);
@@ -92,12 +89,13 @@ PixelPanel::PixelPanel(DocumentController& controller, PixelProbe& probe, PixelP
     m_pages->addWidget(shown);
     auto* outer = new QVBoxLayout(this);
     outer->setContentsMargins(0, 0, 0, 0);
+    outer->setSizeConstraint(QLayout::SetNoConstraint); // what is wide now can flow
     outer->addWidget(m_pages);
 
     connect(m_chart, &ContributionChart::chosen, this, &PixelPanel::reveal);
-    connect(&m_probe, &PixelProbe::hoverChanged, this, &PixelPanel::refreshSoon);
-    connect(&m_probe, &PixelProbe::pinChanged, this, &PixelPanel::refreshSoon);
-    connect(&m_picker, &PixelPicker::pickingChanged, this, &PixelPanel::refreshSoon);
+    connect(&m_probe, &PixelProbe::hoverChanged, this, &PixelPanel::refresh);
+    connect(&m_probe, &PixelProbe::pinChanged, this, &PixelPanel::refresh);
+    connect(&m_picker, &PixelPicker::pickingChanged, this, &PixelPanel::refreshHeader);
 }
 
 PixelPanel::~PixelPanel() {
@@ -149,23 +147,29 @@ QWidget* PixelPanel::makeHeader() {
     connect(m_channels, &QToolButton::toggled, m_chart, &ContributionChart::setChannels);
 
     auto* header = new QWidget;
-    auto* row = new QHBoxLayout;
-    row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(tokens::kGap);
-    row->addWidget(m_swatch);
     auto* words = new QVBoxLayout;
     words->setSpacing(0);
     words->addWidget(m_title);
     words->addWidget(m_subtitle);
-    row->addLayout(words, 1);
-    row->addWidget(m_channels);
-    row->addWidget(m_copyText);
-    row->addWidget(m_copyJson);
-    row->addWidget(m_pin);
+    auto* facts = new QHBoxLayout;
+    facts->setSpacing(tokens::kGap);
+    facts->addWidget(m_swatch);
+    facts->addLayout(words, 1);
+    auto* buttons = new QHBoxLayout;
+    buttons->setSpacing(tokens::kGap);
+    buttons->addWidget(m_channels);
+    buttons->addStretch(1);
+    buttons->addWidget(m_copyText);
+    buttons->addWidget(m_copyJson);
+    buttons->addWidget(m_pin);
+    m_header = new QBoxLayout(QBoxLayout::LeftToRight);
+    m_header->setSpacing(2);
+    m_header->addLayout(facts, 1);
+    m_header->addLayout(buttons);
     auto* rows = new QVBoxLayout(header);
     rows->setContentsMargins(0, 0, 0, 0);
     rows->setSpacing(2);
-    rows->addLayout(row);
+    rows->addLayout(m_header);
     rows->addWidget(m_state);
     return header;
 }
@@ -222,12 +226,15 @@ void PixelPanel::listen(bool wanted) {
 void PixelPanel::showEvent(QShowEvent* event) {
     QWidget::showEvent(event);
     listen(true);
-    refreshSoon();
 }
 
 void PixelPanel::hideEvent(QHideEvent* event) {
     listen(false);
     QWidget::hideEvent(event);
+}
+
+QSize PixelPanel::minimumSizeHint() const {
+    return {260, 150};
 }
 
 void PixelPanel::resizeEvent(QResizeEvent* event) {
@@ -236,6 +243,7 @@ void PixelPanel::resizeEvent(QResizeEvent* event) {
 }
 
 void PixelPanel::reflow() {
+    m_header->setDirection(width() >= kOneRow ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
     const bool beside = width() >= kBeside;
     m_body->setDirection(beside ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
     m_chartArea->setMinimumWidth(beside ? kChartWidth : 0);
@@ -252,12 +260,9 @@ void PixelPanel::reflow() {
                            metrics.horizontalAdvance(QLatin1Char('0')) * (beside ? 36 : 29) + 22);
 }
 
-void PixelPanel::refreshSoon() {
-    if (isVisible() && !m_timer.isActive())
-        m_timer.start();
-}
-
 void PixelPanel::refresh() {
+    if (!m_listens)
+        return;
     m_explanation.reset();
     if (m_probe.shown())
         m_explanation = render::explain(*m_probe.shown(), m_controller.document());

@@ -3,7 +3,6 @@
 
 #include "render/view/Explanation.h"
 
-#include <QTimer>
 #include <QWidget>
 #include <optional>
 
@@ -35,6 +34,8 @@ class PixelPanel : public QWidget {
         return m_explanation;
     }
 
+    [[nodiscard]] QSize minimumSizeHint() const override; // that of the narrowest flow
+
   protected:
     void showEvent(QShowEvent* event) override;
     void hideEvent(QHideEvent* event) override;
@@ -44,8 +45,7 @@ class PixelPanel : public QWidget {
     QWidget* makeHeader();
     QWidget* makeTree();
     void listen(bool wanted);
-    void refreshSoon();
-    void refresh();
+    void refresh(); // while the document is the one that was looked at
     void refreshHeader();
     void reflow();
     void openSections();
@@ -59,7 +59,6 @@ class PixelPanel : public QWidget {
     ExplanationModel* m_model;
     bool m_listens = false;
 
-    QTimer m_timer; // one refresh for many changes
     QStackedWidget* m_pages;
     QLabel *m_swatch, *m_state;
     ElidedLabel *m_title, *m_subtitle;
@@ -67,7 +66,7 @@ class PixelPanel : public QWidget {
     ContributionChart* m_chart;
     PanelScroll* m_chartArea;
     QTreeView* m_tree;
-    QBoxLayout* m_body;
+    QBoxLayout *m_header, *m_body;
 };
 
 } // namespace patina::editor

@@ -32,6 +32,7 @@ PixelPicker::PixelPicker(DocumentController& controller, QWidget& viewport)
             if (m_probe)
                 m_probe->setHover(std::nullopt);
         }
+        m_outdated = m_outdated || change.affects != Affects::Nothing;
         placeMark();
     });
 }
@@ -51,14 +52,13 @@ void PixelPicker::setProbe(PixelProbe& probe) {
 // --- When ----------------------------------------------------------------------------------------
 
 void PixelPicker::frameDrawn(const QSize& size, bool moving) {
+    const Camera& camera = m_controller.document().view.camera;
+    m_cameraRests = camera == m_camera;
+    m_camera = camera;
+    m_outdated = false;
     m_frame = size;
     m_moving = moving;
     lookSoon();
-}
-
-void PixelPicker::cameraMoved() {
-    m_cameraMoved = true;
-    placeMark();
 }
 
 // Never at once: this is also called while a frame is drawn. While something is dragged, frames
@@ -75,15 +75,17 @@ void PixelPicker::lookSoon() {
 void PixelPicker::look() {
     if (!m_probe || !m_probe->wanted() || m_frame.isEmpty())
         return;
+    // The numbers belong to the picture that is shown. A newer one is on its way, and then its
+    // numbers are wanted.
+    if (m_outdated || m_controller.document().view.camera != m_camera)
+        return;
     if (m_pin) {
         lookAtPin();
-    } else if (m_pointer && !(m_moving && m_cameraMoved) && !m_dragging) {
+    } else if (m_pointer && (m_cameraRests || !m_moving) && !m_dragging) {
         if (const auto pixel = pixelAt(*m_pointer))
             if (auto inspection = inspect(*pixel))
                 m_probe->setHover(std::move(inspection));
     }
-    if (!m_moving)
-        m_cameraMoved = false;
 }
 
 void PixelPicker::lookAtPin() {

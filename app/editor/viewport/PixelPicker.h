@@ -32,9 +32,10 @@ class PixelPicker : public QObject {
     void setProbe(PixelProbe& probe);
     void setInspect(Inspect inspect) { m_inspect = std::move(inspect); }
 
-    // After a frame of `size` device pixels; `cameraMoves`: it will be followed by others.
+    // After a frame of `size` device pixels, none when it is gone; `moving`: others will follow
+    // soon.
     void frameDrawn(const QSize& size, bool moving);
-    void cameraMoved(); // the mark goes along in the same frame
+    void placeMark(); // before a frame, so that the mark goes along in it
 
     void togglePin();              // at the pointer, or take the pin away
     void pinAt(const QPointF& at); // beside the model: takes the pin away
@@ -58,7 +59,6 @@ class PixelPicker : public QObject {
     void unpin();
     [[nodiscard]] std::optional<QPoint> pixelAt(const QPointF& position) const;
     [[nodiscard]] std::optional<render::Inspection> inspect(const QPoint& pixel);
-    void placeMark();
 
     DocumentController& m_controller;
     QWidget& m_viewport;
@@ -72,7 +72,9 @@ class PixelPicker : public QObject {
     QElapsedTimer m_sinceLook;
     double m_lookMs = 0.0;
     bool m_moving = false;
-    bool m_cameraMoved = false; // since the last look
+    bool m_outdated = false;   // the document has changed since the last frame
+    Camera m_camera;           // of the last frame
+    bool m_cameraRests = true; // it is that of the frame before
     bool m_picking = false;
     bool m_dragging = false; // a button is down
 };

@@ -41,7 +41,8 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     , m_selection(selection)
     , m_ibl(new IblUpdater(iblCacheFolder(), this))
     , m_hand(controller, selection, *this)
-    , m_viewFeed(controller) {
+    , m_viewFeed(controller)
+    , m_picker(controller, *this) {
     setObjectName(QStringLiteral("viewport"));
     setAccessibleName(tr("Viewport"));
     setAccessibleDescription(
@@ -100,6 +101,7 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
         m_onlyDisplay = true;
         update();
     });
+    m_picker.setInspect([this](const QPoint& pixel) { return inspect(pixel); });
     m_sheets.setDraw([this](const render::ViewSheet& sheet) { return drawSheet(sheet); });
     connect(&m_preview, &PreviewFeed::changed, this, &ViewportWidget::lookChanged);
     // Between frames and input, so that neither waits for an environment.
@@ -128,6 +130,10 @@ void ViewportWidget::setDisplays(DisplayLoader& displays) {
 
 void ViewportWidget::setViews(ViewState& views) {
     m_viewFeed.setViews(views);
+}
+
+void ViewportWidget::setProbe(PixelProbe& probe) {
+    m_picker.setProbe(probe);
 }
 
 void ViewportWidget::lookChanged() {
@@ -184,6 +190,7 @@ void ViewportWidget::releaseGl() {
     if (!m_renderer && !m_context)
         return;
     m_sheets.setResting(false);
+    m_picker.frameDrawn({}, false);
     makeCurrent();
     m_target.reset();
     m_renderer.reset();
@@ -259,6 +266,16 @@ void ViewportWidget::paintGL() {
     Q_EMIT frameRendered(milliseconds);
     followLuminance();
     m_sheets.setResting(!m_pacing.moving());
+    m_picker.frameDrawn(size, m_pacing.moving());
+}
+
+Result<render::Inspection> ViewportWidget::inspect(const QPoint& pixel) {
+    if (!m_renderer)
+        return Error{ErrorKind::NoOpenGl, "there is no OpenGL to draw with", {}, {}};
+    makeCurrent();
+    Result<render::Inspection> inspection = m_renderer->inspect(pixel.x(), pixel.y());
+    doneCurrent();
+    return inspection;
 }
 
 // A piece of the environment that has been prepared. The old one is shown until all are there.
@@ -340,6 +357,7 @@ void ViewportWidget::applyChange(const Change& change) {
 
 void ViewportWidget::touch() {
     hurry();
+    m_picker.placeMark();
     lookChanged();
 }
 

@@ -3,6 +3,7 @@
 
 #include "app/editor/viewport/AdaptationClock.h"
 #include "app/editor/viewport/FramePacing.h"
+#include "app/editor/viewport/PixelPicker.h"
 #include "app/editor/viewport/PreviewFeed.h"
 #include "app/editor/viewport/ScaledTarget.h"
 #include "app/editor/viewport/SheetScheduler.h"
@@ -46,10 +47,12 @@ class ViewportWidget : public QOpenGLWidget {
     void setDisplays(DisplayLoader& displays); // whose view of OpenColorIO is shown
     void setViews(ViewState& views);           // what of the scene is shown
     void setLobe(LobeOnSurface& lobe);         // which is drawn with the overlays
+    void setProbe(PixelProbe& probe);          // who is told what pixels are made of
     void setLuminanceWanted(bool wanted);      // even where the picture does not depend on it
 
     // Thumbnails of views with this viewport's camera, drawn while it rests.
     [[nodiscard]] SheetScheduler& sheets() { return m_sheets; }
+    [[nodiscard]] PixelPicker& picker() { return m_picker; }
 
     // The light of the document's environment, for whoever shows it, too.
     [[nodiscard]] IblUpdater& ibl() { return *m_ibl; }
@@ -84,6 +87,7 @@ class ViewportWidget : public QOpenGLWidget {
     void touch();       // the hand moved something: draw fast now, refine when it rests
     void lookChanged(); // of the scene, other than by the hand: its thumbnails are old, too
     void hurry();       // the next frames must be fast
+    [[nodiscard]] Result<render::Inspection> inspect(const QPoint& pixel);
     [[nodiscard]] Result<std::vector<Image>> drawSheet(const render::ViewSheet& sheet);
     [[nodiscard]] render::FrameSettings nextFrame(const QSize& size);
     void feedEnvironment();
@@ -101,6 +105,7 @@ class ViewportWidget : public QOpenGLWidget {
     PreviewFeed m_preview;
     ViewFeed m_viewFeed;
     SheetScheduler m_sheets;
+    PixelPicker m_picker;
 
     std::unique_ptr<gl::Context> m_context;
     std::unique_ptr<render::Renderer> m_renderer;
