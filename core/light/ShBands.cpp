@@ -225,4 +225,14 @@ Image shLatLong(std::span<const glm::vec3> coefficients, int order, int height,
     return image;
 }
 
+Image shBandLatLong(std::span<const glm::vec3> coefficients, int l, int height,
+                    const JobContext& job) {
+    CHECK(l >= 0 && l < kMaxShOrder);
+    CHECK_LE(static_cast<std::size_t>(shCount(l + 1)), coefficients.size());
+    std::vector<glm::vec3> band(shCount(l + 1), glm::vec3(0.0f));
+    std::copy(coefficients.begin() + shCount(l), coefficients.begin() + shCount(l + 1),
+              band.begin() + shCount(l));
+    return shLatLong(band, l + 1, height, job);
+}
+
 } // namespace patina

@@ -41,4 +41,8 @@ struct ShBands {
 [[nodiscard]] Image shLatLong(std::span<const glm::vec3> coefficients, int order, int height,
                               const JobContext& job = {});
 
+// One band alone, l = 0 … of what the coefficients hold, as such a picture: half of it is negative.
+[[nodiscard]] Image shBandLatLong(std::span<const glm::vec3> coefficients, int l, int height,
+                                  const JobContext& job = {});
+
 } // namespace patina

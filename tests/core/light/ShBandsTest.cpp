@@ -118,5 +118,20 @@ TEST(ShBands, PicturesAreTheSumsAtTheirPixels) {
     }
 }
 
+TEST(ShBands, PicturesOfSingleBandsAddUp) {
+    std::vector<glm::vec3> coefficients;
+    for (int i = 0; i < 36; ++i)
+        coefficients.emplace_back(std::sin(1.0f + static_cast<float>(i)), 0.5f, 0.1f);
+    constexpr std::size_t kValues = 18 * 9 * 3;
+    for (int l = 0; l < 6; ++l) {
+        const Image band = shBandLatLong(coefficients, l, 9);
+        const Image before = l == 0 ? band : shLatLong(coefficients, l, 9);
+        const Image after = shLatLong(coefficients, l + 1, 9);
+        for (std::size_t i = 0; i < kValues; ++i)
+            ASSERT_NEAR(band.f32()[i], after.f32()[i] - (l == 0 ? 0.0f : before.f32()[i]), 2e-5f)
+                << l;
+    }
+}
+
 } // namespace
 } // namespace patina

@@ -54,6 +54,53 @@ TEST(ShBasis, MatchesTheTablesWithTheirSigns) {
         EXPECT_NEAR(y[i], kY3[i], 1e-11) << i;
 }
 
+TEST(ShBasis, AlongAxesAndWithoutThePhase) {
+    // Green 2003 along +z and +x; Ramamoorthi & Hanrahan 2001 have all odd m of the other sign.
+    constexpr std::array<double, 16> kZ = {
+        0.282094791774, 0, 0.488602511903, 0, 0, 0, 0.630783130505, 0, 0, 0, 0, 0, 0.74635266518};
+    constexpr std::array<double, 16> kX = {0.282094791774,
+                                           0,
+                                           0,
+                                           -0.488602511903,
+                                           0,
+                                           0,
+                                           -0.315391565253,
+                                           0,
+                                           0.546274215296,
+                                           0,
+                                           0,
+                                           0,
+                                           0.0,
+                                           0.457045799464,
+                                           0,
+                                           -0.590043589927};
+    constexpr std::array<double, 16> kWithoutPhase = {
+        0.282094791774,  0.261169028265,   0.391753542398,  0.130584514133,
+        0.156078347227,  0.468235041682,   0.292863596306,  0.234117520841,
+        -0.117058760421, -0.0225279689466, 0.331092173163,  0.540952781035,
+        0.0641157236359, 0.270476390518,   -0.248319129872, -0.123903829206};
+    std::array<double, 64> z{}, x{}, y{};
+    evaluateSh(8, {0, 0, 1}, z);
+    evaluateSh(8, {1, 0, 0}, x);
+    evaluateSh(8, kD2, y);
+    for (int l = 0; l < 4; ++l)
+        for (int m = -l; m <= l; ++m) {
+            const int i = shIndex(l, m);
+            EXPECT_NEAR(z[i], kZ[i], 1e-10) << i;
+            EXPECT_NEAR(x[i], kX[i], 1e-10) << i;
+            EXPECT_NEAR(m % 2 == 0 ? y[i] : -y[i], kWithoutPhase[i], 1e-10) << i;
+        }
+    // Unsöld: Σ_m Y_lm² = (2l + 1) / 4pi everywhere.
+    constexpr std::array<double, 5> kUnsoeld = {0.0795774715459, 0.238732414638, 0.39788735773,
+                                                0.557042300822, 0.716197243914};
+    for (int l = 0; l < 5; ++l) {
+        double sum = 0.0;
+        for (int m = -l; m <= l; ++m)
+            sum += y[shIndex(l, m)] * y[shIndex(l, m)];
+        EXPECT_NEAR(sum, kUnsoeld[l], 1e-10) << l;
+    }
+}
+
 TEST(ShBasis, SharedShaderTermsAreTheSameFunctions) {
     for (std::uint32_t i = 0; i < 500; ++i) {
         const glm::vec3 d = uniformSphere(sobolOwen2D(i, 9));
