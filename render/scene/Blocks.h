@@ -14,7 +14,7 @@ inline constexpr unsigned kFrameBinding = 0, kInstanceBinding = 1, kMaterialBind
                           kModelBinding = 3, kShadowBinding = 4, kViewsBinding = 6;
 inline constexpr unsigned kVisibilityBinding = 0, kTransferBinding = 1,
                           kRecordsBinding = 2; // storage blocks
-inline constexpr int kMaxLights = 16;
+inline constexpr int kMaxLights = 64;
 inline constexpr int kMaxShadows = 4;        // lights that have a shadow map
 inline constexpr int kMaxTransferCount = 25; // order 5
 
@@ -38,7 +38,7 @@ struct FrameBlock {
 static_assert(offsetof(FrameBlock, cameraPosition) == 192);
 static_assert(offsetof(FrameBlock, radianceScale) == 224);
 static_assert(offsetof(FrameBlock, irradianceSh) == 240);
-static_assert(sizeof(FrameBlock) == 240 + 30 * 16 + 16 * 64);
+static_assert(sizeof(FrameBlock) == 240 + 30 * 16 + kMaxLights * sizeof(LightBlock));
 
 // shaders/include/shadow.glsl; see ShadowView for the numbers.
 struct ShadowBlock {

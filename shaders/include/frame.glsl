@@ -27,7 +27,7 @@ layout(std140, binding = 0) uniform Frame {
     uvec4 u_irradianceSh[4];
     vec3 u_radianceSh[25];  // world space, exposure included
     ivec4 u_lightEnds;
-    Light u_lights[16];
+    Light u_lights[64];
 };
 
 // Two of the numbers of u_irradianceSh. Software OpenGL takes longer to read a uniform than to

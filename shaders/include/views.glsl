@@ -28,7 +28,7 @@ layout(early_fragment_tests) in;
 layout(std430, binding = 2) writeonly buffer Records {
     vec4 b_values[kRecordCount];
     vec4 b_parts[kViewCount];
-    LightRecord b_lights[16]; // as many as u_lights;
+    LightRecord b_lights[64]; // as many as u_lights
 };
 #else
 layout(location = 0) out vec4 o_views[VIEW_OUTPUTS];

@@ -309,6 +309,24 @@ TEST_F(Explanations, SayWhichTermsAreSwitchedOff) {
                 HasSubstr(std::string(viewInfo(shading::kViewSpecularIbl).label) + " (off)"));
 }
 
+TEST_F(Explanations, NameEachOfSixtyFourLights) {
+    Document document = litScene();
+    document.lights.clear();
+    for (int i = 0; i < 64; ++i) {
+        Light bulb = light(document, LightType::Point, {0.1f * static_cast<float>(i - 32), 1, 3},
+                           0.1f + 0.01f * static_cast<float>(i));
+        bulb.castsShadow = false;
+        document.lights.push_back(bulb);
+    }
+    const Inspection pixel = inspectCenter(document);
+    ASSERT_EQ(pixel.lights.size(), 64u);
+    const Explanation explanation = explain(pixel, document);
+    EXPECT_EQ(disagreements(explanation), "");
+    EXPECT_LE(explanation.difference.value_or(255.0f), 1.0f);
+    // Two terms of image-based light, the lights, emission.
+    EXPECT_EQ(explanation.contributions.size(), 67u);
+}
+
 TEST_F(Explanations, ExplainTheBackground) {
     Document document = litScene();
     document.environment.exposureEv = 1.0f;
