@@ -51,9 +51,9 @@ struct ViewInfo {
     bool logarithmic = false;            // Scalar: shown by its logarithm (rangeMin > 0)
     bool automaticRange = false;         // Scalar: by default the range follows the picture
     std::string_view unit;               // "m", "W/(m² sr)", "" for ratios
-    float displayScale = 1.0f; // Radiance: factor on what is displayed, beside the exposure
-    std::string_view help;               // one sentence: what it is
-    std::string_view contribution;       // one sentence: what its contribution shows; empty: none
+    float displayScale = 1.0f;     // Radiance: factor on what is displayed, beside the exposure
+    std::string_view help;         // one sentence: what it is
+    std::string_view contribution; // one sentence: what its contribution shows; empty: none
 };
 
 [[nodiscard]] std::span<const ViewInfo> views(); // by number, kViewCount of them

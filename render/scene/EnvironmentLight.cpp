@@ -3,8 +3,8 @@
 #include "core/base/Check.h"
 #include "core/base/Log.h"
 #include "core/light/DfgTable.h"
-#include "core/math/Shading.h"
 #include "core/math/ShRotation.h"
+#include "core/math/Shading.h"
 
 #include <algorithm>
 #include <cmath>

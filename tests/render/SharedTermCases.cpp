@@ -229,8 +229,8 @@ std::vector<SharedTermCase> makeCases() {
             CASE("lat-long", directions, 1e-2f,
                  vec2 uv = latLongFromDirection(vec3(I(0), I(1), I(2)));
                  O(0) = uv.x; O(1) = uv.y; OUT3(2, directionFromLatLong(uv));
-                 OUT3(5, rotateY(vec3(I(0), I(1), I(2)), 3.0f * I(3))); vec2 table = dfgTableUv(abs(I(0)), abs(I(1)));
-                 O(8) = table.x; O(9) = table.y;),
+                 OUT3(5, rotateY(vec3(I(0), I(1), I(2)), 3.0f * I(3)));
+                 vec2 table = dfgTableUv(abs(I(0)), abs(I(1))); O(8) = table.x; O(9) = table.y;),
             CASE("cube atlas", directions, 1.0f, vec3 at = cubeFacePosition(vec3(I(0), I(1), I(2)));
                  OUT3(0, at); vec2 texel = cubeAtlasTexel(at, floor(3.0f * abs(I(3))), 64.0f);
                  O(3) = texel.x; O(4) = texel.y; vec2 size = cubeAtlasSize(64.0f * abs(I(4)));

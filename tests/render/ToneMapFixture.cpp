@@ -40,7 +40,8 @@ Luminance ToneMapFixture::lookAt(float seconds) {
 }
 
 std::vector<std::uint8_t> ToneMapFixture::toneMapped(const View& view, bool dither) {
-    const auto done = screen().toneMap(targets().linear(), targets().display(), view, {.dither = dither});
+    const auto done =
+        screen().toneMap(targets().linear(), targets().display(), view, {.dither = dither});
     EXPECT_TRUE(done.ok()) << (done.ok() ? std::string() : done.error().text());
     return targets().displayed().readBytes(4);
 }

@@ -83,8 +83,8 @@ TEST_F(ViewsReadBack, EqualsTheSharedFunctionsAtRandomPixels) {
     ASSERT_TRUE(maps.ok());
     setBackground(document.environment.image, *maps);
     const CubeAtlas atlas = makeCubeAtlas(maps->prefiltered);
-    const Image dfg = computeDfgTable(128, Distribution::GGX, Visibility::SmithCorrelated,
-                                      DfgTexels::ToTheEnds);
+    const Image dfg =
+        computeDfgTable(128, Distribution::GGX, Visibility::SmithCorrelated, DfgTexels::ToTheEnds);
 
     FrameSettings settings;
     settings.samples = 1;

@@ -1,6 +1,6 @@
 // Lights as spherical harmonics: what their projection and its irradiance are in closed form.
-#include "core/math/Shading.h"
 #include "core/math/ShRotation.h"
+#include "core/math/Shading.h"
 #include "core/math/SphericalHarmonics.h"
 
 #include <gtest/gtest.h>
