@@ -51,6 +51,89 @@ PT_FN void shBasis25(vec3 d, PT_OUT_ARRAY(float, y, 25)) {
     y[24] = 0.625835735449176f * (x2 * (x2 - 3.0f * y2) - y2 * (3.0f * x2 - y2));
 }
 
+// Bands 0…7, for pictures of what many bands hold. Factors of (x + iy)^m and polynomials in z:
+// Sloan 2013, "Efficient Spherical Harmonic Evaluation", JCGT 2(2).
+PT_FN void shBasis64(vec3 d, PT_OUT_ARRAY(float, y, 64)) {
+    float low[25];
+    shBasis25(d, low);
+    for (int i = 0; i < 25; ++i)
+        y[i] = low[i];
+    float z2 = d.z * d.z;
+    // cos(m phi) and sin(m phi), times sin^m(theta)
+    float c1 = d.x;
+    float s1 = d.y;
+    float c2 = d.x * c1 - d.y * s1;
+    float s2 = d.x * s1 + d.y * c1;
+    float c3 = d.x * c2 - d.y * s2;
+    float s3 = d.x * s2 + d.y * c2;
+    float c4 = d.x * c3 - d.y * s3;
+    float s4 = d.x * s3 + d.y * c3;
+    float c5 = d.x * c4 - d.y * s4;
+    float s5 = d.x * s4 + d.y * c4;
+    float c6 = d.x * c5 - d.y * s5;
+    float s6 = d.x * s5 + d.y * c5;
+    float c7 = d.x * c6 - d.y * s6;
+    float s7 = d.x * s6 + d.y * c6;
+    float p;
+    y[30] = 0.116950322453424f * d.z * ((63.0f * z2 - 70.0f) * z2 + 15.0f);
+    p = -0.452946651195697f * ((21.0f * z2 - 14.0f) * z2 + 1.0f);
+    y[29] = p * s1;
+    y[31] = p * c1;
+    p = 2.39676839248666f * d.z * (3.0f * z2 - 1.0f);
+    y[28] = p * s2;
+    y[32] = p * c2;
+    p = -0.48923829943525f * (9.0f * z2 - 1.0f);
+    y[27] = p * s3;
+    y[33] = p * c3;
+    p = 2.07566231488104f * d.z;
+    y[26] = p * s4;
+    y[34] = p * c4;
+    p = -0.65638205684017f;
+    y[25] = p * s5;
+    y[35] = p * c5;
+    y[42] = 0.0635692022676284f * (((231.0f * z2 - 315.0f) * z2 + 105.0f) * z2 - 5.0f);
+    p = -0.582621362518731f * d.z * ((33.0f * z2 - 30.0f) * z2 + 5.0f);
+    y[41] = p * s1;
+    y[43] = p * c1;
+    p = 0.460602629757462f * ((33.0f * z2 - 18.0f) * z2 + 1.0f);
+    y[40] = p * s2;
+    y[44] = p * c2;
+    p = -0.921205259514923f * d.z * (11.0f * z2 - 3.0f);
+    y[39] = p * s3;
+    y[45] = p * c3;
+    p = 0.504564900728724f * (11.0f * z2 - 1.0f);
+    y[38] = p * s4;
+    y[46] = p * c4;
+    p = -2.36661916223175f * d.z;
+    y[37] = p * s5;
+    y[47] = p * c5;
+    p = 0.683184105191914f;
+    y[36] = p * s6;
+    y[48] = p * c6;
+    y[56] = 0.0682842769120049f * d.z * (((429.0f * z2 - 693.0f) * z2 + 315.0f) * z2 - 35.0f);
+    p = -0.0903316075825173f * (((429.0f * z2 - 495.0f) * z2 + 135.0f) * z2 - 5.0f);
+    y[55] = p * s1;
+    y[57] = p * c1;
+    p = 0.221266346222491f * d.z * ((143.0f * z2 - 110.0f) * z2 + 15.0f);
+    y[54] = p * s2;
+    y[58] = p * c2;
+    p = -0.156458933862294f * ((143.0f * z2 - 66.0f) * z2 + 3.0f);
+    y[53] = p * s3;
+    y[59] = p * c3;
+    p = 1.03783115744052f * d.z * (13.0f * z2 - 3.0f);
+    y[52] = p * s4;
+    y[60] = p * c4;
+    p = -0.51891557872026f * (13.0f * z2 - 1.0f);
+    y[51] = p * s5;
+    y[61] = p * c5;
+    p = 2.6459606618019f * d.z;
+    y[50] = p * s6;
+    y[62] = p * c6;
+    p = -0.707162732524596f;
+    y[49] = p * s7;
+    y[63] = p * c7;
+}
+
 // A_l: convolution with the clamped cosine multiplies band l by this, which turns radiance into
 // irradiance coefficients. Ramamoorthi & Hanrahan 2001, "On the relationship between radiance and
 // irradiance", equation 24 (their values: pi, 2pi/3, pi/4, 0, -pi/24).
@@ -63,7 +146,9 @@ PT_FN float shCosineFactor(int l) {
         return kPi / 4.0f;
     if (l == 4)
         return -kPi / 24.0f;
-    return 0.0f; // l = 3; bands above 4 are not used
+    if (l == 6)
+        return kPi / 64.0f;
+    return 0.0f; // odd bands; bands above 7 are not used
 }
 
 #endif

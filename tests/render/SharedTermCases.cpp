@@ -240,8 +240,18 @@ std::vector<SharedTermCase> makeCases() {
                  shBasis9(vec3(I(0), I(1), I(2)), y9); shBasis25(vec3(I(0), I(1), I(2)), y25);
                  for (int i = 0; i < 25; ++i) O(i) = y25[i];
                  for (int i = 0; i < 9; ++i) O(i) = O(i) + y9[i];),
+            CASE("eight bands", directions, 1e-1f, float y[64];
+                 shBasis64(vec3(I(0), I(1), I(2)), y);
+                 for (int i = 0; i < 25; ++i) O(i) = y[i];
+                 for (int i = 25; i < 28; ++i) O(i) = y[i] + y[i + 36];),
+            CASE("eight bands, the upper", directions, 1e-1f, float y[64];
+                 shBasis64(vec3(I(0), I(1), I(2)), y);
+                 for (int i = 0; i < 28; ++i) O(i) = y[28 + i];),
+            CASE("eight bands, the last", directions, 1e-1f, float y[64];
+                 shBasis64(vec3(I(0), I(1), I(2)), y);
+                 for (int i = 0; i < 8; ++i) O(i) = y[56 + i];),
             CASE("cosine factor", unit, 1.0f,
-                 for (int l = 0; l < 5; ++l) O(l) = shCosineFactor(l);),
+                 for (int l = 0; l < 8; ++l) O(l) = shCosineFactor(l);),
             CASE("irradiance", directions, 1.0f, vec3 sh[9];
                  for (int i = 0; i < 9; ++i) sh[i] = vec3(I(3 + i), I(12 + i), I(21 + i));
                  OUT3(0, irradianceFromSh9(sh, vec3(I(0), I(1), I(2))));),
