@@ -184,11 +184,11 @@ void main() {
     }
 #endif
 #ifdef HAS_TRANSFER
-    vec3 irradiance = arriving;
+    const float diffuseOpen = 1.0;
 #else
-    vec3 irradiance = unoccluded * arriving;
+    float diffuseOpen = unoccluded;
 #endif
-    ShadedLight ambient = shadeEnvironment(s, irradiance, prefiltered);
+    ShadedLight ambient = shadeEnvironment(s, diffuseOpen * arriving, prefiltered);
     float open = specularOcclusion(s.NoV, unoccluded, s.alpha);
     vec3 specularIbl = ambient.specular * open;
 
@@ -287,7 +287,7 @@ void main() {
 #ifdef VIEWS
     recordSurface(s, baseColor, ao, dfg, alpha, triangle);
     recordChosenDirection(s, sums, specularIbl, alpha);
-    recordIbl(s, dfg, arriving, prefiltered, ambient, open, alpha);
+    recordIbl(s, dfg, arriving, prefiltered, ambient, diffuseOpen, open, alpha);
     recordSum(s, ambient.diffuse, specularIbl, directDiffuse, directSpecular, emission, sums, alpha);
 #ifndef INSPECT
     for (int i = 0; i < VIEW_OUTPUTS; ++i)

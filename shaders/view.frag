@@ -69,7 +69,7 @@ void main() {
         float stripe = fract((gl_FragCoord.x + gl_FragCoord.y) / 16.0) < 0.5 ? 0.20 : 0.26;
         shown = vec3(stripe * (0.4 + 0.6 * c.r));
     } else if (u_value == 1)
-        shown = displayEncode(c.rgb, u_transfer, u_gamma);
+        shown = displayEncode(c.rgb / u_range.y, u_transfer, u_gamma);
     else if (u_value == 2)
         shown = mapped(placed(c.r));
     else if (u_value == 3)

@@ -86,6 +86,10 @@ constexpr ViewInfo inMaterials(ViewInfo info) {
     info.group = kMaterial;
     return info;
 }
+constexpr ViewInfo upTo(float rangeMax, ViewInfo info) {
+    info.rangeMax = rangeMax;
+    return info;
+}
 constexpr ViewInfo measured(ViewInfo info, std::string_view unit, bool logarithmic) {
     info.unit = unit;
     info.logarithmic = logarithmic;
@@ -117,6 +121,8 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
     scalar(kViewPerceptualRoughness, "perceptualRoughness", "Roughness", "r", kMaterial,
            ColorMap::Grey, 0.0f, 1.0f, "Perceptual roughness with its map; α = r²",
            "The reflections that it spreads"),
+    color(kViewF0, "f0", "F0", "F0", kMaterial,
+          "Share of the light that the surface reflects when it comes straight from above"),
     scalar(kViewAo, "ao", "Ambient Occlusion", "", kMaterial, ColorMap::Grey, 0.0f, 1.0f,
            "Share of the surroundings that is not hidden: map or bake, with its strength",
            "The image-based light that it takes away"),
@@ -170,6 +176,8 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
                     1e3f, "D·G·F / (4 N·L N·V) of the chosen direction, by its luminance",
                     kScaledLight),
              "1/sr", true),
+    color(kViewDiffuseLobe, "diffuseLobe", "Diffuse BRDF", "π f", kFactors,
+          "The diffuse BRDF of the chosen direction times π, before kD: for Lambert its albedo"),
     scalar(kViewNoL, "nol", "N·L", "N·L", kFactors, ColorMap::Sequential, 0.0f, 1.0f,
            "Cosine between normal and chosen direction", kScaledLight),
     scalar(kViewNoV, "nov", "N·V", "N·V", kFactors, ColorMap::Sequential, 0.0f, 1.0f,
@@ -187,9 +195,17 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
     radiance(kViewDirectSpecular, "directSpecular", "Direct Specular", "", kDirect,
              "Specular reflection of the analytic lights",
              "Direct specular light as it stands in the picture's sum"),
-    scalar(kViewShadow, "shadow", "Shadow", "", kDirect, ColorMap::Grey, 0.0f, 1.0f,
+    scalar(kViewShadow, "shadow", "Shadow", "shadow", kDirect, ColorMap::Grey, 0.0f, 1.0f,
            "Share of the chosen light, or of all that cast shadows, that arrives",
            "The direct light that shadows take away"),
+    irradiance(radiance(kViewLightArriving, "lightArriving", "Arriving Light", "E", kDirect,
+                        "Light of the chosen lamp, or of all lamps but area lights, on a surface "
+                        "that faces it, before shadow; shown as a grey card of 50 % would reflect "
+                        "it")),
+    radiance(kViewLightDiffuse, "lightDiffuse", "Lamp: Diffuse", "", kDirect,
+             "Diffuse reflection of the chosen light alone, or of all when none is chosen"),
+    radiance(kViewLightSpecular, "lightSpecular", "Lamp: Specular", "", kDirect,
+             "Specular reflection of the chosen light alone, or of all when none is chosen"),
 
     irradiance(radiance(kViewIrradiance, "irradiance", "Irradiance", "E(n)", kIbl,
                         "Light from all the surroundings that falls on the surface, before "
@@ -197,6 +213,14 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
     radiance(kViewDiffuseIbl, "diffuseIbl", "Diffuse IBL", "", kIbl,
              "Diffuse reflection of the surroundings",
              "Diffuse image-based light as it stands in the picture's sum"),
+    color(
+        kViewDiffuseAlbedo, "diffuseAlbedo", "Diffuse Albedo", "ρ", kIbl,
+        "What the diffuse lobe returns of even light, before kD: base colour × (1 - metallic) for "
+        "Lambert, and what the other diffuse models make of it"),
+    scalar(kViewDiffuseOcclusion, "diffuseOcclusion", "Diffuse AO", "AO", kIbl, ColorMap::Grey,
+           0.0f, 1.0f,
+           "What ambient occlusion leaves of the irradiance: 1 under radiance transfer, which "
+           "knows the shadows"),
     radiance(kViewPrefiltered, "prefiltered", "Prefiltered", "Lₚ", kIbl,
              "The surroundings, blurred as the roughness asks, in the direction of reflection"),
     measured(scalar(kViewPrefilteredLevel, "prefilteredLevel", "Prefilter Level", "", kIbl,
@@ -216,12 +240,14 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
     radiance(kViewSpecularIbl, "specularIbl", "Specular IBL", "", kIbl,
              "Specular reflection of the surroundings",
              "Specular image-based light as it stands in the picture's sum"),
-    measured(scalar(kViewMultiScatterGain, "multiScatterGain", "Multi-Scatter", "", kIbl,
-                    ColorMap::Sequential, 1.0f, 2.0f,
-                    "Factor for light that is reflected more than once between facets, by its "
-                    "luminance",
-                    "The reflection that multiple scattering adds"),
-             "", false),
+    color(kViewSingleScatterAlbedo, "singleScatterAlbedo", "Specular Albedo", "F0·A + B", kIbl,
+          "What the specular lobe returns of even light, reflected once: F0·A + B"),
+    upTo(2.0f, color(kViewMultiScatterGain, "multiScatterGain", "Multi-Scatter", "gain", kIbl,
+                     "Factor for light that is reflected more than once between facets; grey "
+                     "is 1, which adds nothing",
+                     "The reflection that multiple scattering adds")),
+    scalar(kViewSpecularOcclusion, "specularOcclusion", "Specular AO", "AOₛ", kIbl, ColorMap::Grey,
+           0.0f, 1.0f, "What ambient occlusion leaves of the reflected surroundings"),
     radiance(kViewAmbient, "ambient", "All IBL", "", kIbl,
              "Diffuse and specular reflection of the surroundings together"),
 }};
@@ -276,6 +302,9 @@ std::string whyEmpty(ViewKind kind, const Document& document) {
     case kViewDirect:
     case kViewDirectDiffuse:
     case kViewDirectSpecular:
+    case kViewLightArriving:
+    case kViewLightDiffuse:
+    case kViewLightSpecular:
         return anyShines(document) ? "" : "No light shines: add one, or switch one on.";
     case kViewShadow:
         return std::any_of(document.lights.begin(), document.lights.end(),

@@ -32,7 +32,7 @@ inline constexpr int kViewGroupCount = 6;
 // What the numbers of a view are, and so how they are shown.
 enum class ViewValue {
     Radiance,  // rgb, scene-linear: exposed and tone mapped like the picture
-    Color,     // rgb 0…1, scene-linear: encoded for the display, neither exposed nor tone mapped
+    Color,     // rgb 0…rangeMax, linear: encoded for the display, neither exposed nor tone mapped
     Scalar,    // one number: through the colour map over the range
     Direction, // unit vector, world space: 0.5 + 0.5 n, as normal maps show it
     Identity,  // whole number: a colour of its own for each
@@ -47,7 +47,7 @@ struct ViewInfo {
     ViewGroup group = ViewGroup::Picture;
     ViewValue value = ViewValue::Scalar;
     ColorMap colorMap = ColorMap::Grey;  // of Scalar
-    float rangeMin = 0.0f, rangeMax = 1; // of Scalar, when it is not automatic
+    float rangeMin = 0.0f, rangeMax = 1; // of Scalar, when it is not automatic; of Color
     bool logarithmic = false;            // Scalar: shown by its logarithm (rangeMin > 0)
     bool automaticRange = false;         // Scalar: by default the range follows the picture
     std::string_view unit;               // "m", "W/(m² sr)", "" for ratios

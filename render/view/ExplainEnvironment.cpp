@@ -68,7 +68,7 @@ ExplainedStep gainStep(const Subject& subject) {
         subject.document.model.multiScatter ? "1 + F0 · (1 / (A + B) − 1)" : "1",
         {color("f0", "F0", "F0", s.f0), ofView(subject, kViewDfgScale),
          ofView(subject, kViewDfgBias)},
-        color("multiScatterGain", "Gain", "gain", subject.vector(kRecordEnergyCompensation)),
+        color("multiScatterGain", "Gain", "gain", subject.vector(kViewMultiScatterGain)),
         {},
         true,
         {}};
@@ -158,7 +158,7 @@ ExplainedStep openStep(const Subject& subject) {
                        {ofView(subject, kViewNoV), ofView(subject, kViewAo),
                         scalar("alphaRoughness", "α", "α", subject.rebuilt.surface.alpha)},
                        scalar("specularOcclusion", "Specular Occlusion", "SO",
-                              subject.number(kRecordSpecularOcclusion)),
+                              subject.number(kViewSpecularOcclusion)),
                        {},
                        true,
                        {}};
@@ -169,7 +169,7 @@ ExplainedStep openStep(const Subject& subject) {
 ExplainedStep specularStep(const Subject& subject) {
     const glm::vec3 albedo = subject.vector(kRecordSpecularAlbedo);
     const glm::vec3 prefiltered = subject.radiance(kViewPrefiltered);
-    const float open = subject.number(kRecordSpecularOcclusion);
+    const float open = subject.number(kViewSpecularOcclusion);
     const ViewInfo& info = viewInfo(kViewSpecularIbl);
     ExplainedStep step{std::string(info.id),
                        std::string(info.label),

@@ -172,7 +172,7 @@ ExplainedStep f0Step(const Subject& subject) {
                        f0Formula(model.fresnel),
                        {color("baseColor", "Base Colour", "c", subject.vector(kViewBaseColor)),
                         scalar("metallic", "Metallic", "m", s.metallic)},
-                       color("f0", "F0", "F0", subject.vector(kRecordF0)),
+                       color("f0", "F0", "F0", subject.vector(kViewF0)),
                        {},
                        true,
                        {}};

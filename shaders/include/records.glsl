@@ -5,6 +5,7 @@
 struct LightSums {
     vec3 diffuse, specular; // of the chosen light
     vec3 toLight;           // the chosen one
+    vec3 arriving;          // irradiance of a surface that faces it, before its shadow
     float casting;          // lights that have a shadow map
     float lit;              // the sum of their shares that are not in shadow
     float chosenLit;        // that of the chosen one
@@ -12,7 +13,7 @@ struct LightSums {
 };
 
 LightSums noLights() {
-    return LightSums(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, 1.0, vec3(0.0));
+    return LightSums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, 1.0, vec3(0.0));
 }
 
 void recordShare(int i, vec3 l, float lit, vec3 arriving, ShadedLight light) {
@@ -36,6 +37,8 @@ void recordLight(inout LightSums sums, SurfaceTerms s, int i, vec3 l, vec3 E, fl
         sums.toLight = l;
         sums.chosenLit = lit;
     }
+    if (i == u_viewLight || u_viewLight < 0)
+        sums.arriving += E;
     recordShare(i, l, lit, E * lit, light);
 }
 
@@ -67,6 +70,7 @@ void recordSurface(SurfaceTerms s, vec4 baseColor, float ao, vec3 dfg, float alp
     record(kViewBaseColor, clamp(baseColor.rgb, 0.0, 1.0));
     record(kViewMetallic, s.metallic);
     record(kViewPerceptualRoughness, s.perceptualRoughness);
+    record(kViewF0, s.f0);
     record(kViewAo, ao);
     vec3 mapped = vec3(0.0, 0.0, 1.0);
 #ifdef HAS_NORMAL_MAP
@@ -90,12 +94,10 @@ void recordSurface(SurfaceTerms s, vec4 baseColor, float ao, vec3 dfg, float alp
     record(kRecordPosition, v_position);
     record(kRecordToViewer, s.v);
     record(kRecordUv, vec3(v_uv, 0.0));
-    record(kRecordF0, s.f0);
     record(kRecordDiffuseColor, s.diffuseColor);
     record(kRecordSpecularAlbedo, s.specularAlbedo);
     record(kRecordDfgMean, dfg.z);
     record(kRecordLobeDirection, lobeDirection(s, dfg.z));
-    record(kRecordEnergyCompensation, s.energyCompensation);
 }
 
 // D, G, F for the chosen light, or for the direction of a mirror's reflection.
@@ -118,6 +120,9 @@ void recordChosenDirection(SurfaceTerms s, LightSums sums, vec3 specularIbl, flo
     record(kViewG, G);
     record(kViewF, F);
     record(kViewDGF, luminance(F) * D * V);
+    record(kViewDiffuseLobe, NoL > 0.0 ? kPi * diffuse(s.model, s.diffuseColor, s.perceptualRoughness,
+                                                       s.diffuseRoughness, s.NoV, NoL, VoH)
+                                       : vec3(0.0));
     record(kViewNoL, NoL);
     record(kViewNoH, NoH);
     record(kViewVoH, VoH);
@@ -130,20 +135,26 @@ void recordChosenDirection(SurfaceTerms s, LightSums sums, vec3 specularIbl, flo
     record(kViewShadow, !mirror ? sums.chosenLit : sums.casting > 0.0 ? sums.lit / sums.casting : 1.0);
 }
 
+// `diffuseOpen`, `open`: what occlusion leaves of the light of the diffuse and the specular lobe.
 void recordIbl(SurfaceTerms s, vec3 dfg, vec3 arriving, vec3 prefiltered, ShadedLight ambient,
-               float open, float alpha) {
+               float diffuseOpen, float open, float alpha) {
     vec3 single = singleScatterAlbedo(s.model, s.f0, s.metallic, dfg.xy);
     vec3 meanFresnel = single / max(dfg.x + dfg.y, 1e-3);
     vec3 specular = ambient.specular * open;
     recordRadiance(kViewIrradiance, arriving, 1.0);
+    record(kViewDiffuseAlbedo, diffuseReflectance(s.model, s.diffuseColor, s.perceptualRoughness,
+                                                  s.diffuseRoughness, s.NoV));
+    record(kViewDiffuseOcclusion, diffuseOpen);
     recordRadiance(kViewPrefiltered, prefiltered, 1.0);
     record(kViewPrefilteredLevel, prefilteredLevel(s.perceptualRoughness, u_prefilteredLevels));
     record(kViewDfgScale, dfg.x);
     record(kViewDfgBias, dfg.y);
     record(kViewIblFresnel, meanFresnel);
     record(kViewTransmission, s.transmission);
-    record(kViewMultiScatterGain, luminance(s.energyCompensation));
-    record(kRecordSpecularOcclusion, open);
+    // As used: what a lobe returns in excess is cut.
+    record(kViewSingleScatterAlbedo, min(single, 1.0 / max(s.energyCompensation, vec3(1e-4))));
+    record(kViewMultiScatterGain, s.energyCompensation);
+    record(kViewSpecularOcclusion, open);
     ShadedLight unhidden = shadeEnvironment(s, arriving, prefiltered);
     recordPart(kViewAo, unhidden.diffuse + unhidden.specular - ambient.diffuse - specular, alpha);
     recordPart(kViewIblFresnel, specular * (1.0 - min(s.f0 / max(meanFresnel, vec3(1e-4)), vec3(1.0))),
@@ -168,6 +179,9 @@ void recordSum(SurfaceTerms s, vec3 diffuseIbl, vec3 specularIbl, vec3 directDif
     recordRadiance(kViewDirect, directDiffuse + directSpecular, alpha);
     recordRadiance(kViewDirectDiffuse, directDiffuse, alpha);
     recordRadiance(kViewDirectSpecular, directSpecular, alpha);
+    recordRadiance(kViewLightArriving, sums.arriving, 1.0);
+    recordRadiance(kViewLightDiffuse, u_viewLight < 0 ? directDiffuse : sums.diffuse, alpha);
+    recordRadiance(kViewLightSpecular, u_viewLight < 0 ? directSpecular : sums.specular, alpha);
     recordRadiance(kViewDiffuseIbl, diffuseIbl, alpha);
     recordRadiance(kViewSpecularIbl, specularIbl, alpha);
     recordRadiance(kViewAmbient, diffuseIbl + specularIbl, alpha);

@@ -17,68 +17,74 @@ PT_CONST int kViewFurnace = 5;
 PT_CONST int kViewBaseColor = 6;
 PT_CONST int kViewMetallic = 7;
 PT_CONST int kViewPerceptualRoughness = 8;
-PT_CONST int kViewAo = 9;
-PT_CONST int kViewNormalMap = 10;
-PT_CONST int kViewEmissive = 11;
-PT_CONST int kViewAlpha = 12;
+PT_CONST int kViewF0 = 9;
+PT_CONST int kViewAo = 10;
+PT_CONST int kViewNormalMap = 11;
+PT_CONST int kViewEmissive = 12;
+PT_CONST int kViewAlpha = 13;
 
 // Geometry.
-PT_CONST int kViewShadingNormal = 13;
-PT_CONST int kViewGeometricNormal = 14;
-PT_CONST int kViewTangent = 15;
-PT_CONST int kViewBitangent = 16;
-PT_CONST int kViewUvChecker = 17;
-PT_CONST int kViewTexelDensity = 18;
-PT_CONST int kViewMaterialId = 19;
-PT_CONST int kViewMeshId = 20;
-PT_CONST int kViewDepth = 21;
-PT_CONST int kViewWireframe = 22;
-PT_CONST int kViewFlat = 23;
+PT_CONST int kViewShadingNormal = 14;
+PT_CONST int kViewGeometricNormal = 15;
+PT_CONST int kViewTangent = 16;
+PT_CONST int kViewBitangent = 17;
+PT_CONST int kViewUvChecker = 18;
+PT_CONST int kViewTexelDensity = 19;
+PT_CONST int kViewMaterialId = 20;
+PT_CONST int kViewMeshId = 21;
+PT_CONST int kViewDepth = 22;
+PT_CONST int kViewWireframe = 23;
+PT_CONST int kViewFlat = 24;
 
 // Factors of the specular lobe, for the chosen direction.
-PT_CONST int kViewD = 24;
-PT_CONST int kViewG = 25;
-PT_CONST int kViewF = 26;
-PT_CONST int kViewDGF = 27;
-PT_CONST int kViewNoL = 28;
-PT_CONST int kViewNoV = 29;
-PT_CONST int kViewNoH = 30;
-PT_CONST int kViewVoH = 31;
+PT_CONST int kViewD = 25;
+PT_CONST int kViewG = 26;
+PT_CONST int kViewF = 27;
+PT_CONST int kViewDGF = 28;
+PT_CONST int kViewDiffuseLobe = 29;
+PT_CONST int kViewNoL = 30;
+PT_CONST int kViewNoV = 31;
+PT_CONST int kViewNoH = 32;
+PT_CONST int kViewVoH = 33;
 
 // Analytic lights.
-PT_CONST int kViewDirect = 32;
-PT_CONST int kViewDirectDiffuse = 33;
-PT_CONST int kViewDirectSpecular = 34;
-PT_CONST int kViewShadow = 35;
+PT_CONST int kViewDirect = 34;
+PT_CONST int kViewDirectDiffuse = 35;
+PT_CONST int kViewDirectSpecular = 36;
+PT_CONST int kViewShadow = 37;
+PT_CONST int kViewLightArriving = 38;
+PT_CONST int kViewLightDiffuse = 39;
+PT_CONST int kViewLightSpecular = 40;
 
 // Image-based light.
-PT_CONST int kViewIrradiance = 36;
-PT_CONST int kViewDiffuseIbl = 37;
-PT_CONST int kViewPrefiltered = 38;
-PT_CONST int kViewPrefilteredLevel = 39;
-PT_CONST int kViewDfgScale = 40;
-PT_CONST int kViewDfgBias = 41;
-PT_CONST int kViewIblFresnel = 42;
-PT_CONST int kViewTransmission = 43;
-PT_CONST int kViewSpecularIbl = 44;
-PT_CONST int kViewMultiScatterGain = 45;
-PT_CONST int kViewAmbient = 46;
+PT_CONST int kViewIrradiance = 41;
+PT_CONST int kViewDiffuseIbl = 42;
+PT_CONST int kViewDiffuseAlbedo = 43;
+PT_CONST int kViewDiffuseOcclusion = 44;
+PT_CONST int kViewPrefiltered = 45;
+PT_CONST int kViewPrefilteredLevel = 46;
+PT_CONST int kViewDfgScale = 47;
+PT_CONST int kViewDfgBias = 48;
+PT_CONST int kViewIblFresnel = 49;
+PT_CONST int kViewTransmission = 50;
+PT_CONST int kViewSpecularIbl = 51;
+PT_CONST int kViewSingleScatterAlbedo = 52;
+PT_CONST int kViewMultiScatterGain = 53;
+PT_CONST int kViewSpecularOcclusion = 54;
+PT_CONST int kViewAmbient = 55;
 
-PT_CONST int kViewCount = 47;
+PT_CONST int kViewCount = 56;
 
 // What the explanation of a pixel needs besides; no views of their own.
-PT_CONST int kRecordPosition = 47;
-PT_CONST int kRecordToViewer = 48;
-PT_CONST int kRecordUv = 49;
-PT_CONST int kRecordF0 = 50;
-PT_CONST int kRecordDiffuseColor = 51;
-PT_CONST int kRecordSpecularAlbedo = 52;
-PT_CONST int kRecordSpecularOcclusion = 53;
-PT_CONST int kRecordDfgMean = 54;
-PT_CONST int kRecordLobeDirection = 55;
-PT_CONST int kRecordToLight = 56;
-PT_CONST int kRecordEnergyCompensation = 57;
+PT_CONST int kRecordPosition = 56;
+PT_CONST int kRecordToViewer = 57;
+PT_CONST int kRecordUv = 58;
+PT_CONST int kRecordDiffuseColor = 59;
+PT_CONST int kRecordSpecularAlbedo = 60;
+PT_CONST int kRecordDfgMean = 61;
+PT_CONST int kRecordLobeDirection = 62;
+PT_CONST int kRecordToLight = 63;
 
-PT_CONST int kRecordCount = 58;
+PT_CONST int kRecordCount = 64;
 
 #endif

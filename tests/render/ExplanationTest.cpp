@@ -221,11 +221,11 @@ TEST_F(Explanations, NoticeANumberThatIsNotThePictures) {
         const char *in, *step;
     } cases[] = {{shading::kViewIrradiance, "environment", "diffuseIbl"},
                  {shading::kViewPrefiltered, "environment", "specularIbl"},
-                 {shading::kRecordF0, "surface", "f0"},
+                 {shading::kViewF0, "surface", "f0"},
                  {shading::kRecordDiffuseColor, "surface", "diffuseColor"},
                  {shading::kRecordSpecularAlbedo, "environment", "specularAlbedo"},
                  {shading::kViewTransmission, "environment", "kd"},
-                 {shading::kRecordSpecularOcclusion, "environment", "specularOcclusion"}};
+                 {shading::kViewSpecularOcclusion, "environment", "specularOcclusion"}};
     for (const auto& c : cases) {
         Inspection changed = pixel;
         for (int i = 0; i < 3; ++i)

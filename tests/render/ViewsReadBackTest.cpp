@@ -124,8 +124,8 @@ TEST_F(ViewsReadBack, EqualsTheSharedFunctionsAtRandomPixels) {
         EXPECT_NEAR(p->value(kViewD).x / D_GGX(NoH, alpha), 1.0f, kTolerance);
         EXPECT_NEAR(p->value(kViewG).x / (V_SmithGGXCorrelated(NoV, NoL, alpha) * 4.0f * NoL * NoV),
                     1.0f, kTolerance);
-        expectNear(glm::vec3(p->value(kViewF)),
-                   F_Schlick(glm::vec3(p->value(kRecordF0)), 1.0f, VoH), "F");
+        expectNear(glm::vec3(p->value(kViewF)), F_Schlick(glm::vec3(p->value(kViewF0)), 1.0f, VoH),
+                   "F");
     }
     EXPECT_GT(lit, kPixels / 4);
 }

@@ -149,7 +149,7 @@ TEST_F(Views, FactorsAreThoseOfTheSharedFunctions) {
         EXPECT_NEAR(p->value(kViewD).x / D_GGX(NoH, alpha), 1.0f, 1e-3f);
         EXPECT_NEAR(p->value(kViewG).x / (V_SmithGGXCorrelated(NoV, NoL, alpha) * 4.0f * NoL * NoV),
                     1.0f, 1e-3f);
-        const glm::vec3 f0(p->value(kRecordF0));
+        const glm::vec3 f0(p->value(kViewF0));
         EXPECT_NEAR(p->value(kViewF).x / F_Schlick(f0, 1.0f, VoH).x, 1.0f, 1e-3f);
     }
     EXPECT_GT(lit, 40);

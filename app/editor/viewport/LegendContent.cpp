@@ -29,10 +29,14 @@ bool dependsOnLight(ViewKind kind) {
     case kViewG:
     case kViewF:
     case kViewDGF:
+    case kViewDiffuseLobe:
     case kViewNoL:
     case kViewNoH:
     case kViewVoH:
     case kViewShadow:
+    case kViewLightArriving:
+    case kViewLightDiffuse:
+    case kViewLightSpecular:
         return true;
     default:
         return false;
@@ -82,7 +86,7 @@ void describeColors(LegendContent& content, const ViewInfo& info, const Document
         content.note = tr("Exposed and tone mapped like the picture");
         break;
     case ViewValue::Color:
-        content.note = tr("0…1, not exposed");
+        content.note = tr("0…%1, not exposed").arg(static_cast<double>(info.rangeMax));
         break;
     case ViewValue::Scalar:
         content.hasScale = true;
