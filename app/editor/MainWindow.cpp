@@ -22,6 +22,7 @@
 #include "app/editor/panel/ScenePanel.h"
 #include "app/editor/panel/ViewPanel.h"
 #include "app/editor/style/Icons.h"
+#include "app/editor/viewport/EquationBar.h"
 #include "app/editor/viewport/ViewOverlay.h"
 #include "app/editor/viewport/ViewStrip.h"
 #include "app/editor/viewport/ViewportWidget.h"
@@ -87,6 +88,13 @@ MainWindow::MainWindow(Session& session)
     layout->addWidget(m_notices);
     layout->addWidget(m_viewport, 1);
     new ViewOverlay(session.views, session.controller, *m_viewport);
+    auto* equation = new EquationBar(session.views, session.controller, m_viewport->sheets());
+    layout->addWidget(equation);
+    connect(m_looks->equation, &QAction::toggled, equation,
+            [equation](bool shown) { equation->setFolded(!shown); });
+    connect(equation, &EquationBar::foldedChanged, m_looks->equation,
+            [this](bool folded) { m_looks->equation->setChecked(!folded); });
+    m_looks->equation->setChecked(!equation->isFolded());
     auto* strip = new ViewStrip(session.views, session.controller, m_viewport->sheets());
     layout->addWidget(strip);
     connect(m_looks->strip, &QAction::toggled, strip,

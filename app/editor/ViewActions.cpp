@@ -78,9 +78,13 @@ ViewActions::ViewActions(ViewState& views, DocumentController& controller, QObje
                  tr("Show another view on the other side of a line; Esc takes it away"), false))
     , strip(make(tr("&Thumbnails"), QStringLiteral("T"),
                  tr("Show or hide the strip of views under the viewport"), false))
+    , equation(make(tr("&Equation"), QStringLiteral("="),
+                    tr("Show or hide the picture as its sum, under the viewport"), false))
+    , allTerms(make(tr("&All Terms"), QStringLiteral("Alt+0"),
+                    tr("Make the picture of all its terms again"), true))
     , m_state(views)
     , m_controller(controller) {
-    for (QAction* action : {contribution, lockRange, split, strip})
+    for (QAction* action : {contribution, lockRange, split, strip, equation})
         action->setCheckable(true);
     connect(toFinal, &QAction::triggered, &m_state, &ViewState::toggleFinal);
     connect(contribution, &QAction::triggered, this,
@@ -90,8 +94,11 @@ ViewActions::ViewActions(ViewState& views, DocumentController& controller, QObje
         m_state.setRange(shown.kind, on ? std::optional(m_state.rangeOf(shown)) : std::nullopt);
     });
     connect(split, &QAction::triggered, &m_state, &ViewState::toggleSplit);
+    connect(allTerms, &QAction::triggered, this,
+            [this] { m_state.edit([](ViewSettings& settings) { settings.terms.fill(true); }); });
     makeViews();
     makeCycles();
+    makeTerms();
     connect(&m_state, &ViewState::changed, this, &ViewActions::refresh);
     // A light that is gone, or off, lights no factor.
     connect(&m_controller, &DocumentController::changed, this, [this] {
@@ -147,8 +154,24 @@ void ViewActions::makeCycles() {
     }
 }
 
+void ViewActions::makeTerms() {
+    for (std::size_t i = 0; i < kTermCount; ++i) {
+        const QString name = text(viewInfo(kTermViews[i]).label);
+        QAction* action = make(name, QStringLiteral("Alt+%1").arg(i + 1),
+                               tr("Take %1 out of the picture, or put it back").arg(name), true);
+        action->setObjectName(QStringLiteral("term.%1").arg(i));
+        action->setCheckable(true);
+        connect(action, &QAction::triggered, this, [this, i](bool on) {
+            m_state.edit([=](ViewSettings& settings) { settings.terms[i] = on; });
+        });
+        m_terms.push_back(action);
+    }
+}
+
 QList<QAction*> ViewActions::listed() const {
-    QList<QAction*> actions{toFinal, contribution, split, strip};
+    QList<QAction*> actions{toFinal, contribution, split, strip, equation, allTerms};
+    for (QAction* action : m_terms)
+        actions << action;
     for (std::size_t i = 0; i < m_cycles.size(); i += 2)
         actions << m_cycles[i];
     for (QAction* action : m_views)
@@ -168,6 +191,8 @@ void ViewActions::refresh() {
     const ViewSettings& settings = m_state.settings();
     view(settings.shown.kind)->setChecked(true);
     contribution->setChecked(m_state.mode() == ViewMode::Contribution);
+    for (std::size_t i = 0; i < kTermCount; ++i)
+        m_terms[i]->setChecked(settings.terms[i]);
     split->setChecked(settings.split.has_value());
     lockRange->setChecked(settings.shown.range.has_value());
     lockRange->setEnabled(hasRange(settings.shown));
@@ -205,7 +230,14 @@ void ViewActions::fillMenu(QMenu& menu) {
         Actions::describe(action, tr("Colours for this many steps around middle grey"));
     }
     menu.addSeparator();
-    menu.addActions({split, strip});
+    QMenu* terms = menu.addMenu(tr("Te&rms of the Picture"));
+    terms->setToolTipsVisible(true);
+    for (QAction* action : m_terms)
+        terms->addAction(action);
+    terms->addSeparator();
+    terms->addAction(allTerms);
+    menu.addSeparator();
+    menu.addActions({split, strip, equation});
 }
 
 void ViewActions::fillLights(QMenu& menu) {
@@ -260,6 +292,7 @@ void ViewActions::endHold(bool restore) {
     m_state.edit([this](ViewSettings& settings) {
         settings.shown = m_beforeHold.shown;
         settings.split = m_beforeHold.split;
+        settings.terms = m_beforeHold.terms;
     });
 }
 

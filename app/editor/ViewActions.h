@@ -1,6 +1,7 @@
 // Every action of looking at the terms of shading: one per view, in turn by group, back to the
-// picture, contribution, range, light, split. Menu, keys and the page of shortcuts come from here.
-// A key that is held longer than a moment only peeks: letting go returns to what was shown.
+// picture, contribution, range, light, split, the terms that the picture is made of. Menu, keys and
+// the page of shortcuts come from here. A key that is held longer than a moment only peeks: letting
+// go returns to what was shown.
 #pragma once
 
 #include "core/document/Views.h"
@@ -26,7 +27,7 @@ class ViewActions : public QObject {
 
     ViewActions(ViewState& views, DocumentController& controller, QObject* parent);
 
-    QAction *toFinal, *contribution, *lockRange, *split, *strip;
+    QAction *toFinal, *contribution, *lockRange, *split, *strip, *equation, *allTerms;
     [[nodiscard]] QAction* view(ViewKind kind) const {
         return m_views[static_cast<std::size_t>(kind)];
     }
@@ -45,6 +46,7 @@ class ViewActions : public QObject {
     QAction* make(const QString& text, const QString& keys, const QString& sentence, bool peeks);
     void makeViews();
     void makeCycles();
+    void makeTerms();
     void refresh();
     void fillLights(QMenu& menu);
     void endHold(bool restore);
@@ -53,6 +55,7 @@ class ViewActions : public QObject {
     DocumentController& m_controller;
     std::vector<QAction*> m_views;  // by ViewKind
     std::vector<QAction*> m_cycles; // by ViewGroup: forwards and back
+    std::vector<QAction*> m_terms;  // by kTermViews: part of the picture
     QElapsedTimer m_held;           // since the key of an action went down; invalid: none is
     render::ViewSettings m_beforeHold;
 };

@@ -9,6 +9,7 @@
 #include "app/editor/panel/LightLabPanel.h"
 #include "app/editor/panel/SoftboxList.h"
 #include "app/editor/style/Style.h"
+#include "app/editor/viewport/EquationBar.h"
 #include "app/editor/viewport/PixelPicker.h"
 #include "app/editor/viewport/PixelProbe.h"
 #include "app/editor/viewport/ViewportWidget.h"
@@ -210,6 +211,15 @@ int main(int argc, char* argv[]) {
     ok &= saveLightLab(session, window, folder.filePath(QStringLiteral("light-lab.png")));
 
     ok &= savePixel(session, window, folder.filePath(QStringLiteral("pixel.png")));
+
+    // The picture as its sum, and one of its terms as its factors.
+    auto* equation = window.findChild<EquationBar*>();
+    equation->setFolded(false);
+    equation->open(patina::shading::kViewSpecularIbl);
+    settle(20'000); // thumbnails take their time
+    ok &= save(window, folder.filePath(QStringLiteral("equation.png")));
+    equation->close(0);
+    equation->setFolded(true);
 
     // Gold by its refractive index: what the Model dock offers beyond its presets.
     raiseDock(window, QStringLiteral("model"));

@@ -30,7 +30,7 @@ ViewStrip::ViewStrip(ViewState& views, DocumentController& controller, SheetSche
     : QWidget(parent)
     , m_views(views)
     , m_controller(controller)
-    , m_sheets(sheets)
+    , m_sheets(&sheets)
     , m_fold(new QToolButton)
     , m_groups(new QTabBar)
     , m_scroll(new QScrollArea) {
@@ -76,11 +76,12 @@ ViewStrip::ViewStrip(ViewState& views, DocumentController& controller, SheetSche
     showGroup(m_groups->currentIndex());
     const bool small = screen()->availableSize().height() < kRoomyScreen;
     setFolded(QSettings().value(QLatin1String(kFoldedKey), small).toBool());
-    m_sheets.add(*this);
+    m_sheets->add(*this);
 }
 
 ViewStrip::~ViewStrip() {
-    m_sheets.remove(*this);
+    if (m_sheets)
+        m_sheets->remove(*this);
 }
 
 void ViewStrip::makeThumbs() {
@@ -107,7 +108,7 @@ void ViewStrip::makeThumbs() {
     m_scroll->setFixedHeight(m_thumbs.front()->sizeHint().height() +
                              m_scroll->horizontalScrollBar()->sizeHint().height());
     m_scroll->viewport()->installEventFilter(this);
-    connect(m_scroll->horizontalScrollBar(), &QScrollBar::valueChanged, &m_sheets,
+    connect(m_scroll->horizontalScrollBar(), &QScrollBar::valueChanged, m_sheets,
             &SheetScheduler::wake);
 }
 
@@ -121,7 +122,7 @@ void ViewStrip::setFolded(bool folded) {
     m_fold->setIcon(icon(folded ? QStringLiteral("chevron-right") : QStringLiteral("chevron-down"),
                          tokens::kTextDim));
     QSettings().setValue(QLatin1String(kFoldedKey), folded);
-    m_sheets.wake();
+    m_sheets->wake();
     Q_EMIT foldedChanged(folded);
 }
 
@@ -129,7 +130,7 @@ void ViewStrip::showGroup(int group) {
     for (ViewThumb* thumb : m_thumbs)
         thumb->setVisible(static_cast<int>(viewInfo(thumb->kind()).group) == group);
     m_scroll->horizontalScrollBar()->setValue(0);
-    m_sheets.wake();
+    m_sheets->wake();
 }
 
 void ViewStrip::refreshShown() {
@@ -156,7 +157,7 @@ void ViewStrip::refreshWhy() {
     for (ViewThumb* thumb : m_thumbs)
         thumb->setWhyEmpty(
             QString::fromStdString(whyEmpty(thumb->kind(), m_controller.document())));
-    m_sheets.wake();
+    m_sheets->wake();
 }
 
 // --- Thumbnails ------------------------------------------------------------------------------
@@ -177,7 +178,7 @@ void ViewStrip::showThumbnail(ViewKind kind, const QImage& picture) {
 }
 
 void ViewStrip::showEvent(QShowEvent*) {
-    m_sheets.wake();
+    m_sheets->wake();
 }
 
 // --- The hand --------------------------------------------------------------------------------
@@ -203,7 +204,7 @@ void ViewStrip::openMenu(ViewKind kind, const QPoint& global) {
 
 bool ViewStrip::eventFilter(QObject* watched, QEvent* event) {
     if (event->type() == QEvent::Resize || event->type() == QEvent::Show)
-        m_sheets.wake();
+        m_sheets->wake();
     if (event->type() == QEvent::ContextMenu) {
         if (const auto* thumb = qobject_cast<ViewThumb*>(watched)) {
             openMenu(thumb->kind(), static_cast<QContextMenuEvent*>(event)->globalPos());

@@ -4,6 +4,7 @@
 
 #include "app/editor/viewport/SheetScheduler.h"
 
+#include <QPointer>
 #include <QWidget>
 #include <vector>
 
@@ -48,7 +49,7 @@ class ViewStrip : public QWidget, private SheetClient {
 
     ViewState& m_views;
     DocumentController& m_controller;
-    SheetScheduler& m_sheets;
+    QPointer<SheetScheduler> m_sheets; // the viewport's, which may go first
     QToolButton* m_fold;
     QTabBar* m_groups;
     QScrollArea* m_scroll;

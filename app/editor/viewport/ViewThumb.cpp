@@ -10,6 +10,7 @@ namespace patina::editor {
 namespace {
 constexpr int kFrame = 2; // around the picture
 constexpr int kGap = 1;   // above the name
+constexpr double kMutedOpacity = 0.22;
 } // namespace
 
 ViewThumb::ViewThumb(ViewKind kind, QWidget* parent)
@@ -28,7 +29,8 @@ ViewThumb::ViewThumb(ViewKind kind, QWidget* parent)
 }
 
 QSize ViewThumb::sizeHint() const {
-    return kPicture + QSize(2 * kFrame, 2 * kFrame + kGap + fontMetrics().height());
+    const int name = m_size == kPicture ? kGap + fontMetrics().height() : 0;
+    return m_size + QSize(2 * kFrame, 2 * kFrame + name);
 }
 
 void ViewThumb::setPicture(const QImage& picture) {
@@ -57,11 +59,23 @@ void ViewThumb::setWhyEmpty(const QString& why) {
     update();
 }
 
+void ViewThumb::setMuted(bool muted) {
+    m_muted = muted;
+    update();
+}
+
+void ViewThumb::makeSmall() {
+    m_size = kSmallPicture;
+    updateGeometry();
+}
+
 void ViewThumb::paintPicture(QPainter& painter, const QRect& place) const {
     painter.fillRect(place, QColor(tokens::kWell));
     if (m_why.isEmpty()) {
+        painter.setOpacity(m_muted ? kMutedOpacity : 1.0);
         if (!m_picture.isNull())
             painter.drawImage(place, m_picture);
+        painter.setOpacity(1.0);
         return;
     }
     painter.setPen(QColor(tokens::kTextOff));
@@ -71,7 +85,7 @@ void ViewThumb::paintPicture(QPainter& painter, const QRect& place) const {
 
 void ViewThumb::paintEvent(QPaintEvent*) {
     QPainter painter(this);
-    const QRect place(QPoint(kFrame, kFrame), kPicture);
+    const QRect place(QPoint(kFrame, kFrame), m_size);
     paintPicture(painter, place);
     const QRect frame = place.adjusted(-1, -1, 0, 0);
     const bool current = m_shown || m_other;
@@ -84,8 +98,10 @@ void ViewThumb::paintEvent(QPaintEvent*) {
         painter.setPen(pen);
         painter.drawRect(frame);
     }
+    if (m_size != kPicture)
+        return;
     painter.setPen(QColor(current ? tokens::kText : tokens::kTextDim));
-    const QRect line(kFrame, place.bottom() + 1 + kFrame + kGap, kPicture.width(),
+    const QRect line(kFrame, place.bottom() + 1 + kFrame + kGap, m_size.width(),
                      fontMetrics().height());
     painter.drawText(line, Qt::AlignHCenter | Qt::AlignVCenter,
                      fontMetrics().elidedText(text(), Qt::ElideRight, line.width()));

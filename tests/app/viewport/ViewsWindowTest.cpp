@@ -49,7 +49,7 @@ class ViewsWindowTest : public EditorTest {
     }
     static ViewStrip& strip() { return *window->findChild<ViewStrip*>(); }
     static ViewThumb& thumb(ViewKind kind) {
-        const auto thumbs = window->findChildren<ViewThumb*>();
+        const auto thumbs = strip().findChildren<ViewThumb*>();
         return **std::find_if(thumbs.begin(), thumbs.end(),
                               [&](const ViewThumb* thumb) { return thumb->kind() == kind; });
     }

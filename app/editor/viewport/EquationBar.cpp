@@ -1,0 +1,383 @@
+#include "app/editor/viewport/EquationBar.h"
+
+#include "app/editor/document/DocumentController.h"
+#include "app/editor/style/Icons.h"
+#include "app/editor/style/Tokens.h"
+#include "app/editor/viewport/EquationText.h"
+#include "app/editor/viewport/TermTile.h"
+#include "app/editor/viewport/ViewState.h"
+#include "app/editor/viewport/ViewThumb.h"
+#include "app/editor/widget/ElidedLabel.h"
+#include "core/document/Lights.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QKeyEvent>
+#include <QScrollArea>
+#include <QScrollBar>
+#include <QSettings>
+#include <QSignalBlocker>
+#include <QToolButton>
+#include <QWheelEvent>
+#include <algorithm>
+#include <utility>
+
+namespace patina::editor {
+namespace {
+
+using Terms = std::array<bool, kTermCount>;
+const char* const kFoldedKey = "equationBar/folded";
+
+bool allOn(const Terms& terms) {
+    return std::all_of(terms.begin(), terms.end(), [](bool on) { return on; });
+}
+
+bool onlyOne(const Terms& terms, std::size_t term) {
+    return terms[term] && std::count(terms.begin(), terms.end(), true) == 1;
+}
+
+QToolButton* makeCrumb(const QString& text) {
+    auto* crumb = new QToolButton;
+    crumb->setObjectName(QStringLiteral("crumb"));
+    crumb->setText(text);
+    crumb->setFocusPolicy(Qt::TabFocus);
+    crumb->setAccessibleName(QObject::tr("Back to %1").arg(text));
+    crumb->setToolTip(QObject::tr("Back to %1 (Esc: one step)").arg(text));
+    return crumb;
+}
+
+} // namespace
+
+EquationBar::EquationBar(ViewState& views, DocumentController& controller, SheetScheduler& sheets,
+                         QWidget* parent)
+    : QWidget(parent)
+    , m_views(views)
+    , m_controller(controller)
+    , m_sheets(&sheets)
+    , m_fold(new QToolButton)
+    , m_allOn(new QToolButton)
+    , m_crumbs(new QWidget)
+    , m_formula(new ElidedLabel)
+    , m_note(new QLabel)
+    , m_lights(new QComboBox)
+    , m_scroll(new QScrollArea) {
+    setObjectName(QStringLiteral("equationBar"));
+    setAttribute(Qt::WA_StyledBackground);
+    m_fold->setObjectName(QStringLiteral("foldEquation"));
+    m_fold->setText(tr("Equation"));
+    m_fold->setAccessibleName(tr("Show the picture as its sum"));
+    m_fold->setToolTip(tr("Show or hide the picture as its sum (=)"));
+    m_fold->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    m_fold->setIconSize({14, 14});
+    m_fold->setFocusPolicy(Qt::TabFocus);
+    connect(m_fold, &QToolButton::clicked, this, [this] { setFolded(!isFolded()); });
+    m_formula->setObjectName(QStringLiteral("formula"));
+    m_note->setObjectName(QStringLiteral("dim"));
+    m_note->setWordWrap(true);
+    m_note->setContentsMargins(tokens::kMargin, 0, tokens::kMargin, tokens::kGap);
+    m_lights->setObjectName(QStringLiteral("small"));
+    m_lights->setAccessibleName(tr("Light whose factors are shown"));
+    m_lights->setToolTip(tr("The light whose factors are shown"));
+    m_lights->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+    connect(m_lights, &QComboBox::activated, this, [this] {
+        const Id light = m_lights->currentData().toUInt();
+        m_views.edit([light](render::ViewSettings& settings) { settings.light = light; });
+    });
+    m_allOn->setObjectName(QStringLiteral("allTermsOn"));
+    m_allOn->setText(tr("All On"));
+    m_allOn->setAccessibleName(tr("All terms on"));
+    m_allOn->setToolTip(tr("Make the picture of all its terms again (Alt+0)"));
+    m_allOn->setFocusPolicy(Qt::TabFocus);
+    connect(m_allOn, &QToolButton::clicked, this,
+            [this] { m_views.edit([](render::ViewSettings& s) { s.terms.fill(true); }); });
+
+    auto* crumbs = new QHBoxLayout(m_crumbs);
+    crumbs->setContentsMargins(0, 0, 0, 0);
+    crumbs->setSpacing(0);
+    auto* header = new QHBoxLayout;
+    header->setContentsMargins(tokens::kGap, 0, tokens::kGap, 0);
+    header->setSpacing(tokens::kGap);
+    header->addWidget(m_fold);
+    header->addWidget(m_crumbs);
+    header->addWidget(m_formula, 1);
+    header->addWidget(m_lights);
+    header->addWidget(m_allOn);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 2, 0, 2);
+    layout->setSpacing(2);
+    layout->addLayout(header);
+    layout->addWidget(m_note);
+    layout->addWidget(m_scroll);
+    m_scroll->setWidgetResizable(true);
+    m_scroll->setFrameShape(QFrame::NoFrame);
+    m_scroll->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    m_scroll->setFocusPolicy(Qt::NoFocus);
+    m_scroll->viewport()->installEventFilter(this);
+    connect(m_scroll->horizontalScrollBar(), &QScrollBar::valueChanged, m_sheets,
+            &SheetScheduler::wake);
+
+    connect(&m_views, &ViewState::changed, this, &EquationBar::refresh);
+    connect(&m_controller, &DocumentController::changed, this, &EquationBar::refresh);
+    m_sheets->add(*this);
+    setFolded(QSettings().value(QLatin1String(kFoldedKey), true).toBool());
+}
+
+EquationBar::~EquationBar() {
+    if (m_sheets)
+        m_sheets->remove(*this);
+}
+
+bool EquationBar::isFolded() const {
+    return m_fold->property("folded").toBool();
+}
+
+void EquationBar::setFolded(bool folded) {
+    m_fold->setProperty("folded", folded);
+    m_fold->setIcon(icon(folded ? QStringLiteral("chevron-right") : QStringLiteral("chevron-down"),
+                         tokens::kTextDim));
+    QSettings().setValue(QLatin1String(kFoldedKey), folded);
+    refresh();
+    m_sheets->wake();
+    Q_EMIT foldedChanged(folded);
+}
+
+// --- Opening ---------------------------------------------------------------------------------
+
+void EquationBar::open(ViewKind kind) {
+    m_path.push_back(kind);
+    refresh();
+    m_sheets->wake();
+}
+
+void EquationBar::close(std::size_t depth) {
+    m_path.resize(std::min(depth + 1, m_path.size()));
+    refresh();
+    m_sheets->wake();
+}
+
+Equation EquationBar::equation() const {
+    return *equationOf(opened(), m_controller.document().model);
+}
+
+void EquationBar::keyPressEvent(QKeyEvent* event) {
+    const bool back = event->key() == Qt::Key_Escape || event->key() == Qt::Key_Backspace;
+    if (back && m_path.size() > 1)
+        close(m_path.size() - 2);
+    else
+        QWidget::keyPressEvent(event);
+}
+
+// --- What is shown ---------------------------------------------------------------------------
+
+void EquationBar::refresh() {
+    const Document& document = m_controller.document();
+    // What does not apply any more is closed: its light is gone.
+    while (m_path.size() > 1 && !whyEmpty(opened(), document).empty())
+        m_path.pop_back();
+    if (chooseLight())
+        return; // that has refreshed it
+    refreshHeader();
+    const Light* light = document.light(m_views.settings().light);
+    const bool factors = !isOfOneLight(opened()) || (light && hasFactors(light->type));
+    m_note->setVisible(!isFolded() && !factors);
+    m_scroll->setVisible(!isFolded() && factors);
+    if (!factors)
+        m_note->setText(tr("The light of an area light comes from all over its surface and is "
+                           "integrated over it: D, G, F and N·L of one direction are no factors "
+                           "of it."));
+    const Equation equation = this->equation();
+    if (m_built != equation.parts.data())
+        buildRow(equation);
+
+    const render::ViewSettings& settings = m_views.settings();
+    for (TermTile* tile : m_tiles) {
+        ViewThumb& thumb = tile->thumb();
+        thumb.setCurrent(thumb.kind() == settings.shown.kind,
+                         settings.split && thumb.kind() == settings.split->other.kind);
+        tile->setWhyEmpty(QString::fromStdString(whyEmpty(thumb.kind(), document)));
+    }
+    if (opened() == shading::kViewFinal)
+        for (std::size_t i = 0; i < kTermCount; ++i)
+            m_tiles[i]->setOn(settings.terms[i], onlyOne(settings.terms, i));
+}
+
+void EquationBar::refreshHeader() {
+    const Terms& terms = m_views.settings().terms;
+    m_allOn->setVisible(!allOn(terms));
+    const bool lacks = opened() == shading::kViewFinal && !allOn(terms);
+    m_formula->setText(lacks ? withoutText(terms) : formulaText(equation()));
+    m_formula->setToolTip(m_formula->text());
+    const QRgb color = lacks ? tokens::kCopper : tokens::kTextDim;
+    if (const QString style = QStringLiteral("color: %1").arg(QColor(color).name());
+        style != m_formula->styleSheet())
+        m_formula->setStyleSheet(style);
+    refreshCrumbs();
+    refreshLights();
+}
+
+void EquationBar::refreshCrumbs() {
+    if (m_crumbsShown == m_path)
+        return;
+    m_crumbsShown = m_path;
+    m_crumbs->setVisible(m_path.size() > 1);
+    QLayout* row = m_crumbs->layout();
+    while (QLayoutItem* item = row->takeAt(0)) {
+        item->widget()->hide();
+        item->widget()->deleteLater(); // it may be what was clicked
+        delete item;
+    }
+    for (std::size_t depth = 0; depth + 1 < m_path.size(); ++depth) {
+        QToolButton* crumb = makeCrumb(labelText(m_path[depth]));
+        connect(crumb, &QToolButton::clicked, this, [this, depth] { close(depth); });
+        row->addWidget(crumb);
+        row->addWidget(new QLabel(QStringLiteral("›")));
+    }
+    auto* here = new QLabel(labelText(opened()));
+    here->setContentsMargins(4, 0, 0, 0);
+    row->addWidget(here);
+}
+
+void EquationBar::refreshLights() {
+    const Document& document = m_controller.document();
+    const bool needed = isOfOneLight(opened()) && !isFolded();
+    m_lights->setVisible(needed);
+    if (!needed)
+        return;
+    const QSignalBlocker quiet(m_lights);
+    m_lights->clear();
+    for (const Light& light : document.lights)
+        if (shines(document, light))
+            m_lights->addItem(QString::fromStdString(light.name), light.id);
+    m_lights->setCurrentIndex(m_lights->findData(m_views.settings().light));
+}
+
+// The factors of direct light are those of one light.
+bool EquationBar::chooseLight() {
+    const Document& document = m_controller.document();
+    const auto usable = [&](const Light& light, bool withFactors) {
+        return shines(document, light) && (hasFactors(light.type) || !withFactors);
+    };
+    const Light* chosen = document.light(m_views.settings().light);
+    if (!isOfOneLight(opened()) || (chosen && shines(document, *chosen)))
+        return false;
+    for (const bool withFactors : {true, false})
+        for (const Light& light : document.lights)
+            if (usable(light, withFactors)) {
+                m_views.edit([&](render::ViewSettings& settings) { settings.light = light.id; });
+                return true;
+            }
+    return false;
+}
+
+// --- The row ---------------------------------------------------------------------------------
+
+void EquationBar::buildRow(const Equation& equation) {
+    m_built = equation.parts.data();
+    m_tiles.clear();
+    auto* contents = new QWidget;
+    contents->setObjectName(QStringLiteral("panelContents"));
+    auto* row = new QHBoxLayout(contents);
+    row->setContentsMargins(tokens::kGap, 0, tokens::kGap, 0);
+    row->setSpacing(2);
+    const auto addText = [&](const QString& text) {
+        if (text.isEmpty())
+            return;
+        auto* label = new QLabel(text);
+        label->setObjectName(QStringLiteral("operator"));
+        label->setAlignment(Qt::AlignCenter);
+        row->addWidget(label);
+    };
+    for (std::size_t i = 0; i < equation.parts.size(); ++i) {
+        addText(beforeText(equation, i));
+        addPart(*row, equation.parts[i]);
+    }
+    addText(QStringLiteral("="));
+    addTile(*row, new TermTile(equation.result, labelText(equation.result), {}));
+    row->addStretch(1);
+    // What is replaced may be what was clicked.
+    if (QWidget* before = m_scroll->takeWidget())
+        before->deleteLater();
+    m_scroll->setWidget(contents);
+    m_scroll->setFixedHeight(m_tiles.front()->sizeHint().height() +
+                             m_scroll->horizontalScrollBar()->sizeHint().height());
+}
+
+void EquationBar::addPart(QBoxLayout& row, const EquationPart& part) {
+    const bool isTerm = opened() == shading::kViewFinal;
+    const bool opens = equationOf(part.kind, m_controller.document().model).has_value();
+    TermTile* tile = addTile(row, new TermTile(part.kind, partText(part), {isTerm, opens}));
+    connect(tile, &TermTile::opened, this, [this, kind = part.kind] { open(kind); });
+    if (!isTerm)
+        return;
+    const std::size_t term = m_tiles.size() - 1; // parts of the sum are kTermViews
+    connect(tile, &TermTile::switched, this, [this, term](bool on) {
+        m_views.edit([=](render::ViewSettings& settings) { settings.terms[term] = on; });
+    });
+    connect(tile, &TermTile::soloClicked, this, [this, term] { solo(term); });
+}
+
+TermTile* EquationBar::addTile(QBoxLayout& row, TermTile* tile) {
+    ViewThumb& thumb = tile->thumb();
+    connect(&thumb, &ViewThumb::clicked, this, [this, kind = thumb.kind()] { m_views.show(kind); });
+    thumb.installEventFilter(this);
+    row.addWidget(tile);
+    m_tiles.push_back(tile);
+    return tile;
+}
+
+void EquationBar::solo(std::size_t term) {
+    const Terms terms = m_views.settings().terms;
+    Terms next{};
+    if (onlyOne(terms, term)) {
+        next = m_beforeSolo;
+    } else {
+        // From one solo to the next: what was before the first one comes back.
+        if (std::count(terms.begin(), terms.end(), true) > 1)
+            m_beforeSolo = terms;
+        next[term] = true;
+    }
+    m_views.edit([&](render::ViewSettings& settings) { settings.terms = next; });
+    // Alone in the picture; not behind a view of something else.
+    m_views.show(shading::kViewFinal);
+}
+
+// --- Thumbnails ------------------------------------------------------------------------------
+
+render::ViewSheet EquationBar::wantedSheet() const {
+    const double ratio = devicePixelRatioF();
+    render::ViewSheet sheet;
+    sheet.width = qRound(ViewThumb::kSmallPicture.width() * ratio);
+    sheet.height = qRound(ViewThumb::kSmallPicture.height() * ratio);
+    // What it comes to is looked at first.
+    for (auto tile = m_tiles.rbegin(); tile != m_tiles.rend(); ++tile) {
+        const ViewThumb& thumb = std::as_const(**tile).thumb();
+        if (!thumb.isEmpty() && !thumb.visibleRegion().isEmpty())
+            sheet.kinds.push_back(thumb.kind());
+    }
+    return sheet;
+}
+
+void EquationBar::showThumbnail(ViewKind kind, const QImage& picture) {
+    for (TermTile* tile : m_tiles)
+        if (tile->thumb().kind() == kind)
+            tile->thumb().setPicture(picture);
+}
+
+void EquationBar::showEvent(QShowEvent*) {
+    m_sheets->wake();
+}
+
+bool EquationBar::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() == QEvent::Resize || event->type() == QEvent::Show)
+        m_sheets->wake();
+    // The wheel turns sideways: there is nothing to scroll the other way.
+    if (event->type() == QEvent::Wheel && watched == m_scroll->viewport()) {
+        const QPoint angle = static_cast<QWheelEvent*>(event)->angleDelta();
+        QScrollBar* bar = m_scroll->horizontalScrollBar();
+        bar->setValue(bar->value() - (angle.x() != 0 ? angle.x() : angle.y()));
+        return true;
+    }
+    return QWidget::eventFilter(watched, event);
+}
+
+} // namespace patina::editor

@@ -1,0 +1,83 @@
+#include "app/editor/viewport/EquationText.h"
+
+#include <QCoreApplication>
+#include <QStringList>
+
+namespace patina::editor {
+namespace {
+
+QString text(std::string_view utf8) {
+    return QString::fromUtf8(utf8.data(), static_cast<qsizetype>(utf8.size()));
+}
+
+QString withConstant(const QString& name, float constant) {
+    if (constant == 1.0f)
+        return name;
+    if (constant < 1.0f) // 1/π
+        return name + QStringLiteral(" / π");
+    return QStringLiteral("%1 %2").arg(static_cast<double>(constant)).arg(name);
+}
+
+QString symbol(ViewKind kind) {
+    const ViewInfo& info = viewInfo(kind);
+    return text(info.symbol.empty() ? info.label : info.symbol);
+}
+
+} // namespace
+
+QString labelText(ViewKind kind) {
+    return text(viewInfo(kind).label);
+}
+
+QString partText(const EquationPart& part) {
+    return withConstant(labelText(part.kind), part.constant);
+}
+
+QString beforeText(const Equation& equation, std::size_t index) {
+    if (index == 0) {
+        for (std::size_t i = 1; i < equation.parts.size(); ++i)
+            if (closesBracket(equation, i))
+                return QStringLiteral("(");
+        return {};
+    }
+    const QString bracket = closesBracket(equation, index) ? QStringLiteral(") ") : QString();
+    switch (equation.parts[index].join) {
+    case Join::Plus:
+        return bracket + QStringLiteral("+");
+    case Join::Times:
+        return bracket + QStringLiteral("×");
+    case Join::Over:
+        return bracket + QStringLiteral("÷");
+    }
+    return {};
+}
+
+QString formulaText(const Equation& equation) {
+    const bool isSum = equation.opened == shading::kViewFinal;
+    QStringList words{QStringLiteral("=")};
+    for (std::size_t i = 0; i < equation.parts.size(); ++i) {
+        const EquationPart& part = equation.parts[i];
+        if (const QString before = beforeText(equation, i); !before.isEmpty())
+            words << before;
+        // The sum by names, products by symbols.
+        QString name =
+            isSum ? labelText(part.kind) : withConstant(symbol(part.kind), part.constant);
+        const bool sum = name.contains(QLatin1Char('+')), over = part.join == Join::Over;
+        if (sum || (over && part.constant != 1.0f))
+            name = QStringLiteral("(%1)").arg(name);
+        words << name;
+    }
+    const QString formula = words.join(QLatin1Char(' '));
+    return isSum ? labelText(equation.opened) + QLatin1Char(' ') + formula : formula;
+}
+
+QString withoutText(const std::array<bool, kTermCount>& terms) {
+    QStringList missing;
+    for (std::size_t i = 0; i < terms.size(); ++i)
+        if (!terms[i])
+            missing << labelText(kTermViews[i]);
+    return QCoreApplication::translate("EquationText", "The picture lacks %1")
+        .arg(missing.join(QStringLiteral(", ")));
+}
+
+} // namespace patina::editor
