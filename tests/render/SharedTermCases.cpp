@@ -241,8 +241,7 @@ std::vector<SharedTermCase> makeCases() {
                  for (int i = 0; i < 25; ++i) O(i) = y25[i];
                  for (int i = 0; i < 9; ++i) O(i) = O(i) + y9[i];),
             CASE("eight bands", directions, 1e-1f, float y[64];
-                 shBasis64(vec3(I(0), I(1), I(2)), y);
-                 for (int i = 0; i < 25; ++i) O(i) = y[i];
+                 shBasis64(vec3(I(0), I(1), I(2)), y); for (int i = 0; i < 25; ++i) O(i) = y[i];
                  for (int i = 25; i < 28; ++i) O(i) = y[i] + y[i + 36];),
             CASE("eight bands, the upper", directions, 1e-1f, float y[64];
                  shBasis64(vec3(I(0), I(1), I(2)), y);

@@ -21,7 +21,7 @@ class ViewThumb : public QAbstractButton {
     void setCurrent(bool shown, bool other); // on which side of the split
     void setWhyEmpty(const QString& why);    // not empty: there is nothing to draw
     void setMuted(bool muted);               // switched off in the picture
-    void makeSmall(); // and without its name, which stands elsewhere
+    void makeSmall();                        // and without its name, which stands elsewhere
     [[nodiscard]] QSize pictureSize() const { return m_size; }
     [[nodiscard]] bool isEmpty() const { return !m_why.isEmpty(); }
     [[nodiscard]] QSize sizeHint() const override;
