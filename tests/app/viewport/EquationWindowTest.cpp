@@ -63,8 +63,10 @@ class EquationWindowTest : public EditorTest {
         return bar().findChild<QLabel*>(QStringLiteral("formula"))->text().toStdString();
     }
     static bool rested() {
-        const QSize full = window->viewport().size() * window->viewport().devicePixelRatioF();
-        return eventually([&] { return window->viewport().frameSize() == full; });
+        // Its size may be about to change.
+        const ViewportWidget& viewport = window->viewport();
+        return eventually(
+            [&] { return viewport.frameSize() == viewport.size() * viewport.devicePixelRatioF(); });
     }
     static void keepPicture(const char* name) {
         const QString pictures = qEnvironmentVariable("PATINA_SCREENSHOTS");
