@@ -52,10 +52,23 @@ struct AoSettings {
     std::uint32_t seed = 0;
 };
 
+enum class SampleMethod {
+    Qmc,        // Owen-scrambled Sobol'
+    Stratified, // jittered N × N, the classical way; samples are rounded up to a square
+    Random      // independent: only to compare with
+};
+
 struct PrtSettings {
-    int order = 3;     // SH bands 1…5
-    int samples = 256; // rays per vertex, rounded up to a power of two
+    int order = 3;     // SH bands 1…8
+    int samples = 256; // rays per element, rounded up to a power of two
     std::uint32_t seed = 0;
+    TransferKind transfer = TransferKind::Shadowed;
+    int bounces = 3;        // Interreflected: 1…64
+    int bounceSamples = 64; // Interreflected: cached rays per vertex, rounded up to a power of two
+    SampleMethod method = SampleMethod::Qmc;
+    float tolerance =
+        0.0f;           // RMS change of the coefficients between passes at which to end; 0: never
+    bool fitted = true; // least squares over the surface instead of values at the vertices
 };
 
 // Passes of 32, 64, … rays over all elements. stop() ends after the pass in flight (or keeps the

@@ -14,33 +14,53 @@ namespace patina {
 
 enum class BakeKind { AoTexel, AoVertex, PrtVertex };
 
-// Numbers per vertex of one mesh instance: `stride` floats per vertex.
-//  AoVertex:  1: ambient visibility 0…1 (1 = open).
-//  PrtVertex: order² transfer coefficients T_i = ∫ V(ω) max(0, n·ω) Y_i(ω) dω / π, world space,
-//  real SH
-//             with Condon-Shortley phase (shaders/shared/sh.glsl), index l(l+1)+m, albedo not
-//             included: exit radiance = albedo · Σ L_i T_i.
+// Which transport a transfer bake holds; each includes the ones before it.
+enum class TransferKind {
+    Unshadowed,    // the clamped cosine alone, in closed form
+    Shadowed,      // and what the scene hides of the surroundings
+    Interreflected // and what arrives by way of other surfaces
+};
+
+// Numbers per vertex of one mesh instance. Vectors are empty when the bake does not hold them.
+//
+// Transfer: with order² coefficients of the surroundings' radiance L_i per colour channel c, a
+// surface of albedo ρ shows the radiance
+//     ρ_c Σ_i L_ic (values_i + bounced_ic).
+// Real SH with Condon-Shortley phase (shaders/shared/sh.glsl), index l(l+1)+m, world space. The
+// element's own albedo is not included; that of the surfaces by way of which light came is in
+// `bounced`.
 struct VertexBake {
-    Id mesh = 0; // MeshInstance::id
-    int stride = 1;
-    std::vector<float> values;
+    Id mesh = 0;                // MeshInstance::id
+    int stride = 1;             // of `values`: 1, or order² for transfer
+    std::vector<float> values;  // AoVertex: ambient visibility 0…1 (1 = open);
+                                // PrtVertex: T_i = ∫ V(ω) max(0, n·ω) Y_i(ω) dω / π
+    std::vector<float> bounced; // 3 · stride each: red, green, blue of coefficient 0, of 1 …
+    std::vector<float> sky; // 1 each, 0…1: share of the light of a uniform upper half (+Y) of the
+                            // surroundings that arrives, against an open surface of the same
+                            // normal; 1 where such a surface sees none of it
+    std::vector<float> error; // 1 each: estimated standard error of a coefficient (RMS over them)
     friend bool operator==(const VertexBake&, const VertexBake&) = default;
 };
 
-// One texture per material (meshes that share a material share its UV space): F32 Data, 1 channel,
-// ambient visibility 0…1, gutters filled.
+// One texture per material (meshes that share a material share its UV space), gutters filled.
 struct TexelBake {
     Id material = 0;
-    ImagePtr image;
+    ImagePtr image; // AoTexel: F32 Data, 1 channel, ambient visibility 0…1
+    // Transfer: side × side elements in rows from the top, as those of VertexBake.
+    int side = 0, stride = 0;
+    std::vector<float> values, bounced, sky, error;
     friend bool operator==(const TexelBake&, const TexelBake&) = default;
 };
 
 struct BakeArtifact {
     BakeKind kind = BakeKind::AoTexel;
     Hash inputs;                                 // hashBakeInputs() of what it was made from
+    Hash albedo;                                 // of the albedo that bounces rest on, or zero
     std::map<std::string, std::string> settings; // as text: "samples" → "256" …
-    int order = 0;                               // PrtVertex: SH bands
-    int samplesDone = 0;                         // rays per element that the values rest on
+    int order = 0;                               // transfer: SH bands
+    TransferKind transfer = TransferKind::Shadowed;
+    int bounces = 0;     // Interreflected: how often light may bounce
+    int samplesDone = 0; // rays per element that the values rest on
     std::vector<VertexBake> vertices;
     std::vector<TexelBake> texels;
     friend bool operator==(const BakeArtifact&, const BakeArtifact&) = default;
