@@ -30,15 +30,16 @@ enum class TransferKind {
 // element's own albedo is not included; that of the surfaces by way of which light came is in
 // `bounced`.
 struct VertexBake {
-    Id mesh = 0;                // MeshInstance::id
-    int stride = 1;             // of `values`: 1, or order² for transfer
-    std::vector<float> values;  // AoVertex: ambient visibility 0…1 (1 = open);
-                                // PrtVertex: T_i = ∫ V(ω) max(0, n·ω) Y_i(ω) dω / π
-    std::vector<float> bounced; // 3 · stride each: red, green, blue of coefficient 0, of 1 …
-    std::vector<float> sky; // 1 each, 0…1: share of the light of a uniform upper half (+Y) of the
-                            // surroundings that arrives, against an open surface of the same
-                            // normal; 1 where such a surface sees none of it
-    std::vector<float> error; // 1 each: estimated standard error of a coefficient (RMS over them)
+    Id mesh = 0;                     // MeshInstance::id
+    int stride = 1;                  // of `values`: 1, or order² for transfer
+    std::vector<float> values;       // AoVertex: ambient visibility 0…1 (1 = open);
+                                     // PrtVertex: T_i = ∫ V(ω) max(0, n·ω) Y_i(ω) dω / π
+    std::vector<float> bounced = {}; // 3 · stride each: red, green, blue of coefficient 0, of 1 …
+    std::vector<float> sky = {}; // 1 each, 0…1: share of the light of a uniform upper half (+Y) of
+                                 // the surroundings that arrives, against an open surface of the
+                                 // same normal; 1 where such a surface sees none of it
+    std::vector<float> error =
+        {}; // 1 each: estimated standard error of a coefficient (RMS over them)
     friend bool operator==(const VertexBake&, const VertexBake&) = default;
 };
 
@@ -48,7 +49,7 @@ struct TexelBake {
     ImagePtr image; // AoTexel: F32 Data, 1 channel, ambient visibility 0…1
     // Transfer: side × side elements in rows from the top, as those of VertexBake.
     int side = 0, stride = 0;
-    std::vector<float> values, bounced, sky, error;
+    std::vector<float> values = {}, bounced = {}, sky = {}, error = {};
     friend bool operator==(const TexelBake&, const TexelBake&) = default;
 };
 

@@ -51,11 +51,14 @@ Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings setting
     const auto stride = static_cast<std::size_t>(settings.stride());
     for (std::size_t m = 0; m < geometry->meshes.size(); ++m) {
         const auto values = passes->values.begin();
-        artifact.vertices.push_back(
-            {geometry->meshes[m].id, settings.stride(),
-             std::vector<float>(values + static_cast<std::ptrdiff_t>(firstOfMesh[m] * stride),
-                                values +
-                                    static_cast<std::ptrdiff_t>(firstOfMesh[m + 1] * stride))});
+        const auto at = [&](std::size_t point) {
+            return values + static_cast<std::ptrdiff_t>(point * stride);
+        };
+        VertexBake bake;
+        bake.mesh = geometry->meshes[m].id;
+        bake.stride = settings.stride();
+        bake.values.assign(at(firstOfMesh[m]), at(firstOfMesh[m + 1]));
+        artifact.vertices.push_back(std::move(bake));
     }
     job.setProgress(1.0);
     return artifact;
