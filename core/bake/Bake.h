@@ -71,8 +71,8 @@ struct PrtSettings {
     bool fitted = true; // least squares over the surface instead of values at the vertices
 };
 
-// Passes of 32, 64, … rays over all elements. stop() ends after the pass in flight (or keeps the
-// finished part of the last complete pass); cancel() returns ErrorKind::Cancelled within 0.5 s.
+// Passes of 32, 64, … rays over all elements. stop() keeps what there is, every element with
+// samplesDone rays or more; cancel() returns ErrorKind::Cancelled within 0.5 s.
 // Errors: InputBroken for a scene without triangles; Internal when Embree refuses memory.
 Result<BakeArtifact> bakeAoTexel(const BakeInputs& inputs, const AoSettings& settings,
                                  TileSink& sink, const JobContext& job);

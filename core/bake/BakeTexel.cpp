@@ -162,7 +162,7 @@ Result<BakeArtifact> bakeAoTexel(const BakeInputs& inputs, const AoSettings& set
         sendTexels(sink, *(next - 1), settings.size, range, values);
     };
     callbacks.passDone = [&](int samples) { sink.passDone(samples); };
-    const Result<PassResult> passes =
+    const Result<PassState> passes =
         runPasses(*scene, points, ranges, *passSettings, callbacks, job);
     if (!passes)
         return passes.error();

@@ -5,6 +5,7 @@
 #include "core/bake/BakePoints.h"
 #include "core/bake/Passes.h"
 #include "core/bake/RayScene.h"
+#include "core/math/SphericalHarmonics.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -13,6 +14,21 @@ namespace patina {
 namespace {
 
 constexpr std::size_t kPointsPerRange = 64;
+
+// Surroundings that are uniform above the horizon (+Y) and black below light an open surface of
+// normal n by (1 + n.y) / 2 of what uniform ones would.
+void addSkyAndError(VertexBake& bake, const PassState& state, std::span<const BakePoint> points,
+                    std::size_t first, SampleMethod method) {
+    const std::size_t count = bake.values.size() / static_cast<std::size_t>(bake.stride);
+    for (std::size_t p = first; p < first + count; ++p) {
+        const float open = 0.5f * (1.0f + points[p].normal.y);
+        bake.sky.push_back(open > 1e-6f ? std::clamp(1.0f - state.hiddenSky[p] / open, 0.0f, 1.0f)
+                                        : 1.0f);
+    }
+    if (method != SampleMethod::Stratified) // whose one pass cannot tell
+        bake.error.assign(state.error.begin() + static_cast<std::ptrdiff_t>(first),
+                          state.error.begin() + static_cast<std::ptrdiff_t>(first + count));
+}
 
 // Everything the two vertex bakes share; `artifact` arrives with kind, order and settings.
 Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings settings,
@@ -42,7 +58,7 @@ Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings setting
                       values);
     };
     callbacks.passDone = [&](int samples) { sink.passDone(samples); };
-    Result<PassResult> passes = runPasses(*scene, points, ranges, settings, callbacks, job);
+    Result<PassState> passes = runPasses(*scene, points, ranges, settings, callbacks, job);
     if (!passes)
         return passes.error();
 
@@ -58,6 +74,8 @@ Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings setting
         bake.mesh = geometry->meshes[m].id;
         bake.stride = settings.stride();
         bake.values.assign(at(firstOfMesh[m]), at(firstOfMesh[m + 1]));
+        if (artifact.kind == BakeKind::PrtVertex)
+            addSkyAndError(bake, *passes, points, firstOfMesh[m], settings.method);
         artifact.vertices.push_back(std::move(bake));
     }
     job.setProgress(1.0);
@@ -79,19 +97,20 @@ Result<BakeArtifact> bakeAoVertex(const BakeInputs& inputs, const AoSettings& se
 
 Result<BakeArtifact> bakePrtVertex(const BakeInputs& inputs, const PrtSettings& settings,
                                    TileSink& sink, const JobContext& job) {
-    const Result<int> samples = roundSamples(settings.samples);
+    const Result<int> samples = roundSamples(settings.samples, settings.method);
     if (!samples)
         return samples.error();
-    if (settings.order < 1 || settings.order > 5)
-        return Error{
-            ErrorKind::Usage,
-            fmt::format("The order of a radiance transfer bake is 1 to 5, not {}.", settings.order),
-            {},
-            {}};
+    if (settings.order < 1 || settings.order > kMaxShOrder)
+        return Error{ErrorKind::Usage,
+                     fmt::format("The order of a radiance transfer bake is 1 to {}, not {}.",
+                                 kMaxShOrder, settings.order),
+                     {},
+                     {}};
     PassSettings passes;
     passes.samples = *samples;
     passes.shOrder = settings.order;
     passes.seed = settings.seed;
+    passes.method = settings.method;
     BakeArtifact artifact;
     artifact.kind = BakeKind::PrtVertex;
     artifact.order = settings.order;

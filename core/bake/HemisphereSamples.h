@@ -1,9 +1,10 @@
 // The directions of one pass: cosine-weighted hemispheres from a few Owen-scrambled Sobol'
 // sequences, computed once; each element picks a sequence and turns it about its normal by an angle
 // of its own. A turned net is as evenly spread as the net itself, and costs nine multiplications
-// per direction instead of a hundred.
+// per direction instead of a hundred. The methods to compare with draw anew for every element.
 #pragma once
 
+#include "core/bake/Bake.h"
 #include "core/math/Sampling.h"
 
 #include <cstdint>
@@ -18,18 +19,30 @@ class HemisphereSamples {
   public:
     static constexpr std::uint32_t kSequences = 16;
 
-    // Points `first` … `first + count` of every sequence.
-    HemisphereSamples(std::uint32_t seed, std::uint32_t first, std::uint32_t count);
+    // Points `first` … `first + count` of every sequence. Stratified: `count` is a square and
+    // `first` 0.
+    HemisphereSamples(std::uint32_t seed, std::uint32_t first, std::uint32_t count,
+                      SampleMethod method = SampleMethod::Qmc);
 
-    // Directions around +z, density cos / pi, of the sequence that `elementSeed` picks.
-    [[nodiscard]] std::span<const glm::vec3> sequence(std::uint32_t elementSeed) const {
+    [[nodiscard]] std::uint32_t count() const { return m_count; }
+
+    // Directions around +z, density cos / pi, of one element. `scratch` keeps those that are drawn
+    // anew and must live as long as the answer is used.
+    [[nodiscard]] std::span<const glm::vec3> directions(std::uint32_t elementSeed,
+                                                        std::vector<glm::vec3>& scratch) const {
+        if (m_method != SampleMethod::Qmc)
+            return drawn(elementSeed, scratch);
         return {m_directions.data() + std::size_t{elementSeed % kSequences} * m_count, m_count};
     }
     // The frame that takes them to the world: third column `normal`, turned by the element's angle.
     [[nodiscard]] static glm::mat3 frame(const glm::vec3& normal, std::uint32_t elementSeed);
 
   private:
-    std::uint32_t m_count;
+    [[nodiscard]] std::span<const glm::vec3> drawn(std::uint32_t elementSeed,
+                                                   std::vector<glm::vec3>& scratch) const;
+
+    std::uint32_t m_first, m_count;
+    SampleMethod m_method;
     std::vector<glm::vec3> m_directions;
 };
 

@@ -1,189 +1,325 @@
 #include "core/bake/Passes.h"
 
 #include "core/bake/HemisphereSamples.h"
+#include "core/bake/RangeTracer.h"
 #include "core/base/Check.h"
 #include "core/job/Parallel.h"
-#include "core/math/Shading.h"
+#include "core/math/SphericalHarmonics.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <bit>
+#include <chrono>
+#include <cmath>
 #include <fmt/format.h>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <shared_mutex>
 
 namespace patina {
 namespace {
 
 constexpr int kFirstPass = 32;
 constexpr int kMaxSamples = 65536;
-constexpr std::size_t kStream = 1024; // rays per call: the fastest length that stays in the cache
-constexpr std::size_t kMaxCoefficients = 25;
 
-using Sum = std::array<float, kMaxCoefficients>;
-
-// V Y_i(ω): with rays of density cos / pi the mean of it is ∫ V cos Y_i / pi dω.
-void addOpenDirection(int shOrder, const glm::vec3& direction, Sum& sum) {
-    float basis[kMaxCoefficients];
-    if (shOrder <= 3) {
-        shading::shBasis9(direction, basis);
-        for (std::size_t i = 0; i < 9; ++i)
-            sum[i] += basis[i];
-    } else {
-        shading::shBasis25(direction, basis);
-        for (std::size_t i = 0; i < 25; ++i)
-            sum[i] += basis[i];
-    }
-}
-
-// One pass over some points.
-class PassTask {
+// How many rays the passes take.
+class Schedule {
   public:
-    PassTask(const RayScene& scene, const HemisphereSamples& samples, const PassSettings& settings,
-             int rayCount, const JobContext& job, bool mayStop)
-        : m_scene(scene)
-        , m_samples(samples)
-        , m_settings(settings)
-        , m_rayCount(rayCount)
-        , m_job(job)
-        , m_mayStop(mayStop)
-        , m_rays(kStream) {}
-
-    // The mean over this pass's rays, stride() values per point; false when interrupted.
-    [[nodiscard]] bool run(std::span<const BakePoint> points, std::size_t firstElement,
-                           std::span<float> means) {
-        const auto stride = static_cast<std::size_t>(m_settings.stride());
-        m_sums.assign(points.size(), Sum{});
-        const float maxDistance = m_settings.maxDistance > 0.0f
-                                      ? m_settings.maxDistance
-                                      : std::numeric_limits<float>::infinity();
-        for (std::size_t p = 0; p < points.size(); ++p) {
-            const std::uint32_t seed =
-                seedFor(m_settings.seed, static_cast<std::uint32_t>(firstElement + p));
-            const glm::mat3 frame = HemisphereSamples::frame(points[p].normal, seed);
-            for (const glm::vec3& local : m_samples.sequence(seed)) {
-                OcclusionRay& ray = m_rays[m_filled++];
-                ray.origin = points[p].origin;
-                ray.minDistance = 0.0f;
-                ray.direction = frame * local;
-                ray.maxDistance = maxDistance;
-                ray.id = static_cast<unsigned>(p);
-                if (m_filled < kStream)
-                    continue;
-                flush();
-                if (m_job.cancelled() || (m_mayStop && m_job.stopping()))
-                    return false;
-            }
-        }
-        flush();
-        const float scale = 1.0f / static_cast<float>(m_rayCount);
-        for (std::size_t p = 0; p < points.size(); ++p)
-            for (std::size_t i = 0; i < stride; ++i)
-                means[p * stride + i] = m_sums[p][i] * scale;
-        return true;
+    explicit Schedule(const PassSettings& settings)
+        : m_method(settings.method)
+        , m_first(settings.method == SampleMethod::Stratified
+                      ? settings.samples
+                      : std::min(kFirstPass, settings.samples)) {
+        for (int n = m_first; n < settings.samples; n *= 2)
+            ++m_passes;
+    }
+    [[nodiscard]] int passes() const { return m_passes; }
+    [[nodiscard]] int raysAfter(int passes) const {
+        return passes == 0 ? 0 : m_first << (passes - 1);
+    }
+    // The first pass can be halved, so that its error can be told.
+    [[nodiscard]] bool halvesFirst() const {
+        return m_method != SampleMethod::Stratified && m_first > 1;
     }
 
   private:
-    void flush() {
-        const std::span<OcclusionRay> rays(m_rays.data(), m_filled);
-        // Points and normals are finite and unit by construction (core/bake/BakeGeometry.h).
-        CHECK_EQ(m_scene.occlude(rays), std::size_t{0});
-        for (const OcclusionRay& ray : rays) {
-            if (ray.occluded())
-                continue;
-            Sum& sum = m_sums[ray.id];
-            if (m_settings.shOrder == 0)
-                sum[0] += 1.0f;
-            else
-                addOpenDirection(m_settings.shOrder, ray.direction, sum);
+    SampleMethod m_method;
+    int m_first;
+    int m_passes = 1;
+};
+
+// Replaces the mean over some rays by the mean over those and as many again, and tells the
+// standard error of that: half the difference of the halves, RMS over the values.
+float merge(std::span<float> values, std::span<const float> more) {
+    float squares = 0.0f;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const float half = 0.5f * (more[i] - values[i]);
+        values[i] = 0.5f * (values[i] + more[i]);
+        squares += half * half;
+    }
+    return std::sqrt(squares / static_cast<float>(values.size()));
+}
+
+class PassRunner {
+  public:
+    PassRunner(const RayScene& scene, std::span<const BakePoint> points,
+               std::span<const PointRange> ranges, const PassSettings& settings,
+               const PassCallbacks& callbacks, const JobContext& job, PassState& state)
+        : m_scene(scene)
+        , m_points(points)
+        , m_ranges(ranges)
+        , m_settings(settings)
+        , m_callbacks(callbacks)
+        , m_job(job)
+        , m_state(state)
+        , m_schedule(settings) {
+        begin();
+    }
+
+    void run() {
+        while (pending() || wantMore()) {
+            if (m_job.cancelled() || (m_state.samplesDone > 0 && m_job.stopping()))
+                return;
+            if (!runPass())
+                return;
+            updateSamplesDone();
+            if (m_callbacks.passDone)
+                m_callbacks.passDone(m_state.samplesDone);
         }
-        m_filled = 0;
+    }
+
+  private:
+    // Rays of one batch for the points that need it.
+    struct Batch {
+        int pass;    // the points' pass that it belongs to
+        bool second; // the second half of the first pass, or all of a later one
+        HemisphereSamples samples;
+    };
+
+    void begin() {
+        const auto stride = static_cast<std::size_t>(m_settings.stride());
+        const std::size_t count = m_points.size();
+        if (m_state.passes.empty()) {
+            m_state.values.resize(count * stride);
+            if (m_settings.shOrder > 0)
+                m_state.hiddenSky.resize(count);
+            m_state.error.resize(count);
+            m_state.passes.resize(count);
+            m_state.wanted.resize(count);
+        }
+        CHECK_EQ(m_state.values.size(), count * stride);
+        CHECK_EQ(m_state.hiddenSky.size(), m_settings.shOrder > 0 ? count : 0);
+        CHECK_EQ(m_state.error.size(), count);
+        CHECK_EQ(m_state.passes.size(), count);
+        CHECK_EQ(m_state.wanted.size(), count);
+        std::size_t held = 0;
+        for (std::size_t r = 0; r < m_ranges.size(); ++r) {
+            if (!m_settings.shard.holds(r))
+                continue;
+            held += m_ranges[r].count;
+            for (std::size_t p = m_ranges[r].first; p < m_ranges[r].first + m_ranges[r].count; ++p)
+                m_rays += static_cast<std::size_t>(m_schedule.raysAfter(m_state.passes[p]));
+        }
+        m_allRays = static_cast<double>(m_settings.samples) *
+                    static_cast<double>(std::max<std::size_t>(held, 1));
+    }
+
+    // Calls f(point) for the points of this shard.
+    template <typename F>
+    void forPoints(F f) const {
+        for (std::size_t r = 0; r < m_ranges.size(); ++r)
+            if (m_settings.shard.holds(r))
+                for (std::size_t p = 0; p < m_ranges[r].count; ++p)
+                    f(m_ranges[r].first + p);
+    }
+
+    [[nodiscard]] bool pending() const {
+        bool some = false;
+        forPoints([&](std::size_t p) { some = some || m_state.passes[p] < m_state.wanted[p]; });
+        return some;
+    }
+
+    // Decides on one more pass, from the state alone; false when the bake is done.
+    [[nodiscard]] bool wantMore() {
+        bool some = false;
+        forPoints([&](std::size_t p) {
+            if (m_state.passes[p] >= m_schedule.passes())
+                return;
+            ++m_state.wanted[p];
+            some = true;
+        });
+        return some;
+    }
+
+    void updateSamplesDone() {
+        int least = m_schedule.passes();
+        forPoints([&](std::size_t p) { least = std::min<int>(least, m_state.passes[p]); });
+        m_state.samplesDone = m_schedule.raysAfter(least);
+    }
+
+    [[nodiscard]] std::vector<Batch> batches() const {
+        std::vector<bool> needed(static_cast<std::size_t>(m_schedule.passes()));
+        forPoints([&](std::size_t p) {
+            if (m_state.passes[p] < m_state.wanted[p])
+                needed[m_state.passes[p]] = true;
+        });
+        std::vector<Batch> result;
+        const auto add = [&](int pass, bool second, int first, int end) {
+            result.push_back(
+                {pass, second,
+                 HemisphereSamples(m_settings.seed, static_cast<std::uint32_t>(first),
+                                   static_cast<std::uint32_t>(end - first), m_settings.method)});
+        };
+        for (int pass = 0; pass < m_schedule.passes(); ++pass) {
+            if (!needed[static_cast<std::size_t>(pass)])
+                continue;
+            const int first = m_schedule.raysAfter(pass), end = m_schedule.raysAfter(pass + 1);
+            if (pass == 0 && m_schedule.halvesFirst()) {
+                add(pass, false, 0, end / 2);
+                add(pass, true, end / 2, end);
+            } else {
+                add(pass, pass > 0, first, end);
+            }
+        }
+        return result;
+    }
+
+    // False when it was interrupted.
+    [[nodiscard]] bool runPass() {
+        const std::vector<Batch> all = batches();
+        m_job.setActivity(
+            fmt::format("tracing pass {} of {}", all.front().pass + 1, m_schedule.passes()));
+        const bool mayStop = m_state.samplesDone > 0;
+        std::vector<std::size_t> held;
+        for (std::size_t r = 0; r < m_ranges.size(); ++r)
+            if (m_settings.shard.holds(r))
+                held.push_back(r);
+        std::atomic<bool> complete = true;
+        parallelFor(m_job, held.size(), 1, [&](std::size_t begin, std::size_t end) {
+            const FlushDenormals flush;
+            RangeTracer tracer(m_scene, m_points, m_settings, m_job);
+            for (std::size_t i = begin; i < end; ++i)
+                if (!runRange(m_ranges[held[i]], all, tracer, mayStop))
+                    complete = false;
+        });
+        return complete && !m_job.cancelled();
+    }
+
+    [[nodiscard]] bool runRange(const PointRange& range, const std::vector<Batch>& batches,
+                                RangeTracer& tracer, bool mayStop) {
+        if (mayStop && m_job.stopping())
+            return false;
+        const auto stride = static_cast<std::size_t>(m_settings.stride());
+        std::vector<std::uint32_t> elements;
+        RangeMeans means, firstHalf;
+        std::size_t rays = 0;
+        for (std::size_t b = 0; b < batches.size(); ++b) {
+            const Batch& batch = batches[b];
+            elements.clear();
+            for (std::size_t p = range.first; p < range.first + range.count; ++p)
+                if (m_state.passes[p] < m_state.wanted[p] && m_state.passes[p] == batch.pass)
+                    elements.push_back(static_cast<std::uint32_t>(p));
+            if (elements.empty())
+                continue;
+            if (!tracer.trace(elements, batch.samples, mayStop, means))
+                return false;
+            rays += elements.size() * batch.samples.count();
+            const bool halved = batch.pass == 0 && m_schedule.halvesFirst();
+            if (halved && !batch.second) {
+                std::swap(firstHalf, means);
+                continue;
+            }
+
+            // No checkpoint sees a range half changed.
+            const std::shared_lock lock(m_commit);
+            for (std::size_t e = 0; e < elements.size(); ++e) {
+                const std::size_t p = elements[e];
+                const std::span<float> values =
+                    std::span(m_state.values).subspan(p * stride, stride);
+                const std::span<const float> fresh =
+                    std::span<const float>(means.values).subspan(e * stride, stride);
+                if (batch.pass == 0) {
+                    const float* from = halved ? firstHalf.values.data() : means.values.data();
+                    std::copy_n(from + e * stride, stride, values.begin());
+                }
+                if (batch.second)
+                    m_state.error[p] = merge(values, fresh);
+                if (!m_state.hiddenSky.empty()) {
+                    float& hidden = m_state.hiddenSky[p];
+                    if (batch.pass == 0)
+                        hidden = halved ? firstHalf.hiddenSky[e] : means.hiddenSky[e];
+                    if (batch.second)
+                        hidden = 0.5f * (hidden + means.hiddenSky[e]);
+                }
+                ++m_state.passes[p];
+            }
+        }
+        if (rays == 0)
+            return true; // reached already, before the state was kept
+        if (m_callbacks.range)
+            m_callbacks.range(range, std::span<const float>(m_state.values)
+                                         .subspan(range.first * stride, range.count * stride));
+        const std::size_t total = m_rays.fetch_add(rays) + rays;
+        m_job.addWork(static_cast<double>(rays), "rays");
+        m_job.setProgress(static_cast<double>(total) / m_allRays);
+        checkpoint();
+        return true;
+    }
+
+    void checkpoint() {
+        if (!m_callbacks.checkpoint)
+            return;
+        const std::unique_lock lock(m_commit, std::try_to_lock);
+        const auto now = std::chrono::steady_clock::now();
+        if (!lock || std::chrono::duration<double>(now - m_lastCheckpoint).count() <
+                         m_callbacks.checkpointSeconds)
+            return; // the next range tries again
+        m_callbacks.checkpoint(m_state);
+        m_lastCheckpoint = std::chrono::steady_clock::now();
     }
 
     const RayScene& m_scene;
-    const HemisphereSamples& m_samples;
+    std::span<const BakePoint> m_points;
+    std::span<const PointRange> m_ranges;
     const PassSettings& m_settings;
-    int m_rayCount;
+    const PassCallbacks& m_callbacks;
     const JobContext& m_job;
-    bool m_mayStop;
-    std::vector<OcclusionRay> m_rays;
-    std::size_t m_filled = 0;
-    std::vector<Sum> m_sums;
+    PassState& m_state;
+    Schedule m_schedule;
+    std::atomic<std::size_t> m_rays = 0; // of all points, all passes
+    double m_allRays = 0.0;
+    std::shared_mutex m_commit; // held alone while a checkpoint is taken; guards m_lastCheckpoint
+    std::chrono::steady_clock::time_point m_lastCheckpoint = std::chrono::steady_clock::now();
 };
 
 } // namespace
 
-Result<int> roundSamples(int samples) {
+Result<int> roundSamples(int samples, SampleMethod method) {
     if (samples < 1 || samples > kMaxSamples)
         return Error{ErrorKind::Usage,
                      fmt::format("Bakes take 1 to {} samples, not {}.", kMaxSamples, samples),
                      {},
                      {}};
+    if (method == SampleMethod::Stratified) {
+        const int side = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(samples))));
+        return side * side;
+    }
     return static_cast<int>(std::bit_ceil(static_cast<unsigned>(samples)));
 }
 
-Result<PassResult> runPasses(const RayScene& scene, std::span<const BakePoint> points,
-                             std::span<const PointRange> ranges, const PassSettings& settings,
-                             const PassCallbacks& callbacks, const JobContext& job) {
-    CHECK(std::has_single_bit(static_cast<unsigned>(settings.samples)));
-    CHECK(settings.shOrder >= 0 && settings.shOrder <= 5);
-    const auto stride = static_cast<std::size_t>(settings.stride());
-    int passCount = 1;
-    for (int n = kFirstPass; n < settings.samples; n *= 2)
-        ++passCount;
-
-    // `next` is kept apart, so that a stop in the middle of a pass leaves the last one intact.
-    PassResult result;
-    std::vector<float> next(points.size() * stride);
-    std::atomic<std::size_t> pointRays = 0; // rays of all points, all passes
-    const double allRays = static_cast<double>(settings.samples) *
-                           static_cast<double>(std::max<std::size_t>(points.size(), 1));
-    for (int pass = 0; pass < passCount; ++pass) {
-        const int done = result.samplesDone;
-        const int rayCount = done == 0 ? std::min(kFirstPass, settings.samples) : done;
-        if (done > 0 && job.stopping())
-            break;
-        job.setActivity(fmt::format("tracing pass {} of {}", pass + 1, passCount));
-        const HemisphereSamples samples(settings.seed, static_cast<std::uint32_t>(done),
-                                        static_cast<std::uint32_t>(rayCount));
-        std::atomic<bool> complete = true;
-        parallelFor(job, ranges.size(), 1, [&](std::size_t begin, std::size_t end) {
-            const FlushDenormals flush;
-            for (std::size_t r = begin; r < end; ++r) {
-                if (done > 0 && job.stopping()) {
-                    complete = false;
-                    return;
-                }
-                const PointRange& range = ranges[r];
-                const std::span<float> values(next.data() + range.first * stride,
-                                              range.count * stride);
-                PassTask task(scene, samples, settings, rayCount, job, done > 0);
-                if (!task.run(points.subspan(range.first, range.count), range.first, values)) {
-                    complete = false;
-                    return;
-                }
-                // Each pass casts as many rays as all before it: the mean of the two means.
-                if (done > 0)
-                    for (std::size_t i = 0; i < values.size(); ++i)
-                        values[i] = 0.5f * (values[i] + result.values[range.first * stride + i]);
-                if (callbacks.range)
-                    callbacks.range(range, values);
-                const std::size_t rays = range.count * static_cast<std::size_t>(rayCount);
-                const std::size_t total = pointRays.fetch_add(rays) + rays;
-                job.addWork(static_cast<double>(rays), "rays");
-                job.setProgress(static_cast<double>(total) / allRays);
-            }
-        });
-        if (job.cancelled())
-            return Error{ErrorKind::Cancelled, "The bake was cancelled.", {}, {}};
-        if (!complete)
-            break;
-        result.values.resize(next.size());
-        result.values.swap(next);
-        result.samplesDone = done + rayCount;
-        if (callbacks.passDone)
-            callbacks.passDone(result.samplesDone);
-    }
-    return result;
+Result<PassState> runPasses(const RayScene& scene, std::span<const BakePoint> points,
+                            std::span<const PointRange> ranges, const PassSettings& settings,
+                            const PassCallbacks& callbacks, const JobContext& job,
+                            PassState state) {
+    CHECK(settings.method == SampleMethod::Stratified ||
+          std::has_single_bit(static_cast<unsigned>(settings.samples)));
+    CHECK(settings.shOrder >= 0 && settings.shOrder <= kMaxShOrder);
+    CHECK(settings.shard.index >= 0 && settings.shard.index < settings.shard.count);
+    PassRunner(scene, points, ranges, settings, callbacks, job, state).run();
+    if (job.cancelled())
+        return Error{ErrorKind::Cancelled, "The bake was cancelled.", {}, {}};
+    return state;
 }
 
 } // namespace patina

@@ -1,7 +1,8 @@
 // The engine of every bake: passes of 32, 64, 128 … rays over all points, each pass doubling what
-// the last one knew.
+// the last one knew; to a tolerance, the last passes go where they are needed only.
 #pragma once
 
+#include "core/bake/Bake.h"
 #include "core/bake/RayScene.h"
 #include "core/base/Result.h"
 #include "core/job/JobContext.h"
@@ -25,32 +26,59 @@ struct PointRange {
     std::size_t first = 0, count = 0;
 };
 
+// Which ranges to compute: those of index r with r % count == index. The parts of all indices
+// together are, bit for bit, the whole.
+struct PassShard {
+    int index = 0, count = 1;
+    [[nodiscard]] bool holds(std::size_t range) const {
+        return range % static_cast<std::size_t>(count) == static_cast<std::size_t>(index);
+    }
+};
+
 struct PassSettings {
-    int samples = 256;        // a power of two
-    int shOrder = 0;          // 0: ambient visibility; 1…5: transfer coefficients
+    int samples = 256;        // Stratified: a square; else a power of two
+    int shOrder = 0;          // 0: ambient visibility; 1…8: transfer coefficients
     float maxDistance = 0.0f; // scene units; 0: unlimited
     std::uint32_t seed = 0;
+    SampleMethod method = SampleMethod::Qmc; // Stratified makes one pass of all samples
+    PassShard shard;
     [[nodiscard]] int stride() const { return shOrder == 0 ? 1 : shOrder * shOrder; }
+};
+
+// How far a bake has come; what a checkpoint holds. Between ranges it may be copied, kept and gone
+// on from at any time: the outcome is bit for bit the same. Points of other shards stay zero.
+struct PassState {
+    std::vector<float> values;    // stride() per point: means over the rays so far
+    std::vector<float> hiddenSky; // transfer: 1 per point, the share of rays (density cos / pi)
+                                  // that went up (+Y) and met something
+    std::vector<float> error;     // 1 per point: estimated standard error of a value, RMS over them
+    std::vector<std::uint8_t> passes; // 1 per point: passes its values rest on
+    std::vector<std::uint8_t> wanted; // 1 per point: passes decided on; the pass in flight has
+                                      // reached the points whose two numbers agree
+    int samplesDone = 0;              // rays that the values of every point rest on, or more
+    friend bool operator==(const PassState&, const PassState&) = default;
 };
 
 struct PassCallbacks {
     // Values of a range after the pass in flight, from the pool's threads.
     std::function<void(const PointRange&, std::span<const float>)> range;
     std::function<void(int samples)> passDone;
+    // Called from one of the pool's threads about every `checkpointSeconds` at a moment when the
+    // state may be kept; threads that finish a range meanwhile wait until it returns.
+    std::function<void(const PassState&)> checkpoint;
+    double checkpointSeconds = 30.0;
 };
 
-struct PassResult {
-    std::vector<float> values; // stride() per point
-    int samplesDone = 0;
-};
-
-// `ranges` cover the points. A stop returns the last complete pass, at least the first. Errors:
+// `ranges` cover the points. Starts from nothing or from what a state of the same points, ranges
+// and settings has. A stop returns what there is, every point with at least one pass. Errors:
 // Cancelled.
-Result<PassResult> runPasses(const RayScene& scene, std::span<const BakePoint> points,
-                             std::span<const PointRange> ranges, const PassSettings& settings,
-                             const PassCallbacks& callbacks, const JobContext& job);
+Result<PassState> runPasses(const RayScene& scene, std::span<const BakePoint> points,
+                            std::span<const PointRange> ranges, const PassSettings& settings,
+                            const PassCallbacks& callbacks, const JobContext& job,
+                            PassState state = {});
 
-// Errors (Usage) unless 1 <= samples <= 65536; rounds up to a power of two.
-Result<int> roundSamples(int samples);
+// Errors (Usage) unless 1 <= samples <= 65536; rounds up to a power of two, for Stratified to a
+// square.
+Result<int> roundSamples(int samples, SampleMethod method = SampleMethod::Qmc);
 
 } // namespace patina

@@ -64,12 +64,13 @@ void bareLoop(benchmark::State& state) {
             constexpr std::size_t kVertices = 4; // 1024 rays a call
             alignas(16) RTCRay rays[kVertices * kSamples];
             std::size_t count = 0;
+            std::vector<glm::vec3> scratch;
             for (std::size_t first = begin; first < end; first += kVertices) {
                 std::size_t n = 0;
                 for (std::size_t p = first; p < std::min(first + kVertices, end); ++p) {
                     const std::uint32_t seed = seedFor(0, std::uint32_t(p));
                     const glm::mat3 frame = HemisphereSamples::frame(points[p].normal, seed);
-                    for (const glm::vec3& local : samples.sequence(seed)) {
+                    for (const glm::vec3& local : samples.directions(seed, scratch)) {
                         const glm::vec3 d = frame * local, o = points[p].origin;
                         rays[n++] = {o.x,  o.y,  o.z,
                                      0.0f, d.x,  d.y,
