@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/bake/BakeArtifact.h"
+#include "core/bake/BakeSurface.h"
 #include "core/base/Result.h"
 #include "core/job/JobContext.h"
 #include "core/mesh/Mesh.h"
@@ -20,7 +21,8 @@ struct BakeMesh {
     Id material = 0;
     MeshPtr mesh;
     glm::mat4 transform{1.0f};
-    bool doubleSided = false;
+    bool doubleSided = false; // else what hits the back is absorbed
+    BakeSurface surface = {};
 };
 
 struct BakeInputs {
@@ -28,8 +30,12 @@ struct BakeInputs {
 };
 
 [[nodiscard]] BakeInputs bakeInputs(const Document& document);
-// Geometry only: what AO and PRT transfer depend on. A bake whose hash differs is stale.
+// What AO and direct transfer depend on: geometry, and where masked or blended surfaces let rays
+// through. A bake whose hash differs is stale.
 [[nodiscard]] Hash hashBakeInputs(const BakeInputs& inputs);
+// What bounces depend on besides: albedo, its maps, and which surfaces have two sides. Reads every
+// texel of the maps: some milliseconds for a large one.
+[[nodiscard]] Hash hashBakeAlbedo(const BakeInputs& inputs);
 
 // Receives results while a bake runs, from the pool's threads, so that a preview can show them.
 class TileSink {

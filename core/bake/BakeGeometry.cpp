@@ -103,6 +103,8 @@ Result<BakeGeometry> makeBakeGeometry(const BakeInputs& inputs, const JobContext
         mesh.id = input.id;
         mesh.material = input.material;
         mesh.mesh = input.mesh;
+        mesh.doubleSided = input.doubleSided;
+        mesh.surface = input.surface;
         const glm::dmat4 toWorld(input.transform);
         const glm::dmat3 linear(toWorld), toWorldNormal = normalMatrix(linear);
         mesh.winding = glm::determinant(linear) < 0.0 ? -1.0f : 1.0f;

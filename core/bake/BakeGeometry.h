@@ -22,6 +22,8 @@ struct BakeGeometryMesh {
     std::vector<glm::vec3> positions; // scene units
     std::vector<glm::vec3> normals;   // unit, world axes
     float winding = 1.0f;             // -1 when the transform mirrors: triangles run clockwise
+    bool doubleSided = false;
+    BakeSurface surface = {};
 };
 
 struct BakeGeometry {

@@ -13,7 +13,8 @@ BakeInputs bakeInputs(const Document& document) {
             continue;
         const Material* material = document.material(instance.material);
         inputs.meshes.push_back({instance.id, instance.material, instance.mesh, instance.transform,
-                                 material != nullptr && material->doubleSided});
+                                 material != nullptr && material->doubleSided,
+                                 material != nullptr ? bakeSurface(*material) : BakeSurface{}});
     }
     return inputs;
 }
@@ -30,6 +31,16 @@ Hash hashBakeInputs(const BakeInputs& inputs) {
         for (int column = 0; column < 4; ++column)
             for (int row = 0; row < 4; ++row)
                 hasher.value(mesh.transform[column][row]);
+        hashCoverage(hasher, mesh.surface);
+    }
+    return hasher.finish();
+}
+
+Hash hashBakeAlbedo(const BakeInputs& inputs) {
+    Hasher hasher;
+    for (const BakeMesh& mesh : inputs.meshes) {
+        hasher.value(static_cast<std::uint32_t>(mesh.doubleSided));
+        hashAlbedo(hasher, mesh.surface);
     }
     return hasher.finish();
 }

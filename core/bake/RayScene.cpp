@@ -1,8 +1,10 @@
 #include "core/bake/RayScene.h"
 
 #include "core/job/ForkJoin.h"
+#include "core/math/Sampling.h"
 
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <embree3/rtcore.h>
@@ -21,6 +23,50 @@ static_assert(offsetof(OcclusionRay, minDistance) == offsetof(RTCRay, tnear));
 static_assert(offsetof(OcclusionRay, direction) == offsetof(RTCRay, dir_x));
 static_assert(offsetof(OcclusionRay, maxDistance) == offsetof(RTCRay, tfar));
 static_assert(offsetof(OcclusionRay, flags) == offsetof(RTCRay, flags));
+static_assert(sizeof(ClosestRay) == sizeof(RTCRayHit) && alignof(ClosestRay) == alignof(RTCRayHit));
+static_assert(offsetof(ClosestRay, geometricNormal) == offsetof(RTCRayHit, hit.Ng_x));
+static_assert(offsetof(ClosestRay, u) == offsetof(RTCRayHit, hit.u));
+static_assert(offsetof(ClosestRay, triangle) == offsetof(RTCRayHit, hit.primID));
+static_assert(offsetof(ClosestRay, mesh) == offsetof(RTCRayHit, hit.geomID));
+static_assert(ClosestRay::kNothing == RTC_INVALID_GEOMETRY_ID);
+
+namespace {
+
+// A mesh that lets some rays through.
+struct Sieve {
+    const BakeGeometryMesh* mesh;
+    Coverage coverage;
+};
+
+// Even in [0, 1), and always the same for the same ray through the same triangle.
+float chanceOf(const glm::vec3& direction, unsigned triangle) {
+    std::uint32_t bits = hash32(triangle + 0x9e3779b9u);
+    for (const float c : {direction.x, direction.y, direction.z})
+        bits = hash32(bits ^ std::bit_cast<std::uint32_t>(c));
+    return detail::unitFloat(bits);
+}
+
+// Embree's filter: of N hits keep those where the surface is solid.
+void keepSolid(const RTCFilterFunctionNArguments* args) {
+    const auto& sieve = *static_cast<const Sieve*>(args->geometryUserPtr);
+    const Mesh& mesh = *sieve.mesh->mesh;
+    const unsigned n = args->N;
+    for (unsigned i = 0; i < n; ++i) {
+        if (args->valid[i] == 0)
+            continue;
+        const unsigned triangle = RTCHitN_primID(args->hit, n, i);
+        const float u = RTCHitN_u(args->hit, n, i), v = RTCHitN_v(args->hit, n, i);
+        const std::uint32_t* index = mesh.indices.data() + 3 * std::size_t{triangle};
+        const glm::vec2 uv =
+            (1.0f - u - v) * mesh.uvs[index[0]] + u * mesh.uvs[index[1]] + v * mesh.uvs[index[2]];
+        const glm::vec3 direction(RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i),
+                                  RTCRayN_dir_z(args->ray, n, i));
+        if (!sieve.coverage.solidAt(uv, chanceOf(direction, triangle)))
+            args->valid[i] = 0;
+    }
+}
+
+} // namespace
 
 struct RayScene::Impl {
     RTCDevice device = nullptr;
@@ -29,6 +75,7 @@ struct RayScene::Impl {
     std::atomic<std::ptrdiff_t> bytes{0};
     JobContext job;
     ForkJoin building; // Embree calls back from oneTBB's threads
+    std::vector<std::unique_ptr<Sieve>> sieves;
 
     Impl() = default;
     Impl(const Impl&) = delete;
@@ -124,6 +171,12 @@ Result<RayScene> RayScene::build(const BakeGeometry& geometry, const JobContext&
         rtcSetSharedGeometryBuffer(triangles, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                    mesh.mesh->indices.data(), 0, 3 * sizeof(std::uint32_t),
                                    mesh.mesh->triangleCount());
+        if (mesh.surface.alphaMode != AlphaMode::Opaque) {
+            impl->sieves.push_back(std::make_unique<Sieve>(Sieve{&mesh, Coverage(mesh.surface)}));
+            rtcSetGeometryUserData(triangles, impl->sieves.back().get());
+            rtcSetGeometryOccludedFilterFunction(triangles, keepSolid);
+            rtcSetGeometryIntersectFilterFunction(triangles, keepSolid);
+        }
         rtcCommitGeometry(triangles);
         rtcAttachGeometry(impl->scene, triangles);
         rtcReleaseGeometry(triangles);
@@ -163,6 +216,29 @@ std::size_t RayScene::occlude(std::span<OcclusionRay> rays) const {
     else
         for (std::size_t i = 0; i < rays.size(); ++i)
             rtcOccluded1(m_impl->scene, &context, embreeRays + i);
+    return leftOut;
+}
+
+std::size_t RayScene::intersect(std::span<ClosestRay> rays) const {
+    std::size_t leftOut = 0;
+    for (ClosestRay& closest : rays) {
+        if (!traceable(closest.ray)) {
+            closest = ClosestRay{};
+            closest.ray.maxDistance = -1.0f;
+            ++leftOut;
+        }
+        closest.mesh = closest.triangle = closest.instance = ClosestRay::kNothing;
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    auto* embreeRays = reinterpret_cast<RTCRayHit*>(rays.data());
+    if (rays.size() >= kMinStream)
+        rtcIntersect1M(m_impl->scene, &context, embreeRays, static_cast<unsigned>(rays.size()),
+                       sizeof(RTCRayHit));
+    else
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            rtcIntersect1(m_impl->scene, &context, embreeRays + i);
     return leftOut;
 }
 

@@ -31,9 +31,24 @@ struct alignas(16) OcclusionRay {
     }
 };
 
+// A question for what is met first, and its answer. Laid out as Embree's RTCRayHit.
+struct alignas(16) ClosestRay {
+    static constexpr unsigned kNothing = ~0u;
+
+    OcclusionRay ray;
+    glm::vec3 geometricNormal{0.0f}; // not normalised
+    // Barycentric coordinates: (1 - u - v) of the triangle's first corner, u of its second, v of
+    // its third.
+    float u = 0.0f, v = 0.0f;
+    unsigned triangle = kNothing; // of the mesh
+    unsigned mesh = kNothing;     // index into BakeGeometry::meshes; kNothing: the ray met nothing
+    unsigned instance = kNothing;
+};
+
 class RayScene {
   public:
-    // Builds the hierarchy (MEDIUM quality) over all triangles; both sides occlude. `geometry` must
+    // Builds the hierarchy (MEDIUM quality) over all triangles; both sides occlude, except where
+    // a masked or blended surface lets the ray through. `geometry` must
     // outlive the scene: its vertices and indices are used in place. A build that needs more than
     // `maxBytes` (0: no limit) or that the system refuses memory is an Internal error; cancelling
     // stops the build.
@@ -47,6 +62,8 @@ class RayScene {
     // which aborts the process on rays that are not finite: such rays, and rays without direction,
     // are left out, count as not occluded, and their number is returned. Callable from any thread.
     std::size_t occlude(std::span<OcclusionRay> rays) const;
+    // What each ray meets first, under the same rules.
+    std::size_t intersect(std::span<ClosestRay> rays) const;
 
     [[nodiscard]] std::size_t memoryBytes() const; // of the hierarchy
 

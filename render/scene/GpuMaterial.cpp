@@ -1,23 +1,14 @@
 #include "render/scene/GpuMaterial.h"
 
+#include "core/material/MapUv.h"
 #include "render/scene/TextureCache.h"
 
-#include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <utility>
 
 namespace patina::render {
 
 namespace {
-
-// u' = T · R · S · u as glTF's KHR_texture_transform is implemented everywhere (Khronos sample
-// viewer, three.js, Babylon.js): rows (c sx, s sy) and (-s sx, c sy).
-glm::vec4 uvMatrix(const MapSlot& map) {
-    const float angle = glm::radians(map.uvRotationDeg);
-    const float c = std::cos(angle), s = std::sin(angle);
-    return {c * map.uvScale.x, s * map.uvScale.y, -s * map.uvScale.x, c * map.uvScale.y};
-}
 
 // Of a colour map: Rgb is the colour itself.
 glm::vec4 channelWeights(MapChannel channel) {
@@ -101,11 +92,6 @@ float placeholderShare(const Material& m) {
 }
 
 } // namespace
-
-glm::vec2 mapUv(const MapSlot& map, const glm::vec2& uv) {
-    const glm::vec4 m = uvMatrix(map);
-    return glm::vec2(m.x * uv.x + m.y * uv.y, m.z * uv.x + m.w * uv.y) + map.uvOffset;
-}
 
 MaterialBlock packMaterial(const Material& m) {
     MaterialBlock block;

@@ -8,7 +8,6 @@
 #include "render/scene/Blocks.h"
 
 #include <array>
-#include <glm/vec2.hpp>
 #include <set>
 
 namespace patina::render {
@@ -59,9 +58,6 @@ struct GpuMaterial {
     AlphaMode alphaMode = AlphaMode::Opaque;
     bool doubleSided = false;
 };
-
-// Where the map is looked up for a surface's texture coordinates.
-[[nodiscard]] glm::vec2 mapUv(const MapSlot& map, const glm::vec2& uv);
 
 // The numbers alone; no OpenGL.
 [[nodiscard]] MaterialBlock packMaterial(const Material& material);

@@ -1,6 +1,6 @@
 #include "render/view/ExplanationParts.h"
 
-#include "render/scene/GpuMaterial.h"
+#include "core/material/MapUv.h"
 
 #include <algorithm>
 #include <array>

@@ -104,3 +104,134 @@ TEST(RayScene, ACancelledBuildSaysSo) {
     ASSERT_FALSE(scene.ok());
     EXPECT_EQ(scene.error().kind, ErrorKind::Cancelled);
 }
+
+namespace {
+
+// Two facing squares of side 2 at z = 0 (mesh 0) and z = -1 (mesh 1), their normals towards +z.
+BakeInputs twoSquares() {
+    const auto square = [](double z) {
+        return gridMesh(
+            1, 1, [=](double u, double v) { return glm::dvec3(2.0 * u - 1.0, 1.0 - 2.0 * v, z); });
+    };
+    return sceneOf({square(0.0), square(-1.0)});
+}
+
+ClosestRay closestFrom(const glm::vec3& origin, const glm::vec3& direction) {
+    ClosestRay closest;
+    closest.ray = rayFrom(origin, direction);
+    return closest;
+}
+
+} // namespace
+
+TEST(RayScene, TellsWhatARayMeetsFirstAndWhere) {
+    const Result<BakeGeometry> geometry = makeBakeGeometry(twoSquares(), {});
+    ASSERT_TRUE(geometry.ok());
+    const Result<RayScene> scene = RayScene::build(*geometry, {});
+    ASSERT_TRUE(scene.ok());
+    std::mt19937 random(5);
+    const auto number = [&] { return float(random() / 4294967296.0 * 3.0 - 1.5); };
+    for (const std::size_t length : {1u, 31u, 32u, 500u}) {
+        std::vector<ClosestRay> rays;
+        for (std::size_t i = 0; i < length; ++i)
+            rays.push_back(closestFrom({number(), number(), i % 2 == 0 ? 2.0f : -2.0f},
+                                       {0, 0, i % 2 == 0 ? -1.0f : 1.0f}));
+        EXPECT_EQ(scene->intersect(rays), 0u);
+        for (std::size_t i = 0; i < length; ++i) {
+            const glm::vec3 origin = rays[i].ray.origin;
+            const bool inside = std::abs(origin.x) < 1.0f && std::abs(origin.y) < 1.0f;
+            // The scene is centred on z = -0.5.
+            ASSERT_EQ(rays[i].mesh, inside ? unsigned(i % 2) : ClosestRay::kNothing);
+            if (!inside)
+                continue;
+            const BakeGeometryMesh& mesh = geometry->meshes[rays[i].mesh];
+            const std::uint32_t* index = &mesh.mesh->indices[3 * std::size_t{rays[i].triangle}];
+            const glm::vec3 p = (1.0f - rays[i].u - rays[i].v) * mesh.positions[index[0]] +
+                                rays[i].u * mesh.positions[index[1]] +
+                                rays[i].v * mesh.positions[index[2]];
+            EXPECT_NEAR(p.x, origin.x, 1e-5f);
+            EXPECT_NEAR(p.y, origin.y, 1e-5f);
+        }
+    }
+    std::vector<ClosestRay> broken(40, closestFrom({0, 0, 2}, {0, 0, -1}));
+    broken[7].ray.direction.x = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(scene->intersect(broken), 1u);
+    EXPECT_EQ(broken[7].mesh, ClosestRay::kNothing);
+    EXPECT_EQ(broken[8].mesh, 0u);
+}
+
+TEST(RayScene, MaskedSurfacesLetRaysThroughWhereTheyAreOpen) {
+    BakeInputs inputs = twoSquares();
+    // Left half open, right half solid; nearest to bilinear differ only near the border.
+    auto image = std::make_shared<Image>(64, 1, 4, PixelType::U8, ColorEncoding::Srgb);
+    for (std::size_t x = 0; x < 64; ++x)
+        image->u8()[4 * x + 3] = x < 32 ? 0 : 255;
+    Mesh front = *inputs.meshes[0].mesh;
+    for (std::size_t i = 0; i < front.positions.size(); ++i)
+        front.uvs[i] = {0.5f * (front.positions[i].x + 1.0f), 0.5f};
+    inputs.meshes[0].mesh = std::make_shared<const Mesh>(front);
+    inputs.meshes[0].surface.baseColorMap.image = image;
+    inputs.meshes[0].surface.alphaMode = AlphaMode::Mask;
+    inputs.meshes[1].transform =
+        glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, -5.0f, 0.0f)); // away: the front alone
+    const auto trace = [&](std::size_t count) {
+        const Result<BakeGeometry> geometry = makeBakeGeometry(inputs, {});
+        const Result<RayScene> scene = RayScene::build(*geometry, {});
+        const float unit = static_cast<float>(geometry->unitsPerMetre);
+        const glm::vec3 middle =
+            0.25f * (geometry->meshes[0].positions[0] + geometry->meshes[0].positions[1] +
+                     geometry->meshes[0].positions[2] + geometry->meshes[0].positions[3]);
+        std::vector<OcclusionRay> any;
+        std::vector<ClosestRay> closest;
+        for (std::size_t i = 0; i < count; ++i) {
+            const float x = (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
+            const glm::vec3 origin =
+                middle + unit * glm::vec3(1.9f * x - 0.95f, 0.8f * x - 0.35f, 0.5f);
+            any.push_back(rayFrom(origin, glm::vec3(0, 0, -1)));
+            closest.push_back(closestFrom(origin, glm::vec3(0, 0, -1)));
+        }
+        EXPECT_EQ(scene->occlude(any), 0u);
+        EXPECT_EQ(scene->intersect(closest), 0u);
+        std::vector<bool> solid;
+        for (std::size_t i = 0; i < count; ++i) {
+            solid.push_back(any[i].occluded());
+            EXPECT_EQ(closest[i].mesh == 0u, any[i].occluded()) << i;
+        }
+        return solid;
+    };
+    for (const std::size_t count : {20u, 400u}) { // single rays and streams
+        const std::vector<bool> solid = trace(count);
+        for (std::size_t i = 0; i < count; ++i)
+            EXPECT_EQ(solid[i], i >= count / 2) << i << " of " << count;
+    }
+    // Blended, at its ends.
+    inputs.meshes[0].surface.baseColorMap = {};
+    inputs.meshes[0].surface.alphaMode = AlphaMode::Blend;
+    inputs.meshes[0].surface.opacity = 0.0f;
+    for (const bool stopped : trace(100))
+        EXPECT_FALSE(stopped);
+    inputs.meshes[0].surface.opacity = 1.0f;
+    for (const bool stopped : trace(100))
+        EXPECT_TRUE(stopped);
+}
+
+TEST(RayScene, BlendedSurfacesStopAsManyRaysAsTheyAreOpaque) {
+    BakeInputs inputs = twoSquares();
+    inputs.meshes[0].surface.alphaMode = AlphaMode::Blend;
+    inputs.meshes[0].surface.opacity = 0.3f;
+    inputs.meshes.pop_back();
+    const Result<BakeGeometry> geometry = makeBakeGeometry(inputs, {});
+    ASSERT_TRUE(geometry.ok());
+    const Result<RayScene> scene = RayScene::build(*geometry, {});
+    ASSERT_TRUE(scene.ok());
+    std::mt19937 random(9);
+    const auto number = [&] { return float(random() / 4294967296.0 - 0.5); };
+    std::vector<OcclusionRay> rays;
+    for (int i = 0; i < 20000; ++i)
+        rays.push_back(rayFrom({0.5f * number(), 0.5f * number(), 1.0f},
+                               glm::normalize(glm::vec3(0.5f * number(), 0.5f * number(), -1.0f))));
+    EXPECT_EQ(scene->occlude(rays), 0u);
+    const auto stopped = std::count_if(rays.begin(), rays.end(),
+                                       [](const OcclusionRay& ray) { return ray.occluded(); });
+    EXPECT_NEAR(double(stopped) / 20000.0, 0.3, 3.0 * std::sqrt(0.3 * 0.7 / 20000.0));
+}

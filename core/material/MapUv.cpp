@@ -1,0 +1,19 @@
+#include "core/material/MapUv.h"
+
+#include <cmath>
+#include <glm/trigonometric.hpp>
+
+namespace patina {
+
+glm::vec4 uvMatrix(const MapSlot& map) {
+    const float angle = glm::radians(map.uvRotationDeg);
+    const float c = std::cos(angle), s = std::sin(angle);
+    return {c * map.uvScale.x, s * map.uvScale.y, -s * map.uvScale.x, c * map.uvScale.y};
+}
+
+glm::vec2 mapUv(const MapSlot& map, const glm::vec2& uv) {
+    const glm::vec4 m = uvMatrix(map);
+    return glm::vec2(m.x * uv.x + m.y * uv.y, m.z * uv.x + m.w * uv.y) + map.uvOffset;
+}
+
+} // namespace patina

@@ -1,0 +1,16 @@
+// Where a map is looked up: its scale, rotation and offset applied to texture coordinates.
+#pragma once
+
+#include "core/material/Material.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+namespace patina {
+
+// Rows of the 2 × 2 part of u' = T · R · S · u, as glTF's KHR_texture_transform is implemented
+// everywhere (Khronos sample viewer, three.js, Babylon.js): (c sx, s sy) and (-s sx, c sy).
+[[nodiscard]] glm::vec4 uvMatrix(const MapSlot& map);
+[[nodiscard]] glm::vec2 mapUv(const MapSlot& map, const glm::vec2& uv);
+
+} // namespace patina
