@@ -34,15 +34,17 @@ Error cannotWrite(const fs::path& path, int code) {
 }
 
 // Writes everything or returns errno.
-int writeAll(int fd, std::span<const std::byte> data) {
-    while (!data.empty()) {
-        const ssize_t written = ::write(fd, data.data(), data.size());
-        if (written < 0) {
-            if (errno == EINTR)
-                continue;
-            return errno;
+int writeAll(int fd, std::span<const std::span<const std::byte>> pieces) {
+    for (std::span<const std::byte> data : pieces) {
+        while (!data.empty()) {
+            const ssize_t written = ::write(fd, data.data(), data.size());
+            if (written < 0) {
+                if (errno == EINTR)
+                    continue;
+                return errno;
+            }
+            data = data.subspan(static_cast<std::size_t>(written));
         }
-        data = data.subspan(static_cast<std::size_t>(written));
     }
     return 0;
 }
@@ -59,6 +61,11 @@ fs::path resolveLinks(const fs::path& path) {
 } // namespace
 
 Result<void> writeFileAtomically(const fs::path& path, std::span<const std::byte> data) {
+    return writePiecesAtomically(path, std::span(&data, 1));
+}
+
+Result<void> writePiecesAtomically(const fs::path& path,
+                                   std::span<const std::span<const std::byte>> pieces) {
     const fs::path target = resolveLinks(path);
     fs::path folder = target.parent_path();
     if (folder.empty())
@@ -73,7 +80,7 @@ Result<void> writeFileAtomically(const fs::path& path, std::span<const std::byte
         const FileDescriptor device(::open(target.c_str(), O_WRONLY | O_CLOEXEC));
         if (!device.valid())
             return cannotCreate(path, errno);
-        if (const int code = writeAll(device.get(), data))
+        if (const int code = writeAll(device.get(), pieces))
             return cannotWrite(path, code);
         return {};
     }
@@ -99,7 +106,7 @@ Result<void> writeFileAtomically(const fs::path& path, std::span<const std::byte
 
     if (replaces)
         static_cast<void>(::fchmod(fd, existing.st_mode & 07777)); // best effort: not ours to own
-    if (const int code = writeAll(fd, data))
+    if (const int code = writeAll(fd, pieces))
         return fail(code);
     if (::fdatasync(fd) != 0)
         return fail(errno);

@@ -22,6 +22,9 @@ using Bytes = std::vector<std::byte>;
 Result<void> writeFileAtomically(const std::filesystem::path& path,
                                  std::span<const std::byte> data);
 Result<void> writeFileAtomically(const std::filesystem::path& path, std::string_view text);
+// The same for data that lies in several places: written one after another, without a copy.
+Result<void> writePiecesAtomically(const std::filesystem::path& path,
+                                   std::span<const std::span<const std::byte>> pieces);
 
 // Reads a whole file. Errors: InputMissing (missing, unreadable, a folder), InputBroken (larger
 // than `maxSize` bytes).

@@ -30,6 +30,16 @@ TEST_F(AtomicFileTest, WritesAndReplaces) {
     EXPECT_EQ(entries(), 1u);
 }
 
+TEST_F(AtomicFileTest, WritesPiecesOneAfterAnother) {
+    const fs::path file = folder / "a.txt";
+    const std::string first = "one ", none, last = "two";
+    const std::vector<std::span<const std::byte>> pieces = {std::as_bytes(std::span(first)),
+                                                            std::as_bytes(std::span(none)),
+                                                            std::as_bytes(std::span(last))};
+    ASSERT_TRUE(writePiecesAtomically(file, pieces).ok());
+    EXPECT_EQ(readTextFile(file, 100).value(), "one two");
+}
+
 TEST_F(AtomicFileTest, KeepsPermissionsAndFollowsLinks) {
     const fs::path file = folder / "a.txt", link = folder / "link.txt";
     ASSERT_TRUE(writeFileAtomically(file, std::string_view("one")).ok());
