@@ -42,8 +42,10 @@ Result<BakeArtifact> runBake(Session& session, const Document& document, const B
         vertices += mesh.mesh->vertexCount();
     }
     for (const TexelBake& texel : artifact->texels)
-        texels += static_cast<std::size_t>(texel.image->width()) *
-                  static_cast<std::size_t>(texel.image->height());
+        texels += texel.image
+                      ? static_cast<std::size_t>(texel.image->width()) *
+                            static_cast<std::size_t>(texel.image->height())
+                      : static_cast<std::size_t>(texel.side) * static_cast<std::size_t>(texel.side);
     nlohmann::ordered_json& json = session.report().json();
     json["counts"] = {{"meshes", inputs.meshes.size()},
                       {"triangles", triangles},

@@ -122,6 +122,7 @@ void describeMaterials(Report& report, const Document& document) {
 const char* kindText(BakeKind kind) {
     return kind == BakeKind::AoTexel    ? "ambient occlusion per texel"
            : kind == BakeKind::AoVertex ? "ambient occlusion per vertex"
+           : kind == BakeKind::PrtTexel ? "radiance transfer per texel"
                                         : "radiance transfer per vertex";
 }
 

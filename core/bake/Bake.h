@@ -44,9 +44,10 @@ class TileSink {
     // `values`: stride floats for each vertex first, first+1, … of mesh `mesh`, final for the pass.
     virtual void vertices(Id /*mesh*/, std::size_t /*first*/, int /*stride*/,
                           std::span<const float> /*values*/) {}
-    // A rectangle of a material's texture: `width` floats per row, rows from the top.
-    virtual void texels(Id /*material*/, int /*imageSize*/, int /*x*/, int /*y*/, int /*width*/,
-                        std::span<const float> /*values*/) {}
+    // A rectangle of a material's texture: `width` texels of `stride` floats per row, rows from the
+    // top.
+    virtual void texels(Id /*material*/, int /*imageSize*/, int /*stride*/, int /*x*/, int /*y*/,
+                        int /*width*/, std::span<const float> /*values*/) {}
     // A whole pass over all elements is complete with `samples` rays per element.
     virtual void passDone(int /*samples*/) {}
 };
@@ -75,6 +76,7 @@ struct PrtSettings {
     float tolerance =
         0.0f;           // RMS change of the coefficients between passes at which to end; 0: never
     bool fitted = true; // least squares over the surface instead of values at the vertices
+    int size = 512;     // texel bake: side of the square texture
 };
 
 // Passes of 32, 64, … rays over all elements. stop() keeps what there is, every element with
@@ -86,5 +88,9 @@ Result<BakeArtifact> bakeAoVertex(const BakeInputs& inputs, const AoSettings& se
                                   TileSink& sink, const JobContext& job);
 Result<BakeArtifact> bakePrtVertex(const BakeInputs& inputs, const PrtSettings& settings,
                                    TileSink& sink, const JobContext& job);
+// The transfer of every texel of every material's UV layout; also an error (InputBroken) for meshes
+// without texture coordinates.
+Result<BakeArtifact> bakePrtTexel(const BakeInputs& inputs, const PrtSettings& settings,
+                                  TileSink& sink, const JobContext& job);
 
 } // namespace patina

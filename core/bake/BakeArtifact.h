@@ -12,7 +12,14 @@
 
 namespace patina {
 
-enum class BakeKind { AoTexel, AoVertex, PrtVertex };
+enum class BakeKind { AoTexel, AoVertex, PrtVertex, PrtTexel };
+
+[[nodiscard]] constexpr bool holdsTransfer(BakeKind kind) {
+    return kind == BakeKind::PrtVertex || kind == BakeKind::PrtTexel;
+}
+[[nodiscard]] constexpr bool isPerTexel(BakeKind kind) {
+    return kind == BakeKind::AoTexel || kind == BakeKind::PrtTexel;
+}
 
 // Which transport a transfer bake holds; each includes the ones before it.
 enum class TransferKind {
@@ -33,7 +40,7 @@ struct VertexBake {
     Id mesh = 0;                     // MeshInstance::id
     int stride = 1;                  // of `values`: 1, or order² for transfer
     std::vector<float> values;       // AoVertex: ambient visibility 0…1 (1 = open);
-                                     // PrtVertex: T_i = ∫ V(ω) max(0, n·ω) Y_i(ω) dω / π
+                                     // transfer: T_i = ∫ V(ω) max(0, n·ω) Y_i(ω) dω / π
     std::vector<float> bounced = {}; // 3 · stride each: red, green, blue of coefficient 0, of 1 …
     std::vector<float> sky = {}; // 1 each, 0…1: share of the light of a uniform upper half (+Y) of
                                  // the surroundings that arrives, against an open surface of the
@@ -47,7 +54,7 @@ struct VertexBake {
 struct TexelBake {
     Id material = 0;
     ImagePtr image; // AoTexel: F32 Data, 1 channel, ambient visibility 0…1
-    // Transfer: side × side elements in rows from the top, as those of VertexBake.
+    // PrtTexel: side × side elements in rows from the top, as those of VertexBake.
     int side = 0, stride = 0;
     std::vector<float> values = {}, bounced = {}, sky = {}, error = {};
     friend bool operator==(const TexelBake&, const TexelBake&) = default;

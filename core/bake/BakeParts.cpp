@@ -36,7 +36,8 @@ struct KindName {
 };
 constexpr KindName kKinds[] = {{BakeKind::AoTexel, "ao-texel"},
                                {BakeKind::AoVertex, "ao-vertex"},
-                               {BakeKind::PrtVertex, "prt-vertex"}};
+                               {BakeKind::PrtVertex, "prt-vertex"},
+                               {BakeKind::PrtTexel, "prt-texel"}};
 
 constexpr const char* kBasisText =
     "real spherical harmonics with Condon-Shortley phase (Y_1,1 = -0.48860 x), orthonormal, index "
@@ -74,7 +75,7 @@ std::optional<std::size_t> indexOf(const std::vector<Element>& elements, Id id) 
 }
 
 std::vector<std::string> channelNames(const BakeArtifact& artifact) {
-    if (artifact.kind != BakeKind::PrtVertex)
+    if (!holdsTransfer(artifact.kind))
         return {"ao"};
     std::vector<std::string> names;
     for (int l = 0; l < artifact.order; ++l)
@@ -91,7 +92,7 @@ Attributes commonAttributes(const BakeArtifact& artifact) {
     for (const KindName& kind : kKinds)
         if (kind.kind == artifact.kind)
             attributes[kKind] = kind.name;
-    if (artifact.kind == BakeKind::PrtVertex) {
+    if (holdsTransfer(artifact.kind)) {
         attributes[kOrder] = std::to_string(artifact.order);
         attributes[kBasis] = kBasisText;
         attributes[kTransfer] = kTransferText;
@@ -110,6 +111,16 @@ Image vertexImage(const BakeArtifact& artifact, const VertexBake& bake) {
     Image image(static_cast<int>(width), static_cast<int>(height), bake.stride, PixelType::F32,
                 ColorEncoding::Linear);
     std::copy(bake.values.begin(), bake.values.end(), image.f32().begin());
+    image.setChannelNames(channelNames(artifact));
+    return image;
+}
+
+Image texelImage(const BakeArtifact& artifact, const TexelBake& bake) {
+    Image image = bake.image ? convertImage(*bake.image, PixelType::F32, bake.image->encoding())
+                             : Image(bake.side, bake.side, bake.stride, PixelType::F32,
+                                     ColorEncoding::Linear);
+    if (!bake.image)
+        std::copy(bake.values.begin(), bake.values.end(), image.f32().begin());
     image.setChannelNames(channelNames(artifact));
     return image;
 }
@@ -183,7 +194,7 @@ Result<BakeArtifact> readHeader(const Reader& reader, const Attributes& attribut
         return reader.damaged("attributes are missing");
     artifact.inputs = *hash;
     artifact.samplesDone = static_cast<int>(*samples);
-    if (artifact.kind == BakeKind::PrtVertex) {
+    if (holdsTransfer(artifact.kind)) {
         const auto order = number(attributes, kOrder, 1, 5);
         if (!order)
             return reader.damaged("the order is not 1 to 5");
@@ -211,7 +222,7 @@ std::optional<std::size_t> targetOf(const std::vector<Element>& elements,
 
 bool allValuesFit(std::span<const float> values, BakeKind kind) {
     return std::all_of(values.begin(), values.end(), [kind](float v) {
-        return std::isfinite(v) && (kind == BakeKind::PrtVertex || (v >= 0.0f && v <= 1.0f));
+        return std::isfinite(v) && (holdsTransfer(kind) || (v >= 0.0f && v <= 1.0f));
     });
 }
 
@@ -264,12 +275,15 @@ Result<TexelBake> readTexels(const Reader& reader, const BakeArtifact& artifact,
     if (!target)
         return reader.error("the bake belongs to a material that the scene does not have; open the "
                             "scene it was made from, or bake this one");
-    const std::optional<std::vector<float>> values =
-        channelsInOrder(part.image, channelNames(artifact));
+    const std::vector<std::string> channels = channelNames(artifact);
+    std::optional<std::vector<float>> values = channelsInOrder(part.image, channels);
     if (!values || part.image.width() != part.image.height())
         return reader.damaged("the texture is not square or lacks its channel");
     if (!allValuesFit(*values, artifact.kind))
         return reader.damaged("a value is out of range");
+    if (holdsTransfer(artifact.kind))
+        return TexelBake{reader.document.materials[*target].id, nullptr, part.image.width(),
+                         static_cast<int>(channels.size()), *std::move(values)};
     auto image = std::make_shared<Image>(part.image.width(), part.image.height(), 1, PixelType::F32,
                                          ColorEncoding::Data);
     std::copy(values->begin(), values->end(), image->f32().begin());
@@ -300,12 +314,11 @@ std::vector<ImagePart> bakeToParts(const BakeArtifact& artifact, const Document&
     }
     for (const TexelBake& bake : artifact.texels) {
         const std::optional<std::size_t> index = indexOf(document.materials, bake.material);
-        if (!index || !bake.image)
+        if (!index || (!bake.image && bake.values.empty()))
             continue;
         ImagePart& part = parts.emplace_back();
         part.name = materialNames[*index];
-        part.image = convertImage(*bake.image, PixelType::F32, bake.image->encoding());
-        part.image.setChannelNames(channelNames(artifact));
+        part.image = texelImage(artifact, bake);
         part.attributes = common;
         part.attributes[kTarget] = part.name;
         part.attributes[kIndex] = std::to_string(*index);
@@ -337,7 +350,7 @@ Result<BakeArtifact> bakeFromParts(const std::vector<ImagePart>& parts, const Do
                 return reader.damaged("its parts do not belong together");
         }
         Id target = 0;
-        if (artifact->kind == BakeKind::AoTexel) {
+        if (isPerTexel(artifact->kind)) {
             Result<TexelBake> texels = readTexels(reader, *artifact, part);
             if (!texels)
                 return texels.error();

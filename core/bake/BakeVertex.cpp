@@ -4,31 +4,15 @@
 #include "core/bake/Bake.h"
 #include "core/bake/BakePoints.h"
 #include "core/bake/Passes.h"
+#include "core/bake/PrtSettingsCheck.h"
 #include "core/bake/RayScene.h"
-#include "core/math/SphericalHarmonics.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace patina {
 namespace {
 
 constexpr std::size_t kPointsPerRange = 64;
-
-// Surroundings that are uniform above the horizon (+Y) and black below light an open surface of
-// normal n by (1 + n.y) / 2 of what uniform ones would.
-void addSkyAndError(VertexBake& bake, const PassState& state, std::span<const BakePoint> points,
-                    std::size_t first, SampleMethod method) {
-    const std::size_t count = bake.values.size() / static_cast<std::size_t>(bake.stride);
-    for (std::size_t p = first; p < first + count; ++p) {
-        const float open = 0.5f * (1.0f + points[p].normal.y);
-        bake.sky.push_back(open > 1e-6f ? std::clamp(1.0f - state.hiddenSky[p] / open, 0.0f, 1.0f)
-                                        : 1.0f);
-    }
-    if (method != SampleMethod::Stratified) // whose one pass cannot tell
-        bake.error.assign(state.error.begin() + static_cast<std::ptrdiff_t>(first),
-                          state.error.begin() + static_cast<std::ptrdiff_t>(first + count));
-}
 
 // Everything the two vertex bakes share; `artifact` arrives with kind, order and settings.
 Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings settings,
@@ -74,8 +58,14 @@ Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings setting
         bake.mesh = geometry->meshes[m].id;
         bake.stride = settings.stride();
         bake.values.assign(at(firstOfMesh[m]), at(firstOfMesh[m + 1]));
-        if (artifact.kind == BakeKind::PrtVertex)
-            addSkyAndError(bake, *passes, points, firstOfMesh[m], settings.method);
+        if (artifact.kind == BakeKind::PrtVertex) {
+            const auto first = static_cast<std::ptrdiff_t>(firstOfMesh[m]);
+            const auto end = static_cast<std::ptrdiff_t>(firstOfMesh[m + 1]);
+            for (std::size_t p = firstOfMesh[m]; p < firstOfMesh[m + 1]; ++p)
+                bake.sky.push_back(skyShare(passes->hiddenSky[p], points[p].normal));
+            if (settings.method != SampleMethod::Stratified) // whose one pass cannot tell
+                bake.error.assign(passes->error.begin() + first, passes->error.begin() + end);
+        }
         artifact.vertices.push_back(std::move(bake));
     }
     job.setProgress(1.0);
@@ -97,27 +87,14 @@ Result<BakeArtifact> bakeAoVertex(const BakeInputs& inputs, const AoSettings& se
 
 Result<BakeArtifact> bakePrtVertex(const BakeInputs& inputs, const PrtSettings& settings,
                                    TileSink& sink, const JobContext& job) {
-    const Result<int> samples = roundSamples(settings.samples, settings.method);
-    if (!samples)
-        return samples.error();
-    if (settings.order < 1 || settings.order > kMaxShOrder)
-        return Error{ErrorKind::Usage,
-                     fmt::format("The order of a radiance transfer bake is 1 to {}, not {}.",
-                                 kMaxShOrder, settings.order),
-                     {},
-                     {}};
-    PassSettings passes;
-    passes.samples = *samples;
-    passes.shOrder = settings.order;
-    passes.seed = settings.seed;
-    passes.method = settings.method;
+    const Result<PassSettings> passes = prtPassSettings(settings);
+    if (!passes)
+        return passes.error();
     BakeArtifact artifact;
     artifact.kind = BakeKind::PrtVertex;
     artifact.order = settings.order;
-    artifact.settings = {{"samples", std::to_string(*samples)},
-                         {"order", std::to_string(settings.order)},
-                         {"seed", std::to_string(settings.seed)}};
-    return bakeVertices(inputs, passes, std::move(artifact), sink, job);
+    artifact.settings = prtSettingsText(settings, passes->samples);
+    return bakeVertices(inputs, *passes, std::move(artifact), sink, job);
 }
 
 } // namespace patina

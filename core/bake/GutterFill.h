@@ -7,11 +7,11 @@
 
 namespace patina {
 
-// `values`: side × side texels; `known`: 1 where the value is real. The four nearest rings take the
-// mean of their known neighbours (textures repeat: neighbours wrap around); what is further away is
-// filled from coarser and coarser averages (push-pull, Gortler et al. 1996). Known values stay.
-// Without any known texel everything becomes `fallback`.
+// `values`: side × side texels of fallback.size() floats each; `known`: 1 where a texel is real.
+// The four nearest rings take the mean of their known neighbours (textures repeat: neighbours wrap
+// around); what is further away is filled from coarser and coarser averages (push-pull, Gortler et
+// al. 1996). Known values stay. Without any known texel all become `fallback`.
 void fillGutters(std::span<float> values, std::vector<std::uint8_t> known, int side,
-                 float fallback);
+                 std::span<const float> fallback);
 
 } // namespace patina

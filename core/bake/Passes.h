@@ -7,6 +7,7 @@
 #include "core/base/Result.h"
 #include "core/job/JobContext.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
@@ -58,6 +59,13 @@ struct PassState {
     int samplesDone = 0;              // rays that the values of every point rest on, or more
     friend bool operator==(const PassState&, const PassState&) = default;
 };
+
+// The share of light that arrives of surroundings that are uniform above the horizon (+Y) and black
+// below; they light an open surface of normal n by (1 + n.y) / 2 of what uniform ones would.
+[[nodiscard]] inline float skyShare(float hiddenSky, const glm::vec3& normal) {
+    const float open = 0.5f * (1.0f + normal.y);
+    return open > 1e-6f ? std::clamp(1.0f - hiddenSky / open, 0.0f, 1.0f) : 1.0f;
+}
 
 struct PassCallbacks {
     // Values of a range after the pass in flight, from the pool's threads.

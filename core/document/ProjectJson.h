@@ -21,10 +21,11 @@ inline constexpr Id kMaxId = 2'000'000'000;
 inline constexpr std::array<std::string_view, 4> kMapChannels{"r", "g", "b", "a"};
 inline constexpr std::string_view kRgbChannel = "rgb";
 
-inline constexpr std::array<std::pair<BakeKind, std::string_view>, 3> kBakeKinds{{
+inline constexpr std::array<std::pair<BakeKind, std::string_view>, 4> kBakeKinds{{
     {BakeKind::AoTexel, "aoTexel"},
     {BakeKind::AoVertex, "aoVertex"},
     {BakeKind::PrtVertex, "prtVertex"},
+    {BakeKind::PrtTexel, "prtTexel"},
 }};
 
 // "metallic" of "material.metallic": parameters are keys without their scope.

@@ -382,7 +382,7 @@ class ProjectReader {
             std::any_of(m_project.bakes.begin(), m_project.bakes.end(),
                         [&](const BakeReference& bake) { return bake.kind == kind->first; });
         if (kind == kBakeKinds.end() || repeated)
-            fail(kindNode, "one of aoTexel, aoVertex, prtVertex, each at most once");
+            fail(kindNode, "one of aoTexel, aoVertex, prtVertex, prtTexel, each at most once");
         BakeReference bake{kind->first, readSource(object.require("file"), m_projectFile)};
         object.refuseUnknownKeys();
         return bake;

@@ -47,7 +47,7 @@ void warnAboutBakes(const Document& document, const ExportSettings& settings,
         if (bake->kind == BakeKind::AoVertex)
             warnings.emplace_back("glTF has no place for ambient occlusion per vertex; bake it per "
                                   "texel to take it along");
-        else if (bake->kind == BakeKind::PrtVertex)
+        else if (holdsTransfer(bake->kind))
             warnings.emplace_back("glTF has no place for radiance transfer; it stays in the bake's "
                                   "own EXR file");
         else if (settings.includeBakedAo && bake->inputs != hashBakeInputs(bakeInputs(document)))

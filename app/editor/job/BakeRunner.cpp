@@ -15,6 +15,8 @@ Result<BakeArtifact> runBake(const BakeRequest& request, const BakeInputs& input
         return bakeAoTexel(inputs, request.ao, sink, job);
     case BakeKind::AoVertex:
         return bakeAoVertex(inputs, request.ao, sink, job);
+    case BakeKind::PrtTexel:
+        return bakePrtTexel(inputs, request.prt, sink, job);
     case BakeKind::PrtVertex:
         break;
     }
@@ -29,6 +31,8 @@ QString bakeTitle(BakeKind kind) {
         return BakeRunner::tr("Ambient occlusion (texture)");
     case BakeKind::AoVertex:
         return BakeRunner::tr("Ambient occlusion (per vertex)");
+    case BakeKind::PrtTexel:
+        return BakeRunner::tr("Radiance transfer (PRT, texture)");
     case BakeKind::PrtVertex:
         break;
     }
@@ -83,10 +87,9 @@ void BakeRunner::start(const BakeRequest& request) {
             if (!result)
                 return {result.error(), {}, {}};
             auto artifact = std::make_shared<const BakeArtifact>(std::move(result).value());
-            const QString summary =
-                tr("%1 rays per %2")
-                    .arg(artifact->samplesDone)
-                    .arg(request.kind == BakeKind::AoTexel ? tr("texel") : tr("vertex"));
+            const QString summary = tr("%1 rays per %2")
+                                        .arg(artifact->samplesDone)
+                                        .arg(isPerTexel(request.kind) ? tr("texel") : tr("vertex"));
             return {std::nullopt, summary, [this, artifact] { m_controller.attachBake(artifact); }};
         });
     Q_EMIT stateChanged();

@@ -31,6 +31,8 @@ LivePreview::LivePreview(const BakeInputs& inputs, BakeKind kind, int prtOrder, 
     : m_kind(kind)
     , m_textureSize(textureSize) {
     for (const BakeMesh& mesh : inputs.meshes) {
+        if (kind == BakeKind::PrtTexel) // not shown before it is complete
+            continue;
         if (kind == BakeKind::AoTexel) {
             Surface& surface = m_texels[mesh.material];
             surface.values.assign(static_cast<std::size_t>(textureSize) *
@@ -61,11 +63,11 @@ void LivePreview::vertices(Id mesh, std::size_t first, int stride, std::span<con
     found->second.changed = true;
 }
 
-void LivePreview::texels(Id material, int imageSize, int x, int y, int width,
+void LivePreview::texels(Id material, int imageSize, int stride, int x, int y, int width,
                          std::span<const float> values) {
     const std::lock_guard lock(m_mutex);
     const auto found = m_texels.find(material);
-    if (found == m_texels.end() || imageSize != m_textureSize || width <= 0)
+    if (found == m_texels.end() || imageSize != m_textureSize || stride != 1 || width <= 0)
         return;
     const int rows = static_cast<int>(values.size()) / width;
     if (x < 0 || y < 0 || x + width > imageSize || y + rows > imageSize)

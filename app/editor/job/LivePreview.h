@@ -18,7 +18,7 @@ class LivePreview : public TileSink {
     LivePreview(const BakeInputs& inputs, BakeKind kind, int prtOrder, int textureSize);
 
     void vertices(Id mesh, std::size_t first, int stride, std::span<const float> values) override;
-    void texels(Id material, int imageSize, int x, int y, int width,
+    void texels(Id material, int imageSize, int stride, int x, int y, int width,
                 std::span<const float> values) override;
     void passDone(int samples) override;
 

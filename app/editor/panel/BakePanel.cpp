@@ -143,7 +143,8 @@ QWidget* BakePanel::makeSettings() {
     m_form->setVerticalSpacing(tokens::kGap);
     m_form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
     m_kind = new QComboBox;
-    for (const BakeKind kind : {BakeKind::PrtVertex, BakeKind::AoTexel, BakeKind::AoVertex})
+    for (const BakeKind kind :
+         {BakeKind::PrtVertex, BakeKind::PrtTexel, BakeKind::AoTexel, BakeKind::AoVertex})
         m_kind->addItem(bakeTitle(kind), static_cast<int>(kind));
     m_kind->setObjectName(QStringLiteral("bakeKind"));
     m_kind->setAccessibleName(tr("What to bake"));
@@ -205,7 +206,7 @@ BakeRequest BakePanel::request() const {
     request.kind = static_cast<BakeKind>(m_kind->currentData().toInt());
     request.ao.samples = request.prt.samples = m_samples->currentData().toInt();
     request.ao.maxDistance = static_cast<float>(m_distance->value());
-    request.ao.size = m_size->currentData().toInt();
+    request.ao.size = request.prt.size = m_size->currentData().toInt();
     request.prt.order = m_order->currentData().toInt();
     return request;
 }
@@ -217,7 +218,7 @@ void BakePanel::start() {
 QString BakePanel::estimate() const {
     const BakeRequest wanted = request();
     const QLocale locale;
-    if (wanted.kind == BakeKind::AoTexel)
+    if (isPerTexel(wanted.kind))
         return tr("One texture of %1 × %1 for each material").arg(wanted.ao.size);
     double vertices = 0;
     for (const MeshInstance& mesh : m_controller.document().meshes)
@@ -235,9 +236,9 @@ void BakePanel::refreshSettings() {
         field->setVisible(visible);
         m_form->labelForField(field)->setVisible(visible);
     };
-    show(m_order, kind == BakeKind::PrtVertex);
-    show(m_size, kind == BakeKind::AoTexel);
-    show(m_distance, kind != BakeKind::PrtVertex);
+    show(m_order, holdsTransfer(kind));
+    show(m_size, isPerTexel(kind));
+    show(m_distance, !holdsTransfer(kind));
     m_estimate->setText(estimate());
 }
 

@@ -46,7 +46,7 @@ BakeArtifact testBake(const Document& document, BakeKind kind, int order = 0) {
     artifact.samplesDone = 128;
     const auto number = [&] {
         const float unit = float(random()) / 4294967296.0f;
-        return kind == BakeKind::PrtVertex ? 2.0f * unit - 1.0f : unit;
+        return holdsTransfer(kind) ? 2.0f * unit - 1.0f : unit;
     };
     if (kind == BakeKind::AoTexel) {
         for (const Material& material : document.materials) {
@@ -57,7 +57,19 @@ BakeArtifact testBake(const Document& document, BakeKind kind, int order = 0) {
         }
         return artifact;
     }
-    const int stride = kind == BakeKind::PrtVertex ? order * order : 1;
+    const int stride = holdsTransfer(kind) ? order * order : 1;
+    if (kind == BakeKind::PrtTexel) {
+        for (const Material& material : document.materials) {
+            TexelBake& bake = artifact.texels.emplace_back();
+            bake.material = material.id;
+            bake.side = 17;
+            bake.stride = stride;
+            bake.values.resize(17u * 17u * std::size_t(stride));
+            for (float& value : bake.values)
+                value = number();
+        }
+        return artifact;
+    }
     for (const MeshInstance& mesh : document.meshes) {
         VertexBake& bake = artifact.vertices.emplace_back();
         bake.mesh = mesh.id;
@@ -80,7 +92,13 @@ void expectSame(const BakeArtifact& a, const BakeArtifact& b) {
     ASSERT_EQ(a.texels.size(), b.texels.size());
     for (std::size_t i = 0; i < a.texels.size(); ++i) {
         EXPECT_EQ(a.texels[i].material, b.texels[i].material);
-        EXPECT_EQ(*a.texels[i].image, *b.texels[i].image);
+        ASSERT_EQ(a.texels[i].image != nullptr, b.texels[i].image != nullptr);
+        if (a.texels[i].image) {
+            EXPECT_EQ(*a.texels[i].image, *b.texels[i].image);
+        }
+        EXPECT_EQ(a.texels[i].side, b.texels[i].side);
+        EXPECT_EQ(a.texels[i].stride, b.texels[i].stride);
+        EXPECT_EQ(a.texels[i].values, b.texels[i].values);
     }
 }
 
@@ -103,7 +121,8 @@ TEST(BakeIO, FilesHoldEveryKindExactly) {
     std::vector<BakeArtifact> bakes = {testBake(document, BakeKind::AoTexel),
                                        testBake(document, BakeKind::AoVertex)};
     for (int order = 1; order <= 5; ++order)
-        bakes.push_back(testBake(document, BakeKind::PrtVertex, order));
+        for (const BakeKind kind : {BakeKind::PrtVertex, BakeKind::PrtTexel})
+            bakes.push_back(testBake(document, kind, order));
     for (const BakeArtifact& bake : bakes) {
         const Result<Bytes> bytes = encodeBake(worker, bake, document);
         ASSERT_TRUE(bytes.ok()) << bytes.error().text();
@@ -233,12 +252,13 @@ TEST(BakeParts, DamageIsRefusedWithAReason) {
     const Document document = testDocument();
     const auto damaged = [&](BakeKind kind, const auto& damage) {
         std::vector<ImagePart> parts =
-            bakeToParts(testBake(document, kind, kind == BakeKind::PrtVertex ? 3 : 0), document);
+            bakeToParts(testBake(document, kind, holdsTransfer(kind) ? 3 : 0), document);
         damage(parts);
         return refusal(parts, document);
     };
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    for (const BakeKind kind : {BakeKind::AoTexel, BakeKind::AoVertex, BakeKind::PrtVertex}) {
+    for (const BakeKind kind :
+         {BakeKind::AoTexel, BakeKind::AoVertex, BakeKind::PrtVertex, BakeKind::PrtTexel}) {
         for (const float value : {nan, std::numeric_limits<float>::infinity()})
             EXPECT_THAT(damaged(kind, [&](auto& parts) { parts[1].image.f32()[5] = value; }),
                         HasSubstr("out of range"));

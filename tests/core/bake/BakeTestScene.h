@@ -75,12 +75,12 @@ class Recorder : public TileSink {
         if (onTile)
             onTile(m_passes.size());
     }
-    void texels(Id material, int imageSize, int x, int y, int width,
+    void texels(Id material, int imageSize, int stride, int x, int y, int width,
                 std::span<const float> values) override {
         const std::lock_guard lock(m_mutex);
-        std::map<int, float>& all = m_texels[material];
+        std::map<int, float>& all = m_texels[material]; // the first float of each texel
         for (int i = 0; i < width; ++i)
-            all[y * imageSize + x + i] = values[static_cast<std::size_t>(i)];
+            all[y * imageSize + x + i] = values[static_cast<std::size_t>(i * stride)];
         if (onTile)
             onTile(m_passes.size());
     }

@@ -1,4 +1,5 @@
 #include "core/bake/GutterFill.h"
+#include "core/math/SphericalHarmonics.h"
 #include "core/mesh/UvUnwrap.h"
 #include "tests/core/bake/BakeTestScene.h"
 
@@ -138,6 +139,84 @@ TEST(TexelBake, TinyTrianglesGetTheirTexelToo) {
     EXPECT_TRUE(recorder.m_texels.at(1).contains(7 * 16 + 5));
 }
 
+// Transfer of the floor under a resting sphere: band 0 is the closed form above, and every texel of
+// an open floor holds T_lm = A_l Y_lm(n) / pi, gutters included.
+TEST(TexelTransfer, HoldsTheCoefficientsOfEveryTexel) {
+    PrtSettings settings;
+    settings.order = 3;
+    settings.samples = 1024;
+    settings.size = 24;
+    TileSink sink;
+    BakeInputs inputs = sceneOf({uvFloor(), sphereMesh(0.4, 96, 48, {0, 0.4, 0})});
+    inputs.meshes[1].material = 2;
+    const Result<BakeArtifact> artifact = bakePrtTexel(inputs, settings, sink, {});
+    ASSERT_TRUE(artifact.ok());
+    EXPECT_EQ(artifact->kind, BakeKind::PrtTexel);
+    EXPECT_EQ(artifact->order, 3);
+    EXPECT_EQ(artifact->settings.at("size"), "24");
+    ASSERT_EQ(artifact->texels.size(), 2u);
+    const TexelBake& floor = artifact->texels[0];
+    EXPECT_EQ(floor.material, 1u);
+    EXPECT_EQ(floor.side, 24);
+    EXPECT_EQ(floor.stride, 9);
+    EXPECT_EQ(floor.sky.size(), 24u * 24u);
+    EXPECT_EQ(floor.error.size(), 24u * 24u);
+    ASSERT_EQ(floor.values.size(), 24u * 24u * 9u);
+    const double y00 = 0.5 / std::sqrt(kPi);
+    for (int y = 0; y < 24; ++y)
+        for (int x = 0; x < 24; ++x) {
+            const double px = 2 * (x + 0.5) / 24 - 1, pz = 2 * (y + 0.5) / 24 - 1;
+            const double ao = 1.0 - std::pow(0.4, 3.0) / std::pow(px * px + pz * pz + 0.16, 1.5);
+            ASSERT_NEAR(floor.values[std::size_t(y * 24 + x) * 9], ao * y00, 0.02 * y00)
+                << x << ' ' << y;
+        }
+
+    const Result<BakeArtifact> open = bakePrtTexel(sceneOf({uvFloor(0.5f)}), settings, sink, {});
+    ASSERT_TRUE(open.ok());
+    std::vector<double> basis(9);
+    evaluateSh(3, {0, 1, 0}, basis);
+    const std::vector<float>& values = open->texels.at(0).values;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const int l = i % 9 == 0 ? 0 : i % 9 < 4 ? 1 : 2;
+        ASSERT_NEAR(values[i], cosineConvolution(l) * basis[i % 9] / kPi, 0.01) << i;
+    }
+}
+
+TEST(TexelTransfer, MeshesWithoutUvsAndAbsurdSizesAreRefused) {
+    TileSink sink;
+    PrtSettings settings;
+    BakeInputs inputs = sceneOf({uvFloor()});
+    for (const int size : {0, -4, 8193}) {
+        settings.size = size;
+        const Result<BakeArtifact> refused = bakePrtTexel(inputs, settings, sink, {});
+        ASSERT_FALSE(refused.ok());
+        EXPECT_EQ(refused.error().kind, ErrorKind::Usage);
+    }
+    settings.size = 16;
+    Mesh bare = *inputs.meshes[0].mesh;
+    bare.uvs.clear();
+    inputs.meshes[0].mesh = std::make_shared<const Mesh>(bare);
+    const Result<BakeArtifact> refused = bakePrtTexel(inputs, settings, sink, {});
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().kind, ErrorKind::InputBroken);
+}
+
+TEST(FillGutters, KeepsTheFloatsOfATexelTogether) {
+    std::vector<float> values(8 * 8 * 2, -1.0f);
+    std::vector<std::uint8_t> known(64, 0);
+    values[2 * 9] = 0.25f;
+    values[2 * 9 + 1] = 0.5f;
+    known[9] = 1;
+    constexpr float kNone[] = {0.0f, 0.0f};
+    fillGutters(values, known, 8, kNone);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        EXPECT_EQ(values[i], i % 2 == 0 ? 0.25f : 0.5f) << i;
+    std::vector<float> nothing(2 * 4, -1.0f);
+    constexpr float kTwo[] = {1.0f, 2.0f};
+    fillGutters(nothing, std::vector<std::uint8_t>(4, 0), 2, kTwo);
+    EXPECT_EQ(nothing, (std::vector<float>{1, 2, 1, 2, 1, 2, 1, 2}));
+}
+
 TEST(FillGutters, KeepsKnownValuesAndFillsFromTheNearest) {
     constexpr int kSide = 37;
     std::vector<float> values(kSide * kSide, -1.0f);
@@ -149,7 +228,8 @@ TEST(FillGutters, KeepsKnownValuesAndFillsFromTheNearest) {
         }
     values[30 * kSide + 30] = 0.75f;
     known[30 * kSide + 30] = 1;
-    fillGutters(values, known, kSide, 0.0f);
+    constexpr float kNone[] = {0.0f}, kOpen[] = {1.0f};
+    fillGutters(values, known, kSide, kNone);
     EXPECT_EQ(values[12 * kSide + 12], 0.25f);
     EXPECT_EQ(values[30 * kSide + 30], 0.75f);
     EXPECT_EQ(values[12 * kSide + 16], 0.25f);
@@ -159,6 +239,6 @@ TEST(FillGutters, KeepsKnownValuesAndFillsFromTheNearest) {
         EXPECT_LE(value, 0.75f);
     }
     std::vector<float> nothing(9, -1.0f);
-    fillGutters(nothing, std::vector<std::uint8_t>(9, 0), 3, 1.0f);
+    fillGutters(nothing, std::vector<std::uint8_t>(9, 0), 3, kOpen);
     EXPECT_EQ(nothing, std::vector<float>(9, 1.0f));
 }

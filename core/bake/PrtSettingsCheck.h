@@ -1,0 +1,16 @@
+// Checking and describing the settings that all transfer bakes share.
+#pragma once
+
+#include "core/bake/Bake.h"
+#include "core/bake/Passes.h"
+
+#include <map>
+#include <string>
+
+namespace patina {
+
+Result<PassSettings> prtPassSettings(const PrtSettings& settings); // Errors: Usage.
+[[nodiscard]] std::map<std::string, std::string> prtSettingsText(const PrtSettings& settings,
+                                                                 int samples);
+
+} // namespace patina
