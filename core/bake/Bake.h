@@ -15,6 +15,7 @@
 namespace patina {
 
 struct Document;
+class HitSource; // core/bake/HitCache.h
 
 struct BakeMesh {
     Id id = 0;
@@ -50,6 +51,9 @@ class TileSink {
                         int /*width*/, std::span<const float> /*values*/) {}
     // A whole pass over all elements is complete with `samples` rays per element.
     virtual void passDone(int /*samples*/) {}
+    // An interreflected bake: where its rays ended, for bounces to be followed again with other
+    // albedo (core/bake/BounceSolver.h). Only when `hitBudget` allows to keep them.
+    virtual void hits(const std::shared_ptr<const HitSource>& /*hits*/) {}
 };
 
 struct AoSettings {
@@ -77,6 +81,9 @@ struct PrtSettings {
         0.0f;           // RMS change of the coefficients between passes at which to end; 0: never
     bool fitted = true; // least squares over the surface instead of values at the vertices
     int size = 512;     // texel bake: side of the square texture
+    // Interreflected: bytes that hits may take, 8 for each ray that meets something; where they
+    // could take more they are traced anew for every bounce. 0: always.
+    std::uint64_t hitBudget = std::uint64_t{1} << 30;
 };
 
 // Passes of 32, 64, … rays over all elements. stop() keeps what there is, every element with

@@ -3,6 +3,7 @@
 #include "core/bake/AoSettingsCheck.h"
 #include "core/bake/Bake.h"
 #include "core/bake/BakePoints.h"
+#include "core/bake/Interreflection.h"
 #include "core/bake/Passes.h"
 #include "core/bake/PrtSettingsCheck.h"
 #include "core/bake/RayScene.h"
@@ -14,9 +15,11 @@ namespace {
 
 constexpr std::size_t kPointsPerRange = 64;
 
-// Everything the two vertex bakes share; `artifact` arrives with kind, order and settings.
+// Everything the two vertex bakes share; `artifact` arrives with kind, order and settings, `prt`
+// with those of a transfer bake.
 Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings settings,
-                                  BakeArtifact artifact, TileSink& sink, const JobContext& job) {
+                                  const PrtSettings* prt, BakeArtifact artifact, TileSink& sink,
+                                  const JobContext& job) {
     job.setActivity("preparing the scene");
     const Result<BakeGeometry> geometry = makeBakeGeometry(inputs, job);
     if (!geometry)
@@ -68,6 +71,10 @@ Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings setting
         }
         artifact.vertices.push_back(std::move(bake));
     }
+    if (prt && prt->transfer == TransferKind::Interreflected)
+        if (std::optional<Error> error =
+                addInterreflection(artifact, inputs, *geometry, *scene, *prt, sink, job))
+            return *std::move(error);
     job.setProgress(1.0);
     return artifact;
 }
@@ -82,7 +89,7 @@ Result<BakeArtifact> bakeAoVertex(const BakeInputs& inputs, const AoSettings& se
     BakeArtifact artifact;
     artifact.kind = BakeKind::AoVertex;
     artifact.settings = aoSettingsText(settings, passes->samples);
-    return bakeVertices(inputs, *passes, std::move(artifact), sink, job);
+    return bakeVertices(inputs, *passes, nullptr, std::move(artifact), sink, job);
 }
 
 Result<BakeArtifact> bakePrtVertex(const BakeInputs& inputs, const PrtSettings& settings,
@@ -94,7 +101,7 @@ Result<BakeArtifact> bakePrtVertex(const BakeInputs& inputs, const PrtSettings& 
     artifact.kind = BakeKind::PrtVertex;
     artifact.order = settings.order;
     artifact.settings = prtSettingsText(settings, passes->samples);
-    return bakeVertices(inputs, *passes, std::move(artifact), sink, job);
+    return bakeVertices(inputs, *passes, &settings, std::move(artifact), sink, job);
 }
 
 } // namespace patina

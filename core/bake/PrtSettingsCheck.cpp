@@ -1,5 +1,6 @@
 #include "core/bake/PrtSettingsCheck.h"
 
+#include "core/bake/Interreflection.h"
 #include "core/math/SphericalHarmonics.h"
 
 #include <fmt/format.h>
@@ -16,6 +17,9 @@ Result<PassSettings> prtPassSettings(const PrtSettings& settings) {
                                  kMaxShOrder, settings.order),
                      {},
                      {}};
+    if (settings.transfer == TransferKind::Interreflected)
+        if (std::optional<Error> error = checkBounceSettings(settings))
+            return *std::move(error);
     PassSettings passes;
     passes.samples = *samples;
     passes.shOrder = settings.order;

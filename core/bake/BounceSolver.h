@@ -1,0 +1,69 @@
+// Follows light from surface to surface over the hits of a scene (core/bake/HitCache.h), without
+// tracing a ray.
+//
+// With transfer T of light that comes straight from the surroundings, and albedo ρ, light that has
+// been on k other surfaces and less adds
+//     B_0 = 0,    B_k+1(p) = mean over the rays of p of ρ(q) (T(q) + B_k(q)),
+// q being where a ray ends, T and B between vertices interpolated; rays that end nowhere count as
+// zero. (docs/maths/baking.md.) Each coefficient of the surroundings is a problem of its own, and
+// so is any mixture of them: the light shown.
+#pragma once
+
+#include "core/bake/HitCache.h"
+
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace patina {
+
+class BounceSolver {
+  public:
+    explicit BounceSolver(HitSourcePtr hits);
+    ~BounceSolver();
+    BounceSolver(const BounceSolver&) = delete;
+    BounceSolver& operator=(const BounceSolver&) = delete;
+
+    [[nodiscard]] const HitSource& hits() const { return *m_hits; }
+
+    // One for each of hits().elements().meshes(). Numbers alone cost nothing; other maps are
+    // prepared anew, as the first ones are.
+    void setSurfaces(std::vector<BakeSurface> surfaces, const JobContext& job);
+
+    // `direct`: coefficients T of the front elements, order² each; order as the hits were traced
+    // with. Answers 3 · order² for each front element, laid out as VertexBake::bounced. Errors:
+    // Cancelled.
+    [[nodiscard]] Result<std::vector<float>> solve(std::span<const float> direct, int bounces,
+                                                   const JobContext& job) const;
+
+    // For one light: `direct` is what it lends each front element, Σ L_i T_i; `surroundings` L_i
+    // are needed for the backs of two-sided surfaces only. Answers Σ L_i B_i. A fraction of the
+    // cost of solve(). Errors: Cancelled.
+    [[nodiscard]] Result<std::vector<glm::vec3>> solveLight(std::span<const glm::vec3> direct,
+                                                            std::span<const glm::vec3> surroundings,
+                                                            int bounces,
+                                                            const JobContext& job) const;
+
+    [[nodiscard]] std::size_t memoryBytes() const; // beside the hits
+
+  private:
+    template <std::size_t K>
+    [[nodiscard]] bool gather(const std::vector<float>& from, std::vector<float>& bounced,
+                              const JobContext& job) const;
+
+    HitSourcePtr m_hits;
+    std::vector<BakeSurface> m_surfaces;
+    struct MappedSurface;
+    std::vector<std::unique_ptr<MappedSurface>> m_mapped; // per mesh; null: without maps
+    bool m_anyMapped = false;
+    std::vector<std::vector<std::uint32_t>>
+        m_texels; // per chunk, of every hit, where hits are kept
+    [[nodiscard]] std::span<const std::uint32_t> texels(std::size_t chunk,
+                                                        std::span<const CachedHit> hits,
+                                                        std::vector<std::uint32_t>& scratch) const;
+    void lookUp(std::span<const CachedHit> hits, std::vector<std::uint32_t>& texels) const;
+};
+
+} // namespace patina

@@ -1,0 +1,112 @@
+#include "core/bake/Interreflection.h"
+
+#include "core/base/Check.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace patina {
+namespace {
+
+constexpr int kMaxBounces = 64;
+
+} // namespace
+
+std::optional<Error> checkBounceSettings(const PrtSettings& settings) {
+    if (settings.bounces < 1 || settings.bounces > kMaxBounces)
+        return Error{
+            ErrorKind::Usage,
+            fmt::format("Light can bounce 1 to {} times, not {}.", kMaxBounces, settings.bounces),
+            {},
+            {}};
+    const Result<int> samples = roundSamples(settings.bounceSamples);
+    if (!samples)
+        return samples.error();
+    return std::nullopt;
+}
+
+Result<HitSourcePtr> traceHits(const RayScene& scene, const BakeGeometry& geometry,
+                               const PrtSettings& settings, const JobContext& job) {
+    if (std::optional<Error> error = checkBounceSettings(settings))
+        return *std::move(error);
+    const Result<int> samples = roundSamples(settings.bounceSamples);
+    Result<BounceElements> elements = BounceElements::make(geometry);
+    if (!elements)
+        return elements.error();
+    const HitSettings hits{*samples, settings.seed, settings.order};
+    job.setActivity("tracing bounces");
+    if (HitCache::maxHitBytes(elements->count(), *samples) > settings.hitBudget)
+        return HitRetracer::make(scene, geometry, std::move(*elements), hits, job);
+    const Result<HitCachePtr> cache =
+        HitCache::trace(scene, geometry, std::move(*elements), hits, job);
+    if (!cache)
+        return cache.error();
+    return HitSourcePtr(*cache);
+}
+
+std::vector<BakeSurface> surfacesOf(const BounceElements& elements, const BakeInputs& inputs) {
+    std::vector<BakeSurface> surfaces;
+    for (const BounceElements::MeshPart& part : elements.meshes()) {
+        const auto found = std::find_if(inputs.meshes.begin(), inputs.meshes.end(),
+                                        [&](const BakeMesh& mesh) { return mesh.id == part.id; });
+        surfaces.push_back(found != inputs.meshes.end() ? found->surface : BakeSurface{});
+    }
+    return surfaces;
+}
+
+std::optional<std::vector<float>> directTransfer(const BounceElements& elements,
+                                                 const BakeArtifact& artifact) {
+    const auto stride = static_cast<std::size_t>(artifact.order * artifact.order);
+    std::vector<float> direct;
+    direct.reserve(elements.fronts() * stride);
+    for (const BounceElements::MeshPart& part : elements.meshes()) {
+        const auto found =
+            std::find_if(artifact.vertices.begin(), artifact.vertices.end(),
+                         [&](const VertexBake& bake) { return bake.mesh == part.id; });
+        if (found == artifact.vertices.end() ||
+            found->values.size() != part.mesh->vertexCount() * stride)
+            return std::nullopt;
+        direct.insert(direct.end(), found->values.begin(), found->values.end());
+    }
+    return direct;
+}
+
+void setBounced(BakeArtifact& artifact, const BounceElements& elements,
+                std::span<const float> bounced) {
+    const auto row = static_cast<std::size_t>(3 * artifact.order * artifact.order);
+    CHECK_EQ(bounced.size(), elements.fronts() * row);
+    for (const BounceElements::MeshPart& part : elements.meshes())
+        for (VertexBake& bake : artifact.vertices)
+            if (bake.mesh == part.id) {
+                const std::span<const float> own =
+                    bounced.subspan(part.firstElement * row, part.mesh->vertexCount() * row);
+                bake.bounced.assign(own.begin(), own.end());
+            }
+}
+
+std::optional<Error> addInterreflection(BakeArtifact& artifact, const BakeInputs& inputs,
+                                        const BakeGeometry& geometry, const RayScene& scene,
+                                        const PrtSettings& settings, TileSink& sink,
+                                        const JobContext& job) {
+    const Result<HitSourcePtr> hits = traceHits(scene, geometry, settings, job);
+    if (!hits)
+        return hits.error();
+    if ((*hits)->kept())
+        sink.hits(*hits);
+    const BounceElements& elements = (*hits)->elements();
+    const std::optional<std::vector<float>> direct = directTransfer(elements, artifact);
+    CHECK(direct.has_value());
+    job.setActivity("following bounces");
+    BounceSolver solver(*hits);
+    solver.setSurfaces(surfacesOf(elements, inputs), job);
+    const Result<std::vector<float>> bounced = solver.solve(*direct, settings.bounces, job);
+    if (!bounced)
+        return bounced.error();
+    setBounced(artifact, elements, *bounced);
+    artifact.albedo = hashBakeAlbedo(inputs);
+    artifact.transfer = TransferKind::Interreflected;
+    artifact.bounces = settings.bounces;
+    return std::nullopt;
+}
+
+} // namespace patina
