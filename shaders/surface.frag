@@ -88,6 +88,13 @@ vec3 irradianceAt(vec3 n) {
     return u_irradianceScale * irradianceFromSh9(sh, n);
 }
 
+// Diffuse light against reflections, as the view weighs them.
+ShadedLight mixed(ShadedLight light) {
+    light.diffuse *= u_mix.x;
+    light.specular *= u_mix.y;
+    return light;
+}
+
 // Half floats end at 65504, and one NaN would spread over its pixel in the resolve.
 vec3 storable(vec3 c) {
     return vec3(isnan(c.x) ? 0.0 : clamp(c.x, 0.0, 65504.0),
@@ -172,6 +179,8 @@ void main() {
     vec3 arriving = vec3(0.5);
 #elif defined(HAS_TRANSFER)
     vec3 arriving = kPi * max(v_exitRadiance, vec3(0.0));
+#elif defined(HAS_LAMP)
+    vec3 arriving = u_lampIrradiance.rgb * max(dot(n, u_lamp.xyz), 0.0);
 #else
     vec3 arriving = irradianceAt(n);
 #endif
@@ -188,7 +197,7 @@ void main() {
 #else
     float diffuseOpen = unoccluded;
 #endif
-    ShadedLight ambient = shadeEnvironment(s, diffuseOpen * arriving, prefiltered);
+    ShadedLight ambient = mixed(shadeEnvironment(s, diffuseOpen * arriving, prefiltered));
     float open = specularOcclusion(s.NoV, unoccluded, s.alpha);
     vec3 specularIbl = ambient.specular * open;
 
@@ -222,7 +231,7 @@ void main() {
         shadow = u_lights[i].place.w < 0.0 ? 1.0 : visibility[int(u_lights[i].place.w)];
         E *= shadow;
 #endif
-        ShadedLight light = shadeDirect(s, u_lights[i].place.xyz, E);
+        ShadedLight light = mixed(shadeDirect(s, u_lights[i].place.xyz, E));
         directDiffuse += light.diffuse;
         directSpecular += light.specular;
 #ifdef VIEWS
@@ -239,7 +248,7 @@ void main() {
 #ifdef HAS_SHADOWS
         shadow = u_lights[i].place.w < 0.0 ? 1.0 : visibility[int(u_lights[i].place.w)];
 #endif
-        ShadedLight light = shadeDirect(s, l, u_lights[i].color.rgb * (reaches * shadow));
+        ShadedLight light = mixed(shadeDirect(s, l, u_lights[i].color.rgb * (reaches * shadow)));
         directDiffuse += light.diffuse;
         directSpecular += light.specular;
 #ifdef VIEWS
@@ -253,8 +262,8 @@ void main() {
     float lobeTexels = float(textureSize(u_lobes, 0).x);
     vec4 fit = textureLod(u_lobes, (lobe * (lobeTexels - 1.0) + 0.5) / lobeTexels, 0.0);
     for (int i = LIGHT_ENDS.y; i < LIGHT_ENDS.z; ++i) {
-        ShadedLight light = shadeSphere(s, fit, u_lights[i].place.xyz - v_position,
-                                        u_lights[i].axis.x, u_lights[i].color.rgb);
+        ShadedLight light = mixed(shadeSphere(s, fit, u_lights[i].place.xyz - v_position,
+                                              u_lights[i].axis.x, u_lights[i].color.rgb));
         directDiffuse += light.diffuse;
         directSpecular += light.specular;
 #ifdef VIEWS
@@ -263,8 +272,8 @@ void main() {
     }
     for (int i = LIGHT_ENDS.z; i < LIGHT_ENDS.w; ++i) {
         ShadedLight light =
-            shadeRectangle(s, fit, u_lights[i].place.xyz - v_position, u_lights[i].axis.xyz,
-                           u_lights[i].side.xyz, u_lights[i].color.rgb);
+            mixed(shadeRectangle(s, fit, u_lights[i].place.xyz - v_position, u_lights[i].axis.xyz,
+                                 u_lights[i].side.xyz, u_lights[i].color.rgb));
         directDiffuse += light.diffuse;
         directSpecular += light.specular;
 #ifdef VIEWS

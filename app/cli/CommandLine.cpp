@@ -211,7 +211,7 @@ class Parser {
         c->add_option("--background", o.background,
                       "visible, blurred, transparent (or off), or a colour as R,G,B or #rrggbb")
             ->type_name("NAME");
-        c->add_option("--lighting", o.lighting, "ibl, or prt with a radiance transfer bake")
+        c->add_option("--lighting", o.lighting, "ibl, cosine, shIrradiance, unshadowed; with a transfer bake shadowed, prt")
             ->type_name("NAME");
         addBakeFiles(c, "--bake", o.bakes, "Bake file to light with (repeatable)");
         c->add_option("--view", o.view,

@@ -107,10 +107,8 @@ Result<void> applyView(Session& session, const RenderOptions& options, Document&
                                      options.background));
     }
     frame.transparentBackground = environment.background == BackgroundMode::Off;
-    if (document.view.lighting == LightingMode::Prt &&
-        findBake(document, BakeKind::PrtVertex) == nullptr)
-        return usage("--lighting prt needs a radiance transfer bake; make one with patina bake prt "
-                     "and give it with --bake");
+    if (Result<void> offered = checkOffered(document, "view.lighting"); !offered)
+        return offered;
     return {};
 }
 
@@ -302,7 +300,8 @@ Result<void> run(Session& session, const RenderOptions& options) {
         {"ev", view.exposureEv}};
     json["settings"]["toneMap"] =
         formatParameterValue(*findParameter("view.toneMap"), static_cast<int>(view.toneMap));
-    json["settings"]["lighting"] = document->view.lighting == LightingMode::Prt ? "prt" : "ibl";
+    json["settings"]["lighting"] =
+        formatParameterValue(*findParameter("view.lighting"), static_cast<int>(view.lighting));
 
     // An explanation ends with the displayed colour, even where the picture is linear.
     Result<Prepared> prepared =

@@ -168,7 +168,15 @@ enum class ToneMap {
 };
 enum class ExposureMode { Fixed, Automatic };
 enum class DisplayTransfer { Srgb, Gamma };
-enum class LightingMode { Ibl, Prt };
+// How the surroundings light the scene, from the classical lamp to everything that a bake knows.
+enum class LightingMode {
+    Ibl,          // split-sum image-based light, with ambient occlusion
+    Cosine,       // N·L: the one lamp that comes closest to the surroundings
+    ShIrradiance, // irradiance from nine coefficients, nothing hidden
+    Unshadowed,   // transfer of an open sky, per vertex, in as many bands as the bake
+    Shadowed,     // baked transfer: what the scene hides
+    Prt           // and light by way of other surfaces, as far as the bake holds it
+};
 
 struct View {
     Camera camera; // navigation is saved, but is no undo step
@@ -184,6 +192,8 @@ struct View {
     std::string ocioConfig;            // file; empty: $OCIO
     std::string ocioDisplay, ocioView; // empty: the configuration's defaults
     LightingMode lighting = LightingMode::Ibl;
+    int bounces = 0;            // Prt: how often light may bounce; 0: as often as the bake says
+    float reflectionMix = 0.5f; // 0 diffuse light only … 0.5 both in full … 1 reflections only
     friend bool operator==(const View&, const View&) = default;
 };
 

@@ -219,4 +219,9 @@ BakeArtifactPtr findBake(const Document& document, BakeKind kind) {
     return found == document.bakes.end() ? nullptr : *found;
 }
 
+bool hasTransfer(const Document& document) {
+    return std::any_of(document.bakes.begin(), document.bakes.end(),
+                       [](const BakeArtifactPtr& bake) { return holdsTransfer(bake->kind); });
+}
+
 } // namespace patina

@@ -69,5 +69,6 @@ void replaceLook(Document& document, Id material, const Material& look);
 void attachBake(Document& document, BakeArtifactPtr bake);
 bool removeBake(Document& document, BakeKind kind);
 [[nodiscard]] BakeArtifactPtr findBake(const Document& document, BakeKind kind); // or null
+[[nodiscard]] bool hasTransfer(const Document& document); // a bake of radiance transfer
 
 } // namespace patina

@@ -2,12 +2,14 @@
 
 #include "core/base/Check.h"
 #include "core/document/Document.h"
+#include "core/document/Edit.h"
 #include "core/document/Lights.h"
 #include "core/image/DisplayTransform.h"
 #include "core/light/Blackbody.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <type_traits>
 
 namespace patina {
@@ -96,9 +98,11 @@ struct Path {
     }
 };
 
-// How a member travels in a ParameterValue: choices and references as int, the rest as it is.
+// How a member travels in a ParameterValue: choices and references as int, counts as float, the
+// rest as it is.
 template <class Field>
-using Stored = std::conditional_t<std::is_enum_v<Field> || std::is_same_v<Field, Id>, int, Field>;
+using Stored = std::conditional_t<std::is_enum_v<Field> || std::is_same_v<Field, Id>, int,
+                                  std::conditional_t<std::is_same_v<Field, int>, float, Field>>;
 
 template <class P>
 ParameterValue getMember(const Document& document, Id id) {
@@ -116,7 +120,10 @@ void setMember(Document& document, Id id, const ParameterValue& value) {
     auto& field = P::in(*element);
     using Field = std::remove_cvref_t<decltype(field)>;
     CHECK(std::holds_alternative<Stored<Field>>(value));
-    field = static_cast<Field>(std::get<Stored<Field>>(value));
+    if constexpr (std::is_same_v<Field, int>)
+        field = static_cast<int>(std::lround(std::get<float>(value)));
+    else
+        field = static_cast<Field>(std::get<Stored<Field>>(value));
 }
 
 // The environment's image is a map to the user, although it is stored without a map's adjustments.
@@ -266,6 +273,14 @@ std::string toneMapUnavailable(const Document& document, int choice) {
            "environment variable OCIO to one";
 }
 
+// What a bake has to tell is offered where there is one.
+std::string lightingUnavailable(const Document& document, int choice) {
+    if (static_cast<LightingMode>(choice) < LightingMode::Shadowed || hasTransfer(document))
+        return {};
+    return "Shadows and interreflection need a radiance transfer bake: make one in Bakes, or with "
+           "patina bake prt and --bake";
+}
+
 constexpr ParameterInfo unitOfElement(std::string_view (*unitOf)(const Document&, Id),
                                       ParameterInfo info) {
     info.unitOf = unitOf;
@@ -312,8 +327,11 @@ constexpr std::array<Text, 3> kEnvironmentKindLabels{"Image", "Sky", "Softboxes"
 constexpr std::array<Text, 4> kBackgrounds{"environment", "blurred", "color", "off"};
 constexpr std::array<Text, 4> kBackgroundLabels{"Environment", "Blurred environment", "Colour",
                                                 "Off (transparent)"};
-constexpr std::array<Text, 2> kLightings{"ibl", "prt"};
-constexpr std::array<Text, 2> kLightingLabels{"Image-based light", "Precomputed transfer"};
+constexpr std::array<Text, 6> kLightings{"ibl",        "cosine",   "shIrradiance",
+                                         "unshadowed", "shadowed", "prt"};
+constexpr std::array<Text, 6> kLightingLabels{"Image-based light", "N·L",
+                                              "SH irradiance",     "Unshadowed transfer",
+                                              "Shadowed transfer", "Interreflected transfer"};
 
 constexpr std::array<Text, 3> kDistributions{"ggx", "beckmann", "blinnPhong"};
 constexpr std::array<Text, 3> kDistributionLabels{"GGX", "Beckmann", "Blinn-Phong"};
@@ -420,7 +438,9 @@ constexpr std::array kParameters{
     text<&View::ocioDisplay>("view.ocioDisplay", "OpenColorIO display", "Display", "Display of the OpenColorIO configuration; empty means its default.", kUniform),
     text<&View::ocioView>("view.ocioView", "OpenColorIO view", "Display", "View of the OpenColorIO display; empty means the display's default.", kUniform),
     number<&View::camera, &Camera::fovDeg>("view.fovDeg", "Field of view", "Camera and lighting", {10.0f, 90.0f}, {1.0f, 170.0f}, 1, "°", "Vertical angle that the camera sees: small like a telephoto lens, large like a wide-angle lens."),
-    choice<&View::lighting>("view.lighting", "Lighting", "Camera and lighting", kLightings, kLightingLabels, "Light from the environment with every reflection, or from a precomputed transfer bake with its soft shadows."),
+    offered(lightingUnavailable, choice<&View::lighting>("view.lighting", "Lighting", "Camera and lighting", kLightings, kLightingLabels, "How the surroundings light the scene: image-based light; one lamp (N·L); SH irradiance; transfer of an open sky; baked transfer with its soft shadows; and with interreflection.")),
+    number<&View::bounces>("view.bounces", "Bounces", "Camera and lighting", {0.0f, 8.0f}, {0.0f, 64.0f}, 0, "", "How often light may bounce between surfaces under interreflected transfer; 0 is as often as the bake was made for."),
+    number<&View::reflectionMix>("view.reflectionMix", "Diffuse / reflection", "Camera and lighting", kUnit, kUnit, 2, "", "Fades between diffuse light alone (0) and reflections alone (1); in the middle both show in full."),
 
     text<&L::name>("light.name", "Name", "Light", "What the light is called in lists, exports and scripts."),
     choice<&L::type>("light.type", "Type", "Light", kLightTypes, kLightTypeLabels, "A point shines from one place in all directions, a directional light like the sun from far away, a spot in a cone; spheres and rectangles shine from an area and make soft highlights.", kUniform | Affects::Structure),

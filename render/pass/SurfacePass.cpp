@@ -1,5 +1,7 @@
 #include "render/pass/SurfacePass.h"
 
+#include "core/document/Lighting.h"
+
 #include <array>
 #include <epoxy/gl.h>
 #include <fmt/format.h>
@@ -15,7 +17,7 @@ constexpr std::array<const char*, kSurfaceFeatureCount> kDefines{
     "ALPHA_MASK",         "ALPHA_BLEND",      "DOUBLE_SIDED",        "HAS_PLACEHOLDER",
     "HAS_TEXEL_AO",       "HAS_VERTEX_AO",    "HAS_TRANSFER",        "HAS_PUNCTUAL_LIGHTS",
     "HAS_AREA_LIGHTS",    "HAS_SHADOWS",      "HAS_SHADOWS_2",       "HAS_SHADOWS_3",
-    "HAS_SHADOWS_4"};
+    "HAS_SHADOWS_4",      "HAS_LAMP"};
 
 // The choices of the model: name of the define, value, default.
 struct ModelChoice {
@@ -86,8 +88,10 @@ unsigned surfaceFeatures(const DrawItem& item, const SurfaceSettings& settings) 
         features |= HasShadows << i;
     if (settings.hasAreaLights)
         features |= HasAreaLights;
-    if (settings.lighting == LightingMode::Prt && item.transfer)
+    if (readsBake(settings.lighting) && item.transfer)
         features |= HasTransfer;
+    if (settings.lighting == LightingMode::Cosine)
+        features |= HasLamp;
     // One source of ambient visibility is used; the others would only cost fetches.
     if (item.texelAo)
         features |= HasTexelAo;
@@ -95,6 +99,9 @@ unsigned surfaceFeatures(const DrawItem& item, const SurfaceSettings& settings) 
         features |= HasVertexAo;
     if (features & (HasTexelAo | HasVertexAo))
         features &= ~static_cast<unsigned>(HasOcclusionMap | OcclusionIsPacked);
+    if (hidesNothing(settings.lighting))
+        features &=
+            ~static_cast<unsigned>(HasTexelAo | HasVertexAo | HasOcclusionMap | OcclusionIsPacked);
     return features;
 }
 

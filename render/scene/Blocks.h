@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 namespace patina::render {
@@ -32,13 +33,16 @@ struct FrameBlock {
     float irradianceScale = 0.0f;
     std::array<glm::uvec4, 4> irradianceSh{}; // see packIrradiance()
     std::array<glm::vec4, kMaxTransferCount> radianceSh{};
+    glm::vec4 lamp{0.0f}, lampIrradiance{0.0f};
+    glm::vec2 mix{1.0f};
+    glm::vec2 reserved{0.0f};
     glm::ivec4 lightEnds{0};
     std::array<LightBlock, kMaxLights> lights{};
 };
 static_assert(offsetof(FrameBlock, cameraPosition) == 192);
 static_assert(offsetof(FrameBlock, radianceScale) == 224);
 static_assert(offsetof(FrameBlock, irradianceSh) == 240);
-static_assert(sizeof(FrameBlock) == 240 + 30 * 16 + kMaxLights * sizeof(LightBlock));
+static_assert(sizeof(FrameBlock) == 240 + 33 * 16 + kMaxLights * sizeof(LightBlock));
 
 // shaders/include/shadow.glsl; see ShadowView for the numbers.
 struct ShadowBlock {

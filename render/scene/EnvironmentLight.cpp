@@ -2,6 +2,7 @@
 
 #include "core/base/Check.h"
 #include "core/base/Log.h"
+#include "core/light/ClosestLamp.h"
 #include "core/light/DfgTable.h"
 #include "core/math/ShRotation.h"
 #include "core/math/Shading.h"
@@ -205,6 +206,9 @@ void EnvironmentLight::fill(const Environment& environment, FrameBlock& frame) c
     ShRotation::aboutY(angle, 5).apply(std::span<const glm::vec3>(m_radianceSh),
                                        std::span<glm::vec3>(radiance));
     packIrradiance(irradiance, frame);
+    const Lamp lamp = closestLamp(irradiance);
+    frame.lamp = glm::vec4(lamp.toLight, 0.0f);
+    frame.lampIrradiance = glm::vec4(frame.radianceScale * lamp.irradiance, 0.0f);
     for (std::size_t i = 0; i < radiance.size(); ++i)
         frame.radianceSh[i] = glm::vec4(frame.radianceScale * radiance[i], 0.0f);
 }

@@ -41,8 +41,9 @@ enum SurfaceFeature : unsigned {
     HasShadows2 = 1u << 18,       // … of a second one …
     HasShadows3 = 1u << 19,
     HasShadows4 = 1u << 20,
+    HasLamp = 1u << 21, // that stands for the surroundings
 };
-inline constexpr int kSurfaceFeatureCount = 21;
+inline constexpr int kSurfaceFeatureCount = 22;
 
 // Two bits each: which channel of the map counts, R G B A.
 inline constexpr unsigned kMetallicChannelShift = 26, kRoughnessChannelShift = 28,

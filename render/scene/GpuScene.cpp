@@ -2,6 +2,7 @@
 
 #include "core/base/Check.h"
 #include "core/base/Log.h"
+#include "core/document/Lighting.h"
 #include "core/light/LobeTable.h"
 #include "render/scene/LightBlocks.h"
 
@@ -209,6 +210,7 @@ void GpuScene::clearPreview() {
 
 void GpuScene::fill(FrameBlock& frame, std::span<const Id> shadows) const {
     m_environment.fill(m_document.environment, frame);
+    frame.mix = mixWeights(m_document.view.reflectionMix);
     packLights(m_document, shadows, frame);
 }
 

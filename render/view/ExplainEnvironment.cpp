@@ -147,7 +147,8 @@ ExplainedStep diffuseStep(const Subject& subject) {
         occlusionNote(subject)};
     if (ao != subject.number(kViewAo))
         step.note = "E(n) comes from the baked transfer, which knows the shadows; AO is left out.";
-    compare(step, albedo * kd * (ao / glm::pi<float>()) * irradiance);
+    weigh(step, subject.rebuilt.mix.x);
+    compare(step, subject.rebuilt.mix.x * albedo * kd * (ao / glm::pi<float>()) * irradiance);
     return step;
 }
 
@@ -181,7 +182,8 @@ ExplainedStep specularStep(const Subject& subject) {
                        {},
                        true,
                        {}};
-    compare(step, prefiltered * albedo * open);
+    weigh(step, subject.rebuilt.mix.y);
+    compare(step, subject.rebuilt.mix.y * prefiltered * albedo * open);
     return step;
 }
 

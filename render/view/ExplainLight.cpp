@@ -110,6 +110,7 @@ ExplainedStep diffuseOf(const Subject& subject, const RebuiltLight& light,
                        {},
                        true,
                        {}};
+    weigh(step, subject.rebuilt.mix.x);
     compare(step, light.diffuse, unseen(subject));
     return step;
 }
@@ -130,6 +131,7 @@ ExplainedStep specularOf(const Subject& subject, const RebuiltLight& light,
         {},
         true,
         {}};
+    weigh(step, subject.rebuilt.mix.y);
     compare(step, light.specular, unseen(subject));
     return step;
 }
@@ -152,6 +154,7 @@ void explainArea(ExplainedSection& section, const Subject& subject, const Light&
         {},
         true,
         {}};
+    weigh(diffuse, subject.rebuilt.mix.x);
     compare(diffuse, rebuilt.diffuse, unseen(subject));
     section.steps.push_back(std::move(diffuse));
     ExplainedStep specular{
@@ -164,6 +167,7 @@ void explainArea(ExplainedSection& section, const Subject& subject, const Light&
         {},
         true,
         "The lobe is fitted by a linearly transformed cosine."};
+    weigh(specular, subject.rebuilt.mix.y);
     compare(specular, rebuilt.specular, unseen(subject));
     section.steps.push_back(std::move(specular));
 }

@@ -158,6 +158,13 @@ void compare(ExplainedStep& step, const glm::vec3& recomputed, float floor) {
     compareNumbers(step, {recomputed.x, recomputed.y, recomputed.z}, floor);
 }
 
+void weigh(ExplainedStep& step, float weight) {
+    if (weight == 1.0f)
+        return;
+    step.formula += " · mix";
+    step.factors.push_back(scalar("mix", "Diffuse / Reflection", "mix", weight));
+}
+
 void compare(ExplainedStep& step, float recomputed) {
     compareNumbers(step, {recomputed}, kAgreement);
 }

@@ -38,6 +38,9 @@ struct Subject {
 void compare(ExplainedStep& step, const glm::vec3& recomputed, float floor = kAgreement);
 void compare(ExplainedStep& step, float recomputed);
 
+// Says that the result is weighed in the mix of diffuse light and reflections; nothing at 1.
+void weigh(ExplainedStep& step, float weight);
+
 [[nodiscard]] ExplainedSection explainMaps(const Subject& subject);
 [[nodiscard]] ExplainedSection explainSurface(const Subject& subject);
 [[nodiscard]] ExplainedSection explainEnvironment(const Subject& subject); // and its terms

@@ -3,6 +3,7 @@
 #include "core/base/Check.h"
 #include "core/document/BrdfModel.h"
 #include "core/document/Edit.h"
+#include "core/document/Lighting.h"
 #include "core/document/Lights.h"
 #include "core/document/ToneResponse.h"
 #include "core/light/LobeTable.h"
@@ -24,7 +25,7 @@ glm::vec3 straight(const glm::vec4& value) {
 }
 
 bool usesTransfer(const Inspection& pixel, const Document& document) {
-    if (document.view.lighting != LightingMode::Prt)
+    if (!readsBake(document.view.lighting))
         return false;
     const BakeArtifactPtr bake = findBake(document, BakeKind::PrtVertex);
     return bake != nullptr &&
@@ -108,8 +109,11 @@ RebuiltPixel recombine(const Inspection& pixel, const Document& document) {
     const float ao = pixel.value(kViewAo).x;
     result.ao = usesTransfer(pixel, document) ? 1.0f : ao;
     result.open = specularOcclusion(s.NoV, ao, s.alpha);
-    result.terms[0] = shadeIrradiance(s, result.ao * straight(pixel.value(kViewIrradiance)));
-    result.terms[1] = result.open * shadePrefiltered(s, straight(pixel.value(kViewPrefiltered)));
+    result.mix = mixWeights(document.view.reflectionMix);
+    result.terms[0] =
+        result.mix.x * shadeIrradiance(s, result.ao * straight(pixel.value(kViewIrradiance)));
+    result.terms[1] =
+        result.mix.y * result.open * shadePrefiltered(s, straight(pixel.value(kViewPrefiltered)));
 
     for (const LightShare& share : pixel.lights) {
         RebuiltLight light;
@@ -121,6 +125,8 @@ RebuiltPixel recombine(const Inspection& pixel, const Document& document) {
             shadeArea(light, s, *source, pixel.value(kRecordPosition));
         else
             shadePunctual(light, s, share);
+        light.diffuse *= result.mix.x;
+        light.specular *= result.mix.y;
         result.terms[2] += light.diffuse;
         result.terms[3] += light.specular;
         result.lights.push_back(light);

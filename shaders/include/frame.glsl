@@ -26,6 +26,9 @@ layout(std140, binding = 0) uniform Frame {
     // half, as signed integers.
     uvec4 u_irradianceSh[4];
     vec3 u_radianceSh[25];  // world space, exposure included
+    vec4 u_lamp;            // unit vector to the one lamp that stands for the surroundings
+    vec4 u_lampIrradiance;  // of a surface that faces it
+    vec2 u_mix;             // weights of diffuse light and of reflections
     ivec4 u_lightEnds;
     Light u_lights[64];
 };

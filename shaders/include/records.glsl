@@ -26,7 +26,7 @@ void recordShare(int i, vec3 l, float lit, vec3 arriving, ShadedLight light) {
 // `E`: irradiance of a surface that faces the light, without shadow; `light`: with it.
 void recordLight(inout LightSums sums, SurfaceTerms s, int i, vec3 l, vec3 E, float lit,
                  ShadedLight light) {
-    ShadedLight all = shadeDirect(s, l, E);
+    ShadedLight all = mixed(shadeDirect(s, l, E));
     sums.shadowed += (1.0 - lit) * (all.diffuse + all.specular);
     float casts = u_lights[i].place.w < 0.0 ? 0.0 : 1.0;
     sums.casting += casts;
@@ -155,7 +155,7 @@ void recordIbl(SurfaceTerms s, vec3 dfg, vec3 arriving, vec3 prefiltered, Shaded
     record(kViewSingleScatterAlbedo, min(single, 1.0 / max(s.energyCompensation, vec3(1e-4))));
     record(kViewMultiScatterGain, s.energyCompensation);
     record(kViewSpecularOcclusion, open);
-    ShadedLight unhidden = shadeEnvironment(s, arriving, prefiltered);
+    ShadedLight unhidden = mixed(shadeEnvironment(s, arriving, prefiltered));
     recordPart(kViewAo, unhidden.diffuse + unhidden.specular - ambient.diffuse - specular, alpha);
     recordPart(kViewIblFresnel, specular * (1.0 - min(s.f0 / max(meanFresnel, vec3(1e-4)), vec3(1.0))),
                alpha);

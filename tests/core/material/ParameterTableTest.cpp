@@ -2,6 +2,7 @@
 #include "core/document/Document.h"
 #include "core/material/Parameters.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <set>
@@ -43,7 +44,8 @@ ParameterValue otherValue(const ParameterInfo& info) {
     case ParameterType::Bool:
         return !std::get<bool>(info.defaultValue());
     case ParameterType::Float:
-        return info.hardMin + 0.37f * (info.hardMax - info.hardMin);
+        return info.decimals == 0 ? std::floor(info.hardMin + 0.37f * (info.hardMax - info.hardMin))
+                                  : info.hardMin + 0.37f * (info.hardMax - info.hardMin);
     case ParameterType::Color:
         return glm::vec3(0.125f, 0.25f, 0.625f);
     case ParameterType::Vector:
@@ -227,6 +229,11 @@ TEST(ParameterTable, ChoiceNamesFollowTheirEnums) {
               "blurred");
     EXPECT_EQ(nameOf("view.toneMap", static_cast<int>(ToneMap::Clamp)), "clamp");
     EXPECT_EQ(nameOf("view.toneMap", static_cast<int>(ToneMap::Reinhard)), "reinhard");
+    EXPECT_EQ(nameOf("view.lighting", static_cast<int>(LightingMode::Cosine)), "cosine");
+    EXPECT_EQ(nameOf("view.lighting", static_cast<int>(LightingMode::ShIrradiance)),
+              "shIrradiance");
+    EXPECT_EQ(nameOf("view.lighting", static_cast<int>(LightingMode::Unshadowed)), "unshadowed");
+    EXPECT_EQ(nameOf("view.lighting", static_cast<int>(LightingMode::Shadowed)), "shadowed");
     EXPECT_EQ(nameOf("view.lighting", static_cast<int>(LightingMode::Prt)), "prt");
 }
 
@@ -248,7 +255,35 @@ TEST(ParameterTable, ChoicesCanBeUnavailable) {
     EXPECT_EQ(whyUnavailable(toneMap, document, kOpenColorIo), "");
     ::unsetenv("OCIO");
     // Rows that say nothing offer everything.
-    EXPECT_EQ(whyUnavailable(*findParameter("view.lighting"), document, 1), "");
+    EXPECT_EQ(whyUnavailable(*findParameter("view.exposureMode"), document, 1), "");
+}
+
+// What only a bake knows is offered where there is one.
+TEST(ParameterTable, LightingByTransferNeedsABake) {
+    const ParameterInfo& lighting = *findParameter("view.lighting");
+    const auto why = [&](const Document& document, LightingMode mode) {
+        return whyUnavailable(lighting, document, static_cast<int>(mode));
+    };
+    Document document;
+    for (const LightingMode mode : {LightingMode::Ibl, LightingMode::Cosine,
+                                    LightingMode::ShIrradiance, LightingMode::Unshadowed})
+        EXPECT_EQ(why(document, mode), "");
+    for (const LightingMode mode : {LightingMode::Shadowed, LightingMode::Prt})
+        EXPECT_NE(why(document, mode).find("bake prt"), std::string::npos);
+    auto bake = std::make_shared<BakeArtifact>();
+    bake->kind = BakeKind::PrtVertex;
+    document.bakes.push_back(bake);
+    for (const LightingMode mode : {LightingMode::Shadowed, LightingMode::Prt})
+        EXPECT_EQ(why(document, mode), "");
+}
+
+// A count keeps whole numbers, whatever is typed.
+TEST(ParameterTable, CountsAreWhole) {
+    const ParameterInfo& bounces = *findParameter("view.bounces");
+    Document document;
+    bounces.set(document, 0, 2.6f);
+    EXPECT_EQ(document.view.bounces, 3);
+    EXPECT_EQ(bounces.get(document, 0), ParameterValue(3.0f));
 }
 
 TEST(ParameterTable, MapsBelongToTheirNumbersAndCarryTheColourPolicy) {

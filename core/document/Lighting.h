@@ -1,0 +1,28 @@
+// What the ways to light a scene (LightingMode) have in common.
+#pragma once
+
+#include "core/document/Document.h"
+
+#include <algorithm>
+#include <glm/vec2.hpp>
+
+namespace patina {
+
+// Light arrives as a bake of radiance transfer says.
+[[nodiscard]] constexpr bool readsBake(LightingMode mode) {
+    return mode == LightingMode::Shadowed || mode == LightingMode::Prt;
+}
+
+// Classical light, which no occlusion, be it a map or a bake, takes anything from.
+[[nodiscard]] constexpr bool hidesNothing(LightingMode mode) {
+    return mode == LightingMode::Cosine || mode == LightingMode::ShIrradiance ||
+           mode == LightingMode::Unshadowed;
+}
+
+// Weights of diffuse light (x) and of reflections (y) for View::reflectionMix: both 1 in the
+// middle.
+[[nodiscard]] constexpr glm::vec2 mixWeights(float reflectionMix) {
+    return {std::min(1.0f, 2.0f * (1.0f - reflectionMix)), std::min(1.0f, 2.0f * reflectionMix)};
+}
+
+} // namespace patina
