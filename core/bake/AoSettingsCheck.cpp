@@ -1,5 +1,7 @@
 #include "core/bake/AoSettingsCheck.h"
 
+#include "core/bake/BakeOptions.h"
+
 #include <cmath>
 #include <fmt/format.h>
 
@@ -24,10 +26,11 @@ Result<PassSettings> aoPassSettings(const AoSettings& settings) {
     return passes;
 }
 
-std::map<std::string, std::string> aoSettingsText(const AoSettings& settings, int samples) {
-    return {{"samples", std::to_string(samples)},
-            {"maxDistance", fmt::format("{}", settings.maxDistance)},
-            {"seed", std::to_string(settings.seed)}};
+std::map<std::string, std::string> aoSettingsText(BakeKind kind, const AoSettings& settings,
+                                                  int samples) {
+    BakeRequest request{kind, settings, {}};
+    request.ao.samples = samples;
+    return settingsText(request);
 }
 
 } // namespace patina

@@ -11,7 +11,7 @@ namespace patina {
 
 // maxDistance is still in metres. Errors: Usage.
 Result<PassSettings> aoPassSettings(const AoSettings& settings);
-[[nodiscard]] std::map<std::string, std::string> aoSettingsText(const AoSettings& settings,
-                                                                int samples);
+[[nodiscard]] std::map<std::string, std::string>
+aoSettingsText(BakeKind kind, const AoSettings& settings, int samples);
 
 } // namespace patina

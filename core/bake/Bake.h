@@ -9,6 +9,8 @@
 #include "core/mesh/Mesh.h"
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,6 +40,12 @@ struct BakeInputs {
 // texel of the maps: some milliseconds for a large one.
 [[nodiscard]] Hash hashBakeAlbedo(const BakeInputs& inputs);
 
+// From where the results are looked at: world space, OpenGL's clip space.
+struct BakeView {
+    glm::vec3 eye{0.0f};
+    glm::mat4 worldToClip{1.0f};
+};
+
 // Receives results while a bake runs, from the pool's threads, so that a preview can show them.
 class TileSink {
   public:
@@ -54,6 +62,8 @@ class TileSink {
     // An interreflected bake: where its rays ended, for bounces to be followed again with other
     // albedo (core/bake/BounceSolver.h). Only when `hitBudget` allows to keep them.
     virtual void hits(const std::shared_ptr<const HitSource>& /*hits*/) {}
+    // Asked before each pass: what is seen comes first. Changes the order of work alone.
+    virtual std::optional<BakeView> view() { return std::nullopt; }
 };
 
 struct AoSettings {

@@ -95,6 +95,7 @@ Result<BakeGeometry> makeBakeGeometry(const BakeInputs& inputs, const JobContext
     const glm::dvec3 centre = 0.5 * box.min + 0.5 * box.max, half = 0.5 * (box.max - box.min);
     const double radius = std::max({half.x, half.y, half.z});
     BakeGeometry geometry;
+    geometry.centre = centre;
     geometry.unitsPerMetre = radius > 0.0 ? std::exp2(-std::ceil(std::log2(radius))) : 1.0;
     for (const BakeMesh& input : inputs.meshes) {
         if (!input.mesh || input.mesh->indices.empty())

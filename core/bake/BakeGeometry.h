@@ -6,6 +6,7 @@
 #include "core/bake/Bake.h"
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <vector>
 
 namespace patina {
@@ -28,6 +29,7 @@ struct BakeGeometryMesh {
 
 struct BakeGeometry {
     std::vector<BakeGeometryMesh> meshes;
+    glm::dvec3 centre{0.0}; // in the world; the origin of the scene's units
     double unitsPerMetre = 1.0;
 
     [[nodiscard]] std::size_t triangleCount() const;

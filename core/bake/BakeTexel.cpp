@@ -6,6 +6,7 @@
 #include "core/bake/PrtSettingsCheck.h"
 #include "core/bake/RayScene.h"
 #include "core/bake/TexelTransfer.h"
+#include "core/bake/WorkOrder.h"
 
 #include <algorithm>
 
@@ -43,6 +44,7 @@ Result<BakeArtifact> bakeTexels(const BakeInputs& inputs, PassSettings settings,
                         });
     };
     callbacks.passDone = [&](int samples) { sink.passDone(samples); };
+    callbacks.view = [&] { return toSceneUnits(sink.view(), *geometry); };
     const Result<PassState> passes =
         runPasses(*scene, layout->points, layout->ranges, settings, callbacks, job);
     if (!passes)
@@ -74,7 +76,7 @@ Result<BakeArtifact> bakeAoTexel(const BakeInputs& inputs, const AoSettings& set
         return passes.error();
     BakeArtifact artifact;
     artifact.kind = BakeKind::AoTexel;
-    artifact.settings = aoSettingsText(settings, passes->samples);
+    artifact.settings = aoSettingsText(artifact.kind, settings, passes->samples);
     return bakeTexels(inputs, *passes, settings.size, std::move(artifact), sink, job);
 }
 
@@ -86,7 +88,7 @@ Result<BakeArtifact> bakePrtTexel(const BakeInputs& inputs, const PrtSettings& s
     BakeArtifact artifact;
     artifact.kind = BakeKind::PrtTexel;
     artifact.order = settings.order;
-    artifact.settings = prtSettingsText(settings, passes->samples);
+    artifact.settings = prtSettingsText(artifact.kind, settings, passes->samples);
     return bakeTexels(inputs, *passes, settings.size, std::move(artifact), sink, job);
 }
 

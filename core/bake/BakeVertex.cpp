@@ -7,6 +7,7 @@
 #include "core/bake/Passes.h"
 #include "core/bake/PrtSettingsCheck.h"
 #include "core/bake/RayScene.h"
+#include "core/bake/WorkOrder.h"
 
 #include <algorithm>
 
@@ -45,6 +46,7 @@ Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings setting
                       values);
     };
     callbacks.passDone = [&](int samples) { sink.passDone(samples); };
+    callbacks.view = [&] { return toSceneUnits(sink.view(), *geometry); };
     Result<PassState> passes = runPasses(*scene, points, ranges, settings, callbacks, job);
     if (!passes)
         return passes.error();
@@ -88,7 +90,7 @@ Result<BakeArtifact> bakeAoVertex(const BakeInputs& inputs, const AoSettings& se
         return passes.error();
     BakeArtifact artifact;
     artifact.kind = BakeKind::AoVertex;
-    artifact.settings = aoSettingsText(settings, passes->samples);
+    artifact.settings = aoSettingsText(artifact.kind, settings, passes->samples);
     return bakeVertices(inputs, *passes, nullptr, std::move(artifact), sink, job);
 }
 
@@ -100,7 +102,7 @@ Result<BakeArtifact> bakePrtVertex(const BakeInputs& inputs, const PrtSettings& 
     BakeArtifact artifact;
     artifact.kind = BakeKind::PrtVertex;
     artifact.order = settings.order;
-    artifact.settings = prtSettingsText(settings, passes->samples);
+    artifact.settings = prtSettingsText(artifact.kind, settings, passes->samples);
     return bakeVertices(inputs, *passes, &settings, std::move(artifact), sink, job);
 }
 

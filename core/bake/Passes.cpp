@@ -2,6 +2,7 @@
 
 #include "core/bake/HemisphereSamples.h"
 #include "core/bake/RangeTracer.h"
+#include "core/bake/WorkOrder.h"
 #include "core/base/Check.h"
 #include "core/job/Parallel.h"
 #include "core/math/SphericalHarmonics.h"
@@ -192,7 +193,8 @@ class PassRunner {
             fmt::format("tracing pass {} of {}", all.front().pass + 1, m_schedule.passes()));
         const bool mayStop = m_state.samplesDone > 0;
         std::vector<std::size_t> held;
-        for (std::size_t r = 0; r < m_ranges.size(); ++r)
+        for (const std::uint32_t r :
+             workOrder(m_points, m_ranges, m_callbacks.view ? m_callbacks.view() : std::nullopt))
             if (m_settings.shard.holds(r))
                 held.push_back(r);
         std::atomic<bool> complete = true;

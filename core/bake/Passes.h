@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -71,6 +72,8 @@ struct PassCallbacks {
     // Values of a range after the pass in flight, from the pool's threads.
     std::function<void(const PointRange&, std::span<const float>)> range;
     std::function<void(int samples)> passDone;
+    // Asked before each pass, in the space of the points; may be empty (core/bake/WorkOrder.h).
+    std::function<std::optional<BakeView>()> view;
     // Called from one of the pool's threads about every `checkpointSeconds` at a moment when the
     // state may be kept; threads that finish a range meanwhile wait until it returns.
     std::function<void(const PassState&)> checkpoint;

@@ -1,5 +1,6 @@
 #include "core/bake/PrtSettingsCheck.h"
 
+#include "core/bake/BakeOptions.h"
 #include "core/bake/Interreflection.h"
 #include "core/math/SphericalHarmonics.h"
 
@@ -28,10 +29,11 @@ Result<PassSettings> prtPassSettings(const PrtSettings& settings) {
     return passes;
 }
 
-std::map<std::string, std::string> prtSettingsText(const PrtSettings& settings, int samples) {
-    return {{"samples", std::to_string(samples)},
-            {"order", std::to_string(settings.order)},
-            {"seed", std::to_string(settings.seed)}};
+std::map<std::string, std::string> prtSettingsText(BakeKind kind, const PrtSettings& settings,
+                                                   int samples) {
+    BakeRequest request{kind, {}, settings};
+    request.prt.samples = samples;
+    return settingsText(request);
 }
 
 } // namespace patina

@@ -10,7 +10,7 @@
 namespace patina {
 
 Result<PassSettings> prtPassSettings(const PrtSettings& settings); // Errors: Usage.
-[[nodiscard]] std::map<std::string, std::string> prtSettingsText(const PrtSettings& settings,
-                                                                 int samples);
+[[nodiscard]] std::map<std::string, std::string>
+prtSettingsText(BakeKind kind, const PrtSettings& settings, int samples);
 
 } // namespace patina

@@ -2,19 +2,37 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
+#include <optional>
 
 namespace patina {
 
 namespace detail {
 struct JobState {
+    using Clock = std::chrono::steady_clock;
+
     std::atomic<bool> cancelled = false;
     std::atomic<bool> stopping = false;
+    std::atomic<bool> pausing = false;
     std::atomic<double> fraction = 0.0;
     std::atomic<double> work = 0.0;
     std::atomic<const char*> unit = nullptr;
-    const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-    mutable std::mutex mutex; // guards activity
+    const Clock::time_point start = Clock::now();
+    mutable std::mutex mutex; // guards what follows, and the writing of `stopping` and `pausing`
+    std::condition_variable restOver;
     std::string activity;
+    std::optional<Clock::time_point> restsSince;
+    Clock::duration rested{0};
+
+    [[nodiscard]] bool resting() const {
+        return pausing.load(std::memory_order_relaxed) && !stopping.load(std::memory_order_relaxed);
+    }
+    void endRest() { // with the mutex held
+        if (restsSince)
+            rested += Clock::now() - *restsSince;
+        restsSince.reset();
+        restOver.notify_all();
+    }
 };
 } // namespace detail
 
@@ -27,6 +45,17 @@ bool JobContext::cancelled() const {
 
 bool JobContext::stopping() const {
     return m_state->stopping.load(std::memory_order_relaxed);
+}
+
+bool JobContext::paused() const {
+    return m_state->resting();
+}
+
+void JobContext::waitWhilePaused() const {
+    if (!m_state->resting())
+        return;
+    std::unique_lock lock(m_state->mutex);
+    m_state->restOver.wait(lock, [this] { return !m_state->resting(); });
 }
 
 void JobContext::setProgress(double fraction) const {
@@ -52,20 +81,40 @@ JobProgress JobControl::progress() const {
     result.workDone = m_state->work.load(std::memory_order_relaxed);
     if (const char* unit = m_state->unit.load(std::memory_order_relaxed))
         result.workUnit = unit;
-    result.secondsSoFar =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - m_state->start).count();
     const std::lock_guard lock(m_state->mutex);
+    const auto until = m_state->restsSince.value_or(detail::JobState::Clock::now());
+    result.secondsSoFar =
+        std::chrono::duration<double>(until - m_state->start - m_state->rested).count();
     result.activity = m_state->activity;
     return result;
 }
 
+void JobControl::pause() {
+    const std::lock_guard lock(m_state->mutex);
+    m_state->pausing.store(true, std::memory_order_relaxed);
+    if (m_state->resting() && !m_state->restsSince)
+        m_state->restsSince = detail::JobState::Clock::now();
+}
+
+void JobControl::resume() {
+    const std::lock_guard lock(m_state->mutex);
+    m_state->pausing.store(false, std::memory_order_relaxed);
+    m_state->endRest();
+}
+
 void JobControl::stop() {
+    const std::lock_guard lock(m_state->mutex);
     m_state->stopping.store(true, std::memory_order_relaxed);
+    m_state->endRest();
 }
 
 void JobControl::cancel() {
     m_state->cancelled.store(true, std::memory_order_relaxed);
     stop();
+}
+
+bool JobControl::paused() const {
+    return m_state->resting();
 }
 
 bool JobControl::stopping() const {

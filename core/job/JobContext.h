@@ -1,5 +1,6 @@
 // How long work talks to whoever started it. The owner keeps a JobControl and may poll progress,
-// ask to stop (keep what has converged) or cancel (leave nothing); the work receives a JobContext.
+// let the work rest, ask to stop (keep what has converged) or cancel (leave nothing); the work
+// receives a JobContext.
 #pragma once
 
 #include <atomic>
@@ -15,7 +16,7 @@ struct JobProgress {
     std::string activity;    // "tracing pass 3 of 6"
     double workDone = 0.0;   // e.g. rays traced so far
     std::string workUnit;    // e.g. "rays"; empty when the job counts nothing
-    double secondsSoFar = 0; // wall time since the control was made
+    double secondsSoFar = 0; // wall time since the control was made, rests left out
 };
 
 namespace detail {
@@ -31,6 +32,10 @@ class JobContext {
 
     [[nodiscard]] bool cancelled() const; // discard everything, return ErrorKind::Cancelled
     [[nodiscard]] bool stopping() const;  // finish with what there is; true when cancelled too
+    // Asked to rest, and not to end. parallelFor() sees to it; other long loops call
+    // waitWhilePaused(), which returns when the rest is over, or at once where there is none.
+    [[nodiscard]] bool paused() const;
+    void waitWhilePaused() const;
 
     void setProgress(double fraction) const; // clamped to 0…1
     void setActivity(std::string_view activity) const;
@@ -45,8 +50,11 @@ class JobControl {
     JobControl();
     [[nodiscard]] JobContext context() const { return JobContext(m_state); }
     [[nodiscard]] JobProgress progress() const;
+    void pause(); // work rests within some 50 ms; stop() and cancel() end the rest
+    void resume();
     void stop();
     void cancel();
+    [[nodiscard]] bool paused() const;
     [[nodiscard]] bool stopping() const;
     [[nodiscard]] bool cancelled() const;
     // Seconds until done, estimated from the progress so far; negative while unknown.

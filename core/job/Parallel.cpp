@@ -3,6 +3,7 @@
 #include "core/job/ForkJoin.h"
 
 #include <algorithm>
+#include <atomic>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -19,18 +20,23 @@ void parallelFor(const JobContext& job, std::size_t count, std::size_t grain,
         return;
     const std::size_t step = std::max<std::size_t>(grain, 1);
     const std::size_t chunks = (count + step - 1) / step;
-    ForkJoin forkJoin;
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, chunks, 1),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-            const ForkJoin::Branch branch(forkJoin);
-            for (std::size_t chunk = range.begin(); chunk != range.end(); ++chunk) {
-                if (job.cancelled())
-                    return;
-                body(chunk * step, std::min(count, (chunk + 1) * step));
-            }
-        },
-        tbb::simple_partitioner{});
+    std::atomic<std::size_t> next = 0; // what a thread takes is the first that nobody took
+    while (next < chunks && !job.cancelled()) {
+        job.waitWhilePaused();
+        ForkJoin forkJoin;
+        tbb::parallel_for(
+            tbb::blocked_range<std::size_t>(next, chunks, 1),
+            [&](const tbb::blocked_range<std::size_t>& range) {
+                const ForkJoin::Branch branch(forkJoin);
+                for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                    if (job.cancelled() || job.paused())
+                        return;
+                    const std::size_t chunk = next.fetch_add(1);
+                    body(chunk * step, std::min(count, (chunk + 1) * step));
+                }
+            },
+            tbb::simple_partitioner{});
+    }
 }
 
 ThreadLimit::ThreadLimit(int threads)

@@ -9,9 +9,10 @@
 namespace patina {
 
 // Calls body(begin, end) for consecutive ranges that cover 0…count, each at most `grain` long, on
-// the pool's threads and in any order; returns when all are done. After a cancel no new range
-// starts. Results must not depend on the order or on the number of threads. An exception thrown
-// by the body reaches the caller.
+// the pool's threads; returns when all are done. Ranges start in ascending order, but results must
+// depend neither on the order nor on the number of threads. After a cancel no new range starts.
+// While the job is paused none starts either, and the pool's threads are free for others: only the
+// caller waits. An exception thrown by the body reaches the caller.
 void parallelFor(const JobContext& job, std::size_t count, std::size_t grain,
                  const std::function<void(std::size_t begin, std::size_t end)>& body);
 

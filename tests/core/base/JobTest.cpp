@@ -1,9 +1,12 @@
 #include "core/job/JobContext.h"
 #include "core/job/Parallel.h"
+#include "core/job/ProgressRate.h"
 
 #include <atomic>
+#include <chrono>
 #include <gtest/gtest.h>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 using namespace patina;
@@ -48,6 +51,101 @@ TEST(Parallel, StartsNothingAfterACancel) {
         control.cancel();
     });
     EXPECT_LE(ranges.load(), 64);
+}
+
+TEST(Job, TimeStandsStillWhileItRests) {
+    using namespace std::chrono_literals;
+    JobControl control;
+    control.pause();
+    control.pause(); // asking twice counts once
+    const double before = control.progress().secondsSoFar;
+    std::this_thread::sleep_for(30ms);
+    EXPECT_EQ(control.progress().secondsSoFar, before);
+    control.resume();
+    EXPECT_LT(control.progress().secondsSoFar, before + 0.030);
+    std::this_thread::sleep_for(5ms);
+    EXPECT_GE(control.progress().secondsSoFar, before + 0.005);
+}
+
+TEST(Job, StopAndCancelEndTheRestForGood) {
+    for (const bool cancel : {false, true}) {
+        JobControl control;
+        control.pause();
+        std::thread work([job = control.context()] { job.waitWhilePaused(); });
+        EXPECT_TRUE(control.context().paused());
+        if (cancel)
+            control.cancel();
+        else
+            control.stop();
+        work.join(); // or this test never ends
+        control.pause();
+        EXPECT_FALSE(control.paused()) << "who is told to end does not rest";
+    }
+}
+
+TEST(Parallel, StartsRangesInAscendingOrder) {
+    const ThreadLimit limit(1);
+    std::vector<std::size_t> order;
+    parallelFor(JobContext(), 1000, 10,
+                [&](std::size_t begin, std::size_t) { order.push_back(begin); });
+    ASSERT_EQ(order.size(), 100u);
+    EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
+}
+
+// Rests in the middle; then does the rest of the work, each range once.
+TEST(Parallel, ARestLeavesThePoolAndLosesNothing) {
+    JobControl control;
+    std::vector<std::atomic<int>> seen(2000);
+    std::atomic<int> ranges = 0;
+    std::thread work([&] {
+        parallelFor(control.context(), seen.size(), 1, [&](std::size_t begin, std::size_t) {
+            ++seen[begin];
+            if (++ranges == 500)
+                control.pause();
+        });
+    });
+    while (ranges < 500)
+        std::this_thread::yield();
+    // Another job gets the pool meanwhile.
+    std::atomic<int> others = 0;
+    parallelFor(JobContext(), 100, 1, [&](std::size_t, std::size_t) { ++others; });
+    EXPECT_EQ(others, 100);
+    EXPECT_LT(ranges, 2000) << "what was asked to rest went on";
+    control.resume();
+    work.join();
+    for (const auto& count : seen)
+        ASSERT_EQ(count.load(), 1);
+}
+
+TEST(ProgressRate, CountsFromWhereTheWorkWentOn) {
+    ProgressRate rate;
+    JobProgress now;
+    now.fraction = 0.6; // from a checkpoint
+    now.secondsSoFar = 1.0;
+    rate.add(now);
+    EXPECT_EQ(rate.workPerSecond(), 0.0);
+    EXPECT_LT(rate.secondsLeft(), 0.0);
+    now.fraction = 0.7;
+    now.workDone = 4e6;
+    now.secondsSoFar = 3.0;
+    rate.add(now);
+    EXPECT_DOUBLE_EQ(rate.workPerSecond(), 2e6);
+    EXPECT_NEAR(rate.secondsLeft(), 6.0, 1e-9); // 0.3 at 0.05 a second
+    rate.add(now);                              // no time has passed: it rests
+    EXPECT_DOUBLE_EQ(rate.workPerSecond(), 2e6);
+}
+
+TEST(ProgressRate, ForgetsHowItWasLongAgo) {
+    ProgressRate rate;
+    JobProgress now;
+    for (int i = 0; i <= 100; ++i) { // 10 s at 1 a second, then 10 s at 3 a second
+        now.secondsSoFar = 0.2 * i;
+        now.workDone += i <= 50 ? 0.2 : 0.6;
+        now.fraction = now.workDone / 100.0;
+        rate.add(now);
+    }
+    EXPECT_NEAR(rate.workPerSecond(), 3.0, 1e-9);
+    EXPECT_NEAR(rate.secondsLeft(), (1.0 - now.fraction) / 0.03, 1e-6);
 }
 
 TEST(Parallel, ExceptionsReachTheCaller) {

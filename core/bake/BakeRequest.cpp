@@ -1,0 +1,20 @@
+#include "core/bake/BakeRequest.h"
+
+namespace patina {
+
+Result<BakeArtifact> bake(const BakeRequest& request, const BakeInputs& inputs, TileSink& sink,
+                          const JobContext& job) {
+    switch (request.kind) {
+    case BakeKind::AoTexel:
+        return bakeAoTexel(inputs, request.ao, sink, job);
+    case BakeKind::AoVertex:
+        return bakeAoVertex(inputs, request.ao, sink, job);
+    case BakeKind::PrtTexel:
+        return bakePrtTexel(inputs, request.prt, sink, job);
+    case BakeKind::PrtVertex:
+        break;
+    }
+    return bakePrtVertex(inputs, request.prt, sink, job);
+}
+
+} // namespace patina

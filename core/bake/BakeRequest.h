@@ -1,0 +1,18 @@
+// A bake as it is asked for: what, and with which settings. bake() runs any of them.
+#pragma once
+
+#include "core/bake/Bake.h"
+
+namespace patina {
+
+struct BakeRequest {
+    BakeKind kind = BakeKind::PrtVertex;
+    AoSettings ao;   // for the kinds of ambient occlusion
+    PrtSettings prt; // for transfer
+};
+
+// Errors: those of the kind's own function (core/bake/Bake.h).
+Result<BakeArtifact> bake(const BakeRequest& request, const BakeInputs& inputs, TileSink& sink,
+                          const JobContext& job);
+
+} // namespace patina
