@@ -6,8 +6,11 @@
 namespace patina {
 
 Result<Bytes> encodeBake(WorkerClient& worker, const BakeArtifact& artifact,
-                         const Document& document) {
-    return encodeImage(worker, bakeToParts(artifact, document), ImageFileFormat::Exr);
+                         const Document& document, const BakeFileOptions& options) {
+    ImageSaveOptions save;
+    save.half = options.storage != BakeStorage::Float; // whole numbers are exact in halves
+    return encodeImage(worker, bakeToParts(artifact, document, options), ImageFileFormat::Exr,
+                       save);
 }
 
 Result<BakeArtifact> loadBake(WorkerClient& worker, const std::filesystem::path& file,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/bake/BakeArtifact.h"
+#include "core/bake/BakeStorage.h"
 #include "core/base/AtomicFile.h"
 #include "core/base/Result.h"
 
@@ -13,11 +14,11 @@ class WorkerClient;
 struct Document;
 
 // Vertex bakes: one part per mesh, vertices row by row in an image at most 4096 wide, channel names
-// "sh.l1m-1" …, "ao". Texel bakes: one part per material.
+// "sh.l1m-1" …, "ao". Texel bakes: one part per material. The same artifact gives the same bytes.
 Result<Bytes> encodeBake(WorkerClient& worker, const BakeArtifact& artifact,
-                         const Document& document);
+                         const Document& document, const BakeFileOptions& options = {});
 // Parts are matched to `document` by name and order; a bake of other geometry is an InputBroken
-// error that says so.
+// error that says what differs.
 Result<BakeArtifact> loadBake(WorkerClient& worker, const std::filesystem::path& file,
                               const Document& document);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/bake/BakeArtifact.h"
+#include "core/bake/BakeStorage.h"
 #include "core/base/Result.h"
 #include "core/image/ImageIO.h"
 
@@ -13,15 +14,17 @@ namespace patina {
 
 struct Document;
 
-inline constexpr int kBakeFormatVersion = 1;
 inline constexpr int kMaxBakeRow = 4096; // vertices per image row
 
 // One part per mesh or material that the document still has with as many vertices; the others are
 // left out. When none is left, one part of a single pixel keeps the attributes.
+// Quantised storage is for transfer.
 [[nodiscard]] std::vector<ImagePart> bakeToParts(const BakeArtifact& artifact,
-                                                 const Document& document);
+                                                 const Document& document,
+                                                 const BakeFileOptions& options = {});
 
-// Errors (InputBroken, naming `file`): no bake, of a newer version, damaged, of other geometry.
+// Reads this version and older ones. Errors (InputBroken, naming `file`): no bake, of a newer
+// version, damaged, of other geometry (saying what differs).
 Result<BakeArtifact> bakeFromParts(const std::vector<ImagePart>& parts, const Document& document,
                                    const std::filesystem::path& file);
 

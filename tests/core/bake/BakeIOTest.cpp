@@ -3,104 +3,18 @@
 #include "core/bake/BakeParts.h"
 #include "core/document/Document.h"
 #include "core/worker/WorkerClient.h"
-#include "tests/core/bake/BakeTestScene.h"
+#include "tests/core/bake/BakeFileScene.h"
 #include "tests/support/TemporaryFolder.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <random>
 
 using namespace patina;
 using namespace patina::test;
 using testing::HasSubstr;
 
 namespace {
-
-// Two meshes of one name, one of them with more vertices than a row of the image.
-Document testDocument() {
-    Document document;
-    for (const char* name : {"Skin", "Skin", ""}) {
-        Material& material = document.materials.emplace_back();
-        material.id = document.takeId();
-        material.name = name;
-    }
-    const std::vector<Mesh> meshes = {sphereMesh(1.0, 96, 64), torusMesh(1.0, 0.3, 12, 8),
-                                      cubeMesh()};
-    for (const Mesh& mesh : meshes) {
-        MeshInstance& instance = document.meshes.emplace_back();
-        instance.id = document.takeId();
-        instance.name = document.meshes.size() < 3 ? "Body" : "Body#2";
-        instance.mesh = std::make_shared<const Mesh>(sanitized(mesh));
-        instance.material = document.materials[document.meshes.size() - 1].id;
-    }
-    return document;
-}
-
-BakeArtifact testBake(const Document& document, BakeKind kind, int order = 0) {
-    std::mt19937 random(11);
-    BakeArtifact artifact;
-    artifact.kind = kind;
-    artifact.inputs = hashBakeInputs(bakeInputs(document));
-    artifact.settings = {{"samples", "256"}, {"seed", "4294967295"}, {"note", "a \"note\", 100 %"}};
-    artifact.order = order;
-    artifact.samplesDone = 128;
-    const auto number = [&] {
-        const float unit = float(random()) / 4294967296.0f;
-        return holdsTransfer(kind) ? 2.0f * unit - 1.0f : unit;
-    };
-    if (kind == BakeKind::AoTexel) {
-        for (const Material& material : document.materials) {
-            auto image = std::make_shared<Image>(33, 33, 1, PixelType::F32, ColorEncoding::Data);
-            for (float& value : image->f32())
-                value = number();
-            artifact.texels.push_back({material.id, std::move(image)});
-        }
-        return artifact;
-    }
-    const int stride = holdsTransfer(kind) ? order * order : 1;
-    if (kind == BakeKind::PrtTexel) {
-        for (const Material& material : document.materials) {
-            TexelBake& bake = artifact.texels.emplace_back();
-            bake.material = material.id;
-            bake.side = 17;
-            bake.stride = stride;
-            bake.values.resize(17u * 17u * std::size_t(stride));
-            for (float& value : bake.values)
-                value = number();
-        }
-        return artifact;
-    }
-    for (const MeshInstance& mesh : document.meshes) {
-        VertexBake& bake = artifact.vertices.emplace_back();
-        bake.mesh = mesh.id;
-        bake.stride = stride;
-        bake.values.resize(mesh.mesh->vertexCount() * std::size_t(stride));
-        for (float& value : bake.values)
-            value = number();
-    }
-    return artifact;
-}
-
-// Images compare by identity in the artifact; here their content matters.
-void expectSame(const BakeArtifact& a, const BakeArtifact& b) {
-    EXPECT_EQ(a.kind, b.kind);
-    EXPECT_EQ(a.inputs, b.inputs);
-    EXPECT_EQ(a.settings, b.settings);
-    EXPECT_EQ(a.order, b.order);
-    EXPECT_EQ(a.samplesDone, b.samplesDone);
-    EXPECT_EQ(a.vertices, b.vertices);
-    ASSERT_EQ(a.texels.size(), b.texels.size());
-    for (std::size_t i = 0; i < a.texels.size(); ++i) {
-        EXPECT_EQ(a.texels[i].material, b.texels[i].material);
-        ASSERT_EQ(a.texels[i].image != nullptr, b.texels[i].image != nullptr);
-        if (a.texels[i].image) {
-            EXPECT_EQ(*a.texels[i].image, *b.texels[i].image);
-        }
-        EXPECT_EQ(a.texels[i].side, b.texels[i].side);
-        EXPECT_EQ(a.texels[i].stride, b.texels[i].stride);
-        EXPECT_EQ(a.texels[i].values, b.texels[i].values);
-    }
-}
 
 std::string refusal(const std::vector<ImagePart>& parts, const Document& document) {
     const Result<BakeArtifact> result = bakeFromParts(parts, document, "bake.exr");
@@ -115,14 +29,17 @@ std::string refusal(const std::vector<ImagePart>& parts, const Document& documen
 } // namespace
 
 TEST(BakeIO, FilesHoldEveryKindExactly) {
-    const Document document = testDocument();
+    const Document document = bakeDocument();
     WorkerClient worker;
     const TemporaryFolder folder;
-    std::vector<BakeArtifact> bakes = {testBake(document, BakeKind::AoTexel),
-                                       testBake(document, BakeKind::AoVertex)};
-    for (int order = 1; order <= 5; ++order)
+    std::vector<BakeArtifact> bakes = {randomBake(document, BakeKind::AoTexel),
+                                       randomBake(document, BakeKind::AoVertex)};
+    for (int order = 1; order <= 8; ++order)
         for (const BakeKind kind : {BakeKind::PrtVertex, BakeKind::PrtTexel})
-            bakes.push_back(testBake(document, kind, order));
+            bakes.push_back(randomBake(document, kind, order));
+    for (const TransferKind transfer : {TransferKind::Unshadowed, TransferKind::Interreflected})
+        for (const BakeKind kind : {BakeKind::PrtVertex, BakeKind::PrtTexel})
+            bakes.push_back(randomBake(document, kind, 3, transfer));
     for (const BakeArtifact& bake : bakes) {
         const Result<Bytes> bytes = encodeBake(worker, bake, document);
         ASSERT_TRUE(bytes.ok()) << bytes.error().text();
@@ -134,11 +51,11 @@ TEST(BakeIO, FilesHoldEveryKindExactly) {
 }
 
 TEST(BakeIO, TruncatedForeignAndMissingFilesAreErrors) {
-    const Document document = testDocument();
+    const Document document = bakeDocument();
     WorkerClient worker;
     const TemporaryFolder folder;
     const Result<Bytes> bytes =
-        encodeBake(worker, testBake(document, BakeKind::PrtVertex, 3), document);
+        encodeBake(worker, randomBake(document, BakeKind::PrtVertex, 3), document);
     ASSERT_TRUE(bytes.ok());
     for (const double part : {0.0, 0.01, 0.3, 0.99}) {
         const auto size = static_cast<std::size_t>(double(bytes->size()) * part);
@@ -161,9 +78,9 @@ TEST(BakeIO, TruncatedForeignAndMissingFilesAreErrors) {
 }
 
 TEST(BakeParts, DescribeThemselvesForOtherPrograms) {
-    const Document document = testDocument();
+    const Document document = bakeDocument();
     const std::vector<ImagePart> parts =
-        bakeToParts(testBake(document, BakeKind::PrtVertex, 2), document);
+        bakeToParts(randomBake(document, BakeKind::PrtVertex, 2), document);
     ASSERT_EQ(parts.size(), 3u);
     EXPECT_EQ(parts[0].name, "Body");
     EXPECT_EQ(parts[1].name, "Body#2");
@@ -179,8 +96,8 @@ TEST(BakeParts, DescribeThemselvesForOtherPrograms) {
 }
 
 TEST(BakeParts, ChannelsAndPartsInAnyOrder) {
-    const Document document = testDocument();
-    const BakeArtifact bake = testBake(document, BakeKind::PrtVertex, 2);
+    const Document document = bakeDocument();
+    const BakeArtifact bake = randomBake(document, BakeKind::PrtVertex, 2);
     std::vector<ImagePart> parts = bakeToParts(bake, document);
     for (ImagePart& part : parts) { // channels reversed
         const std::vector<float> values(part.image.f32().begin(), part.image.f32().end());
@@ -200,8 +117,8 @@ TEST(BakeParts, ChannelsAndPartsInAnyOrder) {
 }
 
 TEST(BakeParts, RenamedMeshesAreFoundByPosition) {
-    Document document = testDocument();
-    const BakeArtifact bake = testBake(document, BakeKind::AoVertex);
+    Document document = bakeDocument();
+    const BakeArtifact bake = randomBake(document, BakeKind::AoVertex);
     const std::vector<ImagePart> parts = bakeToParts(bake, document);
     document.meshes[0].name = "Torso";
     document.meshes[1].name = "Ring";
@@ -212,8 +129,8 @@ TEST(BakeParts, RenamedMeshesAreFoundByPosition) {
 }
 
 TEST(BakeParts, MeshesThatAreGoneOrReplacedAreLeftOut) {
-    Document document = testDocument();
-    const BakeArtifact bake = testBake(document, BakeKind::AoVertex);
+    Document document = bakeDocument();
+    const BakeArtifact bake = randomBake(document, BakeKind::AoVertex);
     document.meshes.erase(document.meshes.begin());
     document.meshes[1].mesh = document.meshes[0].mesh;
     const std::vector<ImagePart> parts = bakeToParts(bake, document);
@@ -230,29 +147,51 @@ TEST(BakeParts, MeshesThatAreGoneOrReplacedAreLeftOut) {
     EXPECT_EQ(empty->settings, bake.settings);
 }
 
-TEST(BakeParts, OtherGeometryIsRefused) {
-    Document document = testDocument();
+TEST(BakeParts, RefusalsOfOtherGeometryTellWhatDiffers) {
+    const Document document = bakeDocument();
     const std::vector<ImagePart> parts =
-        bakeToParts(testBake(document, BakeKind::PrtVertex, 3), document);
-    Mesh moved = *document.meshes[1].mesh;
-    moved.positions[0].x += 0.001f;
-    document.meshes[1].mesh = std::make_shared<const Mesh>(moved);
-    EXPECT_THAT(refusal(parts, document), HasSubstr("other geometry"));
-    document.meshes[1].mesh = nullptr;
-    EXPECT_THAT(refusal(parts, document), HasSubstr("other geometry"));
-    document.meshes.clear();
-    EXPECT_THAT(refusal(parts, document), HasSubstr("other geometry"));
-    Document bare;
-    EXPECT_THAT(
-        refusal(bakeToParts(testBake(testDocument(), BakeKind::AoTexel), testDocument()), bare),
-        HasSubstr("material"));
+        bakeToParts(randomBake(document, BakeKind::PrtVertex, 3), document);
+    const auto whyNot = [&](const auto& change) {
+        Document changed = document;
+        Mesh mesh = *changed.meshes[1].mesh;
+        change(mesh);
+        changed.meshes[1].mesh = std::make_shared<const Mesh>(std::move(mesh));
+        return refusal(parts, changed);
+    };
+    EXPECT_EQ(whyNot([](Mesh& mesh) { mesh.positions[0].x += 0.001f; }),
+              "the bake was made for another mesh \"Body#2\" with as many vertices: its vertices "
+              "stand elsewhere; open the scene it was made from, or bake this one");
+    EXPECT_THAT(whyNot([](Mesh& mesh) {
+                    std::swap(mesh.indices[0], mesh.indices[1]);
+                    mesh.uvs[3].y = 7.0f;
+                }),
+                HasSubstr("its triangles join other vertices, its texture coordinates differ;"));
+    EXPECT_THAT(whyNot([](Mesh& mesh) { mesh.normals[0] = -mesh.normals[0]; }),
+                HasSubstr("vertices: its normals differ;"));
+    const std::size_t vertices = document.meshes[1].mesh->vertexCount();
+    const std::size_t triangles = document.meshes[1].mesh->triangleCount();
+    EXPECT_THAT(whyNot([](Mesh& mesh) { mesh = sanitized(cubeMesh()); }),
+                HasSubstr(fmt::format("was made for a mesh \"Body#2\" of {} vertices and {} "
+                                      "triangles, but \"Body\" here has 24 vertices and 12 "
+                                      "triangles;",
+                                      vertices, triangles)));
+    EXPECT_THAT(whyNot([](Mesh& mesh) { mesh.indices.resize(3); }), HasSubstr("and 1 triangle;"));
+
+    Document other = document;
+    other.meshes[1].mesh = nullptr;
+    EXPECT_THAT(refusal(parts, other), HasSubstr("geometry is missing"));
+    other.meshes.clear();
+    EXPECT_THAT(refusal(parts, other), HasSubstr("a mesh \"Body\", which the scene does not have"));
+    const Document bare;
+    EXPECT_THAT(refusal(bakeToParts(randomBake(document, BakeKind::AoTexel), document), bare),
+                HasSubstr("a material \"Skin\", which the scene does not have"));
 }
 
 TEST(BakeParts, DamageIsRefusedWithAReason) {
-    const Document document = testDocument();
+    const Document document = bakeDocument();
     const auto damaged = [&](BakeKind kind, const auto& damage) {
         std::vector<ImagePart> parts =
-            bakeToParts(testBake(document, kind, holdsTransfer(kind) ? 3 : 0), document);
+            bakeToParts(randomBake(document, kind, holdsTransfer(kind) ? 3 : 0), document);
         damage(parts);
         return refusal(parts, document);
     };
@@ -264,7 +203,7 @@ TEST(BakeParts, DamageIsRefusedWithAReason) {
                         HasSubstr("out of range"));
         EXPECT_THAT(damaged(kind, [](auto& parts) { parts[0].attributes.erase("patina:format"); }),
                     HasSubstr("no bake"));
-        EXPECT_THAT(damaged(kind, [](auto& parts) { parts[0].attributes["patina:version"] = "2"; }),
+        EXPECT_THAT(damaged(kind, [](auto& parts) { parts[0].attributes["patina:version"] = "3"; }),
                     HasSubstr("newer"));
         EXPECT_THAT(damaged(kind, [](auto& parts) { parts[0].attributes["patina:kind"] = "x"; }),
                     HasSubstr("kind"));
@@ -292,5 +231,14 @@ TEST(BakeParts, DamageIsRefusedWithAReason) {
     EXPECT_THAT(damaged(BakeKind::AoVertex,
                         [](auto& parts) { parts[0].attributes["patina:vertexCount"] = "99999"; }),
                 HasSubstr("vertices"));
+    // Finite, but no light does that.
+    EXPECT_THAT(damaged(BakeKind::PrtTexel, [](auto& parts) { parts[0].image.f32()[4] = 1e30f; }),
+                HasSubstr("out of range"));
+    EXPECT_THAT(damaged(BakeKind::PrtTexel,
+                        [](auto& parts) {
+                            parts[0].image =
+                                Image(17, 16, 9, PixelType::F32, ColorEncoding::Linear);
+                        }),
+                HasSubstr("square"));
     EXPECT_THAT(refusal({}, document), HasSubstr("empty"));
 }
