@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 
 namespace patina {
 namespace {
@@ -173,16 +172,14 @@ std::uint32_t AlbedoTexels::at(const glm::vec2& uv) const {
     return (m_color.at(uv) & 0xffffffu) | (m_metallic.at(uv) & 0xffu) << 24;
 }
 
-glm::vec3 DiffuseAlbedo::uniform() const {
-    return glm::clamp(m_color, 0.0f, 1.0f) * (1.0f - std::clamp(m_metallic, 0.0f, 1.0f));
-}
-
-glm::vec3 DiffuseAlbedo::of(std::uint32_t texel) const {
+DiffuseAlbedo::DiffuseAlbedo(const BakeSurface& surface) {
     const std::array<float, 256>& decode = srgbTable8();
-    const glm::vec3 color(decode[texel & 0xffu], decode[texel >> 8 & 0xffu],
-                          decode[texel >> 16 & 0xffu]);
-    return glm::clamp(m_color * color, 0.0f, 1.0f) *
-           (1.0f - std::clamp(m_metallic * decode[texel >> 24], 0.0f, 1.0f));
+    for (std::size_t code = 0; code < 256; ++code) {
+        for (int c = 0; c < 3; ++c)
+            m_byCode[static_cast<std::size_t>(c)][code] =
+                std::clamp(surface.baseColor[c] * decode[code], 0.0f, 1.0f);
+        m_byCode[3][code] = 1.0f - std::clamp(surface.metallic * decode[code], 0.0f, 1.0f);
+    }
 }
 
 } // namespace patina

@@ -85,15 +85,18 @@ class AlbedoTexels {
 // surface shader clamps it.
 class DiffuseAlbedo {
   public:
-    explicit DiffuseAlbedo(const BakeSurface& surface)
-        : m_color(surface.baseColor)
-        , m_metallic(surface.metallic) {}
-    [[nodiscard]] glm::vec3 uniform() const; // where nothing is mapped
-    [[nodiscard]] glm::vec3 of(std::uint32_t texel) const;
+    explicit DiffuseAlbedo(const BakeSurface& surface);
+    [[nodiscard]] glm::vec3 uniform() const { return of(0xffffffffu); } // where nothing is mapped
+    [[nodiscard]] glm::vec3 of(std::uint32_t texel) const {
+        const float diffuse = m_byCode[3][texel >> 24];
+        return {diffuse * m_byCode[0][texel & 0xffu], diffuse * m_byCode[1][texel >> 8 & 0xffu],
+                diffuse * m_byCode[2][texel >> 16 & 0xffu]};
+    }
 
   private:
-    glm::vec3 m_color;
-    float m_metallic;
+    // For each code of a texel: red, green, blue times their factors, and the share that is not
+    // metal.
+    std::array<std::array<float, 256>, 4> m_byCode;
 };
 
 } // namespace patina

@@ -79,16 +79,17 @@ void gatherChunk(std::span<const CachedHit> hits, const BounceElements& elements
 
 BounceSolver::BounceSolver(HitSourcePtr hits)
     : m_hits(std::move(hits))
-    , m_surfaces(m_hits->elements().meshes().size())
+    , m_albedos(m_hits->elements().meshes().size(), DiffuseAlbedo(BakeSurface{}))
     , m_mapped(m_hits->elements().meshes().size()) {}
 
 BounceSolver::~BounceSolver() = default;
 
-void BounceSolver::setSurfaces(std::vector<BakeSurface> surfaces, const JobContext& job) {
-    CHECK_EQ(surfaces.size(), m_surfaces.size());
+void BounceSolver::setSurfaces(std::span<const BakeSurface> surfaces, const JobContext& job) {
+    CHECK_EQ(surfaces.size(), m_albedos.size());
     bool changed = false;
     m_anyMapped = false;
     for (std::size_t m = 0; m < surfaces.size(); ++m) {
+        m_albedos[m] = DiffuseAlbedo(surfaces[m]);
         if (!hasAlbedoMap(surfaces[m])) {
             changed |= m_mapped[m] != nullptr;
             m_mapped[m] = nullptr;
@@ -101,7 +102,6 @@ void BounceSolver::setSurfaces(std::vector<BakeSurface> surfaces, const JobConte
             std::make_unique<MappedSurface>(MappedSurface{surfaces[m], AlbedoTexels(surfaces[m])});
         changed = true;
     }
-    m_surfaces = std::move(surfaces);
     if (!changed || !m_hits->kept())
         return;
     m_texels.clear();
@@ -152,12 +152,9 @@ template <std::size_t K>
 bool BounceSolver::gather(const std::vector<float>& from, std::vector<float>& bounced,
                           const JobContext& job) const {
     const BounceElements& elements = m_hits->elements();
-    std::vector<DiffuseAlbedo> surfaces;
     std::vector<glm::vec3> uniform;
-    for (const BakeSurface& surface : m_surfaces) {
-        surfaces.emplace_back(surface);
-        uniform.push_back(surfaces.back().uniform());
-    }
+    for (const DiffuseAlbedo& albedo : m_albedos)
+        uniform.push_back(albedo.uniform());
     const float scale = 1.0f / static_cast<float>(m_hits->settings().samples);
     parallelFor(job, m_hits->chunkCount(), 4, [&](std::size_t begin, std::size_t end) {
         std::vector<CachedHit> scratch;
@@ -174,7 +171,7 @@ bool BounceSolver::gather(const std::vector<float>& from, std::vector<float>& bo
             const std::span<const std::uint32_t> colors = texels(chunk, hits, texelScratch);
             gatherChunk<K>(
                 hits, elements,
-                [&](std::size_t h, std::uint32_t mesh) { return surfaces[mesh].of(colors[h]); },
+                [&](std::size_t h, std::uint32_t mesh) { return m_albedos[mesh].of(colors[h]); },
                 scale, from.data(), to);
         }
     });

@@ -13,7 +13,6 @@
 
 #include <glm/vec3.hpp>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,7 +29,7 @@ class BounceSolver {
 
     // One for each of hits().elements().meshes(). Numbers alone cost nothing; other maps are
     // prepared anew, as the first ones are.
-    void setSurfaces(std::vector<BakeSurface> surfaces, const JobContext& job);
+    void setSurfaces(std::span<const BakeSurface> surfaces, const JobContext& job);
 
     // `direct`: coefficients T of the front elements, order² each; order as the hits were traced
     // with. Answers 3 · order² for each front element, laid out as VertexBake::bounced. Errors:
@@ -54,7 +53,7 @@ class BounceSolver {
                               const JobContext& job) const;
 
     HitSourcePtr m_hits;
-    std::vector<BakeSurface> m_surfaces;
+    std::vector<DiffuseAlbedo> m_albedos; // per mesh
     struct MappedSurface;
     std::vector<std::unique_ptr<MappedSurface>> m_mapped; // per mesh; null: without maps
     bool m_anyMapped = false;
