@@ -16,6 +16,7 @@
 
 namespace patina {
 
+class BakeTracer;
 struct Document;
 class HitSource; // core/bake/HitCache.h
 
@@ -99,15 +100,20 @@ struct PrtSettings {
 // Passes of 32, 64, … rays over all elements. stop() keeps what there is, every element with
 // samplesDone rays or more; cancel() returns ErrorKind::Cancelled within 0.5 s.
 // Errors: InputBroken for a scene without triangles; Internal when Embree refuses memory.
+// `tracer`: how points are traced when not here and now (core/bake/BakeTracer.h).
 Result<BakeArtifact> bakeAoTexel(const BakeInputs& inputs, const AoSettings& settings,
-                                 TileSink& sink, const JobContext& job);
+                                 TileSink& sink, const JobContext& job,
+                                 BakeTracer* tracer = nullptr);
 Result<BakeArtifact> bakeAoVertex(const BakeInputs& inputs, const AoSettings& settings,
-                                  TileSink& sink, const JobContext& job);
+                                  TileSink& sink, const JobContext& job,
+                                  BakeTracer* tracer = nullptr);
 Result<BakeArtifact> bakePrtVertex(const BakeInputs& inputs, const PrtSettings& settings,
-                                   TileSink& sink, const JobContext& job);
+                                   TileSink& sink, const JobContext& job,
+                                   BakeTracer* tracer = nullptr);
 // The transfer of every texel of every material's UV layout; also an error (InputBroken) for meshes
 // without texture coordinates.
 Result<BakeArtifact> bakePrtTexel(const BakeInputs& inputs, const PrtSettings& settings,
-                                  TileSink& sink, const JobContext& job);
+                                  TileSink& sink, const JobContext& job,
+                                  BakeTracer* tracer = nullptr);
 
 } // namespace patina

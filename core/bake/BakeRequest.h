@@ -13,6 +13,6 @@ struct BakeRequest {
 
 // Errors: those of the kind's own function (core/bake/Bake.h).
 Result<BakeArtifact> bake(const BakeRequest& request, const BakeInputs& inputs, TileSink& sink,
-                          const JobContext& job);
+                          const JobContext& job, BakeTracer* tracer = nullptr);
 
 } // namespace patina

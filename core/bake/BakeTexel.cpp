@@ -2,7 +2,7 @@
 
 #include "core/bake/AoSettingsCheck.h"
 #include "core/bake/Bake.h"
-#include "core/bake/Passes.h"
+#include "core/bake/BakeTracer.h"
 #include "core/bake/PrtSettingsCheck.h"
 #include "core/bake/RayScene.h"
 #include "core/bake/TexelTransfer.h"
@@ -22,7 +22,8 @@ ImagePtr occlusionImage(std::span<const float> values, int size) {
 
 // Everything the two texel bakes share; `artifact` arrives with kind, order and settings.
 Result<BakeArtifact> bakeTexels(const BakeInputs& inputs, PassSettings settings, int size,
-                                BakeArtifact artifact, TileSink& sink, const JobContext& job) {
+                                BakeArtifact artifact, TileSink& sink, const JobContext& job,
+                                BakeTracer* tracer) {
     job.setActivity("preparing the scene");
     const Result<BakeGeometry> geometry = makeBakeGeometry(inputs, job);
     if (!geometry)
@@ -45,24 +46,27 @@ Result<BakeArtifact> bakeTexels(const BakeInputs& inputs, PassSettings settings,
     };
     callbacks.passDone = [&](int samples) { sink.passDone(samples); };
     callbacks.view = [&] { return toSceneUnits(sink.view(), *geometry); };
-    const Result<PassState> passes =
-        runPasses(*scene, layout->points, layout->ranges, settings, callbacks, job);
-    if (!passes)
-        return passes.error();
-
+    Result<std::optional<PassState>> traced =
+        tracePoints(tracer, {*scene, layout->points, layout->ranges, settings, callbacks, job});
+    if (!traced)
+        return traced.error();
     artifact.inputs = hashBakeInputs(inputs);
+    if (!traced->has_value())
+        return artifact;
+    const PassState& passes = **traced;
+
     artifact.settings["size"] = std::to_string(size);
     if (const std::string note = layout->note(); !note.empty())
         artifact.settings["note"] = note;
-    artifact.samplesDone = passes->samplesDone;
+    artifact.samplesDone = passes.samplesDone;
     constexpr float kOpen[] = {1.0f};
     if (holdsTransfer(artifact.kind))
-        artifact.texels = finishTexelTransfer(*layout, settings, *passes);
+        artifact.texels = finishTexelTransfer(*layout, settings, passes);
     else
         for (const MaterialTexels& part : layout->parts)
             artifact.texels.push_back(
                 {part.material,
-                 occlusionImage(texelTexture(*layout, part, passes->values, kOpen), size)});
+                 occlusionImage(texelTexture(*layout, part, passes.values, kOpen), size)});
     job.setProgress(1.0);
     return artifact;
 }
@@ -70,18 +74,18 @@ Result<BakeArtifact> bakeTexels(const BakeInputs& inputs, PassSettings settings,
 } // namespace
 
 Result<BakeArtifact> bakeAoTexel(const BakeInputs& inputs, const AoSettings& settings,
-                                 TileSink& sink, const JobContext& job) {
+                                 TileSink& sink, const JobContext& job, BakeTracer* tracer) {
     const Result<PassSettings> passes = aoPassSettings(settings);
     if (!passes)
         return passes.error();
     BakeArtifact artifact;
     artifact.kind = BakeKind::AoTexel;
     artifact.settings = aoSettingsText(artifact.kind, settings, passes->samples);
-    return bakeTexels(inputs, *passes, settings.size, std::move(artifact), sink, job);
+    return bakeTexels(inputs, *passes, settings.size, std::move(artifact), sink, job, tracer);
 }
 
 Result<BakeArtifact> bakePrtTexel(const BakeInputs& inputs, const PrtSettings& settings,
-                                  TileSink& sink, const JobContext& job) {
+                                  TileSink& sink, const JobContext& job, BakeTracer* tracer) {
     const Result<PassSettings> passes = prtPassSettings(settings);
     if (!passes)
         return passes.error();
@@ -89,7 +93,7 @@ Result<BakeArtifact> bakePrtTexel(const BakeInputs& inputs, const PrtSettings& s
     artifact.kind = BakeKind::PrtTexel;
     artifact.order = settings.order;
     artifact.settings = prtSettingsText(artifact.kind, settings, passes->samples);
-    return bakeTexels(inputs, *passes, settings.size, std::move(artifact), sink, job);
+    return bakeTexels(inputs, *passes, settings.size, std::move(artifact), sink, job, tracer);
 }
 
 } // namespace patina

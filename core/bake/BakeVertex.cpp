@@ -3,8 +3,8 @@
 #include "core/bake/AoSettingsCheck.h"
 #include "core/bake/Bake.h"
 #include "core/bake/BakePoints.h"
+#include "core/bake/BakeTracer.h"
 #include "core/bake/Interreflection.h"
-#include "core/bake/Passes.h"
 #include "core/bake/PrtSettingsCheck.h"
 #include "core/bake/RayScene.h"
 #include "core/bake/WorkOrder.h"
@@ -20,7 +20,7 @@ constexpr std::size_t kPointsPerRange = 64;
 // with those of a transfer bake.
 Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings settings,
                                   const PrtSettings* prt, BakeArtifact artifact, TileSink& sink,
-                                  const JobContext& job) {
+                                  const JobContext& job, BakeTracer* tracer) {
     job.setActivity("preparing the scene");
     const Result<BakeGeometry> geometry = makeBakeGeometry(inputs, job);
     if (!geometry)
@@ -47,15 +47,19 @@ Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings setting
     };
     callbacks.passDone = [&](int samples) { sink.passDone(samples); };
     callbacks.view = [&] { return toSceneUnits(sink.view(), *geometry); };
-    Result<PassState> passes = runPasses(*scene, points, ranges, settings, callbacks, job);
-    if (!passes)
-        return passes.error();
-
+    Result<std::optional<PassState>> traced =
+        tracePoints(tracer, {*scene, points, ranges, settings, callbacks, job});
+    if (!traced)
+        return traced.error();
     artifact.inputs = hashBakeInputs(inputs);
-    artifact.samplesDone = passes->samplesDone;
+    if (!traced->has_value())
+        return artifact;
+    const PassState& passes = **traced;
+
+    artifact.samplesDone = passes.samplesDone;
     const auto stride = static_cast<std::size_t>(settings.stride());
     for (std::size_t m = 0; m < geometry->meshes.size(); ++m) {
-        const auto values = passes->values.begin();
+        const auto values = passes.values.begin();
         const auto at = [&](std::size_t point) {
             return values + static_cast<std::ptrdiff_t>(point * stride);
         };
@@ -67,9 +71,9 @@ Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings setting
             const auto first = static_cast<std::ptrdiff_t>(firstOfMesh[m]);
             const auto end = static_cast<std::ptrdiff_t>(firstOfMesh[m + 1]);
             for (std::size_t p = firstOfMesh[m]; p < firstOfMesh[m + 1]; ++p)
-                bake.sky.push_back(skyShare(passes->hiddenSky[p], points[p].normal));
+                bake.sky.push_back(skyShare(passes.hiddenSky[p], points[p].normal));
             if (settings.method != SampleMethod::Stratified) // whose one pass cannot tell
-                bake.error.assign(passes->error.begin() + first, passes->error.begin() + end);
+                bake.error.assign(passes.error.begin() + first, passes.error.begin() + end);
         }
         artifact.vertices.push_back(std::move(bake));
     }
@@ -84,18 +88,18 @@ Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings setting
 } // namespace
 
 Result<BakeArtifact> bakeAoVertex(const BakeInputs& inputs, const AoSettings& settings,
-                                  TileSink& sink, const JobContext& job) {
+                                  TileSink& sink, const JobContext& job, BakeTracer* tracer) {
     const Result<PassSettings> passes = aoPassSettings(settings);
     if (!passes)
         return passes.error();
     BakeArtifact artifact;
     artifact.kind = BakeKind::AoVertex;
     artifact.settings = aoSettingsText(artifact.kind, settings, passes->samples);
-    return bakeVertices(inputs, *passes, nullptr, std::move(artifact), sink, job);
+    return bakeVertices(inputs, *passes, nullptr, std::move(artifact), sink, job, tracer);
 }
 
 Result<BakeArtifact> bakePrtVertex(const BakeInputs& inputs, const PrtSettings& settings,
-                                   TileSink& sink, const JobContext& job) {
+                                   TileSink& sink, const JobContext& job, BakeTracer* tracer) {
     const Result<PassSettings> passes = prtPassSettings(settings);
     if (!passes)
         return passes.error();
@@ -103,7 +107,7 @@ Result<BakeArtifact> bakePrtVertex(const BakeInputs& inputs, const PrtSettings& 
     artifact.kind = BakeKind::PrtVertex;
     artifact.order = settings.order;
     artifact.settings = prtSettingsText(artifact.kind, settings, passes->samples);
-    return bakeVertices(inputs, *passes, &settings, std::move(artifact), sink, job);
+    return bakeVertices(inputs, *passes, &settings, std::move(artifact), sink, job, tracer);
 }
 
 } // namespace patina

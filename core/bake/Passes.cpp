@@ -319,8 +319,11 @@ Result<PassState> runPasses(const RayScene& scene, std::span<const BakePoint> po
     CHECK(settings.shOrder >= 0 && settings.shOrder <= kMaxShOrder);
     CHECK(settings.shard.index >= 0 && settings.shard.index < settings.shard.count);
     PassRunner(scene, points, ranges, settings, callbacks, job, state).run();
-    if (job.cancelled())
+    if (job.cancelled()) {
+        if (callbacks.checkpoint)
+            callbacks.checkpoint(state);
         return Error{ErrorKind::Cancelled, "The bake was cancelled.", {}, {}};
+    }
     return state;
 }
 

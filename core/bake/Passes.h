@@ -35,6 +35,7 @@ struct PassShard {
     [[nodiscard]] bool holds(std::size_t range) const {
         return range % static_cast<std::size_t>(count) == static_cast<std::size_t>(index);
     }
+    friend bool operator==(const PassShard&, const PassShard&) = default;
 };
 
 struct PassSettings {
@@ -75,7 +76,8 @@ struct PassCallbacks {
     // Asked before each pass, in the space of the points; may be empty (core/bake/WorkOrder.h).
     std::function<std::optional<BakeView>()> view;
     // Called from one of the pool's threads about every `checkpointSeconds` at a moment when the
-    // state may be kept; threads that finish a range meanwhile wait until it returns.
+    // state may be kept; threads that finish a range meanwhile wait until it returns. Called once
+    // more, by the caller's thread, when the job was cancelled.
     std::function<void(const PassState&)> checkpoint;
     double checkpointSeconds = 30.0;
 };
