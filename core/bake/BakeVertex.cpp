@@ -14,8 +14,6 @@
 namespace patina {
 namespace {
 
-constexpr std::size_t kPointsPerRange = 64;
-
 // Everything the two vertex bakes share; `artifact` arrives with kind, order and settings, `prt`
 // with those of a transfer bake.
 Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings settings,
@@ -25,13 +23,15 @@ Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings setting
     const Result<BakeGeometry> geometry = makeBakeGeometry(inputs, job);
     if (!geometry)
         return geometry.error();
-    const Result<RayScene> scene = RayScene::build(*geometry, job);
+    const std::size_t pointCount = geometry->vertexCount();
+    const Result<RayScene> scene = RayScene::build(
+        *geometry, job, 0, static_cast<double>(pointCount) * settings.samples);
     if (!scene)
         return scene.error();
     settings.maxDistance *= static_cast<float>(geometry->unitsPerMetre);
 
     const std::vector<BakePoint> points = vertexPoints(*geometry, job);
-    const std::vector<PointRange> ranges = vertexRanges(*geometry, kPointsPerRange);
+    const std::vector<PointRange> ranges = vertexRanges(*geometry, rangeSize(pointCount));
     std::vector<std::size_t> firstOfMesh; // and the end
     for (const BakeGeometryMesh& mesh : geometry->meshes)
         firstOfMesh.push_back((firstOfMesh.empty() ? 0 : firstOfMesh.back()) +

@@ -2,6 +2,7 @@
 
 #include "core/bake/HemisphereSamples.h"
 #include "core/bake/RangeTracer.h"
+#include "core/bake/TransferMeaning.h"
 #include "core/bake/WorkOrder.h"
 #include "core/base/Check.h"
 #include "core/job/Parallel.h"
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <shared_mutex>
@@ -50,6 +52,21 @@ class Schedule {
     int m_passes = 1;
 };
 
+// Points that share their directions: on scenes that outgrow the caches, rays of one direction from
+// neighbouring points travel together 1.5 times as fast as each point's by themselves (measured),
+// and 32 of a million points may have their noise in common. Drawn directions are every point's
+// own.
+constexpr std::size_t kLargeScene = 200'000; // triangles
+constexpr int kCluster = 32;
+
+int clusterSize(const RayScene& scene, const PassSettings& settings) {
+    if (settings.method != SampleMethod::Qmc)
+        return 1;
+    if (settings.cluster > 0)
+        return settings.cluster;
+    return scene.triangleCount() >= kLargeScene ? kCluster : 1;
+}
+
 // Replaces the mean over some rays by the mean over those and as many again, and tells the
 // standard error of that: half the difference of the halves, RMS over the values.
 float merge(std::span<float> values, std::span<const float> more) {
@@ -74,7 +91,8 @@ class PassRunner {
         , m_callbacks(callbacks)
         , m_job(job)
         , m_state(state)
-        , m_schedule(settings) {
+        , m_schedule(settings)
+        , m_cluster(clusterSize(scene, settings)) {
         begin();
     }
 
@@ -200,12 +218,23 @@ class PassRunner {
         std::atomic<bool> complete = true;
         parallelFor(m_job, held.size(), 1, [&](std::size_t begin, std::size_t end) {
             const FlushDenormals flush;
-            RangeTracer tracer(m_scene, m_points, m_settings, m_job);
+            std::unique_ptr<RangeTracer> tracer = borrowTracer();
             for (std::size_t i = begin; i < end; ++i)
-                if (!runRange(m_ranges[held[i]], all, tracer, mayStop))
+                if (!runRange(m_ranges[held[i]], all, *tracer, mayStop))
                     complete = false;
+            const std::lock_guard lock(m_idle);
+            m_idleTracers.push_back(std::move(tracer));
         });
         return complete && !m_job.cancelled();
+    }
+
+    std::unique_ptr<RangeTracer> borrowTracer() {
+        const std::lock_guard lock(m_idle);
+        if (m_idleTracers.empty())
+            return std::make_unique<RangeTracer>(m_scene, m_points, m_settings, m_cluster, m_job);
+        std::unique_ptr<RangeTracer> tracer = std::move(m_idleTracers.back());
+        m_idleTracers.pop_back();
+        return tracer;
     }
 
     [[nodiscard]] bool runRange(const PointRange& range, const std::vector<Batch>& batches,
@@ -213,18 +242,25 @@ class PassRunner {
         if (mayStop && m_job.stopping())
             return false;
         const auto stride = static_cast<std::size_t>(m_settings.stride());
-        std::vector<std::uint32_t> elements;
+        std::vector<RangeElement> order, elements;
+        orderRange(m_points, range, m_cluster, m_settings.seed, order);
+        std::vector<std::uint8_t> mostlyOpen;
         RangeMeans means, firstHalf;
         std::size_t rays = 0;
         for (std::size_t b = 0; b < batches.size(); ++b) {
             const Batch& batch = batches[b];
             elements.clear();
-            for (std::size_t p = range.first; p < range.first + range.count; ++p)
-                if (m_state.passes[p] < m_state.wanted[p] && m_state.passes[p] == batch.pass)
-                    elements.push_back(static_cast<std::uint32_t>(p));
+            mostlyOpen.clear();
+            for (const RangeElement& element : order) {
+                const std::size_t p = element.point;
+                if (m_state.passes[p] == m_state.wanted[p] || m_state.passes[p] != batch.pass)
+                    continue;
+                elements.push_back(element);
+                mostlyOpen.push_back(isMostlyOpen(p) ? 1 : 0);
+            }
             if (elements.empty())
                 continue;
-            if (!tracer.trace(elements, batch.samples, mayStop, means))
+            if (!tracer.trace(elements, mostlyOpen, batch.samples, mayStop, means))
                 return false;
             rays += elements.size() * batch.samples.count();
             const bool halved = batch.pass == 0 && m_schedule.halvesFirst();
@@ -236,7 +272,7 @@ class PassRunner {
             // No checkpoint sees a range half changed.
             const std::shared_lock lock(m_commit);
             for (std::size_t e = 0; e < elements.size(); ++e) {
-                const std::size_t p = elements[e];
+                const std::size_t p = elements[e].point;
                 const std::span<float> values =
                     std::span(m_state.values).subspan(p * stride, stride);
                 const std::span<const float> fresh =
@@ -269,6 +305,15 @@ class PassRunner {
         return true;
     }
 
+    // From the passes before. The methods to compare with stay as they are known.
+    [[nodiscard]] bool isMostlyOpen(std::size_t point) const {
+        return m_settings.method == SampleMethod::Qmc && m_settings.shOrder > 0 &&
+               m_state.passes[point] > 0 &&
+               ambientVisibility(
+                   std::span<const float>(m_state.values)
+                       .subspan(point * static_cast<std::size_t>(m_settings.stride()), 1)) > 0.5f;
+    }
+
     void checkpoint() {
         if (!m_callbacks.checkpoint)
             return;
@@ -289,6 +334,9 @@ class PassRunner {
     const JobContext& m_job;
     PassState& m_state;
     Schedule m_schedule;
+    int m_cluster;
+    std::mutex m_idle; // guards m_idleTracers
+    std::vector<std::unique_ptr<RangeTracer>> m_idleTracers;
     std::atomic<std::size_t> m_rays = 0; // of all points, all passes
     double m_allRays = 0.0;
     std::shared_mutex m_commit; // held alone while a checkpoint is taken; guards m_lastCheckpoint
@@ -296,6 +344,10 @@ class PassRunner {
 };
 
 } // namespace
+
+std::size_t rangeSize(std::size_t pointCount) {
+    return std::clamp<std::size_t>(std::bit_ceil(pointCount / 256), 64, 2048);
+}
 
 Result<int> roundSamples(int samples, SampleMethod method) {
     if (samples < 1 || samples > kMaxSamples)

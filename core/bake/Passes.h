@@ -28,6 +28,10 @@ struct PointRange {
     std::size_t first = 0, count = 0;
 };
 
+// A good number of points per range: enough for neighbours to travel together, few enough for all
+// cores to share the work and for a picture that grows evenly.
+[[nodiscard]] std::size_t rangeSize(std::size_t pointCount);
+
 // Which ranges to compute: those of index r with r % count == index. The parts of all indices
 // together are, bit for bit, the whole.
 struct PassShard {
@@ -44,6 +48,7 @@ struct PassSettings {
     float maxDistance = 0.0f; // scene units; 0: unlimited
     std::uint32_t seed = 0;
     SampleMethod method = SampleMethod::Qmc; // Stratified makes one pass of all samples
+    int cluster = 0; // points that share directions: 1…1024; 0: as fits the scene's size
     PassShard shard;
     [[nodiscard]] int stride() const { return shOrder == 0 ? 1 : shOrder * shOrder; }
 };

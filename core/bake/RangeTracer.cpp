@@ -8,84 +8,161 @@
 
 namespace patina {
 namespace {
+
 constexpr std::size_t kStream = 1024; // rays per call: the fastest length that stays in the cache
+
+// The ten lowest bits of x, with two zeros after each.
+constexpr std::uint32_t spreadBits(std::uint32_t x) {
+    x = (x | (x << 16)) & 0x030000ffu;
+    x = (x | (x << 8)) & 0x0300f00fu;
+    x = (x | (x << 4)) & 0x030c30c3u;
+    return (x | (x << 2)) & 0x09249249u;
+}
+
 } // namespace
 
+void orderRange(std::span<const BakePoint> points, const PointRange& range, int cluster,
+                std::uint32_t seed, std::vector<RangeElement>& order) {
+    const std::span<const BakePoint> own = points.subspan(range.first, range.count);
+    glm::vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
+    for (const BakePoint& point : own) {
+        low = glm::min(low, point.origin);
+        high = glm::max(high, point.origin);
+    }
+    const float extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z, 1e-20f});
+    order.resize(range.count);
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        const glm::uvec3 cell((own[i].origin - low) * (1023.0f / extent));
+        order[i] = {static_cast<std::uint32_t>(range.first + i),
+                    spreadBits(cell.x) | (spreadBits(cell.y) << 1) | (spreadBits(cell.z) << 2)};
+    }
+    std::sort(order.begin(), order.end(), [](const RangeElement& a, const RangeElement& b) {
+        return a.seed != b.seed ? a.seed < b.seed : a.point < b.point; // still the Z-order
+    });
+    const auto size = static_cast<std::size_t>(cluster);
+    for (std::size_t i = 0; i < order.size(); ++i)
+        order[i].seed = i % size == 0 ? seedFor(seed, order[i].point) : order[i - 1].seed;
+}
+
 RangeTracer::RangeTracer(const RayScene& scene, std::span<const BakePoint> points,
-                         const PassSettings& settings, const JobContext& job)
+                         const PassSettings& settings, int cluster, const JobContext& job)
     : m_scene(scene)
     , m_points(points)
     , m_settings(settings)
+    , m_cluster(static_cast<std::size_t>(cluster))
     , m_job(job)
+    , m_maxDistance(settings.maxDistance > 0.0f ? settings.maxDistance
+                                                : std::numeric_limits<float>::infinity())
     , m_rays(kStream)
-    , m_open(kStream) {}
+    , m_kept(kStream) {
+    CHECK(cluster >= 1 && m_cluster <= kStream);
+    for (int l = 0; l < settings.shOrder; ++l)
+        m_cosine[static_cast<std::size_t>(l)] =
+            static_cast<float>(cosineConvolution(l) / cosineConvolution(0));
+}
 
-bool RangeTracer::trace(std::span<const std::uint32_t> elements, const HemisphereSamples& samples,
+bool RangeTracer::trace(std::span<const RangeElement> elements,
+                        std::span<const std::uint8_t> mostlyOpen, const HemisphereSamples& samples,
                         bool mayStop, RangeMeans& means) {
     const auto stride = static_cast<std::size_t>(m_settings.stride());
     means.values.assign(elements.size() * stride, 0.0f);
     means.hiddenSky.assign(elements.size(), 0.0f);
-    const float maxDistance = m_settings.maxDistance > 0.0f
-                                  ? m_settings.maxDistance
-                                  : std::numeric_limits<float>::infinity();
 
-    // A stream holds whole points, or a piece of one: sums then add up in the same order whatever
-    // points come along.
+    // A block has the same directions whatever elements come along, so that sums add up in the same
+    // order.
     const std::size_t rayCount = samples.count();
-    const std::size_t piece = std::min(rayCount, kStream);
-    const std::size_t together = kStream / piece;
-    for (std::size_t first = 0; first < elements.size(); first += together) {
-        const std::size_t end = std::min(first + together, elements.size());
+    const std::size_t piece = std::min(rayCount, kStream / m_cluster);
+    for (std::size_t first = 0, last = 0; first < elements.size(); first = last) {
+        while (last < elements.size() && elements[last].seed == elements[first].seed &&
+               last - first < m_cluster)
+            ++last;
         for (std::size_t begin = 0; begin < rayCount; begin += piece) {
-            if (m_job.cancelled() || (mayStop && m_job.stopping()))
-                return false;
-            const std::size_t length = std::min(piece, rayCount - begin);
-            std::size_t filled = 0;
-            for (std::size_t slot = first; slot < end; ++slot) {
-                const BakePoint& point = m_points[elements[slot]];
-                const std::uint32_t seed = seedFor(m_settings.seed, elements[slot]);
-                const glm::mat3 frame = HemisphereSamples::frame(point.normal, seed);
-                for (const glm::vec3& local :
-                     samples.directions(seed, m_scratch).subspan(begin, length)) {
-                    OcclusionRay& ray = m_rays[filled++];
-                    ray.origin = point.origin;
-                    ray.minDistance = 0.0f;
-                    ray.direction = frame * local;
-                    ray.maxDistance = maxDistance;
-                }
+            const std::size_t end = std::min(begin + piece, rayCount);
+            if (m_filled + (last - first) * (end - begin) > kStream) {
+                flush(mostlyOpen, means);
+                if (m_job.cancelled() || (mayStop && m_job.stopping()))
+                    return false;
             }
-            const std::span<OcclusionRay> rays(m_rays.data(), filled);
-            // Points and normals are finite and unit by construction (core/bake/BakeGeometry.h).
-            CHECK_EQ(m_scene.occlude(rays), std::size_t{0});
-            for (std::size_t slot = first; slot < end; ++slot)
-                collect(slot, rays.subspan((slot - first) * length, length), means);
+            addBlock({first, last, begin, end, m_filled}, elements, samples);
         }
     }
+    flush(mostlyOpen, means);
 
     const float scale = 1.0f / static_cast<float>(rayCount);
     for (float& value : means.values)
         value *= scale;
     for (float& value : means.hiddenSky)
         value *= scale;
+    for (std::size_t e = 0; m_settings.shOrder > 0 && e < elements.size(); ++e) {
+        if (mostlyOpen[e] == 0)
+            continue;
+        // All of the clamped cosine, less what is hidden: exact for open surfaces, and fewer
+        // directions to sum up.
+        std::array<float, shCount(kMaxShOrder)> basis;
+        evaluateSh(m_settings.shOrder, m_points[elements[e].point].normal, std::span<float>(basis));
+        float* value = means.values.data() + e * stride;
+        for (int l = 0, i = 0; l < m_settings.shOrder; ++l)
+            for (int m = -l; m <= l; ++m, ++i)
+                value[i] =
+                    m_cosine[static_cast<std::size_t>(l)] * basis[static_cast<std::size_t>(i)] -
+                    value[i];
+    }
     return true;
 }
 
+void RangeTracer::addBlock(const Block& block, std::span<const RangeElement> elements,
+                           const HemisphereSamples& samples) {
+    const std::size_t count = block.last - block.first;
+    const std::uint32_t seed = elements[block.first].seed;
+    m_frames.resize(count);
+    for (std::size_t e = 0; e < count; ++e)
+        m_frames[e] =
+            HemisphereSamples::frame(m_points[elements[block.first + e].point].normal, seed);
+    OcclusionRay* ray = m_rays.data() + m_filled;
+    for (const glm::vec3& local :
+         samples.directions(seed, m_scratch).subspan(block.begin, block.end - block.begin))
+        for (std::size_t e = 0; e < count; ++e, ++ray) {
+            ray->origin = m_points[elements[block.first + e].point].origin;
+            ray->minDistance = 0.0f;
+            ray->direction = m_frames[e] * local;
+            ray->maxDistance = m_maxDistance;
+        }
+    m_filled += count * (block.end - block.begin);
+    m_blocks.push_back(block);
+}
+
+void RangeTracer::flush(std::span<const std::uint8_t> mostlyOpen, RangeMeans& means) {
+    // Points and normals are finite and unit by construction (core/bake/BakeGeometry.h).
+    CHECK_EQ(m_scene.occlude({m_rays.data(), m_filled}), std::size_t{0});
+    for (const Block& block : m_blocks)
+        collect(block, mostlyOpen, means);
+    m_blocks.clear();
+    m_filled = 0;
+}
+
 // V Y_i(ω): with rays of density cos / pi the mean of it is ∫ V cos Y_i / pi dω.
-void RangeTracer::collect(std::size_t slot, std::span<const OcclusionRay> rays, RangeMeans& means) {
-    std::size_t open = 0, hiddenSky = 0;
-    for (const OcclusionRay& ray : rays) {
-        m_open[open] = ray.direction;
-        open += ray.occluded() ? 0 : 1;
-        hiddenSky += ray.occluded() && ray.direction.y > 0.0f ? 1 : 0;
+void RangeTracer::collect(const Block& block, std::span<const std::uint8_t> mostlyOpen,
+                          RangeMeans& means) {
+    const auto stride = static_cast<std::size_t>(m_settings.stride());
+    const std::size_t count = block.last - block.first, length = block.end - block.begin;
+    for (std::size_t e = 0; e < count; ++e) {
+        const std::size_t element = block.first + e;
+        const OcclusionRay* ray = m_rays.data() + block.ray + e;
+        const bool keepHidden = m_settings.shOrder > 0 && mostlyOpen[element] != 0;
+        std::size_t kept = 0, hiddenSky = 0;
+        for (std::size_t i = 0; i < length; ++i, ray += count) {
+            const bool hidden = ray->occluded();
+            m_kept[kept] = ray->direction;
+            kept += hidden == keepHidden ? 1 : 0;
+            hiddenSky += hidden && ray->direction.y > 0.0f ? 1 : 0;
+        }
+        means.hiddenSky[element] += static_cast<float>(hiddenSky);
+        const std::span<float> values = std::span(means.values).subspan(element * stride, stride);
+        if (m_settings.shOrder == 0)
+            values[0] += static_cast<float>(kept);
+        else
+            sumSh(m_settings.shOrder, {m_kept.data(), kept}, values);
     }
-    means.hiddenSky[slot] += static_cast<float>(hiddenSky);
-    if (m_settings.shOrder == 0)
-        means.values[slot] += static_cast<float>(open);
-    else
-        sumSh(m_settings.shOrder, {m_open.data(), open},
-              std::span(means.values)
-                  .subspan(slot * static_cast<std::size_t>(m_settings.stride()),
-                           static_cast<std::size_t>(m_settings.stride())));
 }
 
 } // namespace patina

@@ -4,38 +4,66 @@
 #include "core/bake/HemisphereSamples.h"
 #include "core/bake/Passes.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace patina {
 
-// Means over a batch of rays, for some points.
+// A point of a range, and the seed of its directions.
+struct RangeElement {
+    std::uint32_t point = 0, seed = 0;
+};
+
+// The points of a range along a Z-curve, so that neighbours follow each other; `cluster` of them
+// share a seed. Depends on the points of the range alone.
+void orderRange(std::span<const BakePoint> points, const PointRange& range, int cluster,
+                std::uint32_t seed, std::vector<RangeElement>& order);
+
+// Means over a batch of rays, for some elements.
 struct RangeMeans {
-    std::vector<float> values;    // stride per point
-    std::vector<float> hiddenSky; // 1 per point
+    std::vector<float> values;    // stride per element
+    std::vector<float> hiddenSky; // 1 per element
 };
 
 // Belongs to one thread. What it finds for a point does not depend on which points come with it.
 class RangeTracer {
   public:
     RangeTracer(const RayScene& scene, std::span<const BakePoint> points,
-                const PassSettings& settings, const JobContext& job);
+                const PassSettings& settings, int cluster, const JobContext& job);
 
-    // The rays of `samples` from the points `elements`; false when interrupted: by a cancel, and
-    // where `mayStop` by a stop.
-    [[nodiscard]] bool trace(std::span<const std::uint32_t> elements,
+    // The rays of `samples` from `elements`, in the order of orderRange(). `mostlyOpen`: 1 per
+    // element where more rays are expected to be free than not. False when interrupted: by a
+    // cancel, and where `mayStop` by a stop.
+    [[nodiscard]] bool trace(std::span<const RangeElement> elements,
+                             std::span<const std::uint8_t> mostlyOpen,
                              const HemisphereSamples& samples, bool mayStop, RangeMeans& means);
 
   private:
-    void collect(std::size_t slot, std::span<const OcclusionRay> rays, RangeMeans& means);
+    // Rays of one stream: directions `begin` … `end` of the elements `first` … `last`, direction
+    // after direction.
+    struct Block {
+        std::size_t first, last, begin, end, ray;
+    };
+
+    void addBlock(const Block& block, std::span<const RangeElement> elements,
+                  const HemisphereSamples& samples);
+    void flush(std::span<const std::uint8_t> mostlyOpen, RangeMeans& means);
+    void collect(const Block& block, std::span<const std::uint8_t> mostlyOpen, RangeMeans& means);
 
     const RayScene& m_scene;
     std::span<const BakePoint> m_points;
     const PassSettings& m_settings;
+    std::size_t m_cluster;
     const JobContext& m_job;
+    float m_maxDistance;
     std::vector<OcclusionRay> m_rays;
-    std::vector<glm::vec3> m_open, m_scratch;
+    std::size_t m_filled = 0;
+    std::vector<Block> m_blocks;
+    std::vector<glm::mat3> m_frames;
+    std::vector<glm::vec3> m_kept, m_scratch;
+    std::array<float, 8> m_cosine{}; // A_l / pi of each band
 };
 
 } // namespace patina

@@ -71,7 +71,7 @@ void keepSolid(const RTCFilterFunctionNArguments* args) {
 struct RayScene::Impl {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
-    std::size_t maxBytes = 0;
+    std::size_t maxBytes = 0, triangleCount = 0;
     std::atomic<std::ptrdiff_t> bytes{0};
     JobContext job;
     ForkJoin building; // Embree calls back from oneTBB's threads
@@ -92,6 +92,10 @@ namespace {
 
 // Below this many rays Embree's stream code costs more than it saves (measured).
 constexpr std::size_t kMinStream = 32;
+
+// Rays per triangle above which spatial splits pay: they take 0.6 µs per triangle to build and
+// save up to 0.01 µs per ray (measured).
+constexpr double kRaysForHigh = 100.0;
 
 Error refused(const BakeGeometry& geometry, RTCDevice device) {
     const RTCError code = device ? rtcGetDeviceError(device) : rtcGetDeviceError(nullptr);
@@ -128,9 +132,14 @@ RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 RayScene::~RayScene() = default;
 
 Result<RayScene> RayScene::build(const BakeGeometry& geometry, const JobContext& job,
-                                 std::size_t maxBytes) {
+                                 std::size_t maxBytes, double expectedRays) {
+    const RTCBuildQuality quality =
+        expectedRays >= kRaysForHigh * static_cast<double>(geometry.triangleCount())
+            ? RTC_BUILD_QUALITY_HIGH
+            : RTC_BUILD_QUALITY_MEDIUM;
     auto impl = std::make_unique<Impl>();
     impl->maxBytes = maxBytes;
+    impl->triangleCount = geometry.triangleCount();
     impl->job = job;
     impl->building.fork();
     impl->device = rtcNewDevice(nullptr);
@@ -150,7 +159,7 @@ Result<RayScene> RayScene::build(const BakeGeometry& geometry, const JobContext&
     impl->scene = rtcNewScene(impl->device);
     if (!impl->scene)
         return refused(geometry, impl->device);
-    rtcSetSceneBuildQuality(impl->scene, RTC_BUILD_QUALITY_MEDIUM);
+    rtcSetSceneBuildQuality(impl->scene, quality);
     rtcSetSceneProgressMonitorFunction(
         impl->scene,
         [](void* user, double) {
@@ -164,7 +173,7 @@ Result<RayScene> RayScene::build(const BakeGeometry& geometry, const JobContext&
         RTCGeometry triangles = rtcNewGeometry(impl->device, RTC_GEOMETRY_TYPE_TRIANGLE);
         if (!triangles)
             return refused(geometry, impl->device);
-        rtcSetGeometryBuildQuality(triangles, RTC_BUILD_QUALITY_MEDIUM);
+        rtcSetGeometryBuildQuality(triangles, quality);
         rtcSetSharedGeometryBuffer(triangles, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                    mesh.positions.data(), 0, sizeof(glm::vec3),
                                    mesh.positions.size());
@@ -240,6 +249,10 @@ std::size_t RayScene::intersect(std::span<ClosestRay> rays) const {
         for (std::size_t i = 0; i < rays.size(); ++i)
             rtcIntersect1(m_impl->scene, &context, embreeRays + i);
     return leftOut;
+}
+
+std::size_t RayScene::triangleCount() const {
+    return m_impl->triangleCount;
 }
 
 std::size_t RayScene::memoryBytes() const {

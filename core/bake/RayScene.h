@@ -47,13 +47,13 @@ struct alignas(16) ClosestRay {
 
 class RayScene {
   public:
-    // Builds the hierarchy (MEDIUM quality) over all triangles; both sides occlude, except where
+    // Builds the hierarchy over all triangles, the better the more rays are to come; both sides occlude, except where
     // a masked or blended surface lets the ray through. `geometry` must
     // outlive the scene: its vertices and indices are used in place. A build that needs more than
     // `maxBytes` (0: no limit) or that the system refuses memory is an Internal error; cancelling
     // stops the build.
     static Result<RayScene> build(const BakeGeometry& geometry, const JobContext& job,
-                                  std::size_t maxBytes = 0);
+                                  std::size_t maxBytes = 0, double expectedRays = 0.0);
     RayScene(RayScene&&) noexcept;
     RayScene& operator=(RayScene&&) noexcept;
     ~RayScene();
@@ -65,6 +65,7 @@ class RayScene {
     // What each ray meets first, under the same rules.
     std::size_t intersect(std::span<ClosestRay> rays) const;
 
+    [[nodiscard]] std::size_t triangleCount() const;
     [[nodiscard]] std::size_t memoryBytes() const; // of the hierarchy
 
   private:
