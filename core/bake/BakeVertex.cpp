@@ -24,8 +24,8 @@ Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings setting
     if (!geometry)
         return geometry.error();
     const std::size_t pointCount = geometry->vertexCount();
-    const Result<RayScene> scene = RayScene::build(
-        *geometry, job, 0, static_cast<double>(pointCount) * settings.samples);
+    const Result<RayScene> scene =
+        RayScene::build(*geometry, job, 0, static_cast<double>(pointCount) * settings.samples);
     if (!scene)
         return scene.error();
     settings.maxDistance *= static_cast<float>(geometry->unitsPerMetre);

@@ -2,7 +2,6 @@
 
 #include "core/bake/HemisphereSamples.h"
 #include "core/bake/RangeTracer.h"
-#include "core/bake/TransferMeaning.h"
 #include "core/bake/WorkOrder.h"
 #include "core/base/Check.h"
 #include "core/job/Parallel.h"
@@ -41,9 +40,9 @@ class Schedule {
     [[nodiscard]] int raysAfter(int passes) const {
         return passes == 0 ? 0 : m_first << (passes - 1);
     }
-    // The first pass can be halved, so that its error can be told.
+    // A pass that is the only one is halved, so that its error can be told.
     [[nodiscard]] bool halvesFirst() const {
-        return m_method != SampleMethod::Stratified && m_first > 1;
+        return m_passes == 1 && m_method != SampleMethod::Stratified && m_first > 1;
     }
 
   private:
@@ -127,6 +126,10 @@ class PassRunner {
             m_state.passes.resize(count);
             m_state.wanted.resize(count);
         }
+        // Embree aborts the process on rays that are not finite.
+        for (const BakePoint& point : m_points)
+            for (int axis = 0; axis < 3; ++axis)
+                CHECK(std::abs(point.origin[axis]) < 1e6f && std::abs(point.normal[axis]) < 2.0f);
         CHECK_EQ(m_state.values.size(), count * stride);
         CHECK_EQ(m_state.hiddenSky.size(), m_settings.shOrder > 0 ? count : 0);
         CHECK_EQ(m_state.error.size(), count);
@@ -244,23 +247,20 @@ class PassRunner {
         const auto stride = static_cast<std::size_t>(m_settings.stride());
         std::vector<RangeElement> order, elements;
         orderRange(m_points, range, m_cluster, m_settings.seed, order);
-        std::vector<std::uint8_t> mostlyOpen;
         RangeMeans means, firstHalf;
         std::size_t rays = 0;
         for (std::size_t b = 0; b < batches.size(); ++b) {
             const Batch& batch = batches[b];
             elements.clear();
-            mostlyOpen.clear();
             for (const RangeElement& element : order) {
                 const std::size_t p = element.point;
                 if (m_state.passes[p] == m_state.wanted[p] || m_state.passes[p] != batch.pass)
                     continue;
                 elements.push_back(element);
-                mostlyOpen.push_back(isMostlyOpen(p) ? 1 : 0);
             }
             if (elements.empty())
                 continue;
-            if (!tracer.trace(elements, mostlyOpen, batch.samples, mayStop, means))
+            if (!tracer.trace(elements, batch.samples, mayStop, means))
                 return false;
             rays += elements.size() * batch.samples.count();
             const bool halved = batch.pass == 0 && m_schedule.halvesFirst();
@@ -303,15 +303,6 @@ class PassRunner {
         m_job.setProgress(static_cast<double>(total) / m_allRays);
         checkpoint();
         return true;
-    }
-
-    // From the passes before. The methods to compare with stay as they are known.
-    [[nodiscard]] bool isMostlyOpen(std::size_t point) const {
-        return m_settings.method == SampleMethod::Qmc && m_settings.shOrder > 0 &&
-               m_state.passes[point] > 0 &&
-               ambientVisibility(
-                   std::span<const float>(m_state.values)
-                       .subspan(point * static_cast<std::size_t>(m_settings.stride()), 1)) > 0.5f;
     }
 
     void checkpoint() {

@@ -56,10 +56,11 @@ struct PassSettings {
 // How far a bake has come; what a checkpoint holds. Between ranges it may be copied, kept and gone
 // on from at any time: the outcome is bit for bit the same. Points of other shards stay zero.
 struct PassState {
-    std::vector<float> values;    // stride() per point: means over the rays so far
-    std::vector<float> hiddenSky; // transfer: 1 per point, the share of rays (density cos / pi)
-                                  // that went up (+Y) and met something
-    std::vector<float> error;     // 1 per point: estimated standard error of a value, RMS over them
+    std::vector<float> values;        // stride() per point: means over the rays so far
+    std::vector<float> hiddenSky;     // transfer: 1 per point, the share of rays (density cos / pi)
+                                      // that went up (+Y) and met something
+    std::vector<float> error;         // 1 per point: estimated standard error of a value, RMS over
+                                      // them; 0 while a first pass or Stratified cannot tell
     std::vector<std::uint8_t> passes; // 1 per point: passes its values rest on
     std::vector<std::uint8_t> wanted; // 1 per point: passes decided on; the pass in flight has
                                       // reached the points whose two numbers agree

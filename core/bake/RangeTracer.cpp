@@ -54,19 +54,21 @@ RangeTracer::RangeTracer(const RayScene& scene, std::span<const BakePoint> point
     , m_maxDistance(settings.maxDistance > 0.0f ? settings.maxDistance
                                                 : std::numeric_limits<float>::infinity())
     , m_rays(kStream)
-    , m_kept(kStream) {
+    , m_sorted(kStream) {
     CHECK(cluster >= 1 && m_cluster <= kStream);
     for (int l = 0; l < settings.shOrder; ++l)
         m_cosine[static_cast<std::size_t>(l)] =
             static_cast<float>(cosineConvolution(l) / cosineConvolution(0));
 }
 
-bool RangeTracer::trace(std::span<const RangeElement> elements,
-                        std::span<const std::uint8_t> mostlyOpen, const HemisphereSamples& samples,
+bool RangeTracer::trace(std::span<const RangeElement> elements, const HemisphereSamples& samples,
                         bool mayStop, RangeMeans& means) {
     const auto stride = static_cast<std::size_t>(m_settings.stride());
     means.values.assign(elements.size() * stride, 0.0f);
     means.hiddenSky.assign(elements.size(), 0.0f);
+    m_sumsHidden.assign(elements.size(), 0);
+    m_filled = 0; // an interrupted batch may have left some
+    m_blocks.clear();
 
     // A block has the same directions whatever elements come along, so that sums add up in the same
     // order.
@@ -79,26 +81,34 @@ bool RangeTracer::trace(std::span<const RangeElement> elements,
         for (std::size_t begin = 0; begin < rayCount; begin += piece) {
             const std::size_t end = std::min(begin + piece, rayCount);
             if (m_filled + (last - first) * (end - begin) > kStream) {
-                flush(mostlyOpen, means);
+                flush(means);
                 if (m_job.cancelled() || (mayStop && m_job.stopping()))
                     return false;
             }
             addBlock({first, last, begin, end, m_filled}, elements, samples);
         }
     }
-    flush(mostlyOpen, means);
+    flush(means);
 
     const float scale = 1.0f / static_cast<float>(rayCount);
     for (float& value : means.values)
         value *= scale;
     for (float& value : means.hiddenSky)
         value *= scale;
-    for (std::size_t e = 0; m_settings.shOrder > 0 && e < elements.size(); ++e) {
-        if (mostlyOpen[e] == 0)
+    if (m_settings.shOrder > 0)
+        subtractFromOpen(elements, means);
+    return true;
+}
+
+// All of the clamped cosine, less what is hidden: exact for open surfaces, and fewer directions to
+// sum up.
+void RangeTracer::subtractFromOpen(std::span<const RangeElement> elements,
+                                   RangeMeans& means) const {
+    const auto stride = static_cast<std::size_t>(m_settings.stride());
+    std::array<float, shCount(kMaxShOrder)> basis;
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+        if (m_sumsHidden[e] == 0)
             continue;
-        // All of the clamped cosine, less what is hidden: exact for open surfaces, and fewer
-        // directions to sum up.
-        std::array<float, shCount(kMaxShOrder)> basis;
         evaluateSh(m_settings.shOrder, m_points[elements[e].point].normal, std::span<float>(basis));
         float* value = means.values.data() + e * stride;
         for (int l = 0, i = 0; l < m_settings.shOrder; ++l)
@@ -107,7 +117,6 @@ bool RangeTracer::trace(std::span<const RangeElement> elements,
                     m_cosine[static_cast<std::size_t>(l)] * basis[static_cast<std::size_t>(i)] -
                     value[i];
     }
-    return true;
 }
 
 void RangeTracer::addBlock(const Block& block, std::span<const RangeElement> elements,
@@ -131,37 +140,44 @@ void RangeTracer::addBlock(const Block& block, std::span<const RangeElement> ele
     m_blocks.push_back(block);
 }
 
-void RangeTracer::flush(std::span<const std::uint8_t> mostlyOpen, RangeMeans& means) {
-    // Points and normals are finite and unit by construction (core/bake/BakeGeometry.h).
-    CHECK_EQ(m_scene.occlude({m_rays.data(), m_filled}), std::size_t{0});
+void RangeTracer::flush(RangeMeans& means) {
+    m_scene.occludeFinite({m_rays.data(), m_filled});
     for (const Block& block : m_blocks)
-        collect(block, mostlyOpen, means);
+        collect(block, means);
     m_blocks.clear();
     m_filled = 0;
 }
 
 // V Y_i(ω): with rays of density cos / pi the mean of it is ∫ V cos Y_i / pi dω.
-void RangeTracer::collect(const Block& block, std::span<const std::uint8_t> mostlyOpen,
-                          RangeMeans& means) {
+void RangeTracer::collect(const Block& block, RangeMeans& means) {
     const auto stride = static_cast<std::size_t>(m_settings.stride());
     const std::size_t count = block.last - block.first, length = block.end - block.begin;
     for (std::size_t e = 0; e < count; ++e) {
-        const std::size_t element = block.first + e;
+        // Open directions from the front of m_sorted, hidden ones from the back.
         const OcclusionRay* ray = m_rays.data() + block.ray + e;
-        const bool keepHidden = m_settings.shOrder > 0 && mostlyOpen[element] != 0;
-        std::size_t kept = 0, hiddenSky = 0;
+        std::size_t open = 0, hiddenBegin = length, hiddenSky = 0;
         for (std::size_t i = 0; i < length; ++i, ray += count) {
-            const bool hidden = ray->occluded();
-            m_kept[kept] = ray->direction;
-            kept += hidden == keepHidden ? 1 : 0;
-            hiddenSky += hidden && ray->direction.y > 0.0f ? 1 : 0;
+            const std::size_t hidden = ray->occluded() ? 1 : 0;
+            hiddenBegin -= hidden;
+            m_sorted[hidden != 0 ? hiddenBegin : open] = ray->direction;
+            open += 1 - hidden;
+            hiddenSky += hidden & (ray->direction.y > 0.0f ? 1 : 0);
         }
+        const std::size_t element = block.first + e;
         means.hiddenSky[element] += static_cast<float>(hiddenSky);
         const std::span<float> values = std::span(means.values).subspan(element * stride, stride);
-        if (m_settings.shOrder == 0)
-            values[0] += static_cast<float>(kept);
+        if (m_settings.shOrder == 0) {
+            values[0] += static_cast<float>(open);
+            continue;
+        }
+        // The first directions tell which of the two are fewer. The methods to compare with stay
+        // as they are known.
+        if (block.begin == 0 && m_settings.method == SampleMethod::Qmc)
+            m_sumsHidden[element] = 2 * open > length ? 1 : 0;
+        if (m_sumsHidden[element] != 0)
+            sumSh(m_settings.shOrder, {m_sorted.data() + open, length - open}, values);
         else
-            sumSh(m_settings.shOrder, {m_kept.data(), kept}, values);
+            sumSh(m_settings.shOrder, {m_sorted.data(), open}, values);
     }
 }
 

@@ -33,11 +33,9 @@ class RangeTracer {
     RangeTracer(const RayScene& scene, std::span<const BakePoint> points,
                 const PassSettings& settings, int cluster, const JobContext& job);
 
-    // The rays of `samples` from `elements`, in the order of orderRange(). `mostlyOpen`: 1 per
-    // element where more rays are expected to be free than not. False when interrupted: by a
-    // cancel, and where `mayStop` by a stop.
+    // The rays of `samples` from `elements`, in the order of orderRange(). False when interrupted:
+    // by a cancel, and where `mayStop` by a stop.
     [[nodiscard]] bool trace(std::span<const RangeElement> elements,
-                             std::span<const std::uint8_t> mostlyOpen,
                              const HemisphereSamples& samples, bool mayStop, RangeMeans& means);
 
   private:
@@ -49,8 +47,9 @@ class RangeTracer {
 
     void addBlock(const Block& block, std::span<const RangeElement> elements,
                   const HemisphereSamples& samples);
-    void flush(std::span<const std::uint8_t> mostlyOpen, RangeMeans& means);
-    void collect(const Block& block, std::span<const std::uint8_t> mostlyOpen, RangeMeans& means);
+    void flush(RangeMeans& means);
+    void collect(const Block& block, RangeMeans& means);
+    void subtractFromOpen(std::span<const RangeElement> elements, RangeMeans& means) const;
 
     const RayScene& m_scene;
     std::span<const BakePoint> m_points;
@@ -62,7 +61,8 @@ class RangeTracer {
     std::size_t m_filled = 0;
     std::vector<Block> m_blocks;
     std::vector<glm::mat3> m_frames;
-    std::vector<glm::vec3> m_kept, m_scratch;
+    std::vector<std::uint8_t> m_sumsHidden; // per element: its sum is of hidden directions
+    std::vector<glm::vec3> m_sorted, m_scratch;
     std::array<float, 8> m_cosine{}; // A_l / pi of each band
 };
 

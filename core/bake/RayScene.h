@@ -47,8 +47,8 @@ struct alignas(16) ClosestRay {
 
 class RayScene {
   public:
-    // Builds the hierarchy over all triangles, the better the more rays are to come; both sides occlude, except where
-    // a masked or blended surface lets the ray through. `geometry` must
+    // Builds the hierarchy over all triangles, the better the more rays are to come; both sides
+    // occlude, except where a masked or blended surface lets the ray through. `geometry` must
     // outlive the scene: its vertices and indices are used in place. A build that needs more than
     // `maxBytes` (0: no limit) or that the system refuses memory is an Internal error; cancelling
     // stops the build.
@@ -58,10 +58,12 @@ class RayScene {
     RayScene& operator=(RayScene&&) noexcept;
     ~RayScene();
 
-    // Answers every ray in place; 256 to 2048 at a time are fastest. This is the one way to Embree,
-    // which aborts the process on rays that are not finite: such rays, and rays without direction,
+    // Answers every ray in place; 256 to 2048 at a time are fastest. Embree
+    // aborts the process on rays that are not finite: such rays, and rays without direction,
     // are left out, count as not occluded, and their number is returned. Callable from any thread.
     std::size_t occlude(std::span<OcclusionRay> rays) const;
+    // The same for rays that are finite for certain: not a look is spent on that.
+    void occludeFinite(std::span<OcclusionRay> rays) const;
     // What each ray meets first, under the same rules.
     std::size_t intersect(std::span<ClosestRay> rays) const;
 

@@ -213,12 +213,19 @@ void sumSh(int order, std::span<const glm::vec3> directions, std::span<float> su
                                            Lanes{d[0].y, d[1].y, d[2].y, d[3].y},
                                            Lanes{d[0].z, d[1].z, d[2].z, d[3].z},
                                            [&](int i, const Lanes& value) { total[i] += value; });
-        float rest[kCount] = {};
-        for (; left > 0; --left, ++d)
-            evaluate<constantOrder, float>(d->x, d->y, d->z,
-                                           [&](int i, float value) { rest[i] += value; });
+        if (left > 0) { // the last few, in lanes that count and lanes that do not
+            Lanes x = {}, y = {}, z = {}, counts = {};
+            for (std::size_t lane = 0; lane < left; ++lane) {
+                x[lane] = d[lane].x;
+                y[lane] = d[lane].y;
+                z[lane] = d[lane].z;
+                counts[lane] = 1.0f;
+            }
+            evaluate<constantOrder, float>(
+                x, y, z, [&](int i, const Lanes& value) { total[i] += counts * value; });
+        }
         for (int i = 0; i < kCount; ++i)
-            sums[i] += ((total[i][0] + total[i][1]) + (total[i][2] + total[i][3])) + rest[i];
+            sums[i] += (total[i][0] + total[i][1]) + (total[i][2] + total[i][3]);
     });
 }
 
