@@ -367,8 +367,14 @@ class Parser {
             ->check(plain(CLI::Range(1, 32768)))
             ->type_name("N");
         addBakeFiles(c, "--bakes", o.bakes,
-                     "Bake file to take along: occlusion per texel (repeatable)");
+                     "Bake file to take along: occlusion per texel, radiance transfer per vertex "
+                     "(repeatable)");
         c->add_flag("--no-baked-ao", o.noBakedAo, "Leave a project's baked occlusion out");
+        c->add_flag("--no-transfer", o.noTransfer, "Leave a project's radiance transfer out");
+        c->add_option("--transfer-bands", o.transferBands,
+                      "Bands of the radiance transfer to take along (default: all)")
+            ->check(plain(CLI::Range(1, 8)))
+            ->type_name("N");
         c->add_flag("--environment-light", o.environmentLight,
                     "Take the environment's light along (EXT_lights_image_based)");
         CLI::Option* environment =

@@ -45,6 +45,8 @@ Result<void> run(Session& session, const ExportOptions& options) {
     settings.textures = options.jpeg ? ExportTextureFormat::Jpeg : ExportTextureFormat::Png;
     settings.maxTextureSize = options.textureSize;
     settings.includeBakedAo = !options.noBakedAo;
+    settings.includeTransfer = !options.noTransfer;
+    settings.transferBands = options.transferBands;
     settings.includeLights = !options.noLights;
     settings.includeEnvironment = options.environmentLight || !options.environment.empty();
 
@@ -53,6 +55,8 @@ Result<void> run(Session& session, const ExportOptions& options) {
                                  {"textures", options.jpeg ? "jpg" : "png"},
                                  {"textureSize", options.textureSize},
                                  {"bakedAo", settings.includeBakedAo},
+                                 {"transfer", settings.includeTransfer},
+                                 {"transferBands", settings.transferBands},
                                  {"lights", settings.includeLights},
                                  {"environmentLight", settings.includeEnvironment}};
     session.beginPhase();

@@ -82,7 +82,8 @@ struct ExportOptions {
     std::string environment;       // replaces the scene's, and is taken along
     std::string environmentLayout; // of it; empty: guessed
     bool environmentLight = false; // takes the scene's along
-    bool noLights = false, noBakedAo = false, dryRun = false;
+    int transferBands = 0;         // 0: all
+    bool noLights = false, noBakedAo = false, noTransfer = false, dryRun = false;
 };
 
 struct CompareOptions {

@@ -114,6 +114,10 @@ QWidget* ExportDialog::makeSettings() {
 
     m_bakedAo = withHelp(new QCheckBox(tr("Baked ambient occlusion as occlusion texture")),
                          tr("Uses the attached ambient occlusion texture bake"));
+    m_transfer = withHelp(
+        new QCheckBox(tr("Radiance transfer as vertex attributes _PRT_n")),
+        tr("Uses the attached radiance transfer bake per vertex; writes the light as JSON and a "
+           "shader that multiplies the two"));
     m_lights = withHelp(new QCheckBox(tr("Lights (KHR_lights_punctual)")),
                         tr("Writes point and directional lights"));
     m_visible = withHelp(new QCheckBox(tr("Visible meshes only")), tr("Leaves hidden meshes out"));
@@ -121,7 +125,7 @@ QWidget* ExportDialog::makeSettings() {
         new QCheckBox(tr("Environment's light (EXT_lights_image_based)")),
         tr("Writes the surroundings' light into the file; few programs read it, Babylon.js does"));
     m_environment->setObjectName(QStringLiteral("exportEnvironment"));
-    for (QCheckBox* box : {m_bakedAo, m_lights, m_environment, m_visible}) {
+    for (QCheckBox* box : {m_bakedAo, m_transfer, m_lights, m_environment, m_visible}) {
         box->setChecked(box != m_environment);
         form->addRow(QString(), box);
         connect(box, &QCheckBox::toggled, this, &ExportDialog::refresh);
@@ -139,6 +143,7 @@ ExportSettings ExportDialog::settings() const {
     settings.textures = static_cast<ExportTextureFormat>(m_textures->currentData().toInt());
     settings.maxTextureSize = m_size->currentData().toInt();
     settings.includeBakedAo = m_bakedAo->isChecked();
+    settings.includeTransfer = m_transfer->isChecked();
     settings.includeLights = m_lights->isChecked();
     settings.includeEnvironment = m_environment->isChecked();
     settings.visibleOnly = m_visible->isChecked();

@@ -37,6 +37,7 @@ class ExportDialog : public QDialog {
     QComboBox* m_textures = nullptr;
     QComboBox* m_size = nullptr;
     QCheckBox* m_bakedAo = nullptr;
+    QCheckBox* m_transfer = nullptr;
     QCheckBox* m_lights = nullptr;
     QCheckBox* m_environment = nullptr;
     QCheckBox* m_visible = nullptr;

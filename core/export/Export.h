@@ -23,6 +23,8 @@ struct ExportSettings {
     ExportTextureFormat textures = ExportTextureFormat::Png;
     int maxTextureSize = 0;          // 0: as they are
     bool includeBakedAo = true;      // an attached AoTexel bake becomes the occlusion texture
+    bool includeTransfer = true;     // an attached PrtVertex bake becomes attributes _PRT_n
+    int transferBands = 0;           // the first so many of its bands; 0: all
     bool includeLights = true;       // KHR_lights_punctual
     bool includeEnvironment = false; // EXT_lights_image_based
     bool visibleOnly = true;

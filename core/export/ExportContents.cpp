@@ -1,6 +1,7 @@
 #include "core/export/ExportContents.h"
 
 #include "core/bake/Bake.h"
+#include "core/document/Edit.h"
 #include "core/document/ModelPresets.h"
 #include "core/export/GltfEnvironment.h"
 #include "core/export/Names.h"
@@ -47,13 +48,42 @@ void warnAboutBakes(const Document& document, const ExportSettings& settings,
         if (bake->kind == BakeKind::AoVertex)
             warnings.emplace_back("glTF has no place for ambient occlusion per vertex; bake it per "
                                   "texel to take it along");
-        else if (holdsTransfer(bake->kind))
-            warnings.emplace_back("glTF has no place for radiance transfer; it stays in the bake's "
-                                  "own EXR file");
-        else if (settings.includeBakedAo && bake->inputs != hashBakeInputs(bakeInputs(document)))
+        else if (bake->kind == BakeKind::PrtTexel)
+            warnings.emplace_back("glTF has no place for radiance transfer per texel; it stays in "
+                                  "the bake's own EXR file (per vertex is taken along)");
+        else if (bake->kind == BakeKind::PrtVertex && settings.includeTransfer &&
+                 bake->inputs != hashBakeInputs(bakeInputs(document)))
+            warnings.emplace_back("the baked radiance transfer is older than the geometry; bake it "
+                                  "again to make it fit");
+        else if (bake->kind == BakeKind::AoTexel && settings.includeBakedAo &&
+                 bake->inputs != hashBakeInputs(bakeInputs(document)))
             warnings.emplace_back("the baked ambient occlusion is older than the geometry; bake it "
                                   "again to make it fit");
     }
+}
+
+// Meshes whose vertices the bake has values for.
+void addTransfer(const Document& document, const ExportSettings& settings,
+                 ExportContents& contents) {
+    const BakeArtifactPtr bake = findBake(document, BakeKind::PrtVertex);
+    if (!settings.includeTransfer || bake == nullptr)
+        return;
+    for (ExportedInstance& exported : contents.instances)
+        for (const VertexBake& vertices : bake->vertices)
+            if (vertices.mesh == exported.instance->id && vertices.stride > 0 &&
+                vertices.values.size() == exported.instance->mesh->vertexCount() *
+                                              static_cast<std::size_t>(vertices.stride)) {
+                exported.transfer = &vertices;
+                contents.transfer = bake;
+            }
+    if (contents.transfer == nullptr)
+        return;
+    contents.transferLayout = transferLayout(*bake, settings.transferBands);
+    if (contents.transferLayout.attributes() > kCommonAttributes)
+        contents.warnings.push_back(fmt::format(
+            "the radiance transfer takes {} vertex attributes, of which many programs read only "
+            "{}; export fewer bands",
+            contents.transferLayout.attributes(), kCommonAttributes));
 }
 
 // Solo is for looking: lights that are switched on are exported whether or not another one is solo.
@@ -91,6 +121,16 @@ std::filesystem::path ExportContents::texturePath(const ExportSettings& settings
     return settings.output.parent_path() / name;
 }
 
+std::filesystem::path ExportContents::transferLightPath(const ExportSettings& settings) const {
+    const std::string stem = fileSafeName(settings.output.stem().string(), "scene");
+    return settings.output.parent_path() / (stem + "-light.json");
+}
+
+std::filesystem::path ExportContents::transferShaderPath(const ExportSettings& settings) const {
+    const std::string stem = fileSafeName(settings.output.stem().string(), "scene");
+    return settings.output.parent_path() / (stem + "-prt.glsl");
+}
+
 std::filesystem::path ExportContents::environmentPath(const ExportSettings& settings) const {
     const std::filesystem::path& file =
         settings.format == ExportFormat::Glb ? settings.output : buffer;
@@ -100,6 +140,7 @@ std::filesystem::path ExportContents::environmentPath(const ExportSettings& sett
 ExportContents gatherContents(const Document& document, const ExportSettings& settings) {
     ExportContents contents;
     addInstances(document, settings, contents);
+    addTransfer(document, settings, contents);
     if (settings.includeLights)
         for (const Light& light : document.lights)
             if (light.enabled)

@@ -5,6 +5,7 @@
 #include "core/export/Export.h"
 #include "core/export/NodeTransform.h"
 #include "core/export/TexturePacking.h"
+#include "core/export/TransferExport.h"
 
 #include <filesystem>
 #include <string>
@@ -16,6 +17,7 @@ struct ExportedInstance {
     const MeshInstance* instance = nullptr;
     std::vector<NodeTransform> transform; // nested nodes, outermost first
     int material = -1;                    // index into ExportContents::materials; -1: none
+    const VertexBake* transfer = nullptr;
 };
 
 // Points into the document it was made from.
@@ -24,6 +26,8 @@ struct ExportContents {
     std::vector<const Material*> materials; // used by an instance
     std::vector<const Light*> lights;
     const Environment* environment = nullptr; // its light is exported
+    BakeArtifactPtr transfer;                 // or null
+    TransferLayout transferLayout;            // of it
     TexturePlan textures;
     std::filesystem::path buffer; // of a .gltf: the .bin beside it; empty for GLB
     std::vector<std::string> warnings;
@@ -31,6 +35,9 @@ struct ExportContents {
     // Where a texture goes: the file beside a .gltf, "OUT.glb#NAME" inside a GLB.
     [[nodiscard]] std::filesystem::path texturePath(const ExportSettings& settings,
                                                     const PackedTexture& texture) const;
+    // The light and the shader of transfer, files beside the scene.
+    [[nodiscard]] std::filesystem::path transferLightPath(const ExportSettings& settings) const;
+    [[nodiscard]] std::filesystem::path transferShaderPath(const ExportSettings& settings) const;
     // The images of the environment always lie in the buffer.
     [[nodiscard]] std::filesystem::path environmentPath(const ExportSettings& settings) const;
 };

@@ -32,6 +32,14 @@ ExportPlan planExport(const Document& document, const ExportSettings& settings) 
              fmt::format("Environment's light: {} levels of 6 faces, irradiance",
                          kGltfEnvironmentLevels),
              "linear", fmt::format("PNG 8-bit RGBD {0} × {0}", kGltfEnvironmentSize), true});
+    if (contents.transfer != nullptr) {
+        const TransferLayout& layout = contents.transferLayout;
+        add({contents.transferLightPath(settings),
+             fmt::format("Light for radiance transfer: {} bands", layout.bands), "linear", "JSON"});
+        add({contents.transferShaderPath(settings),
+             fmt::format("Shader for the attributes _PRT_0 to _PRT_{}", layout.attributes() - 1),
+             "", "GLSL"});
+    }
     return plan;
 }
 

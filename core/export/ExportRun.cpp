@@ -24,6 +24,11 @@ Error cancelled() {
     return {ErrorKind::Cancelled, "the export was cancelled; nothing was written", {}, {}};
 }
 
+Bytes bytesOf(const std::string& text) {
+    const auto bytes = std::as_bytes(std::span(text));
+    return {bytes.begin(), bytes.end()};
+}
+
 // Textures take the time: each is packed and encoded on its own core.
 Result<std::vector<Bytes>> encodeTextures(WorkerClient& worker,
                                           const std::vector<PackedTexture>& textures,
@@ -79,7 +84,8 @@ bool matchesPlan(const ExportPlan& plan, const ExportContents& contents) {
     const std::size_t own = plan.settings.format == ExportFormat::Glb ? 1 : 2;
     const std::vector<PackedTexture>& textures = contents.textures.textures;
     const std::size_t environment = contents.environment != nullptr ? 1 : 0;
-    if (plan.files.size() != own + textures.size() + environment)
+    const std::size_t transfer = contents.transfer != nullptr ? 2 : 0;
+    if (plan.files.size() != own + textures.size() + environment + transfer)
         return false;
     for (std::size_t i = 0; i < textures.size(); ++i)
         if (plan.files[own + i].path != contents.texturePath(plan.settings, textures[i]) ||
@@ -123,6 +129,15 @@ Result<std::vector<fs::path>> runExport(WorkerClient& worker, const Document& do
         return gltf.error();
 
     std::vector<FileToWrite> files;
+    if (contents.transfer != nullptr) {
+        const fs::path light = contents.transferLightPath(settings);
+        const std::string json = transferLightJson(document, contents.transferLayout, job);
+        files.push_back({light, bytesOf(json)});
+        files.push_back(
+            {contents.transferShaderPath(settings),
+             bytesOf(transferShader(contents.transferLayout, settings.output.filename().string(),
+                                    light.filename().string()))});
+    }
     if (glb) {
         files.push_back({settings.output, packGlb(*gltf)});
     } else {
@@ -130,8 +145,7 @@ Result<std::vector<fs::path>> runExport(WorkerClient& worker, const Document& do
             files.push_back({contents.texturePath(settings, contents.textures.textures[i]),
                              std::move((*images)[i])});
         files.push_back({contents.buffer, std::move(gltf->buffer)});
-        const auto json = std::as_bytes(std::span(gltf->json));
-        files.push_back({settings.output, Bytes(json.begin(), json.end())});
+        files.push_back({settings.output, bytesOf(gltf->json)});
     }
     Result<std::vector<fs::path>> written = writeAll(std::move(files), job);
     if (written)

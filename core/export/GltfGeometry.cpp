@@ -73,6 +73,10 @@ int GltfGeometry::addAccessor(const std::vector<T>& values, const char* type, in
     return static_cast<int>(m_accessors.size()) - 1;
 }
 
+int GltfGeometry::addAttribute(const std::vector<glm::vec4>& values) {
+    return addAccessor(values, "VEC4", kFloat, kArrayBuffer);
+}
+
 Json GltfGeometry::primitive(const Mesh& mesh, bool tangents) {
     if (const auto known = m_known.find(&mesh); known != m_known.end())
         return known->second;

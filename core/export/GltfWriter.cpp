@@ -4,14 +4,17 @@
 #include "core/export/GltfEnvironment.h"
 #include "core/export/GltfGeometry.h"
 #include "core/export/Names.h"
+#include "core/export/ShFile.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <fmt/format.h>
 #include <glm/trigonometric.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace patina {
@@ -54,8 +57,9 @@ class Writer {
 
   private:
     void writeInstances() {
-        // A mesh is written once for each material it is seen with; its numbers only once.
-        std::map<std::pair<const Mesh*, int>, int> known;
+        // A mesh is written once for each material it is seen with, and for each place whose light
+        // is baked; its numbers only once.
+        std::map<std::tuple<const Mesh*, int, const VertexBake*>, int> known;
         std::set<const Mesh*> needTangents;
         for (const ExportedInstance& exported : m_contents.instances)
             if (exported.material >= 0 && textures(exported.material).normal.texture >= 0)
@@ -65,12 +69,14 @@ class Writer {
         for (const ExportedInstance& exported : m_contents.instances) {
             const MeshInstance& instance = *exported.instance;
             const Mesh& mesh = *instance.mesh;
-            const auto [entry, isNew] =
-                known.try_emplace({&mesh, exported.material}, static_cast<int>(m_meshes.size()));
+            const auto [entry, isNew] = known.try_emplace(
+                {&mesh, exported.material, exported.transfer}, static_cast<int>(m_meshes.size()));
             if (isNew) {
                 Json primitive = m_geometry.primitive(mesh, needTangents.contains(&mesh));
                 if (exported.material >= 0)
                     primitive["material"] = exported.material;
+                if (exported.transfer != nullptr)
+                    addTransfer(primitive["attributes"], *exported.transfer);
                 const std::string name = cleanName(mesh.name, cleanName(instance.name, "Mesh"));
                 m_meshes.push_back(
                     {{"name", meshNames.take(name)}, {"primitives", Json::array({primitive})}});
@@ -79,6 +85,12 @@ class Writer {
             addNode(node, exported.transform, {{"mesh", entry->second}});
         }
         m_nodeNames = std::move(nodeNames);
+    }
+
+    void addTransfer(Json& attributes, const VertexBake& bake) {
+        const auto values = transferAttributes(bake, m_contents.transferLayout);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            attributes[fmt::format("_PRT_{}", i)] = m_geometry.addAttribute(values[i]);
     }
 
     // Nested nodes for a chain of transforms; `payload` belongs to the innermost.
@@ -275,6 +287,18 @@ class Writer {
             root["extensions"]["EXT_lights_image_based"]["lights"] =
                 Json::array({m_environmentLight});
             root["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 0;
+        }
+        if (m_contents.transfer != nullptr) {
+            const TransferLayout& layout = m_contents.transferLayout;
+            root["extras"]["patinaTransfer"] = {
+                {"bands", layout.bands},
+                {"colors", layout.colored ? 3 : 1},
+                {"attributes", layout.attributes()},
+                {"light", m_contents.transferLightPath(m_settings).filename().string()},
+                {"shader", m_contents.transferShaderPath(m_settings).filename().string()},
+                {"formula", "radiance = base colour * max(0, sum L_i t_i); t_i four to a _PRT_n; "
+                            "of three colours red first, then green, then blue"},
+                {"basis", kShBasisText}};
         }
         return root.dump(m_settings.format == ExportFormat::Gltf ? 2 : -1);
     }

@@ -15,8 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kBasis = "real, orthonormal, Condon-Shortley phase: Y_00 = 0.282095, "
-                               "Y_1-1 = -0.488603 y, Y_10 = 0.488603 z, Y_11 = -0.488603 x";
 constexpr const char* kOrder = "index l(l+1)+m: l = 0, 1 …, m = -l … l";
 constexpr const char* kFrame = "right-handed, +Y up; the middle of a lat-long image is -Z";
 
@@ -55,7 +53,7 @@ std::string shJson(std::span<const glm::vec3> coefficients, ShQuantity quantity)
     root["version"] = 1;
     root["quantity"] = nameOf(quantity);
     root["formula"] = formulaOf(quantity);
-    root["basis"] = kBasis;
+    root["basis"] = kShBasisText;
     root["order"] = kOrder;
     root["frame"] = kFrame;
     root["color"] = "linear, Rec. 709 primaries: R, G, B";
@@ -87,7 +85,7 @@ std::string shText(std::span<const glm::vec3> coefficients, ShQuantity quantity)
     std::string text =
         fmt::format("# Spherical harmonics of {}, {} bands\n# {}\n# {}\n# {}\n# {}\n"
                     "# l m R G B, linear, Rec. 709 primaries\n",
-                    nameOf(quantity), order, formulaOf(quantity), kBasis, kOrder, kFrame);
+                    nameOf(quantity), order, formulaOf(quantity), kShBasisText, kOrder, kFrame);
     for (int l = 0; l < order; ++l)
         for (int m = -l; m <= l; ++m) {
             const glm::vec3& c = coefficients[static_cast<std::size_t>(shIndex(l, m))];

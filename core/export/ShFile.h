@@ -7,6 +7,11 @@
 
 namespace patina {
 
+// The basis of all of our files of spherical harmonics, in words.
+inline constexpr const char* kShBasisText =
+    "real, orthonormal, Condon-Shortley phase: Y_00 = 0.282095, Y_1-1 = -0.488603 y, "
+    "Y_10 = 0.488603 z, Y_11 = -0.488603 x";
+
 enum class ShQuantity {
     Radiance,  // L(d) of the environment
     Irradiance // E(n) = ∫ L(d) max(n·d, 0) dd; a white Lambertian surface reflects E / pi

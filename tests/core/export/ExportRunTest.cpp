@@ -226,14 +226,14 @@ TEST_F(ExportRun, SaysThatTheShadingModelStaysBehind) {
 
 TEST_F(ExportRun, ThePlanTellsWhatIsLost) {
     BakeArtifact prt, stale;
-    prt.kind = BakeKind::PrtVertex;
+    prt.kind = BakeKind::PrtTexel;
     stale.kind = BakeKind::AoTexel;
     stale.inputs = {1, 2};
     stale.texels.push_back({m_document.materials[0].id, codes(2, 2, 1, {9})});
     m_document.bakes = {std::make_shared<const BakeArtifact>(prt),
                         std::make_shared<const BakeArtifact>(stale)};
     EXPECT_THAT(planExport(m_document, settings("scene.glb")).warnings,
-                ElementsAre(HasSubstr("radiance transfer"), HasSubstr("older than the geometry")));
+                ElementsAre(HasSubstr("radiance transfer per texel"), HasSubstr("older than the geometry")));
 }
 
 TEST_F(ExportRun, PunctualLightsComeBackAsTheyWent) {
