@@ -1,5 +1,7 @@
+#include "app/cli/BakeInfo.h"
 #include "app/cli/Commands.h"
 #include "app/cli/SceneSetup.h"
+#include "core/bake/BakeHeader.h"
 #include "core/document/EnvironmentFile.h"
 #include "core/document/Lights.h"
 #include "core/document/Scene.h"
@@ -119,13 +121,6 @@ void describeMaterials(Report& report, const Document& document) {
     }
 }
 
-const char* kindText(BakeKind kind) {
-    return kind == BakeKind::AoTexel    ? "ambient occlusion per texel"
-           : kind == BakeKind::AoVertex ? "ambient occlusion per vertex"
-           : kind == BakeKind::PrtTexel ? "radiance transfer per texel"
-                                        : "radiance transfer per vertex";
-}
-
 void describeScene(Report& report, const OpenedScene& scene) {
     const Document& document = scene.document;
     const Bounds bounds = document.bounds();
@@ -196,8 +191,7 @@ Result<void> describeImage(Session& session, const std::string& file) {
     Result<ImageInfo> info = inspectImage(session.worker(), file);
     if (!info)
         return info.error();
-    const bool bake = std::any_of(info->attributes.begin(), info->attributes.end(),
-                                  [](auto& a) { return a.first.starts_with("patina:"); });
+    const bool bake = isBakeFile(info->attributes);
     const std::optional<EnvironmentPicture> surroundings =
         bake ? std::nullopt : surroundingsOf(session, file, *info);
     const char* kind = bake ? "bake" : surroundings ? "environment" : "image";
@@ -237,10 +231,18 @@ Result<void> describeImage(Session& session, const std::string& file) {
     if (info->partNames.size() > 1)
         rows.emplace_back("parts", fmt::format("{}", fmt::join(info->partNames, ", ")));
     for (const auto& [key, value] : info->attributes)
-        if (value.size() <= 200)
+        if (!bake && value.size() <= 200)
             rows.emplace_back(key, value);
     report.table({}, rows);
-    return {};
+    if (!bake)
+        return {};
+    ImageLoadOptions options; // all of it: what is damaged or cut short is found
+    options.sanitize = false;
+    options.allParts = true;
+    const Result<LoadedImage> parts = loadImage(session.worker(), file, options);
+    if (!parts)
+        return parts.error();
+    return describeBake(report, parts->parts, file);
 }
 
 bool isScene(const std::string& file) {

@@ -274,7 +274,13 @@ TEST_F(Commands, BakeReportsItsWorkAndInfoReadsIt) {
     EXPECT_GT(json["counts"]["vertices"], 100);
     nlohmann::json info = runPatina({"info", m_folder / "p.exr", "--json"}).json();
     EXPECT_EQ(info["kind"], "bake");
-    EXPECT_EQ(info["channels"], 4); // order 2: four coefficients
+    EXPECT_EQ(info["bake"]["kind"], "radiance transfer per vertex");
+    EXPECT_EQ(info["bake"]["order"], 2);
+    EXPECT_EQ(info["bake"]["transfer"], "shadowed");
+    EXPECT_EQ(info["bake"]["storage"], "float");
+    EXPECT_EQ(info["bake"]["settings"]["samples"], "64");
+    EXPECT_EQ(info["bake"]["parts"][0]["vertices"], json["counts"]["vertices"]);
+    EXPECT_EQ(info["bake"]["parts"][0]["bounced"], "none");
 
     // The bake lights the scene it was made from, and no other.
     EXPECT_EQ(runPatina({"render", "builtin:sphere", "-o", m_folder / "p.png", "--size", "32x32",

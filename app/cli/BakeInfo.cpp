@@ -1,0 +1,139 @@
+#include "app/cli/BakeInfo.h"
+
+#include "core/bake/BakeHeader.h"
+#include "core/bake/BakeTarget.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace patina::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Rows = std::vector<std::pair<std::string, std::string>>;
+
+bool hasChannel(const Image& image, std::string_view prefix, std::string_view suffix = {}) {
+    const std::vector<std::string>& names = image.channelNames();
+    return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+        return name.starts_with(prefix) && name.ends_with(suffix);
+    });
+}
+
+// "as halves", "in 8 bits, a step for each band"
+std::string storageText(const BakeFileOptions& options) {
+    switch (options.storage) {
+    case BakeStorage::Float:
+        return "32-bit floats, exact";
+    case BakeStorage::Half:
+        return "16-bit floats";
+    case BakeStorage::Quantised:
+        break;
+    }
+    return fmt::format("{} bits, a step for each band", options.bits);
+}
+
+std::pair<Json, std::string> describePart(const ImagePart& part, const BakeHeader& header) {
+    const std::string* target = findAttribute(part.attributes, kTargetAttribute);
+    Json json = {{"target", target != nullptr ? *target : part.name}};
+    std::string text;
+    if (isPerTexel(header.artifact.kind)) {
+        json["size"] = part.image.width();
+        text = fmt::format("{0} × {0} texels", part.image.width());
+    } else if (const auto count =
+                   numberAttribute(part.attributes, kVertexCountAttribute, 0, 1ll << 32)) {
+        json["vertices"] = *count;
+        text = fmt::format("{} vertices", countText(static_cast<std::size_t>(*count)));
+    }
+    if (const bool bounced = hasChannel(part.image, "bounced.");
+        holdsTransfer(header.artifact.kind)) {
+        const bool colored = bounced && hasChannel(part.image, "bounced.", ".R");
+        json["bounced"] = !bounced ? "none" : colored ? "color" : "grey";
+        if (bounced)
+            text += colored ? ", coloured bounces" : ", grey bounces";
+        json["sky"] = hasChannel(part.image, "sky");
+        json["error"] = hasChannel(part.image, "error");
+        if (hasChannel(part.image, "sky"))
+            text += ", sky visibility";
+        if (hasChannel(part.image, "error"))
+            text += ", error estimates";
+    }
+    if (const std::string* error = findAttribute(part.attributes, "patina:storageError")) {
+        json["storageError"] = *error;
+        text += "; stored with " + *error;
+    }
+    return {std::move(json), std::move(text)};
+}
+
+} // namespace
+
+const char* kindText(BakeKind kind) {
+    switch (kind) {
+    case BakeKind::AoTexel:
+        return "ambient occlusion per texel";
+    case BakeKind::AoVertex:
+        return "ambient occlusion per vertex";
+    case BakeKind::PrtVertex:
+        return "radiance transfer per vertex";
+    case BakeKind::PrtTexel:
+        break;
+    }
+    return "radiance transfer per texel";
+}
+
+Result<void> describeBake(Report& report, const std::vector<ImagePart>& parts,
+                          const std::filesystem::path& file) {
+    const Result<BakeHeader> header = readBakeHeader(parts.front().attributes, file);
+    if (!header)
+        return header.error();
+    const BakeArtifact& artifact = header->artifact;
+    Json json = {{"kind", kindText(artifact.kind)},
+                 {"version", header->version},
+                 {"samplesDone", artifact.samplesDone},
+                 {"inputs", artifact.inputs.hex()},
+                 {"storage", storageName(header->options.storage)}};
+    Rows rows = {{"holds", kindText(artifact.kind)}};
+    if (holdsTransfer(artifact.kind)) {
+        const std::string* transfer = findAttribute(parts.front().attributes, "patina:transfer");
+        const std::string name = header->version == 1 ? "shadowed" : *transfer;
+        json["order"] = artifact.order;
+        json["transfer"] = name;
+        rows.emplace_back("bands", fmt::format("{} ({} coefficients)", artifact.order,
+                                               artifact.order * artifact.order));
+        rows.emplace_back("transfer", artifact.transfer == TransferKind::Interreflected
+                                          ? fmt::format("{}, {} bounce{}", name, artifact.bounces,
+                                                        artifact.bounces == 1 ? "" : "s")
+                                          : name);
+        if (artifact.transfer == TransferKind::Interreflected) {
+            json["bounces"] = artifact.bounces;
+            json["albedo"] = artifact.albedo.hex();
+        }
+    }
+    if (header->options.storage == BakeStorage::Quantised)
+        json["bits"] = header->options.bits;
+    rows.emplace_back("rays", fmt::format("{} per element", artifact.samplesDone));
+    rows.emplace_back("stored as", storageText(header->options));
+    rows.emplace_back("inputs", artifact.inputs.hex());
+    report.table({}, rows);
+
+    rows.clear();
+    for (const auto& [key, value] : artifact.settings) {
+        json["settings"][key] = value;
+        rows.emplace_back(key, value);
+    }
+    if (!rows.empty())
+        report.table("Settings", rows);
+    rows.clear();
+    for (const ImagePart& part : parts) {
+        if (!sameHeader(parts.front().attributes, part.attributes))
+            return damagedBake(file, "its parts do not belong together");
+        auto [entry, text] = describePart(part, *header);
+        rows.emplace_back(entry["target"].get<std::string>(), std::move(text));
+        json["parts"].push_back(std::move(entry));
+    }
+    report.table(fmt::format("Parts ({})", rows.size()), rows);
+    report.json()["bake"] = std::move(json);
+    return {};
+}
+
+} // namespace patina::cli
