@@ -90,7 +90,7 @@ struct PrtSettings {
     SampleMethod method = SampleMethod::Qmc;
     float tolerance =
         0.0f;           // RMS change of the coefficients between passes at which to end; 0: never
-    bool fitted = true; // least squares over the surface instead of values at the vertices
+    bool fitted = true; // vertex: least squares over points of the surface (VertexSamples.h)
     int size = 512;     // texel bake: side of the square texture
     // Interreflected: bytes that hits may take, 8 for each ray that meets something; where they
     // could take more they are traced anew for every bounce. 0: always.

@@ -46,7 +46,7 @@ struct VertexBake {
                                  // the surroundings that arrives, against an open surface of the
                                  // same normal; 1 where such a surface sees none of it
     std::vector<float> error =
-        {}; // 1 each: estimated standard error of a coefficient (RMS over them)
+        {}; // 1 each: estimated error of a coefficient (RMS over them), of rays and of the fit
     friend bool operator==(const VertexBake&, const VertexBake&) = default;
 };
 

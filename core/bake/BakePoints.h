@@ -1,5 +1,6 @@
-// Where the rays of a bake start: at vertices, or at the texels of a material's UV layout. Starting
-// points are lifted off the surface so that no ray meets the triangle it leaves.
+// Where the rays of a bake start: at vertices, at points of triangles, or at the texels of a
+// material's UV layout. Starting points are lifted off the surface so that no ray meets the
+// triangle it leaves.
 #pragma once
 
 #include "core/bake/BakeGeometry.h"
@@ -19,6 +20,13 @@ namespace patina {
 
 // Ranges of at most `size` points that never span two meshes.
 [[nodiscard]] std::vector<PointRange> vertexRanges(const BakeGeometry& geometry, std::size_t size);
+
+// A starting point on the smooth surface that the normals suggest, by the barycentric coordinates
+// of corners 1 and 2: Hanika 2021, "Hacking the Shadow Terminator" (Ray Tracing Gems II, chapter
+// 4). On flat and hollow surfaces it is the triangle's point; on bulging ones it is lifted, so that
+// a coarse mesh does not shadow itself.
+[[nodiscard]] BakePoint surfacePoint(const BakeGeometryMesh& mesh, std::uint32_t triangle, float b1,
+                                     float b2);
 
 // The texels of one material's size × size texture. UVs outside 0…1 wrap around as they do on the
 // surface. A texel whose centre no triangle covers but that one touches takes the nearest point.

@@ -2,17 +2,31 @@
 
 #include "core/bake/AoSettingsCheck.h"
 #include "core/bake/Bake.h"
-#include "core/bake/BakePoints.h"
 #include "core/bake/BakeTracer.h"
 #include "core/bake/Interreflection.h"
 #include "core/bake/PrtSettingsCheck.h"
 #include "core/bake/RayScene.h"
+#include "core/bake/VertexFit.h"
 #include "core/bake/WorkOrder.h"
 
 #include <algorithm>
 
 namespace patina {
 namespace {
+
+// The values of the vertices themselves.
+std::vector<VertexBake> visibilityOf(const BakeGeometry& geometry, const VertexSamples& samples,
+                                     std::span<const float> values) {
+    std::vector<VertexBake> bakes;
+    for (std::size_t m = 0; m < geometry.meshes.size(); ++m) {
+        const std::size_t first = samples.firstOfMesh[m], end = samples.firstOfMesh[m + 1];
+        VertexBake& bake = bakes.emplace_back();
+        bake.mesh = geometry.meshes[m].id;
+        bake.values.assign(values.begin() + static_cast<std::ptrdiff_t>(first),
+                           values.begin() + static_cast<std::ptrdiff_t>(end));
+    }
+    return bakes;
+}
 
 // Everything the two vertex bakes share; `artifact` arrives with kind, order and settings, `prt`
 // with those of a transfer bake.
@@ -23,32 +37,27 @@ Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings setting
     const Result<BakeGeometry> geometry = makeBakeGeometry(inputs, job);
     if (!geometry)
         return geometry.error();
-    const std::size_t pointCount = geometry->vertexCount();
-    const Result<RayScene> scene =
-        RayScene::build(*geometry, job, 0, static_cast<double>(pointCount) * settings.samples);
+    const bool fitted = prt && prt->fitted;
+    const VertexSamples samples =
+        fitted ? fittedVertexSamples(*geometry, job) : vertexSamples(*geometry, job);
+    const Result<RayScene> scene = RayScene::build(
+        *geometry, job, 0, static_cast<double>(samples.points.size()) * settings.samples);
     if (!scene)
         return scene.error();
     settings.maxDistance *= static_cast<float>(geometry->unitsPerMetre);
 
-    const std::vector<BakePoint> points = vertexPoints(*geometry, job);
-    const std::vector<PointRange> ranges = vertexRanges(*geometry, rangeSize(pointCount));
-    std::vector<std::size_t> firstOfMesh; // and the end
-    for (const BakeGeometryMesh& mesh : geometry->meshes)
-        firstOfMesh.push_back((firstOfMesh.empty() ? 0 : firstOfMesh.back()) +
-                              mesh.positions.size());
-    firstOfMesh.insert(firstOfMesh.begin(), 0);
-
     PassCallbacks callbacks;
     callbacks.range = [&](const PointRange& range, std::span<const float> values) {
-        const auto next = std::upper_bound(firstOfMesh.begin(), firstOfMesh.end(), range.first);
-        const auto mesh = static_cast<std::size_t>(next - firstOfMesh.begin()) - 1;
-        sink.vertices(geometry->meshes[mesh].id, range.first - firstOfMesh[mesh], settings.stride(),
-                      values);
+        if (range.first >= samples.vertexCount())
+            return; // on triangles: seen when they are fitted
+        const std::size_t mesh = samples.meshOf(range.first);
+        sink.vertices(geometry->meshes[mesh].id, range.first - samples.firstOfMesh[mesh],
+                      settings.stride(), values);
     };
-    callbacks.passDone = [&](int samples) { sink.passDone(samples); };
+    callbacks.passDone = [&](int rays) { sink.passDone(rays); };
     callbacks.view = [&] { return toSceneUnits(sink.view(), *geometry); };
     Result<std::optional<PassState>> traced =
-        tracePoints(tracer, {*scene, points, ranges, settings, callbacks, job});
+        tracePoints(tracer, {*scene, samples.points, samples.ranges, settings, callbacks, job});
     if (!traced)
         return traced.error();
     artifact.inputs = hashBakeInputs(inputs);
@@ -57,25 +66,16 @@ Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings setting
     const PassState& passes = **traced;
 
     artifact.samplesDone = passes.samplesDone;
-    const auto stride = static_cast<std::size_t>(settings.stride());
-    for (std::size_t m = 0; m < geometry->meshes.size(); ++m) {
-        const auto values = passes.values.begin();
-        const auto at = [&](std::size_t point) {
-            return values + static_cast<std::ptrdiff_t>(point * stride);
-        };
-        VertexBake bake;
-        bake.mesh = geometry->meshes[m].id;
-        bake.stride = settings.stride();
-        bake.values.assign(at(firstOfMesh[m]), at(firstOfMesh[m + 1]));
-        if (artifact.kind == BakeKind::PrtVertex) {
-            const auto first = static_cast<std::ptrdiff_t>(firstOfMesh[m]);
-            const auto end = static_cast<std::ptrdiff_t>(firstOfMesh[m + 1]);
-            for (std::size_t p = firstOfMesh[m]; p < firstOfMesh[m + 1]; ++p)
-                bake.sky.push_back(skyShare(passes.hiddenSky[p], points[p].normal));
-            if (settings.method != SampleMethod::Stratified) // whose one pass cannot tell
-                bake.error.assign(passes.error.begin() + first, passes.error.begin() + end);
-        }
-        artifact.vertices.push_back(std::move(bake));
+    if (!prt) {
+        artifact.vertices = visibilityOf(*geometry, samples, passes.values);
+    } else {
+        if (fitted)
+            job.setActivity("fitting values to the surface");
+        Result<std::vector<VertexBake>> vertices =
+            finishVertexTransfer(*geometry, samples, settings, passes, job);
+        if (!vertices)
+            return vertices.error();
+        artifact.vertices = *std::move(vertices);
     }
     if (prt && prt->transfer == TransferKind::Interreflected)
         if (std::optional<Error> error =

@@ -76,41 +76,6 @@ void forEachBorderTexel(const Triangle2& t, Visit&& visit) {
     }
 }
 
-// A starting point on the smooth surface the normals suggest: Hanika 2021, "Hacking the Shadow
-// Terminator" (Ray Tracing Gems II, chapter 4). On flat and hollow surfaces it is the triangle's
-// point; on bulging ones it is lifted, so that a coarse mesh does not shadow itself.
-BakePoint pointOn(const BakeGeometryMesh& mesh, const SurfacePoint& at) {
-    const std::uint32_t* index = mesh.mesh->indices.data() + std::size_t{3} * at.triangle;
-    const glm::vec3 corners[3] = {mesh.positions[index[0]], mesh.positions[index[1]],
-                                  mesh.positions[index[2]]};
-    const glm::vec3 normals[3] = {mesh.normals[index[0]], mesh.normals[index[1]],
-                                  mesh.normals[index[2]]};
-    const float weights[3] = {1.0f - at.b1 - at.b2, at.b1, at.b2};
-    glm::vec3 position(0.0f), normal(0.0f);
-    for (int i = 0; i < 3; ++i) {
-        position += weights[i] * corners[i];
-        normal += weights[i] * normals[i];
-    }
-    const glm::dvec3 faceCross =
-        glm::cross(glm::dvec3(corners[1] - corners[0]), glm::dvec3(corners[2] - corners[0])) *
-        static_cast<double>(mesh.winding);
-    const double faceLength = glm::length(faceCross);
-    const float normalLength = glm::length(normal);
-    glm::vec3 face = faceLength > 0.0 ? glm::vec3(faceCross / faceLength) : normals[0];
-    normal = normalLength > 1e-6f ? normal / normalLength : face;
-    if (glm::dot(face, normal) < 0.0f) // inconsistent winding: the normals decide
-        face = -face;
-    glm::vec3 lift(0.0f);
-    for (int i = 0; i < 3; ++i)
-        lift -=
-            weights[i] * std::min(glm::dot(position - corners[i], normals[i]), 0.0f) * normals[i];
-    // Off the edges: a point on the border of a wall would else lie in the wall next to it.
-    glm::vec3 inwards = (corners[0] + corners[1] + corners[2]) / 3.0f - position;
-    if (const float length = glm::length(inwards); length > kRayOffset)
-        inwards *= kRayOffset / length;
-    return {position + lift + inwards + kRayOffset * face, normal};
-}
-
 // What is known about every texel while triangles are drawn.
 class TexelCollector {
   public:
@@ -186,7 +151,8 @@ class TexelCollector {
         return {mesh, triangle, static_cast<float>(b.x), static_cast<float>(b.y)};
     }
     void add(TexelPoints& result, const SurfacePoint& at) const {
-        result.points.push_back(pointOn(m_geometry.meshes[at.mesh], at));
+        result.points.push_back(
+            surfacePoint(m_geometry.meshes[at.mesh], at.triangle, at.b1, at.b2));
     }
 
     const BakeGeometry& m_geometry;

@@ -30,6 +30,7 @@ TEST(BakeJob, PassesDoubleAndTheSinkSeesTheFinalValues) {
     Recorder recorder;
     PrtSettings settings;
     settings.samples = 200; // rounded up
+    settings.fitted = false;
     const JobControl control;
     const Result<BakeArtifact> artifact =
         bakePrtVertex(inputs, settings, recorder, control.context());

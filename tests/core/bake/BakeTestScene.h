@@ -116,9 +116,11 @@ inline std::vector<float> aoValues(const BakeInputs& inputs, int samples) {
     return aoOf(inputs, samples).vertices.at(0).values;
 }
 
-inline BakeArtifact prtOf(const BakeInputs& inputs, int order, int samples) {
+// At the very vertices, unless `fitted`.
+inline BakeArtifact prtOf(const BakeInputs& inputs, int order, int samples, bool fitted = false) {
     TileSink sink;
     PrtSettings settings;
+    settings.fitted = fitted;
     settings.order = order;
     settings.samples = samples;
     Result<BakeArtifact> artifact = bakePrtVertex(inputs, settings, sink, {});
