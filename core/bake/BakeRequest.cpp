@@ -1,6 +1,17 @@
 #include "core/bake/BakeRequest.h"
 
+#include "core/bake/Passes.h"
+
 namespace patina {
+
+BakeRequest normalized(BakeRequest request) {
+    // What is out of range is refused when the bake starts.
+    if (const Result<int> samples = roundSamples(request.ao.samples))
+        request.ao.samples = *samples;
+    if (const Result<int> samples = roundSamples(request.prt.samples, request.prt.method))
+        request.prt.samples = *samples;
+    return request;
+}
 
 Result<BakeArtifact> bake(const BakeRequest& request, const BakeInputs& inputs, TileSink& sink,
                           const JobContext& job, BakeTracer* tracer) {

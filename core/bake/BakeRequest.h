@@ -11,6 +11,9 @@ struct BakeRequest {
     PrtSettings prt; // for transfer
 };
 
+// Settings as a bake keeps them: rays rounded to what is traced.
+[[nodiscard]] BakeRequest normalized(BakeRequest request);
+
 // Errors: those of the kind's own function (core/bake/Bake.h).
 Result<BakeArtifact> bake(const BakeRequest& request, const BakeInputs& inputs, TileSink& sink,
                           const JobContext& job, BakeTracer* tracer = nullptr);

@@ -1,12 +1,9 @@
 #include "core/light/IblCache.h"
 
-#include "core/base/AtomicFile.h"
 #include "core/base/Check.h"
-#include "core/base/Log.h"
 
 #include <algorithm>
 #include <cstring>
-#include <system_error>
 #include <utility>
 
 namespace patina {
@@ -48,29 +45,24 @@ Bytes encode(const IblMaps& maps) {
     header.smallest = static_cast<std::uint32_t>(maps.prefiltered.back().size);
     header.irradianceSize = static_cast<std::uint32_t>(maps.irradiance.size);
     Bytes bytes;
-    bytes.reserve(memoryBytes(maps) + sizeof(Header) + sizeof(Hash));
+    bytes.reserve(memoryBytes(maps) + sizeof(Header));
     append(bytes, &header, 1);
     append(bytes, maps.irradianceSh.data(), maps.irradianceSh.size());
     append(bytes, maps.radianceSh.data(), maps.radianceSh.size());
     for (const CubeLevel& level : maps.prefiltered)
         append(bytes, level.texels.data(), level.texels.size());
     append(bytes, maps.irradiance.texels.data(), maps.irradiance.texels.size());
-    const Hash hash = hashBytes(bytes);
-    append(bytes, &hash, 1);
     return bytes;
 }
 
 // Nothing when the bytes are not what encode() writes.
 std::optional<IblMaps> decode(const Bytes& bytes) {
     Header header;
-    Hash hash;
-    if (bytes.size() < sizeof(header) + sizeof(hash))
+    if (bytes.size() < sizeof(header))
         return std::nullopt;
-    const std::size_t content = bytes.size() - sizeof(hash);
-    std::memcpy(&hash, bytes.data() + content, sizeof(hash));
+    const std::size_t content = bytes.size();
     std::memcpy(&header, bytes.data(), sizeof(header));
-    if (std::memcmp(header.magic, kMagic, sizeof(kMagic)) != 0 ||
-        hashBytes(std::span(bytes).first(content)) != hash)
+    if (std::memcmp(header.magic, kMagic, sizeof(kMagic)) != 0)
         return std::nullopt;
     if (header.levels < 1 || header.levels > kMaxLevels || header.size > kMaxSize ||
         header.smallest == 0 || header.smallest > header.size || header.irradianceSize > kMaxSize)
@@ -108,8 +100,7 @@ std::optional<IblMaps> decode(const Bytes& bytes) {
 } // namespace
 
 IblCache::IblCache(fs::path folder, std::uint64_t maxBytes)
-    : m_folder(std::move(folder))
-    , m_maxBytes(maxBytes) {}
+    : m_files(std::move(folder), kExtension, "light", maxBytes, kMaxFile) {}
 
 Hash IblCache::key(const Image& environment, const IblSettings& settings) {
     CHECK(environment.type() == PixelType::F32);
@@ -128,68 +119,22 @@ Hash IblCache::key(const Image& environment, const IblSettings& settings) {
 }
 
 fs::path IblCache::file(const Hash& key) const {
-    return m_folder / (key.hex() + kExtension);
+    return m_files.file(key);
 }
 
 std::optional<IblMaps> IblCache::find(const Hash& key) const {
-    const fs::path path = file(key);
-    std::error_code error;
-    if (!fs::exists(path, error))
+    const std::optional<Bytes> content = m_files.find(key);
+    if (!content)
         return std::nullopt;
-    const Result<Bytes> bytes = readFile(path, kMaxFile);
-    std::optional<IblMaps> maps = bytes ? decode(*bytes) : std::nullopt;
-    if (!maps) {
-        logWarning("The cached light {} is damaged; it is computed again.", path.string());
-        fs::remove(path, error);
-        return std::nullopt;
-    }
-    fs::last_write_time(path, fs::file_time_type::clock::now(), error); // best effort: used now
+    std::optional<IblMaps> maps = decode(*content);
+    if (!maps)
+        m_files.drop(key);
     return maps;
 }
 
 Result<void> IblCache::store(const Hash& key, const IblMaps& maps) const {
     CHECK(!maps.prefiltered.empty());
-    std::error_code error;
-    fs::create_directories(m_folder, error); // what fails here, fails with a better message below
-    const fs::path path = file(key);
-    if (Result<void> written = writeFileAtomically(path, encode(maps)); !written)
-        return written;
-    evict(path);
-    return {};
-}
-
-void IblCache::evict(const fs::path& keep) const {
-    struct Entry {
-        fs::file_time_type used;
-        std::uint64_t size;
-        fs::path path;
-    };
-    std::vector<Entry> entries;
-    std::uint64_t total = 0;
-    std::error_code error;
-    // Another process may remove files meanwhile: what cannot be asked is skipped.
-    for (fs::directory_iterator it(m_folder, error), end; !error && it != end;
-         it.increment(error)) {
-        if (it->path().extension() != kExtension)
-            continue;
-        std::error_code gone;
-        const std::uint64_t size = fs::file_size(it->path(), gone);
-        const fs::file_time_type used =
-            gone ? fs::file_time_type() : fs::last_write_time(it->path(), gone);
-        if (gone)
-            continue;
-        total += size;
-        entries.push_back({used, size, it->path()});
-    }
-    std::ranges::sort(entries, {}, &Entry::used);
-    for (const Entry& entry : entries) {
-        if (total <= m_maxBytes)
-            break;
-        if (entry.path == keep)
-            continue;
-        fs::remove(entry.path, error);
-        total -= entry.size;
-    }
+    return m_files.store(key, encode(maps));
 }
 
 } // namespace patina

@@ -3,8 +3,7 @@
 // may share the folder.
 #pragma once
 
-#include "core/base/Hash.h"
-#include "core/base/Result.h"
+#include "core/base/CacheFolder.h"
 #include "core/light/Ibl.h"
 
 #include <cstdint>
@@ -34,10 +33,7 @@ class IblCache {
     [[nodiscard]] std::filesystem::path file(const Hash& key) const;
 
   private:
-    void evict(const std::filesystem::path& keep) const;
-
-    std::filesystem::path m_folder;
-    std::uint64_t m_maxBytes;
+    CacheFolder m_files;
 };
 
 } // namespace patina

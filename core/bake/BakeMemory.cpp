@@ -1,0 +1,171 @@
+#include "core/bake/BakeMemory.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fmt/format.h>
+#include <fstream>
+#include <optional>
+#include <set>
+
+namespace patina {
+namespace {
+
+// Embree's hierarchy with its copy of the triangles, per triangle, generously.
+constexpr std::uint64_t kBytesPerTriangle = 160;
+constexpr std::uint64_t kBytesPerPoint = 2 * sizeof(glm::vec3) + 2; // start, normal, passes
+constexpr double kRoom = 1.1;                                       // heaps are never full
+
+std::optional<std::uint64_t> number(std::string_view text) {
+    std::uint64_t value = 0;
+    if (std::from_chars(text.data(), text.data() + text.size(), value).ec != std::errc())
+        return std::nullopt;
+    return value;
+}
+
+std::optional<std::uint64_t> firstLine(const std::string& file) {
+    std::ifstream stream(file);
+    std::string line;
+    if (!std::getline(stream, line))
+        return std::nullopt;
+    return number(line);
+}
+
+// "MemAvailable:   12345 kB"
+std::optional<std::uint64_t> freeMemory() {
+    std::ifstream stream("/proc/meminfo");
+    for (std::string word; stream >> word;)
+        if (word == "MemAvailable:" && stream >> word)
+            if (const auto kibibytes = number(word))
+                return *kibibytes << 10;
+    return std::nullopt;
+}
+
+// Version 2: each group on the way up may set a limit ("0::/a/b" in /proc/self/cgroup).
+std::optional<std::uint64_t> freeInGroups() {
+    std::ifstream stream("/proc/self/cgroup");
+    std::optional<std::uint64_t> least;
+    for (std::string line; std::getline(stream, line);) {
+        if (!line.starts_with("0::"))
+            continue;
+        for (std::string group = line.substr(3);; group.resize(group.find_last_of('/'))) {
+            const std::string folder = "/sys/fs/cgroup" + (group == "/" ? "" : group);
+            const auto limit = firstLine(folder + "/memory.max"); // nothing for "max"
+            const auto used = firstLine(folder + "/memory.current");
+            if (limit && used)
+                least =
+                    std::min(least.value_or(~std::uint64_t{0}), *limit - std::min(*limit, *used));
+            if (group.size() < 2)
+                break;
+        }
+    }
+    return least;
+}
+
+std::uint64_t elementsOf(const BakeRequest& request, const BakeInputs& inputs) {
+    std::uint64_t vertices = 0;
+    std::set<Id> materials;
+    for (const BakeMesh& mesh : inputs.meshes) {
+        vertices += mesh.mesh ? mesh.mesh->vertexCount() : 0;
+        materials.insert(mesh.material);
+    }
+    if (!isPerTexel(request.kind))
+        return vertices;
+    const auto side = static_cast<std::uint64_t>(holdsTransfer(request.kind) ? request.prt.size
+                                                                             : request.ao.size);
+    return materials.size() * side * side;
+}
+
+// Settings that take less, the most harmless first.
+std::optional<std::string> advice(const BakeRequest& request, const BakeInputs& inputs,
+                                  std::uint64_t available) {
+    const auto fits = [&](const BakeRequest& other) {
+        return estimateBake(other, inputs).bytes <= available;
+    };
+    BakeRequest other = request;
+    if (holdsTransfer(request.kind) && request.prt.transfer == TransferKind::Interreflected) {
+        other.prt.hitBudget = 0;
+        if (fits(other))
+            return "Tracing the hits of the bounces anew (hit memory 0) would fit.";
+    }
+    for (other = request; holdsTransfer(request.kind) && other.prt.order > 1;) {
+        --other.prt.order;
+        if (fits(other))
+            return fmt::format("With {} bands it would take {}.", other.prt.order,
+                               memoryText(estimateBake(other, inputs).bytes));
+    }
+    for (other = request; isPerTexel(request.kind) && other.ao.size > 64 && other.prt.size > 64;) {
+        other.ao.size /= 2;
+        other.prt.size /= 2;
+        if (fits(other))
+            return fmt::format("With textures of {0} × {0} it would take {1}.",
+                               holdsTransfer(request.kind) ? other.prt.size : other.ao.size,
+                               memoryText(estimateBake(other, inputs).bytes));
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+BakeEstimate estimateBake(const BakeRequest& request, const BakeInputs& inputs) {
+    BakeEstimate result;
+    result.elements = elementsOf(request, inputs);
+    const bool transfer = holdsTransfer(request.kind);
+    const bool bounces = transfer && request.prt.transfer == TransferKind::Interreflected;
+    const auto samples =
+        static_cast<std::uint64_t>(transfer ? request.prt.samples : request.ao.samples);
+    const auto bounceSamples =
+        bounces ? static_cast<std::uint64_t>(request.prt.bounceSamples) : std::uint64_t{0};
+    const bool traces = !transfer || request.prt.transfer != TransferKind::Unshadowed;
+    result.rays = traces ? result.elements * (samples + bounceSamples) : 0;
+
+    std::uint64_t triangles = 0, vertices = 0;
+    for (const BakeMesh& mesh : inputs.meshes)
+        if (mesh.mesh) {
+            triangles += mesh.mesh->triangleCount();
+            vertices += mesh.mesh->vertexCount();
+        }
+    const auto stride = transfer ? static_cast<std::uint64_t>(request.prt.order * request.prt.order)
+                                 : std::uint64_t{1};
+    // What is being traced, what becomes of it, and the preview.
+    const std::uint64_t values = (stride + 2) * sizeof(float);
+    std::uint64_t perElement = kBytesPerPoint + 3 * values;
+    // Bounces hold their sum, the last one and the next in three colours.
+    if (bounces)
+        perElement += 3 * 3 * stride * sizeof(float);
+    const std::uint64_t hits =
+        bounces ? std::min(request.prt.hitBudget, 8 * bounceSamples * result.elements) : 0;
+    const std::uint64_t scene = triangles * kBytesPerTriangle + vertices * 2 * sizeof(glm::vec3);
+    result.bytes = static_cast<std::uint64_t>(
+        kRoom * static_cast<double>(scene + hits + result.elements * perElement));
+    return result;
+}
+
+std::uint64_t availableMemory() {
+    const std::uint64_t unlimited = ~std::uint64_t{0};
+    const std::uint64_t least =
+        std::min(freeMemory().value_or(unlimited), freeInGroups().value_or(unlimited));
+    return least == unlimited ? 0 : least;
+}
+
+Result<void> checkBakeMemory(const BakeRequest& request, const BakeInputs& inputs,
+                             std::uint64_t available) {
+    const std::uint64_t needed = estimateBake(request, inputs).bytes;
+    if (available == 0 || needed <= available)
+        return {};
+    return Error{ErrorKind::Usage,
+                 fmt::format("The bake needs about {} of memory, and {} are free. {}",
+                             memoryText(needed), memoryText(available),
+                             advice(request, inputs, available)
+                                 .value_or("Hide meshes, or bake fewer of them at a time.")),
+                 {},
+                 {}};
+}
+
+std::string memoryText(std::uint64_t bytes) {
+    const double mebibytes = static_cast<double>(bytes) / (1024.0 * 1024.0);
+    if (mebibytes < 1000.0)
+        return fmt::format("{:.0f} MiB", std::max(mebibytes, 1.0));
+    return fmt::format("{:.1f} GiB", mebibytes / 1024.0);
+}
+
+} // namespace patina

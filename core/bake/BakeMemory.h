@@ -1,0 +1,30 @@
+// How much memory a bake will take, and what to do when there is less.
+#pragma once
+
+#include "core/bake/BakeRequest.h"
+
+#include <cstdint>
+#include <string>
+
+namespace patina {
+
+struct BakeEstimate {
+    std::uint64_t elements = 0; // vertices, or texels at most
+    std::uint64_t rays = 0;     // at most
+    std::uint64_t bytes = 0;    // at the most expensive moment, on top of the scene
+};
+
+[[nodiscard]] BakeEstimate estimateBake(const BakeRequest& request, const BakeInputs& inputs);
+
+// What this process may still take before the system swaps or ends it: the least of the free
+// memory and what the control groups above it leave. 0: unknown.
+[[nodiscard]] std::uint64_t availableMemory();
+
+// Errors (Usage): the bake does not fit into `available` bytes; the message says which settings
+// would. 0: whatever it takes is there.
+Result<void> checkBakeMemory(const BakeRequest& request, const BakeInputs& inputs,
+                             std::uint64_t available);
+
+[[nodiscard]] std::string memoryText(std::uint64_t bytes); // "640 MiB", "1.4 GiB"
+
+} // namespace patina

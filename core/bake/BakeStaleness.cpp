@@ -1,0 +1,66 @@
+#include "core/bake/BakeStaleness.h"
+
+#include "core/bake/BakeOptions.h"
+#include "core/document/Document.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace patina {
+namespace {
+
+// What a hash that differs can be told to mean; per-texel bakes do not know their meshes.
+std::vector<std::string> geometryReasons(const BakeArtifact& artifact, const Document& document) {
+    std::vector<std::string> reasons;
+    for (const VertexBake& bake : artifact.vertices) {
+        const MeshInstance* mesh = document.mesh(bake.mesh);
+        if (mesh == nullptr)
+            reasons.emplace_back("a mesh was removed");
+        else if (!mesh->visible)
+            reasons.push_back(fmt::format("“{}” was hidden", mesh->name));
+        else if (mesh->mesh && bake.stride > 0 &&
+                 bake.values.size() !=
+                     mesh->mesh->vertexCount() * static_cast<std::size_t>(bake.stride))
+            reasons.push_back(fmt::format("“{}” has other vertices", mesh->name));
+    }
+    if (!artifact.vertices.empty())
+        for (const MeshInstance& mesh : document.meshes)
+            if (mesh.visible && mesh.mesh &&
+                std::ranges::find(artifact.vertices, mesh.id, &VertexBake::mesh) ==
+                    artifact.vertices.end())
+                reasons.push_back(fmt::format("“{}” was added or shown", mesh.name));
+    if (reasons.empty())
+        reasons.emplace_back("something was moved, reshaped, or lets light through elsewhere");
+    return reasons;
+}
+
+} // namespace
+
+BakeStaleness bakeStaleness(const BakeArtifact& artifact, const Document& document,
+                            const Hash& inputs, const Hash& albedo, const BakeRequest* wanted) {
+    BakeStaleness result;
+    if (artifact.inputs != inputs) {
+        result.geometry = true;
+        result.reasons = geometryReasons(artifact, document);
+    }
+    if (artifact.albedo != Hash{} && artifact.albedo != albedo) {
+        result.albedo = true;
+        result.reasons.emplace_back("albedo has changed, and light bounces off it");
+    }
+    if (wanted == nullptr)
+        return result;
+    // Only settings that the bake knows of: older files do not hold them all.
+    const auto asked = settingsText(normalized(*wanted));
+    for (const BakeOption& option : bakeOptions()) {
+        const auto now = asked.find(option.name);
+        const auto then = artifact.settings.find(option.name);
+        if (now == asked.end() || then == artifact.settings.end() || now->second == then->second)
+            continue;
+        result.settings = true;
+        result.reasons.push_back(
+            fmt::format("{}: {} instead of {}", option.label, then->second, now->second));
+    }
+    return result;
+}
+
+} // namespace patina

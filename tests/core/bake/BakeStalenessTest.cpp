@@ -1,0 +1,99 @@
+#include "core/bake/BakeStaleness.h"
+#include "core/bake/BakeOptions.h"
+#include "core/document/Document.h"
+#include "tests/core/bake/BakeTestScene.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+using namespace patina;
+using namespace patina::test;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+namespace {
+
+class BakeStalenessTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        for (const char* name : {"Ball", "Wall"}) {
+            MeshInstance mesh;
+            mesh.id = document.takeId();
+            mesh.name = name;
+            mesh.mesh = std::make_shared<const Mesh>(sanitized(planeMesh(1.0, 2)));
+            document.meshes.push_back(mesh);
+        }
+        request.prt.samples = 64;
+        bake.kind = BakeKind::PrtVertex;
+        bake.inputs = inputs();
+        bake.settings = settingsText(request);
+        for (const MeshInstance& mesh : document.meshes) {
+            VertexBake part;
+            part.mesh = mesh.id;
+            part.stride = 9;
+            part.values.resize(mesh.mesh->vertexCount() * 9);
+            bake.vertices.push_back(part);
+        }
+    }
+    [[nodiscard]] Hash inputs() const { return hashBakeInputs(bakeInputs(document)); }
+    [[nodiscard]] BakeStaleness staleness(const Hash& albedo = {}) const {
+        return bakeStaleness(bake, document, inputs(), albedo, &request);
+    }
+
+    Document document;
+    BakeArtifact bake;
+    BakeRequest request;
+};
+
+TEST_F(BakeStalenessTest, AFreshBakeIsNotStale) {
+    EXPECT_FALSE(staleness().stale());
+    EXPECT_THAT(staleness().reasons, IsEmpty());
+    EXPECT_FALSE(staleness({3, 4}).stale()) << "nothing bounces in this one";
+    request.prt.samples = 50; // traced as 64
+    EXPECT_FALSE(staleness().stale());
+}
+
+TEST_F(BakeStalenessTest, SaysWhatChangedOfTheGeometry) {
+    const Document before = document;
+    document.meshes[1].visible = false;
+    EXPECT_TRUE(staleness().geometry);
+    EXPECT_FALSE(staleness().settings);
+    EXPECT_THAT(staleness().reasons, ElementsAre("“Wall” was hidden"));
+    document = before;
+    document.meshes.erase(document.meshes.begin());
+    EXPECT_THAT(staleness().reasons, ElementsAre("a mesh was removed"));
+    document = before;
+    document.meshes[0].mesh = std::make_shared<const Mesh>(sanitized(planeMesh(1.0, 3)));
+    EXPECT_THAT(staleness().reasons, ElementsAre("“Ball” has other vertices"));
+    document = before;
+    document.meshes.push_back(document.meshes[0]);
+    document.meshes.back().id = document.takeId();
+    document.meshes.back().name = "Lamp";
+    EXPECT_THAT(staleness().reasons, ElementsAre("“Lamp” was added or shown"));
+    document = before;
+    document.meshes[0].transform[3][0] = 1.0f;
+    EXPECT_TRUE(staleness().geometry);
+    EXPECT_EQ(staleness().reasons.size(), 1u);
+}
+
+TEST_F(BakeStalenessTest, AlbedoCountsWhereLightBounces) {
+    bake.albedo = {1, 1};
+    EXPECT_FALSE(staleness({1, 1}).stale());
+    EXPECT_TRUE(staleness({1, 2}).albedo);
+    EXPECT_FALSE(staleness({1, 2}).geometry);
+    EXPECT_EQ(staleness({1, 2}).reasons.size(), 1u);
+}
+
+TEST_F(BakeStalenessTest, NamesTheSettingsThatDiffer) {
+    request.prt.samples = 256;
+    request.prt.order = 5;
+    EXPECT_TRUE(staleness().settings);
+    EXPECT_FALSE(staleness().geometry);
+    EXPECT_THAT(staleness().reasons,
+                ElementsAre("Bands: 3 instead of 5", "Rays: 64 instead of 256"));
+    bake.settings.erase("order"); // of an older file
+    EXPECT_THAT(staleness().reasons, ElementsAre("Rays: 64 instead of 256"));
+    EXPECT_FALSE(bakeStaleness(bake, document, inputs(), {}, nullptr).stale());
+}
+
+} // namespace
