@@ -3,6 +3,7 @@
 #include "app/cli/SceneSetup.h"
 #include "core/bake/BakeHeader.h"
 #include "core/document/EnvironmentFile.h"
+#include "core/document/LightMix.h"
 #include "core/document/Lights.h"
 #include "core/document/Scene.h"
 #include "core/document/Source.h"
@@ -144,10 +145,10 @@ void describeScene(Report& report, const OpenedScene& scene) {
         const std::string type = formatParameterValue(typeInfo, typeInfo.get(document, light.id));
         json["lights"].push_back({{"name", light.name},
                                   {"type", type},
-                                  {"intensity", light.intensity},
+                                  {"intensity", lightIntensity(light)},
                                   {"unit", std::string(intensityUnit(light.type))},
                                   {"shines", shines(document, light)}});
-        lights.emplace_back(light.name, fmt::format("{}, {:.4g} {}{}", type, light.intensity,
+        lights.emplace_back(light.name, fmt::format("{}, {:.4g} {}{}", type, lightIntensity(light),
                                                     intensityUnit(light.type),
                                                     shines(document, light) ? "" : ", off"));
     }

@@ -3,6 +3,7 @@
 #include "app/cli/RenderViews.h"
 #include "app/cli/SceneSetup.h"
 #include "core/document/Edit.h"
+#include "core/document/LightMix.h"
 #include "core/image/DisplayTransform.h"
 #include "core/image/ImageIO.h"
 #include "core/light/Ibl.h"
@@ -174,8 +175,7 @@ Result<Prepared> prepare(Session& session, const Document& document,
         return renderer.error();
     session.beginPhase();
     session.job().setActivity("preparing light");
-    if (document.environment.image != nullptr) {
-        const ImagePtr& image = document.environment.image;
+    if (const ImagePtr image = shownEnvironment(document).image) {
         Result<IblMaps> ibl = computeIbl(*image, {}, session.job());
         if (!ibl)
             return ibl.error();

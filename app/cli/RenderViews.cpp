@@ -1,5 +1,6 @@
 #include "app/cli/RenderViews.h"
 
+#include "core/document/LightMix.h"
 #include "core/document/Lights.h"
 #include "core/image/TextRaster.h"
 

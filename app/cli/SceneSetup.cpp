@@ -6,6 +6,7 @@
 #include "core/document/EnvironmentFile.h"
 #include "core/document/Scene.h"
 #include "core/document/Source.h"
+#include "core/light/EnvironmentBlend.h"
 #include "core/light/GeneratedEnvironment.h"
 #include "core/material/Parameters.h"
 
@@ -57,6 +58,24 @@ Result<void> setEnvironment(Session& session, Document& document, const std::str
     return {};
 }
 
+Result<void> setSecondEnvironment(Session& session, Document& document, const ParameterInfo& info,
+                                  const std::string& source) {
+    MapSlot slot;
+    if (!source.empty()) {
+        std::vector<Notice> notices;
+        slot.source = normalizeSource(source);
+        Result<ImagePtr> image = loadEnvironmentImage(session.worker(), slot.source, notices,
+                                                      EnvironmentLayout::Automatic, session.job());
+        if (!image)
+            return image.error();
+        for (const Notice& notice : notices)
+            session.report().add(notice);
+        slot.image = *std::move(image);
+    }
+    info.set(document, 0, slot);
+    return {};
+}
+
 Result<void> setMap(Session& session, Document& document, const ParameterSelection& selection,
                     MapSlot slot) {
     if (slot.assigned()) {
@@ -93,6 +112,8 @@ Result<void> setParameter(Session& session, Document& document, const std::strin
     if (!parsed)
         return parsed.error();
     if (const MapSlot* slot = std::get_if<MapSlot>(&*parsed)) {
+        if (selection->info->id == "environment.secondImage")
+            return setSecondEnvironment(session, document, *selection->info, slot->source);
         if (selection->info->scope == Scope::Environment)
             return setEnvironment(session, document, slot->source, EnvironmentLayout::Automatic);
         return setMap(session, document, *selection, *slot);
@@ -169,6 +190,7 @@ Result<void> applySets(Session& session, Document& document) {
             return offered.error();
     if (environmentRecipe(document.environment) != before)
         resolveEnvironment(document.environment, session.job());
+    resolveBlend(document, session.job());
     return {};
 }
 

@@ -3,6 +3,7 @@
 #include "app/editor/Actions.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/viewport/ViewState.h"
+#include "core/document/LightMix.h"
 #include "core/document/Lights.h"
 
 #include <QActionGroup>

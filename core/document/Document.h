@@ -38,13 +38,15 @@ struct Light {
     std::string name = "Light";
     LightType type = LightType::Directional;
     bool enabled = true;
-    bool solo = false; // while any light is solo, only solo lights shine
+    bool solo = false; // while anything is solo, only what is solo shines: LightMix.h
     bool usesTemperature = false;
     glm::vec3 color{1.0f};        // linear sRGB
     float temperatureK = 6500.0f; // of a black body; replaces `color` when usesTemperature
     // Directional: lux at normal incidence (E); point and spot: candela (I, at the spot's centre);
     // sphere and rectangle: nit (radiance L). Radiometrically the same numbers: 1 W ≙ 1 lm.
     float intensity = 3.0f;
+    float gainEv = 0.0f;                  // the mixer's: scales the light by 2^EV
+    glm::vec3 tint{1.0f};                 // the mixer's, linear sRGB: multiplies the light's colour
     glm::vec3 position{2.0f, 3.0f, 2.0f}; // metres; not of a directional light
     float azimuthDeg = 40.0f;             // where the light comes from, around +Y, 0 is +Z
     float elevationDeg = 45.0f;           // above the horizon
@@ -103,6 +105,19 @@ struct Softbox {
     friend bool operator==(const Softbox&, const Softbox&) = default;
 };
 
+// Another picture of surroundings, to fade to. Conventions of Environment, where it is a part.
+struct SecondEnvironment {
+    std::string source;  // absolute path or builtin:NAME; empty: there is none
+    ImagePtr image;      // of the file; null where there is none
+    std::string problem; // why it could not be read; there is then no image
+    bool enabled = true;
+    bool solo = false;
+    float rotationDeg = 0.0f;
+    float exposureEv = 0.0f;
+    glm::vec3 tint{1.0f}; // linear sRGB
+    friend bool operator==(const SecondEnvironment&, const SecondEnvironment&) = default;
+};
+
 // A lat-long environment: the centre of the image is -Z, its top +Y, u grows to the right as seen
 // from inside: u = 0.5 + atan2(x, -z) / 2pi, v = acos(y) / pi.
 struct Environment {
@@ -119,6 +134,12 @@ struct Environment {
     std::vector<Softbox> softboxes;
     float rotationDeg = 0.0f; // turns the surroundings about +Y, counter-clockwise from above
     float exposureEv = 0.0f;  // scales radiance by 2^EV
+    bool enabled = true;      // off: its light is not in the scene, nor is it seen
+    bool solo = false;        // as of a light
+    glm::vec3 tint{1.0f};     // linear sRGB, multiplies radiance
+    SecondEnvironment second;
+    float fade = 0.0f; // 0: only this one … 1: only the second; shares of their light (LightMix.h)
+    ImagePtr blended;  // one picture of both where both light the scene (EnvironmentBlend.h)
     BackgroundMode background = BackgroundMode::Environment;
     float backgroundBlur = 0.5f; // Blurred: perceptual roughness of the level that is shown
     glm::vec3 backgroundColor{0.05f};

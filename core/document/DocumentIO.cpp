@@ -118,7 +118,7 @@ Result<OpenedScene> loadProject(WorkerClient& worker, const fs::path& projectFil
     if (!loader.cancelled())
         loader.loadMaps(opened.document.materials);
     if (!loader.cancelled())
-        loader.loadEnvironment(opened.document.environment);
+        loader.loadEnvironments(opened.document);
     loadBakes(loader, worker, opened.document, parsed->bakes);
     if (loader.cancelled())
         return Error{ErrorKind::Cancelled, "opening was cancelled", projectFile, {}};

@@ -29,14 +29,16 @@ float rounded(float value) {
 
 } // namespace
 
-bool shines(const Document& document, const Light& light) {
-    const bool anySolo = std::any_of(document.lights.begin(), document.lights.end(),
-                                     [](const Light& other) { return other.solo; });
-    return light.enabled && (!anySolo || light.solo);
-}
-
 glm::vec3 lightColor(const Light& light) {
     return light.usesTemperature ? blackbodyColor(light.temperatureK) : light.color;
+}
+
+float lightIntensity(const Light& light) {
+    return light.intensity * std::exp2(light.gainEv);
+}
+
+glm::vec3 lightPower(const Light& light) {
+    return lightColor(light) * light.tint * lightIntensity(light);
 }
 
 std::string_view intensityUnit(LightType type) {
@@ -79,8 +81,9 @@ std::pair<float, float> coneScaleOffset(const Light& light) {
 }
 
 float illuminanceAt(const Light& light, const glm::vec3& point) {
+    const float intensity = lightIntensity(light);
     if (light.type == LightType::Directional)
-        return light.intensity;
+        return intensity;
     const glm::vec3 toLight = light.position - point;
     const float distance2 = glm::dot(toLight, toLight);
     const float range2 = light.range * light.range;
@@ -88,17 +91,17 @@ float illuminanceAt(const Light& light, const glm::vec3& point) {
         shading::pointFalloff(distance2, light.range > 0.0f ? 1.0f / range2 : 0.0f);
     switch (light.type) {
     case LightType::Point:
-        return light.intensity * falloff;
+        return intensity * falloff;
     case LightType::Spot: {
         const auto [scale, offset] = coneScaleOffset(light);
         const float cosAngle =
             distance2 > 0.0f ? glm::dot(light.directionToLight(), toLight) / std::sqrt(distance2)
                              : 1.0f;
-        return light.intensity * falloff * shading::spotFalloff(cosAngle, scale, offset);
+        return intensity * falloff * shading::spotFalloff(cosAngle, scale, offset);
     }
     case LightType::Sphere: {
         const float sin2 = light.radius * light.radius / std::max(distance2, 1e-12f);
-        return light.intensity * shading::kPi * std::min(sin2, 1.0f);
+        return intensity * shading::kPi * std::min(sin2, 1.0f);
     }
     case LightType::Rectangle: {
         if (!(distance2 > 0.0f))
@@ -112,7 +115,7 @@ float illuminanceAt(const Light& light, const glm::vec3& point) {
                 toLight + across * light.width * axes.x + up * light.height * axes.y;
             return glm::vec3(glm::dot(x, p), glm::dot(y, p), glm::dot(n, p));
         };
-        return light.intensity * shading::kPi *
+        return intensity * shading::kPi *
                shading::quadFormFactor(local(-0.5f, -0.5f), local(0.5f, -0.5f), local(0.5f, 0.5f),
                                        local(-0.5f, 0.5f));
     }

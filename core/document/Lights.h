@@ -1,4 +1,4 @@
-// What a document's lights do: which of them shine, in what colour and unit, how much arrives at a
+// What a document's lights do: in what colour and unit they shine, how much arrives at a
 // point, and what a light becomes when its type is switched.
 #pragma once
 
@@ -10,11 +10,14 @@
 
 namespace patina {
 
-// Switched on, and solo if any light is.
-[[nodiscard]] bool shines(const Document& document, const Light& light);
-
 // Linear sRGB without the intensity: the colour, or that of the temperature (luminance 1).
 [[nodiscard]] glm::vec3 lightColor(const Light& light);
+
+// The intensity with the mixer's gain, in the light's unit.
+[[nodiscard]] float lightIntensity(const Light& light);
+
+// What the light gives off, in its unit: colour, tint, intensity and gain.
+[[nodiscard]] glm::vec3 lightPower(const Light& light);
 
 [[nodiscard]] std::string_view intensityUnit(LightType type); // "cd", "lx" or "nit"
 

@@ -43,7 +43,7 @@ Result<OpenedScene> openScene(WorkerClient& worker, const std::string& scene,
     OpenedScene opened;
     if (!appendModel(loader, opened.document, source))
         return loader.model(source).error();
-    loader.loadEnvironment(opened.document.environment);
+    loader.loadEnvironments(opened.document);
     if (loader.cancelled())
         return cancelledError(source);
     frame(opened.document);
@@ -57,7 +57,7 @@ Document startDocument() {
     Document document;
     const bool read = appendModel(loader, document, "builtin:shader-ball");
     CHECK(read);
-    loader.loadEnvironment(document.environment);
+    loader.loadEnvironments(document);
     frame(document);
     return document;
 }

@@ -5,6 +5,7 @@
 #include "core/document/Edit.h"
 #include "core/document/ModelConversion.h"
 #include "core/job/Parallel.h"
+#include "core/light/EnvironmentBlend.h"
 #include "core/light/GeneratedEnvironment.h"
 #include "core/material/Parameters.h"
 
@@ -198,10 +199,31 @@ void SceneLoader::loadMaps(std::span<Material> materials) {
         });
 }
 
-void SceneLoader::loadEnvironment(Environment& environment) {
+void SceneLoader::loadEnvironments(Document& document) {
+    Environment& environment = document.environment;
     if (!environment.fileImage)
         loadEnvironmentFile(environment);
     resolveEnvironment(environment, m_job);
+    if (!environment.second.source.empty() && !environment.second.image)
+        loadSecondEnvironment(environment.second);
+    resolveBlend(document, m_job);
+}
+
+void SceneLoader::loadSecondEnvironment(SecondEnvironment& second) {
+    m_job.setActivity("reading " + fileName(second.source));
+    Result<ImagePtr> image = readEnvironmentImage(m_worker, second.source,
+                                                  EnvironmentLayout::Automatic, m_notices, m_job);
+    if (image.ok()) {
+        second.image = *std::move(image);
+        second.problem.clear();
+        return;
+    }
+    second.problem = image.error().message;
+    if (image.error().kind == ErrorKind::InputMissing)
+        addMissing(second.source);
+    addNotice("the second environment cannot be read: " + image.error().message +
+                  "; the cross-fade leaves it out",
+              second.source);
 }
 
 void SceneLoader::loadEnvironmentFile(Environment& environment) {

@@ -38,9 +38,9 @@ class SceneLoader {
 
     // Gives every map that has a source but no image its image, or its problem.
     void loadMaps(std::span<Material> materials);
-    // The same for the environment, whose image is then that of its kind; a neutral grey stands in
-    // for a file that cannot be read.
-    void loadEnvironment(Environment& environment);
+    // The same for the environments. The first one's image is then that of its kind, and a neutral
+    // grey stands in for a file that cannot be read; the second one is then left out of the mix.
+    void loadEnvironments(Document& document);
 
     void addNotice(std::string message, const std::filesystem::path& file = {});
     void addMissing(const std::string& file); // noted once
@@ -56,6 +56,7 @@ class SceneLoader {
   private:
     Result<Model> readModel(const std::string& source);
     void loadEnvironmentFile(Environment& environment);
+    void loadSecondEnvironment(SecondEnvironment& second);
 
     WorkerClient* m_worker;
     JobContext m_job;

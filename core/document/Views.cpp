@@ -1,6 +1,7 @@
 #include "core/document/Views.h"
 
 #include "core/base/Check.h"
+#include "core/document/LightMix.h"
 #include "core/document/Lights.h"
 
 #include <algorithm>

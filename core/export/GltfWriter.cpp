@@ -118,7 +118,7 @@ class Writer {
         UniqueNames names;
         for (const Light* light : m_contents.lights) {
             // The extension wants colours within 0…1: what is brighter goes into the intensity.
-            const glm::vec3 color = lightColor(*light);
+            const glm::vec3 color = lightColor(*light) * light->tint;
             const float peak = std::max({color.r, color.g, color.b, 1.0f});
             const std::string name = cleanName(light->name, "Light");
             NodeTransform transform;
@@ -133,7 +133,7 @@ class Writer {
                                   : light->type == LightType::Spot      ? "spot"
                                                                         : "point"},
                          {"color", toJson(color / peak)},
-                         {"intensity", light->intensity * peak}};
+                         {"intensity", lightIntensity(*light) * peak}};
             if (hasRange(light->type) && light->range > 0.0f)
                 json["range"] = light->range;
             if (light->type == LightType::Spot) {

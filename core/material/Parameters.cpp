@@ -145,6 +145,25 @@ void setEnvironmentImage(Document& document, Id, const ParameterValue& value) {
     document.environment.problem = slot.problem;
 }
 
+// The second environment's likewise.
+ParameterValue getSecondImage(const Document& document, Id) {
+    const SecondEnvironment& second = document.environment.second;
+    MapSlot slot;
+    slot.source = second.source;
+    slot.image = second.image;
+    slot.problem = second.problem;
+    return slot;
+}
+
+void setSecondImage(Document& document, Id, const ParameterValue& value) {
+    CHECK(std::holds_alternative<MapSlot>(value));
+    const MapSlot& slot = std::get<MapSlot>(value);
+    SecondEnvironment& second = document.environment.second;
+    second.source = slot.source;
+    second.image = slot.image;
+    second.problem = slot.problem;
+}
+
 std::string_view lightIntensityUnit(const Document& document, Id id) {
     return intensityUnit(document.light(id)->type);
 }
@@ -244,12 +263,13 @@ constexpr ParameterInfo map(Text id, Text label, Text group, ColorEncoding encod
     return info;
 }
 
+template <auto Get, auto Set>
 constexpr ParameterInfo environmentImage(Text id, Text label, Text group, Text help) {
     auto info = row<Path<&Environment::source>>(ParameterType::Map, id, label, group, help,
                                                 Affects::Texture | Affects::EnvironmentMap);
     info.mapEncoding = ColorEncoding::Srgb;
-    info.get = &getEnvironmentImage;
-    info.set = &setEnvironmentImage;
+    info.get = Get;
+    info.set = Set;
     return info;
 }
 
@@ -357,9 +377,13 @@ constexpr auto kRed = MapChannel::R;
 constexpr auto kUniform = Affects::Uniform;
 constexpr auto kGeometry = Affects::Geometry | Affects::Bakes;
 constexpr auto kSurroundings = Affects::EnvironmentMap;
+constexpr auto kSwitch = Affects::Uniform | Affects::Structure; // lists show what shines
+constexpr Text kSoloHelp = "While anything is solo, a light or the surroundings, only what is solo "
+                           "shines, as on a mixing desk.";
 
 using M = Material;
 using E = Environment;
+using E2 = SecondEnvironment;
 using S = ShadingModel;
 using L = Light;
 using B = Softbox;
@@ -388,7 +412,7 @@ constexpr std::array kParameters{
     flag<&M::doubleSided>("material.doubleSided", "Double-sided", "Transparency", "Shows the back of thin surfaces such as leaves and cloth, with their normal turned to the viewer.", kUniform | Affects::Bakes),
 
     choice<&E::kind>("environment.kind", "Kind", "Environment", kEnvironmentKinds, kEnvironmentKindLabels, "What surrounds and lights the model: an image, a computed clear sky, or softboxes in a dark room.", kSurroundings),
-    environmentImage("environment.image", "Image", "Environment", "Image of the surroundings that light the scene."),
+    environmentImage<getEnvironmentImage, setEnvironmentImage>("environment.image", "Image", "Environment", "Image of the surroundings that light the scene."),
     choice<&E::layout>("environment.layout", "Layout", "Environment", kEnvironmentLayouts, kEnvironmentLayoutLabels, "How the file shows the surroundings; automatic guesses it from the file, choose another one when the guess is wrong.", Affects::Texture | Affects::EnvironmentMap),
     angle<&E::sky, &Sky::sunAzimuthDeg>("environment.skySunAzimuthDeg", "Sun azimuth", "Environment", "The compass direction of the sun; 0 is the model's front, positive values turn towards +X.", kSurroundings),
     number<&E::sky, &Sky::sunElevationDeg>("environment.skySunElevationDeg", "Sun elevation", "Environment", {0.0f, 90.0f}, {0.0f, 90.0f}, 1, "°", "How high the sun stands: 0 is sunset, 90 is overhead.", kSurroundings),
@@ -399,6 +423,16 @@ constexpr std::array kParameters{
     color<&E::softboxAmbient>("environment.softboxAmbient", "Ambient", "Environment", "Light of the room between the softboxes.", kSurroundings),
     angle<&E::rotationDeg>("environment.rotationDeg", "Rotation", "Environment", "Turns the surroundings about the vertical axis, counter-clockwise seen from above."),
     number<&E::exposureEv>("environment.exposureEv", "Brightness", "Environment", {-6.0f, 6.0f}, {-24.0f, 24.0f}, 2, "EV", "Brightens the surroundings; each step doubles their light."),
+    flag<&E::enabled>("environment.enabled", "On", "Mix", "Switches the light of the surroundings, and the picture of them, on or off.", kSwitch),
+    flag<&E::solo>("environment.solo", "Solo", "Mix", kSoloHelp, kSwitch),
+    color<&E::tint>("environment.tint", "Tint", "Mix", "Colours the light of the surroundings like a filter in front of them."),
+    environmentImage<getSecondImage, setSecondImage>("environment.secondImage", "Second image", "Mix", "Image of other surroundings that the light can be faded to."),
+    angle<&E::second, &E2::rotationDeg>("environment.secondRotationDeg", "Second rotation", "Mix", "Turns the second surroundings about the vertical axis, counter-clockwise seen from above."),
+    number<&E::second, &E2::exposureEv>("environment.secondExposureEv", "Second brightness", "Mix", {-6.0f, 6.0f}, {-24.0f, 24.0f}, 2, "EV", "Brightens the second surroundings; each step doubles their light."),
+    flag<&E::second, &E2::enabled>("environment.secondEnabled", "Second on", "Mix", "Switches the light of the second surroundings, and the picture of them, on or off.", kSwitch),
+    flag<&E::second, &E2::solo>("environment.secondSolo", "Second solo", "Mix", kSoloHelp, kSwitch),
+    color<&E::second, &E2::tint>("environment.secondTint", "Second tint", "Mix", "Colours the light of the second surroundings like a filter in front of them."),
+    number<&E::fade>("environment.fade", "Cross-fade", "Mix", kUnit, kUnit, 3, "", "Fades from these surroundings at 0 to the second ones at 1, between them to a mix of the light of both; of no effect without a second image."),
     choice<&E::background>("environment.background", "Background", "Environment", kBackgrounds, kBackgroundLabels, "What is seen behind the model; the light on it stays the same."),
     number<&E::backgroundBlur>("environment.backgroundBlur", "Background blur", "Environment", kUnit, kUnit, 2, "", "How far the surroundings behind the model are out of focus when they are blurred."),
     color<&E::backgroundColor>("environment.backgroundColor", "Background colour", "Environment", "Colour behind the model when the background is a colour."),
@@ -445,11 +479,13 @@ constexpr std::array kParameters{
     text<&L::name>("light.name", "Name", "Light", "What the light is called in lists, exports and scripts."),
     choice<&L::type>("light.type", "Type", "Light", kLightTypes, kLightTypeLabels, "A point shines from one place in all directions, a directional light like the sun from far away, a spot in a cone; spheres and rectangles shine from an area and make soft highlights.", kUniform | Affects::Structure),
     flag<&L::enabled>("light.enabled", "On", "Light", "Switches the light on or off.", kUniform | Affects::Structure),
-    flag<&L::solo>("light.solo", "Solo", "Light", "While any light is solo, only solo lights shine, as on a mixing desk.", kUniform | Affects::Structure),
+    flag<&L::solo>("light.solo", "Solo", "Light", kSoloHelp, kUniform | Affects::Structure),
     color<&L::color>("light.color", "Colour", "Light", "Colour of the light; its brightness is set by the intensity."),
     flag<&L::usesTemperature>("light.usesTemperature", "Use temperature", "Light", "Takes the colour of a glowing body of the temperature below instead of the colour above."),
     number<&L::temperatureK>("light.temperatureK", "Temperature", "Light", {1000.0f, 12000.0f}, {kMinTemperatureK, kMaxTemperatureK}, 0, "K", "Colour temperature: a candle has 1900 K, a light bulb 2700 K, the midday sun 5500 K, a clear sky 10000 K and more."),
     unitOfElement(lightIntensityUnit, number<&L::intensity>("light.intensity", "Intensity", "Light", {0.0f, 20.0f}, {0.0f, 1e6f}, 3, "cd, lx or nit", "Brightness: in lux at a surface that faces a directional light, in candela for points and spots, in nit (candela per m²) for spheres and rectangles.")),
+    number<&L::gainEv>("light.gainEv", "Gain", "Light", {-6.0f, 6.0f}, {-24.0f, 24.0f}, 2, "EV", "Brightens the light in the mix, its intensity staying as it is; each step doubles it."),
+    color<&L::tint>("light.tint", "Tint", "Light", "Colours the light in the mix like a filter in front of it; white leaves it as it is."),
     vector<&L::position>("light.position", "Position", "Place", {-10.0f, 10.0f}, {-1e6f, 1e6f}, "m", "Where the light stands: right, up and towards the viewer; not of a directional light."),
     angle<&L::azimuthDeg>("light.azimuthDeg", "Azimuth", "Place", "The compass direction that light of a directional light, spot or rectangle comes from; 0 is the model's front, positive values turn towards +X."),
     number<&L::elevationDeg>("light.elevationDeg", "Elevation", "Place", {-90.0f, 90.0f}, {-90.0f, 90.0f}, 1, "°", "How far from above the light of a directional light, spot or rectangle comes: 90 is straight down, 0 level."),

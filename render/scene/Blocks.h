@@ -27,10 +27,11 @@ struct FrameBlock {
     glm::mat4 worldToClip{1.0f}, clipToWorld{1.0f}, worldToEnvironment{1.0f};
     glm::vec4 cameraPosition{0.0f};
     glm::vec4 viewport{0.0f};
-    float radianceScale = 1.0f;
+    glm::vec3 radianceScale{1.0f};
+    float irradianceScale = 0.0f;
     std::int32_t prefilteredLevels = 1;
     float prefilteredSide = 1.0f;
-    float irradianceScale = 0.0f;
+    glm::vec2 unused{0.0f};
     std::array<glm::uvec4, 4> irradianceSh{}; // see packIrradiance()
     std::array<glm::vec4, kMaxTransferCount> radianceSh{};
     glm::vec4 lamp{0.0f}, lampIrradiance{0.0f};
@@ -41,8 +42,8 @@ struct FrameBlock {
 };
 static_assert(offsetof(FrameBlock, cameraPosition) == 192);
 static_assert(offsetof(FrameBlock, radianceScale) == 224);
-static_assert(offsetof(FrameBlock, irradianceSh) == 240);
-static_assert(sizeof(FrameBlock) == 240 + 33 * 16 + kMaxLights * sizeof(LightBlock));
+static_assert(offsetof(FrameBlock, irradianceSh) == 256);
+static_assert(sizeof(FrameBlock) == 256 + 33 * 16 + kMaxLights * sizeof(LightBlock));
 
 // shaders/include/shadow.glsl; see ShadowView for the numbers.
 struct ShadowBlock {

@@ -67,13 +67,15 @@ void packIrradiance(const std::array<glm::vec3, 9>& coefficients, FrameBlock& fr
     constexpr float kLargest = 32767.0f;
     float largest = 0.0f;
     for (const glm::vec3& c : coefficients)
-        largest = std::max({largest, std::abs(c.x), std::abs(c.y), std::abs(c.z)});
-    frame.irradianceScale = frame.radianceScale * largest / kLargest;
+        for (int channel = 0; channel < 3; ++channel)
+            largest = std::max(largest, std::abs(c[channel] * frame.radianceScale[channel]));
+    frame.irradianceScale = largest / kLargest;
     frame.irradianceSh.fill(glm::uvec4(0));
     if (largest == 0.0f)
         return;
     for (int k = 0; k < 27; ++k) {
-        const float value = coefficients[static_cast<std::size_t>(k / 3)][k % 3] / largest;
+        const float value = coefficients[static_cast<std::size_t>(k / 3)][k % 3] *
+                            frame.radianceScale[k % 3] / largest;
         const auto bits = static_cast<std::uint32_t>(std::lround(value * kLargest)) & 0xffffu;
         frame.irradianceSh[static_cast<std::size_t>(k / 8)][k / 2 % 4] |=
             k % 2 == 0 ? bits << 16 : bits;
@@ -165,6 +167,7 @@ bool EnvironmentLight::proceed(std::size_t bytes) {
     m_irradianceSh = texels.irradianceSh;
     m_radianceSh = texels.radianceSh;
     m_clampedTexels = texels.clamped;
+    m_shown = m_wanted;
     if (m_clampedTexels > 0)
         logInfo("{} texels of the environment exceed 65504 and were limited", m_clampedTexels);
     m_arriving.reset();
@@ -191,9 +194,16 @@ std::size_t EnvironmentLight::memoryBytes() const {
     return bytes;
 }
 
-void EnvironmentLight::fill(const Environment& environment, FrameBlock& frame) const {
-    const float angle = glm::radians(environment.rotationDeg);
-    frame.radianceScale = std::exp2(environment.exposureEv);
+void EnvironmentLight::show(const EnvironmentPart& part) {
+    m_wanted = part;
+    // Pictures of one role follow each other (drafts of a sky): the turn goes on meanwhile.
+    if (part.role == m_shown.role || part.image == m_backgroundImage)
+        m_shown = part;
+}
+
+void EnvironmentLight::fill(FrameBlock& frame) const {
+    const float angle = glm::radians(m_shown.rotationDeg);
+    frame.radianceScale = m_wanted.scale == glm::vec3(0.0f) ? m_wanted.scale : m_shown.scale;
     frame.prefilteredLevels = m_prefilteredLevels;
     frame.prefilteredSide = static_cast<float>(m_prefilteredSide);
     // The surroundings turn by `angle`, so a world direction is looked up turned back.

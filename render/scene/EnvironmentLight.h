@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/document/Document.h"
+#include "core/document/LightMix.h"
 #include "core/light/EnvironmentTexels.h"
 #include "render/gl/Texture.h"
 #include "render/scene/Blocks.h"
@@ -32,8 +33,11 @@ class EnvironmentLight {
     // when they are new, nothing when they have been in use before.
     void setModel(const ShadingModel& model);
 
-    // Rotation, exposure and coefficients of the environment for this frame.
-    void fill(const Environment& environment, FrameBlock& frame) const;
+    // How the picture is to be turned and scaled: shownEnvironment() of the document. While it is
+    // of another role than the picture that is there, that one stays as it was shown.
+    void show(const EnvironmentPart& part);
+    // Rotation, scale and coefficients of what is shown for this frame.
+    void fill(FrameBlock& frame) const;
 
     // A CubeAtlas; its side and levels are in the frame's block.
     [[nodiscard]] const gl::Texture& prefiltered() const { return m_prefiltered; }
@@ -66,6 +70,7 @@ class EnvironmentLight {
     std::array<glm::vec3, kMaxTransferCount> m_radianceSh{};
     int m_prefilteredSide = 1, m_prefilteredLevels = 1;
     std::size_t m_clampedTexels = 0;
+    EnvironmentPart m_wanted, m_shown;
 };
 
 // Irradiance coefficients as FrameBlock has them, times its radianceScale: 16 bits relative to the

@@ -58,6 +58,7 @@ GpuScene::GpuScene(gl::Context& context)
 
 void GpuScene::update(const Document& document, const Change& change) {
     m_document = document;
+    m_environment.show(shownEnvironment(m_document));
     if (!change.target || change.target->scope == Scope::Model) {
         m_modelBlock.writeValue(packModel(m_document.model));
         m_environment.setModel(m_document.model);
@@ -209,7 +210,7 @@ void GpuScene::clearPreview() {
 }
 
 void GpuScene::fill(FrameBlock& frame, std::span<const Id> shadows) const {
-    m_environment.fill(m_document.environment, frame);
+    m_environment.fill(frame);
     frame.mix = mixWeights(m_document.view.reflectionMix);
     packLights(m_document, shadows, frame);
 }

@@ -1,5 +1,6 @@
 #include "render/scene/LightBlocks.h"
 
+#include "core/document/LightMix.h"
 #include "core/document/Lights.h"
 
 #include <algorithm>
@@ -30,8 +31,7 @@ LightBlock packLight(const Light& light, int shadowSlot) {
     block.place = glm::vec4(directional ? light.directionToLight() : light.position,
                             static_cast<float>(shadowSlot));
     const bool ends = hasRange(light.type) && light.range > 0.0f;
-    block.color = glm::vec4(lightColor(light) * light.intensity,
-                            ends ? 1.0f / (light.range * light.range) : 0.0f);
+    block.color = glm::vec4(lightPower(light), ends ? 1.0f / (light.range * light.range) : 0.0f);
     switch (light.type) {
     case LightType::Spot: {
         const auto [scale, offset] = coneScaleOffset(light);

@@ -1,5 +1,6 @@
 #include "render/scene/LightGizmo.h"
 
+#include "core/document/LightMix.h"
 #include "core/document/Lights.h"
 
 #include <algorithm>
@@ -29,7 +30,7 @@ constexpr std::array<Axis, 3> kAxes{{{GizmoHandle::AxisX, {1, 0, 0}, {0.95f, 0.3
 
 // Hue of a light at full brightness.
 glm::vec3 markColor(const Light& light) {
-    const glm::vec3 color = lightColor(light);
+    const glm::vec3 color = lightColor(light) * light.tint;
     const float most = std::max({color.r, color.g, color.b, 1e-6f});
     return glm::mix(glm::vec3(1.0f), color / most, 0.8f);
 }

@@ -173,6 +173,7 @@ glm::vec3 viewDirection(const Inspection& pixel, const Document& document) {
 
 ExplainedSection explainBackground(const Inspection& pixel, const Document& document) {
     const Environment& environment = document.environment;
+    const EnvironmentPart shown = shownEnvironment(document);
     ExplainedSection section{"background", "Background", {}, {}};
     const auto add = [&](ExplainedValue value) { section.values.push_back(std::move(value)); };
     const glm::vec3 picture =
@@ -191,14 +192,13 @@ ExplainedSection explainBackground(const Inspection& pixel, const Document& docu
                   environment.background == BackgroundMode::Blurred ? "the environment, blurred"
                                                                     : "the environment"));
         add(vector3("direction", "Direction", "d", direction));
-        addEnvironmentPosition(section.values, environment, direction);
-        if (environment.image) {
+        addEnvironmentPosition(section.values, shown, direction);
+        if (shown.image) {
             const glm::vec2 uv =
-                latLongFromDirection(rotateY(direction, -glm::radians(environment.rotationDeg)));
+                latLongFromDirection(rotateY(direction, -glm::radians(shown.rotationDeg)));
             add(color("texel", "Its Radiance", "",
-                      glm::vec3(sampleBilinear(*environment.image, uv.x, uv.y)), kRadianceUnit));
-            add(scalar("environmentEv", "Exposure of the Environment", "", environment.exposureEv,
-                       "EV"));
+                      glm::vec3(sampleBilinear(*shown.image, uv.x, uv.y)), kRadianceUnit));
+            add(color("environmentScale", "Gain and Tint of the Environment", "", shown.scale));
         }
         break;
     }

@@ -42,7 +42,7 @@ std::vector<ExplainedValue> lookups(const Subject& subject) {
     const float length = glm::length(lobe);
     const glm::vec3 direction = length > 0.0f ? lobe / length : subject.rebuilt.surface.n;
     add(vector3("lobeDirection", "Looked Up Along", "", direction));
-    addEnvironmentPosition(values, subject.document.environment, direction);
+    addEnvironmentPosition(values, shownEnvironment(subject.document), direction);
     add(ofView(subject, kViewPrefilteredLevel));
     const float level = subject.number(kViewPrefilteredLevel), fine = std::floor(level);
     add(words("levels", "Between Levels",
@@ -189,7 +189,7 @@ ExplainedStep specularStep(const Subject& subject) {
 
 } // namespace
 
-void addEnvironmentPosition(std::vector<ExplainedValue>& values, const Environment& environment,
+void addEnvironmentPosition(std::vector<ExplainedValue>& values, const EnvironmentPart& environment,
                             const glm::vec3& direction) {
     static constexpr std::array kFaces{"+X", "−X", "+Y", "−Y", "+Z", "−Z"};
     const glm::vec3 d = rotateY(direction, -glm::radians(environment.rotationDeg));

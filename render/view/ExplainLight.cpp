@@ -36,7 +36,7 @@ float unseen(const Subject& subject) {
 
 // How much light reaches a surface that faces the light.
 ExplainedStep arrivingStep(const Light& light, const LightShare& share, const glm::vec3& position) {
-    const glm::vec3 source = lightColor(light) * light.intensity;
+    const glm::vec3 source = lightPower(light);
     const std::string unit(intensityUnit(light.type));
     ExplainedStep step{"arriving",
                        "Arriving Light",
@@ -139,7 +139,7 @@ ExplainedStep specularOf(const Subject& subject, const RebuiltLight& light,
 void explainArea(ExplainedSection& section, const Subject& subject, const Light& light,
                  const RebuiltLight& rebuilt, const LightShare& share) {
     const SurfaceTerms& s = subject.rebuilt.surface;
-    const glm::vec3 radiance = lightColor(light) * light.intensity;
+    const glm::vec3 radiance = lightPower(light);
     const ExplainedValue source = color("intensity", "Colour · Intensity", "L", radiance, "nit");
     section.values.push_back(scalar("distance", "Distance to Its Centre", "d",
                                     glm::distance(light.position, subject.vector(kRecordPosition)),

@@ -1,6 +1,7 @@
 // The sections of an explanation, and how their rows are made; only explain() needs this.
 #pragma once
 
+#include "core/document/LightMix.h"
 #include "render/view/Explanation.h"
 #include "render/view/Recombine.h"
 
@@ -50,7 +51,7 @@ void weigh(ExplainedStep& step, float weight);
 [[nodiscard]] ExplainedSection explainDisplay(const Inspection& pixel, const Document& document,
                                               const RebuiltPixel& rebuilt);
 // Where a direction looks in the surroundings.
-void addEnvironmentPosition(std::vector<ExplainedValue>& values, const Environment& environment,
+void addEnvironmentPosition(std::vector<ExplainedValue>& values, const EnvironmentPart& environment,
                             const glm::vec3& direction);
 
 } // namespace patina::render

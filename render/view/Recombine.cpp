@@ -82,7 +82,7 @@ void shadeArea(RebuiltLight& light, const SurfaceTerms& s, const Light& source,
     light.NoL = glm::dot(s.n, glm::normalize(toCenter));
     light.diffuseShare = shares.diffuse.x;
     light.lobeShare = shares.specular.x;
-    const glm::vec3 radiance = lightColor(source) * source.intensity;
+    const glm::vec3 radiance = lightPower(source);
     light.diffuse = s.diffuseAlbedo * radiance * light.diffuseShare;
     light.specular = s.specularAlbedo * radiance * light.lobeShare;
 }

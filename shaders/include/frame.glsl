@@ -18,10 +18,10 @@ layout(std140, binding = 0) uniform Frame {
     mat4 u_worldToEnvironment; // a rotation about +Y
     vec4 u_cameraPosition;
     vec4 u_viewport;         // width, height, 1 / width, 1 / height
-    float u_radianceScale;   // 2^exposure of the environment
+    vec3 u_radianceScale;    // tint and 2^exposure of the environment
+    float u_irradianceScale; // of u_irradianceSh
     int u_prefilteredLevels; // of the prefiltered cubemap
     float u_prefilteredSide; // of a face of its level 0
-    float u_irradianceScale; // of u_irradianceSh
     // World space, exposure included: 27 numbers r g b r g b …, two to a word, the first in the upper
     // half, as signed integers.
     uvec4 u_irradianceSh[4];

@@ -129,13 +129,14 @@ TEST_F(GpuSceneTest, PackedIrradianceKeepsFourDigits) {
         coefficients[static_cast<std::size_t>(i)] =
             glm::vec3(3.0f - i, 0.37f * i * i, i % 2 == 0 ? 25.0f : -25.0f);
     FrameBlock frame;
-    frame.radianceScale = 4.0f;
+    frame.radianceScale = glm::vec3(4.0f, 2.0f, 1.0f);
     packIrradiance(coefficients, frame);
     for (int k = 0; k < 27; ++k) { // as irradiancePair() in frame.glsl
         const std::uint32_t word = frame.irradianceSh[static_cast<std::size_t>(k / 8)][k / 2 % 4];
         const auto half = static_cast<std::int16_t>(k % 2 == 0 ? word >> 16 : word & 0xffffu);
         EXPECT_NEAR(frame.irradianceScale * half,
-                    4.0f * coefficients[static_cast<std::size_t>(k / 3)][k % 3],
+                    frame.radianceScale[k % 3] *
+                        coefficients[static_cast<std::size_t>(k / 3)][k % 3],
                     4.0f * 25.0f * 1.6e-5f)
             << k;
     }

@@ -62,7 +62,7 @@ class IblLookup : public gl::GlTest {
         const gl::Buffer out(context(), "out", inputs.size() * sizeof(glm::vec4));
         gl::Buffer frame(context(), "frame", sizeof(FrameBlock));
         FrameBlock block;
-        m_light->fill(Environment{}, block);
+        m_light->fill(block);
         frame.writeValue(block);
         in.bindStorage(0);
         out.bindStorage(1);

@@ -29,6 +29,11 @@ DocumentController::DocumentController(WorkerClient& worker, QObject* parent)
     connect(&m_undo, &QUndoStack::cleanChanged, this, &DocumentController::fileChanged);
     connect(m_environment, &EnvironmentResolver::refined, this, [this](const ImagePtr& image) {
         m_document.environment.image = image;
+        m_environment->update(m_document);
+        Q_EMIT changed({Affects::EnvironmentMap, Target{Scope::Environment, 0}});
+    });
+    connect(m_environment, &EnvironmentResolver::blended, this, [this](const ImagePtr& image) {
+        m_document.environment.blended = image;
         Q_EMIT changed({Affects::EnvironmentMap, Target{Scope::Environment, 0}});
     });
     connect(&m_tasks, &BackgroundTasks::failed, this,
@@ -49,7 +54,7 @@ bool DocumentController::isPristine() const {
 
 void DocumentController::apply(const std::function<Change(Document&)>& edit) {
     Change change = edit(m_document);
-    if (m_environment->update(m_document.environment))
+    if (m_environment->update(m_document))
         change.affects = change.affects | Affects::EnvironmentMap;
     Q_EMIT changed(change);
 }

@@ -60,7 +60,7 @@ void DocumentController::replaceDocument(Document document, const QString& fileP
     // Results that were on their way belong to elements of the document that goes.
     m_tasks.cancelAll();
     m_document = std::move(document);
-    m_environment->reset(m_document.environment);
+    m_environment->reset(m_document);
     m_undo.clear();
     m_filePath = filePath;
     m_name = name;

@@ -1,8 +1,10 @@
-// Keeps a document's environment image what its kind asks for: while a sky or softboxes are edited
-// a draft is made at once, and the full picture follows in the background.
+// Keeps a document's environment image what its kind asks for, and the picture of two environments
+// what the mix asks for: while they are edited a draft is made at once, and the full picture
+// follows in the background.
 #pragma once
 
 #include "core/job/JobContext.h"
+#include "core/light/EnvironmentBlend.h"
 #include "core/light/GeneratedEnvironment.h"
 
 #include <QObject>
@@ -18,17 +20,22 @@ class EnvironmentResolver : public QObject {
     explicit EnvironmentResolver(QObject* parent = nullptr);
     ~EnvironmentResolver() override; // cancels and waits
 
-    // Another document, whose image is as it should be.
-    void reset(const Environment& environment);
-    // After an edit: gives the environment the image of its kind, in a few milliseconds. Whether
-    // that is another one than before.
-    bool update(Environment& environment);
+    // Another document, whose images are as they should be.
+    void reset(const Document& document);
+    // After an edit: gives the environment its images, in a few milliseconds. Whether another one
+    // than before is shown.
+    bool update(Document& document);
 
   Q_SIGNALS:
-    // The full picture for what update() saw last.
+    // The full picture for what update() saw last: of the first environment, or of both.
     void refined(const patina::ImagePtr& image);
+    void blended(const patina::ImagePtr& image);
 
   private:
+    bool updateImage(Environment& environment);
+    bool updateBlend(Document& document);
+    [[nodiscard]] ImagePtr draftOf(const ImagePtr& image);
+    void change();
     void refine();
     void deliver(quint64 request, const ImagePtr& image);
 
@@ -36,12 +43,19 @@ class EnvironmentResolver : public QObject {
         EnvironmentRecipe recipe;
         ImagePtr image;
     };
+    struct Draft {
+        ImagePtr image, small;
+    };
     QThreadPool m_pool;
     QTimer m_rest; // until nothing has changed for a moment
     JobControl m_control;
     quint64 m_request = 0;
     EnvironmentRecipe m_recipe; // of the environment's image
     std::deque<Made> m_made;    // the last full pictures, for undo and redo
+    std::optional<EnvironmentBlend> m_blend;
+    std::deque<Draft> m_drafts;
+    ImagePtr m_shown;
+    bool m_imageIsDraft = false, m_blendIsDraft = false;
 };
 
 } // namespace patina::editor

@@ -36,6 +36,8 @@ bool applies(const ParameterInfo& info, const Document& document, Id) {
         return environment.background == BackgroundMode::Color;
     if (info.id == "environment.backgroundBlur")
         return environment.background == BackgroundMode::Blurred;
+    if (info.id.starts_with("environment.second") || info.id == "environment.fade")
+        return !environment.second.source.empty();
     if (info.id.starts_with("environment.sky"))
         return environment.kind == EnvironmentKind::Sky;
     if (info.id == "environment.layout")
@@ -58,12 +60,13 @@ EnvironmentPanel::EnvironmentPanel(DocumentController& controller, Thumbnails& t
     , m_source(new ElidedLabel)
     , m_imageControls(makeImageControls())
     , m_softboxes(new SoftboxList(controller, thumbnails))
-    , m_parameters(new ParameterList(controller, thumbnails,
-                                     {Scope::Environment,
-                                      [] { return std::optional(kEnvironment); },
-                                      // shown above in another way
-                                      {"environment.kind", "environment.image"},
-                                      applies})) {
+    , m_parameters(
+          new ParameterList(controller, thumbnails,
+                            {Scope::Environment,
+                             [] { return std::optional(kEnvironment); },
+                             // shown above, or by the mixer, in another way
+                             {"environment.kind", "environment.image", "environment.secondImage"},
+                             applies})) {
     m_gallery->setTasks(*m_previews);
     auto* scroll = new PanelScroll;
     scroll->contents()->addWidget(makeKinds());

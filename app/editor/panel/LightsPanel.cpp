@@ -7,6 +7,7 @@
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/PanelScroll.h"
+#include "core/document/LightMix.h"
 #include "core/document/Lights.h"
 
 #include <QHBoxLayout>

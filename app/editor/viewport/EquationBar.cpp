@@ -8,6 +8,7 @@
 #include "app/editor/viewport/ViewState.h"
 #include "app/editor/viewport/ViewThumb.h"
 #include "app/editor/widget/ElidedLabel.h"
+#include "core/document/LightMix.h"
 #include "core/document/Lights.h"
 
 #include <QComboBox>

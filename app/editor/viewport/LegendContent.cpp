@@ -2,6 +2,7 @@
 
 #include "app/editor/viewport/ViewState.h"
 #include "core/document/Document.h"
+#include "core/document/LightMix.h"
 #include "core/document/Lights.h"
 #include "core/math/Shading.h"
 

@@ -6,6 +6,7 @@
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/LobeOnSurface.h"
 #include "core/base/Log.h"
+#include "core/document/LightMix.h"
 #include "render/Renderer.h"
 #include "render/gl/Context.h"
 
@@ -109,7 +110,7 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     m_environmentTimer.setInterval(0);
     connect(&m_environmentTimer, &QTimer::timeout, this, &ViewportWidget::feedEnvironment);
     connect(m_ibl, &IblUpdater::ready, &m_environmentTimer, qOverload<>(&QTimer::start));
-    m_ibl->request(controller.document().environment.image);
+    m_ibl->request(shownEnvironment(controller.document()).image);
 }
 
 ViewportWidget::~ViewportWidget() {
@@ -343,7 +344,7 @@ void ViewportWidget::applyChange(const Change& change) {
         m_controller.setCamera(frameBounds(document.view.camera, document.bounds(), viewAspect()));
     }
     if (touches(change.affects, Affects::EnvironmentMap))
-        m_ibl->request(m_controller.document().environment.image);
+        m_ibl->request(shownEnvironment(m_controller.document()).image);
     // Camera moves affect nothing: the camera travels with each frame.
     if (m_renderer && change.affects != Affects::Nothing) {
         makeCurrent();

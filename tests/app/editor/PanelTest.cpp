@@ -153,7 +153,8 @@ TEST_F(PanelTest, EveryParameterOfAPanelHasARow) {
     for (const ParameterInfo& info : parameters()) {
         if (info.scope == Scope::Mesh || info.type == ParameterType::Text ||
             info.id == "environment.kind" || info.id == "environment.image" ||
-            info.id == "light.enabled" || info.id == "light.solo" || info.id == "softbox.enabled")
+            info.id == "environment.secondImage" || info.id == "light.enabled" ||
+            info.id == "light.solo" || info.id == "softbox.enabled")
             continue; // in the tree, the lists, the gallery and the buttons
         ParameterRow& found = row(info.id);
         EXPECT_EQ(&found.info(), findParameter(info.id));

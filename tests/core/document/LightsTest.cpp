@@ -1,5 +1,6 @@
 // What lights do, against what can be worked out by hand.
 #include "core/document/Lights.h"
+#include "core/document/LightMix.h"
 
 #include "core/material/Parameters.h"
 

@@ -118,6 +118,9 @@ TEST(ParameterTable, HoldsTheFixedNames) {
                              "environment.softboxAmbient",
                              "environment.rotationDeg",
                              "environment.exposureEv",
+                             "environment.secondImage",
+                             "environment.fade",
+                             "light.gainEv",
                              "view.exposureEv",
                              "view.toneMap",
                              "view.fovDeg",
@@ -295,7 +298,8 @@ TEST(ParameterTable, MapsBelongToTheirNumbersAndCarryTheColourPolicy) {
         if (info.type != ParameterType::Map)
             continue;
         const bool isColor = info.id == "material.baseColor.map" ||
-                             info.id == "material.emissive.map" || info.id == "environment.image";
+                             info.id == "material.emissive.map" || info.id == "environment.image" ||
+                             info.id == "environment.secondImage";
         EXPECT_EQ(info.mapEncoding, isColor ? ColorEncoding::Srgb : ColorEncoding::Data) << info.id;
         EXPECT_TRUE(touches(info.affects, Affects::Texture)) << info.id;
     }

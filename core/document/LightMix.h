@@ -1,0 +1,36 @@
+// The light mix of a document, as on a mixing desk: which lights and surroundings take part (on,
+// solo), and what the environments' faders (gain, tint, cross-fade) make of their light.
+#pragma once
+
+#include "core/document/Document.h"
+
+#include <vector>
+
+namespace patina {
+
+// While anything is solo, a light or an environment, only what is solo shines.
+[[nodiscard]] bool anySolo(const Document& document);
+
+// Switched on, and solo if anything is.
+[[nodiscard]] bool shines(const Document& document, const Light& light);
+
+// Surroundings that light the scene: radiance scale · image, turned about +Y.
+struct EnvironmentPart {
+    enum class Role { First, Second, Both };
+    Role role = Role::First; // whose picture it is
+    ImagePtr image; // lat-long, as Environment::image
+    float rotationDeg = 0.0f;
+    glm::vec3 scale{1.0f};
+    friend bool operator==(const EnvironmentPart&, const EnvironmentPart&) = default;
+};
+
+// Those that take part: on, solo if anything is, and neither faded out nor tinted to black. Their
+// radiances add up; the cross-fade weighs the first by 1 - fade and the second by fade, as long as
+// there is a second one with an image. At most two, the first one first.
+[[nodiscard]] std::vector<EnvironmentPart> environmentParts(const Document& document);
+
+// The same as one picture: the part where there is one; `blended` where there are two, or the first
+// until it is there; where there is none the first environment's, scaled by 0.
+[[nodiscard]] EnvironmentPart shownEnvironment(const Document& document);
+
+} // namespace patina

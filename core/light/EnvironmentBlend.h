@@ -1,0 +1,29 @@
+// One picture of two surroundings that light the scene together, for image-based light, which is
+// prepared from one picture.
+#pragma once
+
+#include "core/document/Document.h"
+#include "core/job/JobContext.h"
+
+#include <optional>
+
+namespace patina {
+
+// All that the picture depends on.
+struct EnvironmentBlend {
+    ImagePtr first, second;
+    float turnDeg = 0.0f; // of the second against the first
+    glm::vec3 firstScale{1.0f}, secondScale{1.0f};
+    friend bool operator==(const EnvironmentBlend&, const EnvironmentBlend&) = default;
+};
+// None where fewer than two environments take part: environmentParts() of LightMix.h.
+[[nodiscard]] std::optional<EnvironmentBlend> environmentBlend(const Document& document);
+
+// firstScale · first + secondScale · second turned by turnDeg, of the larger picture's size. Null
+// after a cancel.
+[[nodiscard]] ImagePtr blendEnvironments(const EnvironmentBlend& blend, const JobContext& job = {});
+
+// Makes environment.blended what the mix asks for, or null.
+void resolveBlend(Document& document, const JobContext& job = {});
+
+} // namespace patina

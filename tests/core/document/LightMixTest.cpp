@@ -1,0 +1,194 @@
+#include "core/document/LightMix.h"
+
+#include "core/document/DocumentIO.h"
+#include "core/document/Edit.h"
+#include "core/document/Lights.h"
+#include "core/light/EnvironmentBlend.h"
+#include "core/light/Ibl.h"
+#include "core/math/ShRotation.h"
+#include "core/math/SphericalHarmonics.h"
+
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <gtest/gtest.h>
+
+namespace patina {
+namespace {
+
+using Role = EnvironmentPart::Role;
+
+// A gradient with a lamp: nothing about it is symmetric.
+ImagePtr picture(int width, float base, int lampX, int lampY) {
+    Image image(width, width / 2, 3, PixelType::F32, ColorEncoding::Linear);
+    for (int y = 0; y < width / 2; ++y)
+        for (int x = 0; x < width; ++x)
+            for (int c = 0; c < 3; ++c)
+                image.f32()[static_cast<std::size_t>(3 * (y * width + x) + c)] =
+                    base * static_cast<float>(1 + c) * (1.0f + static_cast<float>(y)) +
+                    (x == lampX && y == lampY ? 40.0f : 0.0f);
+    return std::make_shared<const Image>(std::move(image));
+}
+
+class LightMix : public testing::Test {
+  protected:
+    LightMix() {
+        Environment& e = document.environment;
+        e.image = e.fileImage = picture(64, 0.01f, 10, 9);
+        e.rotationDeg = 30.0f;
+        e.exposureEv = 1.0f;
+        e.tint = {1.0f, 0.5f, 0.25f};
+        e.second.source = "/tmp/second.hdr";
+        e.second.image = picture(64, 0.03f, 40, 20);
+        e.second.rotationDeg = 75.0f; // 45° and 8 of 64 pixels further
+        e.second.exposureEv = -1.0f;
+        e.second.tint = {0.2f, 0.4f, 0.8f};
+        document.lights.resize(2);
+    }
+    Document document;
+};
+
+TEST_F(LightMix, TheFadeSharesTheLightOut) {
+    Environment& e = document.environment;
+    ASSERT_EQ(environmentParts(document).size(), 1u); // fade 0
+    EXPECT_EQ(environmentParts(document)[0],
+              (EnvironmentPart{Role::First, e.image, 30.0f, {2.0f, 1.0f, 0.5f}}));
+    e.fade = 0.25f;
+    ASSERT_EQ(environmentParts(document).size(), 2u);
+    EXPECT_EQ(environmentParts(document)[0],
+              (EnvironmentPart{Role::First, e.image, 30.0f, {1.5f, 0.75f, 0.375f}}));
+    const EnvironmentPart second = environmentParts(document)[1];
+    EXPECT_EQ(second.role, Role::Second);
+    EXPECT_EQ(second.image, e.second.image);
+    EXPECT_EQ(second.rotationDeg, 75.0f);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(second.scale[c], 0.25f * 0.5f * e.second.tint[c], 1e-7f);
+    e.fade = 1.0f;
+    ASSERT_EQ(environmentParts(document).size(), 1u);
+    EXPECT_EQ(environmentParts(document)[0].role, Role::Second);
+    e.second.image = nullptr; // nothing to fade to
+    ASSERT_EQ(environmentParts(document).size(), 1u);
+    EXPECT_EQ(environmentParts(document)[0],
+              (EnvironmentPart{Role::First, e.image, 30.0f, {2.0f, 1.0f, 0.5f}}));
+}
+
+TEST_F(LightMix, SoloAndMuteAreOfOneDeskForLightsAndSurroundings) {
+    Environment& e = document.environment;
+    e.fade = 0.5f;
+    document.lights[1].solo = true;
+    EXPECT_TRUE(anySolo(document));
+    EXPECT_FALSE(shines(document, document.lights[0]));
+    EXPECT_TRUE(shines(document, document.lights[1]));
+    EXPECT_TRUE(environmentParts(document).empty());
+    EXPECT_EQ(shownEnvironment(document).scale, glm::vec3(0.0f));
+    EXPECT_EQ(shownEnvironment(document).image, e.image); // no picture is prepared for nothing
+
+    document.lights[1].solo = false;
+    e.second.solo = true;
+    EXPECT_FALSE(shines(document, document.lights[0]));
+    ASSERT_EQ(environmentParts(document).size(), 1u);
+    EXPECT_EQ(environmentParts(document)[0].role, Role::Second);
+    e.solo = true;
+    EXPECT_EQ(environmentParts(document).size(), 2u);
+    e.enabled = false; // muted and solo: silent
+    EXPECT_EQ(environmentParts(document).size(), 1u);
+    e.second.enabled = false;
+    EXPECT_TRUE(environmentParts(document).empty());
+
+    // A second environment that was taken away takes its solo along.
+    e = Environment();
+    e.second.solo = true;
+    EXPECT_FALSE(anySolo(document));
+    EXPECT_TRUE(shines(document, document.lights[0]));
+}
+
+TEST_F(LightMix, GainAndTintMultiplyTheLightOnTopOfItsOwnColour) {
+    Light light;
+    light.intensity = 3.0f;
+    light.color = {1.0f, 0.5f, 0.25f};
+    light.tint = {0.5f, 1.0f, 0.5f};
+    light.gainEv = -2.0f;
+    EXPECT_EQ(lightIntensity(light), 0.75f);
+    EXPECT_EQ(lightPower(light), glm::vec3(0.375f, 0.375f, 0.09375f));
+    EXPECT_EQ(illuminanceAt(light, {}), 0.75f);
+    light.usesTemperature = true; // the filter is in front of the glowing body too
+    EXPECT_EQ(lightPower(light), lightColor(light) * light.tint * 0.75f);
+    // Another type goes on shining at the gain it has.
+    Bounds scene;
+    scene.add({-1, -1, -1});
+    scene.add({1, 1, 1});
+    const Light point = convertedLight(light, LightType::Point, scene);
+    EXPECT_EQ(point.gainEv, -2.0f);
+    EXPECT_NEAR(illuminanceAt(point, scene.center()), 0.75f, 1e-5f);
+}
+
+// The picture of both has the sum of their light: each turned and scaled, by coefficients.
+TEST_F(LightMix, TheBlendedPictureIsTheSumOfTheParts) {
+    Environment& e = document.environment;
+    for (const float turn : {75.0f, 77.7f}) {
+        for (const int secondWidth : {64, 32}) {
+            SCOPED_TRACE(turn);
+            SCOPED_TRACE(secondWidth);
+            e.second.image = picture(secondWidth, 0.03f, 20, 11);
+            e.second.rotationDeg = turn;
+            e.fade = 0.4f;
+            resolveBlend(document);
+            const EnvironmentPart shown = shownEnvironment(document);
+            ASSERT_EQ(shown.role, Role::Both);
+            ASSERT_EQ(shown.image, e.blended);
+            EXPECT_EQ(shown.image->width(), 64);
+            const auto coefficients = [](const EnvironmentPart& part) {
+                std::vector<glm::vec3> c = projectLatLong(*part.image, 4);
+                std::vector<glm::vec3> turned(c.size());
+                ShRotation::aboutY(glm::radians(part.rotationDeg), 4)
+                    .apply(std::span<const glm::vec3>(c), std::span<glm::vec3>(turned));
+                for (glm::vec3& value : turned)
+                    value *= part.scale;
+                return turned;
+            };
+            const std::vector<glm::vec3> sum = coefficients(shown);
+            const std::vector<EnvironmentPart> parts = environmentParts(document);
+            const auto first = coefficients(parts[0]), second = coefficients(parts[1]);
+            // Whole pixels of one size are exact; others smear by less than a pixel.
+            const bool exact = turn == 75.0f && secondWidth == 64;
+            for (std::size_t i = 0; i < sum.size(); ++i)
+                for (int c = 0; c < 3; ++c)
+                    EXPECT_NEAR(sum[i][c], first[i][c] + second[i][c],
+                                (exact ? 1e-5f : 4e-3f) * std::abs(sum[0][c]))
+                        << i << ' ' << c;
+        }
+    }
+    e.fade = 0.0f;
+    resolveBlend(document);
+    EXPECT_EQ(e.blended, nullptr);
+    EXPECT_EQ(shownEnvironment(document).role, Role::First);
+}
+
+TEST_F(LightMix, ProjectsKeepTheMix) {
+    Environment& e = document.environment;
+    e.fade = 0.375f;
+    e.solo = true;
+    e.enabled = false;
+    e.second.enabled = false;
+    e.second.solo = true;
+    Document& d = document;
+    d.lights.clear();
+    Light light;
+    light.gainEv = 1.25f;
+    light.tint = {0.5f, 0.75f, 1.0f};
+    addLight(d, light);
+    const Result<Document> read =
+        documentFromJson(documentToJson(d, "/tmp/a.patina"), "/tmp/a.patina");
+    ASSERT_TRUE(read.ok()) << read.error().text();
+    SecondEnvironment expected = e.second;
+    expected.image = nullptr; // read from its file when the project is opened
+    EXPECT_EQ(read->environment.second, expected);
+    EXPECT_EQ(read->environment.fade, 0.375f);
+    EXPECT_TRUE(read->environment.solo);
+    EXPECT_FALSE(read->environment.enabled);
+    EXPECT_EQ(read->environment.tint, e.tint);
+    EXPECT_EQ(read->lights[0].gainEv, 1.25f);
+    EXPECT_EQ(read->lights[0].tint, light.tint);
+}
+
+} // namespace
+} // namespace patina
