@@ -21,6 +21,7 @@
 #define PT_INOUT(type) type&
 #define PT_ARRAY(type, name, n) const type* name
 #define PT_OUT_ARRAY(type, name, n) type* name
+#define PT_INOUT_ARRAY(type, name, n) type* name
 
 namespace patina::shading {
 
@@ -61,6 +62,7 @@ using glm::sqrt;
 #include "../../shaders/shared/constants.glsl"
 #include "../../shaders/shared/ibl.glsl"
 #include "../../shaders/shared/lights.glsl"
+#include "../../shaders/shared/nearlight.glsl"
 #include "../../shaders/shared/normalmap.glsl"
 #include "../../shaders/shared/rgbe.glsl"
 #include "../../shaders/shared/sampling.glsl"
@@ -77,3 +79,4 @@ using glm::sqrt;
 #undef PT_INOUT
 #undef PT_ARRAY
 #undef PT_OUT_ARRAY
+#undef PT_INOUT_ARRAY

@@ -167,7 +167,8 @@ bool EnvironmentLight::proceed(std::size_t bytes) {
     m_irradianceSh = texels.irradianceSh;
     m_radianceSh = texels.radianceSh;
     m_clampedTexels = texels.clamped;
-    m_shown = m_wanted;
+    if (m_wanted.image == texels.image)
+        m_shown = m_wanted;
     if (m_clampedTexels > 0)
         logInfo("{} texels of the environment exceed 65504 and were limited", m_clampedTexels);
     m_arriving.reset();

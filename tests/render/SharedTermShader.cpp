@@ -35,8 +35,9 @@ std::string sharedTermShader(const std::string& body) {
                        "m.f90 = I(31); m.ior = 1.0f + I(22); "
                        "m.conductorN = vec3(0.05f + 3.0f * I(23), 1.0f, 0.2f); "
                        "m.conductorK = vec3(5.0f * I(24), 2.0f, 3.0f);\n";
-    for (const char* file : {"shared/ibl.glsl", "shared/normalmap.glsl", "shared/tonemap.glsl",
-                             "shared/sampling.glsl", "shared/lights.glsl", "shared/rgbe.glsl"}) {
+    for (const char* file :
+         {"shared/ibl.glsl", "shared/normalmap.glsl", "shared/tonemap.glsl", "shared/sampling.glsl",
+          "shared/lights.glsl", "shared/rgbe.glsl", "shared/nearlight.glsl"}) {
         ExpandedShader expanded;
         EXPECT_TRUE(expandShader(ShaderSources(), file, {}, expanded).ok()) << file;
         text += expanded.text;

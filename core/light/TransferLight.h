@@ -1,0 +1,43 @@
+// The light of a document as spherical harmonics, which is what precomputed transfer is multiplied
+// with: surroundings and what shines from far away in one sum; lights near by are seen differently
+// from each point and are evaluated there (shaders/shared/nearlight.glsl).
+#pragma once
+
+#include "core/document/LightMix.h"
+#include "core/math/ShWindow.h"
+#include "core/math/SphericalHarmonics.h"
+#include "core/math/ZonalHarmonics.h"
+
+#include <array>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace patina {
+
+// Radiance coefficients of a part's picture as it is, neither turned nor scaled, of the order asked
+// for or more; empty where they are not known yet.
+using EnvironmentProjection = std::function<std::span<const glm::vec3>(const EnvironmentPart&)>;
+
+// order² radiance coefficients in world space: the environments of the mix, turned and scaled, and
+// every directional light that shines, as a disc of its softness (see discLight()). Where a part's
+// projection is not known the picture of the whole mix stands in, and where that is not known there
+// is no environment. order: 1 … kMaxShOrder.
+[[nodiscard]] std::vector<glm::vec3> transferLight(const Document& document, int order,
+                                                   const EnvironmentProjection& projection);
+
+// A distant disc of light about +z, of irradiance 1 on a surface that faces it: windowed so that no
+// surface gets less than nothing of it (deringZonal()), and scaled so that the bands that are left
+// out take nothing away. diameterDeg: 0 … 180; 0 is a point. Bands from `order` on are 0.
+[[nodiscard]] ZonalHarmonics discLight(double diameterDeg, int order);
+
+// deringIrradiance() for light that is round about an axis, in microseconds: of Hann's and Lanczos'
+// windows that keep irradiance from going below zero the one that changes it least.
+[[nodiscard]] ShWindow deringZonal(const ZonalHarmonics& radiance, int order);
+
+// Factors of the bands for lights near by, whose size differs from point to point: the window of a
+// point of light, which is enough for any light; 0 from `order` on.
+[[nodiscard]] std::array<float, kMaxShOrder> nearLightWindow(int order);
+
+} // namespace patina

@@ -1,0 +1,214 @@
+#include "core/light/TransferLight.h"
+
+#include "core/document/Lights.h"
+#include "core/light/EnvironmentBlend.h"
+#include "core/math/ShRotation.h"
+#include "core/math/Shading.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <gtest/gtest.h>
+#include <map>
+#include <numbers>
+
+namespace patina {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// On a surface with normal n, without shadows.
+glm::vec3 irradiance(std::vector<glm::vec3> radiance, const glm::vec3& n) {
+    convolveWithCosine(radiance);
+    const int order = static_cast<int>(std::lround(std::sqrt(radiance.size())));
+    std::vector<double> y(radiance.size());
+    evaluateSh(order, glm::dvec3(n), y);
+    glm::vec3 sum(0.0f);
+    for (std::size_t i = 0; i < y.size(); ++i)
+        sum += radiance[i] * static_cast<float>(y[i]);
+    return sum;
+}
+
+std::vector<glm::vec3> turned(const glm::dvec3& axis, const ZonalHarmonics& zonal, int order) {
+    std::vector<glm::vec3> c(static_cast<std::size_t>(shCount(order)), glm::vec3(0.0f));
+    addZonal(zonal, axis, glm::dvec3(1.0), c);
+    return c;
+}
+
+ImagePtr picture(int lampX) {
+    Image image(32, 16, 3, PixelType::F32, ColorEncoding::Linear);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 32; ++x)
+            for (int c = 0; c < 3; ++c)
+                image.f32()[static_cast<std::size_t>(3 * (y * 32 + x) + c)] =
+                    0.1f * static_cast<float>(1 + c + y) + (x == lampX && y == 5 ? 30.0f : 0.0f);
+    return std::make_shared<const Image>(std::move(image));
+}
+
+class TransferLight : public testing::Test {
+  protected:
+    std::span<const glm::vec3> projection(const EnvironmentPart& part) {
+        if (!part.image || unknown == part.image)
+            return {};
+        auto& known = m_known[part.image];
+        if (known.empty())
+            known = projectLatLong(*part.image, kMaxShOrder);
+        return known;
+    }
+    std::vector<glm::vec3> light(int order) {
+        return transferLight(document, order,
+                             [this](const EnvironmentPart& part) { return projection(part); });
+    }
+    Document document;
+    ImagePtr unknown;
+
+  private:
+    std::map<ImagePtr, std::vector<glm::vec3>> m_known;
+};
+
+TEST_F(TransferLight, ASurfaceThatFacesADiscGetsAllOfItsLight) {
+    for (int order = 2; order <= 8; ++order)
+        for (const double diameter : {0.0, 0.53, 10.0, 45.0, 120.0}) {
+            SCOPED_TRACE(order);
+            SCOPED_TRACE(diameter);
+            const ZonalHarmonics disc = discLight(diameter, order);
+            const std::vector<glm::vec3> c = turned({0, 0, 1}, disc, order);
+            EXPECT_NEAR(irradiance(c, {0, 0, 1}).x, 1.0f, 1e-5f);
+            for (int i = 0; i <= 90; ++i) { // and none gets less than nothing
+                const double t = kPi * i / 90.0;
+                EXPECT_GT(irradiance(c, {std::sin(t), 0, std::cos(t)}).x, -1e-5f) << i;
+            }
+            for (int l = order; l < kMaxShOrder; ++l)
+                EXPECT_EQ(disc[static_cast<std::size_t>(l)], 0.0);
+        }
+    // A larger disc is softer: less of it is in the upper bands.
+    EXPECT_LT(discLight(90.0, 5)[4] / discLight(90.0, 5)[0],
+              discLight(0.0, 5)[4] / discLight(0.0, 5)[0]);
+}
+
+TEST_F(TransferLight, TheWindowIsThatOfTheSearchOverAllNormals) {
+    for (const int order : {3, 5, 6}) {
+        const ZonalHarmonics sun = zonalCap(glm::radians(2.0));
+        const ShWindow fast = deringZonal(sun, order);
+        const ShWindow slow = deringIrradiance(turned({0, 0, 1}, sun, order));
+        EXPECT_EQ(fast.type, slow.type) << order;
+        EXPECT_NEAR(fast.width, slow.width, 2e-3 * slow.width) << order;
+    }
+    EXPECT_EQ(deringZonal(zonalCap(kPi), 5), ShWindow()); // light from everywhere rings nowhere
+    EXPECT_EQ(deringZonal(zonalDirectional(), 1), ShWindow());
+    const std::array<float, 8> near = nearLightWindow(4);
+    EXPECT_EQ(near[0], 1.0f);
+    EXPECT_LT(near[2], near[1]);
+    EXPECT_GT(near[2], 0.0f);
+    for (std::size_t l = 4; l < 8; ++l)
+        EXPECT_EQ(near[l], 0.0f);
+}
+
+// Directional lights that shine, with gain and tint; others are seen differently from each point.
+TEST_F(TransferLight, HoldsTheDirectionalLightsOfTheMix) {
+    Light sun;
+    sun.intensity = 2.0f;
+    sun.gainEv = 1.0f;
+    sun.tint = {1.0f, 0.5f, 0.25f};
+    sun.shadowSoftness = 5.0f;
+    Light off = sun, point = sun;
+    off.enabled = false;
+    point.type = LightType::Point;
+    document.lights = {sun, off, point};
+    const glm::vec3 e = irradiance(light(5), sun.directionToLight());
+    EXPECT_NEAR(e.x, 4.0f, 1e-4f);
+    EXPECT_NEAR(e.y, 2.0f, 1e-4f);
+    EXPECT_NEAR(e.z, 1.0f, 1e-4f);
+    document.lights[2].solo = true;
+    for (const glm::vec3& c : light(5))
+        EXPECT_EQ(c, glm::vec3(0.0f));
+}
+
+TEST_F(TransferLight, EnvironmentsAreTurnedScaledAndFadedExactly) {
+    Environment& e = document.environment;
+    e.image = picture(3);
+    e.rotationDeg = 33.3f;
+    e.tint = {1.0f, 0.5f, 0.25f};
+    e.second.source = "/b.hdr";
+    e.second.image = picture(20);
+    e.second.rotationDeg = -120.0f;
+    e.second.exposureEv = 2.0f;
+    const std::vector<glm::vec3> first = light(6);
+    // Turning the surroundings turns what arrives with them.
+    const auto still = projectLatLong(*e.image, 6);
+    const glm::vec3 n = glm::normalize(glm::vec3(0.3f, 0.5f, -0.8f));
+    const float back = glm::radians(-33.3f);
+    const glm::vec3 before = shading::rotateY(n, back);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(irradiance(first, n)[c], e.tint[c] * irradiance(still, before)[c], 1e-4f);
+
+    e.fade = 1.0f;
+    const std::vector<glm::vec3> second = light(6);
+    e.fade = 0.3f;
+    const std::vector<glm::vec3> both = light(6);
+    for (std::size_t i = 0; i < both.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(both[i][c], 0.7f * first[i][c] + 0.3f * second[i][c],
+                        1e-6f * std::abs(both[0][c]));
+
+    // While the second's coefficients are not known, the picture that is shown has them.
+    resolveBlend(document);
+    unknown = e.second.image;
+    const std::vector<glm::vec3> shown = light(6);
+    for (std::size_t i = 0; i < both.size(); ++i)
+        EXPECT_NEAR(shown[i].x, both[i].x, 5e-3f * both[0].x) << i;
+    unknown = e.image;
+    e.blended = nullptr;
+    for (const glm::vec3& c : light(6))
+        EXPECT_EQ(c, glm::vec3(0.0f));
+}
+
+// Lights near by: the same light as the analytic ones', on a surface that faces them.
+TEST_F(TransferLight, NearLightsAgreeWithAnalyticOnes) {
+    const auto facing = [](std::span<const float> y, const glm::vec3& n, int order) {
+        std::vector<double> basis(static_cast<std::size_t>(shCount(order)));
+        evaluateSh(order, glm::dvec3(n), basis);
+        double sum = 0.0;
+        for (int l = 0; l < order; ++l)
+            for (int m = -l; m <= l; ++m)
+                sum += cosineConvolution(l) * basis[static_cast<std::size_t>(shIndex(l, m))] *
+                       y[static_cast<std::size_t>(shIndex(l, m))];
+        return sum;
+    };
+    std::array<float, 64> y{};
+    for (int order = 2; order <= 8; ++order) {
+        const std::array<float, 8> window = nearLightWindow(order);
+        const glm::vec3 n = glm::normalize(glm::vec3(1, -2, 0.5f));
+        shading::nearPointSh(n, order, window.data(), y.data());
+        EXPECT_NEAR(facing(y, n, order), 1.0, 1e-5) << order;
+        for (const float radius : {0.001f, 0.5f, 1.9f}) {
+            Light sphere;
+            sphere.type = LightType::Sphere;
+            sphere.radius = radius;
+            sphere.position = 2.0f * n;
+            sphere.intensity = 3.0f;
+            shading::nearSphereSh(sphere.position, radius, order, window.data(), y.data());
+            const double expected = illuminanceAt(sphere, {});
+            EXPECT_NEAR(3.0 * facing(y, n, order), expected, 1e-5 * expected) << order;
+        }
+        shading::nearSphereSh({0.1f, 0, 0}, 1.0f, order, window.data(), y.data()); // inside
+        EXPECT_NEAR(facing(y, n, order), kPi, 1e-5);
+        for (const float size : {0.01f, 0.4f, 2.0f}) {
+            Light panel;
+            panel.type = LightType::Rectangle;
+            panel.width = panel.height = size;
+            panel.intensity = 1.0f;
+            setDirectionToLight(panel, n);
+            panel.position = 2.0f * n;
+            const RectangleAxes axes = rectangleAxes(panel);
+            shading::nearRectangleSh(panel.position, 0.5f * size * axes.x, 0.5f * size * axes.y,
+                                     order, window.data(), y.data());
+            const double expected = illuminanceAt(panel, {});
+            // A square is not quite the cap of its solid angle.
+            EXPECT_NEAR(facing(y, n, order), expected, 0.02 * expected) << order << ' ' << size;
+        }
+    }
+}
+
+} // namespace
+} // namespace patina
