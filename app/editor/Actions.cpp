@@ -45,6 +45,9 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
     , energy(make(tr("&Energy"), QStringLiteral("energy"), {tr("Ctrl+4")},
                   tr("Show what the material loses and makes of the light, and what compensation "
                      "gives back")))
+    , mixer(make(tr("Light &Mixer"), QStringLiteral("mixer"), {tr("Ctrl+5")},
+                 tr("Mix the lights and surroundings as on a mixing desk: gain, tint, mute, solo, "
+                    "cross-fade")))
     , pinPixel(make(tr("Pin Pixel"), QStringLiteral("pin"), {tr("P")},
                     tr("Keep looking at the point of the surface under the pointer; once more: "
                        "take the pin away")))
@@ -73,6 +76,7 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
     lightLab->setCheckable(true);
     lens->setCheckable(true);
     energy->setCheckable(true);
+    mixer->setCheckable(true);
     furnace->setCheckable(true);
     fullScreen->setCheckable(true);
     auto* lighting = new QActionGroup(this);
@@ -101,10 +105,10 @@ void Actions::describe(QAction* action, const QString& sentence) {
 }
 
 QList<QAction*> Actions::all() const {
-    return {newScene,    open,        addModel,  save,  saveAs, saveEnvironment, exportScene,
-            quit,        undo,        redo,      frame, home,   overlays,        lightingIbl,
-            lightingPrt, pixel,       lightLab,  lens,  energy, pinPixel,        furnace,
-            fullScreen,  resetLayout, shortcuts, about};
+    return {newScene,    open,       addModel,    save,      saveAs, saveEnvironment, exportScene,
+            quit,        undo,       redo,        frame,     home,   overlays,        lightingIbl,
+            lightingPrt, pixel,      lightLab,    lens,      energy, mixer,           pinPixel,
+            furnace,     fullScreen, resetLayout, shortcuts, about};
 }
 
 } // namespace patina::editor

@@ -17,6 +17,7 @@
 #include "app/editor/panel/LightsPanel.h"
 #include "app/editor/panel/LogPanel.h"
 #include "app/editor/panel/MaterialPanel.h"
+#include "app/editor/panel/MixerPanel.h"
 #include "app/editor/panel/ModelPanel.h"
 #include "app/editor/panel/PixelPanel.h"
 #include "app/editor/panel/ScenePanel.h"
@@ -179,6 +180,7 @@ void MainWindow::makeDocks() {
         new BrdfLensPanel(controller, m_session.selection, m_session.probe, m_session.lobe));
     addInstrument(m_actions->energy, QStringLiteral("energy"),
                   new EnergyPanel(controller, m_session.selection, m_session.views));
+    addInstrument(m_actions->mixer, QStringLiteral("mixer"), new MixerPanel(controller));
     resetLayout();
 }
 
@@ -294,7 +296,7 @@ void MainWindow::makeMenus() {
         if (!m_instruments.contains(dock))
             view->addAction(dock->toggleViewAction());
     view->addSeparator();
-    view->addActions({a.pixel, a.lightLab, a.lens, a.energy, a.pinPixel, a.furnace});
+    view->addActions({a.pixel, a.lightLab, a.lens, a.energy, a.mixer, a.pinPixel, a.furnace});
     view->addSeparator();
     view->addAction(a.resetLayout);
     view->addSeparator();

@@ -76,6 +76,7 @@ class DocumentController : public QObject {
     void setMap(const ParameterInfo& map, Target target, const QString& source);
     void clearMap(const ParameterInfo& map, Target target);
     void setEnvironment(const QString& source); // a file or "builtin:NAME"; its layout is guessed
+    void setSecondEnvironment(const QString& source); // to fade to; the same
 
     // --- Generated surroundings: their image follows each edit, a draft first --------------------
     void setEnvironmentKind(EnvironmentKind kind);       // Softboxes without one get the first rig

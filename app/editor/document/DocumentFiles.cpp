@@ -170,6 +170,32 @@ void DocumentController::setEnvironment(const QString& source) {
                     tr("Light with %1").arg(shortName(source)));
 }
 
+void DocumentController::setSecondEnvironment(const QString& source) {
+    const QString title = shortName(source);
+    m_tasks.start(QStringLiteral("second environment"), tr("Reading %1").arg(title),
+                  [this, source, title](const JobContext& job) -> BackgroundTasks::Apply {
+                      const std::string name = normalizeSource(source.toStdString());
+                      auto notices = std::make_shared<std::vector<Notice>>();
+                      auto image = std::make_shared<Result<ImagePtr>>(loadEnvironmentImage(
+                          m_worker, name, *notices, EnvironmentLayout::Automatic, job));
+                      return [this, title, name, notices, image] {
+                          if (!image->ok()) {
+                              Q_EMIT noticed(UserNotice::fromError(image->error()));
+                              return;
+                          }
+                          MapSlot slot;
+                          slot.source = name;
+                          slot.image = image->value();
+                          pushParameters({Scope::Environment, 0},
+                                         {{&parameter("environment.secondImage"), slot}}, 0,
+                                         tr("Fade to %1").arg(title));
+                          const UserNotice notice = UserNotice::fromImport(title, *notices, {});
+                          if (!notice.text.isEmpty())
+                              Q_EMIT noticed(notice);
+                      };
+                  });
+}
+
 void DocumentController::readEnvironment(const QString& source, EnvironmentLayout layout,
                                          const QString& undoText) {
     const QString title = shortName(source);

@@ -1,0 +1,312 @@
+#include "app/editor/panel/MixerPanel.h"
+
+#include "app/editor/document/Commands.h"
+#include "app/editor/document/FileKinds.h"
+#include "app/editor/panel/ParameterRow.h"
+#include "app/editor/style/Icons.h"
+#include "app/editor/style/Tokens.h"
+#include "app/editor/widget/MapSlotWidget.h"
+#include "app/editor/widget/NumberField.h"
+#include "app/editor/widget/Slider.h"
+#include "core/document/LightMix.h"
+#include "core/document/Source.h"
+#include "core/library/Library.h"
+#include "core/light/MixLevels.h"
+#include "core/math/Shading.h"
+
+#include <QDateTime>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenu>
+#include <QScrollArea>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+namespace patina::editor {
+namespace {
+
+constexpr Target kEnvironment{Scope::Environment, 0};
+constexpr qint64 kStepPauseMs = 700; // a longer pause begins a new undo step
+
+QString iconOf(const Light& light) {
+    switch (light.type) {
+    case LightType::Point:
+        return QStringLiteral("light-point");
+    case LightType::Directional:
+        return QStringLiteral("light-sun");
+    case LightType::Spot:
+        return QStringLiteral("light-spot");
+    case LightType::Sphere:
+        return QStringLiteral("light-sphere");
+    case LightType::Rectangle:
+        return QStringLiteral("light-rectangle");
+    }
+    return {};
+}
+
+QString titleOf(const Environment& environment) {
+    switch (environment.kind) {
+    case EnvironmentKind::Sky:
+        return MixerPanel::tr("Sky");
+    case EnvironmentKind::Softboxes:
+        return MixerPanel::tr("Softboxes");
+    case EnvironmentKind::Image:
+        break;
+    }
+    return MapSlotWidget::sourceTitle(environment.source);
+}
+
+bool hasSecond(const Document& document) {
+    return !document.environment.second.source.empty();
+}
+
+const MixerChannel& firstEnvironment() {
+    static const MixerChannel channel{
+        kEnvironment, &parameter("environment.exposureEv"), &parameter("environment.tint"),
+        &parameter("environment.enabled"), &parameter("environment.solo")};
+    return channel;
+}
+
+const MixerChannel& secondEnvironment() {
+    static const MixerChannel channel{kEnvironment, &parameter("environment.secondExposureEv"),
+                                      &parameter("environment.secondTint"),
+                                      &parameter("environment.secondEnabled"),
+                                      &parameter("environment.secondSolo")};
+    return channel;
+}
+
+void describe(QWidget* widget, const QString& name, const QString& help) {
+    widget->setAccessibleName(name);
+    widget->setAccessibleDescription(help);
+    widget->setToolTip(help);
+    widget->setStatusTip(help);
+}
+
+} // namespace
+
+MixerPanel::MixerPanel(DocumentController& controller, QWidget* parent)
+    : QWidget(parent)
+    , m_controller(controller)
+    , m_strips(new QHBoxLayout)
+    , m_add(new QToolButton)
+    , m_fade(new Slider(0.0, 1.0, 0.0))
+    , m_fadeField(new NumberField({0.0, 1.0, 0.0, 1.0, 2, false, {}})) {
+    m_fadeBox = makeFade();
+    auto* desk = new QWidget;
+    desk->setLayout(m_strips);
+    m_strips->setContentsMargins(tokens::kGap, tokens::kGap, tokens::kGap, tokens::kGap);
+    m_strips->setSpacing(6);
+    m_strips->addWidget(m_fadeBox);
+    m_strips->addStretch(1);
+    auto* scroll = new QScrollArea;
+    scroll->setWidgetResizable(true);
+    scroll->setFrameShape(QFrame::NoFrame);
+    scroll->setWidget(desk);
+    scroll->setFocusPolicy(Qt::NoFocus); // the channels have it
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(scroll);
+
+    connect(&controller, &DocumentController::changed, this, [this] {
+        if (isVisible())
+            refresh();
+    });
+}
+
+QSize MixerPanel::sizeHint() const {
+    return {640, 300};
+}
+
+void MixerPanel::showEvent(QShowEvent*) {
+    refresh();
+}
+
+// --- The cross-fade ------------------------------------------------------------------------------
+
+QWidget* MixerPanel::makeFade() {
+    auto* box = new QFrame;
+    box->setObjectName(QStringLiteral("mixerStrip"));
+    box->setFixedWidth(150);
+    auto* layout = new QVBoxLayout(box);
+    layout->setContentsMargins(8, 6, 8, 6);
+    layout->setSpacing(6);
+    auto* title = new QLabel(tr("Cross-Fade"));
+    title->setAlignment(Qt::AlignCenter);
+    layout->addWidget(title);
+    layout->addWidget(makeSecondSource());
+    layout->addStretch(1);
+    layout->addWidget(m_fade);
+    layout->addWidget(m_fadeField);
+    layout->addStretch(1);
+
+    const ParameterInfo& fade = parameter("environment.fade");
+    describe(m_fade, toQString(fade.label), toQString(fade.help));
+    describe(m_fadeField, toQString(fade.label),
+             tr("%1\nDrag to change, Shift for fine and Ctrl for coarse steps; click to type.")
+                 .arg(toQString(fade.help)));
+    const auto begin = [this] { m_session = m_controller.newDragSession(); };
+    const auto drag = [this, &fade](double value) {
+        m_controller.setParameter(fade, kEnvironment, static_cast<float>(value), m_session);
+    };
+    connect(m_fade, &Slider::dragStarted, this, begin);
+    connect(m_fade, &Slider::dragged, this, drag);
+    connect(m_fadeField, &NumberField::dragStarted, this, begin);
+    connect(m_fadeField, &NumberField::dragged, this, drag);
+    connect(m_fadeField, &NumberField::stepped, this, [this, &fade](double value) {
+        const qint64 now = QDateTime::currentMSecsSinceEpoch();
+        if (m_stepSession == 0 || now - m_lastStepMs > kStepPauseMs)
+            m_stepSession = m_controller.newDragSession();
+        m_lastStepMs = now;
+        m_controller.setParameter(fade, kEnvironment, static_cast<float>(value), m_stepSession);
+    });
+    connect(m_fadeField, &NumberField::edited, this, [this, &fade](double value) {
+        m_controller.setParameter(fade, kEnvironment, static_cast<float>(value));
+        refresh();
+    });
+    return box;
+}
+
+QWidget* MixerPanel::makeSecondSource() {
+    m_add->setObjectName(QStringLiteral("raised"));
+    m_add->setPopupMode(QToolButton::InstantPopup);
+    m_add->setFocusPolicy(Qt::StrongFocus);
+    m_add->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    describe(m_add, tr("Second surroundings"),
+             tr("Choose other surroundings that the light can be faded to"));
+    auto* menu = new QMenu(m_add);
+    m_add->setMenu(menu);
+    connect(menu, &QMenu::aboutToShow, this, [this, menu] { fillSources(*menu); });
+    return m_add;
+}
+
+void MixerPanel::fillSources(QMenu& menu) {
+    menu.clear();
+    for (const library::Entry& entry : library::environments()) {
+        const QString source = QStringLiteral("builtin:") + QString::fromStdString(entry.name);
+        QAction* action = menu.addAction(QString::fromStdString(entry.title));
+        action->setStatusTip(QString::fromStdString(entry.help));
+        connect(action, &QAction::triggered, this,
+                [this, source] { m_controller.setSecondEnvironment(source); });
+    }
+    menu.addSeparator();
+    connect(menu.addAction(tr("Open &Image…")), &QAction::triggered, this, &MixerPanel::openSecond);
+    if (hasSecond(m_controller.document()))
+        connect(menu.addAction(tr("&Remove")), &QAction::triggered, this, [this] {
+            m_controller.clearMap(parameter("environment.secondImage"), kEnvironment);
+        });
+}
+
+void MixerPanel::openSecond() {
+    const QString file =
+        QFileDialog::getOpenFileName(this, tr("Second Surroundings"), {}, environmentFilter());
+    if (!file.isEmpty())
+        m_controller.setSecondEnvironment(file);
+}
+
+// --- The channels --------------------------------------------------------------------------------
+
+std::vector<MixerChannel> MixerPanel::channels() const {
+    const Document& document = m_controller.document();
+    std::vector<MixerChannel> channels{firstEnvironment()};
+    if (hasSecond(document))
+        channels.push_back(secondEnvironment());
+    for (const Light& light : document.lights)
+        channels.push_back({{Scope::Light, light.id},
+                            &parameter("light.gainEv"),
+                            &parameter("light.tint"),
+                            &parameter("light.enabled"),
+                            &parameter("light.solo")});
+    return channels;
+}
+
+// Strips that stay are kept: they may have the keyboard.
+void MixerPanel::rebuild() {
+    const std::vector<MixerChannel> wanted = channels();
+    std::vector<MixerStrip*> strips;
+    for (const MixerChannel& channel : wanted) {
+        const auto known =
+            std::find_if(m_channels.begin(), m_channels.end(), [&](const MixerStrip* strip) {
+                return strip && strip->channel() == channel;
+            });
+        if (known != m_channels.end()) {
+            strips.push_back(*known);
+            *known = nullptr;
+        } else {
+            strips.push_back(new MixerStrip(m_controller, channel));
+        }
+    }
+    for (MixerStrip* gone : m_channels)
+        delete gone;
+    m_channels = strips;
+    // The cross-fade stands between the environments.
+    int at = 0;
+    const auto place = [&](QWidget* widget) {
+        if (m_strips->indexOf(widget) != at)
+            m_strips->insertWidget(at, widget);
+        ++at;
+    };
+    place(m_channels[0]);
+    place(m_fadeBox);
+    for (std::size_t i = 1; i < m_channels.size(); ++i)
+        place(m_channels[i]);
+    QWidget* before = m_channels[0];
+    for (QWidget* next : {static_cast<QWidget*>(m_add), static_cast<QWidget*>(m_fadeField)}) {
+        setTabOrder(before, next);
+        before = next;
+    }
+}
+
+void MixerPanel::refresh() {
+    const Document& document = m_controller.document();
+    const std::vector<MixerChannel> wanted = channels();
+    if (!std::equal(wanted.begin(), wanted.end(), m_channels.begin(), m_channels.end(),
+                    [](const MixerChannel& a, const MixerStrip* b) { return a == b->channel(); }))
+        rebuild();
+    for (MixerStrip* strip : m_channels)
+        refreshStrip(*strip);
+    const bool second = hasSecond(document);
+    m_add->setText(
+        second ? QFontMetrics(m_add->font())
+                     .elidedText(MapSlotWidget::sourceTitle(document.environment.second.source),
+                                 Qt::ElideMiddle, 110)
+               : tr("Add Surroundings"));
+    m_fade->setEnabled(second);
+    m_fadeField->setEnabled(second);
+    m_fade->setValue(document.environment.fade);
+    m_fadeField->setValue(document.environment.fade);
+}
+
+void MixerPanel::refreshStrip(MixerStrip& strip) {
+    const Document& document = m_controller.document();
+    const Environment& environment = document.environment;
+    if (strip.channel().target.scope == Scope::Light) {
+        const Light& light = *document.light(strip.channel().target.id);
+        strip.setName(QString::fromStdString(light.name), iconOf(light));
+        strip.refresh(lightLevel(document, light), shines(document, light));
+        return;
+    }
+    const bool first = strip.channel() == firstEnvironment();
+    strip.setName(first ? titleOf(environment)
+                        : MapSlotWidget::sourceTitle(environment.second.source),
+                  QStringLiteral("environment"));
+    const auto role = first ? EnvironmentPart::Role::First : EnvironmentPart::Role::Second;
+    float lux = 0.0f;
+    for (const EnvironmentPart& part : environmentParts(document))
+        if (part.role == role)
+            lux = illuminanceOf(part.image) * shading::luminance(part.scale);
+    strip.refresh(lux, lux > 0.0f);
+}
+
+float MixerPanel::illuminanceOf(const ImagePtr& picture) {
+    for (const Known& known : m_known)
+        if (known.picture == picture)
+            return known.illuminance;
+    Known& known = m_known[m_nextKnown++ % m_known.size()];
+    known = {picture, upwardIlluminance(*picture)};
+    return known.illuminance;
+}
+
+} // namespace patina::editor
