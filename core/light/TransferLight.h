@@ -4,7 +4,6 @@
 #pragma once
 
 #include "core/document/LightMix.h"
-#include "core/math/ShWindow.h"
 #include "core/math/SphericalHarmonics.h"
 #include "core/math/ZonalHarmonics.h"
 
@@ -27,17 +26,19 @@ using EnvironmentProjection = std::function<std::span<const glm::vec3>(const Env
 [[nodiscard]] std::vector<glm::vec3> transferLight(const Document& document, int order,
                                                    const EnvironmentProjection& projection);
 
-// A distant disc of light about +z, of irradiance 1 on a surface that faces it: windowed so that no
-// surface gets less than nothing of it (deringZonal()), and scaled so that the bands that are left
+// A distant disc of light about +z, of irradiance 1 on a surface that faces it: damped so that no
+// surface gets less than nothing of it (deringFactor()), and scaled so that the bands that are left
 // out take nothing away. diameterDeg: 0 … 180; 0 is a point. Bands from `order` on are 0.
 [[nodiscard]] ZonalHarmonics discLight(double diameterDeg, int order);
 
-// deringIrradiance() for light that is round about an axis, in microseconds: of Hann's and Lanczos'
-// windows that keep irradiance from going below zero the one that changes it least.
-[[nodiscard]] ShWindow deringZonal(const ZonalHarmonics& radiance, int order);
+// What the bands from 1 on of light round about an axis are to be multiplied by so that no
+// surface's irradiance is below zero; 1 where none is. For a point of light .86 at 3 bands and .89
+// at 5. A window of Hann's or Lanczos' shape that does the same has to take away every band from 2
+// on, and all shadows with them; this one keeps their shape.
+[[nodiscard]] double deringFactor(const ZonalHarmonics& radiance, int order);
 
-// Factors of the bands for lights near by, whose size differs from point to point: the window of a
-// point of light, which is enough for any light; 0 from `order` on.
+// Factors of the bands for lights near by, whose size differs from point to point: those of a point
+// of light, which are enough for any light; 0 from `order` on.
 [[nodiscard]] std::array<float, kMaxShOrder> nearLightWindow(int order);
 
 } // namespace patina

@@ -3,6 +3,7 @@
 #include "core/document/Lights.h"
 #include "core/light/EnvironmentBlend.h"
 #include "core/math/ShRotation.h"
+#include "core/math/ShWindow.h"
 #include "core/math/Shading.h"
 
 #include <cmath>
@@ -86,20 +87,29 @@ TEST_F(TransferLight, ASurfaceThatFacesADiscGetsAllOfItsLight) {
               discLight(0.0, 5)[4] / discLight(0.0, 5)[0]);
 }
 
-TEST_F(TransferLight, TheWindowIsThatOfTheSearchOverAllNormals) {
-    for (const int order : {3, 5, 6}) {
-        const ZonalHarmonics sun = zonalCap(glm::radians(2.0));
-        const ShWindow fast = deringZonal(sun, order);
-        const ShWindow slow = deringIrradiance(turned({0, 0, 1}, sun, order));
-        EXPECT_EQ(fast.type, slow.type) << order;
-        EXPECT_NEAR(fast.width, slow.width, 2e-3 * slow.width) << order;
+// Three bands of a point are E(z) = .09375 + .5 z + .46875 z², at least -.0395833 (Ramamoorthi &
+// Hanrahan 2001): with a factor a of the bands from 1 on 1/4 + a (E - 1/4), at least 0 for
+// a = .25 / (.25 + .0395833).
+TEST_F(TransferLight, DampingIsJustEnough) {
+    EXPECT_NEAR(deringFactor(zonalDirectional(), 3), 0.25 / (0.25 + 0.0395833333333), 1e-4);
+    double previous = 0.0;
+    for (const int order : {2, 3, 5, 7}) { // the more bands the less there is to take away
+        const double factor = deringFactor(zonalDirectional(), order);
+        EXPECT_GT(factor, previous) << order;
+        EXPECT_LT(factor, 1.0) << order;
+        previous = factor;
+        ZonalHarmonics damped = zonalDirectional();
+        for (std::size_t l = 1; l < 8; ++l)
+            damped[l] *= factor;
+        EXPECT_NEAR(lowestIrradiance(turned({0, 0, 1}, damped, order)).value, 0.0, 1e-4) << order;
     }
-    EXPECT_EQ(deringZonal(zonalCap(kPi), 5), ShWindow()); // light from everywhere rings nowhere
-    EXPECT_EQ(deringZonal(zonalDirectional(), 1), ShWindow());
+    EXPECT_NEAR(deringFactor(zonalDirectional(), 2), 0.5, 1e-12);
+    EXPECT_EQ(deringFactor(zonalCap(kPi), 5), 1.0); // light from everywhere rings nowhere
+    EXPECT_EQ(deringFactor(zonalDirectional(), 1), 1.0);
     const std::array<float, 8> near = nearLightWindow(4);
     EXPECT_EQ(near[0], 1.0f);
-    EXPECT_LT(near[2], near[1]);
-    EXPECT_GT(near[2], 0.0f);
+    EXPECT_NEAR(near[1], 0.25 / (0.25 + 0.0395833333333), 1e-4);
+    EXPECT_EQ(near[3], near[1]);
     for (std::size_t l = 4; l < 8; ++l)
         EXPECT_EQ(near[l], 0.0f);
 }
