@@ -20,7 +20,7 @@ namespace patina::cli {
 namespace {
 
 constexpr std::array kCommands = {"info",   "render",  "bake",      "environment",
-                                  "export", "compare", "parameters"};
+                                  "export", "refine", "compare", "parameters"};
 
 constexpr const char* kAbout =
     "Patina: a desktop editor for physically based materials you can trust.\n\n"
@@ -58,6 +58,7 @@ class Parser {
         addBakes();
         addEnvironment();
         addExport();
+        addRefine();
         addCompare();
         addParameters();
     }
@@ -388,6 +389,38 @@ class Parser {
         addThreads(c);
     }
 
+    void addRefine() {
+        RefineOptions& o = m_refine;
+        CLI::App* c = addCommand(m_app, "refine",
+                                 "A model with finer triangles where its shadows need them", o);
+        addSceneAndOutput(c, o, ".glb or .gltf");
+        c->add_option("--tolerance", o.tolerance,
+                      "Error of a transfer coefficient above which a triangle is split (RMS)")
+            ->check(plain(CLI::Range(1e-6, 1.0)))
+            ->capture_default_str()
+            ->type_name("X");
+        c->add_option("--rounds", o.rounds, "How often triangles may be split")
+            ->check(plain(CLI::Range(1, 12)))
+            ->capture_default_str()
+            ->type_name("N");
+        c->add_option("--max-triangles", o.maxTriangles, "Ends before there are more")
+            ->capture_default_str()
+            ->type_name("N");
+        c->add_option("--order", o.order, "Spherical harmonic bands of the bakes in between")
+            ->check(plain(CLI::Range(1, 8)))
+            ->capture_default_str()
+            ->type_name("1…8");
+        c->add_option("--samples", o.samples, "Rays per point of those bakes, up to 65536")
+            ->check(plain(CLI::Range(1, 65536)))
+            ->capture_default_str()
+            ->type_name("N");
+        c->add_option("--seed", o.seed, "Seed of the sample pattern")
+            ->capture_default_str()
+            ->type_name("N");
+        addSets(c);
+        addThreads(c);
+    }
+
     void addCompare() {
         CLI::App* c = addCommand(m_app, "compare",
                                  "Distance of two images: rmse, relmse, psnr, max", m_compare);
@@ -412,6 +445,7 @@ class Parser {
     BakeIblOptions m_ibl;
     EnvironmentOptions m_environment;
     ExportOptions m_export;
+    RefineOptions m_refine;
     CompareOptions m_compare;
     ParametersOptions m_parameters;
     std::map<const CLI::App*, std::function<decltype(m_invocation.options)()>> m_select;

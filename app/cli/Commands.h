@@ -12,6 +12,7 @@ Result<void> run(Session& session, const BakePrtOptions& options);
 Result<void> run(Session& session, const BakeIblOptions& options);
 Result<void> run(Session& session, const EnvironmentOptions& options);
 Result<void> run(Session& session, const ExportOptions& options);
+Result<void> run(Session& session, const RefineOptions& options);
 Result<void> run(Session& session, const CompareOptions& options);
 Result<void> run(Session& session, const ParametersOptions& options);
 

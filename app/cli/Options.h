@@ -86,6 +86,16 @@ struct ExportOptions {
     bool noLights = false, noBakedAo = false, noTransfer = false, dryRun = false;
 };
 
+struct RefineOptions {
+    std::string scene, output;
+    float tolerance = 0.01f;
+    int rounds = 6;
+    std::size_t maxTriangles = 1'000'000;
+    int order = 3;
+    int samples = 128;
+    unsigned seed = 0;
+};
+
 struct CompareOptions {
     std::string image, reference, difference;
 };
@@ -97,7 +107,8 @@ struct ParametersOptions {
 struct Invocation {
     CommonOptions common;
     std::variant<InfoOptions, RenderOptions, BakeAoOptions, BakePrtOptions, BakeIblOptions,
-                 EnvironmentOptions, ExportOptions, CompareOptions, ParametersOptions>
+                 EnvironmentOptions, ExportOptions, RefineOptions, CompareOptions,
+                 ParametersOptions>
         options;
 };
 

@@ -47,7 +47,7 @@ struct HalfEdge {
 } // namespace
 
 VertexFit::VertexFit(const BakeGeometryMesh& mesh, std::span<const TrianglePoint> points,
-                     std::span<const std::uint8_t> hidden)
+                     std::span<const std::uint8_t> hidden, const JobContext& job)
     : m_mesh(mesh)
     , m_points(points)
     , m_unknownOf(weldedVertices(mesh))
@@ -66,6 +66,8 @@ VertexFit::VertexFit(const BakeGeometryMesh& mesh, std::span<const TrianglePoint
     std::vector<HalfEdge> halfEdges;
     std::size_t p = 0;
     for (std::uint32_t t = 0; t < mesh.mesh->triangleCount(); ++t) {
+        if (t % 65536 == 0 && job.cancelled())
+            return;
         const std::size_t begin = p;
         while (p < points.size() && points[p].triangle == t)
             ++p;
@@ -104,8 +106,7 @@ VertexFit::VertexFit(const BakeGeometryMesh& mesh, std::span<const TrianglePoint
     m_ownWeight.assign(m_unknowns, 0.0f);
     for (std::size_t v = 0; v < vertices; ++v) {
         float& weight = m_vertexWeight[v];
-        weight = weight > 0.0f ? weight * (hidden[v] != 0 ? kHiddenWeight : 1.0f)
-                               : kLeastWeight;
+        weight = weight > 0.0f ? weight * (hidden[v] != 0 ? kHiddenWeight : 1.0f) : kLeastWeight;
         m_ownWeight[m_unknownOf[v]] += weight;
     }
 

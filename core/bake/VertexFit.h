@@ -20,8 +20,9 @@ class VertexFit {
   public:
     // `hidden`, one per vertex, then per point of `points`: nothing reaches this point; it lies
     // within another object, and counts a thousandth of the others.
+    // After a cancel the system is not complete, and nothing but destruction makes sense.
     VertexFit(const BakeGeometryMesh& mesh, std::span<const TrianglePoint> points,
-              std::span<const std::uint8_t> hidden);
+              std::span<const std::uint8_t> hidden, const JobContext& job = {});
 
     // `values`: `stride` floats per vertex, then per point of `points`; the result: `stride` per
     // vertex. Does not depend on the number of threads. After a cancel it is not converged.

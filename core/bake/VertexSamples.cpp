@@ -58,6 +58,8 @@ VertexSamples fittedVertexSamples(const BakeGeometry& geometry, const JobContext
     for (std::uint32_t m = 0; m < geometry.meshes.size(); ++m) {
         const BakeGeometryMesh& mesh = geometry.meshes[m];
         for (std::uint32_t t = 0; t < mesh.mesh->triangleCount(); ++t) {
+            if (t % 65536 == 0 && job.cancelled())
+                return samples;
             const double own = triangleArea(mesh, t);
             if (!(own > 0.0))
                 continue;

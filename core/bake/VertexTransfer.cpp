@@ -61,7 +61,9 @@ finishVertexTransfer(const BakeGeometry& geometry, const VertexSamples& samples,
             hidden[p] = bake.values[p * stride] == 0.0f ? 1 : 0;
         const VertexFit fit(geometry.meshes[m],
                             std::span(samples.onTriangles).subspan(firstOnTriangles, onTriangles),
-                            hidden);
+                            hidden, job);
+        if (job.cancelled())
+            break;
         std::vector<float> fitted = fit.solve(settings.stride(), bake.values, job);
         // What least squares overshoots beside steep slopes stays, below zero too: between the
         // vertices it makes up for what a straight line misses.
@@ -70,10 +72,10 @@ finishVertexTransfer(const BakeGeometry& geometry, const VertexSamples& samples,
         bake.sky = fit.solve(1, bake.sky, job);
         for (float& share : bake.sky)
             share = std::clamp(share, 0.0f, 1.0f);
-        if (job.cancelled())
-            return Error{ErrorKind::Cancelled, "The bake was cancelled.", {}, {}};
         firstOnTriangles = endOnTriangles;
     }
+    if (job.cancelled())
+        return Error{ErrorKind::Cancelled, "The bake was cancelled.", {}, {}};
     return bakes;
 }
 

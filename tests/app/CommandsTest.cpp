@@ -115,6 +115,23 @@ TEST_F(Commands, InfoReadsTheExportedModelBack) {
     EXPECT_THAT(runPatina({"info", m_folder / "ball.glb"}).out, HasSubstr("\nMeshes (1)\n"));
 }
 
+TEST_F(Commands, RefineWritesAModelThatIsFinerWhereItsShadowsAre) {
+    const Outcome refined = runPatina({"refine", "builtin:cornell-box", "-o", m_folder / "fine.glb",
+                                       "--rounds", "2", "--samples", "32", "--json"});
+    ASSERT_EQ(refined.status, 0) << refined.err;
+    nlohmann::json json = refined.json();
+    EXPECT_EQ(json["counts"]["rounds"], 2);
+    EXPECT_LT(json["error"]["after"], json["error"]["before"]);
+    nlohmann::json built = runPatina({"info", "builtin:cornell-box", "--json"}).json();
+    nlohmann::json read = runPatina({"info", m_folder / "fine.glb", "--json"}).json();
+    EXPECT_EQ(json["counts"]["trianglesBefore"], built["counts"]["triangles"]);
+    EXPECT_EQ(json["counts"]["triangles"], read["counts"]["triangles"]);
+    EXPECT_GT(read["counts"]["triangles"], built["counts"]["triangles"]);
+    EXPECT_EQ(read["bounds"], built["bounds"]);
+    EXPECT_EQ(read["counts"]["meshes"], built["counts"]["meshes"]);
+    EXPECT_EQ(runPatina({"refine", "builtin:sphere", "-o", m_folder / "fine.obj"}).status, 2);
+}
+
 TEST_F(Commands, ExportPlansWithoutWriting) {
     const Outcome outcome = runPatina(
         {"export", "builtin:sphere", "-o", m_folder / "ball.gltf", "--dry-run", "--json"});

@@ -93,6 +93,22 @@ TEST_F(BakeCheckpoint, PartsTogetherAreTheWhole) {
     }
 }
 
+// Values are fitted when all points are there.
+TEST_F(BakeCheckpoint, PartsOfAFittedBakeTooAreTheWhole) {
+    settings.fitted = true;
+    settings.samples = 32;
+    const Result<BakeArtifact> whole = bake();
+    ASSERT_TRUE(whole.ok());
+    for (const int count : {1, 3, 8}) {
+        std::vector<fs::path> files;
+        for (int index = 0; index < count; ++index)
+            files.push_back(part(index, count));
+        const Result<BakeArtifact> merged = merge(files);
+        ASSERT_TRUE(merged.ok()) << merged.error().text();
+        EXPECT_EQ(*merged, *whole) << count;
+    }
+}
+
 TEST_F(BakeCheckpoint, ACancelledBakeGoesOnWhereItWas) {
     const Result<BakeArtifact> whole = bake();
     ASSERT_TRUE(whole.ok());

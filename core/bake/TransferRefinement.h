@@ -1,0 +1,32 @@
+// Finer meshes where radiance transfer changes faster than the triangles can show: bake, split
+// where the fit misses what the surface saw, and again.
+#pragma once
+
+#include "core/bake/Bake.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace patina {
+
+struct RefinementSettings {
+    PrtSettings bake;                     // of the rounds; always fitted
+    float tolerance = 0.01f;              // RMS error of a coefficient (VertexBake::error), > 0
+    int rounds = 6;                       // at most; each halves the edges, 1…12
+    std::size_t maxTriangles = 1'000'000; // of all meshes: what the last round may not pass
+};
+
+struct RefinedMeshes {
+    std::vector<MeshPtr> meshes; // as those of the inputs; the same pointer where nothing changed
+    std::size_t triangles = 0;   // of all
+    int rounds = 0;              // of splitting
+    double errorBefore = 0.0, errorAfter = 0.0; // RMS over the surface
+    std::size_t tooCoarse = 0;                  // triangles that are still above the tolerance
+};
+
+// Triangles whose corners' mean error passes the tolerance are split, down to edges of a 2000th of
+// the scene. Errors: Usage; those of bakePrtVertex; Cancelled.
+Result<RefinedMeshes> refineForTransfer(BakeInputs inputs, const RefinementSettings& settings,
+                                        const JobContext& job);
+
+} // namespace patina
