@@ -1,5 +1,8 @@
 #include "core/bake/BakeMemory.h"
 
+#include "core/bake/VertexSamples.h"
+#include "core/job/Parallel.h"
+
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
@@ -13,7 +16,8 @@ namespace {
 // Embree's hierarchy with its copy of the triangles, per triangle, generously.
 constexpr std::uint64_t kBytesPerTriangle = 160;
 constexpr std::uint64_t kBytesPerPoint = 2 * sizeof(glm::vec3) + 2; // start, normal, passes
-constexpr double kRoom = 1.1;                                       // heaps are never full
+constexpr std::uint64_t kBytesPerFittedTriangle = 150; // moments, edges, and sorting those
+constexpr double kRoom = 1.1;                          // heaps are never full
 
 std::optional<std::uint64_t> number(std::string_view text) {
     std::uint64_t value = 0;
@@ -116,7 +120,11 @@ BakeEstimate estimateBake(const BakeRequest& request, const BakeInputs& inputs) 
     const auto bounceSamples =
         bounces ? static_cast<std::uint64_t>(request.prt.bounceSamples) : std::uint64_t{0};
     const bool traces = !transfer || request.prt.transfer != TransferKind::Unshadowed;
-    result.rays = traces ? result.elements * (samples + bounceSamples) : 0;
+    // Values at vertices that are fitted rest on points of the triangles too.
+    const bool fitted = request.kind == BakeKind::PrtVertex && request.prt.fitted && traces;
+    const std::uint64_t onTriangles =
+        fitted ? std::max<std::uint64_t>(result.elements, kMinTrianglePoints) : 0;
+    result.rays = traces ? result.elements * (samples + bounceSamples) + onTriangles * samples : 0;
 
     std::uint64_t triangles = 0, vertices = 0;
     for (const BakeMesh& mesh : inputs.meshes)
@@ -135,8 +143,15 @@ BakeEstimate estimateBake(const BakeRequest& request, const BakeInputs& inputs) 
     const std::uint64_t hits =
         bounces ? std::min(request.prt.hitBudget, 8 * bounceSamples * result.elements) : 0;
     const std::uint64_t scene = triangles * kBytesPerTriangle + vertices * 2 * sizeof(glm::vec3);
+    // The points, the system of the fit, and the rows each thread solves, eight columns at a time.
+    const std::uint64_t solvers =
+        std::min(static_cast<std::uint64_t>(threadCount()), (stride + 7) / 8);
+    const std::uint64_t fit =
+        onTriangles * (kBytesPerPoint + 2 * values) +
+        (fitted ? triangles * kBytesPerFittedTriangle + vertices * solvers * 5 * 8 * sizeof(float)
+                : 0);
     result.bytes = static_cast<std::uint64_t>(
-        kRoom * static_cast<double>(scene + hits + result.elements * perElement));
+        kRoom * static_cast<double>(scene + hits + fit + result.elements * perElement));
     return result;
 }
 

@@ -9,7 +9,6 @@
 namespace patina {
 namespace {
 
-constexpr std::size_t kMinTrianglePoints = 8192;
 constexpr double kMaxPerTriangle = 256.0;
 
 double triangleArea(const BakeGeometryMesh& mesh, std::size_t triangle) {

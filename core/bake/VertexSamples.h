@@ -26,6 +26,9 @@ struct VertexSamples {
     [[nodiscard]] std::size_t meshOf(std::size_t vertexPoint) const;
 };
 
+// Points on triangles are at least this many where values are fitted, else as many as vertices.
+inline constexpr std::size_t kMinTrianglePoints = 8192;
+
 [[nodiscard]] VertexSamples vertexSamples(const BakeGeometry& geometry, const JobContext& job);
 
 // And about as many points on the triangles as there are vertices, at least 8192: half of them

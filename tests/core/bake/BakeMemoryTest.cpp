@@ -21,6 +21,7 @@ std::uint64_t bytes(const BakeRequest& request, const BakeInputs& inputs) {
 TEST(BakeMemory, CountsElementsAndRays) {
     BakeRequest request;
     request.prt.samples = 256;
+    request.prt.fitted = false;
     const BakeInputs inputs = plane(10);
     const std::uint64_t vertices = inputs.meshes[0].mesh->vertexCount();
     EXPECT_EQ(estimateBake(request, inputs).elements, vertices);
@@ -28,6 +29,13 @@ TEST(BakeMemory, CountsElementsAndRays) {
     request.prt.transfer = TransferKind::Interreflected;
     request.prt.bounceSamples = 64;
     EXPECT_EQ(estimateBake(request, inputs).rays, vertices * (256 + 64));
+    request.prt.fitted = true; // as many points on triangles, or 8192
+    EXPECT_EQ(estimateBake(request, inputs).rays, vertices * (256 + 64) + 8192 * 256);
+    EXPECT_EQ(estimateBake(request, plane(100)).rays, 101u * 101u * (2 * 256 + 64));
+    EXPECT_EQ(estimateBake(request, inputs).elements, vertices);
+    const std::uint64_t fitted = bytes(request, inputs);
+    request.prt.fitted = false;
+    EXPECT_GT(fitted, bytes(request, inputs) + 8192 * 11 * sizeof(float));
     request.prt.transfer = TransferKind::Unshadowed;
     EXPECT_EQ(estimateBake(request, inputs).rays, 0u);
     request.kind = BakeKind::AoTexel;
