@@ -4,6 +4,7 @@
 #include "app/editor/document/DisplayLoader.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/SelectionModel.h"
+#include "app/editor/job/BounceUpdater.h"
 #include "app/editor/job/JobManager.h"
 #include "app/editor/viewport/LobeOnSurface.h"
 #include "app/editor/viewport/PixelProbe.h"
@@ -23,6 +24,7 @@ struct Session {
     PixelProbe probe;
     LobeOnSurface lobe{controller, probe};
     JobManager jobs{controller};
+    BounceUpdater bounces{controller, jobs};
 };
 
 } // namespace patina::editor

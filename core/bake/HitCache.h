@@ -70,6 +70,7 @@ struct HitSettings {
     int samples = 64; // rays per element, a power of two
     std::uint32_t seed = 0;
     int order = 1; // bands of backTransfer()
+    friend bool operator==(const HitSettings&, const HitSettings&) = default;
 };
 
 // Gives the hits of kHitChunk elements at a time. Callable from any thread.

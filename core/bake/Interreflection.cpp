@@ -25,20 +25,25 @@ std::optional<Error> checkBounceSettings(const PrtSettings& settings) {
     return std::nullopt;
 }
 
-Result<HitSourcePtr> traceHits(const RayScene& scene, const BakeGeometry& geometry,
-                               const PrtSettings& settings, const JobContext& job) {
+Result<HitSettings> hitSettings(const PrtSettings& settings) {
     if (std::optional<Error> error = checkBounceSettings(settings))
         return *std::move(error);
-    const Result<int> samples = roundSamples(settings.bounceSamples);
+    return HitSettings{*roundSamples(settings.bounceSamples), settings.seed, settings.order};
+}
+
+Result<HitSourcePtr> traceHits(const RayScene& scene, const BakeGeometry& geometry,
+                               const PrtSettings& settings, const JobContext& job) {
+    const Result<HitSettings> hits = hitSettings(settings);
+    if (!hits)
+        return hits.error();
     Result<BounceElements> elements = BounceElements::make(geometry);
     if (!elements)
         return elements.error();
-    const HitSettings hits{*samples, settings.seed, settings.order};
     job.setActivity("tracing bounces");
-    if (HitCache::maxHitBytes(elements->count(), *samples) > settings.hitBudget)
-        return HitRetracer::make(scene, geometry, std::move(*elements), hits, job);
+    if (HitCache::maxHitBytes(elements->count(), hits->samples) > settings.hitBudget)
+        return HitRetracer::make(scene, geometry, std::move(*elements), *hits, job);
     const Result<HitCachePtr> cache =
-        HitCache::trace(scene, geometry, std::move(*elements), hits, job);
+        HitCache::trace(scene, geometry, std::move(*elements), *hits, job);
     if (!cache)
         return cache.error();
     return HitSourcePtr(*cache);

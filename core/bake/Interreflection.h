@@ -10,6 +10,8 @@ namespace patina {
 // What is wrong with the numbers of rays or bounces (Usage).
 [[nodiscard]] std::optional<Error> checkBounceSettings(const PrtSettings& settings);
 
+[[nodiscard]] Result<HitSettings> hitSettings(const PrtSettings& settings);
+
 // The hits of `settings.bounceSamples` rays per vertex, in memory if they fit
 // `settings.hitBudget`. Errors: as checkBounceSettings(), Cancelled.
 Result<HitSourcePtr> traceHits(const RayScene& scene, const BakeGeometry& geometry,

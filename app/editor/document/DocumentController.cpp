@@ -278,6 +278,14 @@ void DocumentController::detachBake(BakeKind kind) {
         push(new SetBakesCommand(*this, tr("Remove Bake"), std::move(bakes)));
 }
 
+void DocumentController::renewBake(const BakeArtifactPtr& before, BakeArtifactPtr after) {
+    const auto found = std::find(m_document.bakes.begin(), m_document.bakes.end(), before);
+    if (found == m_document.bakes.end())
+        return;
+    *found = std::move(after);
+    Q_EMIT changed({Affects::Bakes, std::nullopt});
+}
+
 void DocumentController::setCamera(const Camera& camera) {
     if (camera == m_document.view.camera)
         return;

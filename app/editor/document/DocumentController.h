@@ -107,6 +107,9 @@ class DocumentController : public QObject {
     // --- Bakes -----------------------------------------------------------------------------------
     void attachBake(BakeArtifactPtr artifact); // replaces the one of the same kind
     void detachBake(BakeKind kind);
+    // `after` is `before` with what follows from the rest of the document brought up to date: no
+    // step of its own. Nothing happens when `before` is no longer attached.
+    void renewBake(const BakeArtifactPtr& before, BakeArtifactPtr after);
 
     // --- View ------------------------------------------------------------------------------------
     // Shows the scene through an OpenColorIO configuration, with its default display and view; an

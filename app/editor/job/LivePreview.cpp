@@ -84,6 +84,16 @@ void LivePreview::passDone(int samples) {
     m_samplesDone = samples;
 }
 
+void LivePreview::hits(const std::shared_ptr<const HitSource>& hits) {
+    const std::lock_guard lock(m_mutex);
+    m_hits = hits;
+}
+
+std::shared_ptr<const HitSource> LivePreview::bounceHits() const {
+    const std::lock_guard lock(m_mutex);
+    return m_hits;
+}
+
 int LivePreview::samplesDone() const {
     const std::lock_guard lock(m_mutex);
     return m_samplesDone;

@@ -21,9 +21,13 @@ class LivePreview : public TileSink {
     void texels(Id material, int imageSize, int stride, int x, int y, int width,
                 std::span<const float> values) override;
     void passDone(int samples) override;
+    void hits(const std::shared_ptr<const HitSource>& hits) override;
 
     [[nodiscard]] BakeKind kind() const { return m_kind; }
     [[nodiscard]] int samplesDone() const; // rays per element of the last complete pass
+
+    // Of an interreflected bake that keeps them, when it is done; null before.
+    [[nodiscard]] std::shared_ptr<const HitSource> bounceHits() const;
 
     // Hands over everything that changed since the last call; returns whether there was any.
     // The calls happen under the lock: upload and return.
@@ -43,6 +47,7 @@ class LivePreview : public TileSink {
     mutable std::mutex m_mutex; // guards what follows
     std::map<Id, Surface> m_vertices, m_texels;
     int m_samplesDone = 0;
+    std::shared_ptr<const HitSource> m_hits;
 };
 
 } // namespace patina::editor

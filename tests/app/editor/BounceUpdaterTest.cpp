@@ -1,0 +1,130 @@
+#include "app/editor/job/BounceUpdater.h"
+
+#include "app/editor/Session.h"
+#include "app/editor/document/Commands.h"
+#include "app/editor/job/LivePreview.h"
+#include "core/bake/HitCache.h"
+
+#include <QTest>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+namespace patina::editor {
+namespace {
+
+struct Bounces : ::testing::Test {
+    void SetUp() override {
+        controller.openScene(QStringLiteral("builtin:cornell-box"));
+        ASSERT_TRUE(QTest::qWaitFor([&] { return !controller.tasks().busy(); }, 60'000));
+        for (const Material& material : document().materials)
+            if (material.baseColor.r > 2.0f * material.baseColor.g)
+                red = {Scope::Material, material.id};
+        ASSERT_NE(red.id, 0u);
+    }
+
+    [[nodiscard]] const Document& document() const { return controller.document(); }
+    [[nodiscard]] BakeArtifactPtr attached() const { return document().bakes.at(0); }
+    BakeArtifact bake(TileSink& sink) const {
+        PrtSettings settings;
+        settings.order = 2;
+        settings.samples = 32;
+        settings.transfer = TransferKind::Interreflected;
+        settings.bounces = 2;
+        settings.bounceSamples = 16;
+        settings.seed = 5;
+        return *bakePrtVertex(bakeInputs(document()), settings, sink, {});
+    }
+    BakeArtifact bake() const {
+        TileSink sink;
+        return bake(sink);
+    }
+    void attach() { controller.attachBake(std::make_shared<const BakeArtifact>(bake())); }
+    [[nodiscard]] bool ready() const {
+        return QTest::qWaitFor([&] { return bounces.upToDate(); }, 60'000);
+    }
+
+    const ParameterInfo& baseColor = parameter("material.baseColor");
+    Session session;
+    DocumentController& controller = session.controller;
+    BounceUpdater& bounces = session.bounces;
+    Target red;
+};
+
+TEST_F(Bounces, FollowAnEditOfAlbedoAsIfBakedAnew) {
+    attach();
+    ASSERT_TRUE(ready()); // hits traced in the background
+    const BakeArtifactPtr before = attached();
+    const int steps = controller.undoStack().count();
+
+    // A drag: many edits, one step.
+    const DragSession drag = controller.newDragSession();
+    for (int i = 0; i <= 10; ++i) {
+        controller.setParameter(baseColor, red, glm::vec3(0.05f, 0.05f, 0.07f * float(i)), drag);
+        QTest::qWait(1);
+    }
+    ASSERT_TRUE(ready());
+    const BakeArtifact anew = bake();
+    EXPECT_EQ(attached()->albedo, anew.albedo);
+    EXPECT_NE(attached()->albedo, before->albedo);
+    EXPECT_EQ(*attached(), anew);
+    EXPECT_EQ(controller.undoStack().count(), steps + 1);
+
+    // Blue bleeds where red did.
+    double redBefore = 0.0, redAfter = 0.0, blueAfter = 0.0;
+    for (std::size_t m = 0; m < anew.vertices.size(); ++m)
+        for (std::size_t i = 0; i < anew.vertices[m].bounced.size(); i += 12) {
+            redBefore += before->vertices[m].bounced[i];
+            redAfter += attached()->vertices[m].bounced[i];
+            blueAfter += attached()->vertices[m].bounced[i + 2];
+        }
+    EXPECT_LT(redAfter, 0.9 * redBefore);
+    EXPECT_GT(blueAfter, redAfter);
+
+    controller.undoStack().undo();
+    ASSERT_TRUE(ready());
+    EXPECT_EQ(*attached(), *before);
+}
+
+TEST_F(Bounces, TakeTheHitsOfABakeThatHasJustEnded) {
+    const auto preview =
+        std::make_shared<LivePreview>(bakeInputs(document()), BakeKind::PrtVertex, 2, 16);
+    session.jobs.setPreview(preview);
+    controller.attachBake(std::make_shared<const BakeArtifact>(bake(*preview)));
+    ASSERT_TRUE(ready());
+    EXPECT_EQ(bounces.hits(), preview->bounceHits().get());
+    session.jobs.setPreview(nullptr);
+    EXPECT_NE(bounces.hits(), nullptr); // they live on
+}
+
+TEST_F(Bounces, LeaveABakeOfOtherGeometryAlone) {
+    attach();
+    ASSERT_TRUE(ready());
+    const BakeArtifactPtr before = attached();
+    controller.editStructure(QStringLiteral("Move"), [](Document& moved) {
+        moved.meshes[0].transform = glm::translate(glm::mat4(1.0f), glm::vec3(0.1f, 0, 0));
+    });
+    controller.setParameter(baseColor, red, glm::vec3(0.1f, 0.6f, 0.1f));
+    QTest::qWait(300);
+    EXPECT_FALSE(bounces.upToDate());
+    EXPECT_EQ(bounces.hits(), nullptr);
+    EXPECT_EQ(attached(), before);
+    // Back where it was, the edit of albedo takes effect.
+    controller.undoStack().undo();
+    controller.undoStack().undo();
+    controller.setParameter(baseColor, red, glm::vec3(0.1f, 0.6f, 0.1f));
+    ASSERT_TRUE(ready());
+    EXPECT_EQ(*attached(), bake());
+}
+
+TEST_F(Bounces, HoldNothingWithoutAnInterreflectedBake) {
+    EXPECT_EQ(bounces.hits(), nullptr);
+    attach();
+    ASSERT_TRUE(ready());
+    EXPECT_NE(bounces.hits(), nullptr);
+    controller.detachBake(BakeKind::PrtVertex);
+    EXPECT_EQ(bounces.hits(), nullptr);
+    EXPECT_FALSE(bounces.upToDate());
+}
+
+} // namespace
+} // namespace patina::editor
