@@ -89,6 +89,13 @@ Result<BakeArtifact> bakePrtTexel(const BakeInputs& inputs, const PrtSettings& s
     const Result<PassSettings> passes = prtPassSettings(settings);
     if (!passes)
         return passes.error();
+    if (settings.transfer == TransferKind::Interreflected)
+        return Error{
+            ErrorKind::Usage,
+            "Light that bounces is baked per vertex; bake transfer per vertex, or shadowed "
+            "transfer per texel.",
+            {},
+            {}};
     BakeArtifact artifact;
     artifact.kind = BakeKind::PrtTexel;
     artifact.order = settings.order;
