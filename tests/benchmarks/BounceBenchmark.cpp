@@ -1,6 +1,7 @@
 // What following bounces again costs after an edit of albedo: for the light shown, per bounce, and
 // for all coefficients, against the bake that it saves.
 #include "core/bake/Interreflection.h"
+#include "core/library/Library.h"
 #include "core/library/Meshes.h"
 
 #include <benchmark/benchmark.h>
@@ -51,6 +52,18 @@ BakeInputs enclosure(bool mapped) {
     return inputs;
 }
 
+// What a wall is recoloured in.
+BakeInputs cornellBox() {
+    BakeInputs inputs;
+    for (const library::ModelPart& part : *library::model("cornell-box")) {
+        BakeMesh& mesh = inputs.meshes.emplace_back();
+        mesh.id = mesh.material = Id(inputs.meshes.size());
+        mesh.mesh = part.mesh;
+        mesh.surface = bakeSurface(part.material);
+    }
+    return inputs;
+}
+
 // A bake once, with what it took and the hits it left.
 struct Baked : TileSink {
     Baked(const BakeInputs& scene, int order, int samples)
@@ -60,6 +73,7 @@ struct Baked : TileSink {
         settings.samples = samples;
         settings.transfer = TransferKind::Interreflected;
         settings.bounces = kBounces;
+        settings.fitted = false;
         const double begin = cpuSeconds();
         artifact = *bakePrtVertex(inputs, settings, *this, {});
         seconds = cpuSeconds() - begin;
@@ -133,6 +147,9 @@ void lightShownMappedEnclosure(benchmark::State& state) {
 void allCoefficientsKnot(benchmark::State& state) {
     allCoefficients(state, knot());
 }
+void allCoefficientsCornellBox(benchmark::State& state) {
+    allCoefficients(state, cornellBox());
+}
 void allCoefficientsEnclosure(benchmark::State& state) {
     allCoefficients(state, enclosure(false));
 }
@@ -143,6 +160,11 @@ BENCHMARK(lightShownKnot)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(lightShownEnclosure)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(lightShownMappedEnclosure)->UseRealTime()->Unit(benchmark::kMillisecond);
 // Order, rays per vertex.
+BENCHMARK(allCoefficientsCornellBox)
+    ->Args({3, 256})
+    ->Args({5, 256})
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(allCoefficientsKnot)
     ->Args({3, 256})
     ->Args({5, 256})
