@@ -55,7 +55,8 @@ BakeInputs enclosure(bool mapped) {
 // What a wall is recoloured in.
 BakeInputs cornellBox() {
     BakeInputs inputs;
-    for (const library::ModelPart& part : *library::model("cornell-box")) {
+    const Result<std::vector<library::ModelPart>> parts = library::model("cornell-box");
+    for (const library::ModelPart& part : *parts) {
         BakeMesh& mesh = inputs.meshes.emplace_back();
         mesh.id = mesh.material = Id(inputs.meshes.size());
         mesh.mesh = part.mesh;
