@@ -1,6 +1,7 @@
 #include "core/export/TransferExport.h"
 
 #include "core/base/Check.h"
+#include "core/document/LightMix.h"
 #include "core/export/ShFile.h"
 #include "core/math/ShRotation.h"
 #include "core/math/SphericalHarmonics.h"
@@ -54,14 +55,14 @@ std::vector<std::vector<glm::vec4>> transferAttributes(const VertexBake& bake,
 
 std::string transferLightJson(const Document& document, const TransferLayout& layout,
                               const JobContext& job) {
-    const Environment& environment = document.environment;
-    std::vector<glm::vec3> light(static_cast<std::size_t>(shCount(layout.bands)), glm::vec3(0.0f));
-    if (environment.image != nullptr) {
-        const std::vector<glm::vec3> image = projectLatLong(*environment.image, layout.bands, job);
-        ShRotation::aboutY(glm::radians(static_cast<double>(environment.rotationDeg)), layout.bands)
-            .apply(image, light);
-        for (glm::vec3& coefficient : light)
-            coefficient *= std::exp2(environment.exposureEv);
+    const auto count = static_cast<std::size_t>(shCount(layout.bands));
+    std::vector<glm::vec3> light(count, glm::vec3(0.0f)), turned(count);
+    for (const EnvironmentPart& part : environmentParts(document)) {
+        const std::vector<glm::vec3> image = projectLatLong(*part.image, layout.bands, job);
+        ShRotation::aboutY(glm::radians(static_cast<double>(part.rotationDeg)), layout.bands)
+            .apply(image, turned);
+        for (std::size_t i = 0; i < count; ++i)
+            light[i] += part.scale * turned[i];
     }
     return shJson(light, ShQuantity::Radiance);
 }

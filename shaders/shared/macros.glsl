@@ -13,6 +13,7 @@
 #define PT_INOUT(type) inout type                    // parameter that is changed
 #define PT_ARRAY(type, name, n) type name[n]         // parameter: array that is read
 #define PT_OUT_ARRAY(type, name, n) out type name[n] // parameter: array that is written
+#define PT_INOUT_ARRAY(type, name, n) inout type name[n] // parameter: array that is changed
 #endif
 
 #endif

@@ -187,7 +187,7 @@ TEST_F(GpuSceneTest, AnEnvironmentArrivesInPiecesAndShowsAsAWhole) {
     EnvironmentLight light(context());
     const auto seen = [&] {
         FrameBlock frame;
-        light.fill(Environment{}, frame);
+        light.fill(frame);
         return glm::vec3(reds(light.prefiltered())[0], reds(light.background())[0],
                          frame.radianceSh[0].x / std::sqrt(4.0f * glm::pi<float>()));
     };
