@@ -88,10 +88,9 @@ struct PrtSettings {
     int bounces = 3;        // Interreflected: 1…64
     int bounceSamples = 64; // Interreflected: cached rays per vertex, rounded up to a power of two
     SampleMethod method = SampleMethod::Qmc;
-    float tolerance =
-        0.0f;           // RMS change of the coefficients between passes at which to end; 0: never
-    bool fitted = true; // vertex: least squares over points of the surface (VertexSamples.h)
-    int size = 512;     // texel bake: side of the square texture
+    float tolerance = 0.0f; // RMS error of the coefficients at which to end early; 0: never
+    bool fitted = true;     // vertex: least squares over points of the surface (VertexSamples.h)
+    int size = 512;         // texel bake: side of the square texture
     // Interreflected: bytes that hits may take, 8 for each ray that meets something; where they
     // could take more they are traced anew for every bounce. 0: always.
     std::uint64_t hitBudget = std::uint64_t{1} << 30;

@@ -99,6 +99,7 @@ Result<BakeArtifact> bakePrtTexel(const BakeInputs& inputs, const PrtSettings& s
     BakeArtifact artifact;
     artifact.kind = BakeKind::PrtTexel;
     artifact.order = settings.order;
+    artifact.transfer = settings.transfer;
     artifact.settings = prtSettingsText(artifact.kind, settings, passes->samples);
     return bakeTexels(inputs, *passes, settings.size, std::move(artifact), sink, job, tracer);
 }

@@ -106,6 +106,7 @@ Result<BakeArtifact> bakePrtVertex(const BakeInputs& inputs, const PrtSettings& 
     BakeArtifact artifact;
     artifact.kind = BakeKind::PrtVertex;
     artifact.order = settings.order;
+    artifact.transfer = settings.transfer;
     artifact.settings = prtSettingsText(artifact.kind, settings, passes->samples);
     return bakeVertices(inputs, *passes, &settings, std::move(artifact), sink, job, tracer);
 }

@@ -45,10 +45,12 @@ struct PassShard {
 struct PassSettings {
     int samples = 256;        // Stratified: a square; else a power of two
     int shOrder = 0;          // 0: ambient visibility; 1…8: transfer coefficients
+    bool unshadowed = false;  // transfer of open surfaces, in closed form: no ray is cast
     float maxDistance = 0.0f; // scene units; 0: unlimited
     std::uint32_t seed = 0;
     SampleMethod method = SampleMethod::Qmc; // Stratified makes one pass of all samples
-    int cluster = 0; // points that share directions: 1…1024; 0: as fits the scene's size
+    float tolerance = 0.0f; // RMS error of the points at which to end; 0: never before all samples
+    int cluster = 0;        // points that share directions: 1…1024; 0: as fits the scene's size
     PassShard shard;
     [[nodiscard]] int stride() const { return shOrder == 0 ? 1 : shOrder * shOrder; }
 };

@@ -4,6 +4,7 @@
 #include "core/bake/Interreflection.h"
 #include "core/math/SphericalHarmonics.h"
 
+#include <cmath>
 #include <fmt/format.h>
 
 namespace patina {
@@ -18,14 +19,30 @@ Result<PassSettings> prtPassSettings(const PrtSettings& settings) {
                                  kMaxShOrder, settings.order),
                      {},
                      {}};
+    if (!std::isfinite(settings.tolerance) || settings.tolerance < 0.0f)
+        return Error{
+            ErrorKind::Usage,
+            fmt::format("The tolerance of a bake is 0 (cast every ray) or a small positive "
+                        "number, not {}.",
+                        settings.tolerance),
+            {},
+            {}};
+    if (settings.tolerance > 0.0f && settings.method == SampleMethod::Stratified)
+        return Error{ErrorKind::Usage,
+                     "Stratified samples come in one pass, which cannot tell its error: leave out "
+                     "the tolerance, or sample by the method \"qmc\".",
+                     {},
+                     {}};
     if (settings.transfer == TransferKind::Interreflected)
         if (std::optional<Error> error = checkBounceSettings(settings))
             return *std::move(error);
     PassSettings passes;
     passes.samples = *samples;
     passes.shOrder = settings.order;
+    passes.unshadowed = settings.transfer == TransferKind::Unshadowed;
     passes.seed = settings.seed;
     passes.method = settings.method;
+    passes.tolerance = settings.tolerance;
     return passes;
 }
 
