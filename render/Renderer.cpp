@@ -44,6 +44,7 @@ Result<void> Renderer::Impl::drawPicture(const FrameSettings& frame, const Frame
                                          bool withBackground) {
     const Document& document = scene.document();
     SurfaceSettings settings = surfaceSettings(block, output);
+    settings.floats = target.id() != targets.scene().id();
     if (frame.coarse)
         settings.coarseView = block.worldToClip;
     shadows.bind();
@@ -65,7 +66,7 @@ Result<void> Renderer::Impl::drawPicture(const FrameSettings& frame, const Frame
         return done;
     if (!transparent)
         if (auto done = screen.drawSky(scene.environment(), background,
-                                       document.environment.backgroundBlur);
+                                       document.environment.backgroundBlur, settings.floats);
             !done)
             return done;
     return surface.drawBlended(scene, list, settings);
@@ -185,17 +186,22 @@ Result<void> Renderer::render(const FrameSettings& frame, unsigned targetFramebu
     Impl& r = *m_impl;
     if (frame.width != r.targets.width() || frame.height != r.targets.height() ||
         frame.samples != r.lastFrame.samples || frame.coarse != r.lastFrame.coarse ||
-        !(frame.view == r.lastFrame.view))
+        frame.accumulate != r.lastFrame.accumulate || !(frame.view == r.lastFrame.view))
         r.sceneIsNew = true;
+    const bool continues = !r.sceneIsNew && frame.camera == r.lastFrame.camera;
     r.lastFrame = frame;
     if (auto sized = r.targets.resize(r.context, frame.width, frame.height, frame.samples); !sized)
         return sized;
     r.beginGl();
 
     const bool drawsScene = r.sceneIsNew || !frame.reuseScene || frame.view.split;
-    if (drawsScene)
+    if (drawsScene) {
         if (auto done = r.shadows.update(r.scene); !done)
             return done;
+        const bool accumulates = frame.accumulate && r.targets.samples() == 1;
+        r.accumulated =
+            accumulates ? std::min(continues ? r.accumulated + 1 : 1, kSteadyFrames + 1) : 0;
+    }
     r.lastBlock = r.packFrame(frame);
     r.useFrame(r.lastBlock);
 
@@ -210,6 +216,10 @@ Result<void> Renderer::render(const FrameSettings& frame, unsigned targetFramebu
         done = r.screen.present(r.targets, targetFramebuffer);
     r.endGl(targetFramebuffer);
     return done;
+}
+
+int Renderer::accumulatedFrames() const {
+    return std::min(m_impl->accumulated, kSteadyFrames);
 }
 
 void flipRows(Image& image) {

@@ -26,6 +26,10 @@ namespace patina::render {
 struct FrameSettings {
     int width = 0, height = 0; // pixels
     int samples = 4;           // MSAA; 1: none
+    // Adds the frame to the ones before of the same scene, each a fraction of a pixel beside the
+    // others, kSteadyFrames at most: anti-aliasing without MSAA. Where there is MSAA, and for views
+    // of numbers, without effect.
+    bool accumulate = false;
     Camera camera;
     bool transparentBackground = false;      // whatever the document says; its Off does the same
     bool showOverlays = false;               // grid, light gizmos (the editor)
@@ -88,6 +92,10 @@ class Renderer {
     // Renders to the internal HDR target and tone maps into framebuffer `targetFramebuffer`
     // (0: the window's), viewport 0,0 … width,height.
     Result<void> render(const FrameSettings& frame, unsigned targetFramebuffer);
+
+    // Frames that the last one is the mean of; kSteadyFrames: more will not change it.
+    [[nodiscard]] int accumulatedFrames() const;
+    static constexpr int kSteadyFrames = 8;
 
     // The newest luminance known of a frame that measured it (automatic exposure, the photographic
     // operator, FrameSettings::measureLuminance); nothing before the first. luminance() is usually

@@ -54,6 +54,7 @@ struct Renderer::Impl {
     SheetTargets sheet;
     FrameBlock lastBlock; // of the last frame
     FrameSettings lastFrame;
+    int accumulated = 0;         // frames that the last one is the mean of
     bool sceneIsNew = true;      // something was set since the last frame
     bool luminanceIsNew = true;  // the last frame's scene has not been measured
     bool luminanceKnown = false; // some frame has been measured
@@ -78,6 +79,9 @@ struct Renderer::Impl {
     Result<void> drawViews(const FrameSettings& frame, bool drawsScene);
     Result<void> drawSide(const FrameSettings& frame, const ViewChoice& choice,
                           const glm::vec3& side, bool drawsScene);
+    // The radiance that a side shows, into targets.linear().
+    Result<void> drawRadiance(const FrameSettings& frame, const ViewChoice& choice,
+                              std::size_t sideIndex);
     // The numbers of views into a target of floats, without anti-aliasing.
     Result<void> drawNumbers(const FrameSettings& frame, const FrameBlock& block,
                              const gl::Framebuffer& target, const ViewsBlock& settings,

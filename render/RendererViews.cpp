@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <epoxy/gl.h>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 #include <utility>
 
@@ -24,12 +26,16 @@ glm::vec3 rightOf(const ViewSplit& split, int width, int height) {
     return {normal, -glm::dot(normal, through)};
 }
 
-// Whether the ordinary program of surface.frag draws it.
-bool isOrdinary(const ViewSettings& view, const ViewChoice& choice) {
-    const bool allTerms =
-        std::all_of(view.terms.begin(), view.terms.end(), [](bool on) { return on; });
-    return allTerms && !view.furnace && choice.mode == ViewMode::Raw &&
-           recordedFor(choice.kind) == kViewFinal && choice.kind != kViewFlat;
+// A frame moved by a fraction of a pixel, the first one by none: the points of the R2 sequence
+// (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences") fill a pixel evenly.
+glm::mat4 besideBy(int frame, int width, int height, const glm::mat4& worldToClip) {
+    const auto offset = [&](double step) { // -0.5 … 0.5 pixel
+        const double x = 0.5 + step * frame;
+        return static_cast<float>(x - std::floor(x) - 0.5);
+    };
+    const glm::vec3 clip(2.0f * offset(0.7548776662466927) / static_cast<float>(width),
+                         2.0f * offset(0.5698402909980532) / static_cast<float>(height), 0.0f);
+    return glm::translate(glm::mat4(1.0f), clip) * worldToClip;
 }
 
 // Whether what is recorded is radiance with the opacity of its surface, to be laid over what is
@@ -45,6 +51,12 @@ bool hasBackground(const ViewChoice& choice) {
 }
 
 } // namespace
+
+bool ViewSettings::isOrdinary(const ViewChoice& choice) const {
+    const bool allTerms = std::all_of(terms.begin(), terms.end(), [](bool on) { return on; });
+    return allTerms && !furnace && choice.mode == ViewMode::Raw &&
+           recordedFor(choice.kind) == kViewFinal && choice.kind != kViewFlat;
+}
 
 ViewsBlock Renderer::Impl::viewsBlock(const ViewSettings& view, std::span<const ViewChoice> choices,
                                       bool halfFloats) const {
@@ -81,10 +93,12 @@ Result<void> Renderer::Impl::drawNumbers(const FrameSettings& frame, const Frame
     for (int i = 0; i < (output == SurfaceOutput::EightViews ? 8 : 1); ++i)
         glClearNamedFramebufferfv(target.id(), GL_COLOR, i, kNothing.data());
     target.clearDepth(1.0f);
+    SurfaceSettings surfaces = surfaceSettings(block, output);
+    surfaces.floats = output == SurfaceOutput::OneView; // others are never drawn otherwise
     // Blended surfaces, too, stand for themselves.
-    if (auto done = surface.drawOpaque(scene, list, surfaceSettings(block, output)); !done)
+    if (auto done = surface.drawOpaque(scene, list, surfaces); !done)
         return done;
-    return surface.draw(scene, list.blended, surfaceSettings(block, output));
+    return surface.draw(scene, list.blended, surfaces);
 }
 
 Result<ViewRange> Renderer::Impl::rangeFor(const ViewChoice& choice, const gl::Texture& values) {
@@ -111,11 +125,36 @@ Result<ViewRange> Renderer::Impl::rangeFor(const ViewChoice& choice, const gl::T
     return range;
 }
 
+Result<void> Renderer::Impl::drawRadiance(const FrameSettings& frame, const ViewChoice& choice,
+                                          std::size_t sideIndex) {
+    if (accumulated > Renderer::kSteadyFrames)
+        return screen.showMean(targets, sideIndex);
+    views.setBlock(viewsBlock(frame.view, std::span(&choice, 1), true));
+    FrameBlock block = lastBlock;
+    if (accumulated > 1) {
+        block.worldToClip = besideBy(accumulated - 1, frame.width, frame.height, block.worldToClip);
+        block.clipToWorld = glm::inverse(block.worldToClip);
+        useFrame(block);
+    }
+    const bool ordinary = frame.view.isOrdinary(choice);
+    if (auto done = drawPicture(frame, block, targets.scene(),
+                                ordinary ? SurfaceOutput::Picture : SurfaceOutput::OneView,
+                                hasBackground(choice));
+        !done)
+        return done;
+    targets.resolve();
+    if (accumulated > 1)
+        useFrame(lastBlock);
+    if (accumulated == 0)
+        return {};
+    return screen.accumulate(context, targets, sideIndex, accumulated);
+}
+
 Result<void> Renderer::Impl::drawSide(const FrameSettings& frame, const ViewChoice& choice,
                                       const glm::vec3& side, bool drawsScene) {
     const ViewInfo& info = viewInfo(choice.kind);
     const View& look = scene.document().view;
-    const bool ordinary = isOrdinary(frame.view, choice);
+    const bool ordinary = frame.view.isOrdinary(choice);
     if (!whyEmpty(choice.kind, scene.document()).empty()) {
         const auto target = targets.dataTarget(context);
         if (!target)
@@ -131,13 +170,9 @@ Result<void> Renderer::Impl::drawSide(const FrameSettings& frame, const ViewChoi
     }
     if (showsRadiance(choice)) {
         if (drawsScene) {
-            views.setBlock(viewsBlock(frame.view, std::span(&choice, 1), true));
-            if (auto done = drawPicture(frame, lastBlock, targets.scene(),
-                                        ordinary ? SurfaceOutput::Picture : SurfaceOutput::OneView,
-                                        hasBackground(choice));
-                !done)
+            const bool left = frame.view.split && side.x < 0.0f;
+            if (auto done = drawRadiance(frame, choice, left ? 1 : 0); !done)
                 return done;
-            targets.resolve();
             luminanceIsNew = ordinary;
         }
         // The eye is used to the picture, not to one of its terms.
@@ -184,7 +219,7 @@ Result<void> Renderer::Impl::drawViews(const FrameSettings& frame, bool drawsSce
     otherRange.reset();
     // Exposure follows the whole picture, even where only a term of it is shown.
     if (needsLuminance(scene.document().view) && !luminanceKnown &&
-        !isOrdinary(frame.view, frame.view.shown)) {
+        !frame.view.isOrdinary(frame.view.shown)) {
         if (auto done =
                 drawPicture(frame, lastBlock, targets.scene(), SurfaceOutput::Picture, true);
             !done)

@@ -5,36 +5,72 @@
 #include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <fmt/format.h>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 namespace patina::gl {
 
 namespace {
 
+// EGL hands the same display to every caller in the process and does not count them: it is
+// terminated with the last context. Only then has Mesa written all that it compiled to its cache on
+// disk (it does so on a thread of the lowest priority, and drops what is left when a process ends).
+class Display {
+  public:
+    static std::shared_ptr<Display> open(EGLDisplay handle) {
+        static std::mutex mutex;
+        static std::map<EGLDisplay, std::weak_ptr<Display>> known;
+        const std::lock_guard lock(mutex);
+        std::shared_ptr<Display> display = known[handle].lock();
+        if (!display && handle != EGL_NO_DISPLAY && eglInitialize(handle, nullptr, nullptr)) {
+            display = std::shared_ptr<Display>(new Display(handle), [](Display* closing) {
+                const std::lock_guard closingLock(mutex);
+                // Another one may have been opened since the last owner let go.
+                if (known[closing->m_handle].expired())
+                    eglTerminate(closing->m_handle);
+                delete closing;
+            });
+            known[handle] = display;
+        }
+        return display;
+    }
+    [[nodiscard]] EGLDisplay handle() const { return m_handle; }
+
+  private:
+    explicit Display(EGLDisplay handle)
+        : m_handle(handle) {}
+    EGLDisplay m_handle;
+};
+
 class HeadlessContext final : public Context {
   public:
-    HeadlessContext(EGLDisplay display, EGLContext context)
-        : m_display(display)
+    HeadlessContext(std::shared_ptr<Display> display, EGLContext context)
+        : m_display(std::move(display))
         , m_context(context) {}
-    // The display stays initialised: EGL hands the same one to every caller in the process.
     ~HeadlessContext() override {
-        eglMakeCurrent(m_display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-        eglDestroyContext(m_display, m_context);
+        eglMakeCurrent(m_display->handle(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        eglDestroyContext(m_display->handle(), m_context);
+        m_display.reset();
         eglReleaseThread();
     }
     void setInfo(ContextInfo info) { m_info = std::move(info); }
 
   private:
-    EGLDisplay m_display;
+    std::shared_ptr<Display> m_display;
     EGLContext m_context;
 };
 
-Result<std::unique_ptr<Context>> contextOn(EGLDisplay display) {
+Result<std::unique_ptr<Context>> contextOn(EGLDisplay handle) {
     const auto failed = [](const char* step) {
         return Error{ErrorKind::NoOpenGl, step, {}, fmt::format("EGL error 0x{:x}", eglGetError())};
     };
-    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr))
+    std::shared_ptr<Display> opened = Display::open(handle);
+    if (!opened)
         return failed("no display");
+    const EGLDisplay display = handle;
     if (!eglBindAPI(EGL_OPENGL_API))
         return failed("no desktop OpenGL");
     // Nothing is drawn to a surface: contexts without a configuration are enough.
@@ -52,18 +88,18 @@ Result<std::unique_ptr<Context>> contextOn(EGLDisplay display) {
                                                 EGL_TRUE,
 #endif
                                                 EGL_NONE};
-    const EGLContext handle =
+    const EGLContext context =
         eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, kAttributes.data());
-    if (handle == EGL_NO_CONTEXT)
+    if (context == EGL_NO_CONTEXT)
         return failed("no OpenGL 4.5 core context");
-    auto context = std::make_unique<HeadlessContext>(display, handle);
-    if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, handle))
+    auto result = std::make_unique<HeadlessContext>(std::move(opened), context);
+    if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))
         return failed("context without a surface refused");
     Result<ContextInfo> info = describeCurrentContext();
     if (!info)
         return info.error();
-    context->setInfo(std::move(*info));
-    return std::unique_ptr<Context>(std::move(context));
+    result->setInfo(std::move(*info));
+    return std::unique_ptr<Context>(std::move(result));
 }
 
 bool eglLibraryPresent() {

@@ -33,7 +33,7 @@ void ScreenPasses::drawTriangle() const {
 }
 
 Result<void> ScreenPasses::compile() {
-    for (const char* fragment : {"sky.frag", "copy.frag"})
+    for (const char* fragment : {"sky.frag", "copy.frag", "texel.frag"})
         if (auto made = program(fragment); !made)
             return made.error();
     if (auto made = program("tonemap.frag", toneMapDefines(View().toneMap)); !made)
@@ -42,12 +42,16 @@ Result<void> ScreenPasses::compile() {
 }
 
 Result<void> ScreenPasses::drawSky(const EnvironmentLight& environment, BackgroundMode mode,
-                                   float blur) {
+                                   float blur, bool floats) {
     if (mode == BackgroundMode::Color || mode == BackgroundMode::Off)
         return {};
     const bool blurred = mode == BackgroundMode::Blurred;
-    const auto shader = program("sky.frag", blurred ? std::vector<std::string>{"BLURRED"}
-                                                    : std::vector<std::string>{});
+    std::vector<std::string> defines;
+    if (blurred)
+        defines.emplace_back("BLURRED");
+    if (floats)
+        defines.emplace_back("FLOATS");
+    const auto shader = program("sky.frag", std::move(defines));
     if (!shader)
         return shader.error();
     (*shader)->use();
@@ -104,6 +108,38 @@ Result<void> ScreenPasses::toneMap(const gl::Texture& radiance, const gl::Frameb
     glDisable(GL_BLEND);
     drawTriangle();
     return {};
+}
+
+// Into what is bound, blending as it is.
+Result<void> ScreenPasses::copy(const gl::Texture& from) {
+    const auto shader = program("texel.frag");
+    if (!shader)
+        return shader.error();
+    (*shader)->use();
+    from.bind(kPictureUnit);
+    glDisable(GL_DEPTH_TEST);
+    drawTriangle();
+    return {};
+}
+
+Result<void> ScreenPasses::accumulate(gl::Context& context, Targets& targets, std::size_t side,
+                                      int count) {
+    const auto mean = targets.meanTarget(context, side);
+    if (!mean)
+        return mean.error();
+    (*mean)->bind();
+    glEnable(GL_BLEND); // always, so that a driver compiles one program
+    glBlendColor(0.0f, 0.0f, 0.0f, 1.0f / static_cast<float>(count));
+    glBlendFunc(GL_CONSTANT_ALPHA, count == 1 ? GL_ZERO : GL_ONE_MINUS_CONSTANT_ALPHA);
+    Result<void> done = copy(targets.linear());
+    glDisable(GL_BLEND);
+    return done && count > 1 ? showMean(targets, side) : done;
+}
+
+Result<void> ScreenPasses::showMean(const Targets& targets, std::size_t side) {
+    targets.resolved().bind();
+    glDisable(GL_BLEND);
+    return copy(targets.mean(side));
 }
 
 Result<void> ScreenPasses::present(const Targets& targets, unsigned framebuffer) {

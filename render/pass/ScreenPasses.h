@@ -28,8 +28,9 @@ class ScreenPasses {
 
     // Where nothing has been drawn yet (depth 1), into the bound scene target. Nothing for
     // BackgroundMode::Color and Off: that is the clear colour. `blur` of BackgroundMode::Blurred:
-    // perceptual roughness of the prefiltered level.
-    Result<void> drawSky(const EnvironmentLight& environment, BackgroundMode mode, float blur);
+    // perceptual roughness of the prefiltered level. `floats`: SurfaceSettings::floats.
+    Result<void> drawSky(const EnvironmentLight& environment, BackgroundMode mode, float blur,
+                         bool floats);
 
     // Premultiplied radiance to display values, of the same size: exposure, tone curve, transfer
     // function. The luminance that the view may ask for is bound (AdaptationPass). Until
@@ -37,6 +38,12 @@ class ScreenPasses {
     Result<void> toneMap(const gl::Texture& radiance, const gl::Framebuffer& target,
                          const View& view, const ToneMapSettings& settings = {});
     void setDisplay(std::optional<DisplayProgram> display) { m_display = std::move(display); }
+
+    // The mean of linear() over `count` frames, this one included, for either side of a split: into
+    // linear(). Count 1 begins anew. Error Internal from the driver.
+    Result<void> accumulate(gl::Context& context, Targets& targets, std::size_t side, int count);
+    // That mean once more, without a new frame.
+    Result<void> showMean(const Targets& targets, std::size_t side);
 
     // displayed() into a framebuffer of the window system, multisampled or not.
     Result<void> present(const Targets& targets, unsigned framebuffer);
@@ -50,6 +57,7 @@ class ScreenPasses {
     static void setExposure(const gl::Program& program, const View& view);
 
   private:
+    Result<void> copy(const gl::Texture& from);
     Result<const gl::Program*> program(const char* fragment, std::vector<std::string> defines = {});
 
     ShaderLibrary& m_shaders;

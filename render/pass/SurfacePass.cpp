@@ -80,22 +80,23 @@ unsigned endsKey(const glm::ivec4& ends) {
 
 } // namespace
 
-unsigned surfaceFeatures(const DrawItem& item, const SurfaceSettings& settings) {
-    unsigned features = item.material->features;
+unsigned surfaceFeatures(unsigned material, const SurfaceBakes& bakes,
+                         const SurfaceSettings& settings) {
+    unsigned features = material;
     if (settings.hasPunctualLights)
         features |= HasPunctualLights;
     for (int i = 0; i < settings.shadows; ++i)
         features |= HasShadows << i;
     if (settings.hasAreaLights)
         features |= HasAreaLights;
-    if (readsBake(settings.lighting) && item.transfer)
+    if (readsBake(settings.lighting) && bakes.transfer)
         features |= HasTransfer;
     if (settings.lighting == LightingMode::Cosine)
         features |= HasLamp;
     // One source of ambient visibility is used; the others would only cost fetches.
-    if (item.texelAo)
+    if (bakes.texelAo)
         features |= HasTexelAo;
-    else if (item.visibility)
+    else if (bakes.vertexAo)
         features |= HasVertexAo;
     if (features & (HasTexelAo | HasVertexAo))
         features &= ~static_cast<unsigned>(HasOcclusionMap | OcclusionIsPacked);
@@ -103,6 +104,17 @@ unsigned surfaceFeatures(const DrawItem& item, const SurfaceSettings& settings) 
         features &=
             ~static_cast<unsigned>(HasTexelAo | HasVertexAo | HasOcclusionMap | OcclusionIsPacked);
     return features;
+}
+
+unsigned surfaceFeatures(const DrawItem& item, const SurfaceSettings& settings) {
+    return surfaceFeatures(
+        item.material->features,
+        {item.transfer != nullptr, item.texelAo != nullptr, item.visibility != nullptr}, settings);
+}
+
+SurfaceVariant surfaceVariant(unsigned features, const SurfaceSettings& settings) {
+    return {features, modelKey(settings.model), endsKey(unrolledEnds(settings)),
+            static_cast<unsigned>(settings.output) << 1 | (settings.floats ? 1u : 0u)};
 }
 
 std::vector<std::string> surfaceDefines(unsigned features) {
@@ -149,8 +161,7 @@ void drawItem(const DrawItem& item, bool cull, bool coarse) {
 
 Result<const gl::Program*> SurfacePass::program(unsigned features,
                                                 const SurfaceSettings& settings) {
-    const Variant variant{features, modelKey(settings.model), endsKey(unrolledEnds(settings)),
-                          static_cast<unsigned>(settings.output)};
+    const SurfaceVariant variant = surfaceVariant(features, settings);
     const auto known = m_programs.find(variant);
     if (known != m_programs.end())
         return known->second;
@@ -162,6 +173,8 @@ Result<const gl::Program*> SurfacePass::program(unsigned features,
             fmt::format("LIGHT_ENDS ivec4({}, {}, {}, {})", ends.x, ends.y, ends.z, ends.w));
     for (const char* define : outputDefines(settings.output))
         defines.emplace_back(define);
+    if (settings.floats)
+        defines.emplace_back("FLOATS");
     defines.insert(defines.end(), m_studyDefines.begin(), m_studyDefines.end());
     auto made = m_shaders.program({{"surface.vert", "surface.frag"}, std::move(defines)});
     if (made)

@@ -1,6 +1,7 @@
 // Draws the meshes with their materials and light into the scene's target.
 #pragma once
 
+#include "render/pass/SurfaceOutput.h"
 #include "render/scene/DrawList.h"
 #include "render/shader/ShaderLibrary.h"
 
@@ -12,10 +13,6 @@
 
 namespace patina::render {
 
-// Which variant of surface.frag: the picture, or one that records terms
-// (shaders/include/views.glsl).
-enum class SurfaceOutput { Picture, OneView, EightViews, Inspection };
-
 // What is the same for all items of a frame.
 struct SurfaceSettings {
     LightingMode lighting = LightingMode::Ibl;
@@ -25,9 +22,17 @@ struct SurfaceSettings {
     int shadows = 0;         // maps that ShadowPass::bind() has bound
     ShadingModel model;      // its choices; the numbers are in the scene's model block
     SurfaceOutput output = SurfaceOutput::Picture;
+    // Into a target of 32-bit floats: by a program of its own. llvmpipe (Mesa 22.3) names machine
+    // code on disk by the program's code, which compiling for a first format changes: under a
+    // second one it would not be found.
+    bool floats = false;
     // Set: meshes may be drawn with fewer triangles where this view (worldToClip) hides it.
     std::optional<glm::mat4> coarseView = std::nullopt;
 };
+
+// What tells two variants apart: features, the choices of the model, the unrolled lights, the
+// output.
+using SurfaceVariant = std::array<unsigned, 4>;
 
 class SurfacePass {
   public:
@@ -48,17 +53,21 @@ class SurfacePass {
   private:
     Result<const gl::Program*> program(unsigned features, const SurfaceSettings& settings);
 
-    // What tells two variants apart: features, the choices of the model, the unrolled lights, the
-    // output.
-    using Variant = std::array<unsigned, 4>;
-
     ShaderLibrary& m_shaders;
     std::vector<std::string> m_studyDefines;
-    std::map<Variant, const gl::Program*> m_programs; // owned by the library
+    std::map<SurfaceVariant, const gl::Program*> m_programs; // owned by the library
 };
 
-// Bits of SurfaceFeature this item needs under these settings.
+// Baked values that an item is drawn with.
+struct SurfaceBakes {
+    bool transfer = false, texelAo = false, vertexAo = false;
+};
+
+// Bits of SurfaceFeature that an item needs under these settings. `material`: its own.
+[[nodiscard]] unsigned surfaceFeatures(unsigned material, const SurfaceBakes& bakes,
+                                       const SurfaceSettings& settings);
 [[nodiscard]] unsigned surfaceFeatures(const DrawItem& item, const SurfaceSettings& settings);
+[[nodiscard]] SurfaceVariant surfaceVariant(unsigned features, const SurfaceSettings& settings);
 [[nodiscard]] std::vector<std::string> surfaceDefines(unsigned features);
 // The choices of the model that are not the default.
 [[nodiscard]] std::vector<std::string> modelDefines(const ShadingModel& model);

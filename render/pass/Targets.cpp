@@ -65,6 +65,20 @@ Result<const gl::Framebuffer*> Targets::dataTarget(gl::Context& context) {
     return &m_dataTarget;
 }
 
+Result<const gl::Framebuffer*> Targets::meanTarget(gl::Context& context, std::size_t side) {
+    gl::Framebuffer& target = m_meanTargets[side];
+    if (target.empty()) {
+        m_means[side] =
+            gl::Texture(context, "mean of frames",
+                        {.format = gl::PixelFormat::Rgba32f, .width = m_width, .height = m_height});
+        auto made = gl::Framebuffer::create(context, "mean of frames", {&m_means[side]}, nullptr);
+        if (!made)
+            return made.error();
+        target = std::move(*made);
+    }
+    return &target;
+}
+
 void Targets::resolve() const {
     if (m_samples > 1)
         m_multisampled.resolveTo(m_resolved, true);

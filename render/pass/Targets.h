@@ -4,6 +4,9 @@
 
 #include "render/gl/Framebuffer.h"
 
+#include <array>
+#include <cstddef>
+
 namespace patina::render {
 
 class Targets {
@@ -14,6 +17,7 @@ class Targets {
 
     [[nodiscard]] int width() const { return m_width; }
     [[nodiscard]] int height() const { return m_height; }
+    [[nodiscard]] int samples() const { return m_samples; }
 
     // Where the scene is drawn; resolve() makes linear() and depth() readable.
     [[nodiscard]] const gl::Framebuffer& scene() const {
@@ -26,6 +30,12 @@ class Targets {
     [[nodiscard]] const gl::Framebuffer& display() const { return m_display; }
     [[nodiscard]] const gl::Texture& displayed() const { return m_displayed; } // RGBA8, sRGB values
 
+    // Where means over several frames are kept, RGBA32F, for either side of a split. Made when
+    // first asked for. Error Internal from the driver.
+    Result<const gl::Framebuffer*> meanTarget(gl::Context& context, std::size_t side);
+    [[nodiscard]] const gl::Texture& mean(std::size_t side) const { return m_means[side]; }
+    [[nodiscard]] const gl::Framebuffer& resolved() const { return m_resolved; } // linear()
+
     // Numbers of a view instead of radiance: RGBA32F with the depth of the resolved scene. Made
     // when first asked for. Error Internal from the driver.
     Result<const gl::Framebuffer*> dataTarget(gl::Context& context);
@@ -35,6 +45,8 @@ class Targets {
     int m_width = 0, m_height = 0, m_samples = 0;
     gl::Texture m_linearSamples, m_depthSamples, m_linear, m_depth, m_displayed, m_data;
     gl::Framebuffer m_multisampled, m_resolved, m_display, m_dataTarget;
+    std::array<gl::Texture, 2> m_means;
+    std::array<gl::Framebuffer, 2> m_meanTargets;
 };
 
 } // namespace patina::render

@@ -50,6 +50,8 @@ struct ViewSettings {
     friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
 
     [[nodiscard]] bool isPlain() const { return *this == ViewSettings(); }
+    // Whether a side of the picture is the ordinary one, which records no terms.
+    [[nodiscard]] bool isOrdinary(const ViewChoice& choice) const;
 };
 
 } // namespace patina::render

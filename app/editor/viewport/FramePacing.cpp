@@ -20,7 +20,13 @@ float FramePacing::scale() const {
     return moving() ? kScales[static_cast<std::size_t>(m_level)] : 1.0f;
 }
 
+bool FramePacing::accumulating() const {
+    return m_accumulates && !moving() && m_fullMs < kAffordableMs;
+}
+
 int FramePacing::samples() const {
+    if (m_accumulates)
+        return 1;
     const bool fast = m_antialiasedMs >= 0.0 && m_antialiasedMs < kAlwaysMs && m_level == 0;
     return fast || m_stage == Stage::Antialiased ? 4 : 1;
 }
@@ -44,7 +50,7 @@ bool FramePacing::refine() {
         m_stage = Stage::FullResolution;
         return true;
     }
-    if (m_stage == Stage::FullResolution && m_fullMs < kAffordableMs) {
+    if (m_stage == Stage::FullResolution && !m_accumulates && m_fullMs < kAffordableMs) {
         m_stage = Stage::Antialiased;
         return true;
     }

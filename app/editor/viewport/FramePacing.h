@@ -10,6 +10,10 @@ class FramePacing {
     // Side length relative to the widget's: 1 … ¼.
     [[nodiscard]] float scale() const;
     [[nodiscard]] int samples() const; // MSAA: 1 or 4
+    // Frames are anti-aliased by adding them up (FrameSettings::accumulate), not by MSAA.
+    void setAccumulates(bool accumulates) { m_accumulates = accumulates; }
+    // At rest the frames are to be added up.
+    [[nodiscard]] bool accumulating() const;
     [[nodiscard]] bool moving() const { return m_stage == Stage::Moving; }
 
     // The first scale of a movement is estimated from the last frame at full resolution, so that
@@ -27,6 +31,7 @@ class FramePacing {
   private:
     enum class Stage { Moving, FullResolution, Antialiased };
     Stage m_stage = Stage::FullResolution;
+    bool m_accumulates = false;
     int m_level = 0; // index into the scales
     int m_fastFrames = 0;
     double m_fullMs = -1.0;        // last full-resolution frame without anti-aliasing; -1: none yet

@@ -9,6 +9,7 @@
 #include <QWidget>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace patina::editor {
 namespace {
@@ -61,11 +62,24 @@ void PixelPicker::frameDrawn(const QSize& size, bool moving) {
     lookSoon();
 }
 
+void PixelPicker::setReady(bool ready) {
+    if (ready == m_ready)
+        return;
+    m_ready = ready;
+    if (const auto at = std::exchange(m_pinLater, std::nullopt); ready && at)
+        pinAt(*at);
+    lookSoon();
+}
+
 // Never at once: this is also called while a frame is drawn. While something is dragged, frames
 // have the larger part of the time.
 void PixelPicker::lookSoon() {
     if (!m_probe || !m_probe->wanted() || m_timer.isActive())
         return;
+    if (!m_ready) {
+        Q_EMIT notReady();
+        return;
+    }
     const double pause =
         std::max<double>(kLookMs, m_moving ? m_lookMs / kLookShare - m_lookMs : 0.0);
     const auto since = m_sinceLook.isValid() ? static_cast<double>(m_sinceLook.elapsed()) : pause;
@@ -73,7 +87,7 @@ void PixelPicker::lookSoon() {
 }
 
 void PixelPicker::look() {
-    if (!m_probe || !m_probe->wanted() || m_frame.isEmpty())
+    if (!m_probe || !m_probe->wanted() || m_frame.isEmpty() || !m_ready)
         return;
     // The numbers belong to the picture that is shown. A newer one is on its way, and then its
     // numbers are wanted.
@@ -159,6 +173,11 @@ void PixelPicker::pinAt(const QPointF& at) {
     const auto pixel = pixelAt(at);
     if (!m_probe || !pixel)
         return;
+    if (!m_ready) {
+        m_pinLater = at;
+        Q_EMIT notReady();
+        return;
+    }
     std::optional<render::Inspection> inspection = inspect(*pixel);
     if (!inspection)
         return;

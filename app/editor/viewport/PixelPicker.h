@@ -35,6 +35,8 @@ class PixelPicker : public QObject {
     // After a frame of `size` device pixels, none when it is gone; `moving`: others will follow
     // soon.
     void frameDrawn(const QSize& size, bool moving);
+    // Whether looking costs no more than its frame; else notReady() says that somebody wants to.
+    void setReady(bool ready);
     void placeMark(); // before a frame, so that the mark goes along in it
 
     void togglePin();              // at the pointer, or take the pin away
@@ -48,6 +50,7 @@ class PixelPicker : public QObject {
   Q_SIGNALS:
     void pickingChanged(bool picking);
     void pinned(); // by the user
+    void notReady();
 
   protected:
     bool eventFilter(QObject* viewport, QEvent* event) override;
@@ -71,6 +74,8 @@ class PixelPicker : public QObject {
     QTimer m_timer;
     QElapsedTimer m_sinceLook;
     double m_lookMs = 0.0;
+    bool m_ready = true;
+    std::optional<QPointF> m_pinLater; // pinned before it was ready
     bool m_moving = false;
     bool m_outdated = false;   // the document has changed since the last frame
     Camera m_camera;           // of the last frame

@@ -38,6 +38,12 @@ void SheetScheduler::remove(SheetClient& client) {
     std::erase_if(m_entries, [&](const Entry& entry) { return entry.client == &client; });
 }
 
+bool SheetScheduler::wanted() const {
+    return std::any_of(m_entries.begin(), m_entries.end(), [](const Entry& entry) {
+        return !entry.client->wantedSheet().kinds.empty();
+    });
+}
+
 void SheetScheduler::wake() {
     if (m_resting && !m_timer.isActive())
         m_timer.start(0);

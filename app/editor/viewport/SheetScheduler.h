@@ -43,6 +43,8 @@ class SheetScheduler : public QObject {
     void add(SheetClient& client);
     void remove(SheetClient& client);
 
+    [[nodiscard]] bool wanted() const; // some client shows thumbnails
+
     void wake();                   // a client wants others, or another size
     void invalidate();             // the scene looks different: every thumbnail is old
     void setResting(bool resting); // false: a drag needs the time

@@ -1,6 +1,7 @@
 #include "app/editor/viewport/ViewFeed.h"
 
 #include "app/editor/document/DocumentController.h"
+#include "app/editor/viewport/ViewGate.h"
 #include "app/editor/viewport/ViewState.h"
 #include "render/Renderer.h"
 
@@ -46,13 +47,14 @@ void ViewFeed::standIn(render::ViewChoice& choice) const {
         choice = {};
 }
 
-ViewSettings ViewFeed::beginFrame() {
+ViewSettings ViewFeed::beginFrame(ViewGate& gate) {
     if (!m_views)
         return {};
     ViewSettings settings = m_views->settings();
     standIn(settings.shown);
     if (settings.split)
         standIn(settings.split->other);
+    settings = gate.choose(settings);
     m_same = settings == m_drawn;
     m_drawn = settings;
     settings.flags = m_blink.strength();
@@ -62,6 +64,11 @@ ViewSettings ViewFeed::beginFrame() {
 void ViewFeed::endFrame(const render::Renderer& renderer) {
     if (m_views)
         m_views->setMeasuredRanges(renderer.shownRange(), renderer.otherRange());
+}
+
+void ViewFeed::setPreparing(bool preparing) {
+    if (m_views)
+        m_views->setPreparing(preparing);
 }
 
 } // namespace patina::editor

@@ -14,6 +14,7 @@ class Renderer;
 namespace patina::editor {
 
 class DocumentController;
+class ViewGate;
 class ViewState;
 
 class ViewFeed : public QObject {
@@ -23,13 +24,14 @@ class ViewFeed : public QObject {
 
     void setViews(ViewState& views);
 
-    // Of the frame that is drawn next.
-    [[nodiscard]] render::ViewSettings beginFrame();
+    // Of the frame that is drawn next, as the gate lets it.
+    [[nodiscard]] render::ViewSettings beginFrame(ViewGate& gate);
     // Without marks that fade; for thumbnails.
     [[nodiscard]] const render::ViewSettings& drawn() const { return m_drawn; }
     // Whether that frame shows the scene of the frame before, apart from how strong marks are.
     [[nodiscard]] bool sameAsBefore() const { return m_same; }
     void endFrame(const render::Renderer& renderer);
+    void setPreparing(bool preparing); // what is asked for is not shown yet
 
   Q_SIGNALS:
     void changed();      // something else is shown

@@ -61,6 +61,7 @@ ViewLegend::ViewLegend(ViewState& views, DocumentController& controller, ViewSid
     layout->setSizeConstraint(QLayout::SetFixedSize);
     hide();
     connect(&m_views, &ViewState::changed, this, &ViewLegend::refresh);
+    connect(&m_views, &ViewState::preparingChanged, this, &ViewLegend::refresh);
     connect(&m_views, &ViewState::rangeMeasured, this, &ViewLegend::refreshRange);
     connect(&m_controller, &DocumentController::changed, this, &ViewLegend::refresh);
     rebuild();
@@ -80,8 +81,12 @@ bool ViewLegend::isWanted() const {
 
 void ViewLegend::refresh() {
     if (isWanted()) {
-        const LegendContent content =
+        LegendContent content =
             describeView(m_views.settings(), *choice(), m_controller.document());
+        if (m_views.preparing() && content.why.isEmpty()) {
+            content.note = tr("One moment: the graphics driver prepares this view.");
+            content.hasScale = false; // of colours that are not there yet
+        }
         if (content != m_content) {
             m_content = content;
             rebuild();

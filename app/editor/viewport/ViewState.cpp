@@ -143,4 +143,11 @@ render::ViewRange ViewState::rangeOf(const render::ViewChoice& choice) const {
     return {info.rangeMin, info.rangeMax};
 }
 
+void ViewState::setPreparing(bool preparing) {
+    if (preparing == m_preparing)
+        return;
+    m_preparing = preparing;
+    Q_EMIT preparingChanged();
+}
+
 } // namespace patina::editor

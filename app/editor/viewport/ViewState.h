@@ -54,9 +54,14 @@ class ViewState : public QObject {
     // The range that a view is shown over: locked, measured, or the table's.
     [[nodiscard]] render::ViewRange rangeOf(const render::ViewChoice& choice) const;
 
+    // The picture still shows what was shown before: the driver compiles what this view needs.
+    void setPreparing(bool preparing);
+    [[nodiscard]] bool preparing() const { return m_preparing; }
+
   Q_SIGNALS:
     void changed();
     void rangeMeasured(); // and it is another one
+    void preparingChanged();
 
   private:
     [[nodiscard]] render::ViewChoice choice(ViewKind kind) const;
@@ -65,6 +70,7 @@ class ViewState : public QObject {
     render::ViewMode m_mode = render::ViewMode::Raw;
     std::map<ViewKind, render::ViewRange> m_ranges; // the locked ones
     std::optional<render::ViewRange> m_shownRange, m_otherRange;
+    bool m_preparing = false;
     std::array<ViewKind, kViewGroupCount> m_lastOfGroup{}; // looked at last
     ViewKind m_before = shading::kViewFinal;               // shown before the one that is
     ViewKind m_lastFactor = shading::kViewFinal;           // the last one that is not the picture

@@ -22,8 +22,11 @@
 namespace patina::editor {
 namespace {
 
+using render::SurfaceOutput;
+
 constexpr int kRestMs = 250;                        // without movement until the picture is refined
 constexpr int kAdaptationMs = 16;                   // between the frames of an eye that adapts
+constexpr int kAccumulationMs = 16;                 // between frames that are added up
 constexpr std::size_t kEnvironmentBytes = 16 << 20; // of textures between frames: some 10 ms
 constexpr int kShaderPollMs = 500;                  // hot reload in developers' builds
 
@@ -43,6 +46,7 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     , m_ibl(new IblUpdater(iblCacheFolder(), this))
     , m_hand(controller, selection, *this)
     , m_viewFeed(controller)
+    , m_gate(controller)
     , m_picker(controller, *this) {
     setObjectName(QStringLiteral("viewport"));
     setAccessibleName(tr("Viewport"));
@@ -63,8 +67,15 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
         if (m_pacing.refine()) {
             update();
             m_restTimer.start(); // the next step
+        } else {
+            m_gate.rest();
         }
     });
+    connect(&m_gate, &ViewGate::opened, this, &ViewportWidget::gateOpened);
+    connect(&m_gate, &ViewGate::waitingChanged, this,
+            [this] { m_viewFeed.setPreparing(m_gate.waiting()); });
+    connect(&m_picker, &PixelPicker::notReady, this,
+            [this] { m_gate.prepare(SurfaceOutput::Inspection); });
     m_restTimer.start();
     m_clock.start();
     m_adaptationTimer.setSingleShot(true);
@@ -72,6 +83,12 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     connect(&m_adaptationTimer, &QTimer::timeout, this, [this] {
         m_onlyDisplay = true;
         update();
+    });
+    m_accumulationTimer.setSingleShot(true);
+    m_accumulationTimer.setInterval(kAccumulationMs);
+    connect(&m_accumulationTimer, &QTimer::timeout, this, [this] {
+        if (m_pacing.accumulating())
+            update();
     });
     m_shaderTimer.setInterval(kShaderPollMs);
     connect(&m_shaderTimer, &QTimer::timeout, this, [this] {
@@ -168,6 +185,9 @@ void ViewportWidget::initializeGL() {
         return;
     }
     m_context = std::move(adopted).value();
+    // Software OpenGL takes four times as long for four samples in one piece, and keeps no code for
+    // them: each program would be compiled anew in every session.
+    m_pacing.setAccumulates(m_context->info().software);
     const QByteArray shaderFolder = qgetenv("PATINA_SHADER_DIR");
     Result<std::unique_ptr<render::Renderer>> created =
         render::Renderer::create(*m_context, shaderFolder.toStdString());
@@ -214,6 +234,7 @@ render::FrameSettings ViewportWidget::nextFrame(const QSize& size) {
     frame.width = size.width();
     frame.height = size.height();
     frame.samples = std::min(m_pacing.samples(), m_context->info().maxSamples);
+    frame.accumulate = m_pacing.accumulating();
     frame.camera = m_controller.document().view.camera;
     frame.showOverlays = m_overlays;
     frame.selectedMesh = m_selection.mesh();
@@ -223,7 +244,7 @@ render::FrameSettings ViewportWidget::nextFrame(const QSize& size) {
     frame.measureLuminance = m_luminanceWanted && !m_pacing.moving();
     frame.adaptSeconds =
         m_adaptation.beginFrame(static_cast<double>(m_clock.nsecsElapsed()) * 1e-9);
-    frame.view = m_viewFeed.beginFrame();
+    frame.view = m_viewFeed.beginFrame(m_gate);
     frame.reuseScene = std::exchange(m_onlyDisplay, false) && frame.camera == m_lastCamera &&
                        m_viewFeed.sameAsBefore();
     m_lastCamera = frame.camera;
@@ -263,11 +284,33 @@ void ViewportWidget::paintGL() {
     const double milliseconds = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
     if (!frame.reuseScene) // says nothing about what the scene costs
         m_pacing.frameTook(milliseconds);
+    if (frame.accumulate && m_renderer->accumulatedFrames() < render::Renderer::kSteadyFrames)
+        m_accumulationTimer.start();
     m_slowestFrameMs = std::max(m_slowestFrameMs, milliseconds);
     Q_EMIT frameRendered(milliseconds);
     followLuminance();
-    m_sheets.setResting(!m_pacing.moving());
+    letOthersDraw();
     m_picker.frameDrawn(size, m_pacing.moving());
+}
+
+void ViewportWidget::letOthersDraw() {
+    const bool rests = !m_pacing.moving();
+    const bool open = m_gate.isOpen(SurfaceOutput::EightViews);
+    m_sheets.setResting(rests && open);
+    if (rests && !open && m_sheets.wanted())
+        m_gate.prepare(SurfaceOutput::EightViews);
+    m_picker.setReady(m_gate.isOpen(SurfaceOutput::Inspection));
+}
+
+void ViewportWidget::gateOpened() {
+    if (m_gate.waiting()) {
+        hurry();
+        update();
+        return;
+    }
+    letOthersDraw();
+    if (!m_restTimer.isActive())
+        m_gate.rest(); // which may have been busy with something else
 }
 
 Result<render::Inspection> ViewportWidget::inspect(const QPoint& pixel) {

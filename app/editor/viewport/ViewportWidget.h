@@ -8,6 +8,7 @@
 #include "app/editor/viewport/ScaledTarget.h"
 #include "app/editor/viewport/SheetScheduler.h"
 #include "app/editor/viewport/ViewFeed.h"
+#include "app/editor/viewport/ViewGate.h"
 #include "app/editor/viewport/ViewportHand.h"
 #include "core/document/Document.h"
 #include "core/math/Camera.h"
@@ -65,6 +66,10 @@ class ViewportWidget : public QOpenGLWidget {
     // Of the next frame in device pixels: the widget's, or less while the hand moves.
     [[nodiscard]] QSize frameSize() const;
 
+    // Whether the view asked for is not drawn yet, because what draws it is being compiled.
+    [[nodiscard]] bool waitsForPrograms() const { return m_gate.waiting(); }
+    [[nodiscard]] bool compilesPrograms() const { return m_gate.compiling(); } // or nobody waits
+
     // Milliseconds of the slowest frame since the last call (tests and the status bar).
     double takeSlowestFrameMs();
 
@@ -83,6 +88,9 @@ class ViewportWidget : public QOpenGLWidget {
   private:
     void releaseGl();
     void applyChange(const Change& change);
+    void gateOpened();
+    // Thumbnails and looks at pixels, where nothing need be compiled for them.
+    void letOthersDraw();
     void setCamera(const Camera& camera);
     void touch();       // the hand moved something: draw fast now, refine when it rests
     void lookChanged(); // of the scene, other than by the hand: its thumbnails are old, too
@@ -104,6 +112,7 @@ class ViewportWidget : public QOpenGLWidget {
     ViewportHand m_hand;
     PreviewFeed m_preview;
     ViewFeed m_viewFeed;
+    ViewGate m_gate;
     SheetScheduler m_sheets;
     PixelPicker m_picker;
 
@@ -119,7 +128,7 @@ class ViewportWidget : public QOpenGLWidget {
     Camera m_lastCamera;        // of the last frame
 
     FramePacing m_pacing;
-    QTimer m_restTimer, m_environmentTimer, m_shaderTimer, m_adaptationTimer;
+    QTimer m_restTimer, m_environmentTimer, m_shaderTimer, m_adaptationTimer, m_accumulationTimer;
     double m_slowestFrameMs = 0.0;
     QSize m_lastFrameSize;
 

@@ -4,12 +4,17 @@
 #include "tests/app/editor/EditorFixture.h"
 
 #include "app/editor/document/Commands.h"
+#include "app/editor/viewport/ViewState.h"
+#include "core/document/Views.h"
 #include "core/library/Library.h"
 
 #include <QElapsedTimer>
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
+#include <fmt/format.h>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace patina::editor {
@@ -131,6 +136,86 @@ TEST_F(FrameTimeTest, AnEnvironmentArrivesWhileTheHandMoves) {
     Drag(viewport(), "while an environment arrives").run(3000);
     ASSERT_TRUE(settled(*session));
     EXPECT_EQ(document().environment.source, "builtin:sunset");
+}
+
+// --- What is new to the driver: set MESA_SHADER_CACHE_DIR to an empty folder for a first time ----
+
+class NewViewsTest : public FrameTimeTest {
+  protected:
+    static void SetUpTestSuite() {
+        FrameTimeTest::SetUpTestSuite();
+        openLitKnot();
+    }
+    void SetUp() override {} // one document for all
+
+    // At rest, with everything compiled; prints what it took.
+    static void settle(const char* what) {
+        viewport().takeSlowestFrameMs();
+        QElapsedTimer clock;
+        clock.start();
+        const QSize full = viewport().size() * viewport().devicePixelRatioF();
+        int idle = 0; // looks in a row at which nothing is left to do
+        const auto rests = [&] {
+            const bool busy = viewport().waitsForPrograms() || viewport().compilesPrograms() ||
+                              viewport().frameSize() != full;
+            idle = busy ? 0 : idle + 1;
+            return idle > 60;
+        };
+        ASSERT_TRUE(QTest::qWaitFor(rests, 240'000)); // low priority, on a busy machine
+        std::printf("[ figures  ] %s: all compiled after %lld ms, slowest frame %.0f ms\n", what,
+                    static_cast<long long>(clock.elapsed()), viewport().takeSlowestFrameMs());
+    }
+    // The next frame of `act`: its time, and what the window's thread computed meanwhile.
+    struct Figures {
+        double slowestMs = 0.0, threadMs = 0.0;
+        qint64 shownAfterMs = 0;
+    };
+    template <class Act>
+    static Figures watch(Act act) {
+        viewport().takeSlowestFrameMs();
+        int frames = 0;
+        double longestThread = 0.0, lastThread = clockMs(CLOCK_THREAD_CPUTIME_ID);
+        const auto counting =
+            QObject::connect(&viewport(), &ViewportWidget::frameRendered, &viewport(), [&] {
+                frames = viewport().waitsForPrograms() ? 0 : frames + 1;
+                const double thread = clockMs(CLOCK_THREAD_CPUTIME_ID);
+                longestThread = std::max(longestThread, thread - std::exchange(lastThread, thread));
+            });
+        QElapsedTimer clock;
+        clock.start();
+        act();
+        EXPECT_TRUE(eventually([&] { return frames > 0; }));
+        QObject::disconnect(counting);
+        return {viewport().takeSlowestFrameMs(), longestThread, clock.elapsed()};
+    }
+    static void switchThroughAll(const char* what) {
+        std::vector<std::pair<double, std::string>> slowest;
+        for (const ViewInfo& info : views()) {
+            const Figures figures = watch([&] { session->views.show(info.kind); });
+            slowest.emplace_back(figures.threadMs,
+                                 fmt::format("{}: frame {:.0f} ms, shown after {} ms", info.id,
+                                             figures.slowestMs, figures.shownAfterMs));
+        }
+        std::sort(slowest.rbegin(), slowest.rend());
+        for (std::size_t i = 0; i < 4; ++i)
+            std::printf("[ figures  ] %s, %zu views: %.0f ms of the window's thread (%s)\n", what,
+                        slowest.size(), slowest[i].first, slowest[i].second.c_str());
+        session->views.set({});
+    }
+};
+
+TEST_F(NewViewsTest, AtOnceAndOnceTheyAreCompiled) {
+    const Figures first = watch([&] { session->views.show(shading::kViewNoV); });
+    std::printf("[ figures  ] the first view, before anything was compiled: frames of at most "
+                "%.0f ms (%.0f ms of the window's thread), shown after %lld ms\n",
+                first.slowestMs, first.threadMs, static_cast<long long>(first.shownAfterMs));
+    EXPECT_FALSE(session->views.preparing());
+    session->views.set({});
+    settle("at rest");
+    switchThroughAll("compiled in the background");
+    (void)controller().addLight(LightType::Directional);
+    settle("a shadowed light later");
+    switchThroughAll("with a shadowed light");
 }
 
 } // namespace

@@ -1,0 +1,295 @@
+#include "render/WarmUp.h"
+
+#include "core/base/Hash.h"
+#include "render/pass/SurfacePass.h"
+#include "render/scene/LightBlocks.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/ext/matrix_transform.hpp>
+#include <set>
+
+namespace patina::render {
+namespace {
+
+constexpr int kSide = 16;         // pixels of a square
+constexpr std::size_t kMost = 48; // squares: more programs than that are left to the first frame
+constexpr float kSpacing = 1.25f; // between the centres of squares of side 1
+constexpr int kReducedSide = 4;   // of maps; 3 where the side is no power of two
+
+const MeshPtr& square() {
+    static const MeshPtr kSquare = [] {
+        Mesh mesh;
+        mesh.positions = {{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0.5f, 0.5f, 0}, {-0.5f, 0.5f, 0}};
+        mesh.normals.assign(4, {0, 0, 1});
+        mesh.tangents.assign(4, {1, 0, 0, 1});
+        mesh.uvs = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+        mesh.indices = {0, 1, 2, 0, 2, 3};
+        return std::make_shared<const Mesh>(std::move(mesh));
+    }();
+    return kSquare;
+}
+
+// llvmpipe compiles for textures with and without mipmaps, and for sides that are powers of two.
+int reducedSide(int side) {
+    if (side <= kReducedSide)
+        return side;
+    return std::has_single_bit(static_cast<unsigned>(side)) ? kReducedSide : kReducedSide - 1;
+}
+
+ImagePtr reduced(const Image& image) {
+    return std::make_shared<const Image>(reducedSide(image.width()), reducedSide(image.height()),
+                                         image.channels(), image.type(), image.encoding());
+}
+
+std::array<MapSlot*, 6> slots(Material& m) {
+    return {&m.baseColorMap, &m.metallicMap,  &m.perceptualRoughnessMap,
+            &m.normalMap,    &m.occlusionMap, &m.emissiveMap};
+}
+
+SurfaceSettings settingsOf(const Document& document, SurfaceOutput output) {
+    FrameBlock block;
+    packLights(document, {}, block);
+    SurfaceSettings settings;
+    settings.lighting = document.view.lighting;
+    settings.lightEnds = block.lightEnds;
+    settings.hasPunctualLights = block.lightEnds.y > 0;
+    settings.hasAreaLights = block.lightEnds.w > block.lightEnds.y;
+    settings.shadows = std::min(static_cast<int>(castingLights(document).size()), kMaxShadows);
+    settings.model = document.model;
+    settings.output = output;
+    return settings;
+}
+
+const VertexBake* vertexBake(const Document& document, const MeshInstance& mesh, BakeKind kind) {
+    for (const BakeArtifactPtr& bake : document.bakes)
+        if (bake->kind == kind)
+            for (const VertexBake& values : bake->vertices)
+                if (values.mesh == mesh.id &&
+                    values.values.size() ==
+                        mesh.mesh->vertexCount() * static_cast<std::size_t>(values.stride))
+                    return &values;
+    return nullptr;
+}
+
+const TexelBake* texelBake(const Document& document, Id material) {
+    for (const BakeArtifactPtr& bake : document.bakes)
+        if (bake->kind == BakeKind::AoTexel)
+            for (const TexelBake& texels : bake->texels)
+                if (texels.material == material && texels.image)
+                    return &texels;
+    return nullptr;
+}
+
+SurfaceBakes bakesOf(const Document& document, const MeshInstance& mesh) {
+    const VertexBake* transfer = vertexBake(document, mesh, BakeKind::PrtVertex);
+    const VertexBake* ao = vertexBake(document, mesh, BakeKind::AoVertex);
+    return {transfer && transfer->stride <= kMaxTransferCount,
+            texelBake(document, mesh.material) != nullptr, ao && ao->stride == 1};
+}
+
+void addFormats(Hasher& hasher, Material material) {
+    for (const MapSlot* map : slots(material)) {
+        if (!map->image)
+            continue;
+        const Image& image = *map->image;
+        hasher.value(image.channels())
+            .value(image.type())
+            .value(image.encoding())
+            .value(reducedSide(image.width()))
+            .value(reducedSide(image.height()));
+    }
+}
+
+// The values of a bake for squares.
+BakeArtifactPtr reducedBake(const BakeArtifact& bake, const std::set<Id>& meshes) {
+    BakeArtifact result = bake;
+    std::erase_if(result.vertices,
+                  [&](const VertexBake& values) { return !meshes.contains(values.mesh); });
+    for (VertexBake& values : result.vertices)
+        values.values.assign(square()->vertexCount() * static_cast<std::size_t>(values.stride),
+                             0.5f);
+    for (TexelBake& texels : result.texels)
+        if (texels.image)
+            texels.image = reduced(*texels.image);
+    return std::make_shared<const BakeArtifact>(std::move(result));
+}
+
+// A sky of the same kind of texture as most environments have.
+EnvironmentTexels someSky() {
+    constexpr std::uint16_t kHalf = 0x3800; // 0.5
+    HalfMipmaps mipmaps;
+    for (const auto& [width, height] : {std::pair(4, 2), std::pair(2, 1), std::pair(1, 1)})
+        mipmaps.push_back(
+            {width, height,
+             std::vector<std::uint16_t>(
+                 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), kHalf)});
+    const IblMaps light = [] {
+        IblMaps maps;
+        maps.prefiltered.push_back({1, std::vector<glm::vec3>(6, glm::vec3(0.5f))});
+        maps.irradianceSh.fill(glm::vec3(0.5f));
+        maps.radianceSh.fill(glm::vec3(0.5f));
+        return maps;
+    }();
+    return makeEnvironmentTexels(
+        std::make_shared<const Image>(4, 2, 3, PixelType::F32, ColorEncoding::Linear), light,
+        std::make_shared<const HalfMipmaps>(std::move(mipmaps)));
+}
+
+} // namespace
+
+std::map<std::uint64_t, Id> surfacePrograms(const Document& document, SurfaceOutput output) {
+    const SurfaceSettings settings = settingsOf(document, output);
+    std::map<std::uint64_t, Id> programs;
+    for (const MeshInstance& mesh : document.meshes) {
+        if (!mesh.visible || !mesh.mesh || mesh.mesh->indices.empty())
+            continue;
+        const Material* found = document.material(mesh.material);
+        const Material material = found ? *found : Material();
+        const unsigned features =
+            surfaceFeatures(materialFeatures(material), bakesOf(document, mesh), settings);
+        Hasher hasher;
+        for (const unsigned part : surfaceVariant(features, settings))
+            hasher.value(part);
+        addFormats(hasher, material);
+        programs.emplace(hasher.finish().low, mesh.id);
+    }
+    return programs;
+}
+
+Document warmUpScene(const Document& document) {
+    Document scene = document;
+    scene.meshes.clear();
+    std::set<Id> meshes, materials;
+    for (const auto& [program, id] : surfacePrograms(document, SurfaceOutput::Picture)) {
+        if (scene.meshes.size() == kMost)
+            break;
+        MeshInstance mesh = *document.mesh(id);
+        mesh.mesh = square();
+        mesh.transform = glm::translate(
+            glm::mat4(1.0f),
+            glm::vec3(kSpacing * static_cast<float>(scene.meshes.size()), 0.0f, 0.0f));
+        meshes.insert(mesh.id);
+        materials.insert(mesh.material);
+        scene.meshes.push_back(std::move(mesh));
+    }
+    std::erase_if(scene.materials, [&](const Material& m) { return !materials.contains(m.id); });
+    std::map<ImagePtr, ImagePtr> images; // maps that share an image still do
+    for (Material& material : scene.materials)
+        for (MapSlot* map : slots(material))
+            if (map->image) {
+                ImagePtr& image = images[map->image];
+                if (!image)
+                    image = reduced(*map->image);
+                map->image = image;
+            }
+    for (BakeArtifactPtr& bake : scene.bakes)
+        bake = reducedBake(*bake, meshes);
+    Camera camera; // in front
+    camera.yawDeg = camera.pitchDeg = 0.0f;
+    const auto aspect = static_cast<float>(std::max(scene.meshes.size(), std::size_t{1}));
+    scene.view.camera = frameBounds(camera, scene.bounds(), aspect);
+    scene.environment.image = nullptr;
+    scene.environment.fileImage = nullptr;
+    return scene;
+}
+
+WarmUp::WarmUp(gl::Context& context, std::unique_ptr<Renderer> renderer, const Document& document)
+    : m_context(context)
+    , m_renderer(std::move(renderer))
+    , m_scene(warmUpScene(document)) {
+    m_frame.width = kSide * std::max(1, static_cast<int>(m_scene.meshes.size()));
+    m_frame.height = kSide;
+    m_frame.camera = m_scene.view.camera;
+    m_frame.showOverlays = true;
+    m_frame.dither = true;
+    m_frame.measureLuminance = true;
+    if (!m_scene.meshes.empty())
+        m_frame.selectedMesh = m_scene.meshes.front().id;
+    if (!m_scene.lights.empty())
+        m_frame.selectedLight = m_scene.lights.front().id;
+}
+
+Result<WarmUp> WarmUp::create(gl::Context& context, const Document& document) {
+    auto renderer = Renderer::create(context);
+    if (!renderer)
+        return renderer.error();
+    WarmUp result(context, std::move(*renderer), document);
+    result.m_renderer->setEnvironment(someSky());
+    result.m_renderer->setDocument(result.m_scene, Change::everything());
+    return result;
+}
+
+Result<void> WarmUp::drawFrame(const ViewSettings& view, const JobContext& job) {
+    m_frame.view = view;
+    // A software renderer's code for several samples is never kept on disk.
+    for (const int samples : {1, 4}) {
+        if (job.cancelled())
+            return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
+        m_frame.samples = samples;
+        if (auto done = m_renderer->render(m_frame, 0); !done || m_context.info().software)
+            return done;
+    }
+    return {};
+}
+
+Result<void> WarmUp::drawViews(const JobContext& job) {
+    for (const ViewMode mode : {ViewMode::Raw, ViewMode::Contribution})
+        for (const ViewInfo& info : views()) {
+            if (mode == ViewMode::Contribution && info.contribution.empty())
+                continue;
+            ViewSettings view;
+            view.shown = {info.kind, mode, {}};
+            // The picture itself, with a term switched off, is made by the same program as a view.
+            if (view.isOrdinary(view.shown))
+                view.terms[0] = false;
+            if (auto done = drawFrame(view, job); !done)
+                return done;
+        }
+    return {};
+}
+
+Result<void> WarmUp::inspectAll(const JobContext& job) {
+    if (auto done = drawFrame({}, job); !done)
+        return done;
+    const glm::mat4 worldToClip =
+        m_frame.camera.projectionMatrix(static_cast<float>(m_frame.width) /
+                                            static_cast<float>(m_frame.height),
+                                        m_scene.bounds()) *
+        m_frame.camera.viewMatrix();
+    for (const MeshInstance& mesh : m_scene.meshes) {
+        if (job.cancelled())
+            return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
+        const glm::vec4 center = worldToClip * mesh.transform[3];
+        const auto x = static_cast<int>((0.5f + 0.5f * center.x / center.w) *
+                                        static_cast<float>(m_frame.width));
+        if (auto done = m_renderer->inspect(x, m_frame.height / 2); !done)
+            return done.error();
+    }
+    return {};
+}
+
+Result<void> WarmUp::draw(SurfaceOutput output, const JobContext& job) {
+    if (m_scene.meshes.empty())
+        return {};
+    switch (output) {
+    case SurfaceOutput::Picture:
+        return drawFrame({}, job);
+    case SurfaceOutput::OneView:
+        return drawViews(job);
+    case SurfaceOutput::EightViews: {
+        ViewSheet sheet{{shading::kViewFinal, shading::kViewBaseColor, shading::kViewNoV}};
+        sheet.width = m_frame.width;
+        sheet.height = m_frame.height;
+        if (auto drawn = m_renderer->drawSheet(m_frame, sheet); !drawn)
+            return drawn.error();
+        return {};
+    }
+    case SurfaceOutput::Inspection:
+        return inspectAll(job);
+    }
+    return {};
+}
+
+} // namespace patina::render
