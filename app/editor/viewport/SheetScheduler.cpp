@@ -12,6 +12,7 @@ namespace {
 
 // A pass holds up the hand that begins to move: fewer views when it takes longer than this.
 constexpr double kLongMs = 50.0;
+constexpr double kShortMs = 4.0; // and never because of this
 
 QImage toQImage(const Image& image) {
     CHECK(image.channels() == 4 && image.type() == PixelType::U8);
@@ -99,9 +100,11 @@ void SheetScheduler::drawNext() {
         // What failed is not tried again before the scene changes.
         for (const ViewKind kind : sheet.kinds)
             entry.drawnVersion[kind] = version;
-        if (milliseconds > kLongMs)
+        const double longMs =
+            m_frameMs > 0.0 ? std::clamp(kShare * m_frameMs, kShortMs, kLongMs) : kLongMs;
+        if (milliseconds > longMs)
             m_passViews = std::max(1, m_passViews / 2);
-        else if (milliseconds < kLongMs / 4)
+        else if (milliseconds < longMs / 4)
             m_passViews = std::min(kPassViews, 2 * m_passViews);
         m_timer.start(static_cast<int>(std::ceil(pauseAfterMs(milliseconds))));
 

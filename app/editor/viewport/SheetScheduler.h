@@ -55,12 +55,17 @@ class SheetScheduler : public QObject {
         return std::min(passMs / kShare, kLongestPauseMs);
     }
 
+    // What a frame at rest takes: a pass has fewer views when it takes more than a quarter of that.
+    void setFrameMs(double milliseconds) { m_frameMs = milliseconds; }
+
   Q_SIGNALS:
     void passDrawn(int views, double milliseconds);
     void allDrawn(); // nothing is old any more
 
   private:
     static constexpr double kShare = 0.25, kLongestPauseMs = 500.0;
+
+    double m_frameMs = 0.0; // 0: unknown
 
     struct Entry {
         SheetClient* client;

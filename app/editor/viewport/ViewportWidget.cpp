@@ -282,6 +282,8 @@ void ViewportWidget::paintGL() {
     m_lastFrameSize = size;
 
     const double milliseconds = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
+    if (frame.accumulate && !frame.reuseScene)
+        m_sheets.setFrameMs(milliseconds);
     if (!frame.reuseScene) // says nothing about what the scene costs
         m_pacing.frameTook(milliseconds);
     if (frame.accumulate && m_renderer->accumulatedFrames() < render::Renderer::kSteadyFrames)
