@@ -184,6 +184,7 @@ class NewViewsTest : public FrameTimeTest {
         QElapsedTimer clock;
         clock.start();
         act();
+        viewport().update(); // also of what is shown already
         EXPECT_TRUE(eventually([&] { return frames > 0; }));
         QObject::disconnect(counting);
         return {viewport().takeSlowestFrameMs(), longestThread, clock.elapsed()};
