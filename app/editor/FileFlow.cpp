@@ -222,7 +222,8 @@ void FileFlow::guardQuit(const std::function<void()>& proceed) {
                                  QMessageBox::Cancel, &m_window);
     m_question->setIconPixmap(icon(QStringLiteral("jobs"), tokens::kCopper)
                                   .pixmap(QSize(36, 36), m_window.devicePixelRatioF()));
-    m_question->setInformativeText(tr("Their results would be lost."));
+    m_question->setInformativeText(tr("Bakes go on where they were when the scene is opened "
+                                      "again; what else runs is lost."));
     QPushButton* quit = m_question->addButton(tr("&Quit"), QMessageBox::DestructiveRole);
     m_question->setDefaultButton(QMessageBox::Cancel);
     m_question->setAttribute(Qt::WA_DeleteOnClose);

@@ -520,7 +520,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     QSettings settings;
     settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
     settings.setValue(QStringLiteral("window/state"), saveState(kLayoutVersion));
-    m_session.jobs.cancelAll();
+    m_session.jobs.shutDown();
     event->accept();
 }
 

@@ -31,7 +31,8 @@ struct BakeOption {
     double (*get)(const BakeRequest&);
     void (*set)(BakeRequest&, double); // of every kind that knows the setting
     bool (*applies)(const BakeRequest&);
-    bool shapesResult = true; // or only what computing it costs
+    bool shapesResult = true;  // or only what computing it costs
+    const char* zeroText = ""; // Number: shown instead of 0
 };
 
 [[nodiscard]] std::span<const BakeOption> bakeOptions(); // in the order of the panel

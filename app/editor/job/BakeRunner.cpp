@@ -1,26 +1,71 @@
 #include "app/editor/job/BakeRunner.h"
 
 #include "app/editor/document/DocumentController.h"
-#include "app/editor/job/JobManager.h"
 #include "app/editor/job/LivePreview.h"
+#include "core/bake/BakeMemory.h"
+#include "core/bake/ResumableTracer.h"
+#include "core/base/Log.h"
 #include "core/material/Parameters.h"
+
+#include <QFile>
+#include <QMetaObject>
+#include <QStandardPaths>
 
 namespace patina::editor {
 namespace {
 
-Result<BakeArtifact> runBake(const BakeRequest& request, const BakeInputs& inputs, TileSink& sink,
-                             const JobContext& job) {
-    switch (request.kind) {
-    case BakeKind::AoTexel:
-        return bakeAoTexel(inputs, request.ao, sink, job);
-    case BakeKind::AoVertex:
-        return bakeAoVertex(inputs, request.ao, sink, job);
-    case BakeKind::PrtTexel:
-        return bakePrtTexel(inputs, request.prt, sink, job);
-    case BakeKind::PrtVertex:
-        break;
-    }
-    return bakePrtVertex(inputs, request.prt, sink, job);
+constexpr int kViewMs = 250;
+constexpr int kSettleMs = 300;
+constexpr double kCheckpointSeconds = 30.0;
+constexpr float kWidestPicture = 2.0f; // the bake sees rather more than the viewport
+
+// Bakes outlive the session; the system may empty this folder at any time.
+std::filesystem::path bakeFolder() {
+    const QString folder = QStandardPaths::writableLocation(QStandardPaths::CacheLocation);
+    return std::filesystem::path(QFile::encodeName(folder).toStdString()) / "bakes";
+}
+
+QString summaryOf(const BakeArtifact& artifact) {
+    return BakeRunner::tr("%1 rays per %2")
+        .arg(artifact.samplesDone)
+        .arg(isPerTexel(artifact.kind) ? BakeRunner::tr("texel") : BakeRunner::tr("vertex"));
+}
+
+// From the job's thread.
+void warn(DocumentController& controller, const Error& error) {
+    QMetaObject::invokeMethod(
+        &controller,
+        [&controller, error] {
+            UserNotice notice = UserNotice::fromError(error);
+            notice.kind = NoticeKind::Warning;
+            Q_EMIT controller.noticed(notice);
+        },
+        Qt::QueuedConnection);
+}
+
+// Goes on from the checkpoint, where there is one of the same bake, and keeps one meanwhile.
+Result<BakeArtifact> bakeResumably(const BakeRequest& request, const BakeInputs& inputs,
+                                   TileSink& sink, const std::filesystem::path& checkpoint,
+                                   const JobContext& job, const Checkpointer::Warn& warnOf) {
+    std::error_code error;
+    std::filesystem::create_directories(checkpoint.parent_path(), error); // else writing tells why
+    ResumeSettings settings;
+    settings.manifest = bakeManifest(request, inputs);
+    settings.checkpoint = checkpoint;
+    settings.everySeconds = kCheckpointSeconds;
+    settings.resume = std::filesystem::exists(checkpoint, error);
+    settings.keepOnCancel = true;
+    settings.warn = warnOf;
+    ResumableTracer tracer(settings);
+    Result<BakeArtifact> result = bake(request, inputs, sink, job, &tracer);
+    if (result || result.error().kind != ErrorKind::InputBroken || !settings.resume ||
+        tracer.resumedFrom() >= 0)
+        return result;
+    logWarning("The checkpoint is of no use and removed: {}", result.error().text());
+    std::filesystem::remove(checkpoint, error);
+    settings.resume = false;
+    ResumableTracer anew(settings);
+    return bake(request, inputs, sink, job, &anew);
 }
 
 } // namespace
@@ -39,76 +84,196 @@ QString bakeTitle(BakeKind kind) {
     return BakeRunner::tr("Radiance transfer (PRT, per vertex)");
 }
 
-bool isStale(const BakeArtifact& artifact, const Hash& currentInputs) {
-    return artifact.inputs != currentInputs;
-}
-
 BakeRunner::BakeRunner(DocumentController& controller, JobManager& jobs, QObject* parent)
     : QObject(parent)
     , m_controller(controller)
-    , m_jobs(jobs) {
-    connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
-        if (!touches(change.affects, Affects::Geometry | Affects::Bakes | Affects::Structure))
-            return;
-        m_hashValid = false;
-        Q_EMIT stateChanged();
-    });
-    connect(&jobs, &JobManager::jobsChanged, this, [this] {
-        if (m_job == 0)
-            return;
-        const std::optional<JobRecord> job = m_jobs.job(m_job);
-        if (job && job->state == JobState::Running)
-            return;
-        m_job = 0;
-        m_jobs.setPreview(nullptr);
-        Q_EMIT stateChanged();
+    , m_jobs(jobs)
+    , m_folder(bakeFolder())
+    , m_cache(m_folder) {
+    connect(&controller, &DocumentController::changed, this, &BakeRunner::documentChanged);
+    connect(&jobs, &JobManager::jobsChanged, this, &BakeRunner::jobsChanged);
+    connect(&jobs, &JobManager::shuttingDown, this, &BakeRunner::interrupt);
+    m_viewTimer.setInterval(kViewMs);
+    connect(&m_viewTimer, &QTimer::timeout, this, &BakeRunner::passView);
+    m_settled.setInterval(kSettleMs);
+    m_settled.setSingleShot(true);
+    connect(&m_settled, &QTimer::timeout, this, &BakeRunner::stateChanged);
+}
+
+BakeRunner::~BakeRunner() {
+    blockSignals(true); // who listens may be half gone
+    interrupt();
+}
+
+void BakeRunner::interrupt() {
+    for (const auto& [id, bake] : m_bakes)
+        *bake.resumable = true;
+    for (const quint64 id : jobIds())
+        m_jobs.cancel(id);
+}
+
+void BakeRunner::start(const BakeRequest& request, JobPriority priority) {
+    const Result<void> fits =
+        checkBakeMemory(request, bakeInputs(m_controller.document()), availableMemory());
+    if (!fits) {
+        Q_EMIT m_controller.noticed(UserNotice::fromError(fits.error()));
+        return;
+    }
+    // The id is known only after the job may have begun.
+    const auto id = std::make_shared<quint64>(0);
+    Bake bake;
+    bake.request = request;
+    *id = m_jobs.enqueue(tr("Bake: %1").arg(bakeTitle(request.kind)), priority,
+                         [this, id, bake] { return prepare(id, bake); });
+    const std::optional<JobRecord> job = m_jobs.job(*id);
+    if (job && !job->ended())
+        m_bakes.emplace(*id, bake);
+    m_viewTimer.start();
+    jobsChanged();
+}
+
+Result<JobManager::Work> BakeRunner::prepare(const std::shared_ptr<quint64>& id,
+                                             const Bake& wanted) {
+    const BakeRequest& request = wanted.request;
+    auto inputs = std::make_shared<const BakeInputs>(bakeInputs(m_controller.document()));
+    // Asked again: others may have taken it since the job was queued.
+    if (const Result<void> fits = checkBakeMemory(request, *inputs, availableMemory()); !fits)
+        return fits.error();
+
+    // Transfer is only visible in PRT lighting.
+    if (holdsTransfer(request.kind))
+        m_controller.setParameter(*findParameter("view.lighting"), Target{Scope::View, 0},
+                                  static_cast<int>(LightingMode::Prt));
+
+    auto preview = std::make_shared<LivePreview>(request.kind);
+    // By the time this runs, enqueue() has returned and the id is known.
+    QMetaObject::invokeMethod(
+        this,
+        [this, id, preview] {
+            if (const auto bake = m_bakes.find(*id); bake != m_bakes.end())
+                bake->second.preview = preview;
+            passView();
+            jobsChanged();
+        },
+        Qt::QueuedConnection);
+
+    // The work outlives this object, but not the controller.
+    return JobManager::Work([controller = &m_controller, cache = m_cache, folder = m_folder, inputs,
+                             preview, request,
+                             resumable = wanted.resumable](const JobContext& job) -> JobOutcome {
+        const auto attach = [controller](BakeArtifact artifact, const QString& summary) {
+            auto shared = std::make_shared<const BakeArtifact>(std::move(artifact));
+            return JobOutcome{std::nullopt, summary,
+                              [controller, shared] { controller->attachBake(shared); }};
+        };
+        const Hash key = BakeCache::key(request, *inputs);
+        if (std::optional<BakeArtifact> kept = cache.find(key, *inputs)) {
+            const QString summary =
+                BakeRunner::tr("%1, kept from an earlier bake").arg(summaryOf(*kept));
+            return attach(std::move(*kept), summary);
+        }
+        preview->begin(*inputs, request.prt.order, request.ao.size);
+        Result<BakeArtifact> result =
+            bakeResumably(request, *inputs, *preview, checkpointFile(folder, key), job,
+                          [controller](const Error& error) { warn(*controller, error); });
+        if (!job.cancelled() || !*resumable) {
+            std::error_code gone;
+            std::filesystem::remove(checkpointFile(folder, key), gone);
+        }
+        if (!result)
+            return {result.error(), {}, {}};
+        if (!job.stopping())
+            if (const Result<void> stored = cache.store(key, *inputs, *result); !stored)
+                logWarning("The bake is not kept for the next time: {}", stored.error().text());
+        const QString summary = summaryOf(*result);
+        return attach(std::move(result).value(), summary);
     });
 }
 
-void BakeRunner::start(const BakeRequest& request) {
-    if (running())
-        return;
-    const BakeInputs inputs = bakeInputs(m_controller.document());
-    auto preview =
-        std::make_shared<LivePreview>(inputs, request.kind, request.prt.order, request.ao.size);
-
-    // Transfer is only visible in PRT lighting.
-    if (request.kind == BakeKind::PrtVertex) {
-        const ParameterInfo* lighting = findParameter("view.lighting");
-        m_controller.setParameter(*lighting, Target{Scope::View, 0},
-                                  static_cast<int>(LightingMode::Prt));
+const std::vector<InterruptedBake>& BakeRunner::interrupted() {
+    if (!m_interruptedValid) {
+        m_interrupted = interruptedBakes(m_folder, bakeInputs(m_controller.document()));
+        m_interruptedValid = true;
     }
+    return m_interrupted;
+}
 
-    m_jobs.setPreview(preview);
-    m_job = m_jobs.start(
-        tr("Bake: %1").arg(bakeTitle(request.kind)), true,
-        [this, request, inputs, preview](const JobContext& job) -> JobOutcome {
-            Result<BakeArtifact> result = runBake(request, inputs, *preview, job);
-            if (!result)
-                return {result.error(), {}, {}};
-            auto artifact = std::make_shared<const BakeArtifact>(std::move(result).value());
-            const QString summary = tr("%1 rays per %2")
-                                        .arg(artifact->samplesDone)
-                                        .arg(isPerTexel(request.kind) ? tr("texel") : tr("vertex"));
-            return {std::nullopt, summary, [this, artifact] { m_controller.attachBake(artifact); }};
-        });
+void BakeRunner::discard(const InterruptedBake& bake) {
+    std::error_code gone;
+    std::filesystem::remove(bake.file, gone);
+    m_interruptedValid = false;
     Q_EMIT stateChanged();
 }
 
-void BakeRunner::stop() {
-    m_jobs.stop(m_job);
+void BakeRunner::documentChanged(const Change& change) {
+    // Another document: what bakes of the last one would come to belongs to nothing here.
+    if (change.affects == Affects::Everything && m_controller.undoStack().count() == 0)
+        interrupt();
+
+    const bool bakes =
+        touches(change.affects, Affects::Geometry | Affects::Bakes | Affects::Structure);
+    // Alpha decides where rays pass, albedo what bounces: hashed when edits pause.
+    const bool material = change.target && change.target->scope == Scope::Material;
+    if (bakes || material)
+        m_inputsValid = m_albedoValid = m_interruptedValid = false;
+    if (bakes)
+        Q_EMIT stateChanged();
+    else if (material)
+        m_settled.start();
 }
 
-void BakeRunner::cancel() {
-    m_jobs.cancel(m_job);
+void BakeRunner::jobsChanged() {
+    std::erase_if(m_bakes, [this](const auto& bake) {
+        const std::optional<JobRecord> job = m_jobs.job(bake.first);
+        return !job || job->ended();
+    });
+    // The one that runs is shown, or else one that rests.
+    std::shared_ptr<LivePreview> shown;
+    for (const auto& [id, bake] : m_bakes) {
+        const bool runs = m_jobs.job(id)->state == JobState::Running;
+        if (bake.preview && (runs || !shown))
+            shown = bake.preview;
+        if (bake.preview && runs)
+            break;
+    }
+    m_jobs.setPreview(shown);
+    if (m_bakes.empty())
+        m_viewTimer.stop();
+    m_interruptedValid = false;
+    Q_EMIT stateChanged();
+}
+
+void BakeRunner::passView() {
+    const Camera& camera = m_controller.document().view.camera;
+    const glm::mat4 projection =
+        camera.projectionMatrix(kWidestPicture, m_controller.document().bounds());
+    const BakeView view{camera.position(), projection * camera.viewMatrix()};
+    for (const auto& [id, bake] : m_bakes)
+        if (bake.preview)
+            bake.preview->setView(view);
+}
+
+std::vector<quint64> BakeRunner::jobIds() const {
+    std::vector<quint64> ids;
+    for (const auto& [id, bake] : m_bakes)
+        ids.push_back(id);
+    return ids;
 }
 
 Hash BakeRunner::currentInputs() {
-    if (!m_hashValid) {
-        m_hash = hashBakeInputs(bakeInputs(m_controller.document()));
-        m_hashValid = true;
+    if (!m_inputsValid) {
+        m_inputs = hashBakeInputs(bakeInputs(m_controller.document()));
+        m_inputsValid = true;
     }
-    return m_hash;
+    return m_inputs;
+}
+
+Hash BakeRunner::currentAlbedo() {
+    if (!m_albedoValid) {
+        m_albedo = hashBakeAlbedo(bakeInputs(m_controller.document()));
+        m_albedoValid = true;
+    }
+    return m_albedo;
 }
 
 } // namespace patina::editor

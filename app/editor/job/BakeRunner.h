@@ -1,51 +1,76 @@
-// Starts bakes of the controller's document as jobs, shows them live and attaches the result.
+// Bakes of the controller's document as jobs that take turns: shown live, kept in a cache, attached
+// when they are done.
 #pragma once
 
-#include "core/bake/Bake.h"
+#include "app/editor/job/InterruptedBakes.h"
+#include "app/editor/job/JobManager.h"
+#include "core/bake/BakeCache.h"
+#include "core/bake/BakeRequest.h"
 
 #include <QObject>
 #include <QString>
+#include <QTimer>
+#include <atomic>
+#include <map>
+
+namespace patina {
+struct Change;
+}
 
 namespace patina::editor {
 
 class DocumentController;
-class JobManager;
 
-struct BakeRequest {
-    BakeKind kind = BakeKind::PrtVertex;
-    AoSettings ao;   // for the two ambient occlusion kinds
-    PrtSettings prt; // for PrtVertex
-};
+[[nodiscard]] QString bakeTitle(BakeKind kind); // "Radiance transfer (PRT, per vertex)"
 
-[[nodiscard]] QString bakeTitle(BakeKind kind); // "PRT (per vertex)"
-
-// Whether an attached bake still belongs to the document's visible geometry.
-[[nodiscard]] bool isStale(const BakeArtifact& artifact, const Hash& currentInputs);
-
-// One bake runs at a time: the cores are better used by one than shared by two.
 class BakeRunner : public QObject {
     Q_OBJECT
   public:
     BakeRunner(DocumentController& controller, JobManager& jobs, QObject* parent = nullptr);
+    ~BakeRunner() override; // cancels its jobs; they can be gone on with
 
-    void start(const BakeRequest& request); // nothing happens while another one runs
-    void stop();                            // keeps what has converged
-    void cancel();                          // leaves nothing
-    [[nodiscard]] bool running() const { return m_job != 0; }
-    [[nodiscard]] quint64 jobId() const { return m_job; }
+    // Waits for its turn and then bakes what the document is by that time. A bake that does not fit
+    // into memory is refused with advice.
+    void start(const BakeRequest& request, JobPriority priority = JobPriority::Normal);
+    [[nodiscard]] bool running() const { return !m_bakes.empty(); } // one runs or waits
+    [[nodiscard]] std::vector<quint64> jobIds() const;              // of those, oldest first
 
-    // Hash of what a bake started now would be made from; kept until geometry changes.
+    // Bakes of the present scene that were interrupted, by a crash or a quit; start() goes on with
+    // one of the same settings.
+    [[nodiscard]] const std::vector<InterruptedBake>& interrupted();
+    void discard(const InterruptedBake& bake);
+
+    // Hashes of what a bake started now would be made from; kept until the document changes.
     [[nodiscard]] Hash currentInputs();
+    [[nodiscard]] Hash currentAlbedo();
 
   Q_SIGNALS:
-    void stateChanged(); // started, ended, or the document's geometry changed
+    // One was started or has ended, or what bakes depend on has changed.
+    void stateChanged();
 
   private:
+    struct Bake {
+        BakeRequest request;
+        std::shared_ptr<LivePreview> preview; // once it has begun
+        // Whether its checkpoint outlives a cancel; read by the job's thread.
+        std::shared_ptr<std::atomic<bool>> resumable = std::make_shared<std::atomic<bool>>(false);
+    };
+    Result<JobManager::Work> prepare(const std::shared_ptr<quint64>& id, const Bake& bake);
+    void interrupt(); // cancels all, to be gone on with
+    void documentChanged(const Change& change);
+    void jobsChanged();
+    void passView();
+
     DocumentController& m_controller;
     JobManager& m_jobs;
-    quint64 m_job = 0;
-    bool m_hashValid = false;
-    Hash m_hash;
+    std::filesystem::path m_folder;
+    BakeCache m_cache;
+    std::map<quint64, Bake> m_bakes; // by job
+    QTimer m_viewTimer;              // while bakes run: where the user looks
+    QTimer m_settled;                // edits of materials come in bursts
+    bool m_inputsValid = false, m_albedoValid = false, m_interruptedValid = false;
+    std::vector<InterruptedBake> m_interrupted;
+    Hash m_inputs, m_albedo;
 };
 
 } // namespace patina::editor

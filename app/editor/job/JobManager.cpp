@@ -4,45 +4,82 @@
 #include "app/editor/job/LivePreview.h"
 #include "core/base/Log.h"
 #include "core/job/Parallel.h"
+#include "core/job/ProgressRate.h"
 
 #include <QMetaObject>
 #include <algorithm>
 #include <thread>
 
 namespace patina::editor {
+namespace {
+
+constexpr int kMeterMs = 250;
+
+} // namespace
 
 struct JobManager::Job {
     quint64 id = 0;
     QString title;
     bool canStop = false;
     JobState state = JobState::Running;
+    Prepare prepare; // of a queued one, until it begins
+    bool queued = false, pausedByUser = false, begun = false;
+    JobPriority priority = JobPriority::Normal;
     JobControl control;
+    ProgressRate rate;
     JobProgress lastProgress; // kept once the job has ended
     QString summary;
     std::thread thread;
+
+    [[nodiscard]] bool ended() const { return state >= JobState::Done; }
 };
 
 JobManager::JobManager(DocumentController& controller, QObject* parent)
     : QObject(parent)
     , m_controller(controller) {
     lowerPoolPriority();
+    m_meter.setInterval(kMeterMs);
+    connect(&m_meter, &QTimer::timeout, this, &JobManager::measure);
 }
 
 JobManager::~JobManager() {
-    cancelAll();
+    for (const auto& job : m_jobs)
+        job->control.cancel();
     for (const auto& job : m_jobs)
         if (job->thread.joinable())
             job->thread.join();
 }
 
 quint64 JobManager::start(const QString& title, bool canStop, Work work) {
-    auto job = std::make_unique<Job>();
-    const quint64 id = m_nextId++;
-    job->id = id;
-    job->title = title;
-    job->canStop = canStop;
-    const JobContext context = job->control.context();
-    job->thread = std::thread([this, id, context, run = std::move(work)] {
+    Job& job = *m_jobs.emplace_back(std::make_unique<Job>());
+    job.id = m_nextId++;
+    job.title = title;
+    job.canStop = canStop;
+    begin(job, std::move(work));
+    const quint64 id = job.id;
+    Q_EMIT jobsChanged();
+    return id;
+}
+
+quint64 JobManager::enqueue(const QString& title, JobPriority priority, Prepare prepare) {
+    Job& job = *m_jobs.emplace_back(std::make_unique<Job>());
+    job.id = m_nextId++;
+    job.title = title;
+    job.canStop = job.queued = true;
+    job.priority = priority;
+    job.prepare = std::move(prepare);
+    job.state = JobState::Queued;
+    const quint64 id = job.id;
+    schedule();
+    return id;
+}
+
+void JobManager::begin(Job& job, Work work) {
+    job.begun = true;
+    job.state = JobState::Running;
+    job.control = JobControl(); // its clock starts now
+    const JobContext context = job.control.context();
+    job.thread = std::thread([this, id = job.id, context, run = std::move(work)] {
         lowerThreadPriority();
         JobOutcome outcome;
         try {
@@ -57,9 +94,41 @@ quint64 JobManager::start(const QString& title, bool canStop, Work work) {
             [this, id, result = std::move(outcome)]() mutable { finish(id, std::move(result)); },
             Qt::QueuedConnection);
     });
-    m_jobs.push_back(std::move(job));
+    m_meter.start();
+}
+
+// Lets the queued job whose turn it is run, and the others rest.
+void JobManager::schedule() {
+    std::vector<WaitingJob> waiting;
+    for (const auto& job : m_jobs)
+        if (job->queued && !job->ended())
+            waiting.push_back({job->id, job->priority, job->pausedByUser, job->begun});
+    const std::optional<quint64> next = nextJob(waiting);
+    for (const WaitingJob& other : waiting) {
+        Job& job = *find(other.id);
+        if (next == job.id)
+            continue;
+        job.state = job.pausedByUser ? JobState::Paused : JobState::Queued;
+        if (job.begun)
+            job.control.pause();
+    }
+    if (next) {
+        Job& job = *find(*next);
+        job.state = JobState::Running;
+        if (job.begun) {
+            job.control.resume();
+        } else {
+            const Prepare prepare = std::exchange(job.prepare, nullptr);
+            Result<Work> work = prepare();
+            if (!work) {
+                end(job, {work.error(), {}, {}});
+                schedule();
+                return;
+            }
+            begin(job, std::move(work).value());
+        }
+    }
     Q_EMIT jobsChanged();
-    return id;
 }
 
 JobManager::Job* JobManager::find(quint64 id) const {
@@ -73,52 +142,106 @@ void JobManager::finish(quint64 id, JobOutcome outcome) {
     if (!job)
         return;
     job->thread.join();
-    job->lastProgress = job->control.progress();
+    end(*job, outcome);
+    if (runningCount() == 0)
+        m_meter.stop();
+    schedule();
+}
 
+void JobManager::end(Job& job, const JobOutcome& outcome) {
+    job.lastProgress = job.control.progress();
     // A cancel wins over whatever the work still returned.
-    if (job->control.cancelled() ||
-        (outcome.error && outcome.error->kind == ErrorKind::Cancelled)) {
-        job->state = JobState::Cancelled;
-        job->summary = tr("Cancelled, nothing was kept");
+    if (job.control.cancelled() || (outcome.error && outcome.error->kind == ErrorKind::Cancelled)) {
+        job.state = JobState::Cancelled;
+        job.summary = tr("Cancelled, nothing was kept");
     } else if (outcome.error) {
-        job->state = JobState::Failed;
-        job->summary = QString::fromStdString(outcome.error->message);
+        job.state = JobState::Failed;
+        job.summary = QString::fromStdString(outcome.error->message);
         Q_EMIT m_controller.noticed(UserNotice::fromError(*outcome.error));
     } else {
-        job->state = job->control.stopping() ? JobState::Stopped : JobState::Done;
-        job->summary = outcome.summary;
+        job.state = job.control.stopping() ? JobState::Stopped : JobState::Done;
+        job.summary = outcome.summary;
         if (outcome.apply)
             outcome.apply();
     }
-    logInfo("{}: {}", job->title.toStdString(), job->summary.toStdString());
-    Q_EMIT jobsChanged();
+    logInfo("{}: {}", job.title.toStdString(), job.summary.toStdString());
+}
+
+void JobManager::setPriority(quint64 id, JobPriority priority) {
+    Job* job = find(id);
+    if (!job || job->priority == priority)
+        return;
+    job->priority = priority;
+    schedule();
+}
+
+void JobManager::pause(quint64 id) {
+    Job* job = find(id);
+    if (!job || !job->queued || job->ended())
+        return;
+    job->pausedByUser = true;
+    schedule();
+}
+
+void JobManager::resume(quint64 id) {
+    Job* job = find(id);
+    if (!job || !job->pausedByUser)
+        return;
+    job->pausedByUser = false;
+    schedule();
 }
 
 void JobManager::stop(quint64 id) {
-    if (Job* job = find(id))
+    Job* job = find(id);
+    if (job && !job->begun)
+        cancel(id);
+    else if (job)
         job->control.stop();
 }
 
 void JobManager::cancel(quint64 id) {
-    if (Job* job = find(id))
-        job->control.cancel();
+    Job* job = find(id);
+    if (!job || job->ended())
+        return;
+    job->control.cancel();
+    if (job->begun)
+        return; // finish() follows
+    end(*job, {});
+    schedule();
 }
 
 void JobManager::cancelAll() {
+    // Those that wait first, or they would get their turn.
     for (const auto& job : m_jobs)
-        if (job->state == JobState::Running)
+        if (!job->begun && !job->ended()) {
             job->control.cancel();
+            end(*job, {});
+        }
+    for (const auto& job : m_jobs)
+        if (!job->ended())
+            job->control.cancel();
+    Q_EMIT jobsChanged();
+}
+
+void JobManager::shutDown() {
+    Q_EMIT shuttingDown();
+    cancelAll();
 }
 
 void JobManager::clearFinished() {
-    std::erase_if(m_jobs, [](const auto& job) { return job->state != JobState::Running; });
+    std::erase_if(m_jobs, [](const auto& job) { return job->ended(); });
     Q_EMIT jobsChanged();
 }
 
 int JobManager::runningCount() const {
-    return static_cast<int>(std::count_if(m_jobs.begin(), m_jobs.end(), [](const auto& job) {
-        return job->state == JobState::Running;
-    }));
+    return static_cast<int>(
+        std::count_if(m_jobs.begin(), m_jobs.end(), [](const auto& job) { return !job->ended(); }));
+}
+
+void JobManager::measure() {
+    for (const auto& job : m_jobs)
+        if (job->begun && !job->ended())
+            job->rate.add(job->control.progress());
 }
 
 JobRecord JobManager::record(const Job& job) const {
@@ -127,10 +250,18 @@ JobRecord JobManager::record(const Job& job) const {
     result.title = job.title;
     result.state = job.state;
     result.canStop = job.canStop;
+    result.queued = job.queued;
+    result.begun = job.begun;
+    result.priority = job.priority;
     result.summary = job.summary;
-    const bool running = job.state == JobState::Running;
-    result.progress = running ? job.control.progress() : job.lastProgress;
-    result.secondsLeft = running ? job.control.secondsLeft() : 0.0;
+    if (job.ended()) {
+        result.progress = job.lastProgress;
+        result.secondsLeft = 0.0;
+    } else if (job.begun) {
+        result.progress = job.control.progress();
+        result.workPerSecond = job.rate.workPerSecond();
+        result.secondsLeft = job.rate.secondsLeft();
+    }
     return result;
 }
 
@@ -147,6 +278,8 @@ std::optional<JobRecord> JobManager::job(quint64 id) const {
 }
 
 void JobManager::setPreview(std::shared_ptr<LivePreview> preview) {
+    if (preview == m_preview)
+        return;
     m_preview = std::move(preview);
     Q_EMIT previewChanged();
 }

@@ -1,6 +1,7 @@
 #include "app/editor/job/LivePreview.h"
 
 #include "core/math/Shading.h"
+#include "core/math/SphericalHarmonics.h"
 
 #include <algorithm>
 #include <glm/mat3x3.hpp>
@@ -15,39 +16,43 @@ std::vector<float> openSkyTransfer(const BakeMesh& mesh, int order) {
     const glm::mat3 toWorld = glm::transpose(glm::inverse(glm::mat3(mesh.transform)));
     std::vector<float> result;
     result.reserve(mesh.mesh->vertexCount() * static_cast<std::size_t>(order * order));
+    std::vector<float> basis(static_cast<std::size_t>(order * order));
     for (const glm::vec3& normal : mesh.mesh->normals) {
-        float basis[25];
-        shading::shBasis25(glm::normalize(toWorld * normal), basis);
+        evaluateSh(order, glm::normalize(toWorld * normal), basis);
         for (int l = 0; l < order; ++l)
             for (int i = l * l; i < (l + 1) * (l + 1); ++i)
-                result.push_back(basis[i] * shading::shCosineFactor(l) / shading::kPi);
+                result.push_back(basis[static_cast<std::size_t>(i)] * shading::shCosineFactor(l) /
+                                 shading::kPi);
     }
     return result;
 }
 
 } // namespace
 
-LivePreview::LivePreview(const BakeInputs& inputs, BakeKind kind, int prtOrder, int textureSize)
-    : m_kind(kind)
-    , m_textureSize(textureSize) {
+void LivePreview::begin(const BakeInputs& inputs, int prtOrder, int textureSize) {
+    std::map<Id, Surface> vertices, texels;
     for (const BakeMesh& mesh : inputs.meshes) {
-        if (kind == BakeKind::PrtTexel) // not shown before it is complete
+        if (m_kind == BakeKind::PrtTexel) // not shown before it is complete
             continue;
-        if (kind == BakeKind::AoTexel) {
-            Surface& surface = m_texels[mesh.material];
+        if (m_kind == BakeKind::AoTexel) {
+            Surface& surface = texels[mesh.material];
             surface.values.assign(static_cast<std::size_t>(textureSize) *
                                       static_cast<std::size_t>(textureSize),
                                   1.0f);
             continue;
         }
-        Surface& surface = m_vertices[mesh.id];
-        if (kind == BakeKind::AoVertex) {
+        Surface& surface = vertices[mesh.id];
+        if (m_kind == BakeKind::AoVertex) {
             surface.values.assign(mesh.mesh->vertexCount(), 1.0f);
             continue;
         }
         surface.stride = prtOrder * prtOrder;
         surface.values = openSkyTransfer(mesh, prtOrder);
     }
+    const std::lock_guard lock(m_mutex);
+    m_vertices = std::move(vertices);
+    m_texels = std::move(texels);
+    m_textureSize = textureSize;
 }
 
 void LivePreview::vertices(Id mesh, std::size_t first, int stride, std::span<const float> values) {
@@ -97,6 +102,23 @@ std::shared_ptr<const HitSource> LivePreview::bounceHits() const {
 int LivePreview::samplesDone() const {
     const std::lock_guard lock(m_mutex);
     return m_samplesDone;
+}
+
+std::optional<BakeView> LivePreview::view() {
+    const std::lock_guard lock(m_mutex);
+    return m_view;
+}
+
+void LivePreview::setView(const BakeView& view) {
+    const std::lock_guard lock(m_mutex);
+    m_view = view;
+}
+
+bool LivePreview::changed() const {
+    const std::lock_guard lock(m_mutex);
+    const auto isChanged = [](const auto& surface) { return surface.second.changed; };
+    return std::any_of(m_vertices.begin(), m_vertices.end(), isChanged) ||
+           std::any_of(m_texels.begin(), m_texels.end(), isChanged);
 }
 
 bool LivePreview::collect(const VertexSink& vertices, const TexelSink& texels) {

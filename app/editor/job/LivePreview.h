@@ -7,24 +7,32 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 namespace patina::editor {
 
 class LivePreview : public TileSink {
   public:
-    // Starts as if nothing cast a shadow: ambient visibility 1, or the transfer of an open sky
-    // (`prtOrder` bands), so that shadows grow into the picture while the bake converges.
-    LivePreview(const BakeInputs& inputs, BakeKind kind, int prtOrder, int textureSize);
+    explicit LivePreview(BakeKind kind)
+        : m_kind(kind) {}
+
+    // By the bake's thread, for it takes its time. Starts as if nothing cast a shadow: ambient
+    // visibility 1, or the transfer of an open sky (`prtOrder` bands), so that shadows grow into
+    // the picture while the bake converges.
+    void begin(const BakeInputs& inputs, int prtOrder, int textureSize);
 
     void vertices(Id mesh, std::size_t first, int stride, std::span<const float> values) override;
     void texels(Id material, int imageSize, int stride, int x, int y, int width,
                 std::span<const float> values) override;
     void passDone(int samples) override;
     void hits(const std::shared_ptr<const HitSource>& hits) override;
+    std::optional<BakeView> view() override;
 
     [[nodiscard]] BakeKind kind() const { return m_kind; }
     [[nodiscard]] int samplesDone() const; // rays per element of the last complete pass
+    [[nodiscard]] bool changed() const;    // collect() would hand something over
+    void setView(const BakeView& view);    // what is seen comes first, from the next pass on
 
     // Of an interreflected bake that keeps them, when it is done; null before.
     [[nodiscard]] std::shared_ptr<const HitSource> bounceHits() const;
@@ -43,11 +51,11 @@ class LivePreview : public TileSink {
         bool changed = true;
     };
     BakeKind m_kind;
-    int m_textureSize;
     mutable std::mutex m_mutex; // guards what follows
     std::map<Id, Surface> m_vertices, m_texels;
-    int m_samplesDone = 0;
+    int m_textureSize = 0, m_samplesDone = 0;
     std::shared_ptr<const HitSource> m_hits;
+    std::optional<BakeView> m_view;
 };
 
 } // namespace patina::editor

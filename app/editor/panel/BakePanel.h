@@ -1,22 +1,22 @@
-// The Bake dock: what to bake, how finely, start, progress, stop, cancel; which bakes are attached
-// and whether they still belong to the geometry; IBL or PRT lighting.
+// The Bake dock: what to bake, how finely and at what cost; the queue; interrupted bakes that can
+// go on; which bakes are attached and whether they still belong to the scene; the way it is lit.
 #pragma once
 
 #include "app/editor/job/BakeRunner.h"
 
 #include <QTimer>
 #include <QWidget>
+#include <map>
 
-class QButtonGroup;
-class QComboBox;
-class QDoubleSpinBox;
-class QFormLayout;
 class QLabel;
-class QProgressBar;
 class QPushButton;
 class QVBoxLayout;
 
 namespace patina::editor {
+
+class AttachedBakes;
+class BakeSettingsForm;
+class JobRow;
 
 class BakePanel : public QWidget {
     Q_OBJECT
@@ -26,38 +26,29 @@ class BakePanel : public QWidget {
     [[nodiscard]] BakeRunner& runner() { return m_runner; }
 
   private:
-    QWidget* makeSettings();
-    QWidget* makeProgress();
-    void start();
-    void refreshSettings();
+    QWidget* makeLighting();
+    void refreshCost();
     void refreshState();
-    void refreshProgress();
-    void refreshAttached();
+    void refreshQueue();
+    void refreshInterrupted();
+    void pollQueue();
     void refreshLighting();
-    [[nodiscard]] BakeRequest request() const;
-    [[nodiscard]] QString estimate() const; // "49,152 vertices × 256 rays = 12.6 million rays"
+    void takeSettings(); // of the bakes that came with another document
 
     DocumentController& m_controller;
     JobManager& m_jobs;
     BakeRunner m_runner;
-    QTimer m_poll; // progress, 30 times a second while a bake runs
+    QTimer m_poll; // progress, while a bake runs
 
-    QFormLayout* m_form = nullptr;
-    QComboBox* m_kind = nullptr;
-    QComboBox* m_samples = nullptr;
-    QComboBox* m_order = nullptr;
-    QComboBox* m_size = nullptr;
-    QDoubleSpinBox* m_distance = nullptr;
-    QLabel* m_estimate = nullptr;
-    QWidget* m_progress = nullptr; // with stop and cancel; in the place of the start button
-    QPushButton* m_start = nullptr;
-    QPushButton* m_stop = nullptr;
-    QPushButton* m_cancel = nullptr;
-    QProgressBar* m_bar = nullptr;
-    QLabel* m_progressText = nullptr;
-    QVBoxLayout* m_attached = nullptr;
+    BakeSettingsForm* m_form;
+    QLabel* m_cost;
+    QPushButton* m_start;
+    QVBoxLayout* m_queue;
+    QVBoxLayout* m_interrupted;
+    AttachedBakes* m_attached = nullptr;
     QPushButton* m_ibl = nullptr;
     QPushButton* m_prt = nullptr;
+    std::map<quint64, JobRow*> m_rows;
 };
 
 } // namespace patina::editor

@@ -20,13 +20,38 @@ QString progressText(const JobRecord& record) {
     parts << JobManager::tr("%1 %").arg(static_cast<int>(record.progress.fraction * 100.0));
     if (record.secondsLeft >= 0.0)
         parts << JobManager::tr("%1 left").arg(durationText(record.secondsLeft));
-    if (!record.progress.workUnit.empty() && record.progress.secondsSoFar > 0.2)
+    if (!record.progress.workUnit.empty() && record.workPerSecond > 0.0)
         parts << JobManager::tr("%1 M %2/s")
-                     .arg(QLocale().toString(record.progress.workDone /
-                                                 record.progress.secondsSoFar * 1e-6,
-                                             'f', 1),
+                     .arg(QLocale().toString(record.workPerSecond * 1e-6, 'f', 1),
                           QString::fromStdString(record.progress.workUnit));
+    if (!record.progress.activity.empty())
+        parts << QString::fromStdString(record.progress.activity);
     return parts.join(QStringLiteral(" · "));
+}
+
+QString stateText(const JobRecord& record) {
+    switch (record.state) {
+    case JobState::Queued:
+        return record.begun ? JobManager::tr("%1 · waits for a job of higher priority")
+                                  .arg(progressText(record))
+                            : JobManager::tr("Waits for its turn");
+    case JobState::Paused:
+        return record.begun ? JobManager::tr("Paused at %1 %")
+                                  .arg(static_cast<int>(record.progress.fraction * 100.0))
+                            : JobManager::tr("Paused before it began");
+    case JobState::Running:
+        return progressText(record);
+    case JobState::Done:
+        return JobManager::tr("Done in %1. %2")
+            .arg(durationText(record.progress.secondsSoFar), record.summary);
+    case JobState::Stopped:
+        return JobManager::tr("Stopped. Kept: %1").arg(record.summary);
+    case JobState::Cancelled:
+        return record.summary;
+    case JobState::Failed:
+        break;
+    }
+    return JobManager::tr("Failed: %1").arg(record.summary);
 }
 
 } // namespace patina::editor

@@ -1,4 +1,5 @@
-// The Jobs dock: every running and finished job with progress, time left, stop and cancel.
+// The Jobs dock: every waiting, running and finished job with progress, time left, priority, pause,
+// stop and cancel.
 #pragma once
 
 #include <QTimer>
@@ -6,14 +7,13 @@
 #include <map>
 
 class QLabel;
-class QProgressBar;
 class QPushButton;
 class QVBoxLayout;
 
 namespace patina::editor {
 
 class JobManager;
-struct JobRecord;
+class JobRow;
 
 class JobsPanel : public QWidget {
     Q_OBJECT
@@ -21,25 +21,15 @@ class JobsPanel : public QWidget {
     explicit JobsPanel(JobManager& jobs, QWidget* parent = nullptr);
 
   private:
-    struct Row {
-        QWidget* widget;
-        QLabel* title;
-        QProgressBar* bar;
-        QLabel* text;
-        QPushButton* stop;
-        QPushButton* cancel;
-    };
     void rebuild();
     void poll();
-    Row makeRow(const JobRecord& record);
-    static void show(const Row& row, const JobRecord& record);
 
     JobManager& m_jobs;
     QTimer m_timer;
     QVBoxLayout* m_rows;
     QLabel* m_empty;
     QPushButton* m_clear;
-    std::map<quint64, Row> m_shown;
+    std::map<quint64, JobRow*> m_shown;
 };
 
 } // namespace patina::editor

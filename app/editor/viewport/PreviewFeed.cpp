@@ -8,6 +8,9 @@ namespace patina::editor {
 namespace {
 
 constexpr int kPollMs = 100; // how often a bake is asked for a new pass
+// How often an unfinished pass is shown: each time redraws the picture, which takes the cores from
+// the bake.
+constexpr int kPartMs = 1500;
 
 } // namespace
 
@@ -21,6 +24,7 @@ void PreviewFeed::setJobs(JobManager& jobs) {
     m_jobs = &jobs;
     connect(&jobs, &JobManager::previewChanged, this, [this] {
         m_samples = 0;
+        m_sinceShown.start();
         m_pending = m_jobs->preview() != nullptr;
         if (m_pending)
             m_timer.start();
@@ -55,13 +59,16 @@ void PreviewFeed::upload(render::Renderer& renderer) {
     }
 }
 
-// Each complete pass is a usable picture. Showing unfinished ones would redraw all the time and
-// take the cores from the bake.
+// Each complete pass is a usable picture; a long one is shown as far as it has come.
 void PreviewFeed::poll() {
     const std::shared_ptr<LivePreview> preview = m_jobs->preview();
-    if (!preview || preview->samplesDone() == m_samples)
+    if (!preview)
+        return;
+    const bool part = m_sinceShown.isValid() && m_sinceShown.elapsed() > kPartMs;
+    if (preview->samplesDone() == m_samples && !(part && preview->changed()))
         return;
     m_samples = preview->samplesDone();
+    m_sinceShown.start();
     m_pending = true;
     Q_EMIT changed();
 }

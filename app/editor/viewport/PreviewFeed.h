@@ -1,6 +1,7 @@
 // Brings a running bake's results from the job manager into the renderer.
 #pragma once
 
+#include <QElapsedTimer>
 #include <QObject>
 #include <QTimer>
 
@@ -34,6 +35,7 @@ class PreviewFeed : public QObject {
     bool m_shown = false;
     bool m_pending = false; // a new pass is to be uploaded
     int m_samples = 0;      // of the pass seen last
+    QElapsedTimer m_sinceShown;
 };
 
 } // namespace patina::editor

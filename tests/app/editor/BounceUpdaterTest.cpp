@@ -86,8 +86,8 @@ TEST_F(Bounces, FollowAnEditOfAlbedoAsIfBakedAnew) {
 }
 
 TEST_F(Bounces, TakeTheHitsOfABakeThatHasJustEnded) {
-    const auto preview =
-        std::make_shared<LivePreview>(bakeInputs(document()), BakeKind::PrtVertex, 2, 16);
+    const auto preview = std::make_shared<LivePreview>(BakeKind::PrtVertex);
+    preview->begin(bakeInputs(document()), 2, 16);
     session.jobs.setPreview(preview);
     controller.attachBake(std::make_shared<const BakeArtifact>(bake(*preview)));
     ASSERT_TRUE(ready());

@@ -1,0 +1,30 @@
+// Checkpoints that a crash, a quit or another document left behind: bakes that can go on.
+#pragma once
+
+#include "core/bake/BakeCheckpoint.h"
+#include "core/bake/BakeRequest.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace patina::editor {
+
+struct InterruptedBake {
+    std::filesystem::path file;
+    BakeRequest request;
+    int samplesDone = 0; // rays per element that every element has
+};
+
+// What a checkpoint of this bake must say to be gone on from.
+[[nodiscard]] BakeManifest bakeManifest(const BakeRequest& request, const BakeInputs& inputs);
+
+// Where its checkpoint is kept; `key`: BakeCache::key().
+[[nodiscard]] std::filesystem::path checkpointFile(const std::filesystem::path& folder,
+                                                   const Hash& key);
+
+// Those in `folder` that belong to these inputs. Damaged ones, and those that nobody went on with
+// for a month, are removed.
+[[nodiscard]] std::vector<InterruptedBake> interruptedBakes(const std::filesystem::path& folder,
+                                                            const BakeInputs& inputs);
+
+} // namespace patina::editor

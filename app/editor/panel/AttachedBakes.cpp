@@ -1,0 +1,142 @@
+#include "app/editor/panel/AttachedBakes.h"
+
+#include "app/editor/document/DocumentController.h"
+#include "app/editor/job/BakeRunner.h"
+#include "app/editor/style/Tokens.h"
+#include "core/bake/BakeOptions.h"
+
+#include <QColor>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QStringList>
+#include <QVBoxLayout>
+#include <vector>
+
+namespace patina::editor {
+namespace {
+
+QPushButton* makeButton(const QString& text, const QString& help) {
+    auto* button = new QPushButton(text);
+    button->setToolTip(help);
+    button->setStatusTip(help);
+    button->setAccessibleName(text);
+    return button;
+}
+
+void clear(QLayout* layout) {
+    while (QLayoutItem* item = layout->takeAt(0)) {
+        if (QWidget* widget = item->widget()) {
+            widget->hide(); // at once; deleting waits for the event loop
+            widget->deleteLater();
+        }
+        delete item;
+    }
+}
+
+// "Geometry, settings"
+QString whatChanged(const BakeStaleness& staleness) {
+    QStringList parts;
+    if (staleness.geometry)
+        parts << AttachedBakes::tr("geometry");
+    if (staleness.albedo)
+        parts << AttachedBakes::tr("albedo");
+    if (staleness.settings)
+        parts << AttachedBakes::tr("settings");
+    return parts.join(QStringLiteral(", "));
+}
+
+} // namespace
+
+AttachedBakes::AttachedBakes(DocumentController& controller, BakeRunner& runner,
+                             std::function<BakeRequest(BakeKind)> wanted, QWidget* parent)
+    : QWidget(parent)
+    , m_controller(controller)
+    , m_runner(runner)
+    , m_wanted(std::move(wanted))
+    , m_rows(new QVBoxLayout(this)) {
+    m_rows->setContentsMargins(0, 0, 0, 0);
+}
+
+BakeRequest AttachedBakes::again(const BakeArtifact& bake, const BakeStaleness& why) const {
+    return why.settings ? m_wanted(bake.kind) : requestFromText(bake.kind, bake.settings);
+}
+
+void AttachedBakes::refresh() {
+    clear(m_rows);
+    const Document& document = m_controller.document();
+    if (document.bakes.empty()) {
+        auto* none = new QLabel(tr("None yet. A bake stays with the scene and is saved with it."));
+        none->setObjectName(QStringLiteral("dim"));
+        none->setWordWrap(true);
+        m_rows->addWidget(none);
+        return;
+    }
+    std::vector<BakeRequest> stale;
+    for (const BakeArtifactPtr& bake : document.bakes) {
+        const BakeRequest wanted = m_wanted(bake->kind);
+        const Hash albedo = bake->albedo == Hash{} ? Hash{} : m_runner.currentAlbedo();
+        const BakeStaleness staleness =
+            bakeStaleness(*bake, document, m_runner.currentInputs(), albedo, &wanted);
+        if (staleness.stale())
+            stale.push_back(again(*bake, staleness));
+        addRow(*bake, staleness);
+    }
+    if (stale.size() > 1) {
+        QPushButton* all =
+            makeButton(tr("Re-bake what is stale (%1)").arg(stale.size()),
+                       tr("Puts every stale bake into the queue; what is up to date stays"));
+        all->setObjectName(QStringLiteral("rebakeStale"));
+        connect(all, &QPushButton::clicked, this, [this, stale] {
+            for (const BakeRequest& request : stale)
+                m_runner.start(request);
+        });
+        m_rows->addWidget(all);
+    }
+}
+
+void AttachedBakes::addRow(const BakeArtifact& bake, const BakeStaleness& staleness) {
+    const bool stale = staleness.stale();
+    QString status = stale ? tr("Stale: %1").arg(whatChanged(staleness))
+                           : tr("Up to date, %1 rays").arg(bake.samplesDone);
+    QStringList reasons;
+    for (const std::string& reason : staleness.reasons)
+        reasons << QString::fromStdString(reason).toHtmlEscaped();
+    if (!reasons.isEmpty())
+        status += QStringLiteral("<br>") + reasons.join(QStringLiteral("<br>"));
+    // What the user should know of this bake, such as overlapping texture coordinates.
+    if (const auto note = bake.settings.find("note"); note != bake.settings.end())
+        status += QStringLiteral("<br>") + QString::fromStdString(note->second).toHtmlEscaped();
+
+    auto* row = new QWidget;
+    auto* layout = new QVBoxLayout(row);
+    layout->setContentsMargins(0, 2, 0, tokens::kGap);
+    layout->setSpacing(tokens::kGap / 2);
+    auto* text =
+        new QLabel(QStringLiteral("%1<br><span style='color:%2'>%3</span>")
+                       .arg(bakeTitle(bake.kind).toHtmlEscaped(),
+                            QColor(stale ? tokens::kCopper : tokens::kTextDim).name(), status));
+    text->setWordWrap(true);
+    text->setObjectName(QStringLiteral("bakeStatus"));
+    layout->addWidget(text);
+    auto* buttons = new QHBoxLayout;
+    buttons->addStretch(1);
+    if (stale) {
+        const QString help = staleness.settings
+                                 ? tr("Bakes again with the settings above")
+                                 : tr("Bakes again with the settings this bake was made with");
+        QPushButton* rebake = makeButton(tr("Re-bake"), help);
+        rebake->setObjectName(QStringLiteral("rebake"));
+        connect(rebake, &QPushButton::clicked, this,
+                [this, request = again(bake, staleness)] { m_runner.start(request); });
+        buttons->addWidget(rebake);
+    }
+    QPushButton* remove = makeButton(tr("Remove"), tr("Detaches this bake from the scene"));
+    connect(remove, &QPushButton::clicked, this,
+            [this, kind = bake.kind] { m_controller.detachBake(kind); });
+    buttons->addWidget(remove);
+    layout->addLayout(buttons);
+    m_rows->addWidget(row);
+}
+
+} // namespace patina::editor

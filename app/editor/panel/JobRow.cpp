@@ -1,0 +1,101 @@
+#include "app/editor/panel/JobRow.h"
+
+#include "app/editor/job/JobManager.h"
+#include "app/editor/panel/JobTexts.h"
+#include "app/editor/style/Tokens.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+namespace patina::editor {
+namespace {
+
+QPushButton* makeButton(const QString& text, const QString& help, const QString& title) {
+    auto* button = new QPushButton(text);
+    button->setToolTip(help);
+    button->setStatusTip(help);
+    button->setAccessibleName(QStringLiteral("%1 %2").arg(text, title));
+    return button;
+}
+
+} // namespace
+
+JobRow::JobRow(JobManager& jobs, const JobRecord& record, const QString& names, QWidget* parent)
+    : QWidget(parent)
+    , m_jobs(jobs)
+    , m_id(record.id) {
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, tokens::kGap);
+    layout->setSpacing(tokens::kGap / 2);
+    auto* title = new QLabel(record.title);
+    title->setWordWrap(true);
+    m_bar = new QProgressBar;
+    m_bar->setRange(0, 1000);
+    m_bar->setTextVisible(false); // the words stand below
+    m_bar->setAccessibleName(tr("Progress of %1").arg(record.title));
+    m_text = new QLabel;
+    m_text->setObjectName(QStringLiteral("dim"));
+    m_text->setWordWrap(true);
+
+    m_pause = makeButton(tr("Pause"), {}, record.title);
+    m_pause->setObjectName(names + QStringLiteral("Pause"));
+    m_stop = makeButton(tr("Stop"), tr("Ends now and keeps what has converged"), record.title);
+    m_stop->setObjectName(names + QStringLiteral("Stop"));
+    m_cancel = makeButton(tr("Cancel"), tr("Ends now and keeps nothing"), record.title);
+    m_cancel->setObjectName(names + QStringLiteral("Cancel"));
+    m_priority = new QComboBox;
+    m_priority->addItem(tr("Low"), static_cast<int>(JobPriority::Low));
+    m_priority->addItem(tr("Normal"), static_cast<int>(JobPriority::Normal));
+    m_priority->addItem(tr("High"), static_cast<int>(JobPriority::High));
+    m_priority->setObjectName(names + QStringLiteral("Priority"));
+    m_priority->setAccessibleName(tr("Priority of %1").arg(record.title));
+    m_priority->setToolTip(
+        tr("Priority: the highest goes first; a running one of lower priority rests"));
+    auto* head = new QHBoxLayout;
+    head->addWidget(title, 1);
+    head->addWidget(m_priority, 0, Qt::AlignTop);
+    auto* buttons = new QHBoxLayout;
+    for (QPushButton* button : {m_pause, m_stop, m_cancel})
+        buttons->addWidget(button);
+    buttons->addStretch(1);
+    layout->addLayout(head);
+    layout->addWidget(m_bar);
+    layout->addWidget(m_text);
+    layout->addLayout(buttons);
+
+    connect(m_stop, &QPushButton::clicked, this, [this] { m_jobs.stop(m_id); });
+    connect(m_cancel, &QPushButton::clicked, this, [this] { m_jobs.cancel(m_id); });
+    connect(m_pause, &QPushButton::clicked, this, [this] {
+        if (m_paused)
+            m_jobs.resume(m_id);
+        else
+            m_jobs.pause(m_id);
+    });
+    connect(m_priority, &QComboBox::activated, this, [this] {
+        m_jobs.setPriority(m_id, static_cast<JobPriority>(m_priority->currentData().toInt()));
+    });
+    show(record);
+}
+
+void JobRow::show(const JobRecord& record) {
+    const bool live = !record.ended();
+    m_bar->setVisible(live && record.begun);
+    m_bar->setValue(static_cast<int>(record.progress.fraction * 1000.0));
+    m_text->setText(stateText(record));
+    m_paused = record.state == JobState::Paused;
+    m_pause->setVisible(live && record.queued);
+    m_pause->setText(m_paused ? tr("Resume") : tr("Pause"));
+    m_pause->setToolTip(m_paused
+                            ? tr("Goes on when it is its turn")
+                            : tr("Rests where it is; the next in the queue goes on meanwhile"));
+    m_stop->setVisible(live && record.canStop && record.begun);
+    m_cancel->setVisible(live);
+    m_priority->setVisible(live && record.queued);
+    m_priority->setCurrentIndex(m_priority->findData(static_cast<int>(record.priority)));
+}
+
+} // namespace patina::editor

@@ -1,0 +1,254 @@
+// The Bake and Jobs docks, driven by real clicks: queue, pause, staleness, cache, interruption.
+#include "tests/app/editor/EditorFixture.h"
+
+#include "app/editor/job/InterruptedBakes.h"
+#include "app/editor/panel/BakePanel.h"
+#include "core/bake/BakeOptions.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDir>
+#include <QLabel>
+#include <QPushButton>
+#include <QStandardPaths>
+
+namespace patina::editor {
+namespace {
+
+using ::testing::HasSubstr;
+
+class BakeManagerTest : public EditorTest {
+  protected:
+    void SetUp() override {
+        // Kept bakes and checkpoints of other tests would answer instead.
+        ASSERT_TRUE(QDir(cacheFolder()).removeRecursively());
+        EditorTest::SetUp();
+        session->jobs.clearFinished();
+        controller().openScene(QStringLiteral("builtin:torus-knot"));
+        ASSERT_TRUE(settled(*session));
+        choose("bakeKind", QStringLiteral("Ambient occlusion (per vertex)"));
+    }
+    void TearDown() override {
+        session->jobs.cancelAll();
+        ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
+    }
+
+    static QString cacheFolder() {
+        return QStandardPaths::writableLocation(QStandardPaths::CacheLocation) +
+               QStringLiteral("/bakes");
+    }
+    static BakePanel& panel() { return *window->findChild<BakePanel*>(); }
+    template <class Widget>
+    static Widget* visible(const char* name) {
+        for (Widget* widget : panel().findChildren<Widget*>(QLatin1String(name)))
+            if (widget->isVisibleTo(&panel()))
+                return widget;
+        return nullptr;
+    }
+    static void click(const char* name) {
+        ASSERT_TRUE(eventually([&] { return visible<QPushButton>(name) != nullptr; })) << name;
+        visible<QPushButton>(name)->click();
+    }
+    static void choose(const char* name, const QString& text) {
+        auto* box = panel().findChild<QComboBox*>(QLatin1String(name));
+        ASSERT_NE(box, nullptr) << name;
+        ASSERT_GE(box->findText(text), 0) << text.toStdString();
+        box->setCurrentIndex(box->findText(text));
+    }
+    static void rays(int count) { choose("bakeSamples", QLocale().toString(count)); }
+    static JobRecord job(std::size_t index) { return session->jobs.jobs().at(index); }
+    static std::string status() {
+        QTest::qWait(10); // rows that were made anew
+        const auto* label = visible<QLabel>("bakeStatus");
+        return label ? label->text().toStdString() : "";
+    }
+    static bool traces(std::size_t index) {
+        return eventually([&] { return job(index).progress.workDone > 0.0; });
+    }
+};
+
+TEST_F(BakeManagerTest, BakesTakeTurnsByPriority) {
+    rays(16384);
+    click("bakeStart");
+    ASSERT_EQ(job(0).state, JobState::Running);
+    ASSERT_TRUE(traces(0));
+    EXPECT_EQ(visible<QPushButton>("bakeStart")->text(), QStringLiteral("Add to the queue"));
+    rays(4096);
+    click("bakeStart");
+    ASSERT_EQ(session->jobs.jobs().size(), 2u);
+    EXPECT_EQ(job(1).state, JobState::Queued);
+    EXPECT_FALSE(job(1).begun);
+
+    // A higher priority lets the first one rest; it goes on afterwards from where it was.
+    session->jobs.setPriority(job(1).id, JobPriority::High);
+    EXPECT_EQ(job(0).state, JobState::Queued);
+    EXPECT_TRUE(job(0).begun);
+    EXPECT_EQ(job(1).state, JobState::Running);
+    ASSERT_TRUE(traces(1));
+    QTest::qWait(200); // ranges that were under way come to their end
+    const double rested = job(0).progress.workDone;
+    const double second = job(1).progress.workDone;
+    ASSERT_TRUE(eventually([&] { return job(1).progress.workDone > second; }));
+    EXPECT_EQ(job(0).progress.workDone, rested);
+    session->jobs.cancel(job(1).id);
+    ASSERT_TRUE(eventually([&] { return job(1).state == JobState::Cancelled; }));
+    EXPECT_EQ(job(0).state, JobState::Running);
+    EXPECT_TRUE(eventually([&] { return job(0).progress.workDone > rested; }));
+}
+
+TEST_F(BakeManagerTest, APausedBakeRestsAndLetsTheNextGo) {
+    rays(16384);
+    click("bakeStart");
+    ASSERT_TRUE(traces(0));
+    click("bakePause");
+    EXPECT_EQ(job(0).state, JobState::Paused);
+    EXPECT_EQ(visible<QPushButton>("bakePause")->text(), QStringLiteral("Resume"));
+    rays(32);
+    click("bakeStart");
+    EXPECT_EQ(job(1).state, JobState::Running);
+    ASSERT_TRUE(eventually([&] { return job(1).ended(); }));
+    EXPECT_EQ(job(1).state, JobState::Done) << job(1).summary.toStdString();
+    const double rested = job(0).progress.workDone;
+    QTest::qWait(100);
+    EXPECT_EQ(job(0).state, JobState::Paused);
+    EXPECT_EQ(job(0).progress.workDone, rested);
+    click("bakePause");
+    EXPECT_TRUE(eventually([&] { return job(0).progress.workDone > rested; }));
+    // Stopping ends a rest, and keeps what there is.
+    session->jobs.pause(job(0).id);
+    session->jobs.stop(job(0).id);
+    ASSERT_TRUE(eventually([&] { return job(0).ended(); }));
+    EXPECT_EQ(job(0).state, JobState::Stopped);
+}
+
+TEST_F(BakeManagerTest, WhatWaitsCanBeCancelled) {
+    rays(16384);
+    click("bakeStart");
+    click("bakeStart");
+    ASSERT_EQ(job(1).state, JobState::Queued);
+    session->jobs.cancel(job(1).id);
+    EXPECT_EQ(job(1).state, JobState::Cancelled);
+    EXPECT_EQ(job(0).state, JobState::Running);
+    click("bakeStart");
+    session->jobs.cancelAll();
+    ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
+    for (const JobRecord& record : session->jobs.jobs())
+        EXPECT_EQ(record.state, JobState::Cancelled);
+    EXPECT_TRUE(document().bakes.empty());
+}
+
+TEST_F(BakeManagerTest, AStaleBakeSaysWhyAndIsBakedAgainByOneClick) {
+    controller().openScene(QStringLiteral("builtin:sphere")); // quickly baked
+    ASSERT_TRUE(settled(*session));
+    rays(32);
+    click("bakeStart");
+    ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
+    EXPECT_THAT(status(), HasSubstr("Up to date, 32 rays"));
+
+    rays(64);
+    EXPECT_THAT(status(), HasSubstr("Stale: settings"));
+    EXPECT_THAT(status(), HasSubstr("Rays: 32 instead of 64"));
+    click("rebake");
+    ASSERT_TRUE(eventually([] { return document().bakes.front()->samplesDone == 64; }));
+    EXPECT_TRUE(eventually([] { return status().find("Up to date") != std::string::npos; }));
+
+    choose("bakeKind", QStringLiteral("Radiance transfer (PRT, per vertex)"));
+    rays(32);
+    click("bakeStart");
+    ASSERT_TRUE(eventually([] { return document().bakes.size() == 2; }));
+    ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
+    controller().addModel(QStringLiteral("builtin:plane"));
+    ASSERT_TRUE(settled(*session));
+    EXPECT_THAT(status(), HasSubstr("Stale: geometry"));
+    EXPECT_THAT(status(), HasSubstr("was added or shown"));
+    click("rebakeStale");
+    EXPECT_EQ(session->jobs.runningCount(), 2);
+    ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
+    EXPECT_TRUE(eventually([] {
+        QList<QLabel*> labels = panel().findChildren<QLabel*>(QStringLiteral("bakeStatus"));
+        return std::none_of(labels.begin(), labels.end(), [](const QLabel* label) {
+            return label->isVisibleTo(&panel()) && label->text().contains(QLatin1String("Stale"));
+        });
+    }));
+    ASSERT_EQ(document().bakes.size(), 2u);
+    // Each with the settings it had.
+    for (const BakeArtifactPtr& bake : document().bakes)
+        EXPECT_EQ(bake->samplesDone, bake->kind == BakeKind::AoVertex ? 64 : 32);
+}
+
+TEST_F(BakeManagerTest, WhatWasBakedBeforeComesFromTheCache) {
+    rays(64);
+    click("bakeStart");
+    ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
+    const BakeArtifactPtr first = document().bakes.front();
+    controller().detachBake(BakeKind::AoVertex);
+    ASSERT_TRUE(document().bakes.empty());
+    click("bakeStart");
+    ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
+    EXPECT_EQ(*document().bakes.front(), *first);
+    ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
+    EXPECT_EQ(job(1).progress.workDone, 0.0) << "no ray was traced";
+    EXPECT_THAT(job(1).summary.toStdString(), HasSubstr("kept from an earlier bake"));
+}
+
+// Another document interrupts a bake; back in the scene it goes on from its checkpoint and comes to
+// what it would have come to.
+TEST_F(BakeManagerTest, AnInterruptedBakeIsOfferedAndGoesOn) {
+    rays(256);
+    click("bakeStart");
+    ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
+    const BakeArtifact whole = *document().bakes.front();
+    ASSERT_TRUE(QDir(cacheFolder()).removeRecursively());
+    controller().detachBake(BakeKind::AoVertex);
+    session->jobs.clearFinished();
+
+    click("bakeStart");
+    ASSERT_TRUE(traces(0));
+    controller().newDocument();
+    ASSERT_TRUE(settled(*session));
+    ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
+    if (job(0).state == JobState::Done)
+        GTEST_FAIL() << "the bake was over before it was interrupted";
+    EXPECT_TRUE(document().bakes.empty()) << "of another document";
+    EXPECT_EQ(visible<QPushButton>("bakeResume"), nullptr) << "not of this scene";
+    controller().openScene(QStringLiteral("builtin:torus-knot"));
+    ASSERT_TRUE(settled(*session));
+    ASSERT_TRUE(eventually([] { return visible<QPushButton>("bakeResume") != nullptr; }));
+    click("bakeResume");
+    ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
+    BakeArtifact resumed = *document().bakes.front();
+    ASSERT_EQ(resumed.vertices.size(), whole.vertices.size());
+    EXPECT_EQ(resumed.vertices[0].values, whole.vertices[0].values);
+    EXPECT_EQ(visible<QPushButton>("bakeResume"), nullptr);
+    EXPECT_TRUE(QDir(cacheFolder()).entryList({QStringLiteral("*.checkpoint")}).isEmpty());
+}
+
+TEST_F(BakeManagerTest, TheFormShowsWhatApplies) {
+    choose("bakeKind", QStringLiteral("Radiance transfer (PRT, per vertex)"));
+    EXPECT_NE(visible<QComboBox>("bakeOrder"), nullptr);
+    EXPECT_NE(visible<QCheckBox>("bakeFitted"), nullptr);
+    EXPECT_EQ(visible<QComboBox>("bakeBounces"), nullptr);
+    EXPECT_EQ(visible<QComboBox>("bakeSize"), nullptr);
+    choose("bakeTransfer", QStringLiteral("Interreflected"));
+    EXPECT_NE(visible<QComboBox>("bakeBounces"), nullptr);
+    EXPECT_NE(visible<QComboBox>("bakeBounceSamples"), nullptr);
+    choose("bakeTransfer", QStringLiteral("Unshadowed"));
+    EXPECT_EQ(visible<QComboBox>("bakeSamples"), nullptr);
+    choose("bakeTransfer", QStringLiteral("Shadowed"));
+    choose("bakeKind", QStringLiteral("Ambient occlusion (texture)"));
+    EXPECT_NE(visible<QComboBox>("bakeSize"), nullptr);
+    EXPECT_EQ(visible<QComboBox>("bakeOrder"), nullptr);
+    for (const BakeOption& option : bakeOptions()) {
+        QString name = QLatin1String(option.name);
+        name[0] = name[0].toUpper();
+        const auto* field = panel().findChild<QWidget*>(QStringLiteral("bake") + name);
+        ASSERT_NE(field, nullptr) << option.name;
+        EXPECT_FALSE(field->toolTip().isEmpty()) << option.name;
+    }
+    const auto* cost = find<QLabel>(panel(), QStringLiteral("Cost of the bake"));
+    ASSERT_NE(cost, nullptr);
+    EXPECT_THAT(cost->text().toStdString(), HasSubstr("of memory"));
+}
+
+} // namespace
+} // namespace patina::editor
