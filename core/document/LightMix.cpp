@@ -16,20 +16,33 @@ bool shines(const Document& document, const Light& light) {
     return light.enabled && (light.solo || !anySolo(document));
 }
 
+namespace {
+
+// What its radiance is multiplied by; zero: it takes no part.
+template <class Surroundings>
+glm::vec3 scaleOf(const Document& document, const Surroundings& environment, float share) {
+    if (!environment.enabled || (!environment.solo && anySolo(document)))
+        return glm::vec3(0.0f);
+    return environment.tint * (share * std::exp2(environment.exposureEv));
+}
+
+float firstShare(const Environment& first) {
+    return first.second.image ? 1.0f - first.fade : 1.0f;
+}
+
+} // namespace
+
 std::vector<EnvironmentPart> environmentParts(const Document& document) {
     const Environment& first = document.environment;
     const SecondEnvironment& second = first.second;
-    const bool solo = anySolo(document);
-    const bool fades = second.image != nullptr;
     std::vector<EnvironmentPart> parts;
     const auto add = [&](EnvironmentPart::Role role, const auto& environment, float share) {
-        const glm::vec3 scale = environment.tint * (share * std::exp2(environment.exposureEv));
-        if (environment.image && environment.enabled && (environment.solo || !solo) &&
-            scale != glm::vec3(0.0f))
+        const glm::vec3 scale = scaleOf(document, environment, share);
+        if (environment.image && scale != glm::vec3(0.0f))
             parts.push_back({role, environment.image, environment.rotationDeg, scale});
     };
-    add(EnvironmentPart::Role::First, first, fades ? 1.0f - first.fade : 1.0f);
-    if (fades)
+    add(EnvironmentPart::Role::First, first, firstShare(first));
+    if (second.image)
         add(EnvironmentPart::Role::Second, second, first.fade);
     return parts;
 }
@@ -42,8 +55,9 @@ EnvironmentPart shownEnvironment(const Document& document) {
                 glm::vec3(1.0f)};
     if (!parts.empty())
         return parts.front();
+    // Without a picture a grey one stands in, which is mixed all the same.
     return {EnvironmentPart::Role::First, environment.image, environment.rotationDeg,
-            glm::vec3(0.0f)};
+            scaleOf(document, environment, firstShare(environment))};
 }
 
 } // namespace patina

@@ -74,7 +74,8 @@ TEST_F(MixerPanelTest, ADragOfAFaderIsOneUndoStep) {
     EXPECT_GT(sun().gainEv, 0.5f);
     EXPECT_LE(sun().gainEv, 6.0f);
     EXPECT_EQ(controller().undoStack().count(), steps + 1);
-    EXPECT_EQ(gain.handle(), from - QPoint(0, 20));
+    EXPECT_EQ(gain.handle().x(), from.x());
+    EXPECT_NEAR(gain.handle().y(), from.y() - 20, 1) << "steps of the gain are no whole pixels";
     controller().undoStack().undo();
     EXPECT_EQ(sun().gainEv, 0.0f);
     EXPECT_EQ(gain.handle(), from);
