@@ -83,10 +83,9 @@ void ViewLegend::refresh() {
     if (isWanted()) {
         LegendContent content =
             describeView(m_views.settings(), *choice(), m_controller.document());
-        if (m_views.preparing() && content.why.isEmpty()) {
-            content.note = tr("One moment: the graphics driver prepares this view.");
-            content.hasScale = false; // of colours that are not there yet
-        }
+        if (m_views.preparing() && content.why.isEmpty())
+            content.note += (content.note.isEmpty() ? QString() : QStringLiteral(" ")) +
+                            tr("One moment: the graphics driver prepares this view.");
         if (content != m_content) {
             m_content = content;
             rebuild();
