@@ -19,7 +19,7 @@
 namespace patina::cli {
 namespace {
 
-constexpr std::array kCommands = {"info",   "render",  "bake",      "environment",
+constexpr std::array kCommands = {"info",   "render", "bake",    "environment",
                                   "export", "refine", "compare", "parameters"};
 
 constexpr const char* kAbout =
@@ -212,7 +212,8 @@ class Parser {
         c->add_option("--background", o.background,
                       "visible, blurred, transparent (or off), or a colour as R,G,B or #rrggbb")
             ->type_name("NAME");
-        c->add_option("--lighting", o.lighting, "ibl, cosine, shIrradiance, unshadowed; with a transfer bake shadowed, prt")
+        c->add_option("--lighting", o.lighting,
+                      "ibl, cosine, shIrradiance, unshadowed; with a transfer bake shadowed, prt")
             ->type_name("NAME");
         addBakeFiles(c, "--bake", o.bakes, "Bake file to light with (repeatable)");
         c->add_option("--view", o.view,

@@ -18,7 +18,7 @@ namespace patina {
 struct EnvironmentPart {
     enum class Role { First, Second, Both };
     Role role = Role::First; // whose picture it is
-    ImagePtr image; // lat-long, as Environment::image
+    ImagePtr image;          // lat-long, as Environment::image
     float rotationDeg = 0.0f;
     glm::vec3 scale{1.0f};
     friend bool operator==(const EnvironmentPart&, const EnvironmentPart&) = default;

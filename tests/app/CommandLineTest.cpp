@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 TEST(CommandLine, HelpListsTheCommandsThatExistAndNoOthers) {
     const Outcome help = runPatina({"--help"});
     EXPECT_EQ(help.status, 0);
-    for (const char* command : {"info", "render", "bake", "export", "refine", "compare", "parameters"})
+    for (const char* command :
+         {"info", "render", "bake", "export", "refine", "compare", "parameters"})
         EXPECT_THAT(help.out, HasSubstr(std::string("\n  ") + command + " "));
     EXPECT_THAT(help.out, Not(HasSubstr("merge")));
     EXPECT_THAT(help.err, IsEmpty());

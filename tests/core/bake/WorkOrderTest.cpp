@@ -22,7 +22,7 @@ BakeView frontView() {
 class Watched : public Recorder {
   public:
     explicit Watched(std::optional<BakeView> view)
-        : m_view(std::move(view)) {}
+        : m_view(view) {}
     std::optional<BakeView> view() override { return m_view; }
     void vertices(Id mesh, std::size_t first, int stride, std::span<const float> values) override {
         Recorder::vertices(mesh, first, stride, values);

@@ -233,7 +233,8 @@ TEST_F(ExportRun, ThePlanTellsWhatIsLost) {
     m_document.bakes = {std::make_shared<const BakeArtifact>(prt),
                         std::make_shared<const BakeArtifact>(stale)};
     EXPECT_THAT(planExport(m_document, settings("scene.glb")).warnings,
-                ElementsAre(HasSubstr("radiance transfer per texel"), HasSubstr("older than the geometry")));
+                ElementsAre(HasSubstr("radiance transfer per texel"),
+                            HasSubstr("older than the geometry")));
 }
 
 TEST_F(ExportRun, PunctualLightsComeBackAsTheyWent) {
