@@ -2,6 +2,7 @@
 
 #include "app/cli/RenderViews.h"
 #include "core/material/Parameters.h"
+#include "core/math/SphericalHarmonics.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -19,7 +20,7 @@
 namespace patina::cli {
 namespace {
 
-constexpr std::array kCommands = {"info",   "render", "bake",    "environment",
+constexpr std::array kCommands = {"info",   "render", "bake",    "merge",     "environment",
                                   "export", "refine", "compare", "parameters"};
 
 constexpr const char* kAbout =
@@ -32,7 +33,7 @@ constexpr const char* kAbout =
 constexpr const char* kFooter =
     "Exit status: 0 done, 2 wrong usage, 65 an input is broken, 66 an input is missing, 69 no\n"
     "OpenGL, 70 a fault of ours, 73 an output cannot be created, 74 I/O error or disk full,\n"
-    "130/143 interrupted.";
+    "75 stopped with a checkpoint to go on from, 130/143 interrupted.";
 const std::string kLayouts =
     "lat-long, angular-map, mirror-ball, horizontal-cross, vertical-cross, horizontal-strip, "
     "vertical-strip, six-faces";
@@ -56,6 +57,7 @@ class Parser {
         addInfo();
         addRender();
         addBakes();
+        addMerge();
         addEnvironment();
         addExport();
         addRefine();
@@ -262,20 +264,122 @@ class Parser {
             ->check(plain(CLI::NonNegativeNumber))
             ->type_name("METRES");
         addRays(ao, m_ao.samples, m_ao.seed, "texel or vertex");
+        addLongBake(ao, m_ao.work);
         addSets(ao);
         addThreads(ao);
 
-        CLI::App* prt =
-            addCommand(*bake, "prt", "Self-shadowed diffuse radiance transfer per vertex", m_prt);
-        addSceneAndOutput(prt, m_prt, ".exr");
-        prt->add_option("--order", m_prt.order, "Spherical harmonic bands")
-            ->check(plain(CLI::Range(1, 5)))
-            ->capture_default_str()
-            ->type_name("1…5");
-        addRays(prt, m_prt.samples, m_prt.seed, "vertex");
-        addSets(prt);
-        addThreads(prt);
+        addBakePrt(*bake);
         addBakeIbl(*bake);
+    }
+
+    void addLongBake(CLI::App* command, LongBakeOptions& o) {
+        command
+            ->add_option("--shard", o.shard,
+                         "Bake part K of N only, for patina merge; auto: as the farm numbers its "
+                         "tasks")
+            ->type_name("K/N|auto");
+        command
+            ->add_option("--checkpoint", o.checkpoint,
+                         "How often to keep what is done in OUT.checkpoint, and to keep it when "
+                         "interrupted (default: every 30s, not when interrupted)")
+            ->type_name("EVERY");
+        command->add_flag(
+            "--resume", o.resume,
+            "Go on from OUT.checkpoint where there is one; keep one when interrupted");
+        command
+            ->add_option("--max-memory", o.maxMemory,
+                         "Refuse a bake that would take more, e.g. 4GiB (default: what is free)")
+            ->type_name("SIZE");
+    }
+
+    void addBakePrt(CLI::App& bake) {
+        BakePrtOptions& o = m_prt;
+        PrtSettings& s = o.settings;
+        CLI::App* c = addCommand(bake, "prt", "Diffuse radiance transfer", o);
+        addSceneAndOutput(c, o, ".exr; with --shard a part for patina merge");
+        c->add_option("--order", s.order, "Spherical harmonic bands")
+            ->check(plain(CLI::Range(1, kMaxShOrder)))
+            ->capture_default_str()
+            ->type_name(fmt::format("1…{}", kMaxShOrder));
+        c->add_option("--transfer", o.transfer,
+                      "unshadowed: the cosine alone; shadowed: and what the scene hides; "
+                      "interreflected: and what other surfaces reflect (default: shadowed)")
+            ->transform(plain(CLI::CheckedTransformer(std::map<std::string, TransferKind>{
+                {"unshadowed", TransferKind::Unshadowed},
+                {"shadowed", TransferKind::Shadowed},
+                {"interreflected", TransferKind::Interreflected}})))
+            ->type_name("KIND");
+        c->add_option("--bounces", o.bounces,
+                      fmt::format("How often light is reflected; implies --transfer "
+                                  "interreflected (default: {})",
+                                  s.bounces))
+            ->check(plain(CLI::Range(1, 64)))
+            ->type_name("1…64");
+        c->add_option("--bounce-samples", o.bounceSamples,
+                      fmt::format("Rays per vertex to find what reflects light to it; implies "
+                                  "--transfer interreflected (default: {})",
+                                  s.bounceSamples))
+            ->check(plain(CLI::Range(1, 65536)))
+            ->type_name("N");
+        c->add_option("--target", o.target, "Where the values live")
+            ->transform(plain(CLI::CheckedTransformer(std::map<std::string, BakeTarget>{
+                {"texel", BakeTarget::Texel}, {"vertex", BakeTarget::Vertex}})))
+            ->default_str("vertex")
+            ->type_name("vertex|texel");
+        c->add_option("--size", o.size,
+                      fmt::format("With --target texel: side of the square texture in texels "
+                                  "(default: {})",
+                                  s.size))
+            ->check(plain(CLI::Range(1, 8192)))
+            ->type_name("N");
+        c->add_flag("!--no-fit", s.fitted,
+                    "Per vertex: values at the vertices instead of the best fit over the surface");
+        c->add_option("--method", s.method,
+                      "Sample pattern: qmc (Owen-scrambled Sobol'), stratified (jittered N × N, "
+                      "the classical one), random (to compare with)")
+            ->transform(plain(CLI::CheckedTransformer(
+                std::map<std::string, SampleMethod>{{"qmc", SampleMethod::Qmc},
+                                                    {"stratified", SampleMethod::Stratified},
+                                                    {"random", SampleMethod::Random}})))
+            ->default_str("qmc")
+            ->type_name("NAME");
+        c->add_option("--tolerance", s.tolerance,
+                      "End when passes change the coefficients by less (RMS), with more rays only "
+                      "where neighbours differ; --samples is then the most (default: 0, never)")
+            ->check(plain(CLI::Range(0.0, 1.0)))
+            ->type_name("X");
+        c->add_option("--store", o.storage.storage,
+                      "Numbers in the file: float (exact), half, or quantised (whole steps of each "
+                      "band's own size); the error is reported")
+            ->transform(plain(CLI::CheckedTransformer(
+                std::map<std::string, BakeStorage>{{"float", BakeStorage::Float},
+                                                   {"half", BakeStorage::Half},
+                                                   {"quantised", BakeStorage::Quantised}})))
+            ->default_str("float")
+            ->type_name("NAME");
+        c->add_option("--bits", o.bits,
+                      fmt::format("With --store quantised: of a coefficient with its sign "
+                                  "(default: {})",
+                                  o.storage.bits))
+            ->check(plain(CLI::Range(kMinStorageBits, kMaxStorageBits)))
+            ->type_name(fmt::format("{}…{}", kMinStorageBits, kMaxStorageBits));
+        addRays(c, s.samples, s.seed, "vertex or texel");
+        addLongBake(c, o.work);
+        addSets(c);
+        addThreads(c);
+    }
+
+    void addMerge() {
+        MergeOptions& o = m_merge;
+        CLI::App* c = addCommand(
+            m_app, "merge", "Parts of a bake (--shard) joined to the very bytes of the whole", o);
+        c->add_option("PART", o.parts, "All parts, in any order")->required()->type_name("…");
+        c->add_option("-o,--output", o.output, "What the bake would have written")
+            ->required()
+            ->type_name("OUT");
+        c->add_option("--scene", o.scene, "The baked scene, when it is elsewhere now")
+            ->type_name("SCENE");
+        addThreads(c);
     }
 
     void addBakeIbl(CLI::App& bake) {
@@ -444,6 +548,7 @@ class Parser {
     BakeAoOptions m_ao;
     BakePrtOptions m_prt;
     BakeIblOptions m_ibl;
+    MergeOptions m_merge;
     EnvironmentOptions m_environment;
     ExportOptions m_export;
     RefineOptions m_refine;

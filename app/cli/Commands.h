@@ -10,6 +10,7 @@ Result<void> run(Session& session, const RenderOptions& options);
 Result<void> run(Session& session, const BakeAoOptions& options);
 Result<void> run(Session& session, const BakePrtOptions& options);
 Result<void> run(Session& session, const BakeIblOptions& options);
+Result<void> run(Session& session, const MergeOptions& options);
 Result<void> run(Session& session, const EnvironmentOptions& options);
 Result<void> run(Session& session, const ExportOptions& options);
 Result<void> run(Session& session, const RefineOptions& options);

@@ -1,6 +1,8 @@
 // What the user asked for on the command line, as plain structs with their defaults.
 #pragma once
 
+#include "core/bake/Bake.h"
+#include "core/bake/BakeStorage.h"
 #include "core/export/IblPackage.h"
 
 #include <optional>
@@ -39,8 +41,17 @@ struct RenderOptions {
 
 enum class BakeTarget { Texel, Vertex };
 
+// How a long bake is split, kept and gone on with.
+struct LongBakeOptions {
+    std::string shard;      // K/N or auto; empty: all of it
+    std::string checkpoint; // a time; empty: every 30 s, and none when interrupted
+    bool resume = false;
+    std::string maxMemory; // a size; empty: what the machine has to give
+};
+
 struct BakeAoOptions {
     std::string scene, output;
+    LongBakeOptions work;
     int size = 1024;
     int samples = 256;
     float distance = 0.0f; // metres; 0: unlimited
@@ -50,9 +61,18 @@ struct BakeAoOptions {
 
 struct BakePrtOptions {
     std::string scene, output;
-    int order = 3;
-    int samples = 256;
-    unsigned seed = 0;
+    LongBakeOptions work;
+    PrtSettings settings;
+    BakeTarget target = BakeTarget::Vertex;
+    std::optional<TransferKind> transfer; // not given: shadowed, or as the others ask for
+    std::optional<int> bounces, bounceSamples, size, bits;
+    BakeFileOptions storage;
+};
+
+struct MergeOptions {
+    std::vector<std::string> parts;
+    std::string output;
+    std::string scene; // empty: where the parts found it
 };
 
 // The defaults of levels and texels depend on other options.
@@ -107,7 +127,7 @@ struct ParametersOptions {
 struct Invocation {
     CommonOptions common;
     std::variant<InfoOptions, RenderOptions, BakeAoOptions, BakePrtOptions, BakeIblOptions,
-                 EnvironmentOptions, ExportOptions, RefineOptions, CompareOptions,
+                 MergeOptions, EnvironmentOptions, ExportOptions, RefineOptions, CompareOptions,
                  ParametersOptions>
         options;
 };

@@ -48,6 +48,8 @@ class Report {
 
 // The exit status of COMMANDS: sysexits.h where it has a number for it.
 [[nodiscard]] int exitStatus(ErrorKind kind);
+// Interrupted, but the work can go on from a checkpoint: farms put the task back into the queue.
+inline constexpr int kStoppedWithCheckpoint = 75;
 
 // "12,345,678" and "1.2 MiB".
 [[nodiscard]] std::string countText(std::size_t count);

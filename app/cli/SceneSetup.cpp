@@ -167,10 +167,10 @@ namespace {
 
 // --set, maps first: putting one on raises its number to 1, and numbers given should win. The
 // layout of an environment last: naming an image starts it anew, and what was given should win.
-Result<void> applySets(Session& session, Document& document) {
+Result<void> applySets(Session& session, Document& document, const std::vector<std::string>& sets) {
     const EnvironmentRecipe before = environmentRecipe(document.environment);
     std::vector<std::pair<std::string, std::string>> assignments;
-    for (const std::string& text : session.options().sets) {
+    for (const std::string& text : sets) {
         Result<std::pair<std::string, std::string>> assignment = splitAssignment(text);
         if (!assignment)
             return assignment.error();
@@ -214,7 +214,9 @@ Result<Document> openSceneFor(Session& session, SceneRequest& request) {
             return set.error();
     }
 
-    if (Result<void> set = applySets(session, document); !set)
+    if (Result<void> set =
+            applySets(session, document, request.sets.value_or(session.options().sets));
+        !set)
         return set.error();
 
     for (const std::string& file : request.bakes) {
@@ -263,7 +265,7 @@ Result<Document> openEnvironmentFor(Session& session, const std::string& source,
                                      text),
                          {},
                          {}};
-    if (Result<void> set = applySets(session, document); !set)
+    if (Result<void> set = applySets(session, document, session.options().sets); !set)
         return set.error();
     return document;
 }

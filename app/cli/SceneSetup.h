@@ -6,6 +6,7 @@
 #include "core/document/Document.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,11 @@ namespace patina::cli {
 
 struct SceneRequest {
     std::string scene;
-    std::string environment;        // empty: the scene's own
-    std::string environmentLayout;  // empty: guessed
-    std::vector<std::string> bakes; // files to attach
-    bool isProject = false;         // set by openSceneFor(): the scene has a camera of its own
+    std::string environment;                           // empty: the scene's own
+    std::string environmentLayout;                     // empty: guessed
+    std::vector<std::string> bakes;                    // files to attach
+    std::optional<std::vector<std::string>> sets = {}; // instead of those of --set
+    bool isProject = false; // set by openSceneFor(): the scene has a camera of its own
 };
 
 // Opens the scene, reports its notices, and applies environment, --set and bakes in this order.

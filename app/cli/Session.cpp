@@ -56,6 +56,10 @@ bool Session::interrupted() const {
     return m_watcher->signal() != 0;
 }
 
+void Session::expectCheckpoint(const std::filesystem::path& checkpoint, bool endsInOrder) {
+    m_watcher->expectCheckpoint(checkpoint, endsInOrder);
+}
+
 int Session::finish(const Result<void>& result) {
     m_watcher->end();
     nlohmann::ordered_json& json = m_report.json();
@@ -74,13 +78,14 @@ int Session::finish(const Result<void>& result) {
     // Work that was complete when the signal came is done; a partial result is one that says so.
     if (result.ok() && !m_watcher->stoppedEarly())
         return m_report.succeed();
-    const Error error{
-        ErrorKind::Cancelled,
-        fmt::format("interrupted by {}; {}", signalName(signal),
-                    result.ok() ? "what had converged was written" : "nothing was written"),
-        {},
-        {}};
-    return m_report.fail(error, 128 + signal);
+    std::string left = result.ok() ? "what had converged was written" : "nothing was written";
+    if (!m_checkpoint.empty())
+        left = (result.ok() ? left + "; " : std::string()) + "--resume goes on from where it was";
+    return m_report.fail({ErrorKind::Cancelled,
+                          fmt::format("interrupted by {}; {}", signalName(signal), left),
+                          m_checkpoint,
+                          {}},
+                         m_checkpoint.empty() ? 128 + signal : kStoppedWithCheckpoint);
 }
 
 } // namespace patina::cli

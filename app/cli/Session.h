@@ -9,6 +9,7 @@
 #include "core/worker/WorkerClient.h"
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -33,6 +34,10 @@ class Session {
     // With --keep-partial: from here on the first signal means "finish with what there is".
     void allowPartialResult();
     [[nodiscard]] bool interrupted() const;
+    // From here on a signal may leave `checkpoint` behind; see Watcher::expectCheckpoint().
+    void expectCheckpoint(const std::filesystem::path& checkpoint, bool endsInOrder);
+    // There is one to go on from, should the run end by a signal.
+    void keptCheckpoint(const std::filesystem::path& checkpoint) { m_checkpoint = checkpoint; }
 
     // Ends the run: adds time, work and memory, prints the report. Returns the exit status.
     int finish(const Result<void>& result);
@@ -44,6 +49,7 @@ class Session {
     std::optional<ThreadLimit> m_threads;
     std::unique_ptr<WorkerClient> m_worker;
     std::unique_ptr<Watcher> m_watcher;
+    std::filesystem::path m_checkpoint; // kept; empty: none
 };
 
 } // namespace patina::cli

@@ -1,5 +1,6 @@
 #include "app/cli/Watcher.h"
 
+#include "app/cli/Report.h"
 #include "core/base/Check.h"
 
 #include <array>
@@ -8,6 +9,7 @@
 #include <cstdio>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <poll.h>
 #include <unistd.h>
 
@@ -103,6 +105,12 @@ JobControl Watcher::control() const {
     return m_control;
 }
 
+void Watcher::expectCheckpoint(std::filesystem::path checkpoint, bool endsInOrder) {
+    const std::lock_guard lock(m_mutex);
+    m_checkpoint = std::move(checkpoint);
+    m_endsInOrder = endsInOrder;
+}
+
 void Watcher::end() {
     if (!m_thread.joinable())
         return;
@@ -120,39 +128,55 @@ void Watcher::run() {
         if (count > 0 && ::read(m_pipe[0], &what, 1) == 1) {
             if (what == kEnd)
                 return;
-            onSignal(what);
-            if (control().cancelled()) {
+            if (!onSignal(what)) {
                 // Give the work its time to end in order.
                 ready.revents = 0;
                 while (::poll(&ready, 1, kPatienceMs) > 0 && ::read(m_pipe[0], &what, 1) == 1)
                     if (what == kEnd)
                         return;
-                clearBar();
-                if (m_options.json)
-                    fmt::print("{{\"command\": \"{}\", \"error\": {{\"kind\": \"cancelled\", "
-                               "\"message\": \"interrupted; nothing was written\", \"file\": "
-                               "\"\", \"exitStatus\": {}}}}}\n",
-                               m_options.command, 128 + m_signal);
-                fmt::print(stderr, "patina: interrupted; nothing was written\n");
-                std::fflush(stdout);
-                ::_exit(128 + m_signal);
+                leave();
             }
         }
         update();
     }
 }
 
-void Watcher::onSignal(int signal) {
+bool Watcher::onSignal(int signal) {
     const std::lock_guard lock(m_mutex);
     int none = 0;
     const bool first = m_signal.compare_exchange_strong(none, signal);
     if (first && m_partialAllowed) {
         m_stoppedEarly = true;
         m_control.stop();
-    } else {
-        m_stoppedEarly = false;
-        m_control.cancel();
+        return true;
     }
+    m_stoppedEarly = false;
+    m_control.cancel();
+    return first && m_endsInOrder;
+}
+
+// The work does not end: nothing of it has its final name, so that leaving is safe.
+void Watcher::leave() {
+    clearBar();
+    const std::lock_guard lock(m_mutex);
+    std::error_code ignored;
+    const bool kept = !m_checkpoint.empty() && std::filesystem::exists(m_checkpoint, ignored);
+    const int status = kept ? kStoppedWithCheckpoint : 128 + m_signal;
+    const std::string message =
+        kept ? "interrupted; --resume goes on from " + m_checkpoint.filename().string()
+             : "interrupted; nothing was written";
+    if (m_options.json)
+        fmt::print("{}\n",
+                   nlohmann::ordered_json{{"command", m_options.command},
+                                          {"error",
+                                           {{"kind", "cancelled"},
+                                            {"message", message},
+                                            {"file", kept ? m_checkpoint.string() : ""},
+                                            {"exitStatus", status}}}}
+                       .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    fmt::print(stderr, "patina: {}\n", message);
+    std::fflush(stdout);
+    ::_exit(status);
 }
 
 void Watcher::update() {

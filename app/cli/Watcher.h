@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <filesystem>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -27,6 +28,9 @@ class Watcher {
 
     void showProgress() { m_showsProgress = true; }
     void allowPartialResult() { m_partialAllowed = true; }
+    // `checkpoint` may be there when a signal comes. With `endsInOrder` the work writes it then and
+    // is given the time; a second signal ends it at once.
+    void expectCheckpoint(std::filesystem::path checkpoint, bool endsInOrder);
     void end(); // no progress and no hard exit from here on; clears the bar
 
     [[nodiscard]] int signal() const { return m_signal; } // the first one that came, or 0
@@ -34,12 +38,15 @@ class Watcher {
 
   private:
     void run();
-    void onSignal(int signal);
+    [[nodiscard]] bool onSignal(int signal); // whether the process is to end by itself
+    [[noreturn]] void leave();
     void update();
     void clearBar();
 
-    mutable std::mutex m_mutex; // guards m_control
+    mutable std::mutex m_mutex; // guards m_control, m_checkpoint, m_endsInOrder
     JobControl m_control;
+    std::filesystem::path m_checkpoint;
+    bool m_endsInOrder = false;
     const CommonOptions& m_options;
     const bool m_terminal; // standard error is one
     int m_pipe[2] = {-1, -1};

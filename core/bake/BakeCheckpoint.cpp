@@ -61,6 +61,8 @@ std::string manifestText(const BakeManifest& m) {
     json["albedo"] = hashText(m.albedo);
     json["scene"] = m.scene;
     json["sets"] = m.sets;
+    json["storage"] = storageName(m.storage.storage);
+    json["bits"] = m.storage.bits;
     json["shard"] = {m.shard.index, m.shard.count};
     json["points"] = m.points;
     json["ranges"] = m.ranges;
@@ -86,12 +88,15 @@ std::optional<BakeManifest> manifestFromText(const std::string& text) {
         m.albedo = hashFromText(json.at("albedo").get<std::string>());
         m.scene = json.at("scene").get<std::string>();
         m.sets = json.at("sets").get<std::vector<std::string>>();
+        const auto storage = storageNamed(json.at("storage").get<std::string>());
+        m.storage = {storage.value_or(BakeStorage::Float), json.at("bits").get<int>()};
         m.shard = {json.at("shard").at(0).get<int>(), json.at("shard").at(1).get<int>()};
         m.points = json.at("points").get<std::uint64_t>();
         m.ranges = json.at("ranges").get<std::uint64_t>();
         m.complete = json.at("complete").get<bool>();
         m.samplesDone = json.at("samplesDone").get<int>();
-        if (!known || m.shard.index < 0 || m.shard.index >= m.shard.count || m.samplesDone < 0)
+        if (!known || !storage || m.shard.index < 0 || m.shard.index >= m.shard.count ||
+            m.samplesDone < 0)
             return std::nullopt;
         return m;
     } catch (const std::exception&) {
@@ -226,6 +231,8 @@ std::optional<std::string> whyDifferent(const BakeManifest& there, const BakeMan
                    : fmt::format("the scene ({} there, {} here)", there.scene, here.scene);
     if (there.albedo != here.albedo)
         return std::string("the albedo of the materials");
+    if (!(there.storage == here.storage))
+        return std::string("how the values are stored");
     return std::nullopt;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/bake/BakeArtifact.h"
+#include "core/bake/BakeStorage.h"
 #include "core/bake/Passes.h"
 #include "core/base/Result.h"
 
@@ -27,6 +28,7 @@ struct BakeManifest {
     Hash albedo;                                 // hashBakeAlbedo() when light bounces, or zero
     std::string scene;             // what to open to go on: absolute path or builtin:NAME
     std::vector<std::string> sets; // and the parameters to set in it: NAME=VALUE
+    BakeFileOptions storage;       // how the bake is to be written at last
     PassShard shard;
     std::uint64_t points = 0, ranges = 0; // of the whole bake
     bool complete = false;                // every point of the shard is done

@@ -210,6 +210,11 @@ TEST_F(BakeCheckpoint, OtherBakesCheckpointsAreRefused) {
     other.albedo.high = 1;
     EXPECT_THAT(refusal(other), HasSubstr("the albedo"));
     other = manifest;
+    other.storage.bits = 6;
+    EXPECT_THAT(refusal(other), HasSubstr("how the values are stored"));
+    other.storage = {BakeStorage::Half, 8};
+    EXPECT_THAT(refusal(other), HasSubstr("how the values are stored"));
+    other = manifest;
     other.kind = BakeKind::AoVertex;
     EXPECT_THAT(refusal(other), HasSubstr("the kind"));
     other = manifest;

@@ -1,0 +1,207 @@
+#include "app/cli/BakeRun.h"
+
+#include "app/cli/BakeOutput.h"
+#include "app/cli/LongBake.h"
+#include "app/cli/SceneSetup.h"
+#include "core/bake/BakeMemory.h"
+#include "core/bake/BakeOptions.h"
+#include "core/bake/ResumableTracer.h"
+#include "core/base/FileLock.h"
+#include "core/document/Scene.h"
+#include "core/mesh/UvUnwrap.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace patina::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+Error usage(std::string message) {
+    return {ErrorKind::Usage, std::move(message), {}, {}};
+}
+
+// What the options of a long bake come to.
+struct Plan {
+    PassShard shard;
+    bool part = false;   // writes a part, not the bake
+    fs::path checkpoint; // empty: the output is no file
+    double everySeconds = 30.0;
+    bool resume = false, keepWhenInterrupted = false;
+    std::uint64_t maxMemory = 0; // bytes; 0: no limit is known
+};
+
+Result<Plan> planBake(const CommonOptions& common, const std::string& output,
+                      const LongBakeOptions& options, const BakeRequest& request) {
+    Plan plan;
+    plan.resume = options.resume;
+    plan.keepWhenInterrupted = options.resume || !options.checkpoint.empty();
+    if (!options.checkpoint.empty()) {
+        const Result<double> seconds = parseInterval(options.checkpoint);
+        if (!seconds)
+            return seconds.error();
+        plan.everySeconds = *seconds;
+    }
+    plan.maxMemory = availableMemory();
+    if (!options.maxMemory.empty()) {
+        const Result<std::uint64_t> bytes = parseSize(options.maxMemory);
+        if (!bytes)
+            return bytes.error();
+        plan.maxMemory = *bytes;
+    }
+    std::error_code ignored;
+    if (const fs::file_status status = fs::status(output, ignored);
+        !fs::exists(status) || fs::is_regular_file(status))
+        plan.checkpoint = output + ".checkpoint";
+    else if (plan.keepWhenInterrupted)
+        return usage(fmt::format("checkpoints lie beside the output, and {} is no file", output));
+
+    if (options.shard.empty())
+        return plan;
+    const Result<PassShard> shard = parseShard(options.shard, environmentVariable);
+    if (!shard)
+        return shard.error();
+    plan.shard = *shard;
+    plan.part = true;
+    if (common.keepPartial)
+        return usage("--keep-partial is for whole bakes; a part that is stopped goes on with "
+                     "--checkpoint and --resume");
+    if (holdsTransfer(request.kind) && request.prt.transfer == TransferKind::Unshadowed)
+        return usage("unshadowed transfer needs no rays, so there is nothing to split; bake it "
+                     "without --shard");
+    if (holdsTransfer(request.kind) && request.prt.tolerance > 0.0f)
+        return usage("--tolerance looks at the whole surface, of which a part sees little; give "
+                     "the parts --samples instead");
+    return plan;
+}
+
+BakeManifest manifestOf(const Session& session, const std::string& scene, const BakeInputs& inputs,
+                        const BakeRequest& request, const PassShard& shard) {
+    BakeManifest manifest;
+    manifest.kind = request.kind;
+    manifest.settings = settingsText(request);
+    manifest.inputs = hashBakeInputs(inputs);
+    if (holdsTransfer(request.kind) && request.prt.transfer == TransferKind::Interreflected)
+        manifest.albedo = hashBakeAlbedo(inputs);
+    manifest.scene = isBuiltin(scene) ? scene : fs::absolute(scene).lexically_normal().string();
+    manifest.sets = session.options().sets;
+    manifest.shard = shard;
+    return manifest;
+}
+
+void warnAboutOverlaps(Session& session, const Document& document) {
+    for (const MeshInstance& mesh : document.meshes)
+        if (mesh.visible && mesh.mesh != nullptr && hasOverlappingUvs(*mesh.mesh))
+            session.report().warn(fmt::format(
+                "{}: its texture coordinates overlap, so that places share a texel; bake with "
+                "--target vertex, or unwrap the mesh",
+                mesh.name));
+}
+
+} // namespace
+
+void reportBake(Session& session, const BakeInputs& inputs, const BakeArtifact& artifact) {
+    std::size_t triangles = 0, vertices = 0, texels = 0;
+    for (const BakeMesh& mesh : inputs.meshes) {
+        triangles += mesh.mesh->triangleCount();
+        vertices += mesh.mesh->vertexCount();
+    }
+    for (const TexelBake& texel : artifact.texels) {
+        const int width = texel.image ? texel.image->width() : texel.side;
+        const int height = texel.image ? texel.image->height() : texel.side;
+        texels += static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    }
+    nlohmann::ordered_json& json = session.report().json();
+    json["counts"] = {{"meshes", inputs.meshes.size()},
+                      {"triangles", triangles},
+                      {"vertices", vertices},
+                      {"texels", texels}};
+    json["inputs"] = artifact.inputs.hex();
+    json["samplesDone"] = artifact.samplesDone;
+}
+
+Result<void> bakeScene(Session& session, const std::string& scene, const std::string& output,
+                       const LongBakeOptions& options, const BakeRequest& request,
+                       const BakeFileOptions& storage) {
+    const Result<Plan> plan = planBake(session.options(), output, options, request);
+    if (!plan)
+        return plan.error();
+    if (Result<void> checked =
+            plan->part ? checkOutput(output) : checkBakeOutput(output, request.kind);
+        !checked)
+        return checked;
+    std::optional<FileLock> lock;
+    if (!plan->checkpoint.empty()) {
+        Result<FileLock> taken = FileLock::take(output);
+        if (!taken)
+            return taken.error();
+        lock.emplace(std::move(taken).value());
+    }
+    Report& report = session.report();
+    std::error_code ignored;
+    if (!plan->resume && !plan->checkpoint.empty() &&
+        fs::is_regular_file(plan->checkpoint, ignored))
+        report.warn(fmt::format("{}: this checkpoint of an earlier bake will be replaced; --resume "
+                                "would have gone on from it",
+                                plan->checkpoint.string()));
+
+    session.beginPhase();
+    SceneRequest sceneRequest;
+    sceneRequest.scene = scene;
+    Result<Document> document = openSceneFor(session, sceneRequest);
+    if (!document)
+        return document.error();
+    if (isPerTexel(request.kind))
+        warnAboutOverlaps(session, *document);
+
+    const BakeInputs inputs = bakeInputs(*document);
+    if (Result<void> fits = checkBakeMemory(request, inputs, plan->maxMemory); !fits)
+        return fits;
+    ResumeSettings resume;
+    resume.manifest = manifestOf(session, scene, inputs, request, plan->shard);
+    resume.manifest.storage = storage;
+    resume.checkpoint = plan->checkpoint;
+    resume.everySeconds = plan->everySeconds;
+    resume.resume = plan->resume;
+    resume.keepOnCancel = plan->keepWhenInterrupted;
+    if (plan->part)
+        resume.part = output;
+    resume.warn = [&](const Error& error) {
+        report.warn(
+            fmt::format("no checkpoint could be kept, the bake goes on without: {}", error.text()));
+    };
+    ResumableTracer tracer(std::move(resume));
+
+    TileSink nobodyWatches;
+    session.beginPhase();
+    session.allowPartialResult();
+    session.expectCheckpoint(plan->checkpoint, plan->keepWhenInterrupted);
+    const Result<BakeArtifact> artifact =
+        bake(request, inputs, nobodyWatches, session.job(), &tracer);
+    if (tracer.keptCheckpoint())
+        session.keptCheckpoint(plan->checkpoint);
+    if (tracer.resumedFrom() >= 0)
+        report.json()["resumedFrom"] = tracer.resumedFrom();
+    if (!artifact)
+        return artifact.error();
+    reportBake(session, inputs, *artifact);
+    report.json()["partial"] = session.interrupted();
+    if (plan->part) {
+        report.json()["shard"] = {plan->shard.index + 1, plan->shard.count};
+        report.json()["samplesDone"] = tracer.samplesDone();
+        report.output(output, fmt::format("part {} of {}, for patina merge", plan->shard.index + 1,
+                                          plan->shard.count));
+    } else if (Result<void> written = writeBake(session, *document, *artifact, output, storage);
+               !written) {
+        return written;
+    }
+    // What is complete needs no checkpoint; neither does anybody need an older one.
+    if (!session.interrupted() && !plan->checkpoint.empty())
+        fs::remove(plan->checkpoint, ignored);
+    return {};
+}
+
+} // namespace patina::cli

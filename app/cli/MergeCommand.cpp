@@ -1,0 +1,59 @@
+#include "app/cli/BakeOutput.h"
+#include "app/cli/BakeRun.h"
+#include "app/cli/Commands.h"
+#include "app/cli/SceneSetup.h"
+#include "core/bake/BakeMerge.h"
+#include "core/bake/BakeOptions.h"
+#include "core/base/FileLock.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+namespace patina::cli {
+
+Result<void> run(Session& session, const MergeOptions& options) {
+    nlohmann::ordered_json& json = session.report().json();
+    json["settings"] = {{"parts", options.parts}};
+    const std::vector<std::filesystem::path> files(options.parts.begin(), options.parts.end());
+    const Result<std::vector<BakePart>> parts = readBakeParts(files);
+    if (!parts)
+        return parts.error();
+    const BakeManifest& first = parts->front().manifest;
+    if (Result<void> output = checkBakeOutput(options.output, first.kind); !output)
+        return output;
+    const Result<FileLock> lock = FileLock::take(options.output);
+    if (!lock)
+        return lock.error();
+
+    // Fitting and bounces need the surfaces, and the file names its targets after them.
+    session.beginPhase();
+    SceneRequest request;
+    request.scene = options.scene.empty() ? first.scene : options.scene;
+    request.sets = first.sets;
+    json["settings"]["scene"] = request.scene;
+    Result<Document> document = openSceneFor(session, request);
+    if (!document) {
+        Error error = document.error();
+        if (options.scene.empty())
+            error.message += "; it is the scene of the parts: name it with --scene if it is "
+                             "elsewhere now";
+        return error;
+    }
+    const BakeInputs inputs = bakeInputs(*document);
+    BakeManifest here = first;
+    here.inputs = hashBakeInputs(inputs);
+    if (here.albedo != Hash{})
+        here.albedo = hashBakeAlbedo(inputs);
+    JoiningTracer tracer(*parts, here);
+
+    TileSink nobodyWatches;
+    session.beginPhase();
+    const Result<BakeArtifact> artifact = bake(requestFromText(first.kind, first.settings), inputs,
+                                               nobodyWatches, session.job(), &tracer);
+    if (!artifact)
+        return artifact.error();
+    reportBake(session, inputs, *artifact);
+    return writeBake(session, *document, *artifact, options.output, first.storage);
+}
+
+} // namespace patina::cli
