@@ -48,6 +48,9 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
     , mixer(make(tr("Light &Mixer"), QStringLiteral("mixer"), {tr("Ctrl+5")},
                  tr("Mix the lights and surroundings as on a mixing desk: gain, tint, mute, solo, "
                     "cross-fade")))
+    , transfer(make(tr("&Transfer"), QStringLiteral("transfer"), {tr("Ctrl+6")},
+                    tr("Show how light comes to a point by the baked transfer: its lobe, its "
+                       "coefficients, what it sees of the surroundings")))
     , pinPixel(make(tr("Pin Pixel"), QStringLiteral("pin"), {tr("P")},
                     tr("Keep looking at the point of the surface under the pointer; once more: "
                        "take the pin away")))
@@ -77,6 +80,7 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
     lens->setCheckable(true);
     energy->setCheckable(true);
     mixer->setCheckable(true);
+    transfer->setCheckable(true);
     furnace->setCheckable(true);
     fullScreen->setCheckable(true);
     auto* lighting = new QActionGroup(this);
@@ -105,10 +109,11 @@ void Actions::describe(QAction* action, const QString& sentence) {
 }
 
 QList<QAction*> Actions::all() const {
-    return {newScene,    open,       addModel,    save,      saveAs, saveEnvironment, exportScene,
-            quit,        undo,       redo,        frame,     home,   overlays,        lightingIbl,
-            lightingPrt, pixel,      lightLab,    lens,      energy, mixer,           pinPixel,
-            furnace,     fullScreen, resetLayout, shortcuts, about};
+    return {newScene,    open,        addModel,    save,     saveAs,   saveEnvironment,
+            exportScene, quit,        undo,        redo,     frame,    home,
+            overlays,    lightingIbl, lightingPrt, pixel,    lightLab, lens,
+            energy,      mixer,       transfer,    pinPixel, furnace,  fullScreen,
+            resetLayout, shortcuts,   about};
 }
 
 } // namespace patina::editor

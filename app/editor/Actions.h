@@ -20,7 +20,7 @@ class Actions : public QObject {
     QAction *newScene, *open, *addModel, *save, *saveAs, *saveEnvironment, *exportScene, *quit;
     QAction *undo, *redo;
     QAction *frame, *home, *overlays, *lightingIbl, *lightingPrt;
-    QAction *pixel, *lightLab, *lens, *energy, *mixer; // docks to look closer with
+    QAction *pixel, *lightLab, *lens, *energy, *mixer, *transfer; // docks to look closer with
     QAction* pinPixel;
     QAction* furnace;
     QAction *fullScreen, *resetLayout;

@@ -21,6 +21,7 @@
 #include "app/editor/panel/ModelPanel.h"
 #include "app/editor/panel/PixelPanel.h"
 #include "app/editor/panel/ScenePanel.h"
+#include "app/editor/panel/TransferPanel.h"
 #include "app/editor/panel/ViewPanel.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/viewport/EquationBar.h"
@@ -49,7 +50,7 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kLayoutVersion = 3; // raise when docks come or go: older layouts are ignored
+constexpr int kLayoutVersion = 4; // raise when docks come or go: older layouts are ignored
 constexpr int kInstrumentHeight = 280;
 constexpr qint64 kFrameTimeMs = 250; // how often the number changes, so that it can be read
 
@@ -181,6 +182,8 @@ void MainWindow::makeDocks() {
     addInstrument(m_actions->energy, QStringLiteral("energy"),
                   new EnergyPanel(controller, m_session.selection, m_session.views));
     addInstrument(m_actions->mixer, QStringLiteral("mixer"), new MixerPanel(controller));
+    addInstrument(m_actions->transfer, QStringLiteral("transfer"),
+                  new TransferPanel(controller, m_session.probe, m_session.lobe));
     resetLayout();
 }
 
@@ -296,7 +299,8 @@ void MainWindow::makeMenus() {
         if (!m_instruments.contains(dock))
             view->addAction(dock->toggleViewAction());
     view->addSeparator();
-    view->addActions({a.pixel, a.lightLab, a.lens, a.energy, a.mixer, a.pinPixel, a.furnace});
+    view->addActions(
+        {a.pixel, a.lightLab, a.lens, a.energy, a.mixer, a.transfer, a.pinPixel, a.furnace});
     view->addSeparator();
     view->addAction(a.resetLayout);
     view->addSeparator();

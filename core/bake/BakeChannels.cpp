@@ -141,7 +141,7 @@ BakeImage imageFromElements(const BakeElementsView& elements, int order, std::si
     add(bounced, colors * stride);
     add(elements.sky, 1);
     add(elements.error, 1);
-    if (options.storage == BakeStorage::Half)
+    if (options.storage != BakeStorage::Float) // whole numbers are exact in halves
         for (float& value : result.image.f32())
             value = roundedToHalf(value);
     result.image.setChannelNames(std::move(names));

@@ -54,10 +54,10 @@ constexpr const char* kAoText =
     "ambient visibility: integral of V(w) max(0, n.w) dw / pi, 1 is open, 0 is closed";
 
 // What belongs to a part of its own rather than to the bake.
-constexpr std::array<const char*, 9> kOfParts = {
-    "patina:target",      "patina:index",        "patina:meshHash",
-    "patina:vertexCount", "patina:transform",    "patina:triangleCount",
-    "patina:step.sh",     "patina:step.bounced", "patina:storageError"};
+constexpr std::array<const char*, 10> kOfParts = {
+    "patina:target",       "patina:index",         "patina:meshHash", "patina:vertexCount",
+    "patina:transform",    "patina:triangleCount", "patina:step.sh",  "patina:step.bounced",
+    "patina:storageError", "patina:contentHash"};
 
 bool ofPart(const std::string& key) {
     return key.starts_with("patina:meshHash.") ||

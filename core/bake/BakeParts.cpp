@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -17,6 +18,7 @@ namespace {
 constexpr const char* kStepsOfValues = "patina:step.sh";
 constexpr const char* kStepsOfBounced = "patina:step.bounced";
 constexpr const char* kStorageError = "patina:storageError";
+constexpr const char* kContentHash = "patina:contentHash";
 
 template <class Element>
 std::optional<std::size_t> indexOf(const std::vector<Element>& elements, Id id) {
@@ -47,6 +49,28 @@ std::optional<std::size_t> countOf(const BakeElementsView& view) {
     return count;
 }
 
+// Of all that a part says and holds, in the order of the channels' names.
+Hash hashContent(const ImagePart& part) {
+    Hasher hasher;
+    for (const auto& [key, value] : part.attributes)
+        // OpenImageIO does not store empty ones.
+        if (key.starts_with("patina:") && key != kContentHash && !value.empty())
+            hasher.text(key).text(value);
+    hasher.value(part.image.width()).value(part.image.height());
+    const std::vector<std::string>& names = part.image.channelNames();
+    std::map<std::string, std::size_t> channels;
+    for (std::size_t c = 0; c < names.size(); ++c)
+        channels[names[c]] = c;
+    std::vector<float> values;
+    for (const auto& [name, channel] : channels) {
+        values.clear();
+        for (std::size_t i = channel; i < part.image.f32().size(); i += names.size())
+            values.push_back(part.image.f32()[i]);
+        hasher.text(name).array(std::span<const float>(values));
+    }
+    return hasher.finish();
+}
+
 void addElements(ImagePart& part, const BakeElementsView& elements, const BakeArtifact& artifact,
                  std::size_t width, const BakeFileOptions& options) {
     const int order = holdsTransfer(artifact.kind) ? artifact.order : 0;
@@ -59,6 +83,7 @@ void addElements(ImagePart& part, const BakeElementsView& elements, const BakeAr
     if (options.storage != BakeStorage::Float)
         part.attributes[kStorageError] = storageErrorText(
             storageError(elements.values, elements.bounced, std::max(order, 1), options));
+    part.attributes[kContentHash] = hashContent(part).hex();
 }
 
 // Reading.
@@ -99,6 +124,9 @@ Result<BakeElements> readElements(const Reader& reader, const ImagePart& part, s
         return reader.damaged("the channels of its bounces are missing");
     if (!plausible(*elements, reader.transfer()))
         return reader.damaged("a value is out of range");
+    const std::string* hash = findAttribute(part.attributes, kContentHash);
+    if (reader.header.version > 1 && (hash == nullptr || *hash != hashContent(part).hex()))
+        return reader.damaged("it was changed after it had been written");
     return *std::move(elements);
 }
 

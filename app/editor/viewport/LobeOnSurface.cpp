@@ -52,6 +52,13 @@ void LobeOnSurface::setScale(const LobeScale& scale) {
     refresh();
 }
 
+void LobeOnSurface::setOther(std::shared_ptr<const render::SurfaceLobe> lobe) {
+    if (lobe == m_other)
+        return;
+    m_other = std::move(lobe);
+    Q_EMIT changed();
+}
+
 std::optional<LobeOnSurface::Ask> LobeOnSurface::ask(QString& problem) const {
     const std::optional<render::Inspection>& at = m_probe.shown();
     if (!at || !at->onSurface()) {

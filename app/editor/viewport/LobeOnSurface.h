@@ -26,8 +26,12 @@ class LobeOnSurface : public QObject {
     // Nothing: no lobe. 0: which light the viewer sees there; else what becomes of that light's.
     void show(std::optional<Id> light);
     void setScale(const LobeScale& scale);
+    // Another instrument's lobe, shown in place of this one until it is null again.
+    void setOther(std::shared_ptr<const render::SurfaceLobe> lobe);
 
-    [[nodiscard]] std::shared_ptr<const render::SurfaceLobe> lobe() const { return m_lobe; }
+    [[nodiscard]] std::shared_ptr<const render::SurfaceLobe> lobe() const {
+        return m_other ? m_other : m_lobe;
+    }
     // Why there is no lobe although one is wanted; empty when there is.
     [[nodiscard]] QString problem() const { return m_problem; }
     [[nodiscard]] bool upToDate() const { return !m_job.busy(); }
@@ -53,7 +57,7 @@ class LobeOnSurface : public QObject {
     std::optional<Id> m_light;
     LobeScale m_scale;
     std::optional<Ask> m_asked;
-    std::shared_ptr<const render::SurfaceLobe> m_lobe;
+    std::shared_ptr<const render::SurfaceLobe> m_lobe, m_other;
     QString m_problem;
     std::shared_ptr<DfgTables> m_tables;    // the pool's thread alone uses it
     LatestJob m_job{"lobe on the surface"}; // last: it ends first

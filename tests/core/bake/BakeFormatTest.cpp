@@ -120,7 +120,7 @@ TEST(BakeFormat, TheFirstVersionIsStillRead) {
         for (const char* later :
              {"patina:definition", "patina:storage", "patina:triangleCount", "patina:transform",
               "patina:meshHash.positions", "patina:meshHash.indices", "patina:meshHash.normals",
-              "patina:meshHash.uvs", "patina:meshHash.tangents"})
+              "patina:meshHash.uvs", "patina:meshHash.tangents", "patina:contentHash"})
             ASSERT_EQ(part.attributes.erase(later), 1u) << later;
     }
     const Result<BakeArtifact> loaded = bakeFromParts(parts, document, "bake.exr");
@@ -134,6 +134,31 @@ TEST(BakeFormat, TheFirstVersionIsStillRead) {
     ASSERT_FALSE(refused.ok());
     EXPECT_THAT(refused.error().message,
                 HasSubstr("another mesh \"Body\" with as many vertices; open"));
+}
+
+TEST(BakeFormat, EditedFilesAreRefused) {
+    const Document document = bakeDocument();
+    const auto refusal = [&](const auto& edit) {
+        std::vector<ImagePart> parts =
+            bakeToParts(randomBake(document, BakeKind::PrtTexel, 2), document);
+        for (ImagePart& part : parts)
+            edit(part);
+        const Result<BakeArtifact> result = bakeFromParts(parts, document, "bake.exr");
+        return result.ok() ? std::string("none") : result.error().message;
+    };
+    EXPECT_EQ(refusal([](ImagePart&) {}), "none");
+    EXPECT_THAT(refusal([](ImagePart& part) { part.image.f32().back() += 0.01f; }),
+                HasSubstr("changed after"));
+    EXPECT_THAT(refusal([](ImagePart& part) { part.attributes["patina:set.samples"] = "9"; }),
+                HasSubstr("changed after"));
+    EXPECT_THAT(refusal([](ImagePart& part) { part.attributes.erase("patina:contentHash"); }),
+                HasSubstr("changed after"));
+    EXPECT_THAT(refusal([](ImagePart& part) { // two channels swapped
+                    std::vector<std::string> names = part.image.channelNames();
+                    std::swap(names[1], names[2]);
+                    part.image.setChannelNames(names);
+                }),
+                HasSubstr("changed after"));
 }
 
 TEST(BakeFormat, DamageOfTheNewKindsIsRefused) {

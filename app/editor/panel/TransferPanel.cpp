@@ -1,0 +1,206 @@
+#include "app/editor/panel/TransferPanel.h"
+
+#include "app/editor/document/DocumentController.h"
+#include "app/editor/style/Tokens.h"
+#include "app/editor/viewport/LobeOnSurface.h"
+#include "app/editor/viewport/PixelProbe.h"
+#include "app/editor/widget/BandBars.h"
+#include "app/editor/widget/PictureTile.h"
+#include "app/editor/widget/PlotStyle.h"
+#include "app/editor/widget/TileArea.h"
+#include "core/document/Edit.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QStackedWidget>
+#include <QVBoxLayout>
+#include <algorithm>
+
+namespace patina::editor {
+namespace {
+
+QString numbers(const glm::vec3& v) {
+    return QStringLiteral("%1  %2  %3").arg(plotNumber(v.x), plotNumber(v.y), plotNumber(v.z));
+}
+
+} // namespace
+
+TransferPanel::TransferPanel(DocumentController& controller, PixelProbe& probe,
+                             LobeOnSurface& onSurface, QWidget* parent)
+    : QWidget(parent)
+    , m_controller(controller)
+    , m_probe(probe)
+    , m_onSurface(onSurface)
+    , m_memory(std::make_shared<TransferMemory>()) {
+    setObjectName(QStringLiteral("transferPanel"));
+    m_message = new QLabel;
+    m_message->setWordWrap(true);
+    m_message->setAlignment(Qt::AlignCenter);
+    m_message->setMargin(tokens::kMargin);
+    m_message->setObjectName(QStringLiteral("transferMessage"));
+
+    m_numbers = new QLabel;
+    m_numbers->setWordWrap(true);
+    m_numbers->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    m_numbers->setObjectName(QStringLiteral("transferNumbers"));
+    m_lightBands = new QComboBox;
+    m_lightBands->setObjectName(QStringLiteral("transferLightBands"));
+    m_lightBands->setAccessibleName(tr("Bands of the surroundings"));
+    m_lightBands->setToolTip(tr("In how many bands the surroundings are shown"));
+    m_lightBands->setStatusTip(m_lightBands->toolTip());
+    for (int bands = 1; bands <= kMaxShOrder; ++bands)
+        m_lightBands->addItem(bands == 1 ? tr("1 band") : tr("%1 bands").arg(bands), bands);
+    m_lightBands->setCurrentIndex(2);
+    auto* header = new QHBoxLayout;
+    header->addWidget(m_numbers, 1);
+    header->addWidget(m_lightBands, 0, Qt::AlignTop);
+
+    m_bars = new BandBars;
+    m_function = new PictureTile(tr("Transfer of every direction"));
+    m_seen = new PictureTile(tr("Surroundings"));
+    m_sum = new PictureTile({});
+    auto* tiles = new TileArea({168, 124});
+    const QList<QWidget*> all = {m_bars, m_function, m_seen, m_sum};
+    for (QWidget* tile : all)
+        tiles->add(tile);
+    tiles->setShown(all);
+
+    auto* shown = new QWidget;
+    auto* layout = new QVBoxLayout(shown);
+    layout->setContentsMargins(tokens::kGap, tokens::kGap, tokens::kGap, tokens::kGap);
+    layout->setSpacing(tokens::kGap);
+    layout->addLayout(header);
+    layout->addWidget(tiles, 1);
+    m_pages = new QStackedWidget;
+    m_pages->addWidget(m_message);
+    m_pages->addWidget(shown);
+    auto* outer = new QVBoxLayout(this);
+    outer->setContentsMargins(0, 0, 0, 0);
+    outer->addWidget(m_pages);
+
+    connect(m_bars, &BandBars::bandsChanged, this, &TransferPanel::refresh);
+    connect(m_lightBands, &QComboBox::currentIndexChanged, this, &TransferPanel::refresh);
+    connect(&m_probe, &PixelProbe::hoverChanged, this, &TransferPanel::refresh);
+    connect(&m_probe, &PixelProbe::pinChanged, this, &TransferPanel::refresh);
+    connect(&m_controller, &DocumentController::changed, this, &TransferPanel::refresh);
+}
+
+TransferPanel::~TransferPanel() {
+    if (isVisible())
+        m_probe.removeListener();
+    m_onSurface.setOther(nullptr);
+}
+
+QString TransferPanel::message() const {
+    return m_message->text();
+}
+
+void TransferPanel::showEvent(QShowEvent* event) {
+    m_probe.addListener();
+    refresh();
+    QWidget::showEvent(event);
+}
+
+void TransferPanel::hideEvent(QHideEvent* event) {
+    m_probe.removeListener();
+    m_asked.reset();
+    m_job.cancel();
+    m_onSurface.setOther(nullptr);
+    QWidget::hideEvent(event);
+}
+
+std::optional<TransferAsk> TransferPanel::ask(QString& problem) const {
+    const Document& document = m_controller.document();
+    TransferAsk ask;
+    ask.bake = findBake(document, BakeKind::PrtVertex);
+    if (!ask.bake)
+        ask.bake = findBake(document, BakeKind::PrtTexel);
+    if (!ask.bake) {
+        problem = tr("There is no radiance transfer yet: bake it in the Bake dock.");
+        return std::nullopt;
+    }
+    const std::optional<render::Inspection>& at = m_probe.shown();
+    if (!at || !at->onSurface()) {
+        problem = tr("Point at the model to see how light comes to it. P or Alt + click pins a "
+                     "point.");
+        return std::nullopt;
+    }
+    ask.environment = document.environment.image;
+    if (!ask.environment) {
+        problem = tr("The surroundings have no picture.");
+        return std::nullopt;
+    }
+    ask.rotationDeg = document.environment.rotationDeg;
+    ask.exposureEv = document.environment.exposureEv;
+    ask.mesh = at->mesh;
+    ask.position = glm::vec3(at->value(shading::kRecordPosition));
+    ask.traced = m_probe.pin().has_value();
+    ask.bands = m_bars->bands();
+    ask.lightBands = m_lightBands->currentData().toInt();
+    return ask;
+}
+
+void TransferPanel::refresh() {
+    if (!isVisible())
+        return;
+    QString problem;
+    const std::optional<TransferAsk> wanted = ask(problem);
+    // Each frame says anew what lies under the pointer.
+    if (wanted && wanted == m_asked)
+        return;
+    m_asked = wanted;
+    if (!wanted) {
+        m_job.cancel();
+        show(nullptr, problem);
+        return;
+    }
+    m_job.request([this, wanted = *wanted, document = m_controller.document(),
+                   luminance = m_probe.shown()->luminance,
+                   memory = m_memory](const JobContext& job) -> LatestJob::Apply {
+        const auto study = studyTransfer(document, wanted, luminance, *memory, job);
+        if (!study)
+            return {};
+        return [this, study] { show(study->problem.isEmpty() ? study : nullptr, study->problem); };
+    });
+}
+
+void TransferPanel::show(std::shared_ptr<const TransferStudy> study, const QString& problem) {
+    m_study = std::move(study);
+    m_message->setText(problem);
+    m_pages->setCurrentIndex(m_study ? 1 : 0);
+    m_onSurface.setOther(m_study ? m_study->lobe : nullptr);
+    if (!m_study)
+        return;
+    const TransferStudy& s = *m_study;
+    QStringList shares;
+    for (const glm::vec3& band : s.byBand)
+        shares << plotNumber(shading::luminance(band));
+    std::vector<float> coefficients;
+    for (std::size_t i = 0; i < s.transfer.direct.size(); ++i) {
+        const glm::vec3 c = s.transfer.coefficient(i);
+        coefficients.push_back((c.x + c.y + c.z) / 3.0f);
+    }
+    m_bars->setCoefficients(std::move(coefficients), shares);
+    const bool negative = std::min({s.radiance.x, s.radiance.y, s.radiance.z}) < 0.0f;
+    m_numbers->setText(
+        tr("Light of a white surface: %1%2   ·   open to %3 % of even light   ·   %4")
+            .arg(numbers(s.radiance), negative ? tr(" (below zero: shown as dark)") : QString(),
+                 plotNumber(100.0 * double{s.visibility}),
+                 s.transfer.bounced.empty() ? tr("direct light") : tr("with bounces")));
+    m_function->setPicture(s.function,
+                           s.negativeShare > 0.0
+                               ? tr("rings below zero (magenta) on %1 % of the sphere, to %2")
+                                     .arg(plotNumber(100.0 * s.negativeShare), plotNumber(s.lowest))
+                               : tr("nowhere below zero"));
+    m_seen->setPicture(s.seen, s.rays > 0
+                                   ? tr("dark: hidden from the point, by %1 rays").arg(s.rays)
+                                   : tr("darkened by the transfer; pin the point to trace rays"));
+    m_sum->setTitle(tr("Surroundings in %1").arg(m_lightBands->currentText()));
+    m_sum->setPicture(s.sum,
+                      s.lightLowest < 0.0f
+                          ? tr("lowest %1, below zero magenta").arg(plotNumber(s.lightLowest))
+                          : tr("nowhere below zero"));
+}
+
+} // namespace patina::editor

@@ -1,0 +1,60 @@
+// The Transfer dock: how light comes to the pinned point, or the one under the pointer, by the
+// attached bake: as a lobe on the surface, as coefficients, and against the surroundings.
+#pragma once
+
+#include "app/editor/job/LatestJob.h"
+#include "app/editor/panel/TransferStudy.h"
+
+#include <QWidget>
+
+class QComboBox;
+class QLabel;
+class QStackedWidget;
+
+namespace patina::editor {
+
+class BandBars;
+class DocumentController;
+class LobeOnSurface;
+class PictureTile;
+class PixelProbe;
+
+class TransferPanel : public QWidget {
+    Q_OBJECT
+  public:
+    TransferPanel(DocumentController& controller, PixelProbe& probe, LobeOnSurface& onSurface,
+                  QWidget* parent = nullptr);
+    ~TransferPanel() override;
+
+    // Null: nothing to show, message() says why.
+    [[nodiscard]] std::shared_ptr<const TransferStudy> study() const { return m_study; }
+    [[nodiscard]] QString message() const;
+    [[nodiscard]] bool upToDate() const { return !m_job.busy(); }
+    [[nodiscard]] QSize sizeHint() const override { return {780, 280}; }
+    [[nodiscard]] QSize minimumSizeHint() const override { return {240, 160}; }
+
+  protected:
+    void showEvent(QShowEvent* event) override;
+    void hideEvent(QHideEvent* event) override;
+
+  private:
+    void refresh(); // asks for a new study, when someone sees it
+    [[nodiscard]] std::optional<TransferAsk> ask(QString& problem) const;
+    void show(std::shared_ptr<const TransferStudy> study, const QString& problem);
+
+    DocumentController& m_controller;
+    PixelProbe& m_probe;
+    LobeOnSurface& m_onSurface;
+    std::optional<TransferAsk> m_asked;
+    std::shared_ptr<const TransferStudy> m_study;
+    std::shared_ptr<TransferMemory> m_memory; // the pool's thread alone uses it
+
+    QStackedWidget* m_pages;
+    QLabel *m_message, *m_numbers;
+    QComboBox* m_lightBands;
+    BandBars* m_bars;
+    PictureTile *m_seen, *m_function, *m_sum;
+    LatestJob m_job{"transfer inspector"}; // last: it ends first
+};
+
+} // namespace patina::editor

@@ -1,0 +1,57 @@
+// What the Transfer dock shows of one point: its coefficients and the pictures made of them. A
+// value that is computed off the UI thread.
+#pragma once
+
+#include "app/editor/panel/LabLight.h"
+#include "core/bake/TransferPoint.h"
+#include "core/document/Document.h"
+#include "render/scene/SurfaceLobe.h"
+
+#include <QImage>
+#include <QString>
+#include <memory>
+
+namespace patina::editor {
+
+// All that a study is made of; equal asks have equal answers.
+struct TransferAsk {
+    BakeArtifactPtr bake;
+    ImagePtr environment;
+    float rotationDeg = 0.0f, exposureEv = 0.0f;
+    Id mesh = 0;
+    glm::vec3 position{0.0f}; // world
+    bool traced = false;      // rays say what the point sees; else the transfer does
+    unsigned bands = ~0u;     // of the transfer that are on
+    int lightBands = 3;       // of the surroundings that are shown
+    friend bool operator==(const TransferAsk&, const TransferAsk&) = default;
+};
+
+struct TransferStudy {
+    QString problem; // why there is nothing; then the rest is empty
+    PointTransfer transfer;
+    std::vector<glm::vec3> light;        // of the surroundings, as many as the transfer has
+    std::vector<glm::vec3> byBand;       // exit radiance of albedo 1 that each band adds
+    glm::vec3 radiance{0.0f};            // of the bands that are on
+    float visibility = 1.0f;             // ambient, 0…1
+    float lowest = 0.0f, highest = 0.0f; // of the transfer as a function of the direction
+    double negativeShare = 0.0;          // of the sphere, where it is below zero
+    int rays = 0;                        // that were traced; 0: the transfer said what is seen
+    QImage seen;                         // surroundings, what is hidden is dark
+    QImage function;                     // the transfer, below zero magenta
+    QImage sum;                          // surroundings in lightBands bands, below zero magenta
+    float lightLowest = 0.0f;            // of that sum
+    std::shared_ptr<const render::SurfaceLobe> lobe;
+};
+
+// What was computed for an earlier study and may serve again; one thread at a time.
+struct TransferMemory {
+    ImagePtr environment;
+    LabAnalysisPtr analysis;
+};
+
+// Null after a cancel.
+[[nodiscard]] std::shared_ptr<const TransferStudy>
+studyTransfer(const Document& document, const TransferAsk& ask, const Luminance& luminance,
+              TransferMemory& memory, const JobContext& job);
+
+} // namespace patina::editor
