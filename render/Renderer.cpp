@@ -1,6 +1,7 @@
 #include "render/RendererImpl.h"
 
 #include "core/base/Log.h"
+#include "core/document/Lighting.h"
 
 #include <algorithm>
 #include <epoxy/gl.h>
@@ -22,15 +23,20 @@ FrameBlock Renderer::Impl::packFrame(const FrameSettings& frame) const {
     return block;
 }
 
+Result<void> Renderer::Impl::relightFor(ViewKind kind) {
+    return relight.update(scene, lightingOf(kind, scene.document().view.lighting),
+                          scene.transferLight());
+}
+
 void Renderer::Impl::useFrame(const FrameBlock& block) {
     frameBlock.writeValue(block);
     frameBlock.bindUniform(kFrameBinding);
 }
 
-SurfaceSettings Renderer::Impl::surfaceSettings(const FrameBlock& block,
-                                                SurfaceOutput output) const {
+SurfaceSettings Renderer::Impl::surfaceSettings(const FrameBlock& block, SurfaceOutput output,
+                                                ViewKind kind) const {
     const Document& document = scene.document();
-    return {document.view.lighting,
+    return {lightingOf(kind, document.view.lighting),
             block.lightEnds.y > 0,
             block.lightEnds.w > block.lightEnds.y,
             block.lightEnds,
@@ -41,9 +47,11 @@ SurfaceSettings Renderer::Impl::surfaceSettings(const FrameBlock& block,
 
 Result<void> Renderer::Impl::drawPicture(const FrameSettings& frame, const FrameBlock& block,
                                          const gl::Framebuffer& target, SurfaceOutput output,
-                                         bool withBackground) {
+                                         bool withBackground, ViewKind kind) {
+    if (auto done = relightFor(kind); !done)
+        return done;
     const Document& document = scene.document();
-    SurfaceSettings settings = surfaceSettings(block, output);
+    SurfaceSettings settings = surfaceSettings(block, output, kind);
     settings.floats = target.id() != targets.scene().id();
     if (frame.coarse)
         settings.coarseView = block.worldToClip;
@@ -153,6 +161,16 @@ void Renderer::previewVertices(BakeKind kind, Id mesh, int stride, std::span<con
 
 void Renderer::previewTexels(Id material, int size, std::span<const float> values) {
     m_impl->scene.previewTexels(material, size, values);
+    m_impl->sceneIsNew = true;
+}
+
+void Renderer::setBouncedLight(Id mesh, std::span<const glm::vec3> radiance) {
+    m_impl->scene.setBouncedLight(mesh, radiance);
+    m_impl->sceneIsNew = true;
+}
+
+void Renderer::clearBouncedLight() {
+    m_impl->scene.clearBouncedLight();
     m_impl->sceneIsNew = true;
 }
 

@@ -88,6 +88,11 @@ class Renderer {
     void previewVertices(BakeKind kind, Id mesh, int stride, std::span<const float> values);
     void previewTexels(Id material, int size, std::span<const float> values); // whole texture
     void clearPreview();
+    // Radiance per vertex that a surface of albedo 1 sends out by way of other surfaces, in the
+    // light shown now: replaces what the attached bake holds of it (LightingMode::Prt) until it is
+    // cleared or another bake is attached.
+    void setBouncedLight(Id mesh, std::span<const glm::vec3> radiance);
+    void clearBouncedLight();
 
     // Renders to the internal HDR target and tone maps into framebuffer `targetFramebuffer`
     // (0: the window's), viewport 0,0 … width,height.

@@ -6,6 +6,7 @@
 #include "render/pass/InspectPass.h"
 #include "render/pass/OverlayPass.h"
 #include "render/pass/PickPass.h"
+#include "render/pass/RelightPass.h"
 #include "render/pass/ScreenPasses.h"
 #include "render/pass/ShadowPass.h"
 #include "render/pass/SheetTargets.h"
@@ -27,6 +28,7 @@ struct Renderer::Impl {
         , shaders(c, shaderFolder)
         , scene(c)
         , shadows(c, shaders)
+        , relight(c, shaders)
         , surface(shaders)
         , adaptation(c, shaders)
         , screen(c, shaders)
@@ -41,6 +43,7 @@ struct Renderer::Impl {
     ShaderLibrary shaders;
     GpuScene scene;
     ShadowPass shadows;
+    RelightPass relight;
     SurfacePass surface;
     AdaptationPass adaptation;
     ScreenPasses screen;
@@ -63,12 +66,14 @@ struct Renderer::Impl {
     // --- Renderer.cpp
     [[nodiscard]] FrameBlock packFrame(const FrameSettings& frame) const;
     void useFrame(const FrameBlock& block);
-    [[nodiscard]] SurfaceSettings surfaceSettings(const FrameBlock& block,
-                                                  SurfaceOutput output) const;
+    // Light under transfer, for a view of this kind; nothing to do while nothing has changed.
+    Result<void> relightFor(ViewKind kind);
+    [[nodiscard]] SurfaceSettings surfaceSettings(const FrameBlock& block, SurfaceOutput output,
+                                                  ViewKind kind) const;
     // The scene with its background into a target of radiance.
     Result<void> drawPicture(const FrameSettings& frame, const FrameBlock& block,
                              const gl::Framebuffer& target, SurfaceOutput output,
-                             bool withBackground);
+                             bool withBackground, ViewKind kind = shading::kViewFinal);
     Result<void> adapt(const FrameSettings& frame);
     void beginGl();
     void endGl(unsigned targetFramebuffer);
@@ -85,7 +90,8 @@ struct Renderer::Impl {
     // The numbers of views into a target of floats, without anti-aliasing.
     Result<void> drawNumbers(const FrameSettings& frame, const FrameBlock& block,
                              const gl::Framebuffer& target, const ViewsBlock& settings,
-                             bool asPicture, SurfaceOutput output);
+                             bool asPicture, SurfaceOutput output,
+                             ViewKind kind = shading::kViewFinal);
     // Settings of `choices`, eight at most; `halfFloats`: the target is of half floats.
     [[nodiscard]] ViewsBlock viewsBlock(const ViewSettings& view,
                                         std::span<const ViewChoice> choices, bool halfFloats) const;

@@ -82,10 +82,12 @@ ViewsBlock Renderer::Impl::viewsBlock(const ViewSettings& view, std::span<const 
 
 Result<void> Renderer::Impl::drawNumbers(const FrameSettings& frame, const FrameBlock& block,
                                          const gl::Framebuffer& target, const ViewsBlock& settings,
-                                         bool asPicture, SurfaceOutput output) {
+                                         bool asPicture, SurfaceOutput output, ViewKind kind) {
     views.setBlock(settings);
     if (asPicture)
-        return drawPicture(frame, block, target, output, settings.kinds[0] == kViewFinal);
+        return drawPicture(frame, block, target, output, settings.kinds[0] == kViewFinal, kind);
+    if (auto done = relightFor(kind); !done)
+        return done;
     shadows.bind();
     const DrawList list = makeDrawList(scene.items(), block.worldToClip, frame.camera.position());
     target.bind();
@@ -93,7 +95,7 @@ Result<void> Renderer::Impl::drawNumbers(const FrameSettings& frame, const Frame
     for (int i = 0; i < (output == SurfaceOutput::EightViews ? 8 : 1); ++i)
         glClearNamedFramebufferfv(target.id(), GL_COLOR, i, kNothing.data());
     target.clearDepth(1.0f);
-    SurfaceSettings surfaces = surfaceSettings(block, output);
+    SurfaceSettings surfaces = surfaceSettings(block, output, kind);
     surfaces.floats = output == SurfaceOutput::OneView; // others are never drawn otherwise
     // Blended surfaces, too, stand for themselves.
     if (auto done = surface.drawOpaque(scene, list, surfaces); !done)
@@ -139,7 +141,7 @@ Result<void> Renderer::Impl::drawRadiance(const FrameSettings& frame, const View
     const bool ordinary = frame.view.isOrdinary(choice);
     if (auto done = drawPicture(frame, block, targets.scene(),
                                 ordinary ? SurfaceOutput::Picture : SurfaceOutput::OneView,
-                                hasBackground(choice));
+                                hasBackground(choice), choice.kind);
         !done)
         return done;
     targets.resolve();
@@ -201,7 +203,7 @@ Result<void> Renderer::Impl::drawSide(const FrameSettings& frame, const ViewChoi
     if (drawsScene)
         if (auto done = drawNumbers(frame, lastBlock, **target,
                                     viewsBlock(frame.view, std::span(&choice, 1), false),
-                                    blends(choice), SurfaceOutput::OneView);
+                                    blends(choice), SurfaceOutput::OneView, choice.kind);
             !done)
             return done;
     const auto range = rangeFor(choice, targets.data());
@@ -284,7 +286,7 @@ Result<Image> Renderer::readView(ViewKind kind, ViewMode mode) {
     const ViewChoice choice{kind, mode, {}};
     Result<void> done = r.drawNumbers(r.lastFrame, r.lastBlock, **target,
                                       r.viewsBlock(r.lastFrame.view, std::span(&choice, 1), false),
-                                      blends(choice), SurfaceOutput::OneView);
+                                      blends(choice), SurfaceOutput::OneView, choice.kind);
     Image image;
     if (done) {
         image =
@@ -317,19 +319,21 @@ Result<std::vector<Image>> Renderer::drawSheet(const FrameSettings& frame, const
     std::vector<Image> pictures;
     std::size_t next = 0;
     while (done && next < sheet.kinds.size()) {
-        // Flat shading changes every term: it has a pass of its own.
+        // Flat shading and light of another kind change every term: a pass of their own.
         std::vector<ViewChoice> choices;
         while (next < sheet.kinds.size() && choices.size() < SheetTargets::kViews) {
-            const bool flat = sheet.kinds[next] == kViewFlat;
-            if (flat && !choices.empty())
+            const ViewKind kind = sheet.kinds[next];
+            const bool alone = kind == kViewFlat || viewInfo(kind).group == ViewGroup::Lighting;
+            if (alone && !choices.empty())
                 break;
-            choices.push_back({sheet.kinds[next++], sheet.mode, {}});
-            if (flat)
+            choices.push_back({kind, sheet.mode, {}});
+            ++next;
+            if (alone)
                 break;
         }
         done =
             r.drawNumbers(small, block, r.sheet.numbers(), r.viewsBlock(small.view, choices, false),
-                          false, SurfaceOutput::EightViews);
+                          false, SurfaceOutput::EightViews, choices.front().kind);
         for (std::size_t i = 0; done && i < choices.size(); ++i) {
             done = r.showOnSheet(small, block, choices[i], r.sheet.values(i));
             if (done)
@@ -369,9 +373,12 @@ Result<Inspection> Renderer::inspect(int x, int y) {
         result.material = r.scene.document().mesh(*id)->material;
         r.views.setBlock(r.viewsBlock(r.lastFrame.view, {}, false));
         r.shadows.bind();
-        return r.inspection.draw(r.scene, *item, r.picking, r.surface,
-                                 r.surfaceSettings(r.lastBlock, SurfaceOutput::Inspection), x,
-                                 fromBottom, result);
+        if (auto done = r.relightFor(kViewFinal); !done)
+            return done;
+        return r.inspection.draw(
+            r.scene, *item, r.picking, r.surface,
+            r.surfaceSettings(r.lastBlock, SurfaceOutput::Inspection, kViewFinal), x, fromBottom,
+            result);
     };
     const auto inspectPicture = [&]() -> Result<void> {
         const auto target = r.targets.dataTarget(r.context);

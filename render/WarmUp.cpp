@@ -73,11 +73,11 @@ const VertexBake* vertexBake(const Document& document, const MeshInstance& mesh,
     return nullptr;
 }
 
-const TexelBake* texelBake(const Document& document, Id material) {
+const TexelBake* texelBake(const Document& document, Id material, BakeKind kind) {
     for (const BakeArtifactPtr& bake : document.bakes)
-        if (bake->kind == BakeKind::AoTexel)
+        if (bake->kind == kind)
             for (const TexelBake& texels : bake->texels)
-                if (texels.material == material && texels.image)
+                if (texels.material == material && (texels.image || texels.side > 0))
                     return &texels;
     return nullptr;
 }
@@ -85,8 +85,10 @@ const TexelBake* texelBake(const Document& document, Id material) {
 SurfaceBakes bakesOf(const Document& document, const MeshInstance& mesh) {
     const VertexBake* transfer = vertexBake(document, mesh, BakeKind::PrtVertex);
     const VertexBake* ao = vertexBake(document, mesh, BakeKind::AoVertex);
-    return {transfer && transfer->stride <= kMaxTransferCount,
-            texelBake(document, mesh.material) != nullptr, ao && ao->stride == 1};
+    const bool texels = texelBake(document, mesh.material, BakeKind::PrtTexel) != nullptr;
+    return {texels || (transfer && transfer->stride <= kMaxTransferCount), texels,
+            texelBake(document, mesh.material, BakeKind::AoTexel) != nullptr,
+            ao && ao->stride == 1};
 }
 
 void addFormats(Hasher& hasher, Material material) {
@@ -107,12 +109,35 @@ BakeArtifactPtr reducedBake(const BakeArtifact& bake, const std::set<Id>& meshes
     BakeArtifact result = bake;
     std::erase_if(result.vertices,
                   [&](const VertexBake& values) { return !meshes.contains(values.mesh); });
-    for (VertexBake& values : result.vertices)
-        values.values.assign(square()->vertexCount() * static_cast<std::size_t>(values.stride),
-                             0.5f);
-    for (TexelBake& texels : result.texels)
+    const std::size_t corners = square()->vertexCount();
+    for (VertexBake& values : result.vertices) {
+        const auto resize = [&](std::vector<float>& of, std::size_t each) {
+            if (!of.empty())
+                of.assign(corners * each, 0.5f);
+        };
+        const auto stride = static_cast<std::size_t>(values.stride);
+        resize(values.values, stride);
+        resize(values.bounced, 3 * stride);
+        resize(values.sky, 1);
+        resize(values.error, 1);
+    }
+    for (TexelBake& texels : result.texels) {
         if (texels.image)
             texels.image = reduced(*texels.image);
+        if (texels.side == 0)
+            continue;
+        texels.side = reducedSide(texels.side);
+        const auto count = static_cast<std::size_t>(texels.side * texels.side);
+        const auto shrink = [&](std::vector<float>& of, std::size_t each) {
+            if (!of.empty())
+                of.resize(count * each);
+        };
+        const auto stride = static_cast<std::size_t>(texels.stride);
+        shrink(texels.values, stride);
+        shrink(texels.bounced, 3 * stride);
+        shrink(texels.sky, 1);
+        shrink(texels.error, 1);
+    }
     return std::make_shared<const BakeArtifact>(std::move(result));
 }
 

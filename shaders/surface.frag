@@ -23,8 +23,16 @@ in vec2 v_uv;
 #ifdef HAS_VERTEX_AO
 centroid in float v_visibility;
 #endif
+#ifndef HAS_TEXEL_TRANSFER
 #ifdef HAS_TRANSFER
 centroid in vec3 v_exitRadiance;
+#endif
+#ifdef HAS_TRANSFER_CONE
+centroid in vec4 v_visibleCone;
+#ifdef VIEWS
+centroid in vec2 v_bakeNumbers;
+#endif
+#endif
 #endif
 
 layout(binding = 0) uniform sampler2D u_baseColorTexture;
@@ -34,6 +42,11 @@ layout(binding = 3) uniform sampler2D u_normalTexture;
 layout(binding = 4) uniform sampler2D u_occlusionTexture;
 layout(binding = 5) uniform sampler2D u_emissiveTexture;
 layout(binding = 6) uniform sampler2D u_visibilityTexture; // baked
+#ifdef HAS_TEXEL_TRANSFER
+layout(binding = 13) uniform sampler2D u_exitTexture;
+layout(binding = 14) uniform sampler2D u_coneTexture;
+layout(binding = 15) uniform sampler2D u_numbersTexture;
+#endif
 #ifdef HAS_AREA_LIGHTS
 layout(binding = 9) uniform sampler2D u_lobes; // core/light/LobeTable.h
 #endif
@@ -87,6 +100,27 @@ vec3 irradianceAt(vec3 n) {
             sh[i][c] = p[(3 * i + c) / 2][(3 * i + c) % 2];
     return u_irradianceScale * irradianceFromSh9(sh, n);
 }
+
+#ifdef HAS_TRANSFER
+vec3 exitRadiance() {
+#ifdef HAS_TEXEL_TRANSFER
+    return texture(u_exitTexture, v_uv).rgb;
+#else
+    return v_exitRadiance;
+#endif
+}
+#endif
+
+// Along the bent normal, and ambient visibility.
+#ifdef HAS_TRANSFER_CONE
+vec4 visibleCone() {
+#ifdef HAS_TEXEL_TRANSFER
+    return texture(u_coneTexture, v_uv);
+#else
+    return v_visibleCone;
+#endif
+}
+#endif
 
 // Diffuse light against reflections, as the view weighs them.
 ShadedLight mixed(ShadedLight light) {
@@ -174,11 +208,14 @@ void main() {
 #else
     vec3 prefiltered = prefilteredRadiance(lobeDirection(s, dfg.z), s.perceptualRoughness);
 #endif
+#ifdef HAS_TRANSFER_CONE
+    vec4 cone = visibleCone();
+#endif
     // Before occlusion, and with it.
 #if defined(CONSTANT_IRRADIANCE)
     vec3 arriving = vec3(0.5);
 #elif defined(HAS_TRANSFER)
-    vec3 arriving = kPi * max(v_exitRadiance, vec3(0.0));
+    vec3 arriving = kPi * max(exitRadiance(), vec3(0.0));
 #elif defined(HAS_LAMP)
     vec3 arriving = u_lampIrradiance.rgb * max(dot(n, u_lamp.xyz), 0.0);
 #else
@@ -198,7 +235,15 @@ void main() {
     float diffuseOpen = unoccluded;
 #endif
     ShadedLight ambient = mixed(shadeEnvironment(s, diffuseOpen * arriving, prefiltered));
+#if defined(HAS_TRANSFER) && defined(HAS_TRANSFER_CONE)
+    float open = coneOcclusion(cone, s.n, normalize(lobeDirection(s, dfg.z)), s.alpha);
+#ifdef VIEWS
+    if (u_furnace.w > 0.0)
+        open = 1.0;
+#endif
+#else
     float open = specularOcclusion(s.NoV, unoccluded, s.alpha);
+#endif
     vec3 specularIbl = ambient.specular * open;
 
     // Analytic lights, one loop for each kind. Where LIGHT_ENDS is known it is unrolled.
@@ -295,6 +340,9 @@ void main() {
 #endif
 #ifdef VIEWS
     recordSurface(s, baseColor, ao, dfg, alpha, triangle);
+#ifdef HAS_TRANSFER_CONE
+    recordBake(cone);
+#endif
     recordChosenDirection(s, sums, specularIbl, alpha);
     recordIbl(s, dfg, arriving, prefiltered, ambient, diffuseOpen, open, alpha);
     recordSum(s, ambient.diffuse, specularIbl, directDiffuse, directSpecular, emission, sums, alpha);

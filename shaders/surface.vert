@@ -1,5 +1,7 @@
 #version 450 core
-// Meshes of the scene. HAS_TRANSFER: exit radiance of unit albedo from transfer coefficients.
+// Meshes of the scene. HAS_TRANSFER: exit radiance of unit albedo, which relight.comp made of the
+// light and of transfer. HAS_TRANSFER_CONE: what a bake says of occlusion. HAS_TEXEL_TRANSFER: both are
+// looked up for each pixel instead.
 #include "include/frame.glsl"
 #include "include/instance.glsl"
 
@@ -22,11 +24,19 @@ layout(std430, binding = 0) readonly buffer VertexVisibility {
 centroid out float v_visibility;
 #endif
 
+#ifndef HAS_TEXEL_TRANSFER
 #ifdef HAS_TRANSFER
-layout(std430, binding = 1) readonly buffer VertexTransfer {
-    float b_transfer[];
-};
+layout(location = 4) in vec3 a_exitRadiance;
 centroid out vec3 v_exitRadiance;
+#endif
+#ifdef HAS_TRANSFER_CONE
+layout(location = 5) in vec4 a_visibleCone;
+centroid out vec4 v_visibleCone;
+#ifdef VIEWS
+layout(location = 6) in vec2 a_bakeNumbers;
+centroid out vec2 v_bakeNumbers;
+#endif
+#endif
 #endif
 
 // Passes over the same mesh meet at the same depth.
@@ -43,12 +53,15 @@ void main() {
 #ifdef HAS_VERTEX_AO
     v_visibility = b_visibility[gl_VertexID];
 #endif
+#ifndef HAS_TEXEL_TRANSFER
 #ifdef HAS_TRANSFER
-    // Sloan, Kautz & Snyder 2002, "Precomputed Radiance Transfer", equation 1: a dot product.
-    vec3 sum = vec3(0.0);
-    int first = gl_VertexID * u_transferCount;
-    for (int i = 0; i < u_transferCount; ++i)
-        sum += u_radianceSh[i] * b_transfer[first + i];
-    v_exitRadiance = sum;
+    v_exitRadiance = a_exitRadiance;
+#endif
+#ifdef HAS_TRANSFER_CONE
+    v_visibleCone = a_visibleCone;
+#ifdef VIEWS
+    v_bakeNumbers = a_bakeNumbers;
+#endif
+#endif
 #endif
 }

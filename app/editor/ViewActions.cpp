@@ -63,6 +63,8 @@ QString ViewActions::keyOf(ViewKind kind) {
     for (const ViewKey& entry : kKeys)
         if (entry.kind == kind)
             return QString(QLatin1Char(entry.key));
+    if (viewInfo(kind).group == ViewGroup::Lighting)
+        return QStringLiteral("F%1").arg(kind - kViewLampLight + 5);
     return {};
 }
 

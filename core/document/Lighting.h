@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/document/Document.h"
+#include "core/document/Views.h"
 
 #include <algorithm>
 #include <glm/vec2.hpp>
@@ -17,6 +18,14 @@ namespace patina {
 [[nodiscard]] constexpr bool hidesNothing(LightingMode mode) {
     return mode == LightingMode::Cosine || mode == LightingMode::ShIrradiance ||
            mode == LightingMode::Unshadowed;
+}
+
+// How a view is lit: some stand for a way of their own.
+[[nodiscard]] constexpr LightingMode lightingOf(ViewKind kind, LightingMode ofDocument) {
+    if (kind < shading::kViewLampLight || kind > shading::kViewInterreflectedLight)
+        return ofDocument;
+    return static_cast<LightingMode>(static_cast<int>(LightingMode::Cosine) + kind -
+                                     shading::kViewLampLight);
 }
 
 // Weights of diffuse light (x) and of reflections (y) for View::reflectionMix: both 1 in the

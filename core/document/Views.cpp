@@ -1,6 +1,7 @@
 #include "core/document/Views.h"
 
 #include "core/base/Check.h"
+#include "core/document/Edit.h"
 #include "core/document/LightMix.h"
 #include "core/document/Lights.h"
 
@@ -18,6 +19,7 @@ constexpr auto kGeometry = ViewGroup::Geometry;
 constexpr auto kFactors = ViewGroup::Factors;
 constexpr auto kDirect = ViewGroup::Direct;
 constexpr auto kIbl = ViewGroup::Ibl;
+constexpr auto kLighting = ViewGroup::Lighting;
 
 constexpr std::string_view kScaledLight = "The part of the picture that this factor scales.";
 
@@ -85,6 +87,10 @@ constexpr ViewInfo luminance(ViewInfo info) {
 }
 constexpr ViewInfo inMaterials(ViewInfo info) {
     info.group = kMaterial;
+    return info;
+}
+constexpr ViewInfo inTransfer(ViewInfo info) {
+    info.group = kIbl;
     return info;
 }
 constexpr ViewInfo upTo(float rangeMax, ViewInfo info) {
@@ -251,6 +257,29 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
            0.0f, 1.0f, "What ambient occlusion leaves of the reflected surroundings"),
     radiance(kViewAmbient, "ambient", "All IBL", "", kIbl,
              "Diffuse and specular reflection of the surroundings together"),
+    inTransfer(direction(kViewBentNormal, "bentNormal", "Bent Normal", "b",
+                         "Mean direction that light of even surroundings comes from, as the "
+                         "transfer bake knows it, in world space")),
+    scalar(kViewSkyVisibility, "skyVisibility", "Sky Visibility", "", kIbl, ColorMap::Grey, 0.0f,
+           1.0f,
+           "Share of the light of an even upper half of the surroundings that arrives, by the "
+           "rays of the transfer bake"),
+    measured(scalar(kViewBakeError, "bakeError", "Bake Error", "σ", kIbl, ColorMap::Sequential,
+                    0.0f, 0.01f,
+                    "Estimated standard error of the transfer bake's coefficients: bright places "
+                    "want more rays"),
+             "", false),
+
+    radiance(kViewLampLight, "cosine", "N·L Light", "", kLighting,
+             "The picture under one lamp that stands for the surroundings"),
+    radiance(kViewShLight, "shIrradiance", "SH Irradiance", "", kLighting,
+             "The picture under irradiance from nine coefficients, nothing hidden"),
+    radiance(kViewUnshadowedLight, "unshadowed", "Unshadowed", "", kLighting,
+             "The picture under transfer of an open sky, per vertex and in eight bands"),
+    radiance(kViewShadowedLight, "shadowed", "Shadowed", "", kLighting,
+             "The picture under baked transfer: what the scene hides of the surroundings"),
+    radiance(kViewInterreflectedLight, "interreflected", "Interreflected", "", kLighting,
+             "The picture under baked transfer with light by way of other surfaces"),
 }};
 
 constexpr bool numbered() {
@@ -275,11 +304,39 @@ bool anyMaterial(const Document& document, Has has) {
                        });
 }
 
+constexpr const char* kNoTransfer = "There is no radiance transfer bake: make one in Bakes.";
+
+// Views of what a transfer bake knows besides light.
+std::string whyNotBaked(ViewKind kind, const Document& document) {
+    if (document.view.lighting == LightingMode::Unshadowed)
+        return "Unshadowed light looks at no bake: light the scene in another way.";
+    const auto holds = [kind](const auto& elements) {
+        return std::any_of(elements.begin(), elements.end(), [kind](const auto& e) {
+            return kind == kViewBentNormal  ? e.stride >= 4
+                   : kind == kViewBakeError ? !e.error.empty()
+                                            : !e.sky.empty();
+        });
+    };
+    bool baked = false;
+    for (const BakeArtifactPtr& bake : document.bakes) {
+        if (!holdsTransfer(bake->kind))
+            continue;
+        baked = true;
+        if (holds(bake->vertices) || holds(bake->texels))
+            return {};
+    }
+    if (!baked)
+        return kNoTransfer;
+    return kind == kViewBentNormal ? "A bent normal needs a transfer bake of order 2 or more."
+                                   : "This bake does not hold it: bake once more.";
+}
+
 } // namespace
 
 std::string_view viewGroupLabel(ViewGroup group) {
     constexpr std::array<std::string_view, kViewGroupCount> kLabels{
-        "Picture", "Material", "Geometry", "BRDF Factors", "Direct Light", "Image-Based Light"};
+        "Picture",      "Material",          "Geometry", "BRDF Factors",
+        "Direct Light", "Image-Based Light", "Lighting"};
     return kLabels[static_cast<std::size_t>(group)];
 }
 
@@ -331,6 +388,22 @@ std::string whyEmpty(ViewKind kind, const Document& document) {
                    [](const MeshInstance& mesh) { return mesh.visible && !mesh.mesh->uvs.empty(); })
                    ? ""
                    : "No mesh has texture coordinates.";
+    case kViewBentNormal:
+    case kViewSkyVisibility:
+    case kViewBakeError:
+        return whyNotBaked(kind, document);
+    case kViewShadowedLight:
+        return hasTransfer(document) ? "" : kNoTransfer;
+    case kViewInterreflectedLight:
+        if (!hasTransfer(document))
+            return kNoTransfer;
+        return std::any_of(document.bakes.begin(), document.bakes.end(),
+                           [](const BakeArtifactPtr& bake) {
+                               return holdsTransfer(bake->kind) &&
+                                      bake->transfer == TransferKind::Interreflected;
+                           })
+                   ? ""
+                   : "This bake holds no bounces: bake interreflected transfer.";
     case kViewNormalMap:
         return anyMaterial(document, [](const Material& m) { return m.normalMap.image != nullptr; })
                    ? ""

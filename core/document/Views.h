@@ -25,8 +25,8 @@ struct Document;
 
 using ViewKind = int; // one of shading::kView…
 
-enum class ViewGroup { Picture, Material, Geometry, Factors, Direct, Ibl };
-inline constexpr int kViewGroupCount = 6;
+enum class ViewGroup { Picture, Material, Geometry, Factors, Direct, Ibl, Lighting };
+inline constexpr int kViewGroupCount = 7;
 [[nodiscard]] std::string_view viewGroupLabel(ViewGroup group);
 
 // What the numbers of a view are, and so how they are shown.

@@ -238,7 +238,7 @@ class Packer {
                 {stem + std::string(".txt"), toBytes(shText(coefficients, quantity))});
         };
         add("irradiance-sh", m_maps.irradianceSh, ShQuantity::Irradiance);
-        add("radiance-sh", m_maps.radianceSh, ShQuantity::Radiance);
+        add("radiance-sh", std::span(m_maps.radianceSh).first(25), ShQuantity::Radiance);
     }
 
     void addManifest() {

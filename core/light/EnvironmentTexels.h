@@ -30,7 +30,7 @@ struct EnvironmentTexels {
     int side = 0, levels = 0;
     std::size_t clamped = 0;                 // prefiltered texels that exceeded 65504
     std::array<glm::vec3, 9> irradianceSh{}; // as in IblMaps
-    std::array<glm::vec3, 25> radianceSh{};
+    std::array<glm::vec3, 64> radianceSh{};
 };
 using EnvironmentTexelsPtr = std::shared_ptr<const EnvironmentTexels>;
 

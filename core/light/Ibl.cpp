@@ -32,7 +32,7 @@ Result<IblMaps> computeIbl(const Image& environment, const IblSettings& settings
 
     // Spherical harmonics straight from the lat-long image: no resampling error.
     job.setActivity("projecting the environment");
-    const std::vector<glm::vec3> radiance = projectLatLong(environment, 5, job);
+    const std::vector<glm::vec3> radiance = projectLatLong(environment, kMaxShOrder, job);
     std::ranges::copy(radiance, maps.radianceSh.begin());
     std::copy_n(radiance.begin(), 9, maps.irradianceSh.begin());
     convolveWithCosine(maps.irradianceSh);

@@ -25,7 +25,7 @@ struct IblMaps {
     CubeLevel irradiance;               // E(n) = ∫ L(l) max(n·l, 0) dl; empty unless asked for
     std::array<glm::vec3, 9>
         irradianceSh; // E(n) = Σ irradianceSh[i] Y_i(n), Y as in shaders/shared/sh.glsl
-    std::array<glm::vec3, 25> radianceSh; // L_i of the environment, 5 bands, for PRT
+    std::array<glm::vec3, 64> radianceSh; // L_i of the environment, 8 bands, for transfer
 };
 
 [[nodiscard]] std::size_t memoryBytes(const IblMaps& maps); // of all texels

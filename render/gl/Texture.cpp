@@ -186,6 +186,16 @@ void Texture::uploadRows(int level, int firstRow, int rows, int channels, Sample
                         pixelLayout(m_settings.format, channels), componentType(type), data);
 }
 
+void Texture::copyFrom(const Buffer& rgba) {
+    CHECK(m_settings.kind == TextureKind::Flat);
+    CHECK_EQ(rgba.size(), static_cast<std::size_t>(width()) * static_cast<std::size_t>(height()) *
+                              4 * sizeof(float));
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, rgba.id());
+    glTextureSubImage2D(id(), 0, 0, 0, width(), height(), GL_RGBA, GL_FLOAT, nullptr);
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+}
+
 void Texture::uploadFace(int face, int level, int channels, SampleType type, const void* data) {
     CHECK(m_settings.kind == TextureKind::Cube);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);

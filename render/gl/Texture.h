@@ -1,6 +1,7 @@
 // A texture of fixed format and size, with its sampling settings.
 #pragma once
 
+#include "render/gl/Buffer.h"
 #include "render/gl/Context.h"
 #include "render/gl/Handle.h"
 
@@ -70,6 +71,9 @@ class Texture {
     // Rows of a level, `data` as above. Flat only.
     void uploadRows(int level, int firstRow, int rows, int channels, SampleType type,
                     const void* data);
+    // All of level 0 from a buffer of RGBA floats, rows as above; nothing leaves the GPU. Flat
+    // only.
+    void copyFrom(const Buffer& rgba);
     void uploadFace(int face, int level, int channels, SampleType type, const void* data);
     void generateMipmaps();
 

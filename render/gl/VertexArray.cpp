@@ -16,12 +16,17 @@ VertexArray::VertexArray(Context&, std::string_view label) {
 }
 
 void VertexArray::setFloats(unsigned location, int components, const Buffer& buffer,
-                            std::size_t offset, std::size_t stride) {
+                            std::size_t offset, std::size_t stride) const {
     glEnableVertexArrayAttrib(id(), location);
     glVertexArrayAttribFormat(id(), location, components, GL_FLOAT, GL_FALSE, 0);
     glVertexArrayAttribBinding(id(), location, location);
     glVertexArrayVertexBuffer(id(), location, buffer.id(), static_cast<GLintptr>(offset),
                               static_cast<GLsizei>(stride));
+}
+
+void VertexArray::setConstant(unsigned location) const {
+    glDisableVertexArrayAttrib(id(), location);
+    glVertexAttrib4f(location, 0.0f, 0.0f, 0.0f, 0.0f);
 }
 
 void VertexArray::setIndices(const Buffer& buffer) {

@@ -16,8 +16,11 @@ class VertexArray {
     [[nodiscard]] bool empty() const { return id() == 0; }
 
     // `components` floats for attribute `location` at `offset` + i · `stride` bytes.
+    // The array's state is the driver's: what is const here is which array it is.
     void setFloats(unsigned location, int components, const Buffer& buffer, std::size_t offset,
-                   std::size_t stride);
+                   std::size_t stride) const;
+    // Zero for all vertices.
+    void setConstant(unsigned location) const;
     void setIndices(const Buffer& buffer); // 32-bit
 
     void bind() const;

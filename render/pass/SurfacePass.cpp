@@ -17,7 +17,7 @@ constexpr std::array<const char*, kSurfaceFeatureCount> kDefines{
     "ALPHA_MASK",         "ALPHA_BLEND",      "DOUBLE_SIDED",        "HAS_PLACEHOLDER",
     "HAS_TEXEL_AO",       "HAS_VERTEX_AO",    "HAS_TRANSFER",        "HAS_PUNCTUAL_LIGHTS",
     "HAS_AREA_LIGHTS",    "HAS_SHADOWS",      "HAS_SHADOWS_2",       "HAS_SHADOWS_3",
-    "HAS_SHADOWS_4",      "HAS_LAMP"};
+    "HAS_SHADOWS_4",      "HAS_LAMP",         "HAS_TEXEL_TRANSFER",  "HAS_TRANSFER_CONE"};
 
 // The choices of the model: name of the define, value, default.
 struct ModelChoice {
@@ -43,7 +43,8 @@ unsigned modelKey(const ShadingModel& model) {
     return key;
 }
 
-constexpr unsigned kVisibilityUnit = 6, kPrefilteredUnit = 7, kDfgUnit = 8, kLobesUnit = 9;
+constexpr unsigned kVisibilityUnit = 6, kPrefilteredUnit = 7, kDfgUnit = 8, kLobesUnit = 9,
+                   kExitUnit = 13, kConeUnit = 14, kNumbersUnit = 15; // 10…12: shadows
 
 // A few lights are unrolled into the program, which is much faster on software OpenGL; many, or
 // area lights, whose code is long, run in loops. Zero: loops. Shadows are unrolled with their
@@ -89,8 +90,16 @@ unsigned surfaceFeatures(unsigned material, const SurfaceBakes& bakes,
         features |= HasShadows << i;
     if (settings.hasAreaLights)
         features |= HasAreaLights;
-    if (readsBake(settings.lighting) && bakes.transfer)
+    const bool openSky = settings.lighting == LightingMode::Unshadowed;
+    if (openSky || (readsBake(settings.lighting) && bakes.transfer))
         features |= HasTransfer;
+    // Views show what a bake knows in other light, too; only an open sky knows of none.
+    if (bakes.transfer &&
+        (readsBake(settings.lighting) || (settings.output != SurfaceOutput::Picture && !openSky))) {
+        features |= HasTransferCone;
+        if (bakes.texelTransfer)
+            features |= HasTexelTransfer;
+    }
     if (settings.lighting == LightingMode::Cosine)
         features |= HasLamp;
     // One source of ambient visibility is used; the others would only cost fetches.
@@ -109,7 +118,9 @@ unsigned surfaceFeatures(unsigned material, const SurfaceBakes& bakes,
 unsigned surfaceFeatures(const DrawItem& item, const SurfaceSettings& settings) {
     return surfaceFeatures(
         item.material->features,
-        {item.transfer != nullptr, item.texelAo != nullptr, item.visibility != nullptr}, settings);
+        {item.transfer != nullptr, item.transfer && item.transfer->side > 0,
+         item.texelAo != nullptr, item.visibility != nullptr},
+        settings);
 }
 
 SurfaceVariant surfaceVariant(unsigned features, const SurfaceSettings& settings) {
@@ -159,6 +170,34 @@ void drawItem(const DrawItem& item, bool cull, bool coarse) {
         glDrawElements(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_INT, nullptr);
 }
 
+// What the variant reads of a bake: textures, or attributes of the mesh's vertices.
+static void bindTransfer(const DrawItem& item, unsigned features, LightingMode lighting) {
+    if (features & HasTexelTransfer) {
+        if (features & HasTransfer)
+            item.lit->stage(lighting).texels.bind(kExitUnit);
+        item.transfer->coneTexels.bind(kConeUnit);
+        if (!item.transfer->numberTexels.empty())
+            item.transfer->numberTexels.bind(kNumbersUnit);
+        else
+            glBindTextureUnit(kNumbersUnit, 0); // reads as zero
+        return;
+    }
+    const gl::VertexArray& array = item.mesh->array;
+    constexpr std::size_t kVector = 4 * sizeof(float);
+    if (features & HasTransfer) {
+        const LitElements& lit =
+            lighting == LightingMode::Unshadowed ? *item.litVertices : *item.lit;
+        array.setFloats(4, 3, lit.stage(lighting).values, 0, kVector);
+    }
+    if (features & HasTransferCone) {
+        array.setFloats(5, 4, item.transfer->cone, 0, kVector);
+        if (!item.transfer->numbers.empty())
+            array.setFloats(6, 2, item.transfer->numbers, 0, 2 * sizeof(float));
+        else
+            array.setConstant(6);
+    }
+}
+
 Result<const gl::Program*> SurfacePass::program(unsigned features,
                                                 const SurfaceSettings& settings) {
     const SurfaceVariant variant = surfaceVariant(features, settings);
@@ -201,8 +240,7 @@ Result<void> SurfacePass::draw(const GpuScene& scene, const std::vector<const Dr
             item->texelAo->bind(kVisibilityUnit);
         if (features & HasVertexAo)
             item->visibility->bindStorage(kVisibilityBinding);
-        if (features & HasTransfer)
-            item->transfer->bindStorage(kTransferBinding);
+        bindTransfer(*item, features, settings.lighting);
         drawItem(*item, !item->material->doubleSided,
                  settings.coarseView && coarseSuffices(*item, *settings.coarseView));
     }

@@ -60,7 +60,8 @@ class SurfacePass {
 
 // Baked values that an item is drawn with.
 struct SurfaceBakes {
-    bool transfer = false, texelAo = false, vertexAo = false;
+    bool transfer = false, texelTransfer = false; // the latter: per texel
+    bool texelAo = false, vertexAo = false;
 };
 
 // Bits of SurfaceFeature that an item needs under these settings. `material`: its own.

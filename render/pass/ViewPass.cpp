@@ -28,8 +28,9 @@ gl::Texture makeColors(gl::Context& context) {
 } // namespace
 
 ViewKind recordedFor(ViewKind kind) {
-    const bool fromPicture =
-        viewInfo(kind).group == ViewGroup::Picture && kind != shading::kViewFurnace;
+    const ViewGroup group = viewInfo(kind).group;
+    const bool fromPicture = group == ViewGroup::Lighting ||
+                             (group == ViewGroup::Picture && kind != shading::kViewFurnace);
     return fromPicture || kind == shading::kViewWireframe || kind == shading::kViewFlat
                ? shading::kViewFinal
                : kind;

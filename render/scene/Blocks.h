@@ -12,12 +12,13 @@
 namespace patina::render {
 
 inline constexpr unsigned kFrameBinding = 0, kInstanceBinding = 1, kMaterialBinding = 2,
-                          kModelBinding = 3, kShadowBinding = 4, kViewsBinding = 6;
-inline constexpr unsigned kVisibilityBinding = 0, kTransferBinding = 1,
-                          kRecordsBinding = 2; // storage blocks
+                          kModelBinding = 3, kShadowBinding = 4, kViewsBinding = 6,
+                          kTransferLightBinding = 7;
+inline constexpr unsigned kVisibilityBinding = 0, kRecordsBinding = 2,
+                          kExitBinding = 3; // storage blocks
 inline constexpr int kMaxLights = 64;
-inline constexpr int kMaxShadows = 4;        // lights that have a shadow map
-inline constexpr int kMaxTransferCount = 25; // order 5
+inline constexpr int kMaxShadows = 4;                // lights that have a shadow map
+inline constexpr std::size_t kMaxTransferCount = 64; // order 8
 
 struct LightBlock {
     glm::vec4 place{0.0f}, color{0.0f}, axis{0.0f}, side{0.0f};
@@ -33,7 +34,6 @@ struct FrameBlock {
     float prefilteredSide = 1.0f;
     glm::vec2 unused{0.0f};
     std::array<glm::uvec4, 4> irradianceSh{}; // see packIrradiance()
-    std::array<glm::vec4, kMaxTransferCount> radianceSh{};
     glm::vec4 lamp{0.0f}, lampIrradiance{0.0f};
     glm::vec2 mix{1.0f};
     glm::vec2 reserved{0.0f};
@@ -43,7 +43,7 @@ struct FrameBlock {
 static_assert(offsetof(FrameBlock, cameraPosition) == 192);
 static_assert(offsetof(FrameBlock, radianceScale) == 224);
 static_assert(offsetof(FrameBlock, irradianceSh) == 256);
-static_assert(sizeof(FrameBlock) == 256 + 33 * 16 + kMaxLights * sizeof(LightBlock));
+static_assert(sizeof(FrameBlock) == 256 + 8 * 16 + kMaxLights * sizeof(LightBlock));
 
 // shaders/include/shadow.glsl; see ShadowView for the numbers.
 struct ShadowBlock {
@@ -58,7 +58,7 @@ using ShadowBlocks = std::array<ShadowBlock, kMaxShadows>;
 struct InstanceBlock {
     glm::mat4 model{1.0f}, normalToWorld{1.0f};
     float handedness = 1.0f;
-    std::int32_t transferCount = 0;
+    std::int32_t reserved = 0;
     std::uint32_t id = 0;
     std::uint32_t materialId = 0;
 };

@@ -211,17 +211,21 @@ void EnvironmentLight::fill(FrameBlock& frame) const {
     frame.worldToEnvironment = glm::rotate(glm::mat4(1.0f), -angle, glm::vec3(0, 1, 0));
 
     std::array<glm::vec3, 9> irradiance{};
-    std::array<glm::vec3, kMaxTransferCount> radiance{};
     ShRotation::aboutY(angle, 3).apply(std::span<const glm::vec3>(m_irradianceSh),
                                        std::span<glm::vec3>(irradiance));
-    ShRotation::aboutY(angle, 5).apply(std::span<const glm::vec3>(m_radianceSh),
-                                       std::span<glm::vec3>(radiance));
     packIrradiance(irradiance, frame);
     const Lamp lamp = closestLamp(irradiance);
     frame.lamp = glm::vec4(lamp.toLight, 0.0f);
     frame.lampIrradiance = glm::vec4(frame.radianceScale * lamp.irradiance, 0.0f);
-    for (std::size_t i = 0; i < radiance.size(); ++i)
-        frame.radianceSh[i] = glm::vec4(frame.radianceScale * radiance[i], 0.0f);
+}
+
+TransferLightSh EnvironmentLight::transferLight(const Environment& environment) const {
+    TransferLightSh light{};
+    ShRotation::aboutY(glm::radians(environment.rotationDeg), kMaxShOrder)
+        .apply(std::span<const glm::vec3>(m_radianceSh), std::span<glm::vec3>(light));
+    for (glm::vec3& c : light)
+        c *= std::exp2(environment.exposureEv);
+    return light;
 }
 
 } // namespace patina::render

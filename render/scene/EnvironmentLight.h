@@ -14,6 +14,8 @@
 
 namespace patina::render {
 
+using TransferLightSh = std::array<glm::vec3, kMaxTransferCount>; // radiance coefficients
+
 class EnvironmentLight {
   public:
     explicit EnvironmentLight(gl::Context& context); // a grey sky until something is set
@@ -38,6 +40,9 @@ class EnvironmentLight {
     void show(const EnvironmentPart& part);
     // Rotation, scale and coefficients of what is shown for this frame.
     void fill(FrameBlock& frame) const;
+
+    // Radiance coefficients of the environment in the world, rotation and exposure included.
+    [[nodiscard]] TransferLightSh transferLight(const Environment& environment) const;
 
     // A CubeAtlas; its side and levels are in the frame's block.
     [[nodiscard]] const gl::Texture& prefiltered() const { return m_prefiltered; }
@@ -67,7 +72,7 @@ class EnvironmentLight {
     std::map<std::pair<Distribution, Visibility>, gl::Texture> m_dfgTables;
     const gl::Texture* m_dfg = nullptr; // one of them
     std::array<glm::vec3, 9> m_irradianceSh{};
-    std::array<glm::vec3, kMaxTransferCount> m_radianceSh{};
+    TransferLightSh m_radianceSh{};
     int m_prefilteredSide = 1, m_prefilteredLevels = 1;
     std::size_t m_clampedTexels = 0;
     EnvironmentPart m_wanted, m_shown;

@@ -41,9 +41,11 @@ enum SurfaceFeature : unsigned {
     HasShadows2 = 1u << 18,       // … of a second one …
     HasShadows3 = 1u << 19,
     HasShadows4 = 1u << 20,
-    HasLamp = 1u << 21, // that stands for the surroundings
+    HasLamp = 1u << 21,          // that stands for the surroundings
+    HasTexelTransfer = 1u << 22, // transfer is looked up in texels
+    HasTransferCone = 1u << 23,  // a bake says what is visible
 };
-inline constexpr int kSurfaceFeatureCount = 22;
+inline constexpr int kSurfaceFeatureCount = 24;
 
 // Two bits each: which channel of the map counts, R G B A.
 inline constexpr unsigned kMetallicChannelShift = 26, kRoughnessChannelShift = 28,

@@ -18,7 +18,7 @@ namespace {
 // default material.
 constexpr Id kFallbackMaterial = 0;
 
-InstanceBlock packInstance(const MeshInstance& mesh, int transferCount) {
+InstanceBlock packInstance(const MeshInstance& mesh) {
     const glm::mat3 linear(mesh.transform);
     InstanceBlock block;
     block.model = mesh.transform;
@@ -26,7 +26,6 @@ InstanceBlock packInstance(const MeshInstance& mesh, int transferCount) {
     // A flat transform (a scale of zero) has no inverse; its normals stay as they are.
     const bool invertible = glm::determinant(linear) != 0.0f;
     block.normalToWorld = glm::mat4(invertible ? glm::inverseTranspose(linear) : linear);
-    block.transferCount = transferCount;
     block.id = mesh.id;
     block.materialId = mesh.material;
     return block;
@@ -54,7 +53,7 @@ GpuScene::GpuScene(gl::Context& context)
     , m_lobes(makeLobes(context))
     , m_textures(context)
     , m_visibility(context, BakeKind::AoVertex)
-    , m_transfer(context, BakeKind::PrtVertex) {}
+    , m_transfer(context) {}
 
 void GpuScene::update(const Document& document, const Change& change) {
     m_document = document;
@@ -95,7 +94,8 @@ void GpuScene::update(const Document& document, const Change& change) {
         updateMeshes();
     updateMaterials();
     m_visibility.update(m_document);
-    m_transfer.update(m_document);
+    if (m_transfer.update(m_document))
+        clearBouncedLight(); // it rests on what was there before
     updateTexelBakes();
     rebuildItems();
 }
@@ -156,12 +156,12 @@ void GpuScene::rebuildItems() {
         const auto count = item.mesh->vertexCount;
         if (const auto* ao = m_visibility.find(instance.id, count); ao && ao->stride == 1)
             item.visibility = &ao->buffer;
-        int transferCount = 0;
-        if (const auto* prt = m_transfer.find(instance.id, count);
-            prt && prt->stride <= kMaxTransferCount) {
-            item.transfer = &prt->buffer;
-            transferCount = prt->stride;
-        }
+        item.transfer = m_transfer.ofMaterial(instance.material);
+        if (item.transfer == nullptr)
+            item.transfer = m_transfer.ofMesh(instance.id, count);
+        const bool perTexel = item.transfer != nullptr && item.transfer->side > 0;
+        item.litVertices = &m_lit[instance.id];
+        item.lit = perTexel ? &m_litTexels[instance.material] : item.litVertices;
         if (const auto live = m_texelPreviews.find(instance.material);
             live != m_texelPreviews.end())
             item.texelAo = &live->second;
@@ -169,7 +169,8 @@ void GpuScene::rebuildItems() {
                  baked != m_texelBakes.end())
             item.texelAo = baked->second;
 
-        const InstanceBlock block = packInstance(instance, transferCount);
+        const InstanceBlock block = packInstance(instance);
+        item.normalToWorld = glm::mat3(block.normalToWorld);
         gl::Buffer& buffer = m_instanceBlocks[instance.id];
         if (buffer.empty())
             buffer = gl::Buffer(m_context, "instance", sizeof(InstanceBlock));
@@ -181,11 +182,17 @@ void GpuScene::rebuildItems() {
         m_items.push_back(item);
     }
     std::erase_if(m_instanceBlocks, [&](const auto& entry) { return !ids.contains(entry.first); });
+    std::erase_if(m_lit, [&](const auto& entry) { return !ids.contains(entry.first); });
+    std::erase_if(m_litTexels,
+                  [&](const auto& entry) { return m_transfer.ofMaterial(entry.first) == nullptr; });
 }
 
 void GpuScene::previewVertices(BakeKind kind, Id mesh, int stride, std::span<const float> values) {
     CHECK(kind == BakeKind::AoVertex || kind == BakeKind::PrtVertex);
-    (kind == BakeKind::AoVertex ? m_visibility : m_transfer).preview(mesh, stride, values);
+    if (kind == BakeKind::AoVertex)
+        m_visibility.preview(mesh, stride, values);
+    else
+        m_transfer.preview(mesh, stride, values);
     rebuildItems();
 }
 
@@ -207,6 +214,33 @@ void GpuScene::clearPreview() {
     m_transfer.clearPreview();
     m_texelPreviews.clear();
     rebuildItems();
+}
+
+void GpuScene::setBouncedLight(Id mesh, std::span<const glm::vec3> radiance) {
+    const auto found = m_lit.find(mesh);
+    if (found == m_lit.end() || radiance.empty())
+        return;
+    std::vector<glm::vec4> values(radiance.size());
+    std::ranges::transform(radiance, values.begin(),
+                           [](const glm::vec3& c) { return glm::vec4(c, 0.0f); });
+    LitElements& lit = found->second;
+    if (lit.bouncedLight.size() != values.size() * sizeof(glm::vec4))
+        lit.bouncedLight =
+            gl::Buffer(m_context, "bounced light", values.size() * sizeof(glm::vec4));
+    lit.bouncedLight.write(0, std::as_bytes(std::span<const glm::vec4>(values)));
+    ++lit.bouncedRevision;
+}
+
+void GpuScene::clearBouncedLight() {
+    for (auto& [mesh, lit] : m_lit)
+        if (!lit.bouncedLight.empty()) {
+            lit.bouncedLight = {};
+            ++lit.bouncedRevision;
+        }
+}
+
+TransferLightSh GpuScene::transferLight() const {
+    return m_environment.transferLight(m_document.environment);
 }
 
 void GpuScene::fill(FrameBlock& frame, std::span<const Id> shadows) const {

@@ -8,6 +8,7 @@
 #include "render/scene/GpuMaterial.h"
 #include "render/scene/GpuMesh.h"
 #include "render/scene/TextureCache.h"
+#include "render/scene/TransferValues.h"
 #include "render/scene/VertexValues.h"
 
 #include <map>
@@ -23,8 +24,11 @@ struct DrawItem {
     const GpuMaterial* material = nullptr;
     const gl::Buffer* instanceBlock = nullptr;
     const gl::Buffer* visibility = nullptr; // per-vertex AO, or null
-    const gl::Buffer* transfer = nullptr;   // per-vertex PRT, or null
-    const gl::Texture* texelAo = nullptr;   // baked AO texture, or null
+    const Transfer* transfer = nullptr;     // of its vertices or its material's texels, or null
+    LitElements* lit = nullptr;             // never null: RelightPass keeps it
+    LitElements* litVertices = nullptr;     // the same, or those of its vertices
+    glm::mat3 normalToWorld{1.0f};
+    const gl::Texture* texelAo = nullptr; // baked AO texture, or null
     bool mirrored = false;
     Bounds bounds; // in the world
 };
@@ -41,6 +45,10 @@ class GpuScene {
     void previewVertices(BakeKind kind, Id mesh, int stride, std::span<const float> values);
     void previewTexels(Id material, int size, std::span<const float> values);
     void clearPreview();
+    // Radiance of unit albedo per vertex that came by way of other surfaces in the light shown.
+    // Nothing where the mesh has no transfer of as many vertices.
+    void setBouncedLight(Id mesh, std::span<const glm::vec3> radiance);
+    void clearBouncedLight();
 
     [[nodiscard]] const Document& document() const { return m_document; }
     [[nodiscard]] const EnvironmentLight& environment() const { return m_environment; }
@@ -58,6 +66,8 @@ class GpuScene {
     // The frame's uniforms that follow from the document: environment and lights. `shadows`: ids of
     // the lights that have a shadow map, by slot.
     void fill(FrameBlock& frame, std::span<const Id> shadows = {}) const;
+    // What lights transfer.
+    [[nodiscard]] TransferLightSh transferLight() const;
 
   private:
     void updateMeshes();
@@ -74,8 +84,10 @@ class GpuScene {
     std::map<MeshPtr, GpuMesh> m_meshes; // holds the mesh: an address is never reused
     std::map<Id, GpuMaterial> m_materials;
     std::map<Id, gl::Buffer> m_instanceBlocks;
-    VertexValues m_visibility, m_transfer;
-    std::map<Id, gl::Texture> m_texelPreviews; // by material
+    VertexValues m_visibility;
+    TransferValues m_transfer;
+    std::map<Id, LitElements> m_lit, m_litTexels; // by mesh, by material
+    std::map<Id, gl::Texture> m_texelPreviews;    // by material
     std::map<Id, const gl::Texture*> m_texelBakes;
     std::vector<DrawItem> m_items;
     std::uint64_t m_shapeRevision = 0;

@@ -1,6 +1,7 @@
 #include "render/view/ExplanationParts.h"
 
 #include "core/document/Edit.h"
+#include "core/document/Lighting.h"
 
 #include <algorithm>
 #include <array>
@@ -163,6 +164,14 @@ ExplainedStep openStep(const Subject& subject) {
                        {},
                        true,
                        {}};
+    if (readsBake(subject.document.view.lighting) &&
+        subject.pixel.value(kRecordVisibleCone) != glm::vec4(0.0f)) {
+        const glm::vec4 cone = subject.pixel.value(kRecordVisibleCone);
+        step.formula = "visible cone ∩ lobe, of what is open above the surface";
+        step.factors = {ofView(subject, kViewBentNormal),
+                        scalar("visibility", "Visibility of the Bake", "AO", cone.w),
+                        scalar("alphaRoughness", "α", "α", subject.rebuilt.surface.alpha)};
+    }
     compare(step, subject.rebuilt.open);
     return step;
 }

@@ -24,13 +24,11 @@ glm::vec3 straight(const glm::vec4& value) {
     return value.w > 0.0f ? glm::vec3(value) / value.w : glm::vec3(0.0f);
 }
 
+// What a bake says of occlusion is recorded where it is read.
 bool usesTransfer(const Inspection& pixel, const Document& document) {
     if (!readsBake(document.view.lighting))
         return false;
-    const BakeArtifactPtr bake = findBake(document, BakeKind::PrtVertex);
-    return bake != nullptr &&
-           std::any_of(bake->vertices.begin(), bake->vertices.end(),
-                       [&](const VertexBake& vertices) { return vertices.mesh == pixel.mesh; });
+    return pixel.value(kRecordVisibleCone) != glm::vec4(0.0f);
 }
 
 SurfaceTerms surfaceOf(const Inspection& pixel, const Document& document) {
@@ -107,8 +105,13 @@ RebuiltPixel recombine(const Inspection& pixel, const Document& document) {
     result.alpha = pixel.value(kViewAlpha).x;
 
     const float ao = pixel.value(kViewAo).x;
-    result.ao = usesTransfer(pixel, document) ? 1.0f : ao;
-    result.open = specularOcclusion(s.NoV, ao, s.alpha);
+    const bool transfer = usesTransfer(pixel, document);
+    result.ao = transfer ? 1.0f : ao;
+    result.open =
+        transfer
+            ? coneOcclusion(pixel.value(kRecordVisibleCone), s.n,
+                            glm::normalize(glm::vec3(pixel.value(kRecordLobeDirection))), s.alpha)
+            : specularOcclusion(s.NoV, ao, s.alpha);
     result.mix = mixWeights(document.view.reflectionMix);
     result.terms[0] =
         result.mix.x * shadeIrradiance(s, result.ao * straight(pixel.value(kViewIrradiance)));

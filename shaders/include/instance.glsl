@@ -6,7 +6,7 @@ layout(std140, binding = 1) uniform Instance {
     mat4 u_model;
     mat4 u_normalToWorld; // inverse transpose of the upper 3 × 3
     float u_handedness;   // -1 when the transform mirrors
-    int u_transferCount;  // transfer coefficients per vertex
+    int u_instanceReserved;
     uint u_id;
     uint u_materialId;
 };

@@ -100,6 +100,20 @@ void recordSurface(SurfaceTerms s, vec4 baseColor, float ao, vec3 dfg, float alp
     record(kRecordLobeDirection, lobeDirection(s, dfg.z));
 }
 
+#ifdef HAS_TRANSFER_CONE
+void recordBake(vec4 cone) {
+#ifdef HAS_TEXEL_TRANSFER
+    vec2 numbers = texture(u_numbersTexture, v_uv).rg;
+#else
+    vec2 numbers = v_bakeNumbers;
+#endif
+    record(kViewBentNormal, cone.xyz * inversesqrt(max(dot(cone.xyz, cone.xyz), 1e-20)));
+    record(kViewBakeError, numbers.x);
+    record(kViewSkyVisibility, numbers.y);
+    recordAs(kRecordVisibleCone, 0, cone);
+}
+#endif
+
 // D, G, F for the chosen light, or for the direction of a mirror's reflection.
 void recordChosenDirection(SurfaceTerms s, LightSums sums, vec3 specularIbl, float alpha) {
     bool mirror = u_viewLight < 0;

@@ -73,18 +73,31 @@ PT_CONST int kViewMultiScatterGain = 53;
 PT_CONST int kViewSpecularOcclusion = 54;
 PT_CONST int kViewAmbient = 55;
 
-PT_CONST int kViewCount = 56;
+// What a bake of radiance transfer knows besides.
+PT_CONST int kViewBentNormal = 56;
+PT_CONST int kViewSkyVisibility = 57;
+PT_CONST int kViewBakeError = 58;
+
+// The picture under the ways to light a scene (LightingMode), whatever the document's is.
+PT_CONST int kViewLampLight = 59;
+PT_CONST int kViewShLight = 60;
+PT_CONST int kViewUnshadowedLight = 61;
+PT_CONST int kViewShadowedLight = 62;
+PT_CONST int kViewInterreflectedLight = 63;
+
+PT_CONST int kViewCount = 64;
 
 // What the explanation of a pixel needs besides; no views of their own.
-PT_CONST int kRecordPosition = 56;
-PT_CONST int kRecordToViewer = 57;
-PT_CONST int kRecordUv = 58;
-PT_CONST int kRecordDiffuseColor = 59;
-PT_CONST int kRecordSpecularAlbedo = 60;
-PT_CONST int kRecordDfgMean = 61;
-PT_CONST int kRecordLobeDirection = 62;
-PT_CONST int kRecordToLight = 63;
+PT_CONST int kRecordPosition = 64;
+PT_CONST int kRecordToViewer = 65;
+PT_CONST int kRecordUv = 66;
+PT_CONST int kRecordDiffuseColor = 67;
+PT_CONST int kRecordSpecularAlbedo = 68;
+PT_CONST int kRecordDfgMean = 69;
+PT_CONST int kRecordLobeDirection = 70;
+PT_CONST int kRecordToLight = 71;
+PT_CONST int kRecordVisibleCone = 72;
 
-PT_CONST int kRecordCount = 64;
+PT_CONST int kRecordCount = 73;
 
 #endif

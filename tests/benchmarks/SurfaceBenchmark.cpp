@@ -7,6 +7,7 @@
 // round, so that a busy machine disturbs all alike; the table holds minima.
 #include "core/library/Library.h"
 #include "core/math/Camera.h"
+#include "render/pass/RelightPass.h"
 #include "render/pass/SurfacePass.h"
 #include "render/pass/Targets.h"
 
@@ -210,6 +211,93 @@ void surfaceTerms(benchmark::State& state, const char* model) {
     state.counters["constant_ms"] = constant;
 }
 
+// Transfer of order 5 on 100,000 vertices, lit anew, against what image-based light costs a frame:
+// irradiance and reflection of the torus knot at 1280 × 720. The coefficients' values do not
+// matter.
+void relightVertices(benchmark::State& state) {
+    auto context = gl::Context::createHeadless();
+    if (!context) {
+        state.SkipWithError("no OpenGL 4.5");
+        return;
+    }
+    Document document = litDocument("torus-knot");
+    const auto ibl = computeIbl(*document.environment.image, {}, JobContext());
+    ShaderLibrary shaders(**context, {});
+    Targets targets;
+    if (!ibl || !targets.resize(**context, kWidth, kHeight, 1)) {
+        state.SkipWithError("no light or no target");
+        return;
+    }
+    glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+    glCullFace(GL_BACK);
+    Study everything(**context, shaders, {"", {}, nullptr}, document, *ibl);
+    Study constant(**context, shaders,
+                   {"", {"CONSTANT_IRRADIANCE", "CONSTANT_REFLECTION"}, nullptr}, document, *ibl);
+
+    constexpr int kOrder = 5;
+    constexpr std::size_t kStride = kOrder * kOrder;
+    const std::size_t perMesh = document.meshes[0].mesh->vertexCount();
+    auto bake = std::make_shared<BakeArtifact>();
+    bake->kind = BakeKind::PrtVertex;
+    bake->order = kOrder;
+    std::size_t count = 0;
+    for (Id id = 100; count < 100'000; ++id, count += perMesh) {
+        MeshInstance mesh = document.meshes[0];
+        mesh.id = id;
+        document.meshes.push_back(mesh);
+        bake->vertices.push_back({id, kStride, std::vector<float>(perMesh * kStride, 0.25f),
+                                  std::vector<float>(3 * perMesh * kStride, 0.125f)});
+    }
+    document.bakes = {bake};
+    GpuScene scene(**context);
+    scene.update(document, Change::everything());
+    scene.environment().setIbl(*ibl);
+    RelightPass relight(**context, shaders);
+    TransferLightSh light = scene.transferLight();
+    const auto milliseconds = [&](LightingMode mode) {
+        light[0].x += 1e-3f; // as if it had been turned
+        const std::uint64_t before = relight.elementsDone();
+        glFinish();
+        const double start = processMilliseconds();
+        if (!relight.update(scene, mode, light))
+            return std::numeric_limits<double>::max();
+        glFinish();
+        const double spent = processMilliseconds() - start;
+        const bool bounces = mode == LightingMode::Prt;
+        const auto done = static_cast<double>(relight.elementsDone() - before);
+        return spent * 1e5 / (bounces ? done / 2.0 : done);
+    };
+    for (Study* study : {&everything, &constant}) {
+        study->draw(targets); // compiles
+        study->milliseconds = std::numeric_limits<double>::max();
+    }
+    double shadowed = 1e9, bounced = 1e9, still = 1e9;
+    milliseconds(LightingMode::Shadowed); // compiles
+    milliseconds(LightingMode::Prt);
+    for (auto _ : state) {
+        everything.draw(targets);
+        constant.draw(targets);
+        shadowed = std::min(shadowed, milliseconds(LightingMode::Shadowed));
+        bounced = std::min(bounced, milliseconds(LightingMode::Prt));
+        const double start = processMilliseconds();
+        if (relight.update(scene, LightingMode::Prt, light))
+            still = std::min(still, processMilliseconds() - start);
+    }
+    const double cost = everything.milliseconds - constant.milliseconds;
+    std::printf("\n100,000 vertices, order %d, CPU ms\n  image-based light of a frame %7.1f\n"
+                "  relit                        %7.1f\n  relit with bounces           %7.1f\n"
+                "  light that stands still      %7.3f\n",
+                kOrder, cost, shadowed, bounced, still);
+    state.counters["ibl_ms"] = cost;
+    state.counters["relit_ms"] = shadowed;
+    state.counters["relit_with_bounces_ms"] = bounced;
+    state.counters["ratio"] = shadowed / cost;
+}
+
+BENCHMARK(relightVertices)
+    ->Iterations(kRounds)
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(surfaceTerms, torus_knot, "torus-knot")
     ->Iterations(kRounds)
     ->MeasureProcessCPUTime()

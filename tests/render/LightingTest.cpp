@@ -1,12 +1,17 @@
 // The ways to light a scene, from one lamp to baked transfer, and the mix of diffuse light and
 // reflections.
 #include "core/document/Lighting.h"
+#include "core/math/Shading.h"
 #include "core/math/SphericalHarmonics.h"
+#include "render/pass/RelightPass.h"
 #include "render/scene/EnvironmentLight.h"
+#include "render/view/Recombine.h"
 #include "tests/render/RenderTest.h"
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <glm/matrix.hpp>
 
 namespace patina::render {
 namespace {
@@ -92,6 +97,286 @@ TEST_F(Lighting, ClassicalLightIgnoresOcclusion) {
         document.view.lighting = mode;
         EXPECT_NEAR(centerPixel(draw(document)).x, 4.0f * dark, 0.01f * dark);
     }
+}
+
+// --- Transfer ---
+
+constexpr float kOneOverPi = 0.318309886f;
+
+// Of an open sky: A_l / pi Y_lm(n).
+std::vector<float> openTransfer(const Mesh& mesh, int order) {
+    const auto stride = static_cast<std::size_t>(shCount(order));
+    std::vector<float> values(mesh.vertexCount() * stride);
+    for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
+        const std::span<float> own(values.data() + v * stride, stride);
+        evaluateSh(order, mesh.normals[v], own);
+        for (int l = 0; l < order; ++l)
+            for (int i = l * l; i < (l + 1) * (l + 1); ++i)
+                own[static_cast<std::size_t>(i)] *=
+                    static_cast<float>(cosineConvolution(l)) * kOneOverPi;
+    }
+    return values;
+}
+
+BakeArtifactPtr vertexBake(int order, std::vector<float> values, std::vector<float> bounced = {}) {
+    auto bake = std::make_shared<BakeArtifact>();
+    bake->kind = BakeKind::PrtVertex;
+    bake->order = order;
+    bake->vertices.push_back({1, shCount(order), std::move(values), std::move(bounced)});
+    return bake;
+}
+
+// Light with something in all eight bands, different in every channel.
+IblMaps lively() {
+    IblMaps maps = uniformIbl(glm::vec3(0.0f));
+    for (std::size_t i = 0; i < maps.radianceSh.size(); ++i) {
+        const auto x = static_cast<float>(i);
+        maps.radianceSh[i] =
+            glm::vec3(std::sin(x), std::cos(1.3f * x), std::sin(2.1f * x + 1.0f)) * 0.3f;
+    }
+    maps.radianceSh[0] = glm::vec3(8.0f, 7.0f, 6.0f);
+    std::copy_n(maps.radianceSh.begin(), 9, maps.irradianceSh.begin());
+    convolveWithCosine(maps.irradianceSh);
+    return maps;
+}
+
+Document ball() {
+    Document document = makeScene(makeSphere(64));
+    document.environment.background = BackgroundMode::Off;
+    document.materials[0].metallic = 0.0f;
+    document.materials[0].baseColor = glm::vec3(1.0f);
+    document.view.reflectionMix = 0.0f;
+    return document;
+}
+
+// Every order, against the sum on the CPU at the middle of the ball.
+TEST_F(Lighting, TransferIsTheDotProductInEveryOrder) {
+    const IblMaps maps = lively();
+    renderer().setIbl(maps);
+    Document document = ball();
+    document.view.lighting = LightingMode::Shadowed;
+    const glm::vec3 n(0.0f, 0.0f, 1.0f); // the camera looks along -Z
+    for (int order = 1; order <= 8; ++order) {
+        document.bakes = {vertexBake(order, openTransfer(*document.meshes[0].mesh, order))};
+        draw(document);
+        const Result<Image> seen = renderer().readView(shading::kViewIrradiance, ViewMode::Raw);
+        ASSERT_TRUE(seen);
+        std::vector<float> y(static_cast<std::size_t>(shCount(order)));
+        evaluateSh(order, n, std::span<float>(y));
+        glm::vec3 expected(0.0f);
+        for (int l = 0; l < order; ++l)
+            for (int i = l * l; i < (l + 1) * (l + 1); ++i)
+                expected += static_cast<float>(cosineConvolution(l)) *
+                            y[static_cast<std::size_t>(i)] *
+                            maps.radianceSh[static_cast<std::size_t>(i)];
+        const glm::vec3 drawn(pixel(*seen, 31, 31));
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(drawn[c], expected[c], 0.03f * expected[c]) << "order " << order;
+    }
+}
+
+// Of an open sky there is nothing to bake: the same light as through the transfer in closed form.
+TEST_F(Lighting, UnshadowedNeedsNoBake) {
+    renderer().setIbl(lively());
+    Document document = ball();
+    document.meshes[0].transform = glm::mat4(0.0f, 0.0f, -1.0f, 0.0f, 0.0f, 2.0f, 0.0f, 0.0f, 1.0f,
+                                             0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f);
+    document.environment.rotationDeg = 35.0f;
+    document.environment.exposureEv = 0.5f;
+    document.view.lighting = LightingMode::Unshadowed;
+    const Image open = draw(document);
+    // The transfer is in world space: that of the turned and stretched normals.
+    Mesh turned = *document.meshes[0].mesh;
+    const glm::mat3 toWorld = glm::transpose(glm::inverse(glm::mat3(document.meshes[0].transform)));
+    for (glm::vec3& normal : turned.normals)
+        normal = glm::normalize(toWorld * normal);
+    document.view.lighting = LightingMode::Shadowed;
+    document.bakes = {vertexBake(8, openTransfer(turned, 8))};
+    const Image baked = draw(document);
+    EXPECT_GT(centerPixel(open).x, 0.5f);
+    float worst = 0.0f;
+    for (std::size_t i = 0; i < open.f32().size(); ++i)
+        worst = std::max(worst, std::abs(open.f32()[i] - baked.f32()[i]));
+    EXPECT_LT(worst, 5e-3f);
+}
+
+// Half of the light straight, and of all three colours something by way of other surfaces.
+TEST_F(Lighting, BouncesAddTheirColours) {
+    renderer().setIbl(uniformIbl(glm::vec3(1.0f)));
+    Document document = ball();
+    const std::vector<float> open = openTransfer(*document.meshes[0].mesh, 3);
+    std::vector<float> half = open, bounced(3 * open.size());
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        half[i] *= 0.5f;
+        for (std::size_t c = 0; c < 3; ++c)
+            bounced[3 * i + c] = open[i] * (c == 0 ? 0.25f : c == 1 ? 0.125f : 0.0f);
+    }
+    const auto lit = [&](LightingMode mode) {
+        document.view.lighting = mode;
+        return glm::vec3(centerPixel(draw(document)));
+    };
+    document.bakes = {vertexBake(3, open)};
+    const glm::vec3 all = lit(LightingMode::Prt);
+    document.bakes = {vertexBake(3, half, bounced)};
+    const glm::vec3 shadowed = lit(LightingMode::Shadowed), full = lit(LightingMode::Prt);
+    const glm::vec3 expected = all * glm::vec3(0.75f, 0.625f, 0.5f);
+    EXPECT_GT(all.x, 0.5f);
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(shadowed[c], 0.5f * all[c], 2e-3f);
+        EXPECT_NEAR(full[c], expected[c], 2e-3f);
+    }
+
+    // What a solver found for this light replaces the coefficients, until it is taken back.
+    const std::size_t count = document.meshes[0].mesh->vertexCount();
+    renderer().setBouncedLight(1, std::vector<glm::vec3>(count, glm::vec3(0.0f, 0.0f, 0.5f)));
+    EXPECT_NEAR(centerPixel(draw(document)).z, all.z, 2e-3f);
+    EXPECT_NEAR(centerPixel(draw(document)).x, 0.5f * all.x, 2e-3f);
+    EXPECT_EQ(lit(LightingMode::Shadowed), shadowed);
+    renderer().clearBouncedLight();
+    EXPECT_EQ(lit(LightingMode::Prt), full);
+}
+
+// The left half of the texture sees nothing.
+TEST_F(Lighting, TransferPerTexel) {
+    renderer().setIbl(uniformIbl(glm::vec3(1.0f)));
+    Document document = matte();
+    document.view.reflectionMix = 0.0f;
+    document.view.lighting = LightingMode::ShIrradiance;
+    const float open = centerPixel(draw(document)).x;
+    auto bake = std::make_shared<BakeArtifact>();
+    bake->kind = BakeKind::PrtTexel;
+    bake->order = 2;
+    TexelBake texels;
+    texels.material = 2;
+    texels.side = 8;
+    texels.stride = 4;
+    texels.values.assign(8 * 8 * 4, 0.0f);
+    for (std::size_t y = 0; y < 8; ++y)
+        for (std::size_t x = 4; x < 8; ++x) {
+            float* t = texels.values.data() + 4 * (8 * y + x);
+            evaluateSh(2, glm::vec3(0, 1, 0), std::span<float>(t, 4));
+            for (int i = 1; i < 4; ++i)
+                t[i] *= 2.0f / 3.0f;
+        }
+    bake->texels = {texels};
+    document.bakes = {bake};
+    document.view.lighting = LightingMode::Prt;
+    const Image picture = draw(document);
+    EXPECT_GT(open, 0.05f);
+    EXPECT_NEAR(pixel(picture, 44, 32).x, open, 2e-3f);
+    EXPECT_NEAR(pixel(picture, 20, 32).x, 0.0f, 1e-4f);
+    // Reflections go with it.
+    document.view.reflectionMix = 1.0f;
+    const Image reflections = draw(document);
+    EXPECT_GT(pixel(reflections, 44, 32).x, 0.01f);
+    EXPECT_NEAR(pixel(reflections, 20, 32).x, 0.0f, 1e-4f);
+}
+
+// --- Only what has changed is lit again ---
+
+TEST_F(Lighting, StillLightCostsNothing) {
+    GpuScene scene(context());
+    ShaderLibrary shaders(context(), {});
+    RelightPass relight(context(), shaders);
+    Document document = ball();
+    const std::uint64_t count = document.meshes[0].mesh->vertexCount();
+    document.bakes = {vertexBake(3, openTransfer(*document.meshes[0].mesh, 3))};
+    scene.update(document, Change::everything());
+    TransferLightSh light{};
+    light[0] = glm::vec3(1.0f);
+    const auto done = [&](LightingMode mode) {
+        const std::uint64_t before = relight.elementsDone();
+        EXPECT_TRUE(relight.update(scene, mode, light).ok());
+        return relight.elementsDone() - before;
+    };
+    for (const LightingMode mode :
+         {LightingMode::Ibl, LightingMode::Cosine, LightingMode::ShIrradiance})
+        EXPECT_EQ(done(mode), 0u);
+    for (const LightingMode mode :
+         {LightingMode::Unshadowed, LightingMode::Shadowed, LightingMode::Prt}) {
+        EXPECT_EQ(done(mode), count);
+        EXPECT_EQ(done(mode), 0u);
+    }
+    // Side by side, neither takes the other's place.
+    EXPECT_EQ(done(LightingMode::Unshadowed), 0u);
+    EXPECT_EQ(done(LightingMode::Shadowed), 0u);
+    light[5].y = 0.25f;
+    EXPECT_EQ(done(LightingMode::Shadowed), count);
+    EXPECT_EQ(done(LightingMode::Shadowed), 0u);
+    scene.previewVertices(BakeKind::PrtVertex, 1, 9, openTransfer(*document.meshes[0].mesh, 3));
+    EXPECT_EQ(done(LightingMode::Shadowed), count);
+    scene.setBouncedLight(1, std::vector<glm::vec3>(count, glm::vec3(0.5f)));
+    EXPECT_EQ(done(LightingMode::Shadowed), 0u);
+    EXPECT_EQ(done(LightingMode::Prt), count);
+    EXPECT_EQ(done(LightingMode::Prt), 0u);
+}
+
+// --- Occlusion of reflections ---
+
+using shading::coneOcclusion;
+
+glm::vec4 coneOf(const glm::vec3& bent, float visibility) {
+    return {glm::normalize(bent) * visibility * 0.3257f, visibility};
+}
+
+TEST(ConeOcclusion, TakesNothingFromAnOpenSurface) {
+    const glm::vec3 n(0.0f, 0.0f, 1.0f);
+    for (const float alpha : {0.0f, 0.1f, 0.5f, 1.0f})
+        for (const float angle : {0.0f, 0.5f, 1.2f, 1.55f})
+            EXPECT_NEAR(
+                coneOcclusion(coneOf(n, 1.0f), n, {std::sin(angle), 0.0f, std::cos(angle)}, alpha),
+                1.0f, 1e-4f);
+}
+
+TEST(ConeOcclusion, FollowsWhatIsVisible) {
+    const glm::vec3 n(0.0f, 0.0f, 1.0f), up = n;
+    // Nothing is visible; less is visible; the lobe points away from what is visible.
+    EXPECT_NEAR(coneOcclusion(glm::vec4(0.0f), n, up, 0.5f), 0.0f, 1e-5f);
+    float last = 1.1f;
+    for (const float visibility : {1.0f, 0.7f, 0.4f, 0.1f}) {
+        const float open = coneOcclusion(coneOf(n, visibility), n, up, 1.0f);
+        EXPECT_LT(open, last);
+        last = open;
+    }
+    const glm::vec3 left = glm::normalize(glm::vec3(-1.0f, 0.0f, 1.0f));
+    const glm::vec3 right(-left.x, 0.0f, left.z);
+    EXPECT_GT(coneOcclusion(coneOf(left, 0.4f), n, left, 0.2f), 0.95f);
+    EXPECT_LT(coneOcclusion(coneOf(left, 0.4f), n, right, 0.2f), 0.2f);
+    // A lobe as wide as the hemisphere of a cone straight above: the share of solid angles,
+    // (1 - sqrt(1 - 0.36)) / (1 - 1 / 3) = 0.3.
+    EXPECT_NEAR(coneOcclusion(coneOf(n, 0.36f), n, up, 1.0f), 0.3f, 1e-3f);
+}
+
+// --- The explanation of a pixel ---
+
+TEST_F(Lighting, PixelsUnderTransferAddUp) {
+    Document document = makeScene(makeSphere(48));
+    document.environment.image = makeEnvironment(64, [](const glm::vec3& d) {
+        return glm::vec3(1.0f + d.x, 1.0f + 0.5f * d.y, 1.0f + d.z * d.x);
+    });
+    setIblOf(document);
+    document.materials[0].perceptualRoughness = 0.3f;
+    std::vector<float> values = openTransfer(*document.meshes[0].mesh, 4);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] *= i % 16 == 0 ? 0.2f : 0.1f;
+    document.bakes = {vertexBake(4, std::move(values))};
+    for (const LightingMode mode :
+         {LightingMode::Cosine, LightingMode::ShIrradiance, LightingMode::Unshadowed,
+          LightingMode::Shadowed, LightingMode::Prt})
+        for (const float mix : {0.5f, 0.3f}) {
+            document.view.lighting = mode;
+            document.view.reflectionMix = mix;
+            draw(document);
+            const Result<Inspection> looked = renderer().inspect(36, 30);
+            ASSERT_TRUE(looked) << looked.error().text();
+            const RebuiltPixel rebuilt = recombine(*looked, document);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(rebuilt.radiance[c], looked->radiance[c], 1.0f / 255.0f)
+                    << "mode " << static_cast<int>(mode) << " mix " << mix;
+            if (mode == LightingMode::Shadowed) {
+                EXPECT_LT(rebuilt.open, 0.99f);
+            }
+        }
 }
 
 } // namespace

@@ -1,0 +1,97 @@
+// What bakes of radiance transfer say of each mesh instance, or of each material by texels, on the
+// GPU; and the light that it lets arrive, as RelightPass keeps it up to date.
+#pragma once
+
+#include "core/document/Document.h"
+#include "render/gl/Buffer.h"
+#include "render/gl/Texture.h"
+
+#include <array>
+#include <glm/mat3x3.hpp>
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace patina::render {
+
+// Elements (vertices, or texels in rows from the top) and their coefficients.
+struct Transfer {
+    gl::Buffer direct;  // `vectors` vec4 each: the coefficients, zeros at the end
+    gl::Buffer bounced; // 3 · vectors each: red, green, blue; empty: none
+    // Per element: (-T_11, -T_1-1, T_10), along the bent normal, and the ambient visibility.
+    gl::Buffer cone;
+    gl::Buffer numbers; // per element: bake error, sky visibility; empty: the bake holds neither
+    gl::Texture coneTexels, numberTexels; // of texel bakes, instead of the buffers
+    std::size_t count = 0;
+    int side = 0; // of a texel bake, else 0
+    int stride = 0;
+    std::uint64_t revision = 0; // never the same for two uploads
+    [[nodiscard]] int vectors() const { return (stride + 3) / 4; }
+};
+
+// Radiance that a surface of albedo 1 sends out in the present light: RelightPass's own.
+struct ExitRadiance {
+    gl::Buffer values;  // vec4 for each element
+    gl::Texture texels; // the same, of texel bakes
+    // What they were made of.
+    std::uint64_t transferRevision = 0, lightRevision = 0, bouncedRevision = 0;
+    glm::mat3 normalToWorld{0.0f};
+
+    [[nodiscard]] bool sameSources(const ExitRadiance& other) const {
+        return transferRevision == other.transferRevision && lightRevision == other.lightRevision &&
+               bouncedRevision == other.bouncedRevision && normalToWorld == other.normalToWorld;
+    }
+    void takeSources(const ExitRadiance& other) {
+        transferRevision = other.transferRevision;
+        lightRevision = other.lightRevision;
+        bouncedRevision = other.bouncedRevision;
+        normalToWorld = other.normalToWorld;
+    }
+};
+
+// One for each of Unshadowed, Shadowed and Prt, so that two can be seen side by side.
+struct LitElements {
+    std::array<ExitRadiance, 3> stages;
+    // What came by way of other surfaces in the light shown, from a solver that is faster than
+    // the coefficients: vec4 for each element, replaces Transfer::bounced. Empty: none.
+    gl::Buffer bouncedLight;
+    std::uint64_t bouncedRevision = 0;
+
+    [[nodiscard]] ExitRadiance& stage(LightingMode mode) {
+        return stages[static_cast<std::size_t>(mode) -
+                      static_cast<std::size_t>(LightingMode::Unshadowed)];
+    }
+    [[nodiscard]] const ExitRadiance& stage(LightingMode mode) const {
+        return const_cast<LitElements*>(this)->stage(mode);
+    }
+};
+
+// The transfer that the document's bakes hold; a live preview hides an attached bake's values.
+class TransferValues {
+  public:
+    explicit TransferValues(gl::Context& context)
+        : m_context(context) {}
+
+    // Takes over the document's bakes, uploading what is new; whether there was any.
+    bool update(const Document& document);
+    // `values`: stride for each vertex.
+    void preview(Id mesh, int stride, std::span<const float> values);
+    void clearPreview() { m_previews.clear(); }
+
+    // Null when there is none, or one for another number of vertices.
+    [[nodiscard]] const Transfer* ofMesh(Id mesh, std::size_t vertexCount) const;
+    [[nodiscard]] const Transfer* ofMaterial(Id material) const; // texels
+
+  private:
+    Transfer upload(int stride, std::span<const float> values, std::span<const float> bounced,
+                    std::span<const float> sky, std::span<const float> error, int side);
+
+    gl::Context& m_context;
+    BakeArtifactPtr m_vertexBake, m_texelBake;
+    std::map<Id, Transfer> m_attached, m_previews; // by mesh
+    std::map<Id, Transfer> m_attachedTexels;       // by material
+    std::uint64_t m_revision = 0;
+};
+
+} // namespace patina::render
