@@ -472,7 +472,7 @@ void MainWindow::refreshTitle() {
 void MainWindow::refreshView() {
     const Document& document = m_session.controller.document();
     const LightingMode mode = document.view.lighting;
-    m_actions->lightingPrt->setEnabled(findBake(document, BakeKind::PrtVertex) != nullptr);
+    m_actions->lightingPrt->setEnabled(hasTransfer(document));
     m_actions->lightingIbl->setChecked(mode == LightingMode::Ibl);
     m_actions->lightingPrt->setChecked(mode == LightingMode::Prt);
 }
