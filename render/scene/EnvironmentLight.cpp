@@ -204,7 +204,7 @@ void EnvironmentLight::show(const EnvironmentPart& part) {
 
 void EnvironmentLight::fill(FrameBlock& frame) const {
     const float angle = glm::radians(m_shown.rotationDeg);
-    frame.radianceScale = m_wanted.scale == glm::vec3(0.0f) ? m_wanted.scale : m_shown.scale;
+    frame.radianceScale = scale();
     frame.prefilteredLevels = m_prefilteredLevels;
     frame.prefilteredSide = static_cast<float>(m_prefilteredSide);
     // The surroundings turn by `angle`, so a world direction is looked up turned back.
@@ -219,12 +219,16 @@ void EnvironmentLight::fill(FrameBlock& frame) const {
     frame.lampIrradiance = glm::vec4(frame.radianceScale * lamp.irradiance, 0.0f);
 }
 
-TransferLightSh EnvironmentLight::transferLight(const Environment& environment) const {
+glm::vec3 EnvironmentLight::scale() const {
+    return m_wanted.scale == glm::vec3(0.0f) ? m_wanted.scale : m_shown.scale;
+}
+
+TransferLightSh EnvironmentLight::transferLight() const {
     TransferLightSh light{};
-    ShRotation::aboutY(glm::radians(environment.rotationDeg), kMaxShOrder)
+    ShRotation::aboutY(glm::radians(m_shown.rotationDeg), kMaxShOrder)
         .apply(std::span<const glm::vec3>(m_radianceSh), std::span<glm::vec3>(light));
     for (glm::vec3& c : light)
-        c *= std::exp2(environment.exposureEv);
+        c *= scale();
     return light;
 }
 

@@ -42,7 +42,7 @@ class EnvironmentLight {
     void fill(FrameBlock& frame) const;
 
     // Radiance coefficients of the environment in the world, rotation and exposure included.
-    [[nodiscard]] TransferLightSh transferLight(const Environment& environment) const;
+    [[nodiscard]] TransferLightSh transferLight() const;
 
     // A CubeAtlas; its side and levels are in the frame's block.
     [[nodiscard]] const gl::Texture& prefiltered() const { return m_prefiltered; }
@@ -53,6 +53,7 @@ class EnvironmentLight {
     [[nodiscard]] std::size_t clampedTexels() const { return m_clampedTexels; }
 
   private:
+    [[nodiscard]] glm::vec3 scale() const; // of radiance
     // A texture that is filled row by row, from the top of level 0.
     struct Filling {
         gl::Texture texture;

@@ -240,7 +240,7 @@ void GpuScene::clearBouncedLight() {
 }
 
 TransferLightSh GpuScene::transferLight() const {
-    return m_environment.transferLight(m_document.environment);
+    return m_environment.transferLight();
 }
 
 void GpuScene::fill(FrameBlock& frame, std::span<const Id> shadows) const {

@@ -229,7 +229,7 @@ std::vector<SharedTermCase> makeCases() {
             // The driver's arc cosine is good to 1e-4.
             CASE("cones", surface, 0.5f, SurfaceTerms s = SURFACE;
                  O(0) = sharedCap(I(16), I(17), I(18));
-                 O(1) = coneOcclusion(vec4(I(16), I(17), I(18), I(23)), s.n, s.v, I(24));), I(17), I(18), I(23)), s.n, s.v, I(24));),
+                 O(1) = coneOcclusion(vec4(I(16), I(17), I(18), I(23)), s.n, s.v, I(24));),
             CASE("lat-long", directions, 1e-2f,
                  vec2 uv = latLongFromDirection(vec3(I(0), I(1), I(2)));
                  O(0) = uv.x; O(1) = uv.y; OUT3(2, directionFromLatLong(uv));
@@ -309,9 +309,9 @@ std::vector<SharedTermCase> makeCases() {
                 "tone map dispatch", hdr, 1e-2f, vec3 c = vec3(I(0), -I(1), 1e20f * I(2));
                 ToneCurve t; t.scale = I(3); t.white = I(4); t.k = I(5);
                 for (int i = 0; i < 7; ++i) {
-            t.curve = i;
-            vec3 shown = toneMap(c, t);
-            O(i) = shown.x + 2.0f * shown.y + 4.0f * shown.z;
+                    t.curve = i;
+                    vec3 shown = toneMap(c, t);
+                    O(i) = shown.x + 2.0f * shown.y + 4.0f * shown.z;
                 } OUT3(7, finiteRadiance(c));
                 O(10) = finiteRadiance(-I(6));),
             CASE("identity colour", unit, 1e-2f, OUT3(0, identityColor(floor(200.0f * I(0))));),
@@ -362,8 +362,8 @@ std::vector<SharedTermCase> makeCases() {
                 O(1) = specularProbability(s); vec3 t; vec3 b; orthonormalBasis(s.n, t, b);
                 OUT3(2, viewerInFrame(s, t, b)); float pdf = 0.0f;
                 if (abs(I(18) - specularProbability(s)) > 1e-3f) {
-            vec3 sampled = sampleBrdf(s, vec3(0.98f * I(16), I(17), I(18)), pdf);
-            OUT3(5, sampled);
+                    vec3 sampled = sampleBrdf(s, vec3(0.98f * I(16), I(17), I(18)), pdf);
+                    OUT3(5, sampled);
                 }),
             CASE("punctual lights", unit, 1e-2f, O(0) = rangeWindow(I(0), I(1));
                  O(1) = spotFalloff(2.0f * I(2) - 1.0f, 1.0f + 5.0f * I(3), -2.0f * I(4));
