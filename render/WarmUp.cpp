@@ -86,8 +86,8 @@ SurfaceBakes bakesOf(const Document& document, const MeshInstance& mesh) {
     const VertexBake* transfer = vertexBake(document, mesh, BakeKind::PrtVertex);
     const VertexBake* ao = vertexBake(document, mesh, BakeKind::AoVertex);
     const bool texels = texelBake(document, mesh.material, BakeKind::PrtTexel) != nullptr;
-    return {texels || (transfer && transfer->stride <= kMaxTransferCount), texels,
-            texelBake(document, mesh.material, BakeKind::AoTexel) != nullptr,
+    return {texels || (transfer && static_cast<std::size_t>(transfer->stride) <= kMaxTransferCount),
+            texels, texelBake(document, mesh.material, BakeKind::AoTexel) != nullptr,
             ao && ao->stride == 1};
 }
 
