@@ -119,13 +119,19 @@ PT_FN float specularOcclusion(float NoV, float ao, float alpha) {
     return clamp(pow(NoV + ao, exp2(-16.0f * alpha - 1.0f)) - 1.0f + ao, 0.0f, 1.0f);
 }
 
+// Arc cosine of what may lie a rounding error outside of [-1, 1]. Drivers' acos is good to 1e-4
+// only, their atan to the last digits.
+PT_FN float angleOf(float cosine) {
+    return atan(sqrt(max((1.0f - cosine) * (1.0f + cosine), 0.0f)), cosine);
+}
+
 // Solid angle that two caps of directions share, over 2 pi; all three cosines: of the caps' half angles
 // and of the angle between their axes. Exact where one cap holds the other or they are apart, smooth
 // between. Oat & Sander 2007, "Ambient Aperture Lighting", equation 2.
 PT_FN float sharedCap(float cosA, float cosB, float cosBetween) {
-    float a = acos(clamp(cosA, -1.0f, 1.0f));
-    float b = acos(clamp(cosB, -1.0f, 1.0f));
-    float between = acos(clamp(cosBetween, -1.0f, 1.0f));
+    float a = angleOf(cosA);
+    float b = angleOf(cosB);
+    float between = angleOf(cosBetween);
     float smaller = 1.0f - max(cosA, cosB);
     float inside = abs(a - b);
     float x = clamp((between - inside) / max(a + b - inside, 1e-4f), 0.0f, 1.0f);
@@ -138,7 +144,8 @@ PT_FN float sharedCap(float cosA, float cosB, float cosBetween) {
 // taken for a cone about the bent normal, of half angle arccos sqrt(1 - visibility), and the lobe for
 // one of the same mean cosine, which 1 / (1 + 2 alpha^1.25) gives within 0.02 of GGX' prefilter kernel.
 // Their share is divided by that of the open hemisphere, so that nothing is lost where nothing is
-// hidden. Bands 0 and 1 know no sharp edges: the lobe is never narrower than that of alpha = 0.15.
+// hidden; a lobe on the horizon keeps 0.07 at least, and what points further down fades out.
+// Bands 0 and 1 know no sharp edges: the lobe is never narrower than that of alpha = 0.15.
 PT_FN float coneOcclusion(vec4 cone, vec3 n, vec3 r, float alpha) {
     vec3 bent = vec3(cone.x, cone.y, cone.z);
     float length2 = dot(bent, bent);
@@ -146,7 +153,7 @@ PT_FN float coneOcclusion(vec4 cone, vec3 n, vec3 r, float alpha) {
     float cosLobe = 1.0f / (1.0f + 2.0f * pow(max(alpha, 0.15f), 1.25f));
     float cosVisible = sqrt(clamp(1.0f - cone.w, 0.0f, 1.0f));
     float open = sharedCap(0.0f, cosLobe, dot(n, r));
-    return clamp(sharedCap(cosVisible, cosLobe, dot(axis, r)) / max(open, 1e-4f), 0.0f, 1.0f);
+    return clamp(sharedCap(cosVisible, cosLobe, dot(axis, r)) / max(open, 0.05f), 0.0f, 1.0f);
 }
 
 // ---- Shading -----------------------------------------------------------------------------------

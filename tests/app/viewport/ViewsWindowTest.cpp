@@ -131,7 +131,7 @@ TEST_F(ViewsWindowTest, EveryLetterShowsItsView) {
             continue;
         ++letters;
         EXPECT_FALSE(QStringLiteral("WASDQEFG").contains(letter)) << info.id;
-        key(letter[0].unicode());
+        key(QKeySequence(letter)[0].key());
         EXPECT_EQ(shown(), info.kind) << info.id;
     }
     EXPECT_GE(letters, 10);

@@ -114,7 +114,7 @@ TEST(IblCache, RefusesSizesThatDoNotFit) {
     const std::uint32_t headers[][3] = {
         {0, 16, 0}, {3, 4096, 0}, {4'000'000'000u, 16, 0}, {8, 16, 0}, {1, 16, 4'000'000'000u}};
     for (const auto& numbers : headers) {
-        Bytes bytes(24 + 34 * 12);
+        Bytes bytes(24 + 73 * 12);
         std::memcpy(bytes.data(), "PTIBL001", 8);
         std::memcpy(bytes.data() + 8, numbers, 12);
         const Hash hash = hashBytes(bytes);
@@ -129,7 +129,7 @@ TEST(IblCache, ForgetsWhatWasUsedLongestAgo) {
     const test::TemporaryFolder folder;
     const IblMaps maps = mapsOf(sky(1.0f));
     // 6 (16² + 8² + 4² + 4²) texels and a little
-    const std::uint64_t each = memoryBytes(maps) - sizeof(IblMaps) + 24 + 34 * 12 + 16;
+    const std::uint64_t each = memoryBytes(maps) - sizeof(IblMaps) + 24 + 73 * 12 + 16;
     const IblCache cache(folder.path(), 3 * each);
     std::vector<Hash> keys;
     for (int i = 0; i < 5; ++i) {
