@@ -116,11 +116,10 @@ unsigned surfaceFeatures(unsigned material, const SurfaceBakes& bakes,
 }
 
 unsigned surfaceFeatures(const DrawItem& item, const SurfaceSettings& settings) {
-    return surfaceFeatures(
-        item.material->features,
-        {item.transfer != nullptr, item.transfer && item.transfer->side > 0,
-         item.texelAo != nullptr, item.visibility != nullptr},
-        settings);
+    return surfaceFeatures(item.material->features,
+                           {item.transfer != nullptr, item.transfer && item.transfer->side > 0,
+                            item.texelAo != nullptr, item.visibility != nullptr},
+                           settings);
 }
 
 SurfaceVariant surfaceVariant(unsigned features, const SurfaceSettings& settings) {
