@@ -13,8 +13,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // Changes whenever computeIbl() would compute something else.
-constexpr std::uint32_t kAlgorithm = 4;
-constexpr char kMagic[8] = {'P', 'T', 'I', 'B', 'L', '0', '0', '2'};
+constexpr std::uint32_t kAlgorithm = 5;
+constexpr char kMagic[8] = {'P', 'T', 'I', 'B', 'L', '0', '0', '3'};
 constexpr const char* kExtension = ".ibl";
 constexpr std::size_t kMaxFile = std::size_t{1} << 30;
 constexpr std::uint32_t kMaxLevels = 16, kMaxSize = 4096;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstring>
 #include <fstream>
@@ -110,19 +111,31 @@ TEST(IblCache, RefusesSizesThatDoNotFit) {
     // A valid hash around an impossible header: huge sizes must not be allocated.
     const test::TemporaryFolder folder;
     const IblCache cache(folder.path());
-    const Hash key = IblCache::key(sky(1.0f), {});
-    const std::uint32_t headers[][3] = {
-        {0, 16, 0}, {3, 4096, 0}, {4'000'000'000u, 16, 0}, {8, 16, 0}, {1, 16, 4'000'000'000u}};
-    for (const auto& numbers : headers) {
-        Bytes bytes(24 + 73 * 12);
-        std::memcpy(bytes.data(), "PTIBL001", 8);
-        std::memcpy(bytes.data() + 8, numbers, 12);
+    const Image image = sky(1.0f);
+    const Hash key = IblCache::key(image, {});
+    ASSERT_TRUE(cache.store(key, mapsOf(image)).ok());
+    const Bytes whole = readFile(cache.file(key), 1 << 20).value();
+    // Returns whether the file is still taken with its counts (levels, size, smallest level,
+    // irradiance) replaced.
+    const auto taken = [&](const std::uint32_t(&counts)[4]) {
+        Bytes bytes(whole.begin(), whole.end() - sizeof(Hash));
+        std::memcpy(bytes.data() + 8, counts, sizeof(counts));
         const Hash hash = hashBytes(bytes);
-        bytes.resize(bytes.size() + sizeof(hash));
+        bytes.resize(whole.size());
         std::memcpy(bytes.data() + bytes.size() - sizeof(hash), &hash, sizeof(hash));
-        ASSERT_TRUE(writeFileAtomically(cache.file(key), bytes).ok());
-        EXPECT_FALSE(cache.find(key).has_value());
-    }
+        EXPECT_TRUE(writeFileAtomically(cache.file(key), bytes).ok());
+        return cache.find(key).has_value();
+    };
+    EXPECT_TRUE(taken({3, 16, 4, 4})); // as they were
+    for (const auto& counts : {std::array<std::uint32_t, 4>{0, 16, 4, 4},
+                               {3, 4096, 4, 4},
+                               {4'000'000'000u, 16, 4, 4},
+                               {8, 16, 4, 4},
+                               {3, 16, 0, 4},
+                               {3, 16, 32, 4},
+                               {3, 16, 4, 8},
+                               {3, 16, 4, 4'000'000'000u}})
+        EXPECT_FALSE(taken({counts[0], counts[1], counts[2], counts[3]})) << counts[1];
 }
 
 TEST(IblCache, ForgetsWhatWasUsedLongestAgo) {
