@@ -1,5 +1,6 @@
 #include "core/bake/BounceSolver.h"
 
+#include "core/bake/BounceGather.h"
 #include "core/base/Check.h"
 #include "core/job/Parallel.h"
 
@@ -7,6 +8,11 @@
 #include <cmath>
 
 namespace patina {
+
+// What leaves every element: at once, after the last bounce, and after the next.
+struct BounceSolver::Rows {
+    std::vector<float> straight, leaving, next;
+};
 
 // The maps of a mesh in the order a lookup wants them.
 struct BounceSolver::MappedSurface {
@@ -20,11 +26,6 @@ Error cancelledError() {
     return {ErrorKind::Cancelled, "Following the bounces was cancelled.", {}, {}};
 }
 
-// Numbers of an element's row: K coefficients of red, of green, of blue; a single coefficient is
-// padded to 16 bytes.
-template <std::size_t K>
-constexpr std::size_t kRow = K == 1 ? 4 : 3 * K;
-
 struct Weights {
     float corner[3];
 };
@@ -33,46 +34,6 @@ Weights weightsOf(const CachedHit& hit) {
     const float second = static_cast<float>(hit.second) * (1.0f / 65535.0f);
     const float third = static_cast<float>(hit.third) * (1.0f / 65535.0f);
     return {{1.0f - second - third, second, third}};
-}
-
-// One bounce for the elements of a chunk. `albedoOf(hit index, mesh)` is ρ.
-template <std::size_t K, class AlbedoOf>
-void gatherChunk(std::span<const CachedHit> hits, const BounceElements& elements,
-                 const AlbedoOf& albedoOf, float scale, const float* from, float* to) {
-    constexpr std::size_t row = kRow<K>;
-    float sum[row] = {};
-    for (std::size_t h = 0; h < hits.size(); ++h) {
-        const CachedHit hit = hits[h];
-        if (hit.triangle() != CachedHit::kNoTriangle) {
-            const BounceElements::Triangle& triangle = elements.triangles()[hit.triangle()];
-            const std::uint32_t side = hit.back() ? elements.meshes()[triangle.mesh].toBack : 0u;
-            const Weights w = weightsOf(hit);
-            const glm::vec3 albedo = albedoOf(h, triangle.mesh);
-            const float* a = from + std::size_t{triangle.corners[0] + side} * row;
-            const float* b = from + std::size_t{triangle.corners[1] + side} * row;
-            const float* c = from + std::size_t{triangle.corners[2] + side} * row;
-            if constexpr (K == 1) {
-                for (std::size_t i = 0; i < 3; ++i)
-                    sum[i] += albedo[static_cast<int>(i)] *
-                              (w.corner[0] * a[i] + w.corner[1] * b[i] + w.corner[2] * c[i]);
-            } else {
-                for (std::size_t channel = 0; channel < 3; ++channel) {
-                    const float rho = albedo[static_cast<int>(channel)];
-                    const float wa = rho * w.corner[0], wb = rho * w.corner[1],
-                                wc = rho * w.corner[2];
-                    for (std::size_t i = channel * K; i < (channel + 1) * K; ++i)
-                        sum[i] += wa * a[i] + wb * b[i] + wc * c[i];
-                }
-            }
-        }
-        if (!hit.last())
-            continue;
-        for (std::size_t i = 0; i < row; ++i) {
-            to[i] = scale * sum[i];
-            sum[i] = 0.0f;
-        }
-        to += row;
-    }
 }
 
 } // namespace
@@ -148,33 +109,55 @@ std::span<const std::uint32_t> BounceSolver::texels(std::size_t chunk,
     return scratch;
 }
 
-template <std::size_t K>
-bool BounceSolver::gather(const std::vector<float>& from, std::vector<float>& bounced,
-                          const JobContext& job) const {
-    const BounceElements& elements = m_hits->elements();
-    std::vector<glm::vec3> uniform;
+template <class Gather>
+bool BounceSolver::forEachElement(std::size_t elements, const Gather& gather,
+                                  const JobContext& job) const {
+    const BounceElements& all = m_hits->elements();
+    std::vector<detail::AlbedoPattern> uniform;
     for (const DiffuseAlbedo& albedo : m_albedos)
-        uniform.push_back(albedo.uniform());
-    const float scale = 1.0f / static_cast<float>(m_hits->settings().samples);
-    parallelFor(job, m_hits->chunkCount(), 4, [&](std::size_t begin, std::size_t end) {
-        std::vector<CachedHit> scratch;
-        std::vector<std::uint32_t> texelScratch;
-        for (std::size_t chunk = begin; chunk < end; ++chunk) {
-            const std::span<const CachedHit> hits = m_hits->hits(chunk, scratch);
-            float* to = bounced.data() + chunk * kHitChunk * kRow<K>;
-            if (!m_anyMapped) {
-                gatherChunk<K>(
-                    hits, elements, [&](std::size_t, std::uint32_t mesh) { return uniform[mesh]; },
-                    scale, from.data(), to);
-                continue;
+        uniform.emplace_back(albedo.uniform());
+    parallelFor(
+        job, (elements + kHitChunk - 1) / kHitChunk, 4, [&](std::size_t begin, std::size_t end) {
+            std::vector<CachedHit> scratch;
+            std::vector<std::uint32_t> texelScratch;
+            std::vector<detail::GatherHit> found(
+                static_cast<std::size_t>(m_hits->settings().samples));
+            std::vector<detail::AlbedoPattern> mapped(m_anyMapped ? found.size() : 0);
+            for (std::size_t chunk = begin; chunk < end; ++chunk) {
+                const std::span<const CachedHit> hits = m_hits->hits(chunk, scratch);
+                std::span<const std::uint32_t> colors;
+                if (m_anyMapped)
+                    colors = texels(chunk, hits, texelScratch);
+                const std::size_t last = std::min((chunk + 1) * kHitChunk, elements);
+                std::size_t h = 0;
+                for (std::size_t element = chunk * kHitChunk; element < last; ++element) {
+                    std::size_t count = 0;
+                    for (bool ended = false; !ended; ++h) {
+                        const CachedHit& hit = hits[h];
+                        ended = hit.last();
+                        if (hit.triangle() == CachedHit::kNoTriangle)
+                            continue;
+                        const BounceElements::Triangle& triangle = all.triangles()[hit.triangle()];
+                        const std::uint32_t side =
+                            hit.back() ? all.meshes()[triangle.mesh].toBack : 0u;
+                        const Weights w = weightsOf(hit);
+                        detail::GatherHit& to = found[count];
+                        for (std::size_t i = 0; i < 3; ++i) {
+                            to.corners[i] = triangle.corners[i] + side;
+                            to.weights[i] = w.corner[i];
+                        }
+                        to.albedo = &uniform[triangle.mesh];
+                        if (m_anyMapped) {
+                            mapped[count] =
+                                detail::AlbedoPattern(m_albedos[triangle.mesh].of(colors[h]));
+                            to.albedo = &mapped[count];
+                        }
+                        ++count;
+                    }
+                    gather(element, std::span(found).first(count));
+                }
             }
-            const std::span<const std::uint32_t> colors = texels(chunk, hits, texelScratch);
-            gatherChunk<K>(
-                hits, elements,
-                [&](std::size_t h, std::uint32_t mesh) { return m_albedos[mesh].of(colors[h]); },
-                scale, from.data(), to);
-        }
-    });
+        });
     return !job.cancelled();
 }
 
@@ -183,16 +166,15 @@ Result<std::vector<glm::vec3>> BounceSolver::solveLight(std::span<const glm::vec
                                                         int bounces, const JobContext& job) const {
     const BounceElements& elements = m_hits->elements();
     CHECK_EQ(direct.size(), elements.fronts());
-    constexpr std::size_t row = kRow<1>;
+    const detail::BounceGather& kernel = detail::bounceGathers().front();
+    constexpr std::size_t row = detail::gatherRow(3);
     std::vector<float> straight(elements.count() * row, 0.0f);
     for (std::size_t e = 0; e < direct.size(); ++e)
         for (int c = 0; c < 3; ++c)
             straight[e * row + static_cast<std::size_t>(c)] = direct[e][c];
-    const std::size_t stride =
-        std::min(surroundings.size(),
-                 static_cast<std::size_t>(m_hits->settings().order * m_hits->settings().order));
     const std::size_t backStride =
         static_cast<std::size_t>(m_hits->settings().order * m_hits->settings().order);
+    const std::size_t stride = std::min(surroundings.size(), backStride);
     for (std::size_t e = elements.fronts(); e < elements.count(); ++e) {
         glm::vec3 sum(0.0f);
         for (std::size_t i = 0; i < stride; ++i)
@@ -201,16 +183,25 @@ Result<std::vector<glm::vec3>> BounceSolver::solveLight(std::span<const glm::vec
         for (int c = 0; c < 3; ++c)
             straight[e * row + static_cast<std::size_t>(c)] = sum[c];
     }
-    std::vector<float> leaving = straight, bounced(straight.size());
-    for (int bounce = 0; bounce < bounces; ++bounce) {
-        if (!gather<1>(leaving, bounced, job))
-            return cancelledError();
-        for (std::size_t i = 0; i < leaving.size(); ++i)
-            leaving[i] = straight[i] + bounced[i];
-    }
+    const float scale = 1.0f / static_cast<float>(m_hits->settings().samples);
+    std::vector<float> leaving = straight, next(straight.size());
     std::vector<glm::vec3> result(elements.fronts());
-    for (std::size_t e = 0; e < result.size(); ++e)
-        result[e] = {bounced[e * row], bounced[e * row + 1], bounced[e * row + 2]};
+    for (int bounce = 1; bounce <= bounces; ++bounce) {
+        const bool last = bounce == bounces; // which lights no other
+        const auto gather = [&](std::size_t e, std::span<const detail::GatherHit> hits) {
+            float sums[row];
+            kernel.colored(hits, leaving.data(), 1, sums);
+            if (last) {
+                result[e] = scale * glm::vec3(sums[0], sums[1], sums[2]);
+                return;
+            }
+            for (std::size_t i = 0; i < 3; ++i)
+                next[e * row + i] = straight[e * row + i] + scale * sums[i];
+        };
+        if (!forEachElement(last ? elements.fronts() : elements.count(), gather, job))
+            return cancelledError();
+        leaving.swap(next);
+    }
     return result;
 }
 
@@ -221,60 +212,71 @@ Result<std::vector<float>> BounceSolver::solve(std::span<const float> direct, in
     const auto stride = static_cast<std::size_t>(order * order);
     CHECK_EQ(direct.size(), elements.fronts() * stride);
     std::vector<float> result(elements.fronts() * 3 * stride);
+    Rows rows;
 
-    // A few coefficients at a time: their rows of all elements fit the cache, and what is needed
-    // beside the result is small.
-    bool complete = true;
-    const auto solveGroup = [&]<std::size_t K>(std::integral_constant<std::size_t, K>,
-                                               std::size_t first) {
-        constexpr std::size_t row = kRow<K>;
-        const auto transfer = [&](std::size_t e, std::size_t i) {
-            return e < elements.fronts()
-                       ? direct[e * stride + i]
-                       : m_hits->backTransfer()[(e - elements.fronts()) * stride + i];
-        };
-        std::vector<float> leaving(elements.count() * row, 0.0f), bounced(leaving.size());
-        const auto addDirect = [&] {
-            parallelFor(job, elements.count(), 4096, [&](std::size_t begin, std::size_t end) {
-                for (std::size_t e = begin; e < end; ++e)
-                    for (std::size_t i = 0; i < K; ++i) {
-                        const float t = transfer(e, first + i);
-                        for (std::size_t channel = 0; channel < 3; ++channel)
-                            leaving[e * row + channel * K + i] =
-                                t + bounced[e * row + channel * K + i];
-                    }
-            });
-        };
-        addDirect();
-        for (int bounce = 0; bounce < bounces; ++bounce) {
-            if (bounce > 0)
-                addDirect();
-            if (!gather<K>(leaving, bounced, job))
-                return false;
-        }
-        for (std::size_t e = 0; e < elements.fronts(); ++e)
-            for (std::size_t i = 0; i < K; ++i)
-                for (std::size_t channel = 0; channel < 3; ++channel)
-                    result[(e * stride + first + i) * 3 + channel] =
-                        bounced[e * row + channel * K + i];
-        return true;
-    };
-    for (std::size_t first = 0; first < stride && complete;) {
-        const std::size_t left = stride - first;
-        if (left >= 8) {
-            complete = solveGroup(std::integral_constant<std::size_t, 8>{}, first);
-            first += 8;
-        } else if (left >= 4) {
-            complete = solveGroup(std::integral_constant<std::size_t, 4>{}, first);
-            first += 4;
-        } else {
-            complete = solveGroup(std::integral_constant<std::size_t, 1>{}, first);
-            first += 1;
-        }
+    // A few coefficients at a time: their rows of all elements stay in the cache, and what is
+    // needed beside the result is small.
+    const std::size_t groups =
+        (stride + detail::kMaxGatherCoefficients - 1) / detail::kMaxGatherCoefficients;
+    for (std::size_t group = 0; group < groups; ++group) {
+        const std::size_t first = stride * group / groups;
+        if (!solveGroup(direct, bounces, first, stride * (group + 1) / groups - first, rows, result,
+                        job))
+            return cancelledError();
     }
-    if (!complete)
-        return cancelledError();
     return result;
+}
+
+bool BounceSolver::solveGroup(std::span<const float> direct, int bounces, std::size_t first,
+                              std::size_t count, Rows& rows, std::vector<float>& result,
+                              const JobContext& job) const {
+    const BounceElements& elements = m_hits->elements();
+    const detail::BounceGather& kernel = detail::bounceGathers().front();
+    const auto stride =
+        static_cast<std::size_t>(m_hits->settings().order * m_hits->settings().order);
+    const float scale = 1.0f / static_cast<float>(m_hits->settings().samples);
+
+    // What comes straight from the surroundings has no colour yet: the first bounce reads one
+    // number for each coefficient, not three.
+    const std::size_t greyRow = detail::gatherRow(count);
+    auto& [straight, leaving, next] = rows;
+    straight.resize(elements.count() * greyRow); // what pads the rows is never looked at
+    parallelFor(job, elements.count(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t e = begin; e < end; ++e)
+            for (std::size_t i = 0; i < count; ++i)
+                straight[e * greyRow + i] =
+                    e < elements.fronts()
+                        ? direct[e * stride + first + i]
+                        : m_hits->backTransfer()[(e - elements.fronts()) * stride + first + i];
+    });
+
+    const std::size_t row = detail::gatherRow(3 * count);
+    for (int bounce = 1; bounce <= bounces; ++bounce) {
+        const bool last = bounce == bounces; // which lights no other
+        next.resize(elements.count() * row);
+        const auto gather = [&](std::size_t e, std::span<const detail::GatherHit> hits) {
+            float sums[detail::gatherRow(3 * detail::kMaxGatherCoefficients)];
+            if (bounce == 1)
+                kernel.grey(hits, straight.data(), count, sums);
+            else
+                kernel.colored(hits, leaving.data(), count, sums);
+            if (last) {
+                float* to = result.data() + (e * stride + first) * 3;
+                for (std::size_t i = 0; i < 3 * count; ++i)
+                    to[i] = scale * sums[i];
+                return;
+            }
+            float* to = next.data() + e * row;
+            const float* from = straight.data() + e * greyRow;
+            for (std::size_t i = 0; i < count; ++i)
+                for (std::size_t channel = 0; channel < 3; ++channel)
+                    to[3 * i + channel] = from[i] + scale * sums[3 * i + channel];
+        };
+        if (!forEachElement(last ? elements.fronts() : elements.count(), gather, job))
+            return false;
+        leaving.swap(next);
+    }
+    return true;
 }
 
 std::size_t BounceSolver::memoryBytes() const {

@@ -48,9 +48,15 @@ class BounceSolver {
     [[nodiscard]] std::size_t memoryBytes() const; // beside the hits
 
   private:
-    template <std::size_t K>
-    [[nodiscard]] bool gather(const std::vector<float>& from, std::vector<float>& bounced,
-                              const JobContext& job) const;
+    // Calls gather(element, its hits) for the first `elements`; false when cancelled.
+    template <class Gather>
+    [[nodiscard]] bool forEachElement(std::size_t elements, const Gather& gather,
+                                      const JobContext& job) const;
+    struct Rows;
+    // `count` of the coefficients; `rows` is scratch.
+    [[nodiscard]] bool solveGroup(std::span<const float> direct, int bounces, std::size_t first,
+                                  std::size_t count, Rows& rows, std::vector<float>& result,
+                                  const JobContext& job) const;
 
     HitSourcePtr m_hits;
     std::vector<DiffuseAlbedo> m_albedos; // per mesh
