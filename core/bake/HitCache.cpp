@@ -1,6 +1,7 @@
 #include "core/bake/HitCache.h"
 
 #include "core/bake/HemisphereSamples.h"
+#include "core/bake/HiddenElements.h"
 #include "core/base/Check.h"
 #include "core/job/Parallel.h"
 
@@ -43,11 +44,14 @@ class ChunkTracer {
         , m_samples(samples)
         , m_settings(settings) {}
 
-    // `backTransfer`: of all back elements, or empty when it is not asked for.
-    void trace(std::size_t chunk, std::vector<CachedHit>& hits, std::span<float> backTransfer) {
+    // `backTransfer`: of all back elements; `raysOut`: of all elements, how many rays leave
+    // the scene or meet a front. Both may be empty: not asked for.
+    void trace(std::size_t chunk, std::vector<CachedHit>& hits, std::span<float> backTransfer,
+               std::span<std::uint32_t> raysOut) {
         const FlushDenormals flush;
         hits.clear();
         m_backTransfer = backTransfer;
+        m_raysOut = raysOut;
         const std::size_t first = chunk * kHitChunk;
         const std::size_t end = std::min(first + kHitChunk, m_points.size());
         m_rays.clear();
@@ -96,6 +100,7 @@ class ChunkTracer {
     }
 
     void miss(const ClosestRay& closest) {
+        countRayOut(closest);
         if (closest.ray.id < m_elements.fronts() || m_backTransfer.empty())
             return;
         const auto stride = static_cast<std::size_t>(m_settings.order * m_settings.order);
@@ -103,7 +108,12 @@ class ChunkTracer {
                  m_backTransfer.subspan((closest.ray.id - m_elements.fronts()) * stride, stride));
     }
 
-    void hit(const ClosestRay& closest, std::vector<CachedHit>& hits) const {
+    void countRayOut(const ClosestRay& closest) {
+        if (!m_raysOut.empty())
+            ++m_raysOut[closest.ray.id];
+    }
+
+    void hit(const ClosestRay& closest, std::vector<CachedHit>& hits) {
         const BounceElements::MeshPart& part = m_elements.meshes()[closest.mesh];
         // The front is where the vertex normals point, whichever way the triangle is wound: that
         // is the side whose light the elements know.
@@ -114,7 +124,9 @@ class ChunkTracer {
                                  closest.v * mesh.normals[corner[2]];
         const bool back = (glm::dot(closest.geometricNormal, normal) < 0.0f) ==
                           (glm::dot(closest.geometricNormal, closest.ray.direction) < 0.0f);
-        if (back && !part.doubleSided)
+        if (!back)
+            countRayOut(closest);
+        else if (!part.doubleSided)
             return;
         const auto quantised = [](float weight) {
             return static_cast<std::uint16_t>(
@@ -131,6 +143,7 @@ class ChunkTracer {
     const HemisphereSamples& m_samples;
     const HitSettings& m_settings;
     std::span<float> m_backTransfer;
+    std::span<std::uint32_t> m_raysOut;
     std::vector<ClosestRay> m_rays;
     std::vector<glm::vec3> m_scratch;
     std::size_t m_open = 0, m_begin = 0; // the element in work, and its first hit
@@ -140,6 +153,38 @@ class ChunkTracer {
 void scaleBackTransfer(std::span<float> values, int samples) {
     for (float& value : values)
         value /= static_cast<float>(samples);
+}
+
+// Elements with more than every fourth ray ending at a back. Where backs come into view little by
+// little it hardly matters which of two neighbours tells; where they do at once, something begins.
+std::vector<std::uint8_t> hiddenOf(const std::vector<std::uint32_t>& raysOut, int samples) {
+    std::vector<std::uint8_t> hidden;
+    hidden.reserve(raysOut.size());
+    for (const std::uint32_t count : raysOut)
+        hidden.push_back(4 * std::uint64_t{count} < 3 * static_cast<std::uint64_t>(samples) ? 1
+                                                                                            : 0);
+    return hidden;
+}
+
+// The chunks that hold any of the elements; both ascending.
+std::vector<std::size_t> chunksOf(const std::vector<std::uint32_t>& elements) {
+    std::vector<std::size_t> chunks;
+    for (const std::uint32_t element : elements)
+        if (chunks.empty() || chunks.back() != element / kHitChunk)
+            chunks.push_back(element / kHitChunk);
+    return chunks;
+}
+
+// Sums of the back elements of a chunk that is to be traced again.
+void clearBackTransfer(const BounceElements& elements, int order, std::size_t chunk,
+                       std::span<float> backTransfer) {
+    const auto stride = static_cast<std::size_t>(order * order);
+    const std::size_t first = std::max(chunk * kHitChunk, elements.fronts()),
+                      end = std::min((chunk + 1) * kHitChunk, elements.count());
+    for (std::size_t e = first; e < end; ++e)
+        std::fill_n(backTransfer.begin() +
+                        static_cast<std::ptrdiff_t>((e - elements.fronts()) * stride),
+                    stride, 0.0f);
 }
 
 std::size_t backValues(const BounceElements& elements, int order) {
@@ -207,21 +252,40 @@ Result<std::shared_ptr<const HitCache>>
 HitCache::trace(const RayScene& scene, const BakeGeometry& geometry, BounceElements elements,
                 const HitSettings& settings, const JobContext& job) {
     std::shared_ptr<HitCache> cache(new HitCache(std::move(elements), settings));
-    const std::vector<BakePoint> points = cache->elements().points(geometry, job);
+    std::vector<BakePoint> points = cache->elements().points(geometry, job);
     const HemisphereSamples samples(settings.seed ^ kOwnRays, 0,
                                     static_cast<std::uint32_t>(settings.samples));
     cache->m_chunks.resize(cache->chunkCount());
     cache->m_backTransfer.assign(backValues(cache->elements(), settings.order), 0.0f);
-    if (!job.cancelled())
-        parallelFor(job, cache->chunkCount(), 1, [&](std::size_t begin, std::size_t end) {
-            ChunkTracer tracer(scene, geometry, cache->elements(), points, samples, settings);
-            std::vector<CachedHit> hits;
-            for (std::size_t chunk = begin; chunk < end; ++chunk) {
-                tracer.trace(chunk, hits, cache->m_backTransfer);
-                cache->m_chunks[chunk] = std::vector<CachedHit>(hits.begin(), hits.end());
-                job.addWork(static_cast<double>(kHitChunk) * settings.samples, "rays");
-            }
-        });
+    if (job.cancelled())
+        return cancelledError();
+    std::vector<std::uint32_t> raysOut(points.size(), 0);
+    const auto traceChunk = [&](std::size_t chunk, ChunkTracer& tracer,
+                                std::vector<CachedHit>& hits) {
+        tracer.trace(chunk, hits, cache->m_backTransfer, raysOut);
+        cache->m_chunks[chunk] = std::vector<CachedHit>(hits.begin(), hits.end());
+        job.addWork(static_cast<double>(kHitChunk) * settings.samples, "rays");
+    };
+    parallelFor(job, cache->chunkCount(), 1, [&](std::size_t begin, std::size_t end) {
+        ChunkTracer tracer(scene, geometry, cache->elements(), points, samples, settings);
+        std::vector<CachedHit> hits;
+        for (std::size_t chunk = begin; chunk < end; ++chunk)
+            traceChunk(chunk, tracer, hits);
+    });
+    if (job.cancelled())
+        return cancelledError();
+
+    // What stands within something looks again, from beside it.
+    const std::vector<std::size_t> again =
+        chunksOf(moveHiddenPoints(cache->elements(), hiddenOf(raysOut, settings.samples), points));
+    for (const std::size_t chunk : again)
+        clearBackTransfer(cache->elements(), settings.order, chunk, cache->m_backTransfer);
+    parallelFor(job, again.size(), 1, [&](std::size_t begin, std::size_t end) {
+        ChunkTracer tracer(scene, geometry, cache->elements(), points, samples, settings);
+        std::vector<CachedHit> hits;
+        for (std::size_t i = begin; i < end; ++i)
+            traceChunk(again[i], tracer, hits);
+    });
     if (job.cancelled())
         return cancelledError();
     scaleBackTransfer(cache->m_backTransfer, settings.samples);
@@ -261,19 +325,29 @@ Result<HitSourcePtr> HitRetracer::make(const RayScene& scene, const BakeGeometry
                                   static_cast<std::uint32_t>(settings.samples))});
     std::shared_ptr<HitRetracer> retracer(
         new HitRetracer(std::move(elements), settings, std::move(tracing)));
-    // The light that comes straight to the backs needs one round of rays.
-    const Tracing& t = *retracer->m_tracing;
-    const std::size_t fronts = retracer->elements().fronts() / kHitChunk;
-    retracer->m_backTransfer.assign(backValues(retracer->elements(), settings.order), 0.0f);
+    // One round of rays for the light that comes straight to the backs, and to find what stands
+    // within something; that looks again, from beside it.
+    Tracing& t = *retracer->m_tracing;
+    const BounceElements& all = retracer->elements();
+    retracer->m_backTransfer.assign(backValues(all, settings.order), 0.0f);
+    std::vector<std::uint32_t> raysOut(t.points.size(), 0);
+    const auto traceChunks = [&](std::size_t count, const auto& chunkAt) {
+        parallelFor(job, count, 1, [&](std::size_t begin, std::size_t end) {
+            ChunkTracer tracer(scene, geometry, all, t.points, t.samples, settings);
+            std::vector<CachedHit> hits;
+            for (std::size_t i = begin; i < end; ++i)
+                tracer.trace(chunkAt(i), hits, retracer->m_backTransfer, raysOut);
+        });
+    };
+    traceChunks(retracer->chunkCount(), [](std::size_t i) { return i; });
+    if (job.cancelled())
+        return cancelledError();
+    const std::vector<std::size_t> again =
+        chunksOf(moveHiddenPoints(all, hiddenOf(raysOut, settings.samples), t.points));
+    for (const std::size_t chunk : again)
+        clearBackTransfer(all, settings.order, chunk, retracer->m_backTransfer);
     if (!retracer->m_backTransfer.empty())
-        parallelFor(job, retracer->chunkCount() - fronts, 1,
-                    [&](std::size_t begin, std::size_t end) {
-                        ChunkTracer tracer(scene, geometry, retracer->elements(), t.points,
-                                           t.samples, settings);
-                        std::vector<CachedHit> hits;
-                        for (std::size_t chunk = begin; chunk < end; ++chunk)
-                            tracer.trace(fronts + chunk, hits, retracer->m_backTransfer);
-                    });
+        traceChunks(again.size(), [&](std::size_t i) { return again[i]; });
     if (job.cancelled())
         return cancelledError();
     scaleBackTransfer(retracer->m_backTransfer, settings.samples);
@@ -284,7 +358,7 @@ std::span<const CachedHit> HitRetracer::hits(std::size_t chunk,
                                              std::vector<CachedHit>& scratch) const {
     ChunkTracer tracer(m_tracing->scene, m_tracing->geometry, elements(), m_tracing->points,
                        m_tracing->samples, settings());
-    tracer.trace(chunk, scratch, {});
+    tracer.trace(chunk, scratch, {}, {});
     return scratch;
 }
 
