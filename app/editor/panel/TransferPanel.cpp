@@ -175,7 +175,7 @@ void TransferPanel::show(std::shared_ptr<const TransferStudy> study, const QStri
     const TransferStudy& s = *m_study;
     QStringList shares;
     for (const glm::vec3& band : s.byBand)
-        shares << plotNumber(shading::luminance(band));
+        shares << plotNumber(shading::luminance(band), 2);
     std::vector<float> coefficients;
     for (std::size_t i = 0; i < s.transfer.direct.size(); ++i) {
         const glm::vec3 c = s.transfer.coefficient(i);

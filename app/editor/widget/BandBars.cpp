@@ -34,11 +34,12 @@ void BandBars::setCoefficients(std::vector<float> coefficients, QStringList shar
     update();
 }
 
-// Wide bands have more bars, but all titles need their place.
+// Wide bands have more bars, but all numbers need their place: half of the width is shared evenly.
 QRectF BandBars::bandArea(int l) const {
     const QRectF area = QRectF(rect()).adjusted(6, plotTitleHeight(font()) + 2, -6, -4);
-    const double all = m_order * m_order + 2.0 * m_order;
-    const double begin = l * l + 2.0 * l, wide = 2.0 * l + 3.0;
+    const double even = m_order;
+    const double all = m_order * (m_order + even);
+    const double begin = l * (l + even), wide = 2.0 * l + 1.0 + even;
     return {area.left() + area.width() * begin / all, area.top(), area.width() * wide / all,
             area.height()};
 }
@@ -90,7 +91,9 @@ bool BandBars::event(QEvent* event) {
     if (event->type() == QEvent::ToolTip) {
         const auto* help = static_cast<QHelpEvent*>(event);
         const int band = bandAt(help->pos());
-        QString text;
+        QString text = m_shares.isEmpty() || band < 0
+                           ? QString()
+                           : tr("Light by band %1: %2\n").arg(band).arg(m_shares.value(band));
         for (int m = -band; band >= 0 && m <= band; ++m)
             text +=
                 tr("T(%1, %2) = %3\n")
@@ -141,8 +144,10 @@ void BandBars::paintEvent(QPaintEvent*) {
         painter.drawText(area.adjusted(0, 1, 0, 0), Qt::AlignHCenter | Qt::AlignTop,
                          on ? QString::number(l) : tr("%1 off").arg(l));
         painter.setPen(QColor(on ? tokens::kTextDim : tokens::kTextOff));
-        painter.drawText(area.adjusted(-2, 0, 2, -1), Qt::AlignHCenter | Qt::AlignBottom,
-                         m_shares.value(l));
+        const QString share = m_shares.value(l);
+        if (QFontMetricsF(painter.font()).horizontalAdvance(share) <= area.width() + 2.0)
+            painter.drawText(area.adjusted(-2, 0, 2, -1), Qt::AlignHCenter | Qt::AlignBottom,
+                             share);
     }
 }
 

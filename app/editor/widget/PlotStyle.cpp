@@ -76,14 +76,14 @@ std::vector<double> roundSteps(double min, double max, int count) {
     return steps;
 }
 
-QString plotNumber(double value) {
+QString plotNumber(double value, int digits) {
     if (value == 0.0)
         return QStringLiteral("0");
     const double size = std::abs(value);
     const QString sign = value < 0 ? QStringLiteral("−") : QString();
     int exponent = static_cast<int>(std::floor(std::log10(size)));
     if (exponent >= -3 && exponent < 5) {
-        QString text = QString::number(size, 'f', std::clamp(2 - exponent, 0, 5));
+        QString text = QString::number(size, 'f', std::clamp(digits - 1 - exponent, 0, 5));
         if (text.contains(QLatin1Char('.'))) {
             while (text.endsWith(QLatin1Char('0')))
                 text.chop(1);

@@ -24,8 +24,8 @@ inline constexpr int kPlotLooks = 4;
 
 // Round steps, about `count` of them; ascending, all inside.
 [[nodiscard]] std::vector<double> roundSteps(double min, double max, int count);
-// Three significant digits: "0.25", "1 230", "4.1·10⁻⁵".
-[[nodiscard]] QString plotNumber(double value);
+// Significant digits: "0.25", "1 230"; two at most of what needs a power, "4.1·10⁻⁵".
+[[nodiscard]] QString plotNumber(double value, int digits = 3);
 
 struct ReadoutRow {
     int look = -1; // whose sample line stands before it; -1: none
