@@ -81,12 +81,12 @@ enum class SampleMethod {
 };
 
 struct PrtSettings {
-    int order = 3;     // SH bands 1…8
-    int samples = 256; // rays per element, rounded up to a power of two
+    int order = 3;      // SH bands 1…8
+    int samples = 1024; // rays per element, rounded up to a power of two
     std::uint32_t seed = 0;
     TransferKind transfer = TransferKind::Shadowed;
-    int bounces = 3;        // Interreflected: 1…64
-    int bounceSamples = 64; // Interreflected: cached rays per vertex, rounded up to a power of two
+    int bounces = 3;         // Interreflected: 1…64
+    int bounceSamples = 256; // Interreflected: cached rays per vertex, rounded up to a power of two
     SampleMethod method = SampleMethod::Qmc;
     float tolerance = 0.0f; // RMS error of the coefficients at which to end early; 0: never
     bool fitted = true;     // vertex: least squares over points of the surface (VertexSamples.h)

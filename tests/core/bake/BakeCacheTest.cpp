@@ -98,7 +98,7 @@ TEST_F(BakeCacheTest, AnythingThatShapesTheResultIsAnotherBake) {
     BakeRequest other = request;
     other.prt.samples = 512;
     EXPECT_NE(BakeCache::key(other, inputs), key);
-    other.prt.samples = 200; // traced as 256, the default
+    other.prt.samples = 1000; // traced as 1024, the default
     EXPECT_EQ(BakeCache::key(other, inputs), key);
     other = request;
     other.prt.hitBudget = 0; // slower, and the same
