@@ -2,9 +2,35 @@
 
 #include "core/base/Check.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace patina {
+namespace {
+
+// How far along the curve that fills the unit square: directions that follow each other are
+// neighbours, and their rays travel together. Warren 2012, "Hacker's Delight", section 16-1.
+std::uint32_t alongHilbertCurve(const glm::vec2& u) {
+    constexpr std::uint32_t kSide = 1u << 12;
+    auto x = static_cast<std::uint32_t>(u.x * static_cast<float>(kSide));
+    auto y = static_cast<std::uint32_t>(u.y * static_cast<float>(kSide));
+    std::uint32_t distance = 0;
+    for (std::uint32_t half = kSide / 2; half > 0; half /= 2) {
+        const std::uint32_t right = (x & half) != 0 ? 1 : 0, upper = (y & half) != 0 ? 1 : 0;
+        distance += half * half * ((3 * right) ^ upper);
+        if (upper == 0) { // turn the quarter
+            if (right == 1) {
+                x = kSide - 1 - x;
+                y = kSide - 1 - y;
+            }
+            std::swap(x, y);
+        }
+    }
+    return distance;
+}
+
+} // namespace
 
 HemisphereSamples::HemisphereSamples(std::uint32_t seed, std::uint32_t first, std::uint32_t count,
                                      SampleMethod method)
@@ -13,21 +39,31 @@ HemisphereSamples::HemisphereSamples(std::uint32_t seed, std::uint32_t first, st
     , m_method(method) {
     if (method != SampleMethod::Qmc)
         return;
-    m_directions.resize(std::size_t{kSequences} * count);
-    for (std::uint32_t sequence = 0; sequence < kSequences; ++sequence)
-        for (std::uint32_t i = 0; i < count; ++i)
-            m_directions[std::size_t{sequence} * count + i] =
-                cosineHemisphere(sobolOwen2D(first + i, seedFor(seed, sequence)));
+    m_directions.reserve(std::size_t{kSequences} * count);
+    std::vector<std::pair<std::uint32_t, glm::vec2>> points(count);
+    for (std::uint32_t sequence = 0; sequence < kSequences; ++sequence) {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const glm::vec2 u = sobolOwen2D(first + i, seedFor(seed, sequence));
+            points[i] = {alongHilbertCurve(u), u};
+        }
+        // Few places are taken twice; sorted by a stable sort those are alike everywhere too.
+        std::ranges::stable_sort(points, {}, &std::pair<std::uint32_t, glm::vec2>::first);
+        for (const auto& [place, u] : points)
+            m_directions.push_back(cosineHemisphere(u));
+    }
 }
 
-glm::mat3 HemisphereSamples::frame(const glm::vec3& normal, std::uint32_t elementSeed) {
-    glm::vec3 t, b;
-    orthonormalBasis(normal, t, b);
+glm::vec2 HemisphereSamples::turn(std::uint32_t elementSeed) {
     // kSequences is a power of two: the bits above pick the angle.
     const float angle = static_cast<float>(elementSeed / kSequences) *
                         (2.0f * shading::kPi / (4294967296.0f / kSequences));
-    const float cosine = std::cos(angle), sine = std::sin(angle);
-    return {cosine * t + sine * b, cosine * b - sine * t, normal};
+    return {std::cos(angle), std::sin(angle)};
+}
+
+glm::mat3 HemisphereSamples::frame(const glm::vec3& normal, const glm::vec2& turn) {
+    glm::vec3 t, b;
+    orthonormalBasis(normal, t, b);
+    return {turn.x * t + turn.y * b, turn.x * b - turn.y * t, normal};
 }
 
 std::span<const glm::vec3> HemisphereSamples::drawn(std::uint32_t elementSeed,

@@ -44,6 +44,13 @@ class RangeTracer {
     struct Block {
         std::size_t first, last, begin, end, ray;
     };
+    struct Start {
+        glm::vec3 origin;
+        glm::mat3 frame;
+    };
+    struct Sides { // numbers of an element's directions
+        std::uint32_t open = 0, hidden = 0, hiddenSky = 0;
+    };
 
     void addBlock(const Block& block, std::span<const RangeElement> elements,
                   const HemisphereSamples& samples);
@@ -60,7 +67,8 @@ class RangeTracer {
     std::vector<OcclusionRay> m_rays;
     std::size_t m_filled = 0;
     std::vector<Block> m_blocks;
-    std::vector<glm::mat3> m_frames;
+    std::vector<Start> m_starts; // of the block's elements
+    std::vector<Sides> m_sides;
     std::vector<std::uint8_t> m_sumsHidden; // per element: its sum is of hidden directions
     std::vector<glm::vec3> m_sorted, m_scratch;
     std::array<float, 8> m_cosine{}; // A_l / pi of each band

@@ -5,6 +5,7 @@
 #include "core/math/Quadrature.h"
 #include "core/math/ShRotation.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -127,6 +128,36 @@ void evaluateOne(int order, const glm::vec<3, Real>& d, std::span<Real> out) {
     });
 }
 
+typedef float FourFloats __attribute__((vector_size(4 * sizeof(float)))); // NOLINT: GCC's
+
+// Four directions, coordinate by coordinate.
+[[gnu::always_inline]] inline void loadFour(const glm::vec3* directions, FourFloats& x,
+                                            FourFloats& y, FourFloats& z) {
+    FourFloats a, b, c; // x0 y0 z0 x1, y1 z1 x2 y2, z2 x3 y3 z3
+    static_assert(sizeof(glm::vec3) == 12);
+    const auto* from = reinterpret_cast<const char*>(directions);
+    __builtin_memcpy(&a, from, sizeof(a));
+    __builtin_memcpy(&b, from + sizeof(a), sizeof(b));
+    __builtin_memcpy(&c, from + 2 * sizeof(a), sizeof(c));
+    const FourFloats yzyz = __builtin_shufflevector(a, b, 1, 2, 4, 5); // of 0 and 1
+    const FourFloats xyxy = __builtin_shufflevector(b, c, 2, 3, 5, 6); // of 2 and 3
+    x = __builtin_shufflevector(a, xyxy, 0, 3, 4, 6);
+    y = __builtin_shufflevector(yzyz, xyxy, 0, 2, 5, 7);
+    z = __builtin_shufflevector(yzyz, c, 1, 3, 4, 7);
+}
+
+// Of four vectors each one's (0 + 1) + (2 + 3).
+[[gnu::always_inline]] inline FourFloats sumsOfLanes(const FourFloats* v) {
+    const FourFloats low01 = __builtin_shufflevector(v[0], v[1], 0, 4, 1, 5);
+    const FourFloats high01 = __builtin_shufflevector(v[0], v[1], 2, 6, 3, 7);
+    const FourFloats low23 = __builtin_shufflevector(v[2], v[3], 0, 4, 1, 5);
+    const FourFloats high23 = __builtin_shufflevector(v[2], v[3], 2, 6, 3, 7);
+    return (__builtin_shufflevector(low01, low23, 0, 1, 4, 5) +
+            __builtin_shufflevector(low01, low23, 2, 3, 6, 7)) +
+           (__builtin_shufflevector(high01, high23, 0, 1, 4, 5) +
+            __builtin_shufflevector(high01, high23, 2, 3, 6, 7));
+}
+
 // Azimuth sums of one image row: Σ_x L(x) {cos, sin}(m phi_x) for each channel.
 struct RowSums {
     std::array<glm::dvec3, kMaxShOrder> cosine{}, sine{};
@@ -202,30 +233,33 @@ void evaluateSh(int order, const glm::vec3& direction, std::span<float> out) {
 void sumSh(int order, std::span<const glm::vec3> directions, std::span<float> sums) {
     CHECK(order >= 1 && order <= kMaxShOrder);
     CHECK_LE(static_cast<std::size_t>(shCount(order)), sums.size());
+    if (directions.empty())
+        return;
     withOrder(order, [&]<int constantOrder>() {
-        typedef float Lanes __attribute__((vector_size(4 * sizeof(float)))); // NOLINT: GCC's
         constexpr int kCount = shCount(constantOrder);
         const glm::vec3* d = directions.data();
         std::size_t left = directions.size();
-        Lanes total[kCount] = {};
-        for (; left >= 4; left -= 4, d += 4)
-            evaluate<constantOrder, float>(Lanes{d[0].x, d[1].x, d[2].x, d[3].x},
-                                           Lanes{d[0].y, d[1].y, d[2].y, d[3].y},
-                                           Lanes{d[0].z, d[1].z, d[2].z, d[3].z},
-                                           [&](int i, const Lanes& value) { total[i] += value; });
-        if (left > 0) { // the last few, in lanes that count and lanes that do not
-            Lanes x = {}, y = {}, z = {}, counts = {};
-            for (std::size_t lane = 0; lane < left; ++lane) {
-                x[lane] = d[lane].x;
-                y[lane] = d[lane].y;
-                z[lane] = d[lane].z;
-                counts[lane] = 1.0f;
-            }
+        FourFloats total[(kCount + 3) / 4 * 4] = {}, x, y, z;
+        for (; left >= 4; left -= 4, d += 4) {
+            loadFour(d, x, y, z);
             evaluate<constantOrder, float>(
-                x, y, z, [&](int i, const Lanes& value) { total[i] += counts * value; });
+                x, y, z, [&](int i, const FourFloats& value) { total[i] += value; });
         }
-        for (int i = 0; i < kCount; ++i)
-            sums[i] += (total[i][0] + total[i][1]) + (total[i][2] + total[i][3]);
+        if (left > 0) { // the last few, in lanes that count and lanes that do not
+            constexpr FourFloats kCounts[4] = {
+                {0, 0, 0, 0}, {1, 0, 0, 0}, {1, 1, 0, 0}, {1, 1, 1, 0}};
+            glm::vec3 last[4] = {};
+            std::copy_n(d, left, last);
+            loadFour(last, x, y, z);
+            evaluate<constantOrder, float>(x, y, z, [&](int i, const FourFloats& value) {
+                total[i] += kCounts[left] * value;
+            });
+        }
+        for (int i = 0; i < kCount; i += 4) {
+            const FourFloats four = sumsOfLanes(total + i);
+            for (int k = 0; k < std::min(4, kCount - i); ++k)
+                sums[i + k] += four[k];
+        }
     });
 }
 
