@@ -1,8 +1,11 @@
 #include "core/bake/Passes.h"
 
 #include "core/bake/HemisphereSamples.h"
+#include "core/bake/OpenTransfer.h"
 #include "core/bake/RangeTracer.h"
 #include "core/bake/Refinement.h"
+#include "core/bake/TileTracer.h"
+#include "core/bake/VisibilityTiles.h"
 #include "core/bake/WorkOrder.h"
 #include "core/base/Check.h"
 #include "core/job/Parallel.h"
@@ -62,10 +65,16 @@ constexpr int kCluster = 32;
 int clusterSize(const RayScene& scene, const PassSettings& settings) {
     if (settings.method != SampleMethod::Qmc)
         return 1;
+    if (settings.tolerance > 0.0f) // points share those of their tile
+        return 1;
     if (settings.cluster > 0)
         return settings.cluster;
     return scene.triangleCount() >= kLargeScene ? kCluster : 1;
 }
+
+// To a tolerance, the passes after those that go everywhere cast rays only where the neighbours of
+// a tile differ (core/bake/TileTracer.h).
+constexpr int kPassesEverywhere = 2;
 
 // How the standard error of a mean over two halves relates to half the difference of the halves:
 // for independent rays they are equal; two halves of a scrambled net make up for each other's
@@ -100,12 +109,14 @@ class PassRunner {
         , m_state(state)
         , m_schedule(settings)
         , m_cluster(clusterSize(scene, settings)) {
+        if (settings.tolerance > 0.0f)
+            m_tiles.emplace(points, settings.seed);
         begin();
     }
 
     // T_lm = A_l Y_lm(n) / pi.
     void fillUnshadowed() {
-        const int order = m_settings.shOrder;
+        const OpenTransfer open(m_settings.shOrder);
         const auto stride = static_cast<std::size_t>(m_settings.stride());
         for (std::size_t r = 0; r < m_ranges.size() && !m_job.cancelled(); ++r) {
             if (!m_settings.shard.holds(r))
@@ -114,11 +125,8 @@ class PassRunner {
             for (std::size_t p = range.first; p < range.first + range.count; ++p) {
                 const std::span<float> values =
                     std::span(m_state.values).subspan(p * stride, stride);
-                evaluateSh(order, m_points[p].normal, values);
-                for (int i = 0, l = 0; l < order; ++l)
-                    for (; i < (l + 1) * (l + 1); ++i)
-                        values[static_cast<std::size_t>(i)] *=
-                            static_cast<float>(cosineConvolution(l) / cosineConvolution(0));
+                std::ranges::fill(values, 0.0f);
+                open.subtract(m_points[p].normal, values); // from nothing
                 m_state.passes[p] = m_state.wanted[p] =
                     static_cast<std::uint8_t>(m_schedule.passes());
             }
@@ -208,17 +216,21 @@ class PassRunner {
             some = true;
         };
         // The first two passes tell the error.
-        if (m_settings.tolerance == 0.0f || m_state.samplesDone < m_schedule.raysAfter(2)) {
+        if (!m_tiles || m_state.samplesDone < m_schedule.raysAfter(kPassesEverywhere)) {
             forPoints(want);
             return some;
         }
+        // RMS over the tile: one point's estimate rests on too few numbers, and a point that
+        // happens to see nothing of a light that its neighbours see would believe itself right.
         std::vector<PointError> known(m_points.size());
-        std::vector<RangeElement> order;
-        for (const PointRange& range : m_ranges) {
-            orderRange(m_points, range, 1, 0, order);
-            for (std::size_t i = 0; i < order.size(); ++i)
-                known[order[i].point] = {errorAround(order, i),
-                                         m_schedule.raysAfter(m_state.passes[order[i].point])};
+        for (std::size_t t = 0; t < m_tiles->count(); ++t) {
+            const std::span<const std::uint32_t> tile = m_tiles->points(t);
+            float squares = 0.0f;
+            for (const std::uint32_t p : tile)
+                squares += m_state.error[p] * m_state.error[p];
+            const float error = std::sqrt(squares / static_cast<float>(tile.size()));
+            for (const std::uint32_t p : tile)
+                known[p] = {error, m_schedule.raysAfter(m_state.passes[p])};
         }
         const std::vector<std::uint8_t> refine =
             pointsToRefine(known, m_settings.tolerance, m_settings.samples);
@@ -226,19 +238,6 @@ class PassRunner {
             if (refine[p] != 0)
                 want(p);
         return some;
-    }
-
-    // RMS over the point and its neighbours along the Z-curve: one point's estimate rests on too
-    // few numbers, and a point that happens to see nothing of a light that its neighbours see
-    // would believe itself right.
-    [[nodiscard]] float errorAround(std::span<const RangeElement> order, std::size_t i) const {
-        constexpr std::size_t kNeighbours = 4; // to each side
-        const std::size_t begin = i < kNeighbours ? 0 : i - kNeighbours;
-        const std::size_t end = std::min(i + kNeighbours + 1, order.size());
-        float squares = 0.0f;
-        for (std::size_t n = begin; n < end; ++n)
-            squares += m_state.error[order[n].point] * m_state.error[order[n].point];
-        return std::sqrt(squares / static_cast<float>(end - begin));
     }
 
     void updateSamplesDone() {
@@ -279,6 +278,9 @@ class PassRunner {
         const std::vector<Batch> all = batches();
         m_job.setActivity(
             fmt::format("tracing pass {} of {}", all.front().pass + 1, m_schedule.passes()));
+        if (m_tiles && m_settings.method == SampleMethod::Qmc &&
+            all.front().pass >= kPassesEverywhere)
+            return runTiles(all);
         const bool mayStop = m_state.samplesDone > 0;
         std::vector<std::size_t> held;
         for (const std::uint32_t r :
@@ -298,6 +300,71 @@ class PassRunner {
         return complete && !m_job.cancelled();
     }
 
+    // A pass over the tiles that want more; false when it was interrupted.
+    [[nodiscard]] bool runTiles(const std::vector<Batch>& batches) {
+        std::vector<std::size_t> changed;
+        for (std::size_t r = 0; r < m_ranges.size(); ++r)
+            for (std::size_t p = 0; p < m_ranges[r].count; ++p)
+                if (m_state.passes[m_ranges[r].first + p] < m_state.wanted[m_ranges[r].first + p]) {
+                    changed.push_back(r);
+                    break;
+                }
+        std::atomic<bool> complete = true;
+        constexpr std::size_t kTogether = 8;
+        parallelFor(m_job, m_tiles->count(), kTogether, [&](std::size_t begin, std::size_t end) {
+            const FlushDenormals flush;
+            TileTracer tracer(m_scene, m_points, m_settings, m_job);
+            for (std::size_t t = begin; t < end; ++t)
+                if (!runTile(m_tiles->points(t), batches, tracer))
+                    complete = false;
+        });
+        const auto stride = static_cast<std::size_t>(m_settings.stride());
+        if (m_callbacks.range)
+            for (const std::size_t r : changed)
+                m_callbacks.range(m_ranges[r], std::span<const float>(m_state.values)
+                                                   .subspan(m_ranges[r].first * stride,
+                                                            m_ranges[r].count * stride));
+        return complete && !m_job.cancelled();
+    }
+
+    [[nodiscard]] bool runTile(std::span<const std::uint32_t> tile,
+                               const std::vector<Batch>& batches, TileTracer& tracer) {
+        const int pass = m_state.passes[tile.front()]; // as of all of them
+        if (pass == m_state.wanted[tile.front()])
+            return true;
+        if (m_job.stopping())
+            return false;
+        const auto batch = std::ranges::find(batches, pass, &Batch::pass);
+        RangeMeans means;
+        const std::optional<std::size_t> traced =
+            tracer.trace(tile, m_tiles->seedOf(tile.front()), batch->samples, means);
+        if (!traced)
+            return false;
+        {
+            const std::shared_lock lock(m_commit);
+            const auto stride = static_cast<std::size_t>(m_settings.stride());
+            for (std::size_t e = 0; e < tile.size(); ++e) {
+                addHalf(tile[e], std::span<const float>(means.values).subspan(e * stride, stride),
+                        means.hiddenSky[e]);
+                ++m_state.passes[tile[e]];
+            }
+        }
+        m_job.addWork(static_cast<double>(*traced), "rays");
+        const std::size_t known = tile.size() * batch->samples.count();
+        m_job.setProgress(static_cast<double>(m_rays.fetch_add(known) + known) / m_allRays);
+        checkpoint();
+        return true;
+    }
+
+    // The other half of a point's rays.
+    void addHalf(std::size_t p, std::span<const float> values, float hiddenSky) {
+        m_state.error[p] =
+            errorPerHalfDifference(m_settings.method) *
+            merge(std::span(m_state.values).subspan(p * values.size(), values.size()), values);
+        if (!m_state.hiddenSky.empty())
+            m_state.hiddenSky[p] = 0.5f * (m_state.hiddenSky[p] + hiddenSky);
+    }
+
     std::unique_ptr<RangeTracer> borrowTracer() {
         const std::lock_guard lock(m_idle);
         if (m_idleTracers.empty())
@@ -314,6 +381,9 @@ class PassRunner {
         const auto stride = static_cast<std::size_t>(m_settings.stride());
         std::vector<RangeElement> order, elements;
         orderRange(m_points, range, m_cluster, m_settings.seed, order);
+        if (m_tiles)
+            for (RangeElement& element : order)
+                element.seed = m_tiles->seedOf(element.point);
         RangeMeans means, firstHalf;
         std::size_t rays = 0;
         for (std::size_t b = 0; b < batches.size(); ++b) {
@@ -348,16 +418,10 @@ class PassRunner {
                     const float* from = halved ? firstHalf.values.data() : means.values.data();
                     std::copy_n(from + e * stride, stride, values.begin());
                 }
+                if (batch.pass == 0 && !m_state.hiddenSky.empty())
+                    m_state.hiddenSky[p] = halved ? firstHalf.hiddenSky[e] : means.hiddenSky[e];
                 if (batch.second)
-                    m_state.error[p] =
-                        errorPerHalfDifference(m_settings.method) * merge(values, fresh);
-                if (!m_state.hiddenSky.empty()) {
-                    float& hidden = m_state.hiddenSky[p];
-                    if (batch.pass == 0)
-                        hidden = halved ? firstHalf.hiddenSky[e] : means.hiddenSky[e];
-                    if (batch.second)
-                        hidden = 0.5f * (hidden + means.hiddenSky[e]);
-                }
+                    addHalf(p, fresh, means.hiddenSky[e]);
                 ++m_state.passes[p];
             }
         }
@@ -394,7 +458,8 @@ class PassRunner {
     PassState& m_state;
     Schedule m_schedule;
     int m_cluster;
-    std::mutex m_idle; // guards m_idleTracers
+    std::optional<VisibilityTiles> m_tiles; // of a bake to a tolerance
+    std::mutex m_idle;                      // guards m_idleTracers
     std::vector<std::unique_ptr<RangeTracer>> m_idleTracers;
     std::atomic<std::size_t> m_rays = 0; // of all points, all passes
     double m_allRays = 0.0;

@@ -4,6 +4,7 @@
 #include "core/math/SphericalHarmonics.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numeric>
 
@@ -68,11 +69,9 @@ RangeTracer::RangeTracer(const RayScene& scene, std::span<const BakePoint> point
     , m_maxDistance(settings.maxDistance > 0.0f ? settings.maxDistance
                                                 : std::numeric_limits<float>::infinity())
     , m_rays(kStream)
-    , m_sorted(kStream) {
+    , m_sorted(kStream)
+    , m_open(settings.shOrder) {
     CHECK(cluster >= 1 && m_cluster <= kStream);
-    for (int l = 0; l < settings.shOrder; ++l)
-        m_cosine[static_cast<std::size_t>(l)] =
-            static_cast<float>(cosineConvolution(l) / cosineConvolution(0));
 }
 
 bool RangeTracer::trace(std::span<const RangeElement> elements, const HemisphereSamples& samples,
@@ -109,28 +108,11 @@ bool RangeTracer::trace(std::span<const RangeElement> elements, const Hemisphere
         value *= scale;
     for (float& value : means.hiddenSky)
         value *= scale;
-    if (m_settings.shOrder > 0)
-        subtractFromOpen(elements, means);
+    for (std::size_t e = 0; e < elements.size(); ++e)
+        if (m_sumsHidden[e] != 0)
+            m_open.subtract(m_points[elements[e].point].normal,
+                            std::span(means.values).subspan(e * stride, stride));
     return true;
-}
-
-// All of the clamped cosine, less what is hidden: exact for open surfaces, and fewer directions to
-// sum up.
-void RangeTracer::subtractFromOpen(std::span<const RangeElement> elements,
-                                   RangeMeans& means) const {
-    const auto stride = static_cast<std::size_t>(m_settings.stride());
-    std::array<float, shCount(kMaxShOrder)> basis;
-    for (std::size_t e = 0; e < elements.size(); ++e) {
-        if (m_sumsHidden[e] == 0)
-            continue;
-        evaluateSh(m_settings.shOrder, m_points[elements[e].point].normal, std::span<float>(basis));
-        float* value = means.values.data() + e * stride;
-        for (int l = 0, i = 0; l < m_settings.shOrder; ++l)
-            for (int m = -l; m <= l; ++m, ++i)
-                value[i] =
-                    m_cosine[static_cast<std::size_t>(l)] * basis[static_cast<std::size_t>(i)] -
-                    value[i];
-    }
 }
 
 void RangeTracer::addBlock(const Block& block, std::span<const RangeElement> elements,

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/bake/HemisphereSamples.h"
+#include "core/bake/OpenTransfer.h"
 #include "core/bake/Passes.h"
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -56,7 +56,6 @@ class RangeTracer {
                   const HemisphereSamples& samples);
     void flush(RangeMeans& means);
     void collect(const Block& block, RangeMeans& means);
-    void subtractFromOpen(std::span<const RangeElement> elements, RangeMeans& means) const;
 
     const RayScene& m_scene;
     std::span<const BakePoint> m_points;
@@ -71,7 +70,7 @@ class RangeTracer {
     std::vector<Sides> m_sides;
     std::vector<std::uint8_t> m_sumsHidden; // per element: its sum is of hidden directions
     std::vector<glm::vec3> m_sorted, m_scratch;
-    std::array<float, 8> m_cosine{}; // A_l / pi of each band
+    OpenTransfer m_open;
 };
 
 } // namespace patina

@@ -4,7 +4,9 @@
 // so that RayScene's own cost shows.
 #include "core/bake/BakePoints.h"
 #include "core/bake/RangeTracer.h"
+#include "core/bake/VertexSamples.h"
 #include "core/job/Parallel.h"
+#include "core/library/Library.h"
 #include "core/library/Meshes.h"
 
 #include <algorithm>
@@ -12,6 +14,7 @@
 #include <atomic>
 #include <benchmark/benchmark.h>
 #include <chrono>
+#include <cmath>
 #include <embree3/rtcore.h>
 #include <string>
 #include <sys/resource.h>
@@ -256,6 +259,109 @@ void transferAgainstBareLoop(benchmark::State& state) {
     state.SetLabel(c.name);
 }
 
+// A model of the library ready to bake, and what 16,384 rays per point find.
+struct Truth {
+    explicit Truth(const char* model, bool fitted, std::size_t most)
+        : geometry(std::move(*makeBakeGeometry(inputsOf(model), {})))
+        , samples(fitted ? fittedVertexSamples(geometry, {}) : vertexSamples(geometry, {}))
+        , scene(std::move(*RayScene::build(geometry, {}, 0, 1e9))) {
+        // Evenly over the model.
+        const std::size_t step = (samples.points.size() + most - 1) / most;
+        for (std::size_t p = 0; p < samples.points.size(); p += step)
+            points.push_back(samples.points[p]);
+        for (std::size_t first = 0; first < points.size(); first += 64)
+            ranges.push_back({first, std::min<std::size_t>(64, points.size() - first)});
+        PassSettings settings;
+        settings.samples = 16384;
+        settings.shOrder = 5;
+        settings.seed = 77;
+        settings.cluster = 1;
+        values = runPasses(scene, points, ranges, settings, {}, {})->values;
+    }
+    [[nodiscard]] double rmse(const PassSettings& settings, Times* times = nullptr) const {
+        PassState state;
+        Times once;
+        (times ? *times : once).run([&] {
+            state = *runPasses(scene, points, ranges, settings, {}, {});
+        });
+        double squares = 0.0;
+        for (std::size_t i = 0; i < values.size(); ++i)
+            squares += std::pow(double(state.values[i]) - values[i], 2.0);
+        return std::sqrt(squares / double(values.size()));
+    }
+
+    BakeGeometry geometry;
+    VertexSamples samples;
+    RayScene scene;
+    std::vector<BakePoint> points;
+    std::vector<PointRange> ranges;
+    std::vector<float> values;
+
+  private:
+    static BakeInputs inputsOf(const char* model) {
+        BakeInputs inputs;
+        const Result<std::vector<library::ModelPart>> parts = library::model(model);
+        for (const library::ModelPart& part : *parts) {
+            BakeMesh& mesh = inputs.meshes.emplace_back();
+            mesh.id = mesh.material = Id(inputs.meshes.size());
+            mesh.mesh = part.mesh;
+        }
+        return inputs;
+    }
+};
+
+// 1024 rays by each method: the RMS error of the coefficients.
+void errorAtEqualRays(benchmark::State& state) {
+    const Truth truth("shader-ball", false, 4000);
+    PassSettings settings;
+    settings.samples = 1024;
+    settings.shOrder = 5;
+    double ofMethod[3] = {};
+    for (auto _ : state)
+        for (const SampleMethod method :
+             {SampleMethod::Qmc, SampleMethod::Stratified, SampleMethod::Random}) {
+            settings.method = method;
+            ofMethod[int(method)] = truth.rmse(settings);
+        }
+    state.counters["RMSE"] = ofMethod[0];
+    state.counters["of jittered"] = ofMethod[0] / ofMethod[1]; // at most 0.85
+    state.counters["of random"] = ofMethod[0] / ofMethod[2];   // at most 0.15
+}
+
+// Passes to a tolerance against the fixed count that gets as far, by CPU time: between two fixed
+// counts time is a power of the error.
+void toleranceAgainstFixedCount(benchmark::State& state) {
+    const Truth truth("cornell-box", true, 100'000);
+    PassSettings settings;
+    settings.shOrder = 5;
+    constexpr int kCounts = 6; // 128 … 4096
+    constexpr float kTolerances[] = {2e-3f, 1e-3f, 7e-4f, 5e-4f};
+    Times fixed[kCounts], adaptive[std::size(kTolerances)];
+    double fixedError[kCounts] = {}, error[std::size(kTolerances)] = {};
+    for (auto _ : state) {
+        settings.tolerance = 0.0f;
+        for (int i = 0; i < kCounts; ++i) {
+            settings.samples = 128 << i;
+            fixedError[i] = truth.rmse(settings, &fixed[i]);
+        }
+        settings.samples = 8192;
+        for (std::size_t i = 0; i < std::size(kTolerances); ++i) {
+            settings.tolerance = kTolerances[i];
+            error[i] = truth.rmse(settings, &adaptive[i]);
+        }
+    }
+    for (std::size_t i = 0; i < std::size(kTolerances); ++i) {
+        int n = 1;
+        while (n + 1 < kCounts && fixedError[n] > error[i])
+            ++n;
+        const double along =
+            std::log(fixedError[n - 1] / error[i]) / std::log(fixedError[n - 1] / fixedError[n]);
+        const double equal = fixed[n - 1].cpu * std::pow(fixed[n].cpu / fixed[n - 1].cpu, along);
+        const std::string at = " at " + std::to_string(error[i]).substr(0, 7);
+        state.counters["of fixed" + at] = adaptive[i].cpu / equal; // at most 0.70
+    }
+}
+
 void ambientOcclusion(benchmark::State& state) {
     const BakeInputs inputs = knot(kCases[0]);
     TileSink sink;
@@ -274,4 +380,6 @@ BENCHMARK(transferAgainstBareLoop)
     ->Iterations(4)
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
+BENCHMARK(errorAtEqualRays)->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(toleranceAgainstFixedCount)->Iterations(3)->Unit(benchmark::kMillisecond);
 BENCHMARK(ambientOcclusion)->UseRealTime()->Unit(benchmark::kMillisecond);
