@@ -13,6 +13,7 @@
 #include "render/view/Inspection.h"
 #include "render/view/ViewSettings.h"
 
+#include <array>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -93,6 +94,8 @@ class Renderer {
     // cleared or another bake is attached.
     void setBouncedLight(Id mesh, std::span<const glm::vec3> radiance);
     void clearBouncedLight();
+    // The light that transfer is lit by: radiance coefficients in world space, of 8 bands.
+    [[nodiscard]] std::array<glm::vec3, 64> transferLight() const;
 
     // Renders to the internal HDR target and tone maps into framebuffer `targetFramebuffer`
     // (0: the window's), viewport 0,0 … width,height.

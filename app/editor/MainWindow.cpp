@@ -78,6 +78,7 @@ MainWindow::MainWindow(Session& session)
     setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
     m_viewport->setJobs(session.jobs);
+    m_viewport->setBounces(session.bounces);
     m_viewport->setDisplays(session.displays);
     m_viewport->setLobe(session.lobe);
     m_viewport->setViews(session.views);

@@ -43,8 +43,6 @@ BounceSolver::BounceSolver(HitSourcePtr hits)
     , m_albedos(m_hits->elements().meshes().size(), DiffuseAlbedo(BakeSurface{}))
     , m_mapped(m_hits->elements().meshes().size()) {}
 
-BounceSolver::~BounceSolver() = default;
-
 void BounceSolver::setSurfaces(std::span<const BakeSurface> surfaces, const JobContext& job) {
     CHECK_EQ(surfaces.size(), m_albedos.size());
     bool changed = false;
@@ -59,23 +57,24 @@ void BounceSolver::setSurfaces(std::span<const BakeSurface> surfaces, const JobC
         m_anyMapped = true;
         if (m_mapped[m] && sameAlbedoMaps(m_mapped[m]->surface, surfaces[m]))
             continue;
-        m_mapped[m] =
-            std::make_unique<MappedSurface>(MappedSurface{surfaces[m], AlbedoTexels(surfaces[m])});
+        m_mapped[m] = std::make_shared<const MappedSurface>(
+            MappedSurface{surfaces[m], AlbedoTexels(surfaces[m])});
         changed = true;
     }
     if (!changed || !m_hits->kept())
         return;
-    m_texels.clear();
+    m_texels = nullptr;
     if (!m_anyMapped)
         return;
-    m_texels.resize(m_hits->chunkCount());
-    parallelFor(job, m_texels.size(), 16, [&](std::size_t begin, std::size_t end) {
+    const auto all = std::make_shared<Texels>(m_hits->chunkCount());
+    parallelFor(job, all->size(), 16, [&](std::size_t begin, std::size_t end) {
         std::vector<CachedHit> scratch;
         for (std::size_t chunk = begin; chunk < end; ++chunk)
-            lookUp(m_hits->hits(chunk, scratch), m_texels[chunk]);
+            lookUp(m_hits->hits(chunk, scratch), (*all)[chunk]);
     });
+    m_texels = all;
     if (job.cancelled()) // incomplete: to be done again
-        for (std::unique_ptr<MappedSurface>& mapped : m_mapped)
+        for (std::shared_ptr<const MappedSurface>& mapped : m_mapped)
             mapped = nullptr;
 }
 
@@ -104,7 +103,7 @@ std::span<const std::uint32_t> BounceSolver::texels(std::size_t chunk,
                                                     std::span<const CachedHit> hits,
                                                     std::vector<std::uint32_t>& scratch) const {
     if (m_hits->kept())
-        return m_texels[chunk];
+        return (*m_texels)[chunk];
     lookUp(hits, scratch);
     return scratch;
 }
@@ -281,8 +280,9 @@ bool BounceSolver::solveGroup(std::span<const float> direct, int bounces, std::s
 
 std::size_t BounceSolver::memoryBytes() const {
     std::size_t bytes = m_hits->elements().memoryBytes();
-    for (const std::vector<std::uint32_t>& texels : m_texels)
-        bytes += texels.capacity() * sizeof(std::uint32_t);
+    if (m_texels)
+        for (const std::vector<std::uint32_t>& texels : *m_texels)
+            bytes += texels.capacity() * sizeof(std::uint32_t);
     return bytes;
 }
 

@@ -18,17 +18,17 @@
 
 namespace patina {
 
+// A copy costs little, for what is large is shared: whoever has a solver keeps it as it is, and
+// gives a copy other surfaces.
 class BounceSolver {
   public:
     explicit BounceSolver(HitSourcePtr hits);
-    ~BounceSolver();
-    BounceSolver(const BounceSolver&) = delete;
-    BounceSolver& operator=(const BounceSolver&) = delete;
 
     [[nodiscard]] const HitSource& hits() const { return *m_hits; }
 
     // One for each of hits().elements().meshes(). Numbers alone cost nothing; other maps are
-    // prepared anew, as the first ones are.
+    // prepared anew, as the first ones are. When it is cancelled the solver is good for nothing but
+    // another call.
     void setSurfaces(std::span<const BakeSurface> surfaces, const JobContext& job);
 
     // `direct`: coefficients T of the front elements, order² each; order as the hits were traced
@@ -61,10 +61,10 @@ class BounceSolver {
     HitSourcePtr m_hits;
     std::vector<DiffuseAlbedo> m_albedos; // per mesh
     struct MappedSurface;
-    std::vector<std::unique_ptr<MappedSurface>> m_mapped; // per mesh; null: without maps
+    std::vector<std::shared_ptr<const MappedSurface>> m_mapped; // per mesh; null: without maps
     bool m_anyMapped = false;
-    std::vector<std::vector<std::uint32_t>>
-        m_texels; // per chunk, of every hit, where hits are kept
+    using Texels = std::vector<std::vector<std::uint32_t>>; // per chunk, of every hit
+    std::shared_ptr<const Texels> m_texels; // null: nothing is mapped, or hits are not kept
     [[nodiscard]] std::span<const std::uint32_t> texels(std::size_t chunk,
                                                         std::span<const CachedHit> hits,
                                                         std::vector<std::uint32_t>& scratch) const;

@@ -10,6 +10,16 @@ namespace {
 
 constexpr int kMaxBounces = 64;
 
+// Null when the artifact is of other meshes.
+const VertexBake* bakeOf(const BounceElements::MeshPart& part, const BakeArtifact& artifact) {
+    const auto stride = static_cast<std::size_t>(artifact.order * artifact.order);
+    const auto found = std::find_if(artifact.vertices.begin(), artifact.vertices.end(),
+                                    [&](const VertexBake& bake) { return bake.mesh == part.id; });
+    const bool fits = found != artifact.vertices.end() &&
+                      found->values.size() == part.mesh->vertexCount() * stride;
+    return fits ? &*found : nullptr;
+}
+
 } // namespace
 
 std::optional<Error> checkBounceSettings(const PrtSettings& settings) {
@@ -65,13 +75,31 @@ std::optional<std::vector<float>> directTransfer(const BounceElements& elements,
     std::vector<float> direct;
     direct.reserve(elements.fronts() * stride);
     for (const BounceElements::MeshPart& part : elements.meshes()) {
-        const auto found =
-            std::find_if(artifact.vertices.begin(), artifact.vertices.end(),
-                         [&](const VertexBake& bake) { return bake.mesh == part.id; });
-        if (found == artifact.vertices.end() ||
-            found->values.size() != part.mesh->vertexCount() * stride)
+        const VertexBake* bake = bakeOf(part, artifact);
+        if (!bake)
             return std::nullopt;
-        direct.insert(direct.end(), found->values.begin(), found->values.end());
+        direct.insert(direct.end(), bake->values.begin(), bake->values.end());
+    }
+    return direct;
+}
+
+std::optional<std::vector<glm::vec3>> directLight(const BounceElements& elements,
+                                                  const BakeArtifact& artifact,
+                                                  std::span<const glm::vec3> light) {
+    const auto stride = static_cast<std::size_t>(artifact.order * artifact.order);
+    const std::span<const glm::vec3> used = light.first(std::min(light.size(), stride));
+    std::vector<glm::vec3> direct;
+    direct.reserve(elements.fronts());
+    for (const BounceElements::MeshPart& part : elements.meshes()) {
+        const VertexBake* bake = bakeOf(part, artifact);
+        if (!bake)
+            return std::nullopt;
+        for (std::size_t first = 0; first < bake->values.size(); first += stride) {
+            glm::vec3 sum(0.0f);
+            for (std::size_t i = 0; i < used.size(); ++i)
+                sum += bake->values[first + i] * used[i];
+            direct.push_back(sum);
+        }
     }
     return direct;
 }

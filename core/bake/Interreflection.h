@@ -23,6 +23,11 @@ Result<HitSourcePtr> traceHits(const RayScene& scene, const BakeGeometry& geomet
 // The direct coefficients of all front elements; nothing when the bake is of other meshes.
 [[nodiscard]] std::optional<std::vector<float>> directTransfer(const BounceElements& elements,
                                                                const BakeArtifact& artifact);
+// What light of radiance coefficients `light` lends every front element straight: Σ L_i T_i; more
+// or fewer coefficients than the bake has make no difference. Nothing, as directTransfer().
+[[nodiscard]] std::optional<std::vector<glm::vec3>> directLight(const BounceElements& elements,
+                                                                const BakeArtifact& artifact,
+                                                                std::span<const glm::vec3> light);
 // `bounced` of solve() as the artifact keeps it, mesh by mesh.
 void setBounced(BakeArtifact& artifact, const BounceElements& elements,
                 std::span<const float> bounced);

@@ -3,14 +3,14 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/job/JobManager.h"
 #include "app/editor/job/LivePreview.h"
-#include "core/bake/BakeOptions.h"
-#include "core/bake/Interreflection.h"
 #include "core/base/Log.h"
 
 #include <algorithm>
 
 namespace patina::editor {
 namespace {
+
+constexpr int kPauseMs = 150; // without an edit until all coefficients are worth their time
 
 BakeArtifactPtr bouncingBake(const Document& document) {
     for (const BakeArtifactPtr& artifact : document.bakes)
@@ -20,90 +20,18 @@ BakeArtifactPtr bouncingBake(const Document& document) {
     return nullptr;
 }
 
-// Rays end at the same places.
-bool sameTransport(const BakeMesh& a, const BakeMesh& b) {
-    if (a.id != b.id || a.mesh != b.mesh || a.transform != b.transform ||
-        a.doubleSided != b.doubleSided || a.surface.alphaMode != b.surface.alphaMode)
-        return false;
-    return a.surface.alphaMode == AlphaMode::Opaque ||
-           (a.surface.opacity == b.surface.opacity &&
-            a.surface.alphaCutoff == b.surface.alphaCutoff &&
-            a.surface.baseColorMap == b.surface.baseColorMap);
-}
-
-bool sameTransport(const BakeInputs& a, const BakeInputs& b) {
-    return std::equal(a.meshes.begin(), a.meshes.end(), b.meshes.begin(), b.meshes.end(),
-                      [](const BakeMesh& x, const BakeMesh& y) { return sameTransport(x, y); });
-}
-
-std::vector<BakeSurface> surfacesOf(const BakeInputs& inputs) {
-    std::vector<BakeSurface> surfaces;
-    for (const BakeMesh& mesh : inputs.meshes)
-        surfaces.push_back(mesh.surface);
-    return surfaces;
-}
-
-// The hits are of these meshes; where those stand, the bake's hash has told.
-bool fits(const HitSource& hits, const HitSettings& settings, const BakeInputs& inputs) {
-    return hits.settings() == settings &&
-           std::all_of(hits.elements().meshes().begin(), hits.elements().meshes().end(),
-                       [&](const BounceElements::MeshPart& part) {
-                           return std::any_of(inputs.meshes.begin(), inputs.meshes.end(),
-                                              [&](const BakeMesh& mesh) {
-                                                  return mesh.id == part.id &&
-                                                         mesh.mesh == part.mesh &&
-                                                         mesh.doubleSided == part.doubleSided;
-                                              });
-                       });
-}
-
-// Null when there are none to be had; an error is one of tracing.
-Result<HitSourcePtr> hitsFor(const BakeArtifact& artifact, const BakeInputs& inputs,
-                             const HitSourcePtr& ofBake, const JobContext& job) {
-    if (hashBakeInputs(inputs) != artifact.inputs)
-        return HitSourcePtr();
-    PrtSettings settings = requestFromText(artifact.kind, artifact.settings).prt;
-    settings.order = artifact.order;
-    const Result<HitSettings> rays = hitSettings(settings);
-    if (!rays)
-        return rays.error();
-    if (ofBake && fits(*ofBake, *rays, inputs))
-        return ofBake;
-    const Result<BakeGeometry> geometry = makeBakeGeometry(inputs, job);
-    if (!geometry)
-        return geometry.error();
-    const Result<RayScene> scene = RayScene::build(*geometry, job);
-    if (!scene)
-        return scene.error();
-    Result<HitSourcePtr> hits = traceHits(*scene, *geometry, settings, job);
-    if (hits && !(*hits)->kept()) // would need the scene to live on
-        return HitSourcePtr();
-    return hits;
-}
-
-// Null when the bake has the bounces of this albedo already, or holds other meshes.
-Result<BakeArtifactPtr> withBounces(BounceSolver& solver, const BakeArtifact& artifact,
-                                    const BakeInputs& inputs, const JobContext& job) {
-    const Hash albedo = hashBakeAlbedo(inputs);
-    if (albedo == artifact.albedo)
-        return BakeArtifactPtr();
-    const BounceElements& elements = solver.hits().elements();
-    const std::optional<std::vector<float>> direct = directTransfer(elements, artifact);
-    if (!direct)
-        return BakeArtifactPtr();
-    solver.setSurfaces(patina::surfacesOf(elements, inputs), job);
-    const Result<std::vector<float>> bounced = solver.solve(*direct, artifact.bounces, job);
-    if (!bounced)
-        return bounced.error();
-    BakeArtifact result = artifact;
-    setBounced(result, elements, *bounced);
-    result.albedo = albedo;
-    return BakeArtifactPtr(std::make_shared<const BakeArtifact>(std::move(result)));
-}
-
 void report(const Error& error) {
     if (error.kind != ErrorKind::Cancelled)
         logError("following bounces: {}", error.text());
+}
+
+// Its value, or nothing and a line in the log.
+template <class Value>
+Value reported(Result<Value> result) {
+    if (result)
+        return std::move(*result);
+    report(result.error());
+    return nullptr;
 }
 
 } // namespace
@@ -113,11 +41,16 @@ BounceUpdater::BounceUpdater(DocumentController& controller, JobManager& jobs, Q
     , m_controller(controller)
     , m_jobs(jobs)
     , m_tracing("hits of a bake")
-    , m_solving("bounces", nullptr, LatestJob::Priority::Normal) {
+    , m_lighting("bounced light", nullptr, LatestJob::Priority::Normal)
+    , m_solving("bounces") {
+    m_pause.setSingleShot(true);
+    m_pause.setInterval(kPauseMs);
+    connect(&m_pause, &QTimer::timeout, this, &BounceUpdater::solve);
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
-        // Lights and the view change nothing here.
+        // Lights come by setLight(); of the view one number counts.
         if (change.target && change.target->scope != Scope::Material &&
-            change.target->scope != Scope::Mesh)
+            change.target->scope != Scope::Mesh &&
+            m_controller.document().view.bounces == m_bounces)
             return;
         update();
     });
@@ -125,7 +58,8 @@ BounceUpdater::BounceUpdater(DocumentController& controller, JobManager& jobs, Q
 
 bool BounceUpdater::upToDate() const {
     const BakeArtifactPtr artifact = bouncingBake(m_controller.document());
-    return artifact && m_solver && !m_tracing.busy() && !m_solving.busy() && artifact == m_solved &&
+    return artifact && m_solver && !m_tracing.busy() && !m_lighting.busy() && !m_solving.busy() &&
+           artifact == m_solved &&
            m_solvedSurfaces == surfacesOf(bakeInputs(m_controller.document()));
 }
 
@@ -133,15 +67,31 @@ const HitSource* BounceUpdater::hits() const {
     return m_solver ? &m_solver->hits() : nullptr;
 }
 
+void BounceUpdater::setLight(std::span<const glm::vec3> light) {
+    if (std::ranges::equal(light, m_light))
+        return;
+    const bool first = m_light.empty();
+    m_light.assign(light.begin(), light.end());
+    if (first || m_request.artifact)
+        update();
+}
+
 void BounceUpdater::forget() {
     m_tracing.cancel();
+    m_lighting.cancel();
     m_solving.cancel();
+    m_pause.stop();
     m_inputs = {};
     m_hopeless = m_solved = nullptr;
+    m_solvedSurfaces.clear();
+    m_shownSurfaces.clear();
     m_solver = nullptr;
+    m_request = {};
+    show(nullptr);
 }
 
 void BounceUpdater::update() {
+    m_bounces = m_controller.document().view.bounces;
     const BakeArtifactPtr artifact = bouncingBake(m_controller.document());
     if (!artifact) {
         forget();
@@ -150,7 +100,7 @@ void BounceUpdater::update() {
     BakeInputs inputs = bakeInputs(m_controller.document());
     if (sameTransport(inputs, m_inputs) && artifact->settings == m_settings) {
         if (m_solver)
-            solve(artifact, std::move(inputs));
+            follow(artifact, inputs);
         else if (artifact != m_hopeless && !m_tracing.busy())
             trace(artifact, std::move(inputs));
         return;
@@ -165,32 +115,92 @@ void BounceUpdater::trace(const BakeArtifactPtr& artifact, BakeInputs inputs) {
     const std::shared_ptr<LivePreview> preview = m_jobs.preview(); // of a bake that has just ended
     m_tracing.request([this, artifact, inputs = std::move(inputs),
                        ofBake = preview ? preview->bounceHits() : nullptr](const JobContext& job) {
-        Result<HitSourcePtr> hits = hitsFor(*artifact, inputs, ofBake, job);
-        if (!hits)
-            report(hits.error());
-        const HitSourcePtr found = hits ? *hits : nullptr;
-        return LatestJob::Apply([this, artifact, found] {
-            if (found)
-                m_solver = std::make_shared<BounceSolver>(found);
-            else
+        const HitSourcePtr found = reported(hitsFor(*artifact, inputs, ofBake, job));
+        const bool right = found && hashBakeAlbedo(inputs) == artifact->albedo;
+        return LatestJob::Apply([this, artifact, found, right, surfaces = surfacesOf(inputs)] {
+            if (found) {
+                m_solver = std::make_shared<const BounceSolver>(found);
+                m_solved = artifact;
+                if (right)
+                    m_solvedSurfaces = surfaces;
+            } else {
                 m_hopeless = artifact;
+            }
             update();
         });
     });
 }
 
-void BounceUpdater::solve(const BakeArtifactPtr& artifact, BakeInputs inputs) {
-    // One at a time: what changes meanwhile is seen when it is done.
-    std::vector<BakeSurface> surfaces = surfacesOf(inputs);
-    if (m_solving.busy() || (artifact == m_solved && surfaces == m_solvedSurfaces))
+void BounceUpdater::follow(const BakeArtifactPtr& artifact, const BakeInputs& inputs) {
+    Request request{artifact, surfacesOf(inputs), m_light,
+                    m_bounces > 0 ? m_bounces : artifact->bounces};
+    const bool known = artifact == m_solved; // whether its bounces are right; else they may well be
+    const bool right = known && request.surfaces == m_solvedSurfaces;
+    const bool rightNumber = request.bounces == artifact->bounces;
+
+    // All coefficients, behind the light that is shown.
+    if (right) {
+        m_solving.cancel();
+        m_pause.stop();
+    } else if (!known) {
+        if (!m_solving.busy()) // one at a time: what changes meanwhile is seen when it is done
+            solve();
+    } else if (!m_solving.busy() || m_solvingSurfaces != request.surfaces) {
+        m_solving.cancel();
+        m_pause.start();
+    }
+
+    if (m_light.empty() || ((right || !known) && rightNumber)) {
+        m_lighting.cancel();
+        m_request = {};
+        show(nullptr);
+    } else if (request != m_request) {
+        m_request = request;
+        showLight(std::move(request), inputs);
+    }
+}
+
+void BounceUpdater::showLight(Request request, const BakeInputs& inputs) {
+    m_lighting.request([this, request = std::move(request), inputs,
+                        solver = m_solver](const JobContext& job) {
+        const BounceSolverPtr now = resurfaced(*solver, inputs, job);
+        const BouncedLightPtr light =
+            reported(bouncedLight(*now, *request.artifact, request.light, request.bounces, job));
+        if (!light)
+            return LatestJob::Apply();
+        return LatestJob::Apply([this, now, light, surfaces = request.surfaces] {
+            m_solver = now;
+            m_shownSurfaces = surfaces;
+            show(light);
+        });
+    });
+}
+
+void BounceUpdater::show(BouncedLightPtr light) {
+    if (light == m_shown)
         return;
+    m_shown = std::move(light);
+    Q_EMIT shownChanged();
+}
+
+void BounceUpdater::solve() {
+    const BakeArtifactPtr artifact = bouncingBake(m_controller.document());
+    if (!artifact || !m_solver)
+        return;
+    BakeInputs inputs = bakeInputs(m_controller.document());
+    m_solvingSurfaces = surfacesOf(inputs);
+    if (m_lighting.busy() && m_shownSurfaces != m_solvingSurfaces) { // which comes first
+        m_pause.start();
+        return;
+    }
     m_solving.request([this, artifact, inputs = std::move(inputs), solver = m_solver,
-                       surfaces = std::move(surfaces)](const JobContext& job) {
-        const Result<BakeArtifactPtr> result = withBounces(*solver, *artifact, inputs, job);
-        if (!result)
-            report(result.error());
-        const BakeArtifactPtr after = result ? *result : nullptr;
-        return LatestJob::Apply([this, artifact, after, surfaces] {
+                       surfaces = m_solvingSurfaces](const JobContext& job) {
+        const BounceSolverPtr now = resurfaced(*solver, inputs, job);
+        const BakeArtifactPtr after = reported(withBounces(*now, *artifact, inputs, job));
+        if (job.cancelled())
+            return LatestJob::Apply();
+        return LatestJob::Apply([this, artifact, after, surfaces, now] {
+            m_solver = now;
             m_solved = after ? after : artifact;
             m_solvedSurfaces = surfaces;
             if (after)

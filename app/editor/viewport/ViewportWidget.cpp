@@ -122,6 +122,7 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     m_picker.setInspect([this](const QPoint& pixel) { return inspect(pixel); });
     m_sheets.setDraw([this](const render::ViewSheet& sheet) { return drawSheet(sheet); });
     connect(&m_preview, &PreviewFeed::changed, this, &ViewportWidget::lookChanged);
+    connect(&m_bounces, &BounceFeed::changed, this, &ViewportWidget::lookChanged);
     // Between frames and input, so that neither waits for an environment.
     m_environmentTimer.setSingleShot(true);
     m_environmentTimer.setInterval(0);
@@ -136,6 +137,10 @@ ViewportWidget::~ViewportWidget() {
 
 void ViewportWidget::setJobs(JobManager& jobs) {
     m_preview.setJobs(jobs);
+}
+
+void ViewportWidget::setBounces(BounceUpdater& bounces) {
+    m_bounces.setBounces(bounces);
 }
 
 void ViewportWidget::setDisplays(DisplayLoader& displays) {
@@ -201,6 +206,7 @@ void ViewportWidget::initializeGL() {
     m_environmentTimer.start();
     m_displayPending = true;
     m_preview.restart();
+    m_bounces.restart();
     if (!shaderFolder.isEmpty())
         m_shaderTimer.start();
     Q_EMIT contextReady(QString::fromStdString(m_context->info().renderer),
@@ -267,6 +273,7 @@ void ViewportWidget::paintGL() {
 
     // Bring in what the background has prepared since the last frame.
     m_preview.upload(*m_renderer);
+    m_bounces.upload(*m_renderer);
     takeDisplay();
 
     const QSize size = frameSize();
@@ -278,6 +285,7 @@ void ViewportWidget::paintGL() {
         logError("the frame could not be drawn: {}", drawn.error().text());
     m_target.end();
     m_viewFeed.endFrame(*m_renderer);
+    m_bounces.endFrame(*m_renderer);
     gl->glFinish(); // so that the time below is the frame's, not that of the call
     m_lastFrameSize = size;
 
@@ -395,6 +403,8 @@ void ViewportWidget::applyChange(const Change& change) {
         makeCurrent();
         m_renderer->setDocument(m_controller.document(), change);
         doneCurrent();
+        if (touches(change.affects, Affects::Bakes))
+            m_bounces.restart();
     }
     touch();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/editor/viewport/AdaptationClock.h"
+#include "app/editor/viewport/BounceFeed.h"
 #include "app/editor/viewport/FramePacing.h"
 #include "app/editor/viewport/PixelPicker.h"
 #include "app/editor/viewport/PreviewFeed.h"
@@ -45,6 +46,7 @@ class ViewportWidget : public QOpenGLWidget {
     ~ViewportWidget() override;
 
     void setJobs(JobManager& jobs);            // whose live preview is shown
+    void setBounces(BounceUpdater& bounces);   // whose light is shown
     void setDisplays(DisplayLoader& displays); // whose view of OpenColorIO is shown
     void setViews(ViewState& views);           // what of the scene is shown
     void setLobe(LobeOnSurface& lobe);         // which is drawn with the overlays
@@ -111,6 +113,7 @@ class ViewportWidget : public QOpenGLWidget {
     IblUpdater* m_ibl;
     ViewportHand m_hand;
     PreviewFeed m_preview;
+    BounceFeed m_bounces;
     ViewFeed m_viewFeed;
     ViewGate m_gate;
     SheetScheduler m_sheets;

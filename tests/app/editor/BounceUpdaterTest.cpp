@@ -24,12 +24,12 @@ struct Bounces : ::testing::Test {
 
     [[nodiscard]] const Document& document() const { return controller.document(); }
     [[nodiscard]] BakeArtifactPtr attached() const { return document().bakes.at(0); }
-    BakeArtifact bake(TileSink& sink) const {
+    BakeArtifact bake(TileSink& sink, int times = 2) const {
         PrtSettings settings;
         settings.order = 2;
         settings.samples = 32;
         settings.transfer = TransferKind::Interreflected;
-        settings.bounces = 2;
+        settings.bounces = times;
         settings.bounceSamples = 16;
         settings.seed = 5;
         return *bakePrtVertex(bakeInputs(document()), settings, sink, {});
@@ -41,6 +41,31 @@ struct Bounces : ::testing::Test {
     void attach() { controller.attachBake(std::make_shared<const BakeArtifact>(bake())); }
     [[nodiscard]] bool ready() const {
         return QTest::qWaitFor([&] { return bounces.upToDate(); }, 60'000);
+    }
+
+    // What the light shown is to be, from a bake of so many bounces.
+    [[nodiscard]] BouncedLight lit(std::span<const glm::vec3> light, int times) const {
+        TileSink sink;
+        const BakeArtifact anew = bake(sink, times);
+        BouncedLight result;
+        for (const VertexBake& mesh : anew.vertices)
+            for (std::size_t v = 0; v < mesh.bounced.size(); v += 12) {
+                glm::vec3 sum(0.0f);
+                for (std::size_t i = 0; i < 4; ++i)
+                    for (int c = 0; c < 3; ++c)
+                        sum[c] += mesh.bounced[v + 3 * i + std::size_t(c)] * light[i][c];
+                result[mesh.mesh].push_back(sum);
+            }
+        return result;
+    }
+    static void expectSame(const BouncedLight& shown, const BouncedLight& expected) {
+        ASSERT_EQ(shown.size(), expected.size());
+        for (const auto& [mesh, radiance] : expected) {
+            ASSERT_EQ(shown.at(mesh).size(), radiance.size());
+            for (std::size_t v = 0; v < radiance.size(); ++v)
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_NEAR(shown.at(mesh)[v][c], radiance[v][c], 1e-5f) << v;
+        }
     }
 
     const ParameterInfo& baseColor = parameter("material.baseColor");
@@ -83,6 +108,63 @@ TEST_F(Bounces, FollowAnEditOfAlbedoAsIfBakedAnew) {
     controller.undoStack().undo();
     ASSERT_TRUE(ready());
     EXPECT_EQ(*attached(), *before);
+}
+
+// The last edit of a drag is shown before its coefficients are in the document, and not after.
+TEST_F(Bounces, ShowTheLightOfTheNewestEditFirst) {
+    attach();
+    ASSERT_TRUE(ready());
+    const std::vector<glm::vec3> light{{1, 2, 3}, {0.3f, 0, 0.2f}, {0, 0.1f, 0}, {0.4f, 0, 0.5f}};
+    bounces.setLight(light);
+    EXPECT_EQ(bounces.shown(), nullptr) << "the bake is right as it is";
+    const BakeArtifactPtr before = attached();
+    std::vector<std::pair<BouncedLightPtr, BakeArtifactPtr>> shown;
+    QObject here;
+    QObject::connect(&bounces, &BounceUpdater::shownChanged, &here,
+                     [&] { shown.emplace_back(bounces.shown(), attached()); });
+    const DragSession drag = controller.newDragSession();
+    for (int i = 0; i <= 10; ++i)
+        controller.setParameter(baseColor, red, glm::vec3(0.05f, 0.05f, 0.07f * float(i)), drag);
+    ASSERT_TRUE(ready());
+    // The first that was asked for, the newest when that was done, and none.
+    ASSERT_EQ(shown.size(), 3u);
+    EXPECT_EQ(shown[1].second, before);
+    ASSERT_NE(shown[1].first, nullptr);
+    expectSame(*shown[1].first, lit(light, 2));
+    EXPECT_EQ(shown[2].first, nullptr);
+    EXPECT_NE(attached(), before);
+}
+
+// What the view asks for is no edit of the bake.
+TEST_F(Bounces, ShowAsManyAsTheViewAsksForInAnyLight) {
+    attach();
+    ASSERT_TRUE(ready());
+    const BakeArtifactPtr before = attached();
+    const auto follows = [&](std::span<const glm::vec3> light, int times) {
+        const BouncedLight expected = lit(light, times);
+        const BouncedLightPtr old = bounces.shown();
+        bounces.setLight(light);
+        ASSERT_TRUE(
+            QTest::qWaitFor([&] { return bounces.shown() != old && bounces.upToDate(); }, 60'000));
+        ASSERT_NE(bounces.shown(), nullptr);
+        expectSame(*bounces.shown(), expected);
+    };
+    const Target view{Scope::View, 0};
+    controller.setParameter(parameter("view.bounces"), view, 1.0f);
+    const std::vector<glm::vec3> day{{3, 3, 3}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
+    const std::vector<glm::vec3> night(4, glm::vec3(0.01f));
+    follows(day, 1);
+    follows(night, 1);
+    controller.setParameter(parameter("view.bounces"), view, 4.0f);
+    follows(day, 4);
+    EXPECT_EQ(attached(), before);
+
+    controller.setParameter(parameter("view.bounces"), view, 2.0f); // those of the bake
+    EXPECT_EQ(bounces.shown(), nullptr);
+    controller.setParameter(parameter("view.bounces"), view, 3.0f);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return bounces.shown() != nullptr; }, 60'000));
+    controller.detachBake(BakeKind::PrtVertex);
+    EXPECT_EQ(bounces.shown(), nullptr);
 }
 
 TEST_F(Bounces, TakeTheHitsOfABakeThatHasJustEnded) {

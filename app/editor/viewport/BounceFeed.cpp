@@ -1,0 +1,34 @@
+#include "app/editor/viewport/BounceFeed.h"
+
+#include "app/editor/job/BounceUpdater.h"
+#include "render/Renderer.h"
+
+namespace patina::editor {
+
+BounceFeed::BounceFeed(QObject* parent)
+    : QObject(parent) {}
+
+void BounceFeed::setBounces(BounceUpdater& bounces) {
+    m_bounces = &bounces;
+    connect(&bounces, &BounceUpdater::shownChanged, this, &BounceFeed::changed);
+}
+
+void BounceFeed::upload(render::Renderer& renderer) {
+    if (!m_bounces || (m_bounces->shown() == m_uploaded && !m_forgotten))
+        return;
+    m_forgotten = false;
+    m_uploaded = m_bounces->shown();
+    if (!m_uploaded) {
+        renderer.clearBouncedLight();
+        return;
+    }
+    for (const auto& [mesh, radiance] : *m_uploaded)
+        renderer.setBouncedLight(mesh, radiance);
+}
+
+void BounceFeed::endFrame(const render::Renderer& renderer) {
+    if (m_bounces)
+        m_bounces->setLight(renderer.transferLight());
+}
+
+} // namespace patina::editor

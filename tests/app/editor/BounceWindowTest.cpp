@@ -1,0 +1,144 @@
+// A wall of the Cornell box recoloured in its window: the light that bounces off it follows.
+#include "tests/app/editor/EditorFixture.h"
+
+#include "app/editor/document/Commands.h"
+#include "app/editor/viewport/IblUpdater.h"
+#include "app/editor/viewport/ViewportWidget.h"
+#include "core/bake/Bake.h"
+
+#include <QDir>
+#include <QElapsedTimer>
+#include <cstdio>
+
+namespace patina::editor {
+namespace {
+
+struct BounceWindow : EditorTest {
+    void SetUp() override {
+        EditorTest::SetUp();
+        window->resize(1440, 900);
+        controller().openScene(QStringLiteral("builtin:cornell-box"));
+        ASSERT_TRUE(settled(*session));
+        for (const Material& material : document().materials)
+            if (material.baseColor.r > 2.0f * material.baseColor.g)
+                red = {Scope::Material, material.id};
+        ASSERT_NE(red.id, 0u);
+        controller().setParameter(parameter("view.lighting"), {Scope::View, 0},
+                                  static_cast<int>(LightingMode::Prt));
+        Camera camera = document().view.camera;
+        camera.yawDeg = -6.0f; // the tall block shows the side that faces the red wall
+        camera.pitchDeg = 8.0f;
+        controller().setCamera(frameBounds(camera, document().bounds(), 1.3f));
+        TileSink sink;
+        PrtSettings settings;
+        settings.order = 3;
+        settings.samples = 64;
+        settings.transfer = TransferKind::Interreflected;
+        controller().attachBake(std::make_shared<const BakeArtifact>(
+            *bakePrtVertex(bakeInputs(document()), settings, sink, {})));
+        ASSERT_TRUE(eventually([] { return bounces().upToDate(); }));
+    }
+    static BounceUpdater& bounces() { return session->bounces; }
+    static ViewportWidget& viewport() { return window->viewport(); }
+    static BakeArtifactPtr attached() { return document().bakes.at(0); }
+    // The mean of the picture over the side of the tall block that faces the red wall, 0…255.
+    static glm::dvec3 blockColor() {
+        const QImage picture = viewport().grabFramebuffer();
+        const Camera& camera = document().view.camera;
+        const float aspect = float(picture.width()) / float(picture.height());
+        const glm::mat4 toClip =
+            camera.projectionMatrix(aspect, document().bounds()) * camera.viewMatrix();
+        glm::dvec3 sum(0.0);
+        int count = 0;
+        for (const MeshInstance& block : document().meshes) {
+            if (block.name != "Tall Block")
+                continue;
+            for (std::size_t v = 0; v < block.mesh->vertexCount(); ++v) {
+                if (block.mesh->normals[v].x > -0.8f)
+                    continue;
+                const glm::vec4 clip =
+                    toClip * block.transform * glm::vec4(block.mesh->positions[v], 1.0f);
+                const QColor color = picture.pixelColor(
+                    int((0.5f + 0.5f * clip.x / clip.w) * float(picture.width())),
+                    int((0.5f - 0.5f * clip.y / clip.w) * float(picture.height())));
+                sum += glm::dvec3(color.red(), color.green(), color.blue());
+                ++count;
+            }
+        }
+        EXPECT_GT(count, 50);
+        return sum / double(count);
+    }
+    // Light that has just been loaded comes in steps.
+    static glm::dvec3 steadyColor() {
+        glm::dvec3 color = blockColor();
+        EXPECT_TRUE(eventually([&] {
+            QTest::qWait(500);
+            const glm::dvec3 last = std::exchange(color, blockColor());
+            return viewport().ibl().maps() && glm::distance(color, last) < 0.1;
+        }));
+        return color;
+    }
+    static void keep(const char* name) {
+        const QString folder = qEnvironmentVariable("PATINA_SCREENSHOTS");
+        if (folder.isEmpty())
+            return;
+        ASSERT_TRUE(QDir().mkpath(folder));
+        QTest::qWait(800);
+        EXPECT_TRUE(viewport().grabFramebuffer().save(QDir(folder).filePath(QLatin1String(name))));
+    }
+    const ParameterInfo& baseColor = parameter("material.baseColor");
+    Target red;
+};
+
+// Painted blue, the wall turns the block's side from reddish to bluish: by the light shown, while
+// the document's bake is still the one before, and then by the coefficients.
+TEST_F(BounceWindow, ColoursBleedFromTheWallAsItIsPainted) {
+    const glm::dvec3 before = steadyColor();
+    EXPECT_GT(before.r, before.b + 5.0);
+    keep("bounces-red.png");
+
+    const BakeArtifactPtr bakeBefore = attached();
+    BakeArtifactPtr bakeThen;
+    int frames = 0, framesTo = -1;
+    double milliseconds = 0.0;
+    glm::dvec3 live(0.0);
+    QElapsedTimer clock;
+    QObject here;
+    QObject::connect(&viewport(), &ViewportWidget::frameRendered, &here, [&] { ++frames; });
+    QObject::connect(&bounces(), &BounceUpdater::shownChanged, &here, [&] {
+        if (!bounces().shown() || framesTo >= 0)
+            return;
+        framesTo = frames + 1;
+        milliseconds = double(clock.nsecsElapsed()) * 1e-6;
+        bakeThen = attached();
+        live = blockColor();
+    });
+    clock.start();
+    controller().setParameter(baseColor, red, glm::vec3(0.05f, 0.08f, 0.6f));
+    ASSERT_TRUE(eventually([] { return bounces().upToDate(); }));
+    const double settled = double(clock.nsecsElapsed()) * 1e-6;
+    ASSERT_GE(framesTo, 0);
+    EXPECT_EQ(bakeThen, bakeBefore);
+    EXPECT_NE(attached(), bakeBefore);
+    EXPECT_EQ(bounces().shown(), nullptr);
+    const glm::dvec3 after = steadyColor();
+    std::printf("bleeding followed in frame %d, %.0f ms after the edit; all coefficients after "
+                "%.0f ms; block %.0f %.0f %.0f -> %.0f %.0f %.0f\n",
+                framesTo, milliseconds, settled, before.r, before.g, before.b, live.r, live.g,
+                live.b);
+    EXPECT_LT(live.r, before.r - 5.0);
+    EXPECT_GT(live.b, before.b + 5.0);
+    EXPECT_GT(live.b, live.r + 5.0);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(after[c], live[c], 3.0) << c; // which had fewer pixels
+    keep("bounces-blue.png");
+
+    controller().undoStack().undo();
+    ASSERT_TRUE(eventually([] { return bounces().upToDate(); }));
+    const glm::dvec3 back = steadyColor();
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(back[c], before[c], 0.5) << c;
+}
+
+} // namespace
+} // namespace patina::editor
