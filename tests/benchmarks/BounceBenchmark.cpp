@@ -74,6 +74,7 @@ struct Baked : TileSink {
         settings.samples = samples;
         settings.transfer = TransferKind::Interreflected;
         settings.bounces = kBounces;
+        settings.bounceSamples = 64;
         settings.fitted = false;
         const double begin = cpuSeconds();
         artifact = *bakePrtVertex(inputs, settings, *this, {});
