@@ -454,6 +454,29 @@ class Parser {
         c->add_flag("--openexr-envmap", o.openExrEnvmap,
                     "Write a lat-long or vertical strip in OpenEXR's own convention, with its "
                     "envmap attribute");
+        CLI::Option* bands =
+            c->add_option("--bands", o.bands,
+                          "Only what the first N bands of spherical harmonics hold of it; sums go "
+                          "below zero beside what is bright, which .exr keeps and .hdr cuts")
+                ->check(plain(CLI::Range(1, kMaxShOrder)))
+                ->type_name("1…8");
+        CLI::Option* method =
+            c->add_option("--method", o.method,
+                          "How bands are found: exact (every pixel), stratified (one random point "
+                          "in each of N × N cells, the classical way), qmc (Owen-scrambled "
+                          "Sobol')")
+                ->transform(plain(CLI::CheckedTransformer(
+                    std::map<std::string, ShMethod>{{"exact", ShMethod::Exact},
+                                                    {"stratified", ShMethod::Stratified},
+                                                    {"qmc", ShMethod::Qmc}})))
+                ->default_str("exact")
+                ->needs(bands)
+                ->type_name("NAME");
+        c->add_option("--samples", o.samples, "Of stratified (rounded up to a square) and qmc")
+            ->check(plain(CLI::Range(1, 1 << 28)))
+            ->capture_default_str()
+            ->needs(method)
+            ->type_name("N");
         addSets(c);
         addThreads(c);
     }

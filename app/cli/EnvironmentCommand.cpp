@@ -2,10 +2,28 @@
 #include "app/cli/SceneSetup.h"
 #include "core/document/EnvironmentFile.h"
 #include "core/document/EnvironmentSave.h"
+#include "core/light/EnvironmentProjection.h"
+#include "core/light/ShBands.h"
 
 #include <nlohmann/json.hpp>
 
 namespace patina::cli {
+namespace {
+
+// The picture of what the first bands hold.
+Image bandsOf(Session& session, const Environment& environment, const EnvironmentOptions& options) {
+    const int samples = environmentSamples(options.method, options.samples);
+    nlohmann::ordered_json& settings = session.report().json()["settings"];
+    settings["bands"] = options.bands;
+    if (options.method != ShMethod::Exact)
+        settings["samples"] = samples;
+    session.beginPhase();
+    return shLatLong(projectEnvironment(*environment.image, options.bands, options.method, samples,
+                                        session.job()),
+                     options.bands, environment.image->height(), session.job());
+}
+
+} // namespace
 
 Result<void> run(Session& session, const EnvironmentOptions& options) {
     EnvironmentSaveSettings settings;
@@ -35,7 +53,11 @@ Result<void> run(Session& session, const EnvironmentOptions& options) {
         openEnvironmentFor(session, options.environment, options.environmentLayout);
     if (!document)
         return document.error();
-    const Environment& environment = document->environment;
+    Environment environment = document->environment;
+    if (options.bands > 0)
+        environment.image = std::make_shared<const Image>(bandsOf(session, environment, options));
+    if (session.job().cancelled())
+        return Error{ErrorKind::Cancelled, "it was cancelled", {}, {}};
     if (settings.size == 0)
         settings.size = environmentSaveSize(settings.layout, environment.image->width());
     session.report().json()["settings"]["size"] = settings.size;

@@ -4,6 +4,7 @@
 #include "core/bake/Bake.h"
 #include "core/bake/BakeStorage.h"
 #include "core/export/IblPackage.h"
+#include "core/light/EnvironmentProjection.h"
 
 #include <optional>
 #include <string>
@@ -92,6 +93,9 @@ struct EnvironmentOptions {
     std::string layout = "lat-long";
     int size = 0; // 0: keeps the detail
     bool openExrEnvmap = false;
+    int bands = 0; // of spherical harmonics; 0: the environment itself
+    ShMethod method = ShMethod::Exact;
+    int samples = 200 * 200; // of the other methods
 };
 
 struct ExportOptions {

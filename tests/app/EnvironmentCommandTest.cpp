@@ -53,6 +53,35 @@ TEST(EnvironmentCommand, SixFacesAndOpenExrsConventionCanBeReadBack) {
     EXPECT_EQ(attribute.json()["openExrConvention"], true);
 }
 
+// The studio's sum of one band is even, and that of three goes below zero.
+TEST(EnvironmentCommand, WritesWhatBandsHold) {
+    const TemporaryFolder folder;
+    const auto made = [&](const std::string& name, std::vector<std::string> more) {
+        more.insert(more.begin(), {"environment", "builtin:studio", "-o", folder / name, "--size",
+                                   "64", "--json"});
+        return runPatina(more);
+    };
+    ASSERT_EQ(made("one.exr", {"--bands", "1"}).status, 0);
+    ASSERT_EQ(made("three.exr", {"--bands", "3"}).status, 0);
+    const Outcome stratified =
+        made("classical.exr", {"--bands", "3", "--method", "stratified", "--samples", "39700"});
+    ASSERT_EQ(stratified.status, 0) << stratified.err << stratified.out;
+    EXPECT_EQ(stratified.json()["settings"]["bands"], 3);
+    EXPECT_EQ(stratified.json()["settings"]["samples"], 40000);
+    const auto rmse = [&](const std::string& a, const std::string& b) {
+        const Outcome compared = runPatina({"compare", folder / a, folder / b, "--json"});
+        EXPECT_EQ(compared.status, 0) << compared.err << compared.out;
+        return compared.json()["rmse"].get<double>();
+    };
+    const double bands = rmse("three.exr", "one.exr");
+    EXPECT_GT(bands, 0.05);
+    EXPECT_GT(rmse("classical.exr", "three.exr"), 0.0);
+    EXPECT_LT(rmse("classical.exr", "three.exr"), 0.05 * bands);
+    EXPECT_EQ(made("x.exr", {"--bands", "9"}).status, 2);
+    EXPECT_EQ(made("x.exr", {"--method", "stratified"}).status, 2);
+    EXPECT_EQ(made("x.exr", {"--bands", "3", "--samples", "9"}).status, 2);
+}
+
 TEST(EnvironmentCommand, WrongUsageIsRefusedBeforeAnythingIsRead) {
     const TemporaryFolder folder;
     const auto status = [&](std::vector<std::string> arguments) {
