@@ -3,9 +3,11 @@
 #include "core/bake/AoSettingsCheck.h"
 #include "core/bake/Bake.h"
 #include "core/bake/BakeTracer.h"
+#include "core/bake/InsideGeometry.h"
 #include "core/bake/Interreflection.h"
 #include "core/bake/PrtSettingsCheck.h"
 #include "core/bake/RayScene.h"
+#include "core/bake/TransferMeaning.h"
 #include "core/bake/VertexFit.h"
 #include "core/bake/WorkOrder.h"
 
@@ -26,6 +28,23 @@ std::vector<VertexBake> visibilityOf(const BakeGeometry& geometry, const VertexS
                            values.begin() + static_cast<std::ptrdiff_t>(end));
     }
     return bakes;
+}
+
+// What the user should know of the geometry, or nothing.
+std::string noteOf(const BakeGeometry& geometry, const RayScene& scene,
+                   const VertexSamples& samples, const PassSettings& settings,
+                   const PassState& state, const JobContext& job) {
+    const auto stride = static_cast<std::size_t>(settings.stride());
+    std::vector<float> visibility(samples.vertexCount());
+    for (std::size_t v = 0; v < visibility.size(); ++v)
+        visibility[v] =
+            settings.shOrder == 0
+                ? state.values[v]
+                : ambientVisibility(std::span(state.values).subspan(v * stride, stride));
+    return insideNote(geometry,
+                      countVerticesInside(geometry, scene,
+                                          std::span(samples.points).first(visibility.size()),
+                                          visibility, job));
 }
 
 // Everything the two vertex bakes share; `artifact` arrives with kind, order and settings, `prt`
@@ -66,6 +85,8 @@ Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings setting
     const PassState& passes = **traced;
 
     artifact.samplesDone = passes.samplesDone;
+    if (std::string note = noteOf(*geometry, *scene, samples, settings, passes, job); !note.empty())
+        artifact.settings["note"] = std::move(note);
     if (!prt) {
         artifact.vertices = visibilityOf(*geometry, samples, passes.values);
     } else {
