@@ -23,9 +23,8 @@ FrameBlock Renderer::Impl::packFrame(const FrameSettings& frame) const {
     return block;
 }
 
-Result<void> Renderer::Impl::relightFor(ViewKind kind) {
-    return relight.update(scene, lightingOf(kind, scene.document().view.lighting),
-                          scene.transferLight());
+Result<void> Renderer::Impl::relightFor(ViewKind kind, const FrameBlock& block) {
+    return relight.update(scene, lightingOf(kind, scene.document().view.lighting), block);
 }
 
 void Renderer::Impl::useFrame(const FrameBlock& block) {
@@ -48,7 +47,7 @@ SurfaceSettings Renderer::Impl::surfaceSettings(const FrameBlock& block, Surface
 Result<void> Renderer::Impl::drawPicture(const FrameSettings& frame, const FrameBlock& block,
                                          const gl::Framebuffer& target, SurfaceOutput output,
                                          bool withBackground, ViewKind kind) {
-    if (auto done = relightFor(kind); !done)
+    if (auto done = relightFor(kind, block); !done)
         return done;
     const Document& document = scene.document();
     SurfaceSettings settings = surfaceSettings(block, output, kind);
@@ -135,6 +134,19 @@ void Renderer::setIbl(const IblMaps& maps) {
 
 void Renderer::beginEnvironment(EnvironmentTexelsPtr texels) {
     m_impl->scene.environment().begin(std::move(texels));
+}
+
+void Renderer::setProjection(const ImagePtr& image, const ProjectionSh& coefficients) {
+    m_impl->scene.environment().setProjection(image, coefficients);
+    m_impl->sceneIsNew = true;
+}
+
+bool Renderer::knowsProjection(const ImagePtr& image) const {
+    return m_impl->scene.environment().knowsProjection(image);
+}
+
+std::vector<glm::vec3> Renderer::transferLight(int order) const {
+    return m_impl->scene.transferLight(order);
 }
 
 bool Renderer::proceedEnvironment(std::size_t bytes) {

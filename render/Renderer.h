@@ -80,6 +80,16 @@ class Renderer {
     void beginEnvironment(EnvironmentTexelsPtr texels);
     bool proceedEnvironment(std::size_t bytes);
 
+    // Coefficients (8 bands) of a picture that takes part in a cross-fade. With both known,
+    // transfer is lit by exactly their mix while the picture of both is still on its way; those of
+    // a picture that was set come with it.
+    using ProjectionSh = std::array<glm::vec3, 64>;
+    void setProjection(const ImagePtr& image, const ProjectionSh& coefficients);
+    [[nodiscard]] bool knowsProjection(const ImagePtr& image) const;
+    // Radiance coefficients, order² of them, of the light from far away that transfer is lit by
+    // now: the environments of the mix and the directional lights as discs.
+    [[nodiscard]] std::vector<glm::vec3> transferLight(int order) const;
+
     // What ToneMap::OpenColorIo shows; null: nothing yet, the default curve stands in for it. Error
     // Internal when the driver refuses its shader; the stand-in is used then, too.
     Result<void> setDisplay(const DisplayTransformPtr& display);
@@ -89,9 +99,9 @@ class Renderer {
     void previewVertices(BakeKind kind, Id mesh, int stride, std::span<const float> values);
     void previewTexels(Id material, int size, std::span<const float> values); // whole texture
     void clearPreview();
-    // Radiance per vertex that a surface of albedo 1 sends out by way of other surfaces, in the
-    // light shown now: replaces what the attached bake holds of it (LightingMode::Prt) until it is
-    // cleared or another bake is attached.
+    // Radiance per vertex that a surface of albedo 1 sends out by way of other surfaces in
+    // transferLight(): replaces what the attached bake holds of it (LightingMode::Prt) until it is
+    // cleared or another bake is attached. Lights near by are added to it, through the bake.
     void setBouncedLight(Id mesh, std::span<const glm::vec3> radiance);
     void clearBouncedLight();
     // The light that transfer is lit by: radiance coefficients in world space, of 8 bands.

@@ -66,8 +66,9 @@ struct Renderer::Impl {
     // --- Renderer.cpp
     [[nodiscard]] FrameBlock packFrame(const FrameSettings& frame) const;
     void useFrame(const FrameBlock& block);
-    // Light under transfer, for a view of this kind; nothing to do while nothing has changed.
-    Result<void> relightFor(ViewKind kind);
+    // Light under transfer in the frame's lights, for a view of this kind; nothing to do while
+    // nothing has changed. The frame's block is in use.
+    Result<void> relightFor(ViewKind kind, const FrameBlock& block);
     [[nodiscard]] SurfaceSettings surfaceSettings(const FrameBlock& block, SurfaceOutput output,
                                                   ViewKind kind) const;
     // The scene with its background into a target of radiance.

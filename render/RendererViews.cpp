@@ -86,7 +86,7 @@ Result<void> Renderer::Impl::drawNumbers(const FrameSettings& frame, const Frame
     views.setBlock(settings);
     if (asPicture)
         return drawPicture(frame, block, target, output, settings.kinds[0] == kViewFinal, kind);
-    if (auto done = relightFor(kind); !done)
+    if (auto done = relightFor(kind, block); !done)
         return done;
     shadows.bind();
     const DrawList list = makeDrawList(scene.items(), block.worldToClip, frame.camera.position());
@@ -373,7 +373,7 @@ Result<Inspection> Renderer::inspect(int x, int y) {
         result.material = r.scene.document().mesh(*id)->material;
         r.views.setBlock(r.viewsBlock(r.lastFrame.view, {}, false));
         r.shadows.bind();
-        if (auto done = r.relightFor(kViewFinal); !done)
+        if (auto done = r.relightFor(kViewFinal, r.lastBlock); !done)
             return done;
         return r.inspection.draw(
             r.scene, *item, r.picking, r.surface,

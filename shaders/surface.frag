@@ -129,6 +129,14 @@ ShadedLight mixed(ShadedLight light) {
     return light;
 }
 
+// Of a lamp: transfer has its diffuse light, with soft shadows, among what arrives.
+ShadedLight mixedLamp(ShadedLight light) {
+#ifdef HAS_TRANSFER
+    light.diffuse = vec3(0.0);
+#endif
+    return mixed(light);
+}
+
 // Half floats end at 65504, and one NaN would spread over its pixel in the resolve.
 vec3 storable(vec3 c) {
     return vec3(isnan(c.x) ? 0.0 : clamp(c.x, 0.0, 65504.0),
@@ -276,7 +284,7 @@ void main() {
         shadow = u_lights[i].place.w < 0.0 ? 1.0 : visibility[int(u_lights[i].place.w)];
         E *= shadow;
 #endif
-        ShadedLight light = mixed(shadeDirect(s, u_lights[i].place.xyz, E));
+        ShadedLight light = mixedLamp(shadeDirect(s, u_lights[i].place.xyz, E));
         directDiffuse += light.diffuse;
         directSpecular += light.specular;
 #ifdef VIEWS
@@ -293,7 +301,8 @@ void main() {
 #ifdef HAS_SHADOWS
         shadow = u_lights[i].place.w < 0.0 ? 1.0 : visibility[int(u_lights[i].place.w)];
 #endif
-        ShadedLight light = mixed(shadeDirect(s, l, u_lights[i].color.rgb * (reaches * shadow)));
+        ShadedLight light =
+            mixedLamp(shadeDirect(s, l, u_lights[i].color.rgb * (reaches * shadow)));
         directDiffuse += light.diffuse;
         directSpecular += light.specular;
 #ifdef VIEWS
@@ -307,8 +316,8 @@ void main() {
     float lobeTexels = float(textureSize(u_lobes, 0).x);
     vec4 fit = textureLod(u_lobes, (lobe * (lobeTexels - 1.0) + 0.5) / lobeTexels, 0.0);
     for (int i = LIGHT_ENDS.y; i < LIGHT_ENDS.z; ++i) {
-        ShadedLight light = mixed(shadeSphere(s, fit, u_lights[i].place.xyz - v_position,
-                                              u_lights[i].axis.x, u_lights[i].color.rgb));
+        ShadedLight light = mixedLamp(shadeSphere(s, fit, u_lights[i].place.xyz - v_position,
+                                                  u_lights[i].axis.x, u_lights[i].color.rgb));
         directDiffuse += light.diffuse;
         directSpecular += light.specular;
 #ifdef VIEWS
@@ -317,8 +326,9 @@ void main() {
     }
     for (int i = LIGHT_ENDS.z; i < LIGHT_ENDS.w; ++i) {
         ShadedLight light =
-            mixed(shadeRectangle(s, fit, u_lights[i].place.xyz - v_position, u_lights[i].axis.xyz,
-                                 u_lights[i].side.xyz, u_lights[i].color.rgb));
+            mixedLamp(shadeRectangle(s, fit, u_lights[i].place.xyz - v_position,
+                                     u_lights[i].axis.xyz, u_lights[i].side.xyz,
+                                     u_lights[i].color.rgb));
         directDiffuse += light.diffuse;
         directSpecular += light.specular;
 #ifdef VIEWS
@@ -342,6 +352,9 @@ void main() {
     recordSurface(s, baseColor, ao, dfg, alpha, triangle);
 #ifdef HAS_TRANSFER_CONE
     recordBake(cone);
+#endif
+#ifdef HAS_TRANSFER
+    record(kRecordTransfer, 1.0);
 #endif
     recordChosenDirection(s, sums, specularIbl, alpha);
     recordIbl(s, dfg, arriving, prefiltered, ambient, diffuseOpen, open, alpha);

@@ -3,6 +3,7 @@
 #include "core/base/Check.h"
 #include "core/document/Edit.h"
 #include "core/document/LightMix.h"
+#include "core/document/Lighting.h"
 #include "core/document/Lights.h"
 
 #include <algorithm>
@@ -194,8 +195,9 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
     scalar(kViewVoH, "voh", "V·H", "V·H", kFactors, ColorMap::Sequential, 0.0f, 1.0f,
            "Cosine between viewer and half vector, which Fresnel depends on"),
 
-    radiance(kViewDirect, "direct", "Direct Light", "", kDirect,
-             "Light of all analytic lights, shadows included"),
+    radiance(
+        kViewDirect, "direct", "Direct Light", "", kDirect,
+        "Light of all analytic lights, shadows included; under transfer their highlights alone"),
     radiance(kViewDirectDiffuse, "directDiffuse", "Direct Diffuse", "", kDirect,
              "Diffuse reflection of the analytic lights",
              "Direct diffuse light as it stands in the picture's sum"),
@@ -216,9 +218,10 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
 
     irradiance(radiance(kViewIrradiance, "irradiance", "Irradiance", "E(n)", kIbl,
                         "Light from all the surroundings that falls on the surface, before "
-                        "occlusion; shown as a grey card of 50 % would reflect it")),
+                        "occlusion; under transfer with it, and with the lamps'; shown as a grey "
+                        "card of 50 % would reflect it")),
     radiance(kViewDiffuseIbl, "diffuseIbl", "Diffuse IBL", "", kIbl,
-             "Diffuse reflection of the surroundings",
+             "Diffuse reflection of the surroundings; under transfer of the lamps, too",
              "Diffuse image-based light as it stands in the picture's sum"),
     color(
         kViewDiffuseAlbedo, "diffuseAlbedo", "Diffuse Albedo", "ρ", kIbl,
@@ -306,6 +309,29 @@ bool anyMaterial(const Document& document, Has has) {
 
 constexpr const char* kNoTransfer = "There is no radiance transfer bake: make one in Bakes.";
 
+// Whether transfer lights every mesh, and so holds the diffuse light of the lamps.
+bool transferHoldsLamps(const Document& document) {
+    if (!readsBake(document.view.lighting))
+        return document.view.lighting == LightingMode::Unshadowed;
+    const BakeArtifactPtr vertices = findBake(document, BakeKind::PrtVertex);
+    const BakeArtifactPtr texels = findBake(document, BakeKind::PrtTexel);
+    const auto isBaked = [&](const MeshInstance& mesh) {
+        const auto ofMesh = [&](const VertexBake& b) {
+            return b.mesh == mesh.id && !b.values.empty() &&
+                   b.values.size() == mesh.mesh->vertexCount() * static_cast<std::size_t>(b.stride);
+        };
+        const auto ofMaterial = [&](const TexelBake& b) {
+            return b.material == mesh.material && !b.values.empty();
+        };
+        return (vertices &&
+                std::any_of(vertices->vertices.begin(), vertices->vertices.end(), ofMesh)) ||
+               (texels && std::any_of(texels->texels.begin(), texels->texels.end(), ofMaterial));
+    };
+    return std::all_of(
+        document.meshes.begin(), document.meshes.end(),
+        [&](const MeshInstance& mesh) { return !mesh.visible || !mesh.mesh || isBaked(mesh); });
+}
+
 // Views of what a transfer bake knows besides light.
 std::string whyNotBaked(ViewKind kind, const Document& document) {
     if (document.view.lighting == LightingMode::Unshadowed)
@@ -357,11 +383,14 @@ const ViewInfo* findView(std::string_view id) {
 
 std::string whyEmpty(ViewKind kind, const Document& document) {
     switch (kind) {
-    case kViewDirect:
     case kViewDirectDiffuse:
+    case kViewLightDiffuse:
+        if (anyShines(document) && transferHoldsLamps(document))
+            return "Transfer holds the diffuse light of lamps: see Diffuse IBL.";
+        [[fallthrough]];
+    case kViewDirect:
     case kViewDirectSpecular:
     case kViewLightArriving:
-    case kViewLightDiffuse:
     case kViewLightSpecular:
         return anyShines(document) ? "" : "No light shines: add one, or switch one on.";
     case kViewShadow:

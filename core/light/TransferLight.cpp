@@ -5,9 +5,11 @@
 #include "core/math/ShRotation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <numbers>
+#include <utility>
 
 namespace patina {
 namespace {
@@ -80,29 +82,37 @@ std::array<float, kMaxShOrder> nearLightWindow(int order) {
     return factors;
 }
 
-std::vector<glm::vec3> transferLight(const Document& document, int order,
-                                     const EnvironmentProjection& projection) {
+std::optional<std::vector<glm::vec3>> environmentLight(std::span<const EnvironmentPart> parts,
+                                                       int order,
+                                                       const EnvironmentProjection& projection) {
     CHECK(order >= 1 && order <= kMaxShOrder);
     const auto count = static_cast<std::size_t>(shCount(order));
     std::vector<glm::vec3> sum(count, glm::vec3(0.0f));
-
-    const std::vector<EnvironmentPart> parts = environmentParts(document);
-    const bool allKnown = std::all_of(parts.begin(), parts.end(), [&](const EnvironmentPart& part) {
-        return projection(part).size() >= count;
-    });
-    if (allKnown) {
-        for (const EnvironmentPart& part : parts)
-            addEnvironment(part, projection(part), sum, order);
-    } else if (const EnvironmentPart shown = shownEnvironment(document);
-               projection(shown).size() >= count) {
-        addEnvironment(shown, projection(shown), sum, order);
+    for (const EnvironmentPart& part : parts) {
+        const std::span<const glm::vec3> known = projection(part);
+        if (known.size() < count)
+            return {};
+        addEnvironment(part, known, sum, order);
     }
+    return sum;
+}
 
+void addDistantLights(const Document& document, int order, std::span<glm::vec3> sum) {
     for (const Light& light : document.lights)
         if (light.type == LightType::Directional && shines(document, light))
             addZonal(discLight(light.shadowSoftness, order), light.directionToLight(),
                      lightPower(light), sum);
-    return sum;
+}
+
+std::vector<glm::vec3> transferLight(const Document& document, int order,
+                                     const EnvironmentProjection& projection) {
+    auto sum = environmentLight(environmentParts(document), order, projection);
+    if (!sum)
+        sum = environmentLight(std::array{shownEnvironment(document)}, order, projection);
+    if (!sum)
+        sum.emplace(static_cast<std::size_t>(shCount(order)), glm::vec3(0.0f));
+    addDistantLights(document, order, *sum);
+    return std::move(*sum);
 }
 
 } // namespace patina

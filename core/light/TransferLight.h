@@ -10,6 +10,7 @@
 #include <array>
 #include <functional>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,13 @@ using EnvironmentProjection = std::function<std::span<const glm::vec3>(const Env
 // is no environment. order: 1 … kMaxShOrder.
 [[nodiscard]] std::vector<glm::vec3> transferLight(const Document& document, int order,
                                                    const EnvironmentProjection& projection);
+
+// The two parts of it. Of `parts` together; nothing where a projection is not known.
+[[nodiscard]] std::optional<std::vector<glm::vec3>>
+environmentLight(std::span<const EnvironmentPart> parts, int order,
+                 const EnvironmentProjection& projection);
+// The directional lights that shine are added to `sum`, order² coefficients.
+void addDistantLights(const Document& document, int order, std::span<glm::vec3> sum);
 
 // A distant disc of light about +z, of irradiance 1 on a surface that faces it: damped so that no
 // surface gets less than nothing of it (deringFactor()), and scaled so that the bands that are left

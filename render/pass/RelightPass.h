@@ -3,6 +3,7 @@
 // frames nothing.
 #pragma once
 
+#include "core/math/SphericalHarmonics.h"
 #include "render/gl/BufferView.h"
 #include "render/scene/GpuScene.h"
 #include "render/shader/ShaderLibrary.h"
@@ -10,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <vector>
 
 namespace patina::render {
 
@@ -17,25 +19,40 @@ class RelightPass {
   public:
     RelightPass(gl::Context& context, ShaderLibrary& shaders);
 
-    // Exit radiance of all items for `mode` in `light`; does nothing for modes that need none.
-    Result<void> update(const GpuScene& scene, LightingMode mode, const TransferLightSh& light);
+    // Exit radiance of all items for `mode`, in the environments and lights of the scene; does
+    // nothing for modes that need none. `frame`: of the lights near by; its buffer is bound.
+    Result<void> update(GpuScene& scene, LightingMode mode, const FrameBlock& frame);
 
     // Elements that have been computed since the beginning, to see that nothing is done in vain.
     [[nodiscard]] std::uint64_t elementsDone() const { return m_elementsDone; }
 
   private:
-    enum class Source { Direct, Bounced, OpenSky };
+    // Light from far away in so many bands: of how many depends what a point of light becomes.
+    struct FarLight {
+        std::vector<glm::vec3> coefficients;
+        gl::Buffer block;
+        std::uint64_t revision = 0;
+        bool current = false; // in this update
+    };
+    // Those near by, as the frame has them.
+    struct NearLights {
+        glm::ivec4 ends{0};
+        std::vector<LightBlock> lights;
+        friend bool operator==(const NearLights&, const NearLights&) = default;
+    };
+    struct Work;
+
+    FarLight& farLight(const GpuScene& scene, int order);
     // Whether there was something to do.
-    Result<bool> relight(const DrawItem& item, LightingMode mode);
-    Result<void> dispatch(Source source, const gl::Buffer& elements, std::size_t count, int vectors,
-                          bool adds, const gl::Buffer& exit, const glm::mat3& normalToWorld);
+    Result<bool> relight(GpuScene& scene, const DrawItem& item, LightingMode mode);
+    Result<void> dispatch(const Work& work);
 
     gl::Context& m_context;
     ShaderLibrary& m_shaders;
-    gl::Buffer m_block, m_openSkyBlock;
-    gl::BufferView m_view;
-    TransferLightSh m_light{};
-    std::uint64_t m_lightRevision = 0;
+    gl::BufferView m_elements, m_bounced, m_places;
+    std::array<FarLight, kMaxShOrder + 1> m_far; // by order
+    NearLights m_near;
+    std::uint64_t m_farRevision = 0, m_nearRevision = 0;
     std::uint64_t m_elementsDone = 0;
 };
 

@@ -22,6 +22,7 @@ inline constexpr std::size_t kMaxTransferCount = 64; // order 8
 
 struct LightBlock {
     glm::vec4 place{0.0f}, color{0.0f}, axis{0.0f}, side{0.0f};
+    friend bool operator==(const LightBlock&, const LightBlock&) = default;
 };
 
 struct FrameBlock {

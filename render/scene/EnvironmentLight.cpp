@@ -4,6 +4,7 @@
 #include "core/base/Log.h"
 #include "core/light/ClosestLamp.h"
 #include "core/light/DfgTable.h"
+#include "core/light/TransferLight.h"
 #include "core/math/ShRotation.h"
 #include "core/math/Shading.h"
 
@@ -166,6 +167,8 @@ bool EnvironmentLight::proceed(std::size_t bytes) {
     m_prefilteredLevels = texels.levels;
     m_irradianceSh = texels.irradianceSh;
     m_radianceSh = texels.radianceSh;
+    if (texels.image)
+        setProjection(texels.image, texels.radianceSh);
     m_clampedTexels = texels.clamped;
     if (m_wanted.image == texels.image)
         m_shown = m_wanted;
@@ -223,13 +226,31 @@ glm::vec3 EnvironmentLight::scale() const {
     return m_wanted.scale == glm::vec3(0.0f) ? m_wanted.scale : m_shown.scale;
 }
 
-TransferLightSh EnvironmentLight::transferLight() const {
-    TransferLightSh light{};
-    ShRotation::aboutY(glm::radians(m_shown.rotationDeg), kMaxShOrder)
-        .apply(std::span<const glm::vec3>(m_radianceSh), std::span<glm::vec3>(light));
-    for (glm::vec3& c : light)
-        c *= scale();
-    return light;
+void EnvironmentLight::setProjection(const ImagePtr& image, const ProjectionSh& coefficients) {
+    std::erase_if(m_projections, [](const auto& entry) { return entry.first.expired(); });
+    m_projections.insert_or_assign(image, coefficients);
+}
+
+bool EnvironmentLight::knowsProjection(const ImagePtr& image) const {
+    return m_projections.contains(image);
+}
+
+std::vector<glm::vec3> EnvironmentLight::transferLight(std::span<const EnvironmentPart> parts,
+                                                       int order) const {
+    const auto known = [this](const EnvironmentPart& part) -> std::span<const glm::vec3> {
+        const auto found = m_projections.find(part.image);
+        if (found == m_projections.end())
+            return {};
+        return found->second;
+    };
+    if (!parts.empty())
+        if (auto light = environmentLight(parts, order, known))
+            return std::move(*light);
+    EnvironmentPart shown = m_shown;
+    shown.scale = scale();
+    return *environmentLight(
+        std::span(&shown, 1), order,
+        [this](const EnvironmentPart&) -> std::span<const glm::vec3> { return m_radianceSh; });
 }
 
 } // namespace patina::render

@@ -9,12 +9,15 @@
 #include "render/scene/Blocks.h"
 
 #include <map>
+#include <memory>
 #include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace patina::render {
 
-using TransferLightSh = std::array<glm::vec3, kMaxTransferCount>; // radiance coefficients
+using ProjectionSh = std::array<glm::vec3, kMaxTransferCount>; // of a picture's radiance
 
 class EnvironmentLight {
   public:
@@ -41,8 +44,15 @@ class EnvironmentLight {
     // Rotation, scale and coefficients of what is shown for this frame.
     void fill(FrameBlock& frame) const;
 
-    // Radiance coefficients of the environment in the world, rotation and exposure included.
-    [[nodiscard]] TransferLightSh transferLight() const;
+    // Coefficients of a picture that is part of a cross-fade: with those of both parts transfer
+    // is lit by exactly their mix, whatever picture of both is shown meanwhile. Those of a picture
+    // that is shown come with it.
+    void setProjection(const ImagePtr& image, const ProjectionSh& coefficients);
+    [[nodiscard]] bool knowsProjection(const ImagePtr& image) const;
+    // Radiance coefficients of these environments in the world, order² of them; of what is shown,
+    // as it is shown, where those of a part are not known.
+    [[nodiscard]] std::vector<glm::vec3> transferLight(std::span<const EnvironmentPart> parts,
+                                                       int order) const;
 
     // A CubeAtlas; its side and levels are in the frame's block.
     [[nodiscard]] const gl::Texture& prefiltered() const { return m_prefiltered; }
@@ -73,7 +83,8 @@ class EnvironmentLight {
     std::map<std::pair<Distribution, Visibility>, gl::Texture> m_dfgTables;
     const gl::Texture* m_dfg = nullptr; // one of them
     std::array<glm::vec3, 9> m_irradianceSh{};
-    TransferLightSh m_radianceSh{};
+    ProjectionSh m_radianceSh{};
+    std::map<std::weak_ptr<const Image>, ProjectionSh, std::owner_less<>> m_projections;
     int m_prefilteredSide = 1, m_prefilteredLevels = 1;
     std::size_t m_clampedTexels = 0;
     EnvironmentPart m_wanted, m_shown;

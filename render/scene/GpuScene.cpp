@@ -1,9 +1,11 @@
 #include "render/scene/GpuScene.h"
 
+#include "core/bake/TexelPositions.h"
 #include "core/base/Check.h"
 #include "core/base/Log.h"
 #include "core/document/Lighting.h"
 #include "core/light/LobeTable.h"
+#include "core/light/TransferLight.h"
 #include "render/scene/LightBlocks.h"
 
 #include <algorithm>
@@ -97,6 +99,8 @@ void GpuScene::update(const Document& document, const Change& change) {
     if (m_transfer.update(m_document))
         clearBouncedLight(); // it rests on what was there before
     updateTexelBakes();
+    m_texelPositions.clear();
+    ++m_placeRevision;
     rebuildItems();
 }
 
@@ -148,6 +152,8 @@ void GpuScene::rebuildItems() {
             continue;
         DrawItem item;
         item.id = instance.id;
+        item.materialId = instance.material;
+        item.transform = instance.transform;
         item.mesh = &mesh->second;
         const auto material = m_materials.find(instance.material);
         item.material =
@@ -239,8 +245,19 @@ void GpuScene::clearBouncedLight() {
         }
 }
 
-TransferLightSh GpuScene::transferLight() const {
-    return m_environment.transferLight();
+std::vector<glm::vec3> GpuScene::transferLight(int order) const {
+    std::vector<glm::vec3> light = m_environment.transferLight(environmentParts(m_document), order);
+    addDistantLights(m_document, order, light);
+    return light;
+}
+
+const gl::Buffer& GpuScene::texelPositions(Id material, int side) {
+    const auto count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+    gl::Buffer& buffer = m_texelPositions[material];
+    if (buffer.size() != count * sizeof(glm::vec4))
+        buffer = gl::Buffer::of<glm::vec4>(m_context, "positions of texels",
+                                           patina::texelPositions(m_document, material, side));
+    return buffer;
 }
 
 void GpuScene::fill(FrameBlock& frame, std::span<const Id> shadows) const {

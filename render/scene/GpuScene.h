@@ -20,6 +20,7 @@ namespace patina::render {
 // One mesh instance, ready to be drawn.
 struct DrawItem {
     Id id = 0;
+    Id materialId = 0;
     const GpuMesh* mesh = nullptr;
     const GpuMaterial* material = nullptr;
     const gl::Buffer* instanceBlock = nullptr;
@@ -27,6 +28,7 @@ struct DrawItem {
     const Transfer* transfer = nullptr;     // of its vertices or its material's texels, or null
     LitElements* lit = nullptr;             // never null: RelightPass keeps it
     LitElements* litVertices = nullptr;     // the same, or those of its vertices
+    glm::mat4 transform{1.0f};
     glm::mat3 normalToWorld{1.0f};
     const gl::Texture* texelAo = nullptr; // baked AO texture, or null
     bool mirrored = false;
@@ -66,8 +68,14 @@ class GpuScene {
     // The frame's uniforms that follow from the document: environment and lights. `shadows`: ids of
     // the lights that have a shadow map, by slot.
     void fill(FrameBlock& frame, std::span<const Id> shadows = {}) const;
-    // What lights transfer.
-    [[nodiscard]] TransferLightSh transferLight() const;
+    // What lights transfer from far away, order² radiance coefficients: the environments of the mix
+    // and the directional lights.
+    [[nodiscard]] std::vector<glm::vec3> transferLight(int order) const;
+    // World position of each texel of a material's bake, for lights near by; made when it is first
+    // asked for.
+    [[nodiscard]] const gl::Buffer& texelPositions(Id material, int side);
+    // Grows when what texelPositions() answers may have changed.
+    [[nodiscard]] std::uint64_t placeRevision() const { return m_placeRevision; }
 
   private:
     void updateMeshes();
@@ -87,10 +95,11 @@ class GpuScene {
     VertexValues m_visibility;
     TransferValues m_transfer;
     std::map<Id, LitElements> m_lit, m_litTexels; // by mesh, by material
+    std::map<Id, gl::Buffer> m_texelPositions;    // by material, of the present geometry
     std::map<Id, gl::Texture> m_texelPreviews;    // by material
     std::map<Id, const gl::Texture*> m_texelBakes;
     std::vector<DrawItem> m_items;
-    std::uint64_t m_shapeRevision = 0;
+    std::uint64_t m_shapeRevision = 0, m_placeRevision = 0;
     Bounds m_bounds;
 };
 

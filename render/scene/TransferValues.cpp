@@ -54,6 +54,13 @@ gl::Texture texels(gl::Context& context, const char* label, gl::PixelFormat form
 
 } // namespace
 
+int Transfer::order() const {
+    int order = 1;
+    while ((order + 1) * (order + 1) <= stride)
+        ++order;
+    return order;
+}
+
 Transfer TransferValues::upload(int stride, std::span<const float> values,
                                 std::span<const float> bounced, std::span<const float> sky,
                                 std::span<const float> error, int side) {

@@ -7,7 +7,7 @@
 #include "render/gl/Texture.h"
 
 #include <array>
-#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
 #include <map>
 #include <optional>
 #include <span>
@@ -28,26 +28,19 @@ struct Transfer {
     int stride = 0;
     std::uint64_t revision = 0; // never the same for two uploads
     [[nodiscard]] int vectors() const { return (stride + 3) / 4; }
+    [[nodiscard]] int order() const; // bands
 };
 
 // Radiance that a surface of albedo 1 sends out in the present light: RelightPass's own.
 struct ExitRadiance {
     gl::Buffer values;  // vec4 for each element
     gl::Texture texels; // the same, of texel bakes
-    // What they were made of.
-    std::uint64_t transferRevision = 0, lightRevision = 0, bouncedRevision = 0;
-    glm::mat3 normalToWorld{0.0f};
-
-    [[nodiscard]] bool sameSources(const ExitRadiance& other) const {
-        return transferRevision == other.transferRevision && lightRevision == other.lightRevision &&
-               bouncedRevision == other.bouncedRevision && normalToWorld == other.normalToWorld;
-    }
-    void takeSources(const ExitRadiance& other) {
-        transferRevision = other.transferRevision;
-        lightRevision = other.lightRevision;
-        bouncedRevision = other.bouncedRevision;
-        normalToWorld = other.normalToWorld;
-    }
+    // What they were made of; the last two only where it differs from place to place.
+    struct Sources {
+        std::uint64_t transfer = 0, light = 0, bounced = 0, nearLights = 0, places = 0; // revisions
+        glm::mat4 transform{0.0f};
+        friend bool operator==(const Sources&, const Sources&) = default;
+    } sources;
 };
 
 // One for each of Unshadowed, Shadowed and Prt, so that two can be seen side by side.

@@ -146,8 +146,11 @@ ExplainedStep diffuseStep(const Subject& subject) {
         {},
         true,
         occlusionNote(subject)};
-    if (ao != subject.number(kViewAo))
-        step.note = "E(n) comes from the baked transfer, which knows the shadows; AO is left out.";
+    if (subject.rebuilt.transfer)
+        step.note = subject.pixel.lights.empty()
+                        ? "E(n) comes from the transfer, which knows the shadows; AO is left out."
+                        : "E(n) comes from the transfer, which knows the shadows and holds the "
+                          "diffuse light of lamps; AO is left out.";
     weigh(step, subject.rebuilt.mix.x);
     compare(step, subject.rebuilt.mix.x * albedo * kd * (ao / glm::pi<float>()) * irradiance);
     return step;
@@ -164,8 +167,7 @@ ExplainedStep openStep(const Subject& subject) {
                        {},
                        true,
                        {}};
-    if (readsBake(subject.document.view.lighting) &&
-        subject.pixel.value(kRecordVisibleCone) != glm::vec4(0.0f)) {
+    if (subject.rebuilt.transfer && readsBake(subject.document.view.lighting)) {
         const glm::vec4 cone = subject.pixel.value(kRecordVisibleCone);
         step.formula = "visible cone ∩ lobe, of what is open above the surface";
         step.factors = {ofView(subject, kViewBentNormal),

@@ -96,6 +96,13 @@ void addAngles(ExplainedSection& section, const RebuiltLight& light, const Surfa
                                    std::string(fresnel.symbol), light.F));
 }
 
+// Where transfer holds the diffuse light of lamps, a lamp has no share of its own.
+void sayWhereDiffuseIs(ExplainedSection& section) {
+    section.values.push_back(
+        words("diffuseInTransfer", "Diffuse",
+              "In Diffuse IBL: the transfer lets it arrive, with soft shadows."));
+}
+
 ExplainedStep diffuseOf(const Subject& subject, const RebuiltLight& light,
                         const LightShare& share) {
     const SurfaceTerms& s = subject.rebuilt.surface;
@@ -144,19 +151,23 @@ void explainArea(ExplainedSection& section, const Subject& subject, const Light&
     section.values.push_back(scalar("distance", "Distance to Its Centre", "d",
                                     glm::distance(light.position, subject.vector(kRecordPosition)),
                                     "m"));
-    ExplainedStep diffuse{
-        "diffuse",
-        "Diffuse",
-        "ρd · kD · L · FF",
-        {color("diffuseAlbedo", "Diffuse Albedo · kD", "ρd · kD", s.diffuseAlbedo), source,
-         scalar("formFactor", "Form Factor", "FF", rebuilt.diffuseShare)},
-        color("diffuse", "Diffuse", "", share.diffuse, "cd/m²"),
-        {},
-        true,
-        {}};
-    weigh(diffuse, subject.rebuilt.mix.x);
-    compare(diffuse, rebuilt.diffuse, unseen(subject));
-    section.steps.push_back(std::move(diffuse));
+    if (subject.rebuilt.transfer) {
+        sayWhereDiffuseIs(section);
+    } else {
+        ExplainedStep diffuse{
+            "diffuse",
+            "Diffuse",
+            "ρd · kD · L · FF",
+            {color("diffuseAlbedo", "Diffuse Albedo · kD", "ρd · kD", s.diffuseAlbedo), source,
+             scalar("formFactor", "Form Factor", "FF", rebuilt.diffuseShare)},
+            color("diffuse", "Diffuse", "", share.diffuse, "cd/m²"),
+            {},
+            true,
+            {}};
+        weigh(diffuse, subject.rebuilt.mix.x);
+        compare(diffuse, rebuilt.diffuse, unseen(subject));
+        section.steps.push_back(std::move(diffuse));
+    }
     ExplainedStep specular{
         "specular",
         "Specular",
@@ -192,7 +203,10 @@ ExplainedSection explainLight(const Subject& subject, std::size_t index) {
         section.values.push_back(words("below", "", "The light stands behind the surface."));
         return section;
     }
-    section.steps.push_back(diffuseOf(subject, rebuilt, *share));
+    if (subject.rebuilt.transfer)
+        sayWhereDiffuseIs(section);
+    else
+        section.steps.push_back(diffuseOf(subject, rebuilt, *share));
     section.steps.push_back(specularOf(subject, rebuilt, *share));
     return section;
 }

@@ -24,13 +24,6 @@ glm::vec3 straight(const glm::vec4& value) {
     return value.w > 0.0f ? glm::vec3(value) / value.w : glm::vec3(0.0f);
 }
 
-// What a bake says of occlusion is recorded where it is read.
-bool usesTransfer(const Inspection& pixel, const Document& document) {
-    if (!readsBake(document.view.lighting))
-        return false;
-    return pixel.value(kRecordVisibleCone) != glm::vec4(0.0f);
-}
-
 SurfaceTerms surfaceOf(const Inspection& pixel, const Document& document) {
     const Material* material = document.material(pixel.material);
     const auto number = [&](int record) { return pixel.value(record).x; };
@@ -105,10 +98,10 @@ RebuiltPixel recombine(const Inspection& pixel, const Document& document) {
     result.alpha = pixel.value(kViewAlpha).x;
 
     const float ao = pixel.value(kViewAo).x;
-    const bool transfer = usesTransfer(pixel, document);
-    result.ao = transfer ? 1.0f : ao;
+    result.transfer = pixel.value(kRecordTransfer).x > 0.0f;
+    result.ao = result.transfer ? 1.0f : ao;
     result.open =
-        transfer
+        result.transfer && readsBake(document.view.lighting)
             ? coneOcclusion(pixel.value(kRecordVisibleCone), s.n,
                             glm::normalize(glm::vec3(pixel.value(kRecordLobeDirection))), s.alpha)
             : specularOcclusion(s.NoV, ao, s.alpha);
@@ -128,7 +121,7 @@ RebuiltPixel recombine(const Inspection& pixel, const Document& document) {
             shadeArea(light, s, *source, pixel.value(kRecordPosition));
         else
             shadePunctual(light, s, share);
-        light.diffuse *= result.mix.x;
+        light.diffuse *= result.transfer ? 0.0f : result.mix.x;
         light.specular *= result.mix.y;
         result.terms[2] += light.diffuse;
         result.terms[3] += light.specular;

@@ -27,9 +27,10 @@ struct RebuiltLight {
 
 struct RebuiltPixel {
     shading::SurfaceTerms surface;
-    float ao = 1.0f;     // factor on the irradiance: 1 where baked transfer knows the shadows
-    float open = 1.0f;   // of the specular lobe
-    glm::vec2 mix{1.0f}; // weights of diffuse light and of reflections
+    bool transfer = false; // the irradiance is baked transfer's, light of lamps included
+    float ao = 1.0f;       // factor on the irradiance: 1 where baked transfer knows the shadows
+    float open = 1.0f;     // of the specular lobe
+    glm::vec2 mix{1.0f};   // weights of diffuse light and of reflections
     std::vector<RebuiltLight> lights; // as in Inspection::lights
     // Diffuse and specular image-based, direct diffuse and specular, emission: radiance.
     std::array<glm::vec3, kTermCount> terms{};

@@ -7,14 +7,32 @@
 #include "constants.glsl"
 #include "sh.glsl"
 
+// shBasis64() up to a band that is not known before, by the recurrences of associated Legendre
+// functions: a few instructions, where the polynomials' hundreds, inlined at each call, take software
+// OpenGL ten seconds to compile.
 PT_FN void shBasisOfOrder(vec3 d, int order, PT_OUT_ARRAY(float, y, 64)) {
-    if (order > 5) {
-        shBasis64(d, y);
-    } else {
-        float low[25];
-        shBasis25(d, low);
-        for (int i = 0; i < order * order; ++i)
-            y[i] = low[i];
+    float diagonal = 0.282094791773878f; // normalised P_mm, without sin^m
+    float c = 1.0f;                      // sin^m cos(m phi)
+    float s = 0.0f;                      // sin^m sin(m phi)
+    for (int m = 0; m < order; ++m) {
+        float m2 = float(m * m);
+        float p = m > 0 ? 1.41421356237310f * diagonal : diagonal;
+        float previous = 0.0f;
+        for (int l = m; l < order; ++l) {
+            int center = l * (l + 1);
+            y[center - m] = p * s;
+            y[center + m] = p * c;
+            float l2 = float(l * l);
+            float n2 = float((l + 1) * (l + 1));
+            float next = sqrt((4.0f * n2 - 1.0f) / (n2 - m2)) *
+                         (d.z * p - sqrt((l2 - m2) / (4.0f * l2 - 1.0f)) * previous);
+            previous = p;
+            p = next;
+        }
+        diagonal = -diagonal * sqrt((2.0f * float(m) + 3.0f) / (2.0f * float(m) + 2.0f));
+        float turned = c * d.x - s * d.y;
+        s = c * d.y + s * d.x;
+        c = turned;
     }
 }
 
@@ -176,11 +194,12 @@ PT_FN void addEdgeSh(vec3 p, vec3 q, int order, PT_INOUT_ARRAY(float, y, 64)) {
         for (int l = 1; l < order; ++l) {
             int center = l * (l + 1);
             float share = 1.0f / float(center);
-            y[center] = y[center] + share * arcSlope(arc, n, l, 0).x;
-            for (int m = 1; m <= l; ++m) {
-                vec2 slope = 1.41421356237310f * share * arcSlope(arc, n, l, m);
-                y[center + m] = y[center + m] + slope.x;
-                y[center - m] = y[center - m] + slope.y;
+            for (int m = 0; m <= l; ++m) {
+                vec2 slope = share * arcSlope(arc, n, l, m);
+                float both = m > 0 ? 1.41421356237310f : 1.0f;
+                y[center + m] = y[center + m] + both * slope.x;
+                if (m > 0)
+                    y[center - m] = y[center - m] + both * slope.y;
             }
         }
     }
@@ -214,11 +233,11 @@ PT_FN float quadSh(vec3 a, vec3 b, vec3 c, vec3 d, int order, PT_OUT_ARRAY(float
             y[i] = y[i] * solidAngle;
     } else {
         y[0] = 0.282094791773878f * solidAngle;
-        if (order > 1) {
-            addEdgeSh(ua, ub, order, y);
-            addEdgeSh(ub, uc, order, y);
-            addEdgeSh(uc, ud, order, y);
-            addEdgeSh(ud, ua, order, y);
+        // A loop, and not four calls: drivers inline them, and compile for a minute.
+        for (int edge = 0; edge < 4 && order > 1; ++edge) {
+            vec3 from = edge == 0 ? ua : edge == 1 ? ub : edge == 2 ? uc : ud;
+            vec3 to = edge == 0 ? ub : edge == 1 ? uc : edge == 2 ? ud : ua;
+            addEdgeSh(from, to, order, y);
         }
     }
     return solidAngle;

@@ -253,26 +253,42 @@ void relightVertices(benchmark::State& state) {
     scene.update(document, Change::everything());
     scene.environment().setIbl(*ibl);
     RelightPass relight(**context, shaders);
-    TransferLightSh light = scene.transferLight();
-    const auto milliseconds = [&](LightingMode mode) {
-        light[0].x += 1e-3f; // as if it had been turned
+    gl::Buffer block(**context, "frame", sizeof(FrameBlock));
+    FrameBlock frame;
+    const auto turn = [&](const std::vector<Light>& lights) {
+        document.environment.rotationDeg += 1.0f;
+        document.lights = lights;
+        scene.update(document, {Affects::Uniform, Target{Scope::Environment, 0}});
+        frame = FrameBlock();
+        scene.fill(frame);
+        block.writeValue(frame);
+        block.bindUniform(kFrameBinding);
+    };
+    const auto milliseconds = [&](LightingMode mode, const std::vector<Light>& lights = {}) {
+        turn(lights);
         const std::uint64_t before = relight.elementsDone();
         glFinish();
         const double start = processMilliseconds();
-        if (!relight.update(scene, mode, light))
+        if (!relight.update(scene, mode, frame))
             return std::numeric_limits<double>::max();
         glFinish();
         const double spent = processMilliseconds() - start;
-        const bool bounces = mode == LightingMode::Prt;
-        const auto done = static_cast<double>(relight.elementsDone() - before);
-        return spent * 1e5 / (bounces ? done / 2.0 : done);
+        return spent * 1e5 / static_cast<double>(relight.elementsDone() - before);
     };
+    Light point, sphere, rectangle;
+    point.type = LightType::Point;
+    sphere.type = LightType::Sphere;
+    rectangle.type = LightType::Rectangle;
     for (Study* study : {&everything, &constant}) {
         study->draw(targets); // compiles
         study->milliseconds = std::numeric_limits<double>::max();
     }
     double shadowed = 1e9, bounced = 1e9, still = 1e9;
+    std::array<double, 3> near{1e9, 1e9, 1e9};
+    const std::array<std::vector<Light>, 3> oneLight{{{point}, {sphere}, {rectangle}}};
     milliseconds(LightingMode::Shadowed); // compiles
+    for (const std::vector<Light>& lights : oneLight)
+        milliseconds(LightingMode::Shadowed, lights);
     milliseconds(LightingMode::Prt);
     for (auto _ : state) {
         everything.draw(targets);
@@ -280,14 +296,19 @@ void relightVertices(benchmark::State& state) {
         shadowed = std::min(shadowed, milliseconds(LightingMode::Shadowed));
         bounced = std::min(bounced, milliseconds(LightingMode::Prt));
         const double start = processMilliseconds();
-        if (relight.update(scene, LightingMode::Prt, light))
+        if (relight.update(scene, LightingMode::Prt, frame))
             still = std::min(still, processMilliseconds() - start);
+        for (std::size_t i = 0; i < near.size(); ++i)
+            near[i] = std::min(near[i], milliseconds(LightingMode::Shadowed, oneLight[i]));
     }
     const double cost = everything.milliseconds - constant.milliseconds;
     std::printf("\n100,000 vertices, order %d, CPU ms\n  image-based light of a frame %7.1f\n"
                 "  relit                        %7.1f\n  relit with bounces           %7.1f\n"
-                "  light that stands still      %7.3f\n",
-                kOrder, cost, shadowed, bounced, still);
+                "  light that stands still      %7.3f\n"
+                "  relit with a point           %7.1f\n"
+                "  relit with a sphere          %7.1f\n"
+                "  relit with a rectangle       %7.1f\n",
+                kOrder, cost, shadowed, bounced, still, near[0], near[1], near[2]);
     state.counters["ibl_ms"] = cost;
     state.counters["relit_ms"] = shadowed;
     state.counters["relit_with_bounces_ms"] = bounced;

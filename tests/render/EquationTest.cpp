@@ -3,6 +3,7 @@
 #include "core/document/Equation.h"
 #include "core/library/Library.h"
 #include "tests/render/RenderTest.h"
+#include "tests/render/TransferScenes.h"
 
 #include <cstdio>
 #include <glm/ext/matrix_transform.hpp>
@@ -189,6 +190,57 @@ TEST_F(Equations, TermsAddUpToThePictureForFiveMaterialsInThreeSurroundings) {
     std::printf(
         "[ figures  ] |sum - final| / max(1, final): %.2e of the view, %.2e of the picture\n",
         double(worst.largest), double(worstShown.largest));
+}
+
+// Transfer holds the diffuse light of the lamps, whose own term is then nothing; their highlights
+// stay. The big sphere is baked, the small one only where every mesh is.
+TEST_F(Equations, TermsAndFactorsAddUpUnderTransfer) {
+    const Equation sum = *equationOf(kViewFinal, {});
+    Document lit = scene({});
+    lit.environment.image = *library::environment("studio");
+    setIblOf(lit);
+    const std::vector<Material> materials = fiveMaterials();
+    for (const LightingMode mode :
+         {LightingMode::Unshadowed, LightingMode::Shadowed, LightingMode::Prt})
+        for (const std::size_t i : {0u, 3u, 4u}) {
+            Document document = scene(materials[i]);
+            document.environment.image = lit.environment.image;
+            document.lights = lights(document);
+            document.lights.pop_back(); // rectangles take software OpenGL seconds to compile
+            document.view.lighting = mode;
+            document.bakes = {openBake(document, 4, 0.3f)};
+            const std::string where = materials[i].name + " " + std::to_string(int(mode));
+            ViewSettings look;
+            look.light = document.lights[0].id;
+            const Image picture = drawNew(document, look);
+            EXPECT_LE(deviation(sum).largest, 1e-3f) << where;
+            EXPECT_LE(deviation(sum, &picture).largest, 1e-3f) << where;
+            for (const ViewKind none : {kViewDirectDiffuse, kViewLightDiffuse}) {
+                const EquationPart part{Join::Plus, none};
+                EXPECT_EQ(deviation({none, none, {&part, 1}}).brightest, 0.0f) << where;
+                EXPECT_NE(whyEmpty(none, document), "") << where;
+            }
+            EXPECT_EQ(whyEmpty(kViewDirectSpecular, document), "");
+            for (const ViewKind opened : {kViewDiffuseIbl, kViewDirectSpecular}) {
+                if (materials[i].alphaMode == AlphaMode::Blend)
+                    continue; // its terms are weighed by opacity
+                const Deviation off = deviation(*equationOf(opened, {}));
+                EXPECT_LE(off.largest, 1e-3f) << viewInfo(opened).id << ' ' << where;
+                EXPECT_GT(off.brightest, 1e-3f) << viewInfo(opened).id << ' ' << where;
+            }
+            if (mode == LightingMode::Unshadowed)
+                continue;
+            // A mesh that no bake lights has its lamps' diffuse light as ever.
+            auto half = std::make_shared<BakeArtifact>(*document.bakes[0]);
+            half->vertices.pop_back();
+            document.bakes = {half};
+            drawNew(document);
+            EXPECT_LE(deviation(sum).largest, 1e-3f) << where;
+            const EquationPart part{Join::Plus, kViewDirectDiffuse};
+            EXPECT_GT(deviation({kViewDirectDiffuse, kViewDirectDiffuse, {&part, 1}}).brightest,
+                      1e-3f);
+            EXPECT_EQ(whyEmpty(kViewDirectDiffuse, document), "");
+        }
 }
 
 TEST_F(Equations, SwitchedOffTermsAreMissingInTheSum) {

@@ -4,6 +4,7 @@
 #include "core/document/Lights.h"
 #include "render/view/Recombine.h"
 #include "tests/render/RenderTest.h"
+#include "tests/render/TransferScenes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -206,6 +207,49 @@ TEST_F(Explanations, RecombineToThePictureAtAThousandPixels) {
         }
     EXPECT_GE(surfaces, 1000);
     printf("%d pixels, largest difference %.3f of 255\n", surfaces, double(largest));
+}
+
+TEST_F(Explanations, RecombineUnderTransferWithLamps) {
+    float largest = 0.0f;
+    for (const int material : {0, 2, 3})
+        for (const LightingMode mode :
+             {LightingMode::Unshadowed, LightingMode::Shadowed, LightingMode::Prt}) {
+            Document document = litScene();
+            document.lights.pop_back(); // rectangles take software OpenGL seconds to compile
+            applyMaterial(document, material);
+            document.view.exposureEv = -1.0f;
+            document.view.reflectionMix = material == 2 ? 0.3f : 0.5f;
+            document.view.lighting = mode;
+            document.bakes = {openBake(document, 5, 0.2f)};
+            setIblOf(document);
+            draw(document, kSize, oneSample());
+            const Image shown = renderer().readDisplayed();
+            for (const glm::ivec2 at : {glm::ivec2(32, 32), {20, 24}, {44, 36}, {30, 50}}) {
+                const Inspection pixel = inspect(at.x, at.y);
+                ASSERT_TRUE(pixel.onSurface());
+                ASSERT_EQ(pixel.lights.size(), 4u);
+                const RebuiltPixel rebuilt = recombine(pixel, document);
+                EXPECT_TRUE(rebuilt.transfer);
+                for (int c = 0; c < 3; ++c) {
+                    const float apart =
+                        std::abs((*rebuilt.displayed)[c] - shown.sample(at.x, at.y, c)) * 255.0f;
+                    largest = std::max(largest, apart);
+                    EXPECT_LE(apart, 1.0f) << material << ' ' << static_cast<int>(mode);
+                }
+                const Explanation explanation = explain(pixel, document);
+                EXPECT_EQ(disagreements(explanation), "") << toText(explanation);
+                EXPECT_THAT(toText(explanation), HasSubstr("In Diffuse IBL"));
+                EXPECT_EQ(
+                    step(explanation, "light" + std::to_string(pixel.lights[3].light), "diffuse"),
+                    nullptr);
+                glm::vec3 sum(0.0f);
+                for (const Contribution& part : explanation.contributions)
+                    sum += part.radiance;
+                for (int c = 0; c < 3; ++c)
+                    EXPECT_NEAR(sum[c], pixel.radiance[c], 1e-3f * std::max(0.1f, sum[c]));
+            }
+        }
+    printf("largest difference under transfer %.3f of 255\n", double(largest));
 }
 
 TEST_F(Explanations, NoticeANumberThatIsNotThePictures) {

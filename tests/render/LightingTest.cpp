@@ -7,8 +7,10 @@
 #include "render/scene/EnvironmentLight.h"
 #include "render/view/Recombine.h"
 #include "tests/render/RenderTest.h"
+#include "tests/render/TransferScenes.h"
 
 #include <cmath>
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/matrix.hpp>
@@ -100,31 +102,6 @@ TEST_F(Lighting, ClassicalLightIgnoresOcclusion) {
 }
 
 // --- Transfer ---
-
-constexpr float kOneOverPi = 0.318309886f;
-
-// Of an open sky: A_l / pi Y_lm(n).
-std::vector<float> openTransfer(const Mesh& mesh, int order) {
-    const auto stride = static_cast<std::size_t>(shCount(order));
-    std::vector<float> values(mesh.vertexCount() * stride);
-    for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
-        const std::span<float> own(values.data() + v * stride, stride);
-        evaluateSh(order, mesh.normals[v], own);
-        for (int l = 0; l < order; ++l)
-            for (int i = l * l; i < (l + 1) * (l + 1); ++i)
-                own[static_cast<std::size_t>(i)] *=
-                    static_cast<float>(cosineConvolution(l)) * kOneOverPi;
-    }
-    return values;
-}
-
-BakeArtifactPtr vertexBake(int order, std::vector<float> values, std::vector<float> bounced = {}) {
-    auto bake = std::make_shared<BakeArtifact>();
-    bake->kind = BakeKind::PrtVertex;
-    bake->order = order;
-    bake->vertices.push_back({1, shCount(order), std::move(values), std::move(bounced)});
-    return bake;
-}
 
 // Light with something in all eight bands, different in every channel.
 IblMaps lively() {
@@ -282,11 +259,14 @@ TEST_F(Lighting, StillLightCostsNothing) {
     const std::uint64_t count = document.meshes[0].mesh->vertexCount();
     document.bakes = {vertexBake(3, openTransfer(*document.meshes[0].mesh, 3))};
     scene.update(document, Change::everything());
-    TransferLightSh light{};
-    light[0] = glm::vec3(1.0f);
+    gl::Buffer block(context(), "frame", sizeof(FrameBlock));
     const auto done = [&](LightingMode mode) {
+        FrameBlock frame;
+        scene.fill(frame);
+        block.writeValue(frame);
+        block.bindUniform(kFrameBinding);
         const std::uint64_t before = relight.elementsDone();
-        EXPECT_TRUE(relight.update(scene, mode, light).ok());
+        EXPECT_TRUE(relight.update(scene, mode, frame).ok());
         return relight.elementsDone() - before;
     };
     for (const LightingMode mode :
@@ -300,9 +280,34 @@ TEST_F(Lighting, StillLightCostsNothing) {
     // Side by side, neither takes the other's place.
     EXPECT_EQ(done(LightingMode::Unshadowed), 0u);
     EXPECT_EQ(done(LightingMode::Shadowed), 0u);
-    light[5].y = 0.25f;
-    EXPECT_EQ(done(LightingMode::Shadowed), count);
+    const auto edited = [&](const Change& change) {
+        scene.update(document, change);
+        return done(LightingMode::Shadowed);
+    };
+    const Change lights{Affects::Uniform, Target{Scope::Light, 5}};
+    document.environment.exposureEv = 1.0f;
+    EXPECT_EQ(edited({Affects::Uniform, Target{Scope::Environment, 0}}), count);
     EXPECT_EQ(done(LightingMode::Shadowed), 0u);
+    Light lamp;
+    lamp.id = 5;
+    document.lights = {lamp};
+    EXPECT_EQ(edited(Change::everything()), count);
+    document.lights[0].shadowSoftness = 20.0f;
+    EXPECT_EQ(edited(lights), count);
+    document.lights[0].type = LightType::Point;
+    EXPECT_EQ(edited(lights), count);
+    EXPECT_EQ(done(LightingMode::Shadowed), 0u);
+    document.lights[0].position.x += 0.5f;
+    EXPECT_EQ(edited(lights), count);
+    document.lights[0].castsShadow = false; // says nothing to transfer
+    document.view.exposureEv = 1.0f;
+    EXPECT_EQ(edited(lights), 0u);
+    document.meshes[0].transform = glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 0.1f, 0.0f));
+    EXPECT_EQ(edited(Change::everything()), count);
+    document.lights[0].enabled = false;
+    EXPECT_EQ(edited(Change::everything()), count);
+    document.meshes[0].transform = glm::mat4(1.0f); // transfer is of the world
+    EXPECT_EQ(edited(Change::everything()), 0u);
     scene.previewVertices(BakeKind::PrtVertex, 1, 9, openTransfer(*document.meshes[0].mesh, 3));
     EXPECT_EQ(done(LightingMode::Shadowed), count);
     scene.setBouncedLight(1, std::vector<glm::vec3>(count, glm::vec3(0.5f)));

@@ -1,6 +1,7 @@
 #include "core/light/DfgTable.h"
 #include "core/math/Shading.h"
 #include "tests/render/RenderTest.h"
+#include "tests/render/TransferScenes.h"
 
 #include <cmath>
 
@@ -55,27 +56,33 @@ class Views : public RenderTest {
 };
 
 TEST_F(Views, TermsAddUpToThePicture) {
-    const Document document = lit();
+    Document document = lit();
+    document.bakes = {openBake(document, 4, 0.2f)};
     setIblOf(document);
-    draw(document, 64, oneSample());
-    const Image final = view(kViewFinal);
-    std::array<Image, kTermCount> terms;
-    for (std::size_t i = 0; i < terms.size(); ++i)
-        terms[i] = view(kTermViews[i]);
-    int surfaces = 0;
-    for (int y = 0; y < 64; ++y)
-        for (int x = 0; x < 64; ++x) {
-            if (pixel(terms[0], x, y).a == 0.0f)
-                continue;
-            ++surfaces;
-            glm::vec3 sum(0.0f);
-            for (const Image& term : terms)
-                sum += glm::vec3(pixel(term, x, y));
-            const glm::vec3 whole(pixel(final, x, y));
-            for (int c = 0; c < 3; ++c)
-                ASSERT_NEAR(sum[c], whole[c], 1e-5f * std::max(1.0f, whole[c])) << x << ' ' << y;
-        }
-    EXPECT_GT(surfaces, 1000);
+    for (const LightingMode mode :
+         {LightingMode::Ibl, LightingMode::Unshadowed, LightingMode::Prt}) {
+        document.view.lighting = mode;
+        draw(document, 64, oneSample());
+        const Image final = view(kViewFinal);
+        std::array<Image, kTermCount> terms;
+        for (std::size_t i = 0; i < terms.size(); ++i)
+            terms[i] = view(kTermViews[i]);
+        int surfaces = 0;
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x) {
+                if (pixel(terms[0], x, y).a == 0.0f)
+                    continue;
+                ++surfaces;
+                glm::vec3 sum(0.0f);
+                for (const Image& term : terms)
+                    sum += glm::vec3(pixel(term, x, y));
+                const glm::vec3 whole(pixel(final, x, y));
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_NEAR(sum[c], whole[c], 1e-5f * std::max(1.0f, whole[c]))
+                        << x << ' ' << y;
+            }
+        EXPECT_GT(surfaces, 1000);
+    }
 }
 
 TEST_F(Views, RecordTheTermsOfTheOrdinaryPicture) {
