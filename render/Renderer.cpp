@@ -186,10 +186,6 @@ void Renderer::clearBouncedLight() {
     m_impl->sceneIsNew = true;
 }
 
-std::array<glm::vec3, 64> Renderer::transferLight() const {
-    return m_impl->scene.transferLight();
-}
-
 void Renderer::clearPreview() {
     m_impl->scene.clearPreview();
     m_impl->sceneIsNew = true;

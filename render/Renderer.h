@@ -104,8 +104,6 @@ class Renderer {
     // cleared or another bake is attached. Lights near by are added to it, through the bake.
     void setBouncedLight(Id mesh, std::span<const glm::vec3> radiance);
     void clearBouncedLight();
-    // The light that transfer is lit by: radiance coefficients in world space, of 8 bands.
-    [[nodiscard]] std::array<glm::vec3, 64> transferLight() const;
 
     // Renders to the internal HDR target and tone maps into framebuffer `targetFramebuffer`
     // (0: the window's), viewport 0,0 … width,height.

@@ -5,6 +5,7 @@
 #include "core/document/ModelPresets.h"
 #include "core/export/GltfEnvironment.h"
 #include "core/export/Names.h"
+#include "core/light/EnvironmentBlend.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -97,15 +98,21 @@ void addLight(const Light& light, ExportContents& contents) {
         contents.lights.push_back(&light);
 }
 
-void addEnvironment(const Environment& environment, ExportContents& contents) {
+void addEnvironment(const Document& document, ExportContents& contents) {
+    const Environment& environment = document.environment;
     const bool missing = environment.kind == EnvironmentKind::Image && !environment.problem.empty();
     if (environment.image == nullptr || missing) {
         contents.warnings.emplace_back(
             "the environment's image is missing, so that its light is left out");
         return;
     }
-    contents.environment = &environment;
-    if (fitRgbd(*environment.image).tooBright)
+    std::optional<Environment> mixed = mixedEnvironment(document);
+    if (!mixed) {
+        contents.warnings.emplace_back("no environment shines, so that none is written");
+        return;
+    }
+    contents.environment = std::make_shared<const Environment>(std::move(*mixed));
+    if (fitRgbd(*contents.environment->image).tooBright)
         contents.warnings.emplace_back(
             "the environment has lights that are brighter than glTF's 8-bit images can hold; "
             "mirrors will show them dimmer (patina bake ibl keeps them)");
@@ -160,7 +167,7 @@ ExportContents gatherContents(const Document& document, const ExportSettings& se
         contents.warnings.emplace_back("glTF has no place for the shading model: programs that "
                                        "open the file shade with their own");
     if (settings.includeEnvironment)
-        addEnvironment(document.environment, contents);
+        addEnvironment(document, contents);
     return contents;
 }
 

@@ -8,6 +8,7 @@
 #include "core/export/TransferExport.h"
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,9 @@ struct ExportContents {
     std::vector<ExportedInstance> instances;
     std::vector<const Material*> materials; // used by an instance
     std::vector<const Light*> lights;
-    const Environment* environment = nullptr; // its light is exported
-    BakeArtifactPtr transfer;                 // or null
-    TransferLayout transferLayout;            // of it
+    std::shared_ptr<const Environment> environment; // of the mix, its light is exported; or null
+    BakeArtifactPtr transfer;                       // or null
+    TransferLayout transferLayout;                  // of it
     TexturePlan textures;
     std::filesystem::path buffer; // of a .gltf: the .bin beside it; empty for GLB
     std::vector<std::string> warnings;

@@ -3,13 +3,14 @@
 #include "core/base/Check.h"
 #include "core/document/LightMix.h"
 #include "core/export/ShFile.h"
-#include "core/math/ShRotation.h"
+#include "core/light/TransferLight.h"
 #include "core/math/SphericalHarmonics.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <glm/trigonometric.hpp>
+#include <map>
+#include <span>
 
 namespace patina {
 namespace {
@@ -55,15 +56,16 @@ std::vector<std::vector<glm::vec4>> transferAttributes(const VertexBake& bake,
 
 std::string transferLightJson(const Document& document, const TransferLayout& layout,
                               const JobContext& job) {
-    const auto count = static_cast<std::size_t>(shCount(layout.bands));
-    std::vector<glm::vec3> light(count, glm::vec3(0.0f)), turned(count);
-    for (const EnvironmentPart& part : environmentParts(document)) {
-        const std::vector<glm::vec3> image = projectLatLong(*part.image, layout.bands, job);
-        ShRotation::aboutY(glm::radians(static_cast<double>(part.rotationDeg)), layout.bands)
-            .apply(image, turned);
-        for (std::size_t i = 0; i < count; ++i)
-            light[i] += part.scale * turned[i];
-    }
+    std::map<ImagePtr, std::vector<glm::vec3>> known;
+    for (const EnvironmentPart& part : environmentParts(document))
+        known[part.image] = projectLatLong(*part.image, layout.bands, job);
+    const std::vector<glm::vec3> light = transferLight(
+        document, layout.bands, [&](const EnvironmentPart& part) -> std::span<const glm::vec3> {
+            const auto found = known.find(part.image);
+            if (found == known.end())
+                return {};
+            return found->second;
+        });
     return shJson(light, ShQuantity::Radiance);
 }
 
@@ -78,6 +80,8 @@ std::string transferShader(const TransferLayout& layout, const std::string& glb,
 // prtLight: "coefficients" of {5}, or those of your own surroundings, L_i = integral of
 // L(d) Y_i(d) over the sphere, packed the same way: prtLight[k] holds L_4k … L_4k+3 of a colour{6}.
 // Y: real spherical harmonics with Condon-Shortley phase, index l(l+1)+m; world axes, +Y up.
+// That file holds the directional lights of the scene, too, as soft discs: only their highlights are
+// left to be added. Lights near by are not in it.
 // To turn the surroundings rotate L; to turn the object rotate L the other way.
 )",
         glb, layout.colored ? " and bounces" : "", count, layout.bands,

@@ -34,7 +34,8 @@ inline constexpr int kCommonAttributes = 12;
 [[nodiscard]] std::vector<std::vector<glm::vec4>> transferAttributes(const VertexBake& bake,
                                                                      const TransferLayout& layout);
 
-// The light of the document's environment as in core/export/ShFile.h (radiance, world axes).
+// The light of the document from far away, its environments as they are mixed and its directional
+// lights, as in core/export/ShFile.h (radiance, world axes).
 [[nodiscard]] std::string transferLightJson(const Document& document, const TransferLayout& layout,
                                             const JobContext& job);
 

@@ -5,6 +5,7 @@
 #include "core/light/EnvironmentResample.h"
 #include "core/light/OrientedEnvironment.h"
 
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -51,6 +52,40 @@ ImagePtr blendEnvironments(const EnvironmentBlend& blend, const JobContext& job)
     if (job.cancelled())
         return nullptr;
     return std::make_shared<const Image>(std::move(sum));
+}
+
+std::optional<Environment> mixedEnvironment(const Document& document, const JobContext& job) {
+    const std::vector<EnvironmentPart> parts = environmentParts(document);
+    if (parts.empty())
+        return std::nullopt;
+    Environment mixed = document.environment;
+    mixed.second = {};
+    mixed.fade = 0.0f;
+    mixed.blended = nullptr;
+    mixed.tint = glm::vec3(1.0f);
+    const EnvironmentPart& part = parts.front();
+    const bool both = parts.size() == 2;
+    const glm::vec3 plain(std::exp2(mixed.exposureEv));
+    if (!both && part.role == EnvironmentPart::Role::First && part.scale == plain)
+        return mixed;
+    if (both) {
+        mixed.image = blendEnvironments(*environmentBlend(document), job);
+        if (!mixed.image)
+            return std::nullopt; // cancelled
+    } else {
+        Image image = *part.image;
+        const std::span<float> texels = image.f32();
+        for (std::size_t i = 0; i < texels.size(); ++i)
+            texels[i] *= part.scale[static_cast<glm::length_t>(i % 3)];
+        mixed.image = std::make_shared<const Image>(std::move(image));
+        if (part.role == EnvironmentPart::Role::Second) {
+            mixed.source = document.environment.second.source;
+            mixed.kind = EnvironmentKind::Image;
+        }
+    }
+    mixed.rotationDeg = part.rotationDeg;
+    mixed.exposureEv = 0.0f;
+    return mixed;
 }
 
 void resolveBlend(Document& document, const JobContext& job) {

@@ -23,6 +23,11 @@ struct EnvironmentBlend {
 // after a cancel.
 [[nodiscard]] ImagePtr blendEnvironments(const EnvironmentBlend& blend, const JobContext& job = {});
 
+// The surroundings that light the scene as a single environment with neither tint nor fade, for
+// files that know of no mix; nothing where none shine.
+[[nodiscard]] std::optional<Environment> mixedEnvironment(const Document& document,
+                                                          const JobContext& job = {});
+
 // Makes environment.blended what the mix asks for, or null.
 void resolveBlend(Document& document, const JobContext& job = {});
 

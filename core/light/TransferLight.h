@@ -34,6 +34,11 @@ environmentLight(std::span<const EnvironmentPart> parts, int order,
 // The directional lights that shine are added to `sum`, order² coefficients.
 void addDistantLights(const Document& document, int order, std::span<glm::vec3> sum);
 
+// Lights near by that shine, as they are seen from `place` (world), are added to `sum`: what
+// relight.comp does for each vertex.
+void addNearLights(const Document& document, const glm::vec3& place, int order,
+                   std::span<glm::vec3> sum);
+
 // A distant disc of light about +z, of irradiance 1 on a surface that faces it: damped so that no
 // surface gets less than nothing of it (deringFactor()), and scaled so that the bands that are left
 // out take nothing away. diameterDeg: 0 … 180; 0 is a point. Bands from `order` on are 0.

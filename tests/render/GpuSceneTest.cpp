@@ -189,7 +189,7 @@ TEST_F(GpuSceneTest, AnEnvironmentArrivesInPiecesAndShowsAsAWhole) {
         FrameBlock frame;
         light.fill(frame);
         return glm::vec3(reds(light.prefiltered())[0], reds(light.background())[0],
-                         light.transferLight()[0].x / std::sqrt(4.0f * glm::pi<float>()));
+                         light.transferLight({}, 1)[0].x / std::sqrt(4.0f * glm::pi<float>()));
     };
     const EnvironmentTexelsPtr first = environment(2.0f), second = environment(4.0f);
     light.begin(first);

@@ -67,6 +67,11 @@ const HitSource* BounceUpdater::hits() const {
     return m_solver ? &m_solver->hits() : nullptr;
 }
 
+int BounceUpdater::lightOrder() const {
+    const BakeArtifactPtr artifact = bouncingBake(m_controller.document());
+    return artifact ? artifact->order : 0;
+}
+
 void BounceUpdater::setLight(std::span<const glm::vec3> light) {
     if (std::ranges::equal(light, m_light))
         return;

@@ -32,6 +32,8 @@ class BounceUpdater : public QObject {
     [[nodiscard]] bool upToDate() const;
     [[nodiscard]] const HitSource* hits() const; // null: none
 
+    // Bands of the light that setLight() wants; 0: none.
+    [[nodiscard]] int lightOrder() const;
     // What transfer is lit by in the frames to come: radiance coefficients.
     void setLight(std::span<const glm::vec3> light);
     // What is to be shown instead of what the document's bake holds of bounces; null: nothing.

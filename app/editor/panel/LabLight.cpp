@@ -96,32 +96,38 @@ LabAnalysisPtr analyseLight(const ImagePtr& environment, const JobContext& job) 
     return analysis;
 }
 
+void LabLight::setScale(const glm::vec3& all) {
+    scale = std::max({all.x, all.y, all.z});
+    tint = scale > 0.0f ? all / scale : glm::vec3(1.0f);
+}
+
 std::optional<glm::vec3> LabLight::value(LabView view, const glm::vec3& world) const {
     const glm::vec3 d = shading::rotateY(world, -glm::radians(rotationDeg));
     switch (view.kind) {
     case LabKind::Environment:
         if (!analysis)
             return std::nullopt;
-        return scale * lookUp(*analysis->environment, d);
+        return tint * scale * lookUp(*analysis->environment, d);
     case LabKind::Harmonics:
         if (!analysis)
             return std::nullopt;
-        return scale * shSum(analysis->bands.coefficients, view.index, d);
+        return tint * scale * shSum(analysis->bands.coefficients, view.index, d);
     case LabKind::Irradiance:
         if (!maps)
             return std::nullopt;
-        return scale * shading::irradianceFromSh9(maps->irradianceSh.data(), d);
+        return tint * scale * shading::irradianceFromSh9(maps->irradianceSh.data(), d);
     case LabKind::IrradianceExact:
         if (!maps)
             return std::nullopt;
-        return scale * kPi * sampleCube(maps->prefiltered.back(), d);
+        return tint * scale * kPi * sampleCube(maps->prefiltered.back(), d);
     case LabKind::Faces:
     case LabKind::Prefiltered: {
         if (!maps)
             return std::nullopt;
         const LevelPair levels = levelsOf(view, maps->prefiltered.size());
-        return scale * samplePair(maps->prefiltered[levels.first], maps->prefiltered[levels.second],
-                                  levels.share, d);
+        return tint * scale *
+               samplePair(maps->prefiltered[levels.first], maps->prefiltered[levels.second],
+                          levels.share, d);
     }
     case LabKind::Dfg:
         break;
@@ -313,7 +319,7 @@ QImage labPicture(const LabLight& light, LabView view, const QSize& size, const 
                 direction = shading::rotateY(ray->direction, back);
             }
             pixels[static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x)] =
-                tone.pixel(light.scale * radiance(x, y, direction));
+                tone.pixel(light.tint * light.scale * radiance(x, y, direction));
         }
     };
     parallelFor(job, static_cast<std::size_t>(size.height()), 16,

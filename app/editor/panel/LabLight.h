@@ -70,6 +70,9 @@ struct LabLight {
     std::shared_ptr<const IblMaps> maps; // null: not there yet
     float rotationDeg = 0.0f;            // of the surroundings
     float scale = 1.0f;                  // of all radiance: the environment's exposure
+    glm::vec3 tint{1.0f};                // and its colour in the mix
+
+    void setScale(const glm::vec3& all);
 
     // Radiance (irradiance for the irradiance maps) that the scene gets from a direction of the
     // world; nothing while it is not computed. Not of the DFG table.

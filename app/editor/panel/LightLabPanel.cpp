@@ -13,6 +13,7 @@
 #include "app/editor/widget/RowLabel.h"
 #include "app/editor/widget/Slider.h"
 #include "core/base/Check.h"
+#include "core/document/LightMix.h"
 #include "core/light/LatLongGrid.h"
 #include "core/math/Shading.h"
 
@@ -389,9 +390,9 @@ void LightLabPanel::setLuminance(const Luminance& luminance) {
 void LightLabPanel::refreshLight() {
     if (!m_seen)
         return; // when it is seen
-    const Environment& environment = m_controller.document().environment;
+    const EnvironmentPart environment = shownEnvironment(m_controller.document());
     m_light.rotationDeg = environment.rotationDeg;
-    m_light.scale = std::exp2(environment.exposureEv);
+    m_light.setScale(environment.scale);
     if (environment.image != m_image) {
         m_image = environment.image;
         if (!m_image) {

@@ -126,13 +126,15 @@ std::optional<TransferAsk> TransferPanel::ask(QString& problem) const {
                      "point.");
         return std::nullopt;
     }
-    ask.environment = document.environment.image;
-    if (!ask.environment) {
+    ask.surroundings = shownEnvironment(document);
+    if (!ask.surroundings.image) {
         problem = tr("The surroundings have no picture.");
         return std::nullopt;
     }
-    ask.rotationDeg = document.environment.rotationDeg;
-    ask.exposureEv = document.environment.exposureEv;
+    ask.parts = environmentParts(document);
+    for (const Light& light : document.lights)
+        if (shines(document, light))
+            ask.lights.push_back(light);
     ask.mesh = at->mesh;
     ask.position = glm::vec3(at->value(shading::kRecordPosition));
     ask.traced = m_probe.pin().has_value();

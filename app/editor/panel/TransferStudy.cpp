@@ -1,7 +1,7 @@
 #include "app/editor/panel/TransferStudy.h"
 
 #include "core/bake/TransferMeaning.h"
-#include "core/math/ShRotation.h"
+#include "core/light/TransferLight.h"
 #include "core/math/Shading.h"
 
 #include <QObject>
@@ -122,22 +122,37 @@ std::shared_ptr<const TransferStudy> studyTransfer(const Document& document, con
         return study;
     }
     study->transfer = *transfer;
-    if (memory.environment != ask.environment) {
-        memory.analysis = analyseLight(ask.environment, job);
-        memory.environment = memory.analysis ? ask.environment : nullptr;
+    const EnvironmentPart& mix = ask.surroundings;
+    if (memory.environment != mix.image) {
+        memory.analysis = analyseLight(mix.image, job);
+        memory.environment = memory.analysis ? mix.image : nullptr;
     }
     if (!memory.analysis)
         return nullptr;
-    LabLight lab{memory.analysis, nullptr, ask.rotationDeg, std::exp2(ask.exposureEv)};
+    LabLight lab{memory.analysis, nullptr, mix.rotationDeg};
+    lab.setScale(mix.scale);
 
-    // The surroundings as coefficients, and what each band of them adds.
+    // Surroundings and lights as coefficients, and what each band of them adds.
     const int order = transfer->order;
-    const std::vector<glm::vec3>& all = memory.analysis->bands.coefficients;
-    study->light.resize(static_cast<std::size_t>(shCount(order)));
-    ShRotation::aboutY(glm::radians(static_cast<double>(ask.rotationDeg)), order)
-        .apply(std::span(all).first(study->light.size()), study->light);
-    for (glm::vec3& coefficient : study->light)
-        coefficient *= lab.scale;
+    std::map<ImagePtr, std::vector<glm::vec3>> projections;
+    for (const EnvironmentPart& part : ask.parts) {
+        const auto known = memory.projections.find(part.image);
+        projections[part.image] =
+            part.image == memory.environment    ? memory.analysis->bands.coefficients
+            : known != memory.projections.end() ? known->second
+                                                : projectLatLong(*part.image, kMaxShOrder, job);
+    }
+    if (job.cancelled())
+        return nullptr;
+    memory.projections = std::move(projections);
+    study->light = transferLight(document, order,
+                                 [&](const EnvironmentPart& part) -> std::span<const glm::vec3> {
+                                     const auto known = memory.projections.find(part.image);
+                                     if (known == memory.projections.end())
+                                         return {};
+                                     return known->second;
+                                 });
+    addNearLights(document, ask.position, order, study->light);
     for (int l = 0; l < order; ++l)
         study->byBand.push_back(transfer->radiance(study->light, 1u << static_cast<unsigned>(l)));
     study->radiance = transfer->radiance(study->light, ask.bands);

@@ -5,19 +5,23 @@
 #include "app/editor/panel/LabLight.h"
 #include "core/bake/TransferPoint.h"
 #include "core/document/Document.h"
+#include "core/document/LightMix.h"
 #include "render/scene/SurfaceLobe.h"
 
 #include <QImage>
 #include <QString>
+#include <map>
 #include <memory>
+#include <vector>
 
 namespace patina::editor {
 
 // All that a study is made of; equal asks have equal answers.
 struct TransferAsk {
     BakeArtifactPtr bake;
-    ImagePtr environment;
-    float rotationDeg = 0.0f, exposureEv = 0.0f;
+    EnvironmentPart surroundings;       // as they are seen: of the pictures
+    std::vector<EnvironmentPart> parts; // of the mix
+    std::vector<Light> lights;          // that shine
     Id mesh = 0;
     glm::vec3 position{0.0f}; // world
     bool traced = false;      // rays say what the point sees; else the transfer does
@@ -29,10 +33,11 @@ struct TransferAsk {
 struct TransferStudy {
     QString problem; // why there is nothing; then the rest is empty
     PointTransfer transfer;
-    std::vector<glm::vec3> light;        // of the surroundings, as many as the transfer has
-    std::vector<glm::vec3> byBand;       // exit radiance of albedo 1 that each band adds
-    glm::vec3 radiance{0.0f};            // of the bands that are on
-    float visibility = 1.0f;             // ambient, 0…1
+    std::vector<glm::vec3> light;  // that meets the point: surroundings and lights, as many as the
+                                   // transfer has
+    std::vector<glm::vec3> byBand; // exit radiance of albedo 1 that each band adds
+    glm::vec3 radiance{0.0f};      // of the bands that are on
+    float visibility = 1.0f;       // ambient, 0…1
     float lowest = 0.0f, highest = 0.0f; // of the transfer as a function of the direction
     double negativeShare = 0.0;          // of the sphere, where it is below zero
     int rays = 0;                        // that were traced; 0: the transfer said what is seen
@@ -47,6 +52,7 @@ struct TransferStudy {
 struct TransferMemory {
     ImagePtr environment;
     LabAnalysisPtr analysis;
+    std::map<ImagePtr, std::vector<glm::vec3>> projections; // of the parts of the mix
 };
 
 // Null after a cancel.

@@ -27,8 +27,10 @@ void BounceFeed::upload(render::Renderer& renderer) {
 }
 
 void BounceFeed::endFrame(const render::Renderer& renderer) {
-    if (m_bounces)
-        m_bounces->setLight(renderer.transferLight());
+    if (!m_bounces)
+        return;
+    if (const int order = m_bounces->lightOrder(); order > 0)
+        m_bounces->setLight(renderer.transferLight(order));
 }
 
 } // namespace patina::editor

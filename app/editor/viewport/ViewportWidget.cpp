@@ -123,6 +123,7 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     m_sheets.setDraw([this](const render::ViewSheet& sheet) { return drawSheet(sheet); });
     connect(&m_preview, &PreviewFeed::changed, this, &ViewportWidget::lookChanged);
     connect(&m_bounces, &BounceFeed::changed, this, &ViewportWidget::lookChanged);
+    connect(&m_projections, &ProjectionFeed::changed, this, &ViewportWidget::lookChanged);
     // Between frames and input, so that neither waits for an environment.
     m_environmentTimer.setSingleShot(true);
     m_environmentTimer.setInterval(0);
@@ -274,6 +275,7 @@ void ViewportWidget::paintGL() {
     // Bring in what the background has prepared since the last frame.
     m_preview.upload(*m_renderer);
     m_bounces.upload(*m_renderer);
+    m_projections.upload(*m_renderer, m_controller.document());
     takeDisplay();
 
     const QSize size = frameSize();

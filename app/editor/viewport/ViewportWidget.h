@@ -6,6 +6,7 @@
 #include "app/editor/viewport/FramePacing.h"
 #include "app/editor/viewport/PixelPicker.h"
 #include "app/editor/viewport/PreviewFeed.h"
+#include "app/editor/viewport/ProjectionFeed.h"
 #include "app/editor/viewport/ScaledTarget.h"
 #include "app/editor/viewport/SheetScheduler.h"
 #include "app/editor/viewport/ViewFeed.h"
@@ -114,6 +115,7 @@ class ViewportWidget : public QOpenGLWidget {
     ViewportHand m_hand;
     PreviewFeed m_preview;
     BounceFeed m_bounces;
+    ProjectionFeed m_projections;
     ViewFeed m_viewFeed;
     ViewGate m_gate;
     SheetScheduler m_sheets;

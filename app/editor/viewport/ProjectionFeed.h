@@ -1,0 +1,31 @@
+// Brings the coefficients of both pictures of a cross-fade into the renderer, so that light under
+// transfer follows the fade at once, before there is a picture of both.
+#pragma once
+
+#include "app/editor/job/LatestJob.h"
+#include "core/document/Document.h"
+#include "render/Renderer.h"
+
+#include <QObject>
+#include <memory>
+
+namespace patina::editor {
+
+class ProjectionFeed : public QObject {
+    Q_OBJECT
+  public:
+    explicit ProjectionFeed(QObject* parent = nullptr);
+
+    // With the renderer's context current, before a frame of the document.
+    void upload(render::Renderer& renderer, const Document& document);
+
+  Q_SIGNALS:
+    void changed(); // there is something to upload
+
+  private:
+    LatestJob m_job;
+    ImagePtr m_asked; // under way, or done
+    std::shared_ptr<const render::Renderer::ProjectionSh> m_done;
+};
+
+} // namespace patina::editor
