@@ -31,7 +31,8 @@ Result<BakeArtifact> bakeTexels(const BakeInputs& inputs, PassSettings settings,
     const Result<TexelLayout> layout = texelLayout(*geometry, size, job);
     if (!layout)
         return layout.error();
-    const Result<RayScene> scene = RayScene::build(*geometry, job);
+    const Result<RayScene> scene = RayScene::build(
+        *geometry, job, 0, static_cast<double>(layout->points.size()) * settings.samples);
     if (!scene)
         return scene.error();
     settings.maxDistance *= static_cast<float>(geometry->unitsPerMetre);

@@ -12,6 +12,7 @@
 #include "core/bake/WorkOrder.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace patina {
 namespace {
@@ -59,10 +60,11 @@ Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings setting
     const bool fitted = prt && prt->fitted;
     const VertexSamples samples =
         fitted ? fittedVertexSamples(*geometry, job) : vertexSamples(*geometry, job);
-    const Result<RayScene> scene = RayScene::build(
+    Result<RayScene> built = RayScene::build(
         *geometry, job, 0, static_cast<double>(samples.points.size()) * settings.samples);
-    if (!scene)
-        return scene.error();
+    if (!built)
+        return built.error();
+    std::optional<RayScene> scene = std::move(*built);
     settings.maxDistance *= static_cast<float>(geometry->unitsPerMetre);
 
     PassCallbacks callbacks;
@@ -82,11 +84,15 @@ Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings setting
     artifact.inputs = hashBakeInputs(inputs);
     if (!traced->has_value())
         return artifact;
-    const PassState& passes = **traced;
+    PassState& passes = **traced;
 
     artifact.samplesDone = passes.samplesDone;
     if (std::string note = noteOf(*geometry, *scene, samples, settings, passes, job); !note.empty())
         artifact.settings["note"] = std::move(note);
+    // What is not needed any more makes room for what comes.
+    const bool bounces = prt && prt->transfer == TransferKind::Interreflected;
+    if (!bounces)
+        scene.reset();
     if (!prt) {
         artifact.vertices = visibilityOf(*geometry, samples, passes.values);
     } else {
@@ -98,7 +104,8 @@ Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings setting
             return vertices.error();
         artifact.vertices = *std::move(vertices);
     }
-    if (prt && prt->transfer == TransferKind::Interreflected)
+    passes = {};
+    if (bounces)
         if (std::optional<Error> error =
                 addInterreflection(artifact, inputs, *geometry, *scene, *prt, sink, job))
             return *std::move(error);
