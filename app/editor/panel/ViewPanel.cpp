@@ -21,6 +21,7 @@
 #include <QSettings>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 
 namespace patina::editor {
@@ -44,7 +45,21 @@ bool applies(const ParameterInfo& info, const Document& document, Id) {
     if (info.id == "view.displayGamma")
         return view.toneMap != ToneMap::OpenColorIo &&
                view.displayTransfer == DisplayTransfer::Gamma;
+    if (info.id == "view.bounces") // also of the strip's interreflected light
+        return std::any_of(
+            document.bakes.begin(), document.bakes.end(), [](const BakeArtifactPtr& bake) {
+                return bake->transfer == TransferKind::Interreflected && holdsTransfer(bake->kind);
+            });
     return true;
+}
+
+// Rows of the view's parameters that belong to camera and lighting, or the others.
+std::vector<std::string_view> rows(bool ofCamera) {
+    std::vector<std::string_view> ids;
+    for (const ParameterInfo& info : parameters())
+        if (info.scope == Scope::View && (info.group == "Camera and lighting") == ofCamera)
+            ids.push_back(info.id);
+    return ids;
 }
 
 ParameterListSpec listWithout(std::vector<std::string_view> ids) {
@@ -116,14 +131,9 @@ ViewPanel::ViewPanel(DocumentController& controller, DisplayLoader& displays,
     , m_controller(controller)
     , m_displays(displays)
     , m_plot(new ToneCurvePlot)
-    , m_parameters(new ParameterList(controller, thumbnails,
-                                     listWithout({"view.fovDeg", "view.lighting"}))) {
+    , m_parameters(new ParameterList(controller, thumbnails, listWithout(rows(true)))) {
     // What OpenColorIO has to choose from stands right below the tone curve and the display.
-    std::vector<std::string_view> light;
-    for (const ParameterInfo& info : parameters())
-        if (info.scope == Scope::View && info.group != "Camera and lighting")
-            light.push_back(info.id);
-    ParameterListSpec camera = listWithout(light);
+    ParameterListSpec camera = listWithout(rows(false));
     camera.loneHeading = true;
     auto* scroll = new PanelScroll;
     scroll->contents()->addWidget(makeCurve());
