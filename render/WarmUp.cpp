@@ -1,6 +1,7 @@
 #include "render/WarmUp.h"
 
 #include "core/base/Hash.h"
+#include "core/document/Edit.h"
 #include "render/pass/SurfacePass.h"
 #include "render/scene/LightBlocks.h"
 
@@ -305,6 +306,11 @@ Result<void> WarmUp::draw(SurfaceOutput output, const JobContext& job) {
         return drawViews(job);
     case SurfaceOutput::EightViews: {
         ViewSheet sheet{{shading::kViewFinal, shading::kViewBaseColor, shading::kViewNoV}};
+        // The thumbnails of ways to light, whose light under transfer is compiled with them.
+        if (hasTransfer(m_scene))
+            sheet.kinds.insert(sheet.kinds.end(),
+                               {shading::kViewUnshadowedLight, shading::kViewShadowedLight,
+                                shading::kViewInterreflectedLight});
         sheet.width = m_frame.width;
         sheet.height = m_frame.height;
         if (auto drawn = m_renderer->drawSheet(m_frame, sheet); !drawn)

@@ -23,6 +23,25 @@ namespace {
 constexpr int kRoomyScreen = 640; // height from which the strip is open at first
 const char* const kFoldedKey = "viewStrip/folded";
 
+// Short, so that all of them have room; the tool tip says the whole name.
+QString tabName(ViewGroup group) {
+    switch (group) {
+    case ViewGroup::Factors:
+        return ViewStrip::tr("BRDF");
+    case ViewGroup::Direct:
+        return ViewStrip::tr("Direct");
+    case ViewGroup::Ibl:
+        return ViewStrip::tr("IBL");
+    case ViewGroup::Picture:
+    case ViewGroup::Material:
+    case ViewGroup::Geometry:
+    case ViewGroup::Lighting:
+        break;
+    }
+    const std::string_view label = viewGroupLabel(group);
+    return QString::fromUtf8(label.data(), static_cast<qsizetype>(label.size()));
+}
+
 } // namespace
 
 ViewStrip::ViewStrip(ViewState& views, DocumentController& controller, SheetScheduler& sheets,
@@ -49,11 +68,15 @@ ViewStrip::ViewStrip(ViewState& views, DocumentController& controller, SheetSche
     m_groups->setDrawBase(false);
     m_groups->setExpanding(false);
     m_groups->setFocusPolicy(Qt::TabFocus);
+    // In narrow windows the longest names are cut, so that no group hides behind an arrow.
+    m_groups->setUsesScrollButtons(false);
+    m_groups->setElideMode(Qt::ElideRight);
     for (int i = 0; i < kViewGroupCount; ++i) {
         const std::string_view label = viewGroupLabel(static_cast<ViewGroup>(i));
         const QString name = QString::fromUtf8(label.data(), static_cast<qsizetype>(label.size()));
-        m_groups->addTab(tr("%1  %2").arg(i + 1).arg(name));
-        m_groups->setTabToolTip(i, tr("The key %1 shows one view after another").arg(i + 1));
+        m_groups->addTab(tr("%1  %2").arg(i + 1).arg(tabName(static_cast<ViewGroup>(i))));
+        m_groups->setTabToolTip(
+            i, tr("%1: the key %2 shows one view after another").arg(name, QString::number(i + 1)));
     }
 
     auto* header = new QHBoxLayout;
