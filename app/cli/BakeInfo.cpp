@@ -1,9 +1,11 @@
 #include "app/cli/BakeInfo.h"
 
+#include "core/bake/BakeCheckpoint.h"
 #include "core/bake/BakeHeader.h"
 #include "core/bake/BakeTarget.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -132,6 +134,50 @@ Result<void> describeBake(Report& report, const std::vector<ImagePart>& parts,
         json["parts"].push_back(std::move(entry));
     }
     report.table(fmt::format("Parts ({})", rows.size()), rows);
+    report.json()["bake"] = std::move(json);
+    return {};
+}
+
+Result<void> describeUnfinishedBake(Report& report, const std::filesystem::path& file) {
+    const Result<BakeManifest> manifest = readBakeManifest(file);
+    if (!manifest)
+        return manifest.error();
+    const BakeManifest& m = *manifest;
+    const bool whole = m.shard.count == 1;
+    // A checkpoint is kept until its last ray is cast; what parts are joined from is complete.
+    const char* kind = m.complete ? "part" : "checkpoint";
+    Json json = {{"holds", kindText(m.kind)},
+                 {"points", m.points},
+                 {"samplesDone", m.samplesDone},
+                 {"done", m.done},
+                 {"complete", m.complete},
+                 {"shard", {{"part", m.shard.index + 1}, {"of", m.shard.count}}},
+                 {"scene", m.scene},
+                 {"inputs", m.inputs.hex()}};
+    Rows rows = {
+        {"kind", m.complete ? "part of a bake, complete" : "checkpoint of a bake, unfinished"},
+        {"holds", kindText(m.kind)},
+        {"part", whole ? "1 of 1, the whole surface"
+                       : fmt::format("{} of {}", m.shard.index + 1, m.shard.count)},
+        {"points", fmt::format("{}{}", countText(static_cast<std::size_t>(m.points)),
+                               whole ? "" : " in all parts together")},
+        {"done", fmt::format("{:.0f} % of its rays; every point has {} or more",
+                             std::floor(100.0 * m.done), m.samplesDone)},
+        {"scene", m.scene.empty() ? "the editor's document" : m.scene},
+        {"inputs", m.inputs.hex()}};
+    if (!m.sets.empty())
+        rows.emplace_back("with", fmt::format("{}", fmt::join(m.sets, ", ")));
+    rows.emplace_back("goes on with",
+                      m.complete ? "patina merge, with the other parts"
+                                 : "the command that began it, and --resume; or in the editor");
+    report.table({}, rows);
+    rows.clear();
+    for (const auto& [key, value] : m.settings) {
+        json["settings"][key] = value;
+        rows.emplace_back(key, value);
+    }
+    report.table("Settings", rows);
+    report.json()["kind"] = kind;
     report.json()["bake"] = std::move(json);
     return {};
 }

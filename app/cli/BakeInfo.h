@@ -14,4 +14,8 @@ namespace patina::cli {
 Result<void> describeBake(Report& report, const std::vector<ImagePart>& parts,
                           const std::filesystem::path& file);
 
+// The same of a checkpoint, or of the part that a shard computed. Errors: those of
+// readBakeManifest().
+Result<void> describeUnfinishedBake(Report& report, const std::filesystem::path& file);
+
 } // namespace patina::cli

@@ -1,6 +1,7 @@
 #include "app/cli/BakeInfo.h"
 #include "app/cli/Commands.h"
 #include "app/cli/SceneSetup.h"
+#include "core/bake/BakeCheckpoint.h"
 #include "core/bake/BakeHeader.h"
 #include "core/document/EnvironmentFile.h"
 #include "core/document/LightMix.h"
@@ -279,6 +280,8 @@ Result<void> run(Session& session, const InfoOptions& options) {
                           {"size", imageText(**image)}});
         return {};
     }
+    if (!isBuiltin(options.file) && looksLikeCheckpoint(options.file))
+        return describeUnfinishedBake(report, options.file);
     if (!isBuiltin(options.file) && !isScene(options.file))
         return describeImage(session, options.file);
 

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 // Layout, least significant byte first: Prologue, the manifest as JSON, its hash, the arrays one
 // after another as in PassState, their hash. Arrays hold the points of the shard's ranges.
 constexpr std::array<char, 8> kMagic = {'P', 'a', 't', 'i', 'n', 'a', 'B', 'k'};
-constexpr std::uint32_t kVersion = 1; // also counts changes of how bakes trace and sample
+constexpr std::uint32_t kVersion = 2; // also counts changes of how bakes trace and sample
 constexpr std::uint32_t kMaxManifest = 1u << 20;
 
 struct Prologue {
@@ -68,6 +68,7 @@ std::string manifestText(const BakeManifest& m) {
     json["ranges"] = m.ranges;
     json["complete"] = m.complete;
     json["samplesDone"] = m.samplesDone;
+    json["done"] = m.done;
     // Names of files may be no UTF-8; a damaged one is then not found, and said so.
     return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
@@ -95,6 +96,7 @@ std::optional<BakeManifest> manifestFromText(const std::string& text) {
         m.ranges = json.at("ranges").get<std::uint64_t>();
         m.complete = json.at("complete").get<bool>();
         m.samplesDone = json.at("samplesDone").get<int>();
+        m.done = json.at("done").get<double>();
         if (!known || !storage || m.shard.index < 0 || m.shard.index >= m.shard.count ||
             m.samplesDone < 0)
             return std::nullopt;
@@ -263,6 +265,15 @@ Result<void> writeBakeCheckpoint(const fs::path& file, const BakeManifest& manif
     return writePiecesAtomically(file, pieces);
 }
 
+bool looksLikeCheckpoint(const fs::path& file) {
+    const FileDescriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+    std::array<char, kMagic.size()> magic{};
+    return descriptor.valid() &&
+           ::read(descriptor.get(), magic.data(), magic.size()) ==
+               static_cast<ssize_t>(magic.size()) &&
+           magic == kMagic;
+}
+
 Result<BakeManifest> readBakeManifest(const fs::path& file) {
     return Reader(file).open();
 }
@@ -322,9 +333,10 @@ Checkpointer::Checkpointer(fs::path file, BakeManifest manifest, std::span<const
     , m_ranges(ranges)
     , m_warn(std::move(warn)) {}
 
-bool Checkpointer::write(const PassState& state, bool complete) {
+bool Checkpointer::write(const PassState& state, bool complete, double done) {
     m_manifest.samplesDone = state.samplesDone;
     m_manifest.complete = complete;
+    m_manifest.done = done;
     const Result<void> result = writeBakeCheckpoint(m_file, m_manifest, state, m_ranges);
     if (!result && !m_warned && m_warn)
         m_warn(result.error());

@@ -19,8 +19,8 @@
 
 namespace patina {
 
-// What a checkpoint belongs to. Two files go together when all but shard, complete and samplesDone
-// are equal.
+// What a checkpoint belongs to. Two files go together when all but shard, complete, samplesDone and
+// done are equal.
 struct BakeManifest {
     BakeKind kind = BakeKind::PrtVertex;
     std::map<std::string, std::string> settings; // as text (core/bake/BakeOptions.h)
@@ -33,6 +33,8 @@ struct BakeManifest {
     std::uint64_t points = 0, ranges = 0; // of the whole bake
     bool complete = false;                // every point of the shard is done
     int samplesDone = 0;
+    double done = 0.0; // share of the shard's rays that are cast, 0…1; to a tolerance of those that
+                       // it would take at most
     friend bool operator==(const BakeManifest&, const BakeManifest&) = default;
 };
 
@@ -45,6 +47,9 @@ struct BakeManifest {
 // writeFileAtomically().
 Result<void> writeBakeCheckpoint(const std::filesystem::path& file, const BakeManifest& manifest,
                                  const PassState& state, std::span<const PointRange> ranges);
+
+// Whether a file begins as checkpoints and parts do.
+[[nodiscard]] bool looksLikeCheckpoint(const std::filesystem::path& file);
 
 // The manifest alone. Errors: InputMissing; InputBroken for a file that is none, of another
 // version, truncated or edited.
@@ -64,7 +69,8 @@ class Checkpointer {
     Checkpointer(std::filesystem::path file, BakeManifest manifest,
                  std::span<const PointRange> ranges, Warn warn);
 
-    bool write(const PassState& state, bool complete); // false when it could not be written
+    // `done`: as in the manifest. False when it could not be written.
+    bool write(const PassState& state, bool complete, double done);
 
   private:
     std::filesystem::path m_file;

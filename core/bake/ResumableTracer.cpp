@@ -1,6 +1,7 @@
 #include "core/bake/ResumableTracer.h"
 
 #include <chrono>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace patina {
@@ -32,6 +33,27 @@ Result<PassState> readCheckpoint(const std::filesystem::path& file, const BakeMa
     return state;
 }
 
+// Of the shard's points, the rays that are cast; the first pass has 32, each further one doubles
+// them.
+double tracedShare(const PassState& state, std::span<const PointRange> ranges,
+                   const PassSettings& settings) {
+    int passes = 1;
+    if (settings.method != SampleMethod::Stratified)
+        for (int rays = 32; rays < settings.samples; rays *= 2)
+            ++passes;
+    double share = 0.0;
+    std::size_t points = 0;
+    for (std::size_t r = 0; r < ranges.size(); ++r) {
+        if (!settings.shard.holds(r))
+            continue;
+        for (const std::uint8_t done :
+             std::span(state.passes).subspan(ranges[r].first, ranges[r].count))
+            share += done == 0 ? 0.0 : std::ldexp(1.0, done - passes);
+        points += ranges[r].count;
+    }
+    return points == 0 ? 1.0 : share / static_cast<double>(points);
+}
+
 } // namespace
 
 Result<std::optional<PassState>> ResumableTracer::trace(const TraceRequest& request) {
@@ -50,13 +72,14 @@ Result<std::optional<PassState>> ResumableTracer::trace(const TraceRequest& requ
         m_kept = true;
     }
 
-    Checkpointer checkpointer(m_settings.checkpoint, manifest, request.ranges, m_settings.warn);
-    const auto keep = [&](const PassState& now, bool complete) {
-        if (!m_settings.checkpoint.empty() && checkpointer.write(now, complete))
-            m_kept = true;
-    };
     PassSettings settings = request.settings;
     settings.shard = manifest.shard;
+    Checkpointer checkpointer(m_settings.checkpoint, manifest, request.ranges, m_settings.warn);
+    const auto keep = [&](const PassState& now, bool complete) {
+        if (!m_settings.checkpoint.empty() &&
+            checkpointer.write(now, complete, tracedShare(now, request.ranges, settings)))
+            m_kept = true;
+    };
     PassCallbacks callbacks = request.callbacks;
     callbacks.checkpointSeconds = m_settings.everySeconds;
     callbacks.checkpoint = [&](const PassState& now) {
@@ -80,6 +103,7 @@ Result<std::optional<PassState>> ResumableTracer::trace(const TraceRequest& requ
         return std::optional(std::move(traced).value());
     manifest.complete = m_complete;
     manifest.samplesDone = traced->samplesDone;
+    manifest.done = tracedShare(*traced, request.ranges, settings);
     if (Result<void> written =
             writeBakeCheckpoint(m_settings.part, manifest, *traced, request.ranges);
         !written)

@@ -288,6 +288,47 @@ TEST_F(LongBake, AnInterruptLeavesACheckpointToGoOnFrom) {
     }
 }
 
+TEST_F(LongBake, InfoSaysWhatPartsAndCheckpointsAre) {
+    const auto info = [&](const std::string& name) {
+        return runPatina({"info", m_folder / name, "--json"}).json();
+    };
+    ASSERT_EQ(bake("b", {"--order", "2", "--samples", "64", "--shard", "2/3"}).status, 0);
+    const auto part = info("b");
+    EXPECT_EQ(part["kind"], "part");
+    EXPECT_EQ(part["bake"]["holds"], "radiance transfer per vertex");
+    EXPECT_EQ(part["bake"]["shard"]["part"], 2);
+    EXPECT_EQ(part["bake"]["shard"]["of"], 3);
+    EXPECT_EQ(part["bake"]["done"], 1.0);
+    EXPECT_EQ(part["bake"]["samplesDone"], 64);
+    EXPECT_EQ(part["bake"]["scene"], m_scene);
+    EXPECT_EQ(part["bake"]["settings"]["order"], "2");
+
+    RunOptions interrupt;
+    interrupt.signal = SIGINT;
+    interrupt.signalWhen = "%";
+    ASSERT_EQ(bake("a.exr",
+                   {"--samples", "16384", "--no-fit", "--threads", "1", "--checkpoint", "1h"},
+                   interrupt)
+                  .status,
+              75);
+    const auto checkpoint = info("a.exr.checkpoint");
+    EXPECT_EQ(checkpoint["kind"], "checkpoint");
+    EXPECT_EQ(checkpoint["bake"]["complete"], false);
+    const double done = checkpoint["bake"]["done"];
+    EXPECT_GT(done, 0.0);
+    EXPECT_LT(done, 1.0);
+    EXPECT_GE(done, checkpoint["bake"]["samplesDone"].get<double>() / 16384.0);
+    const Outcome text = runPatina({"info", m_folder / "a.exr.checkpoint"});
+    EXPECT_THAT(text.out, AllOf(HasSubstr("checkpoint of a bake, unfinished"),
+                                HasSubstr("% of its rays"), HasSubstr("--resume")));
+
+    const std::string whole = bytes("b");
+    writeBytes(m_folder / "cut", whole.substr(0, 100));
+    const Outcome cut = runPatina({"info", m_folder / "cut"});
+    EXPECT_EQ(cut.status, 65);
+    EXPECT_THAT(cut.err, HasSubstr("its end is missing"));
+}
+
 TEST_F(LongBake, AFullDiskAtACheckpointIsAWarning) {
     const std::vector<std::string> options{"--order", "2", "--samples", "256"};
     ASSERT_EQ(bake("whole.exr", options).status, 0);
