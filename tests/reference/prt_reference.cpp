@@ -21,7 +21,7 @@ using namespace patina::reference;
 namespace {
 
 struct Options {
-    std::string scene, pictures;
+    std::string scene, pictures, against;
     std::vector<std::string> environments;
     std::vector<int> size{128, 128}, orders{2, 3, 4, 5, 6}, shown{5};
     std::vector<float> camera{30.0f, 15.0f};
@@ -78,6 +78,34 @@ Image triptych(const std::vector<glm::dvec3>& reference, const std::vector<glm::
                 pixels.push_back(0.35 / mean * glm::max(shown, glm::dvec3(0.0)));
             }
     return imageOf(pixels, 3 * width, height);
+}
+
+// A picture that patina rendered of the same scene, diffuse light alone: how far it is from the
+// bake's and from the reference, all of them cut at zero, as light that is shown is.
+int compareFile(WorkerClient& worker, const std::string& file,
+                const std::vector<std::optional<Place>>& places,
+                const std::vector<glm::dvec3>& picture, const std::vector<glm::dvec3>& reference) {
+    const Result<LoadedImage> loaded = loadImage(worker, file);
+    if (!loaded)
+        return fail(loaded.error());
+    const Image& image = loaded->image();
+    if (std::size_t(image.width()) * std::size_t(image.height()) != places.size())
+        return fail({ErrorKind::Usage, "is not of the size of the pictures", file, {}});
+    std::vector<glm::dvec3> rendered, bake, truth;
+    for (std::size_t p = 0; p < places.size(); ++p) {
+        const int x = int(p) % image.width(), y = int(p) / image.width();
+        rendered.emplace_back(image.linear(x, y));
+        bake.push_back(glm::max(picture[p], glm::dvec3(0.0)));
+        truth.push_back(glm::max(reference[p], glm::dvec3(0.0)));
+    }
+    const std::vector<glm::dvec3> none(places.size(), glm::dvec3(0.0));
+    const Distance own = distance(places, rendered, bake, none),
+                   other = distance(places, rendered, truth, none);
+    std::printf("    %s: %.3f %% from the bake's picture (bias %.3f %%), %.3f %% from the paths' "
+                "with their noise\n",
+                file.c_str(), 100 * own.relative(), 100 * own.bias / own.mean,
+                100 * other.relative());
+    return 0;
 }
 
 int run(const Options& options) {
@@ -150,6 +178,10 @@ int run(const Options& options) {
                             order, 100 * same.relative(), 100 * same.bias / same.mean,
                             100 * same.noise / same.mean, 100 * same.worst / same.mean,
                             100 * whole.relative());
+                if (bounced && !options.against.empty() && order == options.shown.front())
+                    if (const int failed = compareFile(worker, options.against, places, picture,
+                                                       paths.mean(e, transport, order)))
+                        return failed;
                 if (options.pictures.empty() ||
                     std::find(options.shown.begin(), options.shown.end(), order) ==
                         options.shown.end())
@@ -198,6 +230,9 @@ int main(int argc, char* argv[]) {
     app.add_option("--rounds", options.rounds, "Of refinement");
     app.add_option("--pictures", options.pictures,
                    "Start of file names: reference, picture, difference × 20");
+    app.add_option("--against", options.against,
+                   "Linear .exr of patina render --lighting prt --set view.reflectionMix=0, of the "
+                   "same size and the first order of --show");
     app.add_option("--show", options.shown, "Orders of the pictures")->delimiter(',');
     app.add_option("--threads", options.threads, "0: all");
     CLI11_PARSE(app, argc, argv);
