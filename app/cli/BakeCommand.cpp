@@ -1,5 +1,6 @@
 #include "app/cli/BakeRun.h"
 #include "app/cli/Commands.h"
+#include "app/cli/LongBake.h"
 
 #include <nlohmann/json.hpp>
 
@@ -51,6 +52,14 @@ Result<BakeRequest> requestOf(const BakePrtOptions& options) {
         options.transfer.value_or(bounces ? TransferKind::Interreflected : settings.transfer);
     settings.bounces = options.bounces.value_or(settings.bounces);
     settings.bounceSamples = options.bounceSamples.value_or(settings.bounceSamples);
+    if (!options.hitMemory.empty()) {
+        if (settings.transfer != TransferKind::Interreflected)
+            return usage("--hit-memory is for --transfer interreflected");
+        const Result<std::uint64_t> bytes = parseSize(options.hitMemory);
+        if (!bytes)
+            return bytes.error();
+        settings.hitBudget = *bytes;
+    }
     if (options.size && !perTexel)
         return usage("--size is for --target texel; the vertices are those of the mesh");
     if (!settings.fitted && perTexel)

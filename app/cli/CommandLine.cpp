@@ -315,12 +315,18 @@ class Parser {
                                   s.bounces))
             ->check(plain(CLI::Range(1, 64)))
             ->type_name("1…64");
-        c->add_option("--bounce-samples", o.bounceSamples,
-                      fmt::format("Rays per vertex to find what reflects light to it; implies "
-                                  "--transfer interreflected (default: {})",
-                                  s.bounceSamples))
+        c->add_option(
+             "--bounce-samples", o.bounceSamples,
+             fmt::format("Rays per vertex or texel to find what reflects light to it; implies "
+                         "--transfer interreflected (default: {})",
+                         s.bounceSamples))
             ->check(plain(CLI::Range(1, 65536)))
             ->type_name("N");
+        c->add_option(
+             "--hit-memory", o.hitMemory,
+             "Memory that what those rays meet may take, e.g. 4GiB; where it is not enough "
+             "they are traced anew for every bounce, to the same result (default: 1GiB)")
+            ->type_name("SIZE");
         c->add_option("--target", o.target, "Where the values live")
             ->transform(plain(CLI::CheckedTransformer(std::map<std::string, BakeTarget>{
                 {"texel", BakeTarget::Texel}, {"vertex", BakeTarget::Vertex}})))

@@ -67,6 +67,7 @@ struct BakePrtOptions {
     BakeTarget target = BakeTarget::Vertex;
     std::optional<TransferKind> transfer; // not given: shadowed, or as the others ask for
     std::optional<int> bounces, bounceSamples, size, bits;
+    std::string hitMemory; // a size; empty: as the settings have it
     BakeFileOptions storage;
 };
 

@@ -111,8 +111,8 @@ constexpr std::array kOptions{
                bounces},
     BakeOption{"bounceSamples",
                "Bounce rays",
-               "Rays per vertex whose hits are kept for the bounces, so that another albedo needs "
-               "no new ray: 8 bytes each",
+               "Rays per vertex or texel for the bounces. What those of vertices meet is kept, 8 "
+               "bytes each, so that another albedo needs no new ray",
                "",
                Type::Integer,
                1,

@@ -5,6 +5,7 @@
 #include "core/bake/BakeTracer.h"
 #include "core/bake/PrtSettingsCheck.h"
 #include "core/bake/RayScene.h"
+#include "core/bake/TexelBounces.h"
 #include "core/bake/TexelTransfer.h"
 #include "core/bake/WorkOrder.h"
 
@@ -20,10 +21,11 @@ ImagePtr occlusionImage(std::span<const float> values, int size) {
     return image;
 }
 
-// Everything the two texel bakes share; `artifact` arrives with kind, order and settings.
+// Everything the two texel bakes share; `artifact` arrives with kind, order and settings, `prt`
+// with those of a transfer bake.
 Result<BakeArtifact> bakeTexels(const BakeInputs& inputs, PassSettings settings, int size,
-                                BakeArtifact artifact, TileSink& sink, const JobContext& job,
-                                BakeTracer* tracer) {
+                                const PrtSettings* prt, BakeArtifact artifact, TileSink& sink,
+                                const JobContext& job, BakeTracer* tracer) {
     job.setActivity("preparing the scene");
     const Result<BakeGeometry> geometry = makeBakeGeometry(inputs, job);
     if (!geometry)
@@ -68,6 +70,10 @@ Result<BakeArtifact> bakeTexels(const BakeInputs& inputs, PassSettings settings,
             artifact.texels.push_back(
                 {part.material,
                  occlusionImage(texelTexture(*layout, part, passes.values, kOpen), size)});
+    if (prt && prt->transfer == TransferKind::Interreflected)
+        if (std::optional<Error> error = addTexelInterreflection(
+                artifact, inputs, *geometry, *scene, *layout, passes, *prt, job))
+            return *std::move(error);
     job.setProgress(1.0);
     return artifact;
 }
@@ -82,7 +88,8 @@ Result<BakeArtifact> bakeAoTexel(const BakeInputs& inputs, const AoSettings& set
     BakeArtifact artifact;
     artifact.kind = BakeKind::AoTexel;
     artifact.settings = aoSettingsText(artifact.kind, settings, passes->samples);
-    return bakeTexels(inputs, *passes, settings.size, std::move(artifact), sink, job, tracer);
+    return bakeTexels(inputs, *passes, settings.size, nullptr, std::move(artifact), sink, job,
+                      tracer);
 }
 
 Result<BakeArtifact> bakePrtTexel(const BakeInputs& inputs, const PrtSettings& settings,
@@ -90,19 +97,13 @@ Result<BakeArtifact> bakePrtTexel(const BakeInputs& inputs, const PrtSettings& s
     const Result<PassSettings> passes = prtPassSettings(settings);
     if (!passes)
         return passes.error();
-    if (settings.transfer == TransferKind::Interreflected)
-        return Error{
-            ErrorKind::Usage,
-            "Light that bounces is baked per vertex; bake transfer per vertex, or shadowed "
-            "transfer per texel.",
-            {},
-            {}};
     BakeArtifact artifact;
     artifact.kind = BakeKind::PrtTexel;
     artifact.order = settings.order;
     artifact.transfer = settings.transfer;
     artifact.settings = prtSettingsText(artifact.kind, settings, passes->samples);
-    return bakeTexels(inputs, *passes, settings.size, std::move(artifact), sink, job, tracer);
+    return bakeTexels(inputs, *passes, settings.size, &settings, std::move(artifact), sink, job,
+                      tracer);
 }
 
 } // namespace patina

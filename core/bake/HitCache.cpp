@@ -115,15 +115,7 @@ class ChunkTracer {
 
     void hit(const ClosestRay& closest, std::vector<CachedHit>& hits) {
         const BounceElements::MeshPart& part = m_elements.meshes()[closest.mesh];
-        // The front is where the vertex normals point, whichever way the triangle is wound: that
-        // is the side whose light the elements know.
-        const BakeGeometryMesh& mesh = m_geometry.meshes[closest.mesh];
-        const std::uint32_t* corner = mesh.mesh->indices.data() + 3 * std::size_t{closest.triangle};
-        const glm::vec3 normal = (1.0f - closest.u - closest.v) * mesh.normals[corner[0]] +
-                                 closest.u * mesh.normals[corner[1]] +
-                                 closest.v * mesh.normals[corner[2]];
-        const bool back = (glm::dot(closest.geometricNormal, normal) < 0.0f) ==
-                          (glm::dot(closest.geometricNormal, closest.ray.direction) < 0.0f);
+        const bool back = meetsBack(m_geometry.meshes[closest.mesh], closest);
         if (!back)
             countRayOut(closest);
         else if (!part.doubleSided)
@@ -192,6 +184,15 @@ std::size_t backValues(const BounceElements& elements, int order) {
 }
 
 } // namespace
+
+bool meetsBack(const BakeGeometryMesh& mesh, const ClosestRay& closest) {
+    const std::uint32_t* corner = mesh.mesh->indices.data() + 3 * std::size_t{closest.triangle};
+    const glm::vec3 normal = (1.0f - closest.u - closest.v) * mesh.normals[corner[0]] +
+                             closest.u * mesh.normals[corner[1]] +
+                             closest.v * mesh.normals[corner[2]];
+    return (glm::dot(closest.geometricNormal, normal) < 0.0f) ==
+           (glm::dot(closest.geometricNormal, closest.ray.direction) < 0.0f);
+}
 
 Result<BounceElements> BounceElements::make(const BakeGeometry& geometry) {
     BounceElements elements;

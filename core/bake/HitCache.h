@@ -73,6 +73,10 @@ struct HitSettings {
     friend bool operator==(const HitSettings&, const HitSettings&) = default;
 };
 
+// Whether a ray has met the back. The front is where the vertex normals point, whichever way the
+// triangle is wound: that is the side whose light the elements know.
+[[nodiscard]] bool meetsBack(const BakeGeometryMesh& mesh, const ClosestRay& closest);
+
 // Gives the hits of kHitChunk elements at a time. Callable from any thread.
 class HitSource {
   public:

@@ -427,6 +427,8 @@ TEST_F(LongBake, OptionsThatExcludeEachOtherAreRefused) {
         {"--max-memory", "some"},
         {"--max-memory", "100KiB"},
         {"--transfer", "shadowed", "--bounces", "2"},
+        {"--hit-memory", "1GiB"},
+        {"--bounces", "2", "--hit-memory", "some"},
         {"--size", "64"},
         {"--no-fit", "--target", "texel"},
         {"--bits", "8"},

@@ -462,7 +462,7 @@ TEST(Interreflection, SettingsOutOfRangeAreRefusedBeforeAnyRay) {
         ASSERT_FALSE(artifact.ok());
         EXPECT_EQ(artifact.error().kind, ErrorKind::Usage);
     }
-    const Result<BakeArtifact> texels = bakePrtTexel(inputs, bouncing(2, 1, 64), sink, {});
+    const Result<BakeArtifact> texels = bakePrtTexel(inputs, bouncing(2, 0, 64), sink, {});
     ASSERT_FALSE(texels.ok());
     EXPECT_EQ(texels.error().kind, ErrorKind::Usage);
 }
