@@ -7,6 +7,7 @@
 #include "core/bake/BakeOptions.h"
 #include "core/bake/ResumableTracer.h"
 #include "core/base/FileLock.h"
+#include "core/base/Leftovers.h"
 #include "core/document/Scene.h"
 #include "core/mesh/UvUnwrap.h"
 
@@ -141,6 +142,8 @@ Result<void> bakeScene(Session& session, const std::string& scene, const std::st
         if (!taken)
             return taken.error();
         lock.emplace(std::move(taken).value());
+        removeLeftovers(output);
+        removeLeftovers(plan->checkpoint);
     }
     Report& report = session.report();
     std::error_code ignored;
