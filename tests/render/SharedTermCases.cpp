@@ -226,7 +226,7 @@ std::vector<SharedTermCase> makeCases() {
                  OUT3(9, shadePrefiltered(s, vec3(I(19), I(20), I(21))));
                  OUT3(12, lobeDirection(s, I(16))); O(15) = specularOcclusion(I(22), I(23), I(24));
                  O(16) = prefilteredLevel(I(25), 7);),
-            CASE("cones", surface, 1e-4f, SurfaceTerms s = SURFACE;
+            CASE("cones", surface, 1e-2f, SurfaceTerms s = SURFACE;
                  O(0) = sharedCap(I(16), I(17), I(18)); O(2) = angleOf(I(16));
                  O(1) = coneOcclusion(vec4(I(16), I(17), I(18), I(23)), s.n, s.v, I(24));),
             CASE("lat-long", directions, 1e-2f,
