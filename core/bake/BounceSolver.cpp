@@ -238,7 +238,9 @@ bool BounceSolver::solveGroup(std::span<const float> direct, int bounces, std::s
     // What comes straight from the surroundings has no colour yet: the first bounce reads one
     // number for each coefficient, not three.
     const std::size_t greyRow = detail::gatherRow(count);
-    auto& [straight, leaving, next] = rows;
+    auto& straight = rows.straight;
+    auto& leaving = rows.leaving;
+    auto& next = rows.next;
     straight.resize(elements.count() * greyRow); // what pads the rows is never looked at
     parallelFor(job, elements.count(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t e = begin; e < end; ++e)
