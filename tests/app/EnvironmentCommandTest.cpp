@@ -6,7 +6,6 @@
 using namespace patina::test;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 
 TEST(EnvironmentCommand, WritesEveryLayoutAndInfoTellsIt) {
     const TemporaryFolder folder;
