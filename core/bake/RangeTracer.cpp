@@ -95,6 +95,7 @@ bool RangeTracer::trace(std::span<const RangeElement> elements, const Hemisphere
             const std::size_t end = std::min(begin + piece, rayCount);
             if (m_filled + (last - first) * (end - begin) > kStream) {
                 flush(means);
+                m_job.giveWay();
                 if (m_job.cancelled() || (mayStop && m_job.stopping()))
                     return false;
             }

@@ -105,6 +105,7 @@ void TileTracer::add(std::size_t direction, std::size_t element) {
 }
 
 void TileTracer::flush() {
+    m_job.giveWay();
     if (!m_job.cancelled())
         m_scene.occludeFinite(m_rays);
     for (std::size_t i = 0; i < m_rays.size(); ++i)

@@ -1,9 +1,12 @@
 #include "core/job/JobContext.h"
 
+#include "core/job/WorkGate.h"
+
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <optional>
+#include <utility>
 
 namespace patina {
 
@@ -11,6 +14,7 @@ namespace detail {
 struct JobState {
     using Clock = std::chrono::steady_clock;
 
+    std::shared_ptr<const WorkGate> gate;
     std::atomic<bool> cancelled = false;
     std::atomic<bool> stopping = false;
     std::atomic<bool> pausing = false;
@@ -58,6 +62,11 @@ void JobContext::waitWhilePaused() const {
     m_state->restOver.wait(lock, [this] { return !m_state->resting(); });
 }
 
+void JobContext::giveWay() const {
+    if (m_state->gate)
+        m_state->gate->pass([this] { return stopping(); });
+}
+
 void JobContext::setProgress(double fraction) const {
     m_state->fraction.store(std::clamp(fraction, 0.0, 1.0), std::memory_order_relaxed);
 }
@@ -72,8 +81,10 @@ void JobContext::addWork(double amount, const char* unit) const {
     m_state->unit.store(unit, std::memory_order_relaxed);
 }
 
-JobControl::JobControl()
-    : m_state(std::make_shared<detail::JobState>()) {}
+JobControl::JobControl(std::shared_ptr<const WorkGate> gate)
+    : m_state(std::make_shared<detail::JobState>()) {
+    m_state->gate = std::move(gate);
+}
 
 JobProgress JobControl::progress() const {
     JobProgress result;

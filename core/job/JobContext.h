@@ -11,6 +11,8 @@
 
 namespace patina {
 
+class WorkGate;
+
 struct JobProgress {
     double fraction = 0.0;   // 0…1 of the whole job
     std::string activity;    // "tracing pass 3 of 6"
@@ -36,6 +38,9 @@ class JobContext {
     // waitWhilePaused(), which returns when the rest is over, or at once where there is none.
     [[nodiscard]] bool paused() const;
     void waitWhilePaused() const;
+    // Steps aside for what somebody waits for, where the owner asked for it: between two pieces of
+    // work that take well under a millisecond each, with no lock held. parallelFor() does it too.
+    void giveWay() const;
 
     void setProgress(double fraction) const; // clamped to 0…1
     void setActivity(std::string_view activity) const;
@@ -47,7 +52,8 @@ class JobContext {
 
 class JobControl {
   public:
-    JobControl();
+    // `gate`: what the work gives way at; null: nowhere.
+    explicit JobControl(std::shared_ptr<const WorkGate> gate = nullptr);
     [[nodiscard]] JobContext context() const { return JobContext(m_state); }
     [[nodiscard]] JobProgress progress() const;
     void pause(); // work rests within some 50 ms; stop() and cancel() end the rest

@@ -29,6 +29,7 @@ void parallelFor(const JobContext& job, std::size_t count, std::size_t grain,
             [&](const tbb::blocked_range<std::size_t>& range) {
                 const ForkJoin::Branch branch(forkJoin);
                 for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                    job.giveWay();
                     if (job.cancelled() || job.paused())
                         return;
                     const std::size_t chunk = next.fetch_add(1);

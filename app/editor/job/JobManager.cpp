@@ -77,7 +77,7 @@ quint64 JobManager::enqueue(const QString& title, JobPriority priority, Prepare 
 void JobManager::begin(Job& job, Work work) {
     job.begun = true;
     job.state = JobState::Running;
-    job.control = JobControl(); // its clock starts now
+    job.control = JobControl(m_gate); // its clock starts now
     const JobContext context = job.control.context();
     job.thread = std::thread([this, id = job.id, context, run = std::move(work)] {
         lowerThreadPriority();
@@ -153,7 +153,9 @@ void JobManager::end(Job& job, const JobOutcome& outcome) {
     // A cancel wins over whatever the work still returned.
     if (job.control.cancelled() || (outcome.error && outcome.error->kind == ErrorKind::Cancelled)) {
         job.state = JobState::Cancelled;
-        job.summary = tr("Cancelled, nothing was kept");
+        job.summary = outcome.error && !outcome.summary.isEmpty()
+                          ? outcome.summary
+                          : tr("Cancelled, nothing was kept");
     } else if (outcome.error) {
         job.state = JobState::Failed;
         job.summary = QString::fromStdString(outcome.error->message);

@@ -6,6 +6,7 @@
 #include "app/editor/job/JobQueue.h"
 #include "core/base/Result.h"
 #include "core/job/JobContext.h"
+#include "core/job/WorkGate.h"
 
 #include <QObject>
 #include <QString>
@@ -42,7 +43,7 @@ struct JobRecord {
 // What a job's thread hands back.
 struct JobOutcome {
     std::optional<Error> error;
-    QString summary;
+    QString summary;             // also of a cancelled one, where something was kept
     std::function<void()> apply; // runs on the UI thread, unless the job was cancelled
 };
 
@@ -74,6 +75,8 @@ class JobManager : public QObject {
     [[nodiscard]] std::vector<JobRecord> jobs() const; // oldest first
     [[nodiscard]] std::optional<JobRecord> job(quint64 id) const;
 
+    // Closed while a frame is drawn that the user waits for: jobs step aside.
+    [[nodiscard]] WorkGate& gate() { return *m_gate; }
     // What a running bake has found so far; null when no bake runs.
     [[nodiscard]] std::shared_ptr<LivePreview> preview() const { return m_preview; }
     void setPreview(std::shared_ptr<LivePreview> preview);
@@ -94,6 +97,7 @@ class JobManager : public QObject {
     [[nodiscard]] Job* find(quint64 id) const;
 
     DocumentController& m_controller;
+    std::shared_ptr<WorkGate> m_gate = std::make_shared<WorkGate>();
     std::vector<std::unique_ptr<Job>> m_jobs;
     std::shared_ptr<LivePreview> m_preview;
     QTimer m_meter; // rates, while something runs

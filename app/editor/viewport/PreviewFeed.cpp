@@ -11,6 +11,8 @@ constexpr int kPollMs = 100; // how often a bake is asked for a new pass
 // How often an unfinished pass is shown: each time redraws the picture, which takes the cores from
 // the bake.
 constexpr int kPartMs = 1500;
+// How often anything is shown while the hand moves: the frame that shows it takes long.
+constexpr int kMovingMs = 3000;
 
 } // namespace
 
@@ -63,6 +65,8 @@ void PreviewFeed::upload(render::Renderer& renderer) {
 void PreviewFeed::poll() {
     const std::shared_ptr<LivePreview> preview = m_jobs->preview();
     if (!preview)
+        return;
+    if (m_handMoves && m_sinceShown.isValid() && m_sinceShown.elapsed() < kMovingMs)
         return;
     const bool part = m_sinceShown.isValid() && m_sinceShown.elapsed() > kPartMs;
     if (preview->samplesDone() == m_samples && !(part && preview->changed()))

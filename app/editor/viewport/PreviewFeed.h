@@ -21,6 +21,8 @@ class PreviewFeed : public QObject {
     void setJobs(JobManager& jobs); // whose live preview is shown
     // The renderer is a new one, which knows nothing yet.
     void restart();
+    // While the hand moves, frames have little time for what is new.
+    void setHandMoves(bool moves) { m_handMoves = moves; }
     // With the renderer's context current: what has come since the last call, or the end of it.
     void upload(render::Renderer& renderer);
 
@@ -32,7 +34,7 @@ class PreviewFeed : public QObject {
 
     JobManager* m_jobs = nullptr;
     QTimer m_timer;
-    bool m_shown = false;
+    bool m_shown = false, m_handMoves = false;
     bool m_pending = false; // a new pass is to be uploaded
     int m_samples = 0;      // of the pass seen last
     QElapsedTimer m_sinceShown;

@@ -3,10 +3,13 @@
 #include "app/editor/document/DisplayLoader.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/SelectionModel.h"
+#include "app/editor/job/JobManager.h"
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/LobeOnSurface.h"
 #include "core/base/Log.h"
 #include "core/document/LightMix.h"
+#include "core/job/Parallel.h"
+#include "core/job/WorkGate.h"
 #include "render/Renderer.h"
 #include "render/gl/Context.h"
 
@@ -64,6 +67,7 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
             m_restTimer.start();
             return;
         }
+        m_preview.setHandMoves(false);
         if (m_pacing.refine()) {
             update();
             m_restTimer.start(); // the next step
@@ -138,6 +142,8 @@ ViewportWidget::~ViewportWidget() {
 
 void ViewportWidget::setJobs(JobManager& jobs) {
     m_preview.setJobs(jobs);
+    m_workGate = &jobs.gate();
+    connect(this, &QOpenGLWidget::frameSwapped, this, [this] { m_workGate->open(); });
 }
 
 void ViewportWidget::setBounces(BounceUpdater& bounces) {
@@ -271,6 +277,8 @@ void ViewportWidget::paintGL() {
     }
     QElapsedTimer clock;
     clock.start();
+    if (m_pacing.moving())
+        holdJobs();
 
     // Bring in what the background has prepared since the last frame.
     m_preview.upload(*m_renderer);
@@ -421,8 +429,17 @@ void ViewportWidget::touch() {
 
 void ViewportWidget::hurry() {
     m_pacing.beginMoving();
+    m_preview.setHandMoves(true);
+    holdJobs();
     m_restTimer.start();
     m_sheets.setResting(false);
+}
+
+// Software OpenGL draws with all cores; elsewhere the window's thread and its driver's fill a small
+// machine.
+void ViewportWidget::holdJobs() {
+    if (m_workGate && m_context && (m_context->info().software || threadCount() <= 2))
+        m_workGate->close();
 }
 
 void ViewportWidget::setCamera(const Camera& camera) {

@@ -22,6 +22,7 @@
 #include <memory>
 
 namespace patina {
+class WorkGate;
 struct Change;
 struct Error;
 } // namespace patina
@@ -46,7 +47,7 @@ class ViewportWidget : public QOpenGLWidget {
                    QWidget* parent = nullptr);
     ~ViewportWidget() override;
 
-    void setJobs(JobManager& jobs);            // whose live preview is shown
+    void setJobs(JobManager& jobs); // whose live preview is shown, and who gives way to frames
     void setBounces(BounceUpdater& bounces);   // whose light is shown
     void setDisplays(DisplayLoader& displays); // whose view of OpenColorIO is shown
     void setViews(ViewState& views);           // what of the scene is shown
@@ -98,6 +99,7 @@ class ViewportWidget : public QOpenGLWidget {
     void touch();       // the hand moved something: draw fast now, refine when it rests
     void lookChanged(); // of the scene, other than by the hand: its thumbnails are old, too
     void hurry();       // the next frames must be fast
+    void holdJobs();    // until the frame is shown
     [[nodiscard]] Result<render::Inspection> inspect(const QPoint& pixel);
     [[nodiscard]] Result<std::vector<Image>> drawSheet(const render::ViewSheet& sheet);
     [[nodiscard]] render::FrameSettings nextFrame(const QSize& size);
@@ -116,6 +118,7 @@ class ViewportWidget : public QOpenGLWidget {
     PreviewFeed m_preview;
     BounceFeed m_bounces;
     ProjectionFeed m_projections;
+    WorkGate* m_workGate = nullptr; // closed from an edit until its frame is shown
     ViewFeed m_viewFeed;
     ViewGate m_gate;
     SheetScheduler m_sheets;

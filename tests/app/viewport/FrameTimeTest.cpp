@@ -4,7 +4,6 @@
 #include "tests/app/editor/EditorFixture.h"
 
 #include "app/editor/document/Commands.h"
-#include "app/editor/job/BakeRunner.h"
 #include "app/editor/viewport/ViewState.h"
 #include "core/document/Views.h"
 #include "core/library/Library.h"
@@ -97,7 +96,6 @@ class Drag {
     }
     ~Drag() { QObject::disconnect(m_connection); }
     [[nodiscard]] int coarsestWidth() const { return m_width; }
-    [[nodiscard]] const std::vector<double>& times() const { return m_times; } // of frames, ms
 
   private:
     void frame(double ms) {
@@ -138,51 +136,6 @@ TEST_F(FrameTimeTest, AnEnvironmentArrivesWhileTheHandMoves) {
     Drag(viewport(), "while an environment arrives").run(3000);
     ASSERT_TRUE(settled(*session));
     EXPECT_EQ(document().environment.source, "builtin:sunset");
-}
-
-// Dragging with and without a bake by turns, so that other loads of the machine touch both.
-TEST_F(FrameTimeTest, EditingGoesOnWhileABakeRuns) {
-    openLitKnot();
-    std::vector<double> alone, baking;
-    QElapsedTimer clock;
-    for (int round = 0; round < 3; ++round) {
-        Drag before(viewport(), "without a bake");
-        before.run(1500);
-        alone.insert(alone.end(), before.times().begin(), before.times().end());
-
-        BakeRequest request; // of a kind that leaves the picture's cost as it is
-        request.kind = BakeKind::AoVertex;
-        request.ao.samples = 16384; // longer than anyone waits here
-        BakeRunner runner(controller(), session->jobs);
-        runner.start(request);
-        ASSERT_TRUE(eventually([&] { return session->jobs.jobs().back().progress.workDone > 0; }));
-        const double first = session->jobs.jobs().back().progress.workDone;
-        clock.start();
-        Drag during(viewport(), "during a bake");
-        during.run(1500);
-        baking.insert(baking.end(), during.times().begin(), during.times().end());
-        const double rays = session->jobs.jobs().back().progress.workDone - first;
-        EXPECT_GT(rays, 0.0) << "the bake goes on, too";
-        std::printf("[ figures  ] the bake traced %.2f M rays/s meanwhile\n",
-                    rays / static_cast<double>(clock.elapsed()) * 1e-3);
-        session->jobs.cancelAll();
-        ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
-    }
-    std::sort(alone.begin(), alone.end());
-    std::sort(baking.begin(), baking.end());
-    ASSERT_FALSE(alone.empty());
-    ASSERT_FALSE(baking.empty());
-    const double median = alone[alone.size() / 2], slow = alone[alone.size() * 95 / 100];
-    const auto share = [](const std::vector<double>& times, double limit) {
-        const auto within = std::upper_bound(times.begin(), times.end(), limit);
-        return 100.0 * static_cast<double>(within - times.begin()) /
-               static_cast<double>(times.size());
-    };
-    std::printf("[ figures  ] frames within 1.5 times the median without a bake (%.1f ms): "
-                "%.1f %% during a bake, %.1f %% without; 95th percentile %.1f ms during, %.1f ms "
-                "without\n",
-                median, share(baking, 1.5 * median), share(alone, 1.5 * median),
-                baking[baking.size() * 95 / 100], slow);
 }
 
 // --- What is new to the driver: set MESA_SHADER_CACHE_DIR to an empty folder for a first time ----

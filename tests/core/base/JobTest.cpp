@@ -1,6 +1,7 @@
 #include "core/job/JobContext.h"
 #include "core/job/Parallel.h"
 #include "core/job/ProgressRate.h"
+#include "core/job/WorkGate.h"
 
 #include <atomic>
 #include <chrono>
@@ -51,6 +52,45 @@ TEST(Parallel, StartsNothingAfterACancel) {
         control.cancel();
     });
     EXPECT_LE(ranges.load(), 64);
+}
+
+TEST(Job, GivesWayWhileTheGateIsClosed) {
+    using namespace std::chrono_literals;
+    using Clock = WorkGate::Clock;
+    const auto gate = std::make_shared<WorkGate>();
+    JobControl control(gate);
+    const JobContext job = control.context();
+    JobControl().context().giveWay(); // of one without a gate
+    job.giveWay();                    // open
+
+    // Whoever closes it and forgets it does not hold work up for ever.
+    gate->close();
+    const Clock::time_point closed = Clock::now();
+    job.giveWay();
+    EXPECT_GE(Clock::now() - closed, WorkGate::kLongestWait);
+
+    // A loop stands still until it opens; unless the machine is so busy that this takes long.
+    gate->close();
+    const Clock::time_point begin = Clock::now();
+    std::atomic<bool> opened = false;
+    std::thread opener([&] {
+        std::this_thread::sleep_for(30ms);
+        opened = true;
+        gate->open();
+    });
+    parallelFor(job, 1, 1, [&](std::size_t, std::size_t) {
+        EXPECT_TRUE(opened || Clock::now() - begin >= WorkGate::kLongestWait);
+    });
+    opener.join();
+
+    // The end of the job is the end of every wait.
+    control.cancel();
+    const Clock::time_point cancelled = Clock::now();
+    for (int i = 0; i < 50; ++i) {
+        gate->close();
+        job.giveWay();
+    }
+    EXPECT_LT(Clock::now() - cancelled, 50 * WorkGate::kLongestWait);
 }
 
 TEST(Job, TimeStandsStillWhileItRests) {

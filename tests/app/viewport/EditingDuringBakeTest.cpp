@@ -1,0 +1,218 @@
+// Whether the editor stays fluid while a bake runs at low priority: the same edits, an orbit and a
+// drag of a slider, while a bake runs and while it rests. Times are printed, not asserted, for they
+// depend on the machine (run it alone: ctest -R test_frame_times -V).
+
+#include "tests/app/editor/EditorFixture.h"
+
+#include "app/editor/job/BakeRunner.h"
+#include "app/editor/panel/ParameterRow.h"
+#include "app/editor/widget/Slider.h"
+#include "core/job/Parallel.h"
+
+#include <QElapsedTimer>
+#include <QFile>
+#include <QTimer>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fmt/format.h>
+#include <string>
+#include <vector>
+
+namespace patina::editor {
+namespace {
+
+constexpr int kSide = 320; // vertices around the torus and around its tube
+constexpr int kSteps = 12; // of an edit
+constexpr int kBlocks = 6; // edits
+constexpr double kSlower = 1.5;
+
+// A torus with bumps that shadow each other.
+std::string bumpyTorusObj() {
+    constexpr double kStep = 2.0 * 3.14159265358979323846 / kSide;
+    std::string text;
+    for (int i = 0; i < kSide; ++i)
+        for (int j = 0; j < kSide; ++j) {
+            const double u = i * kStep, v = j * kStep;
+            const double tube = 0.4 + 0.05 * std::sin(12.0 * u) * std::sin(5.0 * v);
+            const double around = 1.0 + tube * std::cos(v);
+            text += fmt::format("v {:.5f} {:.5f} {:.5f}\n", around * std::cos(u),
+                                tube * std::sin(v), -around * std::sin(u));
+        }
+    for (int i = 0; i < kSide; ++i)
+        for (int j = 0; j < kSide; ++j) {
+            const int right = (i + 1) % kSide, up = (j + 1) % kSide;
+            text += fmt::format("f {} {} {} {}\n", i * kSide + j + 1, right * kSide + j + 1,
+                                right * kSide + up + 1, i * kSide + up + 1);
+        }
+    return text;
+}
+
+BakeRequest transferOfFiveBands(int samples) {
+    BakeRequest request;
+    request.kind = BakeKind::PrtVertex;
+    request.prt.order = 5;
+    request.prt.samples = samples;
+    return request;
+}
+
+using Times = std::vector<double>; // of the edits, in their order, ms
+
+double quantile(Times times, double q) {
+    std::sort(times.begin(), times.end());
+    return times[static_cast<std::size_t>(std::lround(q * static_cast<double>(times.size() - 1)))];
+}
+
+// The share of times within 1.5 times the others', edit by edit.
+double shareWithin(const Times& times, const Times& others) {
+    std::size_t within = 0;
+    for (std::size_t i = 0; i < times.size(); ++i)
+        within += times[i] <= kSlower * others[i] ? 1 : 0;
+    return 100.0 * static_cast<double>(within) / static_cast<double>(times.size());
+}
+
+class EditingDuringABake : public EditorTest {
+  protected:
+    static ViewportWidget& viewport() { return window->viewport(); }
+
+    void open() {
+        viewport().setFixedSize(1280, 720);
+        const QString path = folder.filePath(QStringLiteral("torus.obj"));
+        QFile file(path);
+        ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+        const std::string text = bumpyTorusObj();
+        file.write(text.data(), static_cast<qint64>(text.size()));
+        file.close();
+        controller().openScene(path);
+        ASSERT_TRUE(settled(*session));
+        ASSERT_GE(document().meshes.front().mesh->vertexCount(), 100'000u);
+        // With a bake attached, the picture costs the same before the next one and during it.
+        BakeRunner runner(controller(), session->jobs);
+        runner.start(transferOfFiveBands(32));
+        ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
+        ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
+    }
+    static void rest() {
+        const QSize full = viewport().size() * viewport().devicePixelRatioF();
+        ASSERT_TRUE(eventually([&] {
+            return viewport().frameSize() == full && !viewport().waitsForPrograms() &&
+                   !viewport().compilesPrograms();
+        }));
+        QTest::qWait(300);
+    }
+
+    // What the user sees of `act`: until its frame is drawn and the window put together.
+    template <class Act>
+    static double until(int& frames, Act act) {
+        const int before = frames;
+        QTimer tooLong; // wakes the loop below
+        tooLong.start(30'000);
+        QElapsedTimer clock;
+        clock.start();
+        act();
+        while (frames == before && clock.elapsed() < 30'000)
+            QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+        EXPECT_GT(frames, before);
+        return static_cast<double>(clock.nsecsElapsed()) * 1e-6;
+    }
+
+    // An orbit and back, and the roughness up and down, with the button held: piece `block` of it.
+    static Times edit(int block) {
+        int frames = 0;
+        QObject counter; // its end ends the connection
+        QObject::connect(&viewport(), &ViewportWidget::frameRendered, &counter, [&] { ++frames; });
+        Times times;
+        if (block % 2 == 0) {
+            const QPoint middle = viewport().rect().center();
+            QTest::mousePress(&viewport(), Qt::LeftButton, Qt::NoModifier, middle);
+            for (int i = 1; i <= kSteps; ++i)
+                times.push_back(until(frames, [&] {
+                    QTest::mouseMove(
+                        &viewport(),
+                        middle + QPoint(i <= kSteps / 2 ? 10 + 8 * i : 10 + 8 * (kSteps - i), i));
+                }));
+            QTest::mouseRelease(&viewport(), Qt::LeftButton, Qt::NoModifier, middle);
+            return times;
+        }
+        Slider* slider = nullptr;
+        for (const ParameterRow* row : window->findChildren<ParameterRow*>())
+            if (row->info().id == "material.perceptualRoughness")
+                slider = row->findChild<Slider*>();
+        if (slider == nullptr) {
+            ADD_FAILURE() << "no slider";
+            return times;
+        }
+        const int x = slider->handleX(), y = slider->height() / 2;
+        QTest::mousePress(slider, Qt::LeftButton, Qt::NoModifier, {x, y});
+        for (int i = 1; i <= kSteps; ++i)
+            times.push_back(until(frames, [&] {
+                QTest::mouseMove(slider, {i % 2 == 0 ? x - i : x + 4 + i, y});
+            }));
+        QTest::mouseRelease(slider, Qt::LeftButton, Qt::NoModifier, {x, y});
+        return times;
+    }
+
+    static double rays() { return session->jobs.jobs().back().progress.workDone; }
+
+    struct Pairs {
+        Times resting, baking; // of the same edits
+    };
+
+    // Edits with a bake that rests and with one that runs on so many threads, by turns: what else
+    // the machine does touches both.
+    static Pairs editByTurns(int threads) {
+        const ThreadLimit limit(threads);
+        BakeRunner runner(controller(), session->jobs);
+        runner.start(transferOfFiveBands(16384), JobPriority::Low); // longer than anyone waits here
+        EXPECT_TRUE(eventually([] { return rays() > 0.0; }));
+        const quint64 bake = session->jobs.jobs().back().id;
+        Pairs pairs;
+        double traced = 0.0, seconds = 0.0;
+        for (int block = 0; block < kBlocks; ++block) {
+            session->jobs.pause(bake);
+            for (double before = -1.0; before != rays();) { // ranges under way come to their end
+                before = rays();
+                QTest::qWait(400);
+            }
+            const Times resting = edit(block);
+            session->jobs.resume(bake);
+            QTest::qWait(400);
+            const double first = rays();
+            QElapsedTimer clock;
+            clock.start();
+            const Times baking = edit(block);
+            seconds += static_cast<double>(clock.elapsed()) * 1e-3;
+            traced += rays() - first;
+            pairs.resting.insert(pairs.resting.end(), resting.begin(), resting.end());
+            pairs.baking.insert(pairs.baking.end(), baking.begin(), baking.end());
+        }
+        std::printf("[ figures  ] the bake on %d thread%s traced %.2f M rays/s between frames\n",
+                    threads, threads == 1 ? "" : "s", traced / seconds * 1e-6);
+        session->jobs.cancelAll();
+        EXPECT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
+        return pairs;
+    }
+};
+
+TEST_F(EditingDuringABake, StaysFluid) {
+    open();
+    rest();
+    for (const int block : {0, 1})
+        (void)edit(block); // what is drawn for the first time
+    for (const int threads : {1, 2}) {
+        rest();
+        const Pairs pairs = editByTurns(threads);
+        ASSERT_EQ(pairs.resting.size(), pairs.baking.size());
+        ASSERT_EQ(pairs.baking.size(), static_cast<std::size_t>(kBlocks * kSteps));
+        std::printf("[ figures  ] frames while a bake on %d thread%s rests: %.1f ms (median), %.1f "
+                    "ms (95th percentile); runs: %.1f ms and %.1f ms; %.1f %% within %.1f times "
+                    "the same edit's time while it rests (%.1f %% the other way round)\n",
+                    threads, threads == 1 ? "" : "s", quantile(pairs.resting, 0.5),
+                    quantile(pairs.resting, 0.95), quantile(pairs.baking, 0.5),
+                    quantile(pairs.baking, 0.95), shareWithin(pairs.baking, pairs.resting), kSlower,
+                    shareWithin(pairs.resting, pairs.baking));
+    }
+}
+
+} // namespace
+} // namespace patina::editor
