@@ -180,8 +180,15 @@ Result<JobManager::Work> BakeRunner::prepare(const std::shared_ptr<quint64>& id,
             std::error_code gone;
             std::filesystem::remove(checkpointFile(folder, key), gone);
         }
-        if (!result)
-            return {result.error(), {}, {}};
+        if (!result) {
+            const bool goesOn =
+                job.cancelled() && std::filesystem::exists(checkpointFile(folder, key));
+            return {result.error(),
+                    goesOn ? BakeRunner::tr("Interrupted; it can go on in the Bake dock once its "
+                                            "scene is open again")
+                           : QString(),
+                    {}};
+        }
         if (!job.stopping())
             if (const Result<void> stored = cache.store(key, *inputs, *result); !stored)
                 logWarning("The bake is not kept for the next time: {}", stored.error().text());

@@ -3,7 +3,9 @@
 #include "core/bake/BakeOptions.h"
 #include "core/base/Log.h"
 
+#include <algorithm>
 #include <chrono>
+#include <functional>
 #include <system_error>
 
 namespace patina::editor {
@@ -53,13 +55,14 @@ std::vector<InterruptedBake> interruptedBakes(const fs::path& folder, const Bake
             continue;
         }
         InterruptedBake bake{file, requestFromText(manifest->kind, manifest->settings),
-                             manifest->samplesDone};
+                             manifest->done, written};
         BakeManifest here = bakeManifest(bake.request, inputs);
         here.points = manifest->points;
         here.ranges = manifest->ranges;
         if (!whyDifferent(*manifest, here))
             result.push_back(std::move(bake));
     }
+    std::ranges::sort(result, std::greater(), &InterruptedBake::written);
     return result;
 }
 

@@ -12,7 +12,8 @@ namespace patina::editor {
 struct InterruptedBake {
     std::filesystem::path file;
     BakeRequest request;
-    int samplesDone = 0; // rays per element that every element has
+    double done = 0.0;                         // share of its rays, 0…1
+    std::filesystem::file_time_type written{}; // when that was
 };
 
 // What a checkpoint of this bake must say to be gone on from.

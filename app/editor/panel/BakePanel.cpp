@@ -13,12 +13,14 @@
 
 #include <QButtonGroup>
 #include <QColor>
+#include <QDateTime>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLocale>
 #include <QPushButton>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <chrono>
 
 namespace patina::editor {
 namespace {
@@ -56,6 +58,21 @@ QString largeNumber(double number) {
         return locale.toString(number, 'f', 0);
     return BakePanel::tr("%1 million")
         .arg(locale.toString(number * 1e-6, 'f', number < 1e7 ? 1 : 0));
+}
+
+// "14:03", and with the day unless it is today's.
+QString timeText(std::filesystem::file_time_type when) {
+    const auto system = std::chrono::file_clock::to_sys(when);
+    const auto seconds = std::chrono::floor<std::chrono::seconds>(system).time_since_epoch();
+    const QDateTime time = QDateTime::fromSecsSinceEpoch(seconds.count());
+    return QLocale().toString(time, time.date() == QDate::currentDate()
+                                        ? QStringLiteral("HH:mm")
+                                        : QStringLiteral("d MMM HH:mm"));
+}
+
+int raysOf(const BakeRequest& request) {
+    const BakeRequest rounded = normalized(request);
+    return holdsTransfer(request.kind) ? rounded.prt.samples : rounded.ao.samples;
 }
 
 } // namespace
@@ -223,11 +240,15 @@ void BakePanel::refreshInterrupted() {
         auto* layout = new QVBoxLayout(row);
         layout->setContentsMargins(0, tokens::kGap / 2, 0, 0);
         layout->setSpacing(tokens::kGap / 2);
-        auto* text = new QLabel(
-            tr("%1<br><span style='color:%2'>Was interrupted at %3 rays and can go on</span>")
-                .arg(bakeTitle(bake.request.kind).toHtmlEscaped(), QColor(tokens::kCopper).name())
-                .arg(bake.samplesDone));
+        auto* text = new QLabel(QStringLiteral("%1<br><span style='color:%2'>%3</span>")
+                                    .arg(bakeTitle(bake.request.kind).toHtmlEscaped(),
+                                         QColor(tokens::kCopper).name(),
+                                         tr("Unfinished, from %1: %2 % of its %3 rays per point")
+                                             .arg(timeText(bake.written))
+                                             .arg(static_cast<int>(100.0 * bake.done))
+                                             .arg(QLocale().toString(raysOf(bake.request)))));
         text->setWordWrap(true);
+        text->setObjectName(QStringLiteral("bakeUnfinished"));
         layout->addWidget(text);
         auto* buttons = new QHBoxLayout;
         buttons->addStretch(1);

@@ -12,7 +12,12 @@ QString durationText(double seconds) {
     const int whole = static_cast<int>(std::ceil(std::max(seconds, 0.0)));
     if (whole < 60)
         return JobManager::tr("%1 s").arg(whole);
-    return JobManager::tr("%1 min %2 s").arg(whole / 60).arg(whole % 60, 2, 10, QLatin1Char('0'));
+    const auto twoParts = [](const QString& text, int large, int small) {
+        return text.arg(large).arg(small, 2, 10, QLatin1Char('0'));
+    };
+    if (whole < 3600)
+        return twoParts(JobManager::tr("%1 min %2 s"), whole / 60, whole % 60);
+    return twoParts(JobManager::tr("%1 h %2 min"), whole / 3600, whole / 60 % 60);
 }
 
 QString progressText(const JobRecord& record) {

@@ -3,6 +3,7 @@
 
 #include "app/editor/job/InterruptedBakes.h"
 #include "app/editor/panel/BakePanel.h"
+#include "app/editor/panel/JobTexts.h"
 #include "core/bake/BakeOptions.h"
 
 #include <QCheckBox>
@@ -15,6 +16,7 @@
 namespace patina::editor {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 class BakeManagerTest : public EditorTest {
@@ -132,8 +134,10 @@ TEST_F(BakeManagerTest, WhatWaitsCanBeCancelled) {
     click("bakeStart");
     session->jobs.cancelAll();
     ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
-    for (const JobRecord& record : session->jobs.jobs())
+    for (const JobRecord& record : session->jobs.jobs()) {
         EXPECT_EQ(record.state, JobState::Cancelled);
+        EXPECT_THAT(record.summary.toStdString(), HasSubstr("nothing was kept"));
+    }
     EXPECT_TRUE(document().bakes.empty());
 }
 
@@ -209,11 +213,14 @@ TEST_F(BakeManagerTest, AnInterruptedBakeIsOfferedAndGoesOn) {
     ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
     if (job(0).state == JobState::Done)
         GTEST_FAIL() << "the bake was over before it was interrupted";
+    EXPECT_THAT(job(0).summary.toStdString(), HasSubstr("Interrupted; it can go on"));
     EXPECT_TRUE(document().bakes.empty()) << "of another document";
     EXPECT_EQ(visible<QPushButton>("bakeResume"), nullptr) << "not of this scene";
     controller().openScene(QStringLiteral("builtin:torus-knot"));
     ASSERT_TRUE(settled(*session));
     ASSERT_TRUE(eventually([] { return visible<QPushButton>("bakeResume") != nullptr; }));
+    EXPECT_THAT(visible<QLabel>("bakeUnfinished")->text().toStdString(),
+                AllOf(HasSubstr("Unfinished, from"), HasSubstr("% of its 256 rays per point")));
     click("bakeResume");
     ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
     BakeArtifact resumed = *document().bakes.front();
@@ -221,6 +228,13 @@ TEST_F(BakeManagerTest, AnInterruptedBakeIsOfferedAndGoesOn) {
     EXPECT_EQ(resumed.vertices[0].values, whole.vertices[0].values);
     EXPECT_EQ(visible<QPushButton>("bakeResume"), nullptr);
     EXPECT_TRUE(QDir(cacheFolder()).entryList({QStringLiteral("*.checkpoint")}).isEmpty());
+}
+
+TEST_F(BakeManagerTest, TimesAreToldAsCoarselyAsTheyMatter) {
+    EXPECT_EQ(durationText(0.2), QStringLiteral("1 s"));
+    EXPECT_EQ(durationText(59.5), QStringLiteral("1 min 00 s"));
+    EXPECT_EQ(durationText(3599.0), QStringLiteral("59 min 59 s"));
+    EXPECT_EQ(durationText(3600.0 + 7 * 60 + 59), QStringLiteral("1 h 07 min"));
 }
 
 TEST_F(BakeManagerTest, TheFormShowsWhatApplies) {
