@@ -1,10 +1,13 @@
-// Renders the documentation's pictures of the editor from the editor itself: docs-pictures FOLDER.
+// Renders the documentation's pictures of the editor from the editor itself:
+//   docs-pictures FOLDER             all of them
+//   docs-pictures FOLDER bounces     the Cornell box whose wall is painted
 // Run by scripts/docs-pictures on a display of its own.
 
 #include "app/editor/Actions.h"
 #include "app/editor/FileFlow.h"
 #include "app/editor/MainWindow.h"
 #include "app/editor/Session.h"
+#include "app/editor/job/BounceUpdater.h"
 #include "app/editor/panel/BrdfLensPanel.h"
 #include "app/editor/panel/LightLabPanel.h"
 #include "app/editor/panel/SoftboxList.h"
@@ -14,6 +17,7 @@
 #include "app/editor/viewport/PixelProbe.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "app/editor/widget/ContributionChart.h"
+#include "core/bake/Bake.h"
 
 #include <QApplication>
 #include <QComboBox>
@@ -24,14 +28,18 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QMouseEvent>
+#include <QPainter>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSettings>
 #include <QStandardPaths>
 #include <QSurfaceFormat>
 #include <QToolButton>
+#include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -158,11 +166,114 @@ bool savePixel(Session& session, MainWindow& window, const QString& file) {
     return ok;
 }
 
+// Pictures in a row, with a caption below each.
+struct PictureRow {
+    static constexpr int kSide = 440, kGap = 8, kCaption = 34;
+    std::vector<std::pair<QImage, QString>> pictures;
+    // The square in the middle.
+    void add(const QImage& picture, const QString& caption) {
+        const int side = std::min(picture.width(), picture.height());
+        pictures.emplace_back(
+            picture.copy((picture.width() - side) / 2, (picture.height() - side) / 2, side, side)
+                .scaled(kSide, kSide, Qt::IgnoreAspectRatio, Qt::SmoothTransformation),
+            caption);
+    }
+    QImage drawn() const {
+        const int count = static_cast<int>(pictures.size());
+        QImage row(count * (kSide + kGap) - kGap, kSide + kCaption, QImage::Format_RGB32);
+        row.fill(QColor(30, 30, 32));
+        QPainter painter(&row);
+        QFont font = QApplication::font();
+        font.setPixelSize(17);
+        painter.setFont(font);
+        painter.setPen(QColor(225, 225, 225));
+        int x = 0;
+        for (const auto& [picture, caption] : pictures) {
+            painter.drawImage(x, 0, picture);
+            painter.drawText(QRect(x, kSide, kSide, kCaption), Qt::AlignCenter, caption);
+            x += kSide + kGap;
+        }
+        return row;
+    }
+};
+
+// The Cornell box before its left wall was painted, in the first frame that shows what the new
+// colour does to the others, and with all coefficients solved anew.
+bool saveBounces(Session& session, MainWindow& window, const QString& file) {
+    DocumentController& controller = session.controller;
+    ViewportWidget& viewport = window.viewport();
+    controller.openScene(QStringLiteral("builtin:cornell-box"));
+    if (!runUntil([&] { return !controller.tasks().busy(); }, 30'000))
+        return false;
+    const auto set = [&](const char* id, const patina::Target& target,
+                         const patina::ParameterValue& value) {
+        controller.setParameter(*patina::findParameter(id), target, value);
+    };
+    set("view.lighting", {patina::Scope::View, 0}, static_cast<int>(patina::LightingMode::Prt));
+    set("environment.rotationDeg", {patina::Scope::Environment, 0}, 90.0f); // into the opening
+    set("view.exposureEv", {patina::Scope::View, 0}, 1.0f);
+    patina::Camera camera = controller.document().view.camera;
+    camera.yawDeg = -6.0f; // the tall block shows the side that faces the wall
+    camera.pitchDeg = 6.0f;
+    camera = frameBounds(camera, controller.document().bounds(), 1.0f);
+    camera.distance *= 0.95f;
+    controller.setCamera(camera);
+    viewport.setOverlaysVisible(false);
+    patina::TileSink sink;
+    patina::PrtSettings settings;
+    settings.order = 5;
+    settings.transfer = patina::TransferKind::Interreflected;
+    const patina::Result<patina::BakeArtifact> bake =
+        bakePrtVertex(bakeInputs(controller.document()), settings, sink, {});
+    if (!bake)
+        return false;
+    controller.attachBake(std::make_shared<const patina::BakeArtifact>(*bake));
+    if (!runUntil([&] { return session.bounces.upToDate(); }, 120'000))
+        return false;
+    const QSize full = viewport.size() * viewport.devicePixelRatioF();
+    const auto steady = [&] { // the light in full, then the refined frame
+        settle(4000);
+        runUntil([&] { return viewport.frameSize() == full; }, 30'000);
+        return viewport.grabFramebuffer();
+    };
+    PictureRow row;
+    row.add(steady(), QStringLiteral("before"));
+
+    int frames = 0;
+    QElapsedTimer clock;
+    QObject here;
+    QObject::connect(&viewport, &ViewportWidget::frameRendered, &here, [&] { ++frames; });
+    QObject::connect(&session.bounces, &BounceUpdater::shownChanged, &here, [&] {
+        if (!session.bounces.shown() || row.pictures.size() > 1)
+            return;
+        const double milliseconds = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
+        std::printf("the bleeding followed in frame %d, %.0f ms after the edit\n", frames + 1,
+                    milliseconds);
+        row.add(viewport.grabFramebuffer(),
+                QStringLiteral("frame %1 after the edit").arg(frames + 1));
+    });
+    const auto& materials = controller.document().materials;
+    const auto red = std::find_if(materials.begin(), materials.end(),
+                                  [](const auto& material) { return material.name == "Red"; });
+    if (red == materials.end())
+        return false;
+    clock.start();
+    set("material.baseColor", {patina::Scope::Material, red->id}, glm::vec3(0.05f, 0.12f, 0.6f));
+    if (!runUntil([&] { return session.bounces.upToDate(); }, 60'000))
+        return false;
+    std::printf("all coefficients were solved after %.0f ms\n",
+                static_cast<double>(clock.nsecsElapsed()) * 1e-6);
+    row.add(steady(), QStringLiteral("all coefficients solved anew"));
+    viewport.setOverlaysVisible(true);
+    return row.pictures.size() == 3 && row.drawn().save(file);
+}
+
 } // namespace
 
 int main(int argc, char* argv[]) {
-    if (argc != 2) {
-        std::fprintf(stderr, "usage: docs-pictures FOLDER\n");
+    const bool bouncesAlone = argc == 3 && std::strcmp(argv[2], "bounces") == 0;
+    if (argc != 2 && !bouncesAlone) {
+        std::fprintf(stderr, "usage: docs-pictures FOLDER [bounces]\n");
         return 2;
     }
     QStandardPaths::setTestModeEnabled(true); // the user's settings stay as they are
@@ -185,6 +296,9 @@ int main(int argc, char* argv[]) {
     window.files().openFromCommandLine({}, {});
     if (!runUntil([&] { return !session.controller.document().meshes.empty(); }, 30'000))
         return 1;
+    const QString bounces = folder.filePath(QStringLiteral("bounces.png"));
+    if (bouncesAlone)
+        return saveBounces(session, window, bounces) ? 0 : 1;
     settle(6000); // image-based light at full resolution, then the refined frame
     bool ok = save(window, folder.filePath(QStringLiteral("start.png")));
     ok &= saveLens(session, window, folder.filePath(QStringLiteral("lens.png")));
@@ -275,6 +389,7 @@ int main(int argc, char* argv[]) {
         ok = false;
     }
     session.jobs.cancelAll();
+    ok &= saveBounces(session, window, bounces);
     session.controller.tasks().cancelAll();
     return ok ? 0 : 1;
 }
