@@ -1,6 +1,7 @@
 // The writing half of ImageIO.h: what each format stores is decided here, the worker only encodes.
 #include "core/base/Limits.h"
 #include "core/image/ImageIO.h"
+#include "core/worker/MemoryFile.h"
 #include "core/worker/WorkerClient.h"
 
 #include <algorithm>
@@ -8,7 +9,10 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
+#include <span>
+#include <utility>
 
 namespace patina {
 
@@ -76,8 +80,10 @@ Image forIntegers(const Image& image, ImageFileFormat format) {
     return result;
 }
 
-Image forFloats(const Image& image, ImageFileFormat format, bool half) {
-    Image result = convertImage(image, PixelType::F32, ColorEncoding::Linear);
+Image forFloats(Image image, ImageFileFormat format, bool half) {
+    const bool fits = image.type() == PixelType::F32 && image.encoding() == ColorEncoding::Linear;
+    Image result =
+        fits ? std::move(image) : convertImage(image, PixelType::F32, ColorEncoding::Linear);
     if (format == ImageFileFormat::Hdr) {
         result = withChannels(result, 3);
         sanitizeHdr(result); // RGBE knows neither sign nor NaN
@@ -119,9 +125,18 @@ Error misuse(std::string message) {
     return {ErrorKind::Usage, std::move(message), {}, {}};
 }
 
+Error noMemory() {
+    return {ErrorKind::Internal, "there is not enough memory to save the image", {}, {}};
+}
+
+// Images follow each other at multiples of 16 bytes.
+std::size_t sizeOnWire(const Image& image) {
+    return (image.bytes().size() + 15) / 16 * 16;
+}
+
 } // namespace
 
-Result<Bytes> encodeImage(WorkerClient& worker, const std::vector<ImagePart>& parts,
+Result<Bytes> encodeImage(WorkerClient& worker, std::vector<ImagePart> parts,
                           ImageFileFormat format, const ImageSaveOptions& options) {
     const bool exr = format == ImageFileFormat::Exr;
     const bool floats = exr || format == ImageFileFormat::Hdr;
@@ -133,15 +148,16 @@ Result<Bytes> encodeImage(WorkerClient& worker, const std::vector<ImagePart>& pa
 
     json descriptions = json::array();
     std::vector<std::string> partNames;
-    Bytes payload;
+    std::size_t payloadSize = 0;
     try {
-        for (const ImagePart& part : parts) {
+        for (ImagePart& part : parts) {
             if (part.image.empty())
                 return misuse("there is no image to save");
             if (part.image.channels() > 4 && !exr)
                 return misuse("images with more than four channels are saved as OpenEXR");
-            const Image image = floats ? forFloats(part.image, format, options.half)
-                                       : forIntegers(part.image, format);
+            part.image = floats ? forFloats(std::move(part.image), format, options.half)
+                                : forIntegers(part.image, format);
+            const Image& image = part.image;
             std::vector<std::string> channelNames;
             if (exr) {
                 channelNames = exrChannelNames(image);
@@ -163,11 +179,10 @@ Result<Bytes> encodeImage(WorkerClient& worker, const std::vector<ImagePart>& pa
                                     {"srgb", image.encoding() == ColorEncoding::Srgb},
                                     {"channelNames", channelNames},
                                     {"attributes", part.attributes}});
-            if (payload.size() + image.bytes().size() > limits::kMaxImageBytes)
+            payloadSize += sizeOnWire(image);
+            if (payloadSize > limits::kMaxImageBytes)
                 return misuse(fmt::format("the image is larger than the supported {} MiB",
                                           limits::kMaxImageBytes >> 20));
-            payload.insert(payload.end(), image.bytes().begin(), image.bytes().end());
-            payload.resize((payload.size() + 15) / 16 * 16);
         }
         if (parts.size() > 1 && !distinct(partNames))
             return misuse("the parts of an OpenEXR file need names of their own");
@@ -175,7 +190,16 @@ Result<Bytes> encodeImage(WorkerClient& worker, const std::vector<ImagePart>& pa
                              {"format", pluginFor(format)},
                              {"jpegQuality", std::clamp(options.jpegQuality, 1, 100)},
                              {"parts", std::move(descriptions)}};
-        auto reply = worker.request(header.dump(), payload, {});
+        std::optional<MemoryFile> payload = MemoryFile::create(payloadSize);
+        if (!payload)
+            return noMemory();
+        std::span<std::byte> rest = payload->writable();
+        for (ImagePart& part : parts) {
+            std::ranges::copy(part.image.bytes(), rest.begin());
+            rest = rest.subspan(sizeOnWire(part.image));
+            part.image = {}; // large bakes have no room for the same numbers twice
+        }
+        auto reply = worker.request(header.dump(), *std::move(payload), {});
         if (!reply) {
             Error error = reply.error();
             error.kind = ErrorKind::Internal; // our own pixels: no file is to blame
@@ -188,7 +212,7 @@ Result<Bytes> encodeImage(WorkerClient& worker, const std::vector<ImagePart>& pa
                      {},
                      exception.what()};
     } catch (const std::bad_alloc&) {
-        return Error{ErrorKind::Internal, "there is not enough memory to save the image", {}, {}};
+        return noMemory();
     }
 }
 
@@ -196,7 +220,7 @@ Result<Bytes> encodeImage(WorkerClient& worker, const Image& image, ImageFileFor
                           const ImageSaveOptions& options) {
     std::vector<ImagePart> parts(1);
     parts[0].image = image;
-    return encodeImage(worker, parts, format, options);
+    return encodeImage(worker, std::move(parts), format, options);
 }
 
 Result<void> saveImage(WorkerClient& worker, const Image& image, const std::filesystem::path& file,

@@ -188,9 +188,17 @@ Result<WorkerClient::Reply> WorkerClient::request(const std::string& header,
                                                   std::span<const std::byte> payload,
                                                   const std::filesystem::path& fileForMessages) {
     auto copy = MemoryFile::copyOf(payload);
-    if (!copy || !copy->seal())
+    if (!copy)
         return noMemory(fileForMessages);
-    return m_impl->run(header, copy->fd(), payload.size(), false, fileForMessages);
+    return request(header, *std::move(copy), fileForMessages);
+}
+
+Result<WorkerClient::Reply> WorkerClient::request(const std::string& header, MemoryFile payload,
+                                                  const std::filesystem::path& fileForMessages) {
+    const std::size_t size = payload.bytes().size();
+    if (!payload.seal())
+        return noMemory(fileForMessages);
+    return m_impl->run(header, payload.fd(), size, false, fileForMessages);
 }
 
 Result<WorkerClient::Reply> WorkerClient::request(const std::string& header, int payloadFd,

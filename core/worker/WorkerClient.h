@@ -17,6 +17,8 @@
 
 namespace patina {
 
+class MemoryFile;
+
 struct WorkerLimits {
     std::size_t memoryBytes; // address space of the child
     double cpuSeconds;
@@ -44,6 +46,9 @@ class WorkerClient {
         Bytes payload;
     };
     Result<Reply> request(const std::string& header, std::span<const std::byte> payload,
+                          const std::filesystem::path& fileForMessages);
+    // The same with a payload that is in its place already.
+    Result<Reply> request(const std::string& header, MemoryFile payload,
                           const std::filesystem::path& fileForMessages);
     // The same with an open file as payload: the child reads it through the descriptor, which stays
     // the caller's.
