@@ -11,6 +11,9 @@
 #include <fmt/format.h>
 #include <new>
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 #if defined(__SSE2__)
 #include <pmmintrin.h>
 #include <xmmintrin.h>
@@ -66,6 +69,13 @@ void keepSolid(const RTCFilterFunctionNArguments* args) {
     }
 }
 
+// Embree builds in memory of malloc's, which keeps for the process what is freed amid its heap.
+void returnFreedMemory() {
+#if defined(__GLIBC__)
+    malloc_trim(0);
+#endif
+}
+
 } // namespace
 
 struct RayScene::Impl {
@@ -85,6 +95,7 @@ struct RayScene::Impl {
             rtcReleaseScene(scene);
         if (device)
             rtcReleaseDevice(device);
+        returnFreedMemory();
     }
 };
 
@@ -202,6 +213,7 @@ Result<RayScene> RayScene::build(const BakeGeometry& geometry, const JobContext&
                      refused(geometry, impl->device).message,
                      {},
                      fmt::format("Embree error {}", static_cast<int>(code))};
+    returnFreedMemory();
     return RayScene(std::move(impl));
 }
 
