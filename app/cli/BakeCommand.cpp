@@ -55,7 +55,7 @@ Result<BakeRequest> requestOf(const BakePrtOptions& options) {
     if (!options.hitMemory.empty()) {
         if (settings.transfer != TransferKind::Interreflected)
             return usage("--hit-memory is for --transfer interreflected");
-        const Result<std::uint64_t> bytes = parseSize(options.hitMemory);
+        const Result<std::uint64_t> bytes = parseSize("--hit-memory", options.hitMemory, 0);
         if (!bytes)
             return bytes.error();
         settings.hitBudget = *bytes;

@@ -48,7 +48,7 @@ Result<Plan> planBake(const CommonOptions& common, const std::string& output,
     }
     plan.maxMemory = availableMemory();
     if (!options.maxMemory.empty()) {
-        const Result<std::uint64_t> bytes = parseSize(options.maxMemory);
+        const Result<std::uint64_t> bytes = parseSize("--max-memory", options.maxMemory);
         if (!bytes)
             return bytes.error();
         plan.maxMemory = *bytes;

@@ -119,7 +119,8 @@ Result<double> parseInterval(const std::string& text) {
         fmt::format("--checkpoint takes a time such as 30s, 5min or 1h, not \"{}\"", text));
 }
 
-Result<std::uint64_t> parseSize(const std::string& text) {
+Result<std::uint64_t> parseSize(const std::string& option, const std::string& text,
+                                std::uint64_t least) {
     constexpr std::pair<std::string_view, double> kUnits[] = {
         {"", 1},         {"K", 0x1p10},   {"KiB", 0x1p10}, {"KB", 1e3},     {"M", 0x1p20},
         {"MiB", 0x1p20}, {"MB", 1e6},     {"G", 0x1p30},   {"GiB", 0x1p30}, {"GB", 1e9},
@@ -128,9 +129,10 @@ Result<std::uint64_t> parseSize(const std::string& text) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
     for (const auto& [name, bytes] : kUnits)
-        if (error == std::errc() && unit == name && value * bytes >= 1 && value * bytes < 0x1p63)
+        if (error == std::errc() && unit == name && value * bytes >= static_cast<double>(least) &&
+            value * bytes < 0x1p63)
             return static_cast<std::uint64_t>(value * bytes);
-    return usage(fmt::format("--max-memory takes a size such as 512MiB or 4GiB, not \"{}\"", text));
+    return usage(fmt::format("{} takes a size such as 512MiB or 4GiB, not \"{}\"", option, text));
 }
 
 } // namespace patina::cli

@@ -23,7 +23,9 @@ Result<PassShard> parseShard(const std::string& text, const Variables& variables
 // Seconds: "30", "30s", "0.5s", "5min", "1h". Usage error otherwise.
 Result<double> parseInterval(const std::string& text);
 
-// Bytes: "4GiB", "4G", "512MiB", "4GB" (powers of ten), "1000000". Usage error otherwise.
-Result<std::uint64_t> parseSize(const std::string& text);
+// Bytes: "4GiB", "4G", "512MiB", "4GB" (powers of ten), "1000000"; `least` or more. Otherwise a
+// usage error that names `option`.
+Result<std::uint64_t> parseSize(const std::string& option, const std::string& text,
+                                std::uint64_t least = 1);
 
 } // namespace patina::cli

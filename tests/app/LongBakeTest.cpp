@@ -121,13 +121,16 @@ std::string cornerObj() {
 }
 
 TEST(MemoryOption, TakesSizes) {
-    EXPECT_EQ(cli::parseSize("1000").value(), 1000u);
-    EXPECT_EQ(cli::parseSize("1.5KiB").value(), 1536u);
-    EXPECT_EQ(cli::parseSize("512MiB").value(), 512u << 20);
-    EXPECT_EQ(cli::parseSize("4G").value(), std::uint64_t{4} << 30);
-    EXPECT_EQ(cli::parseSize("4GB").value(), 4'000'000'000u);
+    EXPECT_EQ(cli::parseSize("--max-memory", "1000").value(), 1000u);
+    EXPECT_EQ(cli::parseSize("--max-memory", "1.5KiB").value(), 1536u);
+    EXPECT_EQ(cli::parseSize("--max-memory", "512MiB").value(), 512u << 20);
+    EXPECT_EQ(cli::parseSize("--max-memory", "4G").value(), std::uint64_t{4} << 30);
+    EXPECT_EQ(cli::parseSize("--max-memory", "4GB").value(), 4'000'000'000u);
     for (const char* wrong : {"", "0", "-1G", "4 GiB", "4gib", "lots", "inf", "nan", "9999999T"})
-        EXPECT_FALSE(cli::parseSize(wrong).ok()) << wrong;
+        EXPECT_FALSE(cli::parseSize("--max-memory", wrong).ok()) << wrong;
+    EXPECT_EQ(cli::parseSize("--hit-memory", "0", 0).value(), 0u); // traces anew
+    EXPECT_NE(cli::parseSize("--hit-memory", "-1", 0).error().message.find("--hit-memory takes"),
+              std::string::npos);
 }
 
 class LongBake : public ::testing::Test {
