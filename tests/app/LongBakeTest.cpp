@@ -184,6 +184,18 @@ TEST_F(LongBake, SameBytesForAnyThreadsAndShards) {
     }
 }
 
+// Which tiles are traced further is decided between passes, by one thread.
+TEST_F(LongBake, SameBytesToAToleranceForAnyThreads) {
+    for (const char* threads : {"1", "2", "7"}) {
+        const Outcome whole =
+            bake(std::string(threads) + ".exr", {"--order", "3", "--samples", "512", "--tolerance",
+                                                 "0.002", "--threads", threads});
+        ASSERT_EQ(whole.status, 0) << whole.err;
+    }
+    EXPECT_EQ(bytes("2.exr"), bytes("1.exr"));
+    EXPECT_EQ(bytes("7.exr"), bytes("1.exr"));
+}
+
 TEST_F(LongBake, SameBytesWithBouncesPerTexelAndPacked) {
     const std::vector<std::vector<std::string>> kinds = {
         {"--order", "2", "--samples", "32", "--bounces", "2", "--bounce-samples", "8"},
