@@ -1,7 +1,6 @@
 #include "core/bake/TransferPoint.h"
 
-#include "core/bake/BakeGeometry.h"
-#include "core/bake/RayScene.h"
+#include "core/bake/BakeScene.h"
 #include "core/document/Document.h"
 #include "core/math/SphericalHarmonics.h"
 
@@ -159,15 +158,12 @@ std::optional<PointTransfer> pointTransfer(const Document& document, const BakeA
 
 Result<std::vector<bool>> visibleDirections(const BakeInputs& inputs, const MeshPoint& point,
                                             int height, const JobContext& job) {
-    const Result<BakeGeometry> geometry = makeBakeGeometry(inputs, job);
-    if (!geometry)
-        return geometry.error();
-    const Result<RayScene> scene = RayScene::build(*geometry, job);
+    const Result<BakeScene> scene = BakeScene::build(inputs, job);
     if (!scene)
         return scene.error();
     const int width = 2 * height;
     std::vector<bool> visible(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    for (const BakeGeometryMesh& mesh : geometry->meshes) {
+    for (const BakeGeometryMesh& mesh : scene->geometry->meshes) {
         if (mesh.id != point.mesh)
             continue;
         const auto of = corners(*mesh.mesh, point.triangle);
@@ -185,7 +181,7 @@ Result<std::vector<bool>> visibleDirections(const BakeInputs& inputs, const Mesh
                 ray.origin = origin + kRayOffset * normal;
                 ray.direction = latLongDirection(x, y, width, height);
             }
-        scene->occlude(rays);
+        scene->rays.occlude(rays);
         for (int i = 0; i < width * height; ++i)
             visible[static_cast<std::size_t>(i)] =
                 !rays[static_cast<std::size_t>(i)].occluded() &&

@@ -46,7 +46,7 @@ pointTransfer(const Document& document, const BakeArtifact& bake, const MeshPoin
 
 // Which directions of a lat-long picture (2 height × height, row 0 up, its middle -Z) nothing of
 // the scene hides from the point, one ray each; directions behind the surface are hidden.
-// Errors: those of makeBakeGeometry() and RayScene::build(); Cancelled.
+// Errors: those of BakeScene::build(); Cancelled.
 Result<std::vector<bool>> visibleDirections(const BakeInputs& inputs, const MeshPoint& point,
                                             int height, const JobContext& job);
 // The direction of a pixel's centre of such a picture, unit.

@@ -1,6 +1,7 @@
 #include "app/editor/job/BounceWork.h"
 
 #include "core/bake/BakeOptions.h"
+#include "core/bake/BakeScene.h"
 #include "core/bake/Interreflection.h"
 
 #include <algorithm>
@@ -58,13 +59,10 @@ Result<HitSourcePtr> hitsFor(const BakeArtifact& artifact, const BakeInputs& inp
         return rays.error();
     if (ofBake && fits(*ofBake, *rays, inputs))
         return ofBake;
-    const Result<BakeGeometry> geometry = makeBakeGeometry(inputs, job);
-    if (!geometry)
-        return geometry.error();
-    const Result<RayScene> scene = RayScene::build(*geometry, job);
+    const Result<BakeScene> scene = BakeScene::build(inputs, job);
     if (!scene)
         return scene.error();
-    Result<HitSourcePtr> hits = traceHits(*scene, *geometry, settings, job);
+    Result<HitSourcePtr> hits = traceHits(scene->rays, *scene->geometry, settings, job);
     if (hits && !(*hits)->kept()) // would need the scene to live on
         return HitSourcePtr();
     return hits;
