@@ -1,11 +1,9 @@
 #include "core/bake/Passes.h"
 
-#include "core/bake/HemisphereSamples.h"
 #include "core/bake/OpenTransfer.h"
+#include "core/bake/PassPlan.h"
 #include "core/bake/RangeTracer.h"
-#include "core/bake/Refinement.h"
 #include "core/bake/TileTracer.h"
-#include "core/bake/VisibilityTiles.h"
 #include "core/bake/WorkOrder.h"
 #include "core/base/Check.h"
 #include "core/job/Parallel.h"
@@ -17,7 +15,6 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -26,34 +23,7 @@
 namespace patina {
 namespace {
 
-constexpr int kFirstPass = 32;
 constexpr int kMaxSamples = 65536;
-
-// How many rays the passes take.
-class Schedule {
-  public:
-    explicit Schedule(const PassSettings& settings)
-        : m_method(settings.method)
-        , m_first(settings.method == SampleMethod::Stratified
-                      ? settings.samples
-                      : std::min(kFirstPass, settings.samples)) {
-        for (int n = m_first; n < settings.samples; n *= 2)
-            ++m_passes;
-    }
-    [[nodiscard]] int passes() const { return m_passes; }
-    [[nodiscard]] int raysAfter(int passes) const {
-        return passes == 0 ? 0 : m_first << (passes - 1);
-    }
-    // A pass that is the only one is halved, so that its error can be told.
-    [[nodiscard]] bool halvesFirst() const {
-        return m_passes == 1 && m_method != SampleMethod::Stratified && m_first > 1;
-    }
-
-  private:
-    SampleMethod m_method;
-    int m_first;
-    int m_passes = 1;
-};
 
 // Points that share their directions: on scenes that outgrow the caches, rays of one direction from
 // neighbouring points travel together 1.5 times as fast as each point's by themselves (measured),
@@ -71,10 +41,6 @@ int clusterSize(const RayScene& scene, const PassSettings& settings) {
         return settings.cluster;
     return scene.triangleCount() >= kLargeScene ? kCluster : 1;
 }
-
-// To a tolerance, the passes after those that go everywhere cast rays only where the neighbours of
-// a tile differ (core/bake/TileTracer.h).
-constexpr int kPassesEverywhere = 2;
 
 // How the standard error of a mean over two halves relates to half the difference of the halves:
 // for independent rays they are equal; two halves of a scrambled net make up for each other's
@@ -107,11 +73,14 @@ class PassRunner {
         , m_callbacks(callbacks)
         , m_job(job)
         , m_state(state)
-        , m_schedule(settings)
-        , m_cluster(clusterSize(scene, settings)) {
-        if (settings.tolerance > 0.0f)
-            m_tiles.emplace(points, settings.seed);
-        begin();
+        , m_plan(points, ranges, settings, state)
+        , m_cluster(clusterSize(scene, settings))
+        , m_rays(m_plan.raysKnown())
+        , m_allRays(m_plan.allRays()) {
+        // Embree aborts the process on rays that are not finite.
+        for (const BakePoint& point : m_points)
+            for (int axis = 0; axis < 3; ++axis)
+                CHECK(std::abs(point.origin[axis]) < 1e6f && std::abs(point.normal[axis]) < 2.0f);
     }
 
     // T_lm = A_l Y_lm(n) / pi.
@@ -128,157 +97,36 @@ class PassRunner {
                 std::ranges::fill(values, 0.0f);
                 open.subtract(m_points[p].normal, values); // from nothing
                 m_state.passes[p] = m_state.wanted[p] =
-                    static_cast<std::uint8_t>(m_schedule.passes());
+                    static_cast<std::uint8_t>(m_plan.schedule().passes());
             }
             if (m_callbacks.range)
                 m_callbacks.range(range, std::span<const float>(m_state.values)
                                              .subspan(range.first * stride, range.count * stride));
         }
-        updateSamplesDone();
+        m_plan.updateSamplesDone();
         if (m_callbacks.passDone)
             m_callbacks.passDone(m_state.samplesDone);
     }
 
     void run() {
-        while (pending() || wantMore()) {
+        while (m_plan.pending() || m_plan.wantMore()) {
             if (m_job.cancelled() || (m_state.samplesDone > 0 && m_job.stopping()))
                 return;
             if (!runPass())
                 return;
-            updateSamplesDone();
+            m_plan.updateSamplesDone();
             if (m_callbacks.passDone)
                 m_callbacks.passDone(m_state.samplesDone);
         }
     }
 
   private:
-    // Rays of one batch for the points that need it.
-    struct Batch {
-        int pass;    // the points' pass that it belongs to
-        bool second; // the second half of the first pass, or all of a later one
-        HemisphereSamples samples;
-    };
-
-    void begin() {
-        const auto stride = static_cast<std::size_t>(m_settings.stride());
-        const std::size_t count = m_points.size();
-        if (m_state.passes.empty()) {
-            m_state.values.resize(count * stride);
-            if (m_settings.shOrder > 0)
-                m_state.hiddenSky.resize(count);
-            m_state.error.resize(count);
-            m_state.passes.resize(count);
-            m_state.wanted.resize(count);
-        }
-        // Embree aborts the process on rays that are not finite.
-        for (const BakePoint& point : m_points)
-            for (int axis = 0; axis < 3; ++axis)
-                CHECK(std::abs(point.origin[axis]) < 1e6f && std::abs(point.normal[axis]) < 2.0f);
-        CHECK_EQ(m_state.values.size(), count * stride);
-        CHECK_EQ(m_state.hiddenSky.size(), m_settings.shOrder > 0 ? count : 0);
-        CHECK_EQ(m_state.error.size(), count);
-        CHECK_EQ(m_state.passes.size(), count);
-        CHECK_EQ(m_state.wanted.size(), count);
-        std::size_t held = 0;
-        for (std::size_t r = 0; r < m_ranges.size(); ++r) {
-            if (!m_settings.shard.holds(r))
-                continue;
-            held += m_ranges[r].count;
-            for (std::size_t p = m_ranges[r].first; p < m_ranges[r].first + m_ranges[r].count; ++p)
-                m_rays += static_cast<std::size_t>(m_schedule.raysAfter(m_state.passes[p]));
-        }
-        m_allRays = static_cast<double>(m_settings.samples) *
-                    static_cast<double>(std::max<std::size_t>(held, 1));
-    }
-
-    // Calls f(point) for the points of this shard.
-    template <typename F>
-    void forPoints(F f) const {
-        for (std::size_t r = 0; r < m_ranges.size(); ++r)
-            if (m_settings.shard.holds(r))
-                for (std::size_t p = 0; p < m_ranges[r].count; ++p)
-                    f(m_ranges[r].first + p);
-    }
-
-    [[nodiscard]] bool pending() const {
-        bool some = false;
-        forPoints([&](std::size_t p) { some = some || m_state.passes[p] < m_state.wanted[p]; });
-        return some;
-    }
-
-    // Decides on one more pass, from the state alone; false when the bake is done.
-    [[nodiscard]] bool wantMore() {
-        bool some = false;
-        const auto want = [&](std::size_t p) {
-            if (m_state.passes[p] >= m_schedule.passes())
-                return;
-            ++m_state.wanted[p];
-            some = true;
-        };
-        // The first two passes tell the error.
-        if (!m_tiles || m_state.samplesDone < m_schedule.raysAfter(kPassesEverywhere)) {
-            forPoints(want);
-            return some;
-        }
-        // RMS over the tile: one point's estimate rests on too few numbers, and a point that
-        // happens to see nothing of a light that its neighbours see would believe itself right.
-        std::vector<PointError> known(m_points.size());
-        for (std::size_t t = 0; t < m_tiles->count(); ++t) {
-            const std::span<const std::uint32_t> tile = m_tiles->points(t);
-            float squares = 0.0f;
-            for (const std::uint32_t p : tile)
-                squares += m_state.error[p] * m_state.error[p];
-            const float error = std::sqrt(squares / static_cast<float>(tile.size()));
-            for (const std::uint32_t p : tile)
-                known[p] = {error, m_schedule.raysAfter(m_state.passes[p])};
-        }
-        const std::vector<std::uint8_t> refine =
-            pointsToRefine(known, m_settings.tolerance, m_settings.samples);
-        for (std::size_t p = 0; p < refine.size(); ++p)
-            if (refine[p] != 0)
-                want(p);
-        return some;
-    }
-
-    void updateSamplesDone() {
-        int least = m_schedule.passes();
-        forPoints([&](std::size_t p) { least = std::min<int>(least, m_state.passes[p]); });
-        m_state.samplesDone = m_schedule.raysAfter(least);
-    }
-
-    [[nodiscard]] std::vector<Batch> batches() const {
-        std::vector<bool> needed(static_cast<std::size_t>(m_schedule.passes()));
-        forPoints([&](std::size_t p) {
-            if (m_state.passes[p] < m_state.wanted[p])
-                needed[m_state.passes[p]] = true;
-        });
-        std::vector<Batch> result;
-        const auto add = [&](int pass, bool second, int first, int end) {
-            result.push_back(
-                {pass, second,
-                 HemisphereSamples(m_settings.seed, static_cast<std::uint32_t>(first),
-                                   static_cast<std::uint32_t>(end - first), m_settings.method)});
-        };
-        for (int pass = 0; pass < m_schedule.passes(); ++pass) {
-            if (!needed[static_cast<std::size_t>(pass)])
-                continue;
-            const int first = m_schedule.raysAfter(pass), end = m_schedule.raysAfter(pass + 1);
-            if (pass == 0 && m_schedule.halvesFirst()) {
-                add(pass, false, 0, end / 2);
-                add(pass, true, end / 2, end);
-            } else {
-                add(pass, pass > 0, first, end);
-            }
-        }
-        return result;
-    }
-
     // False when it was interrupted.
     [[nodiscard]] bool runPass() {
-        const std::vector<Batch> all = batches();
+        const std::vector<PassBatch> all = m_plan.batches();
         m_job.setActivity(
-            fmt::format("tracing pass {} of {}", all.front().pass + 1, m_schedule.passes()));
-        if (m_tiles && m_settings.method == SampleMethod::Qmc &&
+            fmt::format("tracing pass {} of {}", all.front().pass + 1, m_plan.schedule().passes()));
+        if (m_plan.tiles() && m_settings.method == SampleMethod::Qmc &&
             all.front().pass >= kPassesEverywhere)
             return runTiles(all);
         const bool mayStop = m_state.samplesDone > 0;
@@ -301,7 +149,7 @@ class PassRunner {
     }
 
     // A pass over the tiles that want more; false when it was interrupted.
-    [[nodiscard]] bool runTiles(const std::vector<Batch>& batches) {
+    [[nodiscard]] bool runTiles(const std::vector<PassBatch>& batches) {
         std::vector<std::size_t> changed;
         for (std::size_t r = 0; r < m_ranges.size(); ++r)
             for (std::size_t p = 0; p < m_ranges[r].count; ++p)
@@ -311,13 +159,14 @@ class PassRunner {
                 }
         std::atomic<bool> complete = true;
         constexpr std::size_t kTogether = 8;
-        parallelFor(m_job, m_tiles->count(), kTogether, [&](std::size_t begin, std::size_t end) {
-            const FlushDenormals flush;
-            TileTracer tracer(m_scene, m_points, m_settings, m_job);
-            for (std::size_t t = begin; t < end; ++t)
-                if (!runTile(m_tiles->points(t), batches, tracer))
-                    complete = false;
-        });
+        parallelFor(m_job, m_plan.tiles()->count(), kTogether,
+                    [&](std::size_t begin, std::size_t end) {
+                        const FlushDenormals flush;
+                        TileTracer tracer(m_scene, m_points, m_settings, m_job);
+                        for (std::size_t t = begin; t < end; ++t)
+                            if (!runTile(m_plan.tiles()->points(t), batches, tracer))
+                                complete = false;
+                    });
         const auto stride = static_cast<std::size_t>(m_settings.stride());
         if (m_callbacks.range)
             for (const std::size_t r : changed)
@@ -328,16 +177,16 @@ class PassRunner {
     }
 
     [[nodiscard]] bool runTile(std::span<const std::uint32_t> tile,
-                               const std::vector<Batch>& batches, TileTracer& tracer) {
+                               const std::vector<PassBatch>& batches, TileTracer& tracer) {
         const int pass = m_state.passes[tile.front()]; // as of all of them
         if (pass == m_state.wanted[tile.front()])
             return true;
         if (m_job.stopping())
             return false;
-        const auto batch = std::ranges::find(batches, pass, &Batch::pass);
+        const auto batch = std::ranges::find(batches, pass, &PassBatch::pass);
         RangeMeans means;
         const std::optional<std::size_t> traced =
-            tracer.trace(tile, m_tiles->seedOf(tile.front()), batch->samples, means);
+            tracer.trace(tile, m_plan.tiles()->seedOf(tile.front()), batch->samples, means);
         if (!traced)
             return false;
         {
@@ -374,20 +223,20 @@ class PassRunner {
         return tracer;
     }
 
-    [[nodiscard]] bool runRange(const PointRange& range, const std::vector<Batch>& batches,
+    [[nodiscard]] bool runRange(const PointRange& range, const std::vector<PassBatch>& batches,
                                 RangeTracer& tracer, bool mayStop) {
         if (mayStop && m_job.stopping())
             return false;
         const auto stride = static_cast<std::size_t>(m_settings.stride());
         std::vector<RangeElement> order, elements;
         orderRange(m_points, range, m_cluster, m_settings.seed, order);
-        if (m_tiles)
+        if (m_plan.tiles())
             for (RangeElement& element : order)
-                element.seed = m_tiles->seedOf(element.point);
+                element.seed = m_plan.tiles()->seedOf(element.point);
         RangeMeans means, firstHalf;
         std::size_t rays = 0;
         for (std::size_t b = 0; b < batches.size(); ++b) {
-            const Batch& batch = batches[b];
+            const PassBatch& batch = batches[b];
             elements.clear();
             for (const RangeElement& element : order) {
                 const std::size_t p = element.point;
@@ -400,7 +249,7 @@ class PassRunner {
             if (!tracer.trace(elements, batch.samples, mayStop, means))
                 return false;
             rays += elements.size() * batch.samples.count();
-            const bool halved = batch.pass == 0 && m_schedule.halvesFirst();
+            const bool halved = batch.pass == 0 && m_plan.schedule().halvesFirst();
             if (halved && !batch.second) {
                 std::swap(firstHalf, means);
                 continue;
@@ -456,13 +305,12 @@ class PassRunner {
     const PassCallbacks& m_callbacks;
     const JobContext& m_job;
     PassState& m_state;
-    Schedule m_schedule;
+    PassPlan m_plan;
     int m_cluster;
-    std::optional<VisibilityTiles> m_tiles; // of a bake to a tolerance
-    std::mutex m_idle;                      // guards m_idleTracers
+    std::mutex m_idle; // guards m_idleTracers
     std::vector<std::unique_ptr<RangeTracer>> m_idleTracers;
-    std::atomic<std::size_t> m_rays = 0; // of all points, all passes
-    double m_allRays = 0.0;
+    std::atomic<std::size_t> m_rays; // of all points, all passes
+    double m_allRays;
     std::shared_mutex m_commit; // held alone while a checkpoint is taken; guards m_lastCheckpoint
     std::chrono::steady_clock::time_point m_lastCheckpoint = std::chrono::steady_clock::now();
 };
