@@ -3,26 +3,18 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/job/BakeRunner.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/TextButton.h"
 #include "core/bake/BakeOptions.h"
 
 #include <QColor>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QPushButton>
 #include <QStringList>
 #include <QVBoxLayout>
 #include <vector>
 
 namespace patina::editor {
 namespace {
-
-QPushButton* makeButton(const QString& text, const QString& help) {
-    auto* button = new QPushButton(text);
-    button->setToolTip(help);
-    button->setStatusTip(help);
-    button->setAccessibleName(text);
-    return button;
-}
 
 void clear(QLayout* layout) {
     while (QLayoutItem* item = layout->takeAt(0)) {
@@ -84,8 +76,8 @@ void AttachedBakes::refresh() {
     }
     if (stale.size() > 1) {
         QPushButton* all =
-            makeButton(tr("Re-bake what is stale (%1)").arg(stale.size()),
-                       tr("Puts every stale bake into the queue; what is up to date stays"));
+            makeTextButton(tr("Re-bake what is stale (%1)").arg(stale.size()),
+                           tr("Puts every stale bake into the queue; what is up to date stays"));
         all->setObjectName(QStringLiteral("rebakeStale"));
         connect(all, &QPushButton::clicked, this, [this, stale] {
             for (const BakeRequest& request : stale)
@@ -125,13 +117,13 @@ void AttachedBakes::addRow(const BakeArtifact& bake, const BakeStaleness& stalen
         const QString help = staleness.settings
                                  ? tr("Bakes again with the settings above")
                                  : tr("Bakes again with the settings this bake was made with");
-        QPushButton* rebake = makeButton(tr("Re-bake"), help);
+        QPushButton* rebake = makeTextButton(tr("Re-bake"), help);
         rebake->setObjectName(QStringLiteral("rebake"));
         connect(rebake, &QPushButton::clicked, this,
                 [this, request = again(bake, staleness)] { m_runner.start(request); });
         buttons->addWidget(rebake);
     }
-    QPushButton* remove = makeButton(tr("Remove"), tr("Detaches this bake from the scene"));
+    QPushButton* remove = makeTextButton(tr("Remove"), tr("Detaches this bake from the scene"));
     connect(remove, &QPushButton::clicked, this,
             [this, kind = bake.kind] { m_controller.detachBake(kind); });
     buttons->addWidget(remove);

@@ -8,6 +8,7 @@
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/PanelScroll.h"
 #include "app/editor/widget/Section.h"
+#include "app/editor/widget/TextButton.h"
 #include "core/bake/BakeMemory.h"
 #include "core/material/Parameters.h"
 
@@ -17,7 +18,6 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLocale>
-#include <QPushButton>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <chrono>
@@ -33,14 +33,6 @@ QLabel* makeHint(const QString& text = {}) {
     label->setObjectName(QStringLiteral("dim"));
     label->setWordWrap(true);
     return label;
-}
-
-QPushButton* makeButton(const QString& text, const QString& help) {
-    auto* button = new QPushButton(text);
-    button->setToolTip(help);
-    button->setStatusTip(help);
-    button->setAccessibleName(text);
-    return button;
 }
 
 QVBoxLayout* addRows(Section* section) {
@@ -96,8 +88,8 @@ BakePanel::BakePanel(DocumentController& controller, JobManager& jobs, QWidget* 
     m_cost = makeHint();
     m_cost->setAccessibleName(tr("Cost of the bake"));
     newBake->add(m_cost);
-    m_start = makeButton(tr("Start bake"),
-                         tr("Computes in the background; you can go on editing meanwhile"));
+    m_start = makeTextButton(tr("Start bake"),
+                             tr("Computes in the background; you can go on editing meanwhile"));
     m_start->setObjectName(QStringLiteral("bakeStart"));
     m_start->setProperty("primary", true);
     newBake->add(m_start);
@@ -137,9 +129,9 @@ QWidget* BakePanel::makeLighting() {
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(1); // two halves of one switch
     auto* group = new QButtonGroup(this);
-    m_ibl = makeButton(tr("IBL"), tr("Light from the environment without shadows (live)"));
-    m_prt =
-        makeButton(tr("PRT"), tr("Soft self-shadows from the baked transfer; needs a PRT bake"));
+    m_ibl = makeTextButton(tr("IBL"), tr("Light from the environment without shadows (live)"));
+    m_prt = makeTextButton(tr("PRT"),
+                           tr("Soft self-shadows from the baked transfer; needs a PRT bake"));
     m_ibl->setObjectName(QStringLiteral("lightingIbl"));
     m_prt->setObjectName(QStringLiteral("lightingPrt"));
     for (QPushButton* button : {m_ibl, m_prt}) {
@@ -252,9 +244,9 @@ void BakePanel::refreshInterrupted() {
         layout->addWidget(text);
         auto* buttons = new QHBoxLayout;
         buttons->addStretch(1);
-        QPushButton* resume = makeButton(tr("Resume"), tr("Goes on from its last checkpoint"));
+        QPushButton* resume = makeTextButton(tr("Resume"), tr("Goes on from its last checkpoint"));
         resume->setObjectName(QStringLiteral("bakeResume"));
-        QPushButton* discard = makeButton(tr("Discard"), tr("Forgets what it had come to"));
+        QPushButton* discard = makeTextButton(tr("Discard"), tr("Forgets what it had come to"));
         discard->setObjectName(QStringLiteral("bakeDiscard"));
         connect(resume, &QPushButton::clicked, this,
                 [this, request = bake.request] { m_runner.start(request); });

@@ -3,21 +3,19 @@
 #include "app/editor/job/JobManager.h"
 #include "app/editor/panel/JobTexts.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/TextButton.h"
 
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QProgressBar>
-#include <QPushButton>
 #include <QVBoxLayout>
 
 namespace patina::editor {
 namespace {
 
 QPushButton* makeButton(const QString& text, const QString& help, const QString& title) {
-    auto* button = new QPushButton(text);
-    button->setToolTip(help);
-    button->setStatusTip(help);
+    QPushButton* button = makeTextButton(text, help);
     button->setAccessibleName(QStringLiteral("%1 %2").arg(text, title));
     return button;
 }
