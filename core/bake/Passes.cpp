@@ -125,7 +125,7 @@ class PassRunner {
     [[nodiscard]] bool runPass() {
         const std::vector<PassBatch> all = m_plan.batches();
         m_job.setActivity(
-            fmt::format("tracing pass {} of {}", all.front().pass + 1, m_plan.schedule().passes()));
+            fmt::format("pass {} of {}", all.front().pass + 1, m_plan.schedule().passes()));
         if (m_plan.tiles() && m_settings.method == SampleMethod::Qmc &&
             all.front().pass >= kPassesEverywhere)
             return runTiles(all);

@@ -307,7 +307,7 @@ bool anyMaterial(const Document& document, Has has) {
                        });
 }
 
-constexpr const char* kNoTransfer = "There is no radiance transfer bake: make one in Bakes.";
+constexpr const char* kNoTransfer = "There is no finished radiance transfer bake: make one in Bakes.";
 
 // Whether transfer lights every mesh, and so holds the diffuse light of the lamps.
 bool transferHoldsLamps(const Document& document) {

@@ -9,6 +9,7 @@
 #include <QColor>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QLocale>
 #include <QStringList>
 #include <QVBoxLayout>
 #include <vector>
@@ -90,7 +91,7 @@ void AttachedBakes::refresh() {
 void AttachedBakes::addRow(const BakeArtifact& bake, const BakeStaleness& staleness) {
     const bool stale = staleness.stale();
     QString status = stale ? tr("Stale: %1").arg(whatChanged(staleness))
-                           : tr("Up to date, %1 rays").arg(bake.samplesDone);
+                           : tr("Up to date, %1 rays").arg(QLocale().toString(bake.samplesDone));
     QStringList reasons;
     for (const std::string& reason : staleness.reasons)
         reasons << QString::fromStdString(reason).toHtmlEscaped();

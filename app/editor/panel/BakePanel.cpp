@@ -235,7 +235,7 @@ void BakePanel::refreshInterrupted() {
         auto* text = new QLabel(QStringLiteral("%1<br><span style='color:%2'>%3</span>")
                                     .arg(bakeTitle(bake.request.kind).toHtmlEscaped(),
                                          QColor(tokens::kCopper).name(),
-                                         tr("Unfinished, from %1: %2 % of its %3 rays per point")
+                                         tr("Unfinished, from %1: %2 % of its %3 rays")
                                              .arg(timeText(bake.written))
                                              .arg(static_cast<int>(100.0 * bake.done))
                                              .arg(QLocale().toString(raysOf(bake.request)))));

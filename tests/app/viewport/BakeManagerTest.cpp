@@ -220,7 +220,7 @@ TEST_F(BakeManagerTest, AnInterruptedBakeIsOfferedAndGoesOn) {
     ASSERT_TRUE(settled(*session));
     ASSERT_TRUE(eventually([] { return visible<QPushButton>("bakeResume") != nullptr; }));
     EXPECT_THAT(visible<QLabel>("bakeUnfinished")->text().toStdString(),
-                AllOf(HasSubstr("Unfinished, from"), HasSubstr("% of its 256 rays per point")));
+                AllOf(HasSubstr("Unfinished, from"), HasSubstr("% of its 256 rays")));
     click("bakeResume");
     ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
     BakeArtifact resumed = *document().bakes.front();
