@@ -1,4 +1,4 @@
-// From argc and argv to an Invocation. The only part of Patina that sees CLI11.
+// From argc and argv to an Invocation. CLI11 is seen behind it only (CommandParser.h).
 #pragma once
 
 #include "app/cli/Options.h"

@@ -1,0 +1,212 @@
+// `patina bake …` and `patina merge`.
+#include "app/cli/CommandParser.h"
+#include "core/math/SphericalHarmonics.h"
+
+#include <fmt/format.h>
+
+namespace patina::cli {
+
+void CommandParser::addRays(CLI::App* command, int& samples, unsigned& seed, const char* per) {
+    command
+        ->add_option("--samples", samples,
+                     fmt::format("Rays per {}, up to 65536; rounded up to a power of two", per))
+        ->check(plain(CLI::Range(1, 65536)))
+        ->capture_default_str()
+        ->type_name("N");
+    command->add_option("--seed", seed, "Seed of the sample pattern")
+        ->capture_default_str()
+        ->type_name("N");
+    command->add_flag("--keep-partial", m_invocation.common.keepPartial,
+                      "When interrupted, write what has converged so far");
+}
+
+void CommandParser::addBakes() {
+    CLI::App* bake = m_app.add_subcommand("bake", "One bake, without a window");
+    bake->require_subcommand(1);
+
+    CLI::App* ao = addCommand(*bake, "ao", "Ambient occlusion", m_ao);
+    addSceneAndOutput(ao, m_ao, ".png (one for each material) or .exr (for --bake of the others)");
+    ao->add_option("--target", m_ao.target, "Where the values live")
+        ->transform(plain(CLI::CheckedTransformer(std::map<std::string, BakeTarget>{
+            {"texel", BakeTarget::Texel}, {"vertex", BakeTarget::Vertex}})))
+        ->default_str("texel")
+        ->type_name("texel|vertex");
+    ao->add_option("--size", m_ao.size, "Side of the square texture in texels")
+        ->check(plain(CLI::Range(1, 16384)))
+        ->capture_default_str()
+        ->type_name("N");
+    ao->add_option("--distance", m_ao.distance,
+                   "How far geometry occludes, in metres (default: unlimited)")
+        ->check(plain(CLI::NonNegativeNumber))
+        ->type_name("METRES");
+    addRays(ao, m_ao.samples, m_ao.seed, "texel or vertex");
+    addLongBake(ao, m_ao.work);
+    addSets(ao);
+    addThreads(ao);
+
+    addBakePrt(*bake);
+    addBakeIbl(*bake);
+}
+
+void CommandParser::addLongBake(CLI::App* command, LongBakeOptions& o) {
+    command
+        ->add_option("--shard", o.shard,
+                     "Bake part K of N only, for patina merge; auto: as the farm numbers its "
+                     "tasks")
+        ->type_name("K/N|auto");
+    command
+        ->add_option("--checkpoint", o.checkpoint,
+                     "How often to keep what is done in OUT.checkpoint, and to keep it when "
+                     "interrupted (default: every 30s, not when interrupted)")
+        ->type_name("EVERY");
+    command->add_flag("--resume", o.resume,
+                      "Go on from OUT.checkpoint where there is one; keep one when interrupted");
+    command
+        ->add_option("--max-memory", o.maxMemory,
+                     "Refuse a bake that would take more, e.g. 4GiB (default: what is free)")
+        ->type_name("SIZE");
+}
+
+void CommandParser::addBakePrt(CLI::App& bake) {
+    BakePrtOptions& o = m_prt;
+    PrtSettings& s = o.settings;
+    CLI::App* c = addCommand(bake, "prt", "Diffuse radiance transfer", o);
+    addSceneAndOutput(c, o, ".exr; with --shard a part for patina merge");
+    c->add_option("--order", s.order, "Spherical harmonic bands")
+        ->check(plain(CLI::Range(1, kMaxShOrder)))
+        ->capture_default_str()
+        ->type_name(fmt::format("1…{}", kMaxShOrder));
+    c->add_option("--transfer", o.transfer,
+                  "unshadowed: the cosine alone; shadowed: and what the scene hides; "
+                  "interreflected: and what other surfaces reflect (default: shadowed)")
+        ->transform(plain(CLI::CheckedTransformer(
+            std::map<std::string, TransferKind>{{"unshadowed", TransferKind::Unshadowed},
+                                                {"shadowed", TransferKind::Shadowed},
+                                                {"interreflected", TransferKind::Interreflected}})))
+        ->type_name("KIND");
+    c->add_option("--bounces", o.bounces,
+                  fmt::format("How often light is reflected; implies --transfer "
+                              "interreflected (default: {})",
+                              s.bounces))
+        ->check(plain(CLI::Range(1, 64)))
+        ->type_name("1…64");
+    c->add_option("--bounce-samples", o.bounceSamples,
+                  fmt::format("Rays per vertex or texel to find what reflects light to it; implies "
+                              "--transfer interreflected (default: {})",
+                              s.bounceSamples))
+        ->check(plain(CLI::Range(1, 65536)))
+        ->type_name("N");
+    c->add_option("--hit-memory", o.hitMemory,
+                  "Memory that what those rays meet may take, e.g. 4GiB; where it is not enough "
+                  "they are traced anew for every bounce, to the same result (default: 1GiB)")
+        ->type_name("SIZE");
+    c->add_option("--target", o.target, "Where the values live")
+        ->transform(plain(CLI::CheckedTransformer(std::map<std::string, BakeTarget>{
+            {"texel", BakeTarget::Texel}, {"vertex", BakeTarget::Vertex}})))
+        ->default_str("vertex")
+        ->type_name("vertex|texel");
+    c->add_option("--size", o.size,
+                  fmt::format("With --target texel: side of the square texture in texels "
+                              "(default: {})",
+                              s.size))
+        ->check(plain(CLI::Range(1, 8192)))
+        ->type_name("N");
+    c->add_flag("!--no-fit", s.fitted,
+                "Per vertex: values at the vertices instead of the best fit over the surface");
+    c->add_option("--method", s.method,
+                  "Sample pattern: qmc (Owen-scrambled Sobol'), stratified (jittered N × N, "
+                  "the classical one), random (to compare with)")
+        ->transform(plain(CLI::CheckedTransformer(
+            std::map<std::string, SampleMethod>{{"qmc", SampleMethod::Qmc},
+                                                {"stratified", SampleMethod::Stratified},
+                                                {"random", SampleMethod::Random}})))
+        ->default_str("qmc")
+        ->type_name("NAME");
+    c->add_option("--tolerance", s.tolerance,
+                  "End when passes change the coefficients by less (RMS), with more rays only "
+                  "where neighbours differ; --samples is then the most (default: 0, never)")
+        ->check(plain(CLI::Range(0.0, 1.0)))
+        ->type_name("X");
+    c->add_option("--store", o.storage.storage,
+                  "Numbers in the file: float (exact), half, or quantised (whole steps of each "
+                  "band's own size); the error is reported")
+        ->transform(plain(CLI::CheckedTransformer(
+            std::map<std::string, BakeStorage>{{"float", BakeStorage::Float},
+                                               {"half", BakeStorage::Half},
+                                               {"quantised", BakeStorage::Quantised}})))
+        ->default_str("float")
+        ->type_name("NAME");
+    c->add_option("--bits", o.bits,
+                  fmt::format("With --store quantised: of a coefficient with its sign "
+                              "(default: {})",
+                              o.storage.bits))
+        ->check(plain(CLI::Range(kMinStorageBits, kMaxStorageBits)))
+        ->type_name(fmt::format("{}…{}", kMinStorageBits, kMaxStorageBits));
+    addRays(c, s.samples, s.seed, "vertex or texel");
+    addLongBake(c, o.work);
+    addSets(c);
+    addThreads(c);
+}
+
+void CommandParser::addMerge() {
+    MergeOptions& o = m_merge;
+    CLI::App* c = addCommand(m_app, "merge",
+                             "Parts of a bake (--shard) joined to the very bytes of the whole", o);
+    c->add_option("PART", o.parts, "All parts, in any order")->required()->type_name("…");
+    c->add_option("-o,--output", o.output, "What the bake would have written")
+        ->required()
+        ->type_name("OUT");
+    c->add_option("--scene", o.scene, "The baked scene, when it is elsewhere now")
+        ->type_name("SCENE");
+    addThreads(c);
+}
+
+void CommandParser::addBakeIbl(CLI::App& bake) {
+    BakeIblOptions& o = m_ibl;
+    CLI::App* c = addCommand(bake, "ibl",
+                             "Image-based light: reflections, irradiance, harmonics, DFG table", o);
+    c->add_option("HDR", o.environment,
+                  "Environment image, builtin:NAME, or .patina project for its environment")
+        ->required()
+        ->type_name("");
+    c->add_option("-o,--output", o.output, "Folder to write: new, empty, or an earlier bake")
+        ->required()
+        ->type_name("DIR");
+    addLayout(c, o.environmentLayout);
+    c->add_option("--size", o.size, "Side of the sharpest cubemap's faces in texels: 16, 32 … 2048")
+        ->check(plain(CLI::IsMember({16, 32, 64, 128, 256, 512, 1024, 2048})))
+        ->capture_default_str()
+        ->type_name("N");
+    c->add_option("--levels", o.levels,
+                  "Roughness levels, each of half the size (default: down to 4 texels)")
+        ->check(plain(CLI::Range(2, 12)))
+        ->type_name("N");
+    c->add_option("--format", o.format, "Kind of files")
+        ->transform(plain(CLI::CheckedTransformer(
+            std::map<std::string, IblFileFormat>{{"exr", IblFileFormat::Exr},
+                                                 {"hdr", IblFileFormat::Hdr},
+                                                 {"ktx2", IblFileFormat::Ktx2},
+                                                 {"dds", IblFileFormat::Dds}})))
+        ->default_str("exr")
+        ->type_name("exr|hdr|ktx2|dds");
+    CLI::Option* layout = c->add_option("--layout", o.layout,
+                                        "exr, hdr: a file for each face, "
+                                        "or for each level");
+    layout
+        ->transform(plain(CLI::CheckedTransformer(std::map<std::string, IblLayout>{
+            {"faces", IblLayout::Faces}, {"latlong", IblLayout::LatLong}})))
+        ->default_str("faces")
+        ->each([&o](const std::string&) { o.layoutGiven = true; })
+        ->type_name("faces|latlong");
+    c->add_option("--precision", o.texels,
+                  "Numbers in exr, ktx2 and dds; rgb9e5 only in ktx2 and dds (default: half)")
+        ->transform(plain(CLI::CheckedTransformer(
+            std::map<std::string, TexelFormat>{{"half", TexelFormat::Rgba16F},
+                                               {"float", TexelFormat::Rgba32F},
+                                               {"rgb9e5", TexelFormat::Rgb9E5}})))
+        ->type_name("half|float|rgb9e5");
+    addSets(c);
+    addThreads(c);
+}
+
+} // namespace patina::cli

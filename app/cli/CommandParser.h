@@ -1,0 +1,98 @@
+// The options of every subcommand, as CLI11 wants them told. Seen by the parts of CommandLine only.
+#pragma once
+
+#include "app/cli/CommandLine.h"
+
+#include <CLI/App.hpp>
+#include <functional>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace patina::cli {
+
+inline constexpr const char* kLayoutNames =
+    "lat-long, angular-map, mirror-ball, horizontal-cross, vertical-cross, horizontal-strip, "
+    "vertical-strip, six-faces";
+
+struct ListViews {}; // thrown by its flag, as CLI11 throws calls for help
+
+// A check whose bounds the help does not repeat in its own notation; errors still name them.
+template <class Check>
+CLI::Validator plain(const Check& check) {
+    return check.description("");
+}
+
+class CommandParser {
+  public:
+    CommandParser();
+    Result<std::variant<Invocation, HelpText>> parse(int argc, const char* const* argv);
+
+  private:
+    // The most specific command that was named.
+    CLI::App* innermost();
+    std::string innermostName();
+
+    // What several commands have in common (CommandLine.cpp).
+    template <class Options>
+    CLI::App* addCommand(CLI::App& parent, const char* name, const char* help, Options& options) {
+        CLI::App* command = parent.add_subcommand(name, help);
+        m_select[command] = [&options] { return decltype(m_invocation.options)(options); };
+        addCommon(command);
+        return command;
+    }
+    template <class Options>
+    void addScene(CLI::App* command, Options& options) {
+        command->add_option("SCENE", options.scene, "Model, .patina project or builtin:NAME")
+            ->required()
+            ->type_name("");
+    }
+    template <class Options>
+    void addSceneAndOutput(CLI::App* command, Options& options, const char* outputHelp) {
+        addScene(command, options);
+        command->add_option("-o,--output", options.output, outputHelp)
+            ->required()
+            ->type_name("OUT");
+    }
+    void addCommon(CLI::App* command);
+    void addThreads(CLI::App* command);
+    void addSets(CLI::App* command);
+    CLI::Option* addLayout(CLI::App* command, std::string& layout);
+    void addBakeFiles(CLI::App* command, const char* name, std::vector<std::string>& bakes,
+                      const char* help);
+
+    // BakeCommandLine.cpp
+    void addBakes();
+    void addBakePrt(CLI::App& bake);
+    void addBakeIbl(CLI::App& bake);
+    void addMerge();
+    void addRays(CLI::App* command, int& samples, unsigned& seed, const char* per);
+    void addLongBake(CLI::App* command, LongBakeOptions& options);
+
+    // SceneCommandLine.cpp
+    void addInfo();
+    void addRender();
+    void addEnvironment();
+    void addExport();
+    void addRefine();
+    void addCompare();
+    void addParameters();
+
+    CLI::App m_app;
+    Invocation m_invocation;
+    InfoOptions m_info;
+    RenderOptions m_render;
+    BakeAoOptions m_ao;
+    BakePrtOptions m_prt;
+    BakeIblOptions m_ibl;
+    MergeOptions m_merge;
+    EnvironmentOptions m_environment;
+    ExportOptions m_export;
+    RefineOptions m_refine;
+    CompareOptions m_compare;
+    ParametersOptions m_parameters;
+    std::map<const CLI::App*, std::function<decltype(m_invocation.options)()>> m_select;
+};
+
+} // namespace patina::cli

@@ -1,0 +1,210 @@
+// What is done with models, pictures and surroundings without baking.
+#include "app/cli/CommandParser.h"
+#include "app/cli/RenderViews.h"
+#include "core/material/Parameters.h"
+#include "core/math/SphericalHarmonics.h"
+
+#include <fmt/format.h>
+
+namespace patina::cli {
+
+void CommandParser::addInfo() {
+    CLI::App* command = addCommand(
+        m_app, "info", "What a model, image, environment, project or bake holds", m_info);
+    command->add_option("FILE", m_info.file, "File, builtin:NAME or builtin:list")
+        ->required()
+        ->type_name("");
+}
+
+void CommandParser::addRender() {
+    RenderOptions& o = m_render;
+    CLI::App* c = addCommand(m_app, "render", "One picture, without a window", o);
+    addScene(c, o);
+    // With --inspect a picture need not be written: run() sees to that.
+    c->add_option("-o,--output", o.output,
+                  "Picture: .png, .jpg, .tif, .tga as displayed, .exr or .hdr linear")
+        ->type_name("OUT");
+    c->add_option("--environment", o.environment, "Surroundings that light the scene")
+        ->type_name("HDR");
+    addLayout(c, o.environmentLayout);
+    c->add_option("--size", o.size, "Pixels")->capture_default_str()->type_name("WxH");
+    c->add_option("--samples", o.samples, "Samples per pixel against jagged edges (MSAA)")
+        ->check(plain(CLI::IsMember({1, 2, 4, 8, 16})))
+        ->capture_default_str()
+        ->type_name("N");
+    c->add_option("--camera", o.camera,
+                  "Orbit in degrees and metres; without DISTANCE the scene fills the picture")
+        ->type_name("YAW,PITCH[,DISTANCE]");
+    c->add_option("--fov", o.fov, "Vertical field of view in degrees")->type_name("DEG");
+    c->add_option("--exposure", o.exposure,
+                  "Brightens the picture, in stops; auto: like an eye used to it")
+        ->type_name("EV|auto");
+    c->add_option("--tone-map", o.toneMap,
+                  fmt::format("One of {}", fmt::join(findParameter("view.toneMap")->choices, ", ")))
+        ->type_name("NAME");
+    c->add_option("--background", o.background,
+                  "visible, blurred, transparent (or off), or a colour as R,G,B or #rrggbb")
+        ->type_name("NAME");
+    c->add_option("--lighting", o.lighting,
+                  "ibl, cosine, shIrradiance, unshadowed; with a transfer bake shadowed, prt")
+        ->type_name("NAME");
+    addBakeFiles(c, "--bake", o.bakes, "Bake file to light with (repeatable)");
+    c->add_option("--view", o.view,
+                  "A term of the shading equation instead of the picture (see --list-views); "
+                  "all: a part each of an .exr, else a contact sheet of pictures of this size")
+        ->type_name("VIEW|all");
+    c->add_option("--view-mode", o.viewMode,
+                  "The term's own value, or what it contributes to the picture")
+        ->check(plain(CLI::IsMember({"raw", "contribution"})))
+        ->capture_default_str()
+        ->type_name("raw|contribution");
+    c->add_option("--view-range", o.viewRange, "What the colours of a view's numbers span")
+        ->type_name("MIN,MAX");
+    c->add_option("--view-light", o.viewLight,
+                  "Whose D, G, F and cosines are shown (default: the mirror direction)")
+        ->type_name("NAME");
+    c->add_option("--inspect", o.inspect,
+                  "Explain this pixel, counted from the top left: maps, factors, formulas, "
+                  "sum, display; with --json as JSON. OUT may then be left out")
+        ->type_name("X,Y");
+    c->add_flag_callback(
+         "--list-views", [] { throw ListViews(); }, "Print the names of all views")
+        ->trigger_on_parse();
+    addSets(c);
+    addThreads(c);
+}
+
+void CommandParser::addEnvironment() {
+    EnvironmentOptions& o = m_environment;
+    CLI::App* c = addCommand(m_app, "environment", "An environment in another layout", o);
+    c->add_option("HDR", o.environment,
+                  "Image, one of six faces, builtin:NAME, or a .patina project for its "
+                  "surroundings")
+        ->required()
+        ->type_name("");
+    c->add_option("-o,--output", o.output, ".exr or .hdr; six faces are OUT_px, OUT_nx …")
+        ->required()
+        ->type_name("OUT");
+    c->add_option("--layout", o.layout, "Layout to write: " + std::string(kLayoutNames))
+        ->capture_default_str()
+        ->type_name("NAME");
+    c->add_option("--size", o.size,
+                  "Width of a lat-long, diameter of a disc, side of a face (default: what "
+                  "keeps the detail)")
+        ->check(plain(CLI::Range(1, 32768)))
+        ->type_name("N");
+    addLayout(c, o.environmentLayout);
+    c->add_flag("--openexr-envmap", o.openExrEnvmap,
+                "Write a lat-long or vertical strip in OpenEXR's own convention, with its "
+                "envmap attribute");
+    CLI::Option* bands =
+        c->add_option("--bands", o.bands,
+                      "Only what the first N bands of spherical harmonics hold of it; sums go "
+                      "below zero beside what is bright, which .exr keeps and .hdr cuts")
+            ->check(plain(CLI::Range(1, kMaxShOrder)))
+            ->type_name("1…8");
+    CLI::Option* method =
+        c->add_option("--method", o.method,
+                      "How bands are found: exact (every pixel), stratified (one random point "
+                      "in each of N × N cells, the classical way), qmc (Owen-scrambled "
+                      "Sobol')")
+            ->transform(plain(CLI::CheckedTransformer(
+                std::map<std::string, ShMethod>{{"exact", ShMethod::Exact},
+                                                {"stratified", ShMethod::Stratified},
+                                                {"qmc", ShMethod::Qmc}})))
+            ->default_str("exact")
+            ->needs(bands)
+            ->type_name("NAME");
+    c->add_option("--samples", o.samples, "Of stratified (rounded up to a square) and qmc")
+        ->check(plain(CLI::Range(1, 1 << 28)))
+        ->capture_default_str()
+        ->needs(method)
+        ->type_name("N");
+    addSets(c);
+    addThreads(c);
+}
+
+void CommandParser::addExport() {
+    ExportOptions& o = m_export;
+    CLI::App* c = addCommand(m_app, "export", "A package for another program", o);
+    addSceneAndOutput(c, o, ".glb or .gltf");
+    c->add_option("--textures", o.jpeg,
+                  "Format of colours; data and transparent textures are always png")
+        ->transform(plain(
+            CLI::CheckedTransformer(std::map<std::string, bool>{{"png", false}, {"jpg", true}})))
+        ->default_str("png")
+        ->type_name("png|jpg");
+    c->add_option("--texture-size", o.textureSize,
+                  "Longest side of a texture in texels (default: as they are)")
+        ->check(plain(CLI::Range(1, 32768)))
+        ->type_name("N");
+    addBakeFiles(c, "--bakes", o.bakes,
+                 "Bake file to take along: occlusion per texel, radiance transfer per vertex "
+                 "(repeatable)");
+    c->add_flag("--no-baked-ao", o.noBakedAo, "Leave a project's baked occlusion out");
+    c->add_flag("--no-transfer", o.noTransfer, "Leave a project's radiance transfer out");
+    c->add_option("--transfer-bands", o.transferBands,
+                  "Bands of the radiance transfer to take along (default: all)")
+        ->check(plain(CLI::Range(1, 8)))
+        ->type_name("N");
+    c->add_flag("--environment-light", o.environmentLight,
+                "Take the environment's light along (EXT_lights_image_based)");
+    CLI::Option* environment =
+        c->add_option("--environment", o.environment,
+                      "Surroundings in place of the scene's; implies --environment-light")
+            ->type_name("HDR");
+    addLayout(c, o.environmentLayout)->needs(environment);
+    c->add_flag("--no-lights", o.noLights, "Leave the lights out");
+    c->add_flag("--dry-run", o.dryRun, "Say what would be written, and write nothing");
+    addSets(c);
+    addThreads(c);
+}
+
+void CommandParser::addRefine() {
+    RefineOptions& o = m_refine;
+    CLI::App* c =
+        addCommand(m_app, "refine", "A model with finer triangles where its shadows need them", o);
+    addSceneAndOutput(c, o, ".glb or .gltf");
+    c->add_option("--tolerance", o.tolerance,
+                  "Error of a transfer coefficient above which a triangle is split (RMS)")
+        ->check(plain(CLI::Range(1e-6, 1.0)))
+        ->capture_default_str()
+        ->type_name("X");
+    c->add_option("--rounds", o.rounds, "How often triangles may be split")
+        ->check(plain(CLI::Range(1, 12)))
+        ->capture_default_str()
+        ->type_name("N");
+    c->add_option("--max-triangles", o.maxTriangles, "Ends before there are more")
+        ->capture_default_str()
+        ->type_name("N");
+    c->add_option("--order", o.order, "Spherical harmonic bands of the bakes in between")
+        ->check(plain(CLI::Range(1, 8)))
+        ->capture_default_str()
+        ->type_name("1…8");
+    c->add_option("--samples", o.samples, "Rays per point of those bakes, up to 65536")
+        ->check(plain(CLI::Range(1, 65536)))
+        ->capture_default_str()
+        ->type_name("N");
+    c->add_option("--seed", o.seed, "Seed of the sample pattern")
+        ->capture_default_str()
+        ->type_name("N");
+    addSets(c);
+    addThreads(c);
+}
+
+void CommandParser::addCompare() {
+    CLI::App* c =
+        addCommand(m_app, "compare", "Distance of two images: rmse, relmse, psnr, max", m_compare);
+    c->add_option("A", m_compare.image, "Image")->required()->type_name("");
+    c->add_option("B", m_compare.reference, "Reference")->required()->type_name("");
+    c->add_option("-o,--output", m_compare.difference, "Write the absolute difference")
+        ->type_name("DIFF");
+}
+
+void CommandParser::addParameters() {
+    CLI::App* c = addCommand(m_app, "parameters",
+                             "All parameters: names, ranges, defaults, meaning", m_parameters);
+    c->add_flag("--markdown", m_parameters.markdown, "As a Markdown page");
+}
+
+} // namespace patina::cli
