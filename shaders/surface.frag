@@ -209,6 +209,7 @@ void main() {
     SurfaceTerms s =
         makeSurface(shadingModel(), clamp(baseColor.rgb, 0.0, 1.0), clamp(metallic, 0.0, 1.0),
                     perceptualRoughness, u_diffuseRoughness, n, v, dfg.xy);
+    s = fadeSpecularLayer(s, u_mix.y); // reflections that are not shown take nothing
 
     // Light from the surroundings. Transfer coefficients know the shadows already.
 #ifdef CONSTANT_REFLECTION

@@ -245,7 +245,8 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
           "Mean Fresnel reflectance over the lobe: (F0 A + B) / (A + B)",
           "The reflection that Fresnel adds to the one at normal incidence"),
     color(kViewTransmission, "kd", "kD", "kD", kIbl,
-          "Share that the specular layer lets through to the diffuse lobe: 1 - its albedo",
+          "Share that the specular layer lets through to the diffuse lobe: 1 - its albedo; where the "
+          "mix fades reflections it takes less",
           "The diffuse light that the specular layer takes away"),
     radiance(kViewSpecularIbl, "specularIbl", "Specular IBL", "", kIbl,
              "Specular reflection of the surroundings",

@@ -108,7 +108,13 @@ ExplainedStep transmissionStep(const Subject& subject) {
                        {},
                        true,
                        {}};
-    compare(step, glm::vec3(1.0f) - albedo);
+    // Reflections that the mix leaves out take nothing.
+    const float shown = subject.rebuilt.mix.y;
+    if (shown != 1.0f) {
+        step.formula = "1 − mix · ρs";
+        step.factors.push_back(scalar("mix", "Reflections of the Mix", "mix", shown));
+    }
+    compare(step, glm::vec3(1.0f) - shown * albedo);
     return step;
 }
 

@@ -27,11 +27,12 @@ glm::vec3 straight(const glm::vec4& value) {
 SurfaceTerms surfaceOf(const Inspection& pixel, const Document& document) {
     const Material* material = document.material(pixel.material);
     const auto number = [&](int record) { return pixel.value(record).x; };
-    return makeSurface(
+    const SurfaceTerms s = makeSurface(
         brdfModel(document.model), glm::clamp(glm::vec3(pixel.value(kViewBaseColor)), 0.0f, 1.0f),
         number(kViewMetallic), number(kViewPerceptualRoughness),
         (material ? *material : Material()).diffuseRoughness, pixel.value(kViewShadingNormal),
         pixel.value(kRecordToViewer), {number(kViewDfgScale), number(kViewDfgBias)});
+    return fadeSpecularLayer(s, mixWeights(document.view.reflectionMix).y);
 }
 
 void shadePunctual(RebuiltLight& light, const SurfaceTerms& s, const LightShare& share) {

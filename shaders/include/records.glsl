@@ -179,7 +179,7 @@ void recordIbl(SurfaceTerms s, vec3 dfg, vec3 arriving, vec3 prefiltered, Shaded
                specular * (vec3(1.0) - vec3(1.0) / max(s.energyCompensation, vec3(1e-4))), alpha);
 
     // An even surrounding of radiance 1.
-    ShadedLight even = shadeEnvironment(s, vec3(kPi), vec3(1.0));
+    ShadedLight even = mixed(shadeEnvironment(s, vec3(kPi), vec3(1.0)));
     vec3 returned = even.diffuse + even.specular;
     record(kViewFurnace, max(returned.r, max(returned.g, returned.b)));
 }

@@ -418,7 +418,8 @@ struct SurfaceTerms {
     vec3 f0;                 // specular reflectance at normal incidence
     vec3 energyCompensation; // multiple scattering, factor on the single-scatter specular lobe
     vec3 specularAlbedo;     // directional albedo of the specular lobe, compensation included
-    vec3 transmission;       // 1 - specularAlbedo: what the layer lets through to the diffuse lobe
+    vec3 transmission;       // 1 - specularAlbedo: what the layer lets through to the diffuse lobe;
+                             // of a faded layer (fadeSpecularLayer) the more
     vec3 diffuseAlbedo;      // directional albedo of the diffuse lobe under the layer
 };
 
@@ -491,6 +492,18 @@ PT_FN SurfaceTerms makeSurface(BrdfModel model, vec3 baseColor, float metallic,
     // furnace then returns exactly 1 at every angle and roughness.
     s.transmission = vec3(1.0f) - s.specularAlbedo;
     s.diffuseAlbedo = s.transmission * diffuseReflectance(model, s.diffuseColor,
+                                                          s.perceptualRoughness,
+                                                          s.diffuseRoughness, s.NoV);
+    return s;
+}
+
+// The surface under a specular layer of which only `shown`, 0…1, is there: it takes that much less
+// from the diffuse lobe, so that diffuse + shown * specular keeps its energy, and without a layer the
+// diffuse lobe has all of its albedo.
+PT_FN SurfaceTerms fadeSpecularLayer(SurfaceTerms surface, float shown) {
+    SurfaceTerms s = surface;
+    s.transmission = vec3(1.0f) - shown * s.specularAlbedo;
+    s.diffuseAlbedo = s.transmission * diffuseReflectance(s.model, s.diffuseColor,
                                                           s.perceptualRoughness,
                                                           s.diffuseRoughness, s.NoV);
     return s;

@@ -51,18 +51,25 @@ TEST_F(Lighting, MixWeighsDiffuseLightAgainstReflections) {
     Document document = matte();
     document.materials[0].emissive = glm::vec3(0.25f);
     document.materials[0].emissiveStrength = 1.0f;
-    Light sun;
-    sun.id = document.takeId();
-    document.lights.push_back(sun);
     const auto at = [&](float mix) {
         document.view.reflectionMix = mix;
         return centerPixel(draw(document)).y;
     };
-    const float both = at(0.5f), diffuse = at(0.0f), reflections = at(1.0f), half = at(0.75f);
-    EXPECT_NEAR(both, diffuse + reflections - 0.25f, 2e-3f * both); // emission is in both
-    EXPECT_NEAR(half, 0.5f * diffuse + reflections - 0.125f, 2e-3f * both);
-    EXPECT_GT(diffuse, 0.3f);
-    EXPECT_GT(reflections, 0.26f);
+    // Reflections that are not shown take nothing from the diffuse light.
+    const float albedo = document.materials[0].baseColor.y;
+    EXPECT_NEAR(at(0.0f), 0.25f + albedo, 1e-3f);
+    const float specular = at(1.0f) - 0.25f;
+    EXPECT_GT(specular, 0.02f);
+    EXPECT_NEAR(at(0.5f), 0.25f + albedo * (1.0f - specular) + specular, 1e-3f);
+
+    Light sun;
+    sun.id = document.takeId();
+    document.lights.push_back(sun);
+    const float both = at(0.5f), diffuse = at(0.0f), reflections = at(1.0f);
+    EXPECT_GT(diffuse, 0.3f + albedo);
+    EXPECT_GT(reflections, 0.26f + specular);
+    EXPECT_NEAR(at(0.25f), 0.5f * (diffuse + both), 2e-3f * both);
+    EXPECT_NEAR(at(0.75f), 0.5f * (reflections + both), 2e-3f * both);
 }
 
 TEST_F(Lighting, OneLampFollowsTheCosine) {

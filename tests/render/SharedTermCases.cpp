@@ -194,7 +194,8 @@ std::vector<SharedTermCase> makeCases() {
                  O(0) = s.NoV; O(1) = s.alpha; O(2) = s.perceptualRoughness;
                  OUT3(3, s.diffuseColor); OUT3(6, s.f0); OUT3(9, s.energyCompensation);
                  OUT3(12, s.specularAlbedo); OUT3(15, s.diffuseAlbedo); O(18) = s.metallic;
-                 OUT3(19, s.transmission); O(22) = s.diffuseRoughness;),
+                 OUT3(19, s.transmission); O(22) = s.diffuseRoughness;
+                 s = fadeSpecularLayer(s, I(24)); OUT3(23, s.transmission + s.diffuseAlbedo);),
             CASE("lobes", surface, 1e-2f, SurfaceTerms s = SURFACE;
                  OUT3(0, specularLobe(s, I(16), 1.0f - I(16) * I(16), I(17), I(18)));
                  OUT3(3, diffuseLobe(s, I(17), I(18)));),

@@ -164,6 +164,28 @@ TEST(Energy, WhiteDielectricReturnsAtMostAllOfIt) {
                 }
 }
 
+// As much of the specular layer as is shown takes from the diffuse lobe.
+TEST(Energy, FadedLayerTakesItsShare) {
+    BrdfModel m = defaultBrdfModel();
+    m.diffuse = kDiffuseEon;
+    for (const float r : {0.2f, 1.0f})
+        for (const float NoV : {0.1f, 1.0f}) {
+            const vec2 dfg = quadratureDfg(m, NoV, alphaFromPerceptualRoughness(r));
+            const SurfaceTerms whole =
+                makeSurface(m, vec3(1.0f), 0.0f, r, r, vec3(0, 0, 1), viewerAt(NoV), dfg);
+            const SurfaceTerms same = fadeSpecularLayer(whole, 1.0f);
+            EXPECT_EQ(same.transmission, whole.transmission);
+            EXPECT_EQ(same.diffuseAlbedo, whole.diffuseAlbedo);
+            for (const float shown : {0.0f, 0.3f, 1.0f}) {
+                const SurfaceTerms s = fadeSpecularLayer(whole, shown);
+                EXPECT_EQ(s.specularAlbedo, whole.specularAlbedo);
+                EXPECT_NEAR(diffuseIntegral(s).y + shown * specularIntegral(s).y, 1.0f, 5e-3f);
+                const ShadedLight ambient = shadeEnvironment(s, vec3(kPi), vec3(1.0f));
+                EXPECT_NEAR(ambient.diffuse.y + shown * ambient.specular.y, 1.0f, 1e-5f);
+            }
+        }
+}
+
 TEST(Reciprocity, OfEverySingleLobe) {
     for (int f = 0; f < kFresnels; ++f)
         for (int diffuseModel = 0; diffuseModel < kDiffuses; ++diffuseModel)
