@@ -32,12 +32,14 @@ class PixelPaths {
 
     using Sums = std::vector<std::array<PathPictures::Pixel, kTransports>>; // [environment]
 
-    const Sums& trace(const Place& seen, std::uint32_t seed) {
+    // The paths of one of the places that share a pixel's samples.
+    const Sums& trace(const Place& seen, std::uint32_t seed, std::uint32_t part) {
         for (auto& environment : m_sums)
             environment = {};
         m_paths.clear();
-        for (std::uint32_t i = 0; i < std::uint32_t(m_settings.paths); ++i)
-            m_paths.push_back({seen, seen.albedo / double(m_settings.paths), i});
+        const std::uint32_t count = std::uint32_t(m_settings.paths);
+        for (std::uint32_t i = part * count; i < (part + 1) * count; ++i)
+            m_paths.push_back({seen, seen.albedo / double(count), i});
         for (int bounce = 0; bounce <= m_settings.bounces && !m_paths.empty(); ++bounce)
             step(bounce, seedFor(seed, std::uint32_t(bounce)));
         return m_sums;
@@ -135,13 +137,19 @@ PathPictures tracePaths(const ReferenceScene& scene, std::span<const std::option
         for (auto& transport : environment)
             for (auto& half : transport)
                 half.resize(places.size());
+    const auto side = std::size_t(settings.side), width = std::size_t(settings.width);
+    PathSettings each = settings;
+    each.paths = std::max(1, settings.paths / (settings.side * settings.side));
     parallelFor({}, places.size(), 64, [&](std::size_t begin, std::size_t end) {
         const FlushDenormals flush;
-        PixelPaths paths(scene, environments, settings);
+        PixelPaths paths(scene, environments, each);
         for (std::size_t p = begin; p < end; ++p)
             for (std::size_t half = 0; places[p] && half < 2; ++half) {
+                const std::size_t x = p % width, y = p / width;
+                const std::size_t pixel = y / side * width + x / side;
                 const PixelPaths::Sums& sums = paths.trace(
-                    *places[p], seedFor(settings.seed + std::uint32_t(half), std::uint32_t(p)));
+                    *places[p], seedFor(settings.seed + std::uint32_t(half), std::uint32_t(pixel)),
+                    std::uint32_t(y % side * side + x % side));
                 for (std::size_t e = 0; e < environments.size(); ++e)
                     for (std::size_t t = 0; t < kTransports; ++t)
                         pictures.pictures[e][t][half][p] = sums[e][t];

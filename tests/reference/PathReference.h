@@ -16,9 +16,12 @@ enum class Transport { Unshadowed, Shadowed, Interreflected };
 inline constexpr int kTransports = 3;
 
 struct PathSettings {
-    int paths = 1024; // per pixel, in each of the two pictures
+    int paths = 1024; // per pixel, in each of the two pictures; at least one from each place
     int bounces = 3;  // at most, on other surfaces than the one that is seen
     std::uint32_t seed = 1;
+    // Places in rows of `width` belong to pixels of side × side places, each of which share out the
+    // paths of one pixel among them.
+    int side = 1, width = 1;
 };
 
 // Exit radiance of every place, albedo included. Two pictures of independent paths: their mean is

@@ -29,6 +29,10 @@ class ReferenceLight {
     // Of the first 1 … kOrders bands, from out[1] on; `basis` that of the direction.
     void bands(const Basis& basis, std::array<glm::dvec3, kLights>& out) const;
 
+    [[nodiscard]] const std::array<glm::dvec3, kOrders * kOrders>& coefficients() const {
+        return m_coefficients;
+    }
+
     // A direction of the picture, as likely as it is bright; `sample` even in [0, 1)².
     struct Ray {
         glm::dvec3 direction{0.0};

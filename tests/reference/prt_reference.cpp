@@ -1,5 +1,6 @@
-// prt-reference SCENE --environment HDR…: how far the picture of a transfer bake is from one that
-// paths trace by brute force, per order of the light and against the whole environment.
+// prt-reference SCENE --environment HDR…: how far the picture of a transfer bake, or one that
+// patina rendered from it (scripts/transfer-truth), is from one that paths trace by brute force,
+// per order of the light and against the whole environment.
 #include "core/bake/BakeRequest.h"
 #include "core/bake/TransferRefinement.h"
 #include "core/document/Scene.h"
@@ -21,7 +22,7 @@ using namespace patina::reference;
 namespace {
 
 struct Options {
-    std::string scene, pictures, against;
+    std::string scene, pictures, rendered, albedo;
     std::vector<std::string> environments;
     std::vector<int> size{128, 128}, orders{2, 3, 4, 5, 6}, shown{5};
     std::vector<float> camera{30.0f, 15.0f};
@@ -30,7 +31,7 @@ struct Options {
     bool texels = false;
     float refine = 0.0f;
     std::vector<float> rotations;
-    int rounds = 6, threads = 0;
+    int rounds = 6, supersample = 1, threads = 0;
 };
 
 int fail(const Error& error) {
@@ -80,32 +81,62 @@ Image triptych(const std::vector<glm::dvec3>& reference, const std::vector<glm::
     return imageOf(pixels, 3 * width, height);
 }
 
-// A picture that patina rendered of the same scene, diffuse light alone: how far it is from the
-// bake's and from the reference, all of them cut at zero, as light that is shown is.
-int compareFile(WorkerClient& worker, const std::string& file,
-                const std::vector<std::optional<Place>>& places,
-                const std::vector<glm::dvec3>& picture, const std::vector<glm::dvec3>& reference) {
+// Light that is shown has no negative parts, which sums of bands have.
+void cutAtZero(std::vector<glm::dvec3>& truth, std::vector<glm::dvec3>& noise) {
+    for (std::size_t p = 0; p < truth.size(); ++p)
+        for (int c = 0; c < 3; ++c)
+            if (truth[p][c] < 0.0)
+                truth[p][c] = noise[p][c] = 0.0;
+}
+
+// Means of n × n pixels.
+std::vector<glm::dvec3> blocks(const std::vector<glm::dvec3>& pixels, int width, int n) {
+    const int across = width / n, down = int(pixels.size()) / width / n;
+    std::vector<glm::dvec3> means(std::size_t(across) * std::size_t(down), glm::dvec3(0.0));
+    for (std::size_t p = 0; p < pixels.size(); ++p) {
+        const int x = int(p) % width, y = int(p) / width;
+        means[std::size_t(y / n * across + x / n)] += pixels[p] / double(n * n);
+    }
+    return means;
+}
+
+// Those of the blocks that show something.
+std::vector<std::optional<Place>> blocks(const std::vector<std::optional<Place>>& places, int width,
+                                         int n) {
+    const int across = width / n, down = int(places.size()) / width / n;
+    std::vector<std::optional<Place>> shown(std::size_t(across) * std::size_t(down));
+    for (std::size_t p = 0; p < places.size(); ++p) {
+        const int x = int(p) % width, y = int(p) / width;
+        if (places[p])
+            shown[std::size_t(y / n * across + x / n)] = places[p];
+    }
+    return shown;
+}
+
+Result<std::vector<glm::dvec3>> loadPixels(WorkerClient& worker, const std::string& file,
+                                           std::size_t count) {
     const Result<LoadedImage> loaded = loadImage(worker, file);
     if (!loaded)
-        return fail(loaded.error());
+        return loaded.error();
     const Image& image = loaded->image();
-    if (std::size_t(image.width()) * std::size_t(image.height()) != places.size())
-        return fail({ErrorKind::Usage, "is not of the size of the pictures", file, {}});
-    std::vector<glm::dvec3> rendered, bake, truth;
-    for (std::size_t p = 0; p < places.size(); ++p) {
-        const int x = int(p) % image.width(), y = int(p) / image.width();
-        rendered.emplace_back(image.linear(x, y));
-        bake.push_back(glm::max(picture[p], glm::dvec3(0.0)));
-        truth.push_back(glm::max(reference[p], glm::dvec3(0.0)));
-    }
-    const std::vector<glm::dvec3> none(places.size(), glm::dvec3(0.0));
-    const Distance own = distance(places, rendered, bake, none),
-                   other = distance(places, rendered, truth, none);
-    std::printf("    %s: %.3f %% from the bake's picture (bias %.3f %%), %.3f %% from the paths' "
-                "with their noise\n",
-                file.c_str(), 100 * own.relative(), 100 * own.bias / own.mean,
-                100 * other.relative());
-    return 0;
+    std::vector<glm::dvec3> pixels;
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x)
+            pixels.emplace_back(image.linear(x, y));
+    if (pixels.size() != count)
+        return Error{ErrorKind::Usage, "is not of --size times --supersample", file, {}};
+    return pixels;
+}
+
+Result<BakeArtifact> bakeOf(const ReferenceScene& scene, const Options& options) {
+    BakeRequest request;
+    request.kind = options.texels ? BakeKind::PrtTexel : BakeKind::PrtVertex;
+    request.prt = options.bake;
+    request.prt.order = kOrders; // holds every lower order
+    request.prt.transfer = options.texels ? TransferKind::Shadowed : TransferKind::Interreflected;
+    request.prt.bounces = options.paths.bounces;
+    TileSink nobody;
+    return bake(request, scene.inputs(), nobody, {});
 }
 
 int run(const Options& options) {
@@ -124,11 +155,21 @@ int run(const Options& options) {
     Camera camera = document.view.camera;
     camera.yawDeg = options.camera.at(0);
     camera.pitchDeg = options.camera.at(1);
-    const int width = options.size.at(0), height = options.size.at(1);
+    const int n = options.supersample, width = options.size.at(0), height = options.size.at(1);
     camera = frameBounds(camera, document.bounds(), float(width) / float(height));
     if (options.camera.size() > 2)
         camera.distance = options.camera[2];
-    const std::vector<std::optional<Place>> places = scene->look(camera, width, height);
+    std::vector<std::optional<Place>> places = scene->look(camera, n * width, n * height);
+    if (!options.albedo.empty()) {
+        const Result<std::vector<glm::dvec3>> albedo =
+            loadPixels(worker, options.albedo, places.size());
+        if (!albedo)
+            return fail(albedo.error());
+        for (std::size_t p = 0; p < places.size(); ++p)
+            if (places[p])
+                places[p]->albedo = (*albedo)[p];
+    }
+    const std::vector<std::optional<Place>> shown = blocks(places, n * width, n);
 
     std::vector<ReferenceLight> lights;
     std::vector<std::vector<glm::vec3>> coefficients;
@@ -145,17 +186,17 @@ int run(const Options& options) {
         coefficients.push_back(projectLatLong(*turned, kOrders));
     }
 
-    BakeRequest request;
-    request.kind = options.texels ? BakeKind::PrtTexel : BakeKind::PrtVertex;
-    request.prt = options.bake;
-    request.prt.order = kOrders; // holds every lower order
-    request.prt.transfer = options.texels ? TransferKind::Shadowed : TransferKind::Interreflected;
-    request.prt.bounces = options.paths.bounces;
-    TileSink nobody;
-    const Result<BakeArtifact> artifact = bake(request, scene->inputs(), nobody, {});
-    if (!artifact)
-        return fail(artifact.error());
-    const PathPictures paths = tracePaths(*scene, places, lights, options.paths);
+    BakeArtifact artifact;
+    if (options.rendered.empty()) {
+        Result<BakeArtifact> baked = bakeOf(*scene, options);
+        if (!baked)
+            return fail(baked.error());
+        artifact = *std::move(baked);
+    }
+    PathSettings pathSettings = options.paths;
+    pathSettings.side = n;
+    pathSettings.width = n * width;
+    const PathPictures paths = tracePaths(*scene, places, lights, pathSettings);
 
     for (std::size_t e = 0; e < lights.size(); ++e) {
         const std::string name = std::filesystem::path(options.environments[e]).stem().string();
@@ -167,37 +208,45 @@ int run(const Options& options) {
                 "%s, %s, %s\n  order  of the same light  bias     noise   worst  | of the whole\n",
                 options.scene.c_str(), name.c_str(), bounced ? "interreflected" : "shadowed");
             for (const int order : options.orders) {
-                const std::vector<glm::dvec3> picture =
-                    transferPicture(*scene, places, *artifact, coefficients[e], order, bounced);
+                const std::string which = "-" + name +
+                                          (bounced ? "-interreflected-" : "-shadowed-") +
+                                          std::to_string(order);
+                Result<std::vector<glm::dvec3>> fine =
+                    options.rendered.empty()
+                        ? transferPicture(*scene, places, artifact, coefficients[e], order, bounced)
+                        : loadPixels(worker, options.rendered + which + ".exr", places.size());
+                if (!fine)
+                    return fail(fine.error());
+                const std::vector<glm::dvec3> picture = blocks(*fine, n * width, n);
                 const auto against = [&](int light) {
-                    return distance(places, picture, paths.mean(e, transport, light),
-                                    paths.halfDifference(e, transport, light));
+                    std::vector<glm::dvec3> truth =
+                        blocks(paths.mean(e, transport, light), n * width, n);
+                    std::vector<glm::dvec3> noise =
+                        blocks(paths.halfDifference(e, transport, light), n * width, n);
+                    if (!options.rendered.empty())
+                        cutAtZero(truth, noise);
+                    return distance(shown, picture, truth, noise);
                 };
                 const Distance same = against(order), whole = against(0);
                 std::printf("  %d      %6.3f %%          %6.3f %%  %6.3f %%  %6.2f %% | %6.2f %%\n",
                             order, 100 * same.relative(), 100 * same.bias / same.mean,
                             100 * same.noise / same.mean, 100 * same.worst / same.mean,
                             100 * whole.relative());
-                if (bounced && !options.against.empty() && order == options.shown.front())
-                    if (const int failed = compareFile(worker, options.against, places, picture,
-                                                       paths.mean(e, transport, order)))
-                        return failed;
                 if (options.pictures.empty() ||
                     std::find(options.shown.begin(), options.shown.end(), order) ==
                         options.shown.end())
                     continue;
-                const Result<Bytes> png = encodeImage(
-                    worker,
-                    {{"",
-                      triptych(paths.mean(e, transport, order), picture, same.mean, width, height),
-                      {}}},
-                    ImageFileFormat::Png);
+                const Result<Bytes> png =
+                    encodeImage(worker,
+                                {{"",
+                                  triptych(blocks(paths.mean(e, transport, order), n * width, n),
+                                           picture, same.mean, width, height),
+                                  {}}},
+                                ImageFileFormat::Png);
                 if (!png)
                     return fail(png.error());
-                const Result<void> written = writeFileAtomically(
-                    options.pictures + "-" + name + (bounced ? "-interreflected-" : "-shadowed-") +
-                        std::to_string(order) + ".png",
-                    *png);
+                const Result<void> written =
+                    writeFileAtomically(options.pictures + which + ".png", *png);
                 if (!written)
                     return fail(written.error());
             }
@@ -230,9 +279,14 @@ int main(int argc, char* argv[]) {
     app.add_option("--rounds", options.rounds, "Of refinement");
     app.add_option("--pictures", options.pictures,
                    "Start of file names: reference, picture, difference × 20");
-    app.add_option("--against", options.against,
-                   "Linear .exr of patina render --lighting prt --set view.reflectionMix=0, of the "
-                   "same size and the first order of --show");
+    app.add_option("--rendered", options.rendered,
+                   "Instead of a bake of its own: start of the names of pictures of patina render, "
+                   "going on with -HDR-shadowed-ORDER.exr and -HDR-interreflected-ORDER.exr");
+    app.add_option("--albedo", options.albedo,
+                   "Picture of the albedos that are seen, of patina render --view diffuseAlbedo: "
+                   "with maps filtered as in the pictures, instead of texel by texel");
+    app.add_option("--supersample", options.supersample,
+                   "Compares means of N × N pixels; --paths are shared among them");
     app.add_option("--show", options.shown, "Orders of the pictures")->delimiter(',');
     app.add_option("--threads", options.threads, "0: all");
     CLI11_PARSE(app, argc, argv);
