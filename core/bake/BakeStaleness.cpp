@@ -34,6 +34,18 @@ std::vector<std::string> geometryReasons(const BakeArtifact& artifact, const Doc
     return reasons;
 }
 
+// The same meshes take part, whatever has become of them; of per-texel bakes nobody knows.
+bool sameMeshes(const BakeArtifact& artifact, const Document& document) {
+    const auto visible = [&](const VertexBake& bake) {
+        const MeshInstance* mesh = document.mesh(bake.mesh);
+        return mesh != nullptr && mesh->visible;
+    };
+    const auto count = std::ranges::count_if(
+        document.meshes, [](const MeshInstance& mesh) { return mesh.visible && mesh.mesh; });
+    return std::ssize(artifact.vertices) == count &&
+           std::ranges::all_of(artifact.vertices, visible);
+}
+
 } // namespace
 
 BakeStaleness bakeStaleness(const BakeArtifact& artifact, const Document& document,
@@ -43,9 +55,11 @@ BakeStaleness bakeStaleness(const BakeArtifact& artifact, const Document& docume
         result.geometry = true;
         result.reasons = geometryReasons(artifact, document);
     }
-    if (artifact.albedo != Hash{} && artifact.albedo != albedo) {
+    // Where meshes come and go, so do their albedos: no reason of its own.
+    if (artifact.albedo != Hash{} && artifact.albedo != albedo &&
+        (!result.geometry || sameMeshes(artifact, document))) {
         result.albedo = true;
-        result.reasons.emplace_back("albedo has changed, and light bounces off it");
+        result.reasons.emplace_back("the albedo has changed, and light bounces off it");
     }
     if (wanted == nullptr)
         return result;

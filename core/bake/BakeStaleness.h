@@ -14,7 +14,7 @@ struct BakeStaleness {
     bool geometry = false;            // must be traced anew
     bool albedo = false;              // only what surfaces hand on to each other has changed
     bool settings = false;            // it is right, but not what is asked for
-    std::vector<std::string> reasons; // for the user: "“Wall” was hidden or removed"
+    std::vector<std::string> reasons; // for the user: "“Wall” was hidden"
 
     [[nodiscard]] bool stale() const { return geometry || albedo || settings; }
 };

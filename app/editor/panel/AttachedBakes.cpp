@@ -97,18 +97,20 @@ void AttachedBakes::addRow(const BakeArtifact& bake, const BakeStaleness& stalen
         reasons << QString::fromStdString(reason).toHtmlEscaped();
     if (!reasons.isEmpty())
         status += QStringLiteral("<br>") + reasons.join(QStringLiteral("<br>"));
+    const auto colored = [](const QString& html, const QColor& color) {
+        return QStringLiteral("<br><span style='color:%1'>%2</span>").arg(color.name(), html);
+    };
+    QString html = bakeTitle(bake.kind).toHtmlEscaped() +
+                   colored(status, stale ? tokens::kCopper : tokens::kTextDim);
     // What the user should know of this bake, such as overlapping texture coordinates.
     if (const auto note = bake.settings.find("note"); note != bake.settings.end())
-        status += QStringLiteral("<br>") + QString::fromStdString(note->second).toHtmlEscaped();
+        html += colored(QString::fromStdString(note->second).toHtmlEscaped(), tokens::kTextDim);
 
     auto* row = new QWidget;
     auto* layout = new QVBoxLayout(row);
     layout->setContentsMargins(0, 2, 0, tokens::kGap);
     layout->setSpacing(tokens::kGap / 2);
-    auto* text =
-        new QLabel(QStringLiteral("%1<br><span style='color:%2'>%3</span>")
-                       .arg(bakeTitle(bake.kind).toHtmlEscaped(),
-                            QColor(stale ? tokens::kCopper : tokens::kTextDim).name(), status));
+    auto* text = new QLabel(html);
     text->setWordWrap(true);
     text->setObjectName(QStringLiteral("bakeStatus"));
     layout->addWidget(text);

@@ -33,6 +33,8 @@ JobsPanel::JobsPanel(JobManager& jobs, QWidget* parent)
     scroll->setWidget(content);
     scroll->setWidgetResizable(true);
     scroll->setFrameShape(QFrame::NoFrame);
+    constexpr int kLines = 7; // a job from its title to its buttons
+    scroll->setMinimumHeight(kLines * fontMetrics().height());
     layout->addWidget(scroll, 1);
     m_clear = new QPushButton(tr("Clear finished"));
     m_clear->setToolTip(tr("Removes jobs that have ended from this list"));

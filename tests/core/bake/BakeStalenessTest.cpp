@@ -82,6 +82,18 @@ TEST_F(BakeStalenessTest, AlbedoCountsWhereLightBounces) {
     EXPECT_TRUE(staleness({1, 2}).albedo);
     EXPECT_FALSE(staleness({1, 2}).geometry);
     EXPECT_EQ(staleness({1, 2}).reasons.size(), 1u);
+
+    const Document before = document;
+    document.meshes[0].transform[3][0] = 1.0f;
+    EXPECT_TRUE(staleness({1, 2}).geometry);
+    EXPECT_TRUE(staleness({1, 2}).albedo) << "of the same meshes";
+    document.meshes[0].visible = false; // and so its albedo is none of the scene's
+    EXPECT_THAT(staleness({1, 2}).reasons, ElementsAre("“Ball” was hidden"));
+    EXPECT_FALSE(staleness({1, 2}).albedo);
+    document = before;
+    document.meshes.push_back(document.meshes[0]);
+    document.meshes.back().id = document.takeId();
+    EXPECT_FALSE(staleness({1, 2}).albedo);
 }
 
 TEST_F(BakeStalenessTest, NamesTheSettingsThatDiffer) {
