@@ -37,7 +37,7 @@ struct FrameSettings {
     Id selectedMesh = 0;                     // outlined when showOverlays
     Id selectedLight = 0;                    // shown with its handles when showOverlays
     std::shared_ptr<const SurfaceLobe> lobe; // drawn when showOverlays; null: none
-    float overlayScale = 1.0f; // of a frame that is to be enlarged: share of its final size
+    float overlayScale = 1.0f; // pixels per pixel that marks are sized in (the editor: a widget's)
     bool coarse = false;       // fewer triangles, where a reduced frame hides it (the editor)
     bool dither = false;       // hides the bands of 8-bit values (the editor)
 

@@ -15,9 +15,9 @@ constexpr glm::vec3 kSelection{1.0f, 0.62f, 0.18f}; // amber: rare in materials
 // Of a point's frame, as axes are coloured everywhere, and of what is reflected there.
 constexpr glm::vec3 kTangent{0.93f, 0.33f, 0.36f}, kBitangent{0.45f, 0.78f, 0.33f},
     kNormal{0.36f, 0.58f, 1.0f}, kMirror{0.85f}, kLightRay{1.0f, 0.94f, 0.72f};
-// Marks keep their size on a small picture and grow with a large or dense one.
-float markScale(float height, float share) {
-    return share * std::max(1.0f, height / share / 1000.0f);
+// Marks keep their size on a small picture and grow with a large one.
+float markScale(float height, float pixels) {
+    return pixels * std::max(1.0f, height / pixels / 1000.0f);
 }
 
 const char* markShape(LightType type) {
@@ -146,8 +146,8 @@ Result<void> OverlayPass::drawLine(const GizmoLine& line, float scale) {
 // The lobe, the frame it stands in, and what it reflects: where the light comes from, or the viewer
 // looks from, and the mirror direction of that.
 Result<void> OverlayPass::drawLobe(const Targets& targets, const SurfaceLobe& lobe,
-                                   const FrameBlock& frame, float share) {
-    const float scale = markScale(frame.viewport.y, share);
+                                   const FrameBlock& frame, float pixels) {
+    const float scale = markScale(frame.viewport.y, pixels);
     const GizmoView view{frame.worldToClip, glm::vec2(frame.viewport), scale};
     const float perMetre = pixelsPerMetre(view, lobe.position);
     if (!(perMetre > 0.0f)) // behind the camera

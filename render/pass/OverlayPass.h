@@ -14,7 +14,7 @@ struct OverlaySettings {
     Id selectedMesh = 0;  // outlined; 0: none
     Id selectedLight = 0; // shown with its handles; 0: none
     const SurfaceLobe* lobe = nullptr;
-    float scale = 1.0f; // of a frame that is to be enlarged: share of its final size
+    float scale = 1.0f; // pixels per pixel that marks are sized in
 };
 
 class OverlayPass {
@@ -37,7 +37,7 @@ class OverlayPass {
     Result<void> drawLights(const Targets& targets, const GpuScene& scene, const FrameBlock& frame,
                             const OverlaySettings& settings);
     Result<void> drawLobe(const Targets& targets, const SurfaceLobe& lobe, const FrameBlock& frame,
-                          float share);
+                          float pixels);
     Result<void> drawLine(const GizmoLine& line, float scale);
     Result<void> drawMark(const char* shape, const glm::vec2& center, const glm::vec2& axisX,
                           const glm::vec2& axisY, const glm::vec3& color, float scale);

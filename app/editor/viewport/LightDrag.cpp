@@ -103,8 +103,7 @@ render::GizmoView LightDrag::view() const {
     view.worldToClip =
         camera.projectionMatrix(view.viewport.x / view.viewport.y, document.bounds()) *
         camera.viewMatrix();
-    view.scale = std::max(static_cast<float>(1.0 / m_viewport.devicePixelRatioF()),
-                          view.viewport.y / 1000.0f);
+    view.scale = std::max(1.0f, view.viewport.y / 1000.0f);
     return view;
 }
 

@@ -262,7 +262,7 @@ render::FrameSettings ViewportWidget::nextFrame(const QSize& size) {
                        m_viewFeed.sameAsBefore();
     m_lastCamera = frame.camera;
     frame.selectedLight = m_selection.light();
-    frame.overlayScale = m_pacing.scale();
+    frame.overlayScale = m_pacing.scale() * static_cast<float>(devicePixelRatioF());
     if (m_lobe)
         frame.lobe = m_lobe->lobe();
     return frame;
