@@ -8,10 +8,12 @@
 #include "core/bake/PrtSettingsCheck.h"
 #include "core/bake/RayScene.h"
 #include "core/bake/TransferMeaning.h"
+#include "core/bake/TransferRefinement.h"
 #include "core/bake/VertexFit.h"
 #include "core/bake/WorkOrder.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <optional>
 
 namespace patina {
@@ -46,6 +48,24 @@ std::string noteOf(const BakeGeometry& geometry, const RayScene& scene,
                       countVerticesInside(geometry, scene,
                                           std::span(samples.points).first(visibility.size()),
                                           visibility, job));
+}
+
+// Advice where triangles cannot show their shadows: from about this share of the surface on it is
+// seen in pictures, by several per cent of their mean (docs/maths/transfer-truth.md).
+void noteCoarseMeshes(BakeArtifact& artifact, const BakeInputs& inputs) {
+    constexpr int kEnoughRays = 128; // their noise is below the tolerance
+    constexpr double kMuch = 0.005;
+    if (artifact.samplesDone < kEnoughRays)
+        return;
+    const double share = coarseShare(inputs, artifact.vertices);
+    if (share < kMuch)
+        return;
+    std::string& note = artifact.settings["note"];
+    if (!note.empty())
+        note += ' ';
+    note += fmt::format("On {:.1f} % of the surface, triangles are too coarse for its shadows: "
+                        "\"patina refine\" splits those; a bake per texel has no such limit.",
+                        100.0 * share);
 }
 
 // Everything the two vertex bakes share; `artifact` arrives with kind, order and settings, `prt`
@@ -103,6 +123,8 @@ Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings setting
         if (!vertices)
             return vertices.error();
         artifact.vertices = *std::move(vertices);
+        if (fitted)
+            noteCoarseMeshes(artifact, inputs);
     }
     passes = {};
     if (bounces)

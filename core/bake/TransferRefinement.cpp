@@ -35,43 +35,53 @@ float largestScale(const glm::mat4& transform) {
                      glm::length(glm::vec3(transform[2]))});
 }
 
+float meanError(const std::vector<float>& error, const std::uint32_t* index) {
+    return (error[index[0]] + error[index[1]] + error[index[2]]) / 3.0f;
+}
+
 // The triangles of a mesh whose corners' mean error passes the tolerance.
 std::vector<std::uint8_t> coarseOnes(const Mesh& mesh, const std::vector<float>& error,
                                      float tolerance) {
     std::vector<std::uint8_t> coarse(mesh.triangleCount());
     for (std::size_t t = 0; t < coarse.size(); ++t) {
         const std::uint32_t* index = mesh.indices.data() + 3 * t;
-        const float mean = (error[index[0]] + error[index[1]] + error[index[2]]) / 3.0f;
-        coarse[t] = mean > tolerance ? 1 : 0;
+        coarse[t] = meanError(error, index) > tolerance ? 1 : 0;
     }
     return coarse;
 }
 
-// Over the surface: of a vertex by the area around it, or finer places would count the more.
-double rmsError(const BakeInputs& inputs, const BakeArtifact& artifact) {
-    double squares = 0.0, area = 0.0;
-    auto values = artifact.vertices.begin();
+// Calls use(bake, three indices, twice the area) for every triangle that was baked.
+template <class Use>
+void forEachTriangle(const BakeInputs& inputs, std::span<const VertexBake> bakes, Use&& use) {
+    auto values = bakes.begin();
     for (const BakeMesh& mesh : inputs.meshes) {
-        if (values == artifact.vertices.end() || values->mesh != mesh.id)
+        if (values == bakes.end() || values->mesh != mesh.id)
             continue;
         const glm::dmat4 toWorld(mesh.transform);
         const std::vector<std::uint32_t>& indices = mesh.mesh->indices;
-        for (std::size_t i = 0; i < indices.size(); i += 3) {
+        for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
             glm::dvec3 corner[3];
-            double square = 0.0;
-            for (std::size_t k = 0; k < 3; ++k) {
+            for (std::size_t k = 0; k < 3; ++k)
                 corner[k] = glm::dvec3(
                     toWorld * glm::dvec4(glm::dvec3(mesh.mesh->positions[indices[i + k]]), 1.0));
-                square +=
-                    double{values->error[indices[i + k]]} * double{values->error[indices[i + k]]};
-            }
-            const double own =
-                glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
-            squares += own * square / 3.0;
-            area += own;
+            use(*values, indices.data() + i,
+                glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0])));
         }
         ++values;
     }
+}
+
+// Over the surface: of a vertex by the area around it, or finer places would count the more.
+double rmsError(const BakeInputs& inputs, std::span<const VertexBake> bakes) {
+    double squares = 0.0, area = 0.0;
+    forEachTriangle(inputs, bakes,
+                    [&](const VertexBake& bake, const std::uint32_t* index, double own) {
+                        double square = 0.0;
+                        for (int k = 0; k < 3; ++k)
+                            square += double{bake.error[index[k]]} * double{bake.error[index[k]]};
+                        squares += own * square / 3.0;
+                        area += own;
+                    });
     return area > 0.0 ? std::sqrt(squares / area) : 0.0;
 }
 
@@ -96,7 +106,7 @@ Result<RefinedMeshes> refineForTransfer(BakeInputs inputs, const RefinementSetti
         const Result<BakeArtifact> artifact = bakePrtVertex(inputs, bake, nobodyWatches, job);
         if (!artifact)
             return artifact.error();
-        result.errorAfter = rmsError(inputs, *artifact);
+        result.errorAfter = rmsError(inputs, artifact->vertices);
         if (result.rounds == 0)
             result.errorBefore = result.errorAfter;
 
@@ -134,6 +144,17 @@ Result<RefinedMeshes> refineForTransfer(BakeInputs inputs, const RefinementSetti
         result.meshes.push_back(mesh.mesh);
     result.triangles = countTriangles(inputs);
     return result;
+}
+
+double coarseShare(const BakeInputs& inputs, std::span<const VertexBake> bakes, float tolerance) {
+    double coarse = 0.0, area = 0.0;
+    forEachTriangle(inputs, bakes,
+                    [&](const VertexBake& bake, const std::uint32_t* index, double own) {
+                        if (meanError(bake.error, index) > tolerance)
+                            coarse += own;
+                        area += own;
+                    });
+    return area > 0.0 ? coarse / area : 0.0;
 }
 
 } // namespace patina

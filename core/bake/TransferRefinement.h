@@ -5,13 +5,16 @@
 #include "core/bake/Bake.h"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace patina {
 
+inline constexpr float kCoarseTolerance = 0.01f;
+
 struct RefinementSettings {
     PrtSettings bake;                     // of the rounds; always fitted
-    float tolerance = 0.01f;              // RMS error of a coefficient (VertexBake::error), > 0
+    float tolerance = kCoarseTolerance;   // RMS error of a coefficient (VertexBake::error), > 0
     int rounds = 6;                       // at most; each halves the edges, 1…12
     std::size_t maxTriangles = 1'000'000; // of all meshes: what the last round may not pass
 };
@@ -28,5 +31,11 @@ struct RefinedMeshes {
 // the scene. Errors: Usage; those of bakePrtVertex; Cancelled.
 Result<RefinedMeshes> refineForTransfer(BakeInputs inputs, const RefinementSettings& settings,
                                         const JobContext& job);
+
+// The share, 0…1, of the surface of `bakes` whose triangles are too coarse: that refineForTransfer
+// would split. Of fitted values of `inputs` in its order, with 128 rays per point and more: below
+// that their noise passes the tolerance, too.
+[[nodiscard]] double coarseShare(const BakeInputs& inputs, std::span<const VertexBake> bakes,
+                                 float tolerance = kCoarseTolerance);
 
 } // namespace patina

@@ -1,6 +1,7 @@
 #include "core/bake/TransferRefinement.h"
 #include "tests/core/bake/BakeTestScene.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 using namespace patina;
@@ -44,6 +45,34 @@ TEST(TransferRefinement, WhatIsFineEnoughStays) {
     EXPECT_EQ(refined->meshes.at(0), inputs.meshes[0].mesh); // the very same
     EXPECT_EQ(refined->rounds, 0);
     EXPECT_EQ(refined->tooCoarse, 0u);
+}
+
+// A bake says how much of the surface that would split, and not when noise says it.
+TEST(TransferRefinement, IsAdvisedOfCoarseMeshes) {
+    const BakeInputs inputs = sceneOf({planeMesh(4.0, 4), sphereMesh(0.5, 24, 16, {0, 0.5, 0})});
+    PrtSettings settings;
+    settings.order = 2;
+    const auto bakeWith = [&](int samples, bool fitted) {
+        settings.samples = samples;
+        settings.fitted = fitted;
+        TileSink nobody;
+        return *bakePrtVertex(inputs, settings, nobody, {});
+    };
+    const BakeArtifact coarse = bakeWith(128, true);
+    const double share = coarseShare(inputs, coarse.vertices);
+    EXPECT_GT(share, 0.05); // 8 of 32 triangles touch the ball's foot, of 64 of 67 m²
+    EXPECT_LT(share, 0.5);
+    EXPECT_LT(coarseShare(inputs, coarse.vertices, 0.02f), share);
+    EXPECT_EQ(coarseShare(inputs, coarse.vertices, 10.0f), 0.0);
+    const std::string note = coarse.settings.at("note");
+    EXPECT_EQ(note.find(fmt::format("On {:.1f} % of the surface", 100.0 * share)), 0u) << note;
+    EXPECT_NE(note.find("patina refine"), std::string::npos);
+    EXPECT_FALSE(bakeWith(64, true).settings.contains("note"));
+    EXPECT_FALSE(bakeWith(128, false).settings.contains("note"));
+    BakeInputs flat = sceneOf({planeMesh(4.0, 4)});
+    TileSink nobody;
+    settings.fitted = true;
+    EXPECT_FALSE(bakePrtVertex(flat, settings, nobody, {})->settings.contains("note"));
 }
 
 TEST(TransferRefinement, EndsAtTheBudget) {
