@@ -45,6 +45,7 @@ PassPlan::PassPlan(std::span<const BakePoint> points, std::span<const PointRange
     CHECK_EQ(state.error.size(), count);
     CHECK_EQ(state.passes.size(), count);
     CHECK_EQ(state.wanted.size(), count);
+    updateSamplesDone(); // a state may be kept before the end of its last pass was noticed
 }
 
 std::size_t PassPlan::raysKnown() const {

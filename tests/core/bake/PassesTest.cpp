@@ -134,6 +134,27 @@ TEST(Passes, AnyStateThatWasKeptLeadsToTheSameEnd) {
     }
 }
 
+// A state may be kept when all points have had a pass and nobody has said so yet.
+TEST(Passes, AStateKeptAtTheEndOfAPassLeadsToTheSameEnd) {
+    const Ready ready = sphereOverFloor();
+    for (const float tolerance : {0.0f, 0.002f}) {
+        PassSettings settings = transferSettings(256, 2);
+        settings.tolerance = tolerance;
+        std::vector<PassState> kept;
+        PassState latest;
+        PassCallbacks callbacks;
+        callbacks.checkpointSeconds = 0.0;
+        callbacks.checkpoint = [&](const PassState& state) { latest = state; };
+        callbacks.passDone = [&](int) { kept.push_back(latest); };
+        const ThreadLimit limit(1); // so that no range is passed over
+        const PassState end = ready.trace(settings, callbacks);
+        ASSERT_GE(kept.size(), 3u);
+        EXPECT_EQ(kept[1].passes, std::vector<std::uint8_t>(kept[1].passes.size(), 2));
+        for (const PassState& state : kept)
+            EXPECT_EQ(ready.trace(settings, {}, state), end) << tolerance;
+    }
+}
+
 // HIGH hierarchies (many rays per triangle) and clusters included.
 TEST(Passes, AnyNumberOfThreadsGivesTheSameBits) {
     const Ready ready({planeMesh(4.0, 12), sphereMesh(1.0, 16, 8, {0, 1.2, 0})});
