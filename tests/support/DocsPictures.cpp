@@ -8,11 +8,13 @@
 #include "app/editor/MainWindow.h"
 #include "app/editor/Session.h"
 #include "app/editor/job/BounceUpdater.h"
+#include "app/editor/panel/BakeSettingsForm.h"
 #include "app/editor/panel/BrdfLensPanel.h"
 #include "app/editor/panel/LightLabPanel.h"
 #include "app/editor/panel/SoftboxList.h"
 #include "app/editor/style/Style.h"
 #include "app/editor/viewport/EquationBar.h"
+#include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/PixelPicker.h"
 #include "app/editor/viewport/PixelProbe.h"
 #include "app/editor/viewport/ViewportWidget.h"
@@ -62,6 +64,27 @@ void settle(int milliseconds) {
     runUntil([] { return false; }, milliseconds);
 }
 
+// Until the window shows what it will show: everything compiled, the picture in full, the views'
+// thumbnails drawn.
+void settle(Session& session, MainWindow& window) {
+    ViewportWidget& viewport = window.viewport();
+    settle(2000); // what an edit sets going begins after a moment
+    const QSize full = viewport.size() * viewport.devicePixelRatioF();
+    runUntil(
+        [&] {
+            return !session.controller.tasks().busy() && viewport.ibl().maps() &&
+                   !viewport.waitsForPrograms() && !viewport.compilesPrograms() &&
+                   viewport.frameSize() == full;
+        },
+        60'000);
+    bool drawn = !viewport.sheets().wanted();
+    QObject here;
+    QObject::connect(&viewport.sheets(), &SheetScheduler::allDrawn, &here, [&] { drawn = true; });
+    viewport.sheets().invalidate();
+    runUntil([&] { return drawn; }, 60'000);
+    settle(500);
+}
+
 bool save(QWidget& widget, const QString& file) {
     if (widget.grab().save(file))
         return true;
@@ -82,8 +105,8 @@ bool saveLightLab(Session& session, MainWindow& window, const QString& file) {
     auto* lab = window.findChild<LightLabPanel*>();
     settle(4000);
     Q_EMIT lab->picture({LabKind::Prefiltered, 2})->chosen();
-    runUntil([&] { return lab->idle(); }, 30'000);
-    settle(1000);
+    settle(session, window);
+    runUntil([&] { return lab->idle(); }, 60'000);
     const bool ok = save(window, file);
     window.actions().lightLab->trigger();
     session.controller.setEnvironment(before);
@@ -112,7 +135,7 @@ bool saveEnergy(Session& session, MainWindow& window, const QString& file) {
     raiseDock(window, QStringLiteral("material"));
     window.actions().energy->trigger();
     window.actions().furnace->trigger();
-    settle(5000);
+    settle(session, window);
     const bool saved = save(window, file);
     window.actions().furnace->trigger();
     window.actions().energy->trigger();
@@ -143,21 +166,39 @@ bool saveLens(Session& session, MainWindow& window, const QString& file) {
                           Qt::AltModifier);
         QApplication::sendEvent(&viewport, &event);
     }
-    const bool drawn = runUntil([&] { return session.lobe.lobe() != nullptr; }, 20'000);
-    settle(4000);
+    const bool drawn = runUntil([&] { return session.lobe.lobe() != nullptr; }, 60'000);
+    settle(session, window);
     const bool saved = save(window, file);
     session.probe.setPin(std::nullopt);
     window.actions().lens->trigger();
     return drawn && saved;
 }
 
+// How light comes to a point in the ball's opening: the dock alone.
+bool saveTransfer(Session& session, MainWindow& window, const QString& file) {
+    window.actions().transfer->trigger();
+    auto* dock = window.findChild<QDockWidget*>(QStringLiteral("transfer"));
+    if (!dock)
+        return false;
+    settle(session, window);
+    window.viewport().picker().pinAt(
+        QPointF(window.viewport().width() * 0.54, window.viewport().height() * 0.38));
+    runUntil([&] { return session.probe.pin().has_value(); }, 30'000);
+    settle(10'000); // the study of the point, which gives way to everything
+    const bool ok = save(*dock, file);
+    session.probe.setPin(std::nullopt);
+    window.actions().transfer->trigger();
+    return ok;
+}
+
 // A point of the worn edge pinned, its formulas open.
 bool savePixel(Session& session, MainWindow& window, const QString& file) {
     window.actions().pixel->trigger();
-    settle(3000);
+    settle(session, window);
     window.viewport().picker().pinAt(
         QPointF(window.viewport().width() * 0.47, window.viewport().height() * 0.42));
-    settle(1000);
+    runUntil([&] { return session.probe.pin().has_value(); }, 30'000);
+    settle(session, window);
     Q_EMIT window.findChild<ContributionChart*>()->chosen(QStringLiteral("diffuseIbl"));
     settle(200);
     const bool ok = save(window, file);
@@ -299,7 +340,8 @@ int main(int argc, char* argv[]) {
     const QString bounces = folder.filePath(QStringLiteral("bounces.png"));
     if (bouncesAlone)
         return saveBounces(session, window, bounces) ? 0 : 1;
-    settle(6000); // image-based light at full resolution, then the refined frame
+    settle(6000); // image-based light at full resolution
+    settle(session, window);
     bool ok = save(window, folder.filePath(QStringLiteral("start.png")));
     ok &= saveLens(session, window, folder.filePath(QStringLiteral("lens.png")));
 
@@ -308,10 +350,7 @@ int main(int argc, char* argv[]) {
     session.views.showOther(patina::shading::kViewD);
     session.views.edit(
         [](patina::render::ViewSettings& settings) { settings.split->angleDeg = 15.0f; });
-    settle(1000);
-    const QSize full = window.viewport().size() * window.viewport().devicePixelRatioF();
-    runUntil([&] { return window.viewport().frameSize() == full; }, 60'000);
-    settle(5000); // thumbnails
+    settle(session, window);
     ok &= save(window, folder.filePath(QStringLiteral("looking.png")));
     session.views.set({});
 
@@ -319,6 +358,7 @@ int main(int argc, char* argv[]) {
     window.findChild<SoftboxList*>()->select(
         session.controller.document().environment.softboxes.front().id);
     settle(6000);
+    settle(session, window);
     ok &= save(window, folder.filePath(QStringLiteral("softboxes.png")));
     session.controller.setEnvironmentKind(patina::EnvironmentKind::Image);
 
@@ -330,7 +370,7 @@ int main(int argc, char* argv[]) {
     auto* equation = window.findChild<EquationBar*>();
     equation->setFolded(false);
     equation->open(patina::shading::kViewSpecularIbl);
-    settle(20'000); // thumbnails take their time
+    settle(session, window);
     ok &= save(window, folder.filePath(QStringLiteral("equation.png")));
     equation->close(0);
     equation->setFolded(true);
@@ -340,7 +380,7 @@ int main(int argc, char* argv[]) {
     session.controller.setParameter(*patina::findParameter("model.fresnel"),
                                     {patina::Scope::Model, 0},
                                     static_cast<int>(patina::Fresnel::Conductor));
-    settle(3000);
+    settle(session, window);
     ok &= save(window, folder.filePath(QStringLiteral("model.png")));
     session.controller.setParameter(*patina::findParameter("model.fresnel"),
                                     {patina::Scope::Model, 0},
@@ -349,7 +389,17 @@ int main(int argc, char* argv[]) {
     ok &= saveEnergy(session, window, folder.filePath(QStringLiteral("energy.png")));
 
     raiseDock(window, QStringLiteral("bake"));
-    raiseDock(window, QStringLiteral("jobs"));
+    auto* jobsDock = window.findChild<QDockWidget*>(QStringLiteral("jobs"));
+    auto* form = window.findChild<BakeSettingsForm*>();
+    if (!jobsDock || !form)
+        return 1;
+    jobsDock->show();
+    patina::BakeRequest request;
+    request.prt.order = 5;
+    request.prt.samples = 256;
+    request.prt.transfer = patina::TransferKind::Interreflected;
+    request.prt.bounceSamples = 32;
+    form->setRequest(request);
     auto* start = window.findChild<QPushButton*>(QStringLiteral("bakeStart"));
     if (!start)
         return 1;
@@ -363,8 +413,13 @@ int main(int argc, char* argv[]) {
         60'000);
     ok &= save(window, folder.filePath(QStringLiteral("bake.png")));
     runUntil([&] { return session.jobs.runningCount() == 0; }, 300'000);
-    settle(3000);
-    ok &= save(window, folder.filePath(QStringLiteral("prt.png")));
+    jobsDock->hide();
+    session.views.show(patina::shading::kViewShLight);
+    session.views.showOther(patina::shading::kViewInterreflectedLight);
+    settle(session, window);
+    ok &= save(window, folder.filePath(QStringLiteral("lighting.png")));
+    session.views.set({});
+    ok &= saveTransfer(session, window, folder.filePath(QStringLiteral("transfer.png")));
 
     window.actions().saveEnvironment->trigger();
     settle(800);
