@@ -31,13 +31,15 @@ QString summaryOf(const BakeArtifact& artifact) {
         .arg(isPerTexel(artifact.kind) ? BakeRunner::tr("texel") : BakeRunner::tr("vertex"));
 }
 
-// From the job's thread.
+// Of a checkpoint that cannot be written; from the job's thread.
 void warn(DocumentController& controller, const Error& error) {
     QMetaObject::invokeMethod(
         &controller,
         [&controller, error] {
             UserNotice notice = UserNotice::fromError(error);
             notice.kind = NoticeKind::Warning;
+            notice.text = BakeRunner::tr("The bake goes on, but no checkpoint of it is kept: %1")
+                              .arg(QString::fromStdString(error.message));
             Q_EMIT controller.noticed(notice);
         },
         Qt::QueuedConnection);
