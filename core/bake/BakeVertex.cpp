@@ -51,7 +51,7 @@ std::string noteOf(const BakeGeometry& geometry, const RayScene& scene,
 }
 
 // Advice where triangles cannot show their shadows: from about this share of the surface on it is
-// seen in pictures, by several per cent of their mean (docs/maths/transfer-truth.md).
+// seen in pictures, by a few per cent of their mean (docs/maths/transfer-truth.md).
 void noteCoarseMeshes(BakeArtifact& artifact, const BakeInputs& inputs) {
     constexpr int kEnoughRays = 128; // their noise is below the tolerance
     constexpr double kMuch = 0.005;

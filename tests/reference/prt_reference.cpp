@@ -160,6 +160,12 @@ int run(const Options& options) {
     if (options.camera.size() > 2)
         camera.distance = options.camera[2];
     std::vector<std::optional<Place>> places = scene->look(camera, n * width, n * height);
+    if (std::none_of(places.begin(), places.end(),
+                     [](const auto& place) { return place.has_value(); }))
+        return fail({ErrorKind::Usage,
+                     "shows nothing from there; choose another --camera",
+                     options.scene,
+                     {}});
     if (!options.albedo.empty()) {
         const Result<std::vector<glm::dvec3>> albedo =
             loadPixels(worker, options.albedo, places.size());
