@@ -139,6 +139,36 @@ Result<BakeArtifact> bakeOf(const ReferenceScene& scene, const Options& options)
     return bake(request, scene.inputs(), nobody, {});
 }
 
+// What the camera sees, --supersample places across a pixel.
+Result<std::vector<std::optional<Place>>> placesSeen(WorkerClient& worker, const Document& document,
+                                                     const ReferenceScene& scene,
+                                                     const Options& options) {
+    const int n = options.supersample, width = options.size.at(0), height = options.size.at(1);
+    Camera camera = document.view.camera;
+    camera.yawDeg = options.camera.at(0);
+    camera.pitchDeg = options.camera.at(1);
+    camera = frameBounds(camera, document.bounds(), float(width) / float(height));
+    if (options.camera.size() > 2)
+        camera.distance = options.camera[2];
+    std::vector<std::optional<Place>> places = scene.look(camera, n * width, n * height);
+    if (std::none_of(places.begin(), places.end(),
+                     [](const auto& place) { return place.has_value(); }))
+        return Error{ErrorKind::Usage,
+                     "shows nothing from there; choose another --camera",
+                     options.scene,
+                     {}};
+    if (options.albedo.empty())
+        return places;
+    const Result<std::vector<glm::dvec3>> albedo =
+        loadPixels(worker, options.albedo, places.size());
+    if (!albedo)
+        return albedo.error();
+    for (std::size_t p = 0; p < places.size(); ++p)
+        if (places[p])
+            places[p]->albedo = (*albedo)[p];
+    return places;
+}
+
 int run(const Options& options) {
     const ThreadLimit limit(options.threads);
     WorkerClient worker;
@@ -152,29 +182,12 @@ int run(const Options& options) {
     if (!scene)
         return fail(scene.error());
 
-    Camera camera = document.view.camera;
-    camera.yawDeg = options.camera.at(0);
-    camera.pitchDeg = options.camera.at(1);
     const int n = options.supersample, width = options.size.at(0), height = options.size.at(1);
-    camera = frameBounds(camera, document.bounds(), float(width) / float(height));
-    if (options.camera.size() > 2)
-        camera.distance = options.camera[2];
-    std::vector<std::optional<Place>> places = scene->look(camera, n * width, n * height);
-    if (std::none_of(places.begin(), places.end(),
-                     [](const auto& place) { return place.has_value(); }))
-        return fail({ErrorKind::Usage,
-                     "shows nothing from there; choose another --camera",
-                     options.scene,
-                     {}});
-    if (!options.albedo.empty()) {
-        const Result<std::vector<glm::dvec3>> albedo =
-            loadPixels(worker, options.albedo, places.size());
-        if (!albedo)
-            return fail(albedo.error());
-        for (std::size_t p = 0; p < places.size(); ++p)
-            if (places[p])
-                places[p]->albedo = (*albedo)[p];
-    }
+    const Result<std::vector<std::optional<Place>>> looked =
+        placesSeen(worker, document, *scene, options);
+    if (!looked)
+        return fail(looked.error());
+    const std::vector<std::optional<Place>>& places = *looked;
     const std::vector<std::optional<Place>> shown = blocks(places, n * width, n);
 
     std::vector<ReferenceLight> lights;
@@ -292,7 +305,8 @@ int main(int argc, char* argv[]) {
                    "Picture of the albedos that are seen, of patina render --view diffuseAlbedo: "
                    "with maps filtered as in the pictures, instead of texel by texel");
     app.add_option("--supersample", options.supersample,
-                   "Compares means of N × N pixels; --paths are shared among them");
+                   "Compares means of N × N pixels; --paths are shared among them")
+        ->check(CLI::PositiveNumber);
     app.add_option("--show", options.shown, "Orders of the pictures")->delimiter(',');
     app.add_option("--threads", options.threads, "0: all");
     CLI11_PARSE(app, argc, argv);
