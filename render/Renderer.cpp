@@ -23,8 +23,8 @@ FrameBlock Renderer::Impl::packFrame(const FrameSettings& frame) const {
     return block;
 }
 
-Result<void> Renderer::Impl::relightFor(ViewKind kind, const FrameBlock& block) {
-    return relight.update(scene, lightingOf(kind, scene.document().view.lighting), block);
+LightingMode Renderer::Impl::lightingFor(const ViewSettings& view, ViewKind kind) const {
+    return lightingOf(kind, view.lighting.value_or(scene.document().view.lighting));
 }
 
 void Renderer::Impl::useFrame(const FrameBlock& block) {
@@ -33,24 +33,24 @@ void Renderer::Impl::useFrame(const FrameBlock& block) {
 }
 
 SurfaceSettings Renderer::Impl::surfaceSettings(const FrameBlock& block, SurfaceOutput output,
-                                                ViewKind kind) const {
-    const Document& document = scene.document();
-    return {lightingOf(kind, document.view.lighting),
+                                                LightingMode lighting) const {
+    return {lighting,
             block.lightEnds.y > 0,
             block.lightEnds.w > block.lightEnds.y,
             block.lightEnds,
             static_cast<int>(shadows.lights().size()),
-            document.model,
+            scene.document().model,
             output};
 }
 
 Result<void> Renderer::Impl::drawPicture(const FrameSettings& frame, const FrameBlock& block,
                                          const gl::Framebuffer& target, SurfaceOutput output,
                                          bool withBackground, ViewKind kind) {
-    if (auto done = relightFor(kind, block); !done)
+    const LightingMode lighting = lightingFor(frame.view, kind);
+    if (auto done = relight.update(scene, lighting, block); !done)
         return done;
     const Document& document = scene.document();
-    SurfaceSettings settings = surfaceSettings(block, output, kind);
+    SurfaceSettings settings = surfaceSettings(block, output, lighting);
     settings.floats = target.id() != targets.scene().id();
     if (frame.coarse)
         settings.coarseView = block.worldToClip;
@@ -300,6 +300,10 @@ bool Renderer::luminancePending() const {
 
 std::optional<Luminance> Renderer::readLuminance() {
     return m_impl->adaptation.read();
+}
+
+std::vector<ProgramKey> Renderer::programs() const {
+    return m_impl->shaders.keys();
 }
 
 std::vector<std::string> Renderer::reloadShaders() {

@@ -10,6 +10,7 @@
 #include "core/light/EnvironmentTexels.h"
 #include "render/gl/Context.h"
 #include "render/scene/SurfaceLobe.h"
+#include "render/shader/ShaderLibrary.h"
 #include "render/view/Inspection.h"
 #include "render/view/ViewSettings.h"
 
@@ -142,6 +143,9 @@ class Renderer {
     // picture's own; nothing for views without one. The other: that right of the split.
     [[nodiscard]] std::optional<ViewRange> shownRange() const;
     [[nodiscard]] std::optional<ViewRange> otherRange() const;
+
+    // What it has compiled so far: files and #defines of each program.
+    [[nodiscard]] std::vector<ProgramKey> programs() const;
 
     // Recompiles shaders that changed on disk; a shader that does not compile keeps the last good
     // program. Returns the messages (file, line) of what failed.

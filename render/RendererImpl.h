@@ -66,11 +66,10 @@ struct Renderer::Impl {
     // --- Renderer.cpp
     [[nodiscard]] FrameBlock packFrame(const FrameSettings& frame) const;
     void useFrame(const FrameBlock& block);
-    // Light under transfer in the frame's lights, for a view of this kind; nothing to do while
-    // nothing has changed. The frame's block is in use.
-    Result<void> relightFor(ViewKind kind, const FrameBlock& block);
+    // How a view of this kind is lit.
+    [[nodiscard]] LightingMode lightingFor(const ViewSettings& view, ViewKind kind) const;
     [[nodiscard]] SurfaceSettings surfaceSettings(const FrameBlock& block, SurfaceOutput output,
-                                                  ViewKind kind) const;
+                                                  LightingMode lighting) const;
     // The scene with its background into a target of radiance.
     Result<void> drawPicture(const FrameSettings& frame, const FrameBlock& block,
                              const gl::Framebuffer& target, SurfaceOutput output,

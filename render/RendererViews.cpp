@@ -86,7 +86,8 @@ Result<void> Renderer::Impl::drawNumbers(const FrameSettings& frame, const Frame
     views.setBlock(settings);
     if (asPicture)
         return drawPicture(frame, block, target, output, settings.kinds[0] == kViewFinal, kind);
-    if (auto done = relightFor(kind, block); !done)
+    const LightingMode lighting = lightingFor(frame.view, kind);
+    if (auto done = relight.update(scene, lighting, block); !done)
         return done;
     shadows.bind();
     const DrawList list = makeDrawList(scene.items(), block.worldToClip, frame.camera.position());
@@ -95,7 +96,7 @@ Result<void> Renderer::Impl::drawNumbers(const FrameSettings& frame, const Frame
     for (int i = 0; i < (output == SurfaceOutput::EightViews ? 8 : 1); ++i)
         glClearNamedFramebufferfv(target.id(), GL_COLOR, i, kNothing.data());
     target.clearDepth(1.0f);
-    SurfaceSettings surfaces = surfaceSettings(block, output, kind);
+    SurfaceSettings surfaces = surfaceSettings(block, output, lighting);
     surfaces.floats = output == SurfaceOutput::OneView; // others are never drawn otherwise
     // Blended surfaces, too, stand for themselves.
     if (auto done = surface.drawOpaque(scene, list, surfaces); !done)
@@ -373,11 +374,12 @@ Result<Inspection> Renderer::inspect(int x, int y) {
         result.material = r.scene.document().mesh(*id)->material;
         r.views.setBlock(r.viewsBlock(r.lastFrame.view, {}, false));
         r.shadows.bind();
-        if (auto done = r.relightFor(kViewFinal, r.lastBlock); !done)
+        const LightingMode lighting = r.lightingFor(r.lastFrame.view, kViewFinal);
+        if (auto done = r.relight.update(r.scene, lighting, r.lastBlock); !done)
             return done;
         return r.inspection.draw(
             r.scene, *item, r.picking, r.surface,
-            r.surfaceSettings(r.lastBlock, SurfaceOutput::Inspection, kViewFinal), x, fromBottom,
+            r.surfaceSettings(r.lastBlock, SurfaceOutput::Inspection, lighting), x, fromBottom,
             result);
     };
     const auto inspectPicture = [&]() -> Result<void> {

@@ -2,6 +2,7 @@
 
 #include "core/base/Hash.h"
 #include "core/document/Edit.h"
+#include "core/document/Lighting.h"
 #include "render/pass/SurfacePass.h"
 #include "render/scene/LightBlocks.h"
 
@@ -49,17 +50,17 @@ std::array<MapSlot*, 6> slots(Material& m) {
             &m.normalMap,    &m.occlusionMap, &m.emissiveMap};
 }
 
-SurfaceSettings settingsOf(const Document& document, SurfaceOutput output) {
+SurfaceSettings settingsOf(const Document& document, const FrameKind& frame) {
     FrameBlock block;
     packLights(document, {}, block);
     SurfaceSettings settings;
-    settings.lighting = document.view.lighting;
+    settings.lighting = frame.lighting;
     settings.lightEnds = block.lightEnds;
     settings.hasPunctualLights = block.lightEnds.y > 0;
     settings.hasAreaLights = block.lightEnds.w > block.lightEnds.y;
     settings.shadows = std::min(static_cast<int>(castingLights(document).size()), kMaxShadows);
     settings.model = document.model;
-    settings.output = output;
+    settings.output = frame.output;
     return settings;
 }
 
@@ -165,8 +166,38 @@ EnvironmentTexels someSky() {
 
 } // namespace
 
-std::map<std::uint64_t, Id> surfacePrograms(const Document& document, SurfaceOutput output) {
-    const SurfaceSettings settings = settingsOf(document, output);
+std::vector<FrameKind> frameKinds(const ViewSettings& view, const Document& document) {
+    const LightingMode lighting = view.lighting.value_or(document.view.lighting);
+    const auto kindOf = [&](const ViewChoice& choice) {
+        return FrameKind{view.isOrdinary(choice) ? SurfaceOutput::Picture : SurfaceOutput::OneView,
+                         lightingOf(choice.kind, lighting)};
+    };
+    std::vector<FrameKind> kinds{kindOf(view.shown)};
+    if (view.split && kindOf(view.split->other) != kinds.front())
+        kinds.push_back(kindOf(view.split->other));
+    return kinds;
+}
+
+FrameKind sheetKind(ViewKind kind, const Document& document) {
+    return {SurfaceOutput::EightViews, lightingOf(kind, document.view.lighting)};
+}
+
+std::vector<FrameKind> allFrameKinds(const Document& document) {
+    const LightingMode own = document.view.lighting;
+    std::vector<FrameKind> kinds{{SurfaceOutput::OneView, own},
+                                 {SurfaceOutput::EightViews, own},
+                                 {SurfaceOutput::Inspection, own},
+                                 {SurfaceOutput::Picture, own}};
+    for (const SurfaceOutput output : {SurfaceOutput::Picture, SurfaceOutput::EightViews})
+        for (const ViewInfo& info : views())
+            if (const LightingMode lighting = lightingOf(info.kind, own);
+                lighting != own && whyEmpty(info.kind, document).empty())
+                kinds.push_back({output, lighting});
+    return kinds;
+}
+
+std::map<std::uint64_t, Id> surfacePrograms(const Document& document, const FrameKind& frame) {
+    const SurfaceSettings settings = settingsOf(document, frame);
     std::map<std::uint64_t, Id> programs;
     for (const MeshInstance& mesh : document.meshes) {
         if (!mesh.visible || !mesh.mesh || mesh.mesh->indices.empty())
@@ -187,8 +218,11 @@ std::map<std::uint64_t, Id> surfacePrograms(const Document& document, SurfaceOut
 Document warmUpScene(const Document& document) {
     Document scene = document;
     scene.meshes.clear();
-    std::set<Id> meshes, materials;
-    for (const auto& [program, id] : surfacePrograms(document, SurfaceOutput::Picture)) {
+    std::set<Id> needed, meshes, materials;
+    for (const FrameKind& frame : allFrameKinds(document))
+        for (const auto& [program, id] : surfacePrograms(document, frame))
+            needed.insert(id);
+    for (const Id id : needed) {
         if (scene.meshes.size() == kMost)
             break;
         MeshInstance mesh = *document.mesh(id);
@@ -260,13 +294,16 @@ Result<void> WarmUp::drawFrame(const ViewSettings& view, const JobContext& job) 
     return {};
 }
 
-Result<void> WarmUp::drawViews(const JobContext& job) {
+Result<void> WarmUp::drawViews(LightingMode lighting, const JobContext& job) {
     for (const ViewMode mode : {ViewMode::Raw, ViewMode::Contribution})
         for (const ViewInfo& info : views()) {
             if (mode == ViewMode::Contribution && info.contribution.empty())
                 continue;
+            if (info.group == ViewGroup::Lighting) // the picture in other light
+                continue;
             ViewSettings view;
             view.shown = {info.kind, mode, {}};
+            view.lighting = lighting;
             // The picture itself, with a term switched off, is made by the same program as a view.
             if (view.isOrdinary(view.shown))
                 view.terms[0] = false;
@@ -276,8 +313,21 @@ Result<void> WarmUp::drawViews(const JobContext& job) {
     return {};
 }
 
-Result<void> WarmUp::inspectAll(const JobContext& job) {
-    if (auto done = drawFrame({}, job); !done)
+Result<void> WarmUp::drawSheet(LightingMode lighting) {
+    ViewSheet sheet{{shading::kViewFinal, shading::kViewBaseColor, shading::kViewNoV}};
+    sheet.width = m_frame.width;
+    sheet.height = m_frame.height;
+    m_frame.view = {};
+    m_frame.view.lighting = lighting;
+    if (auto drawn = m_renderer->drawSheet(m_frame, sheet); !drawn)
+        return drawn.error();
+    return {};
+}
+
+Result<void> WarmUp::inspectAll(LightingMode lighting, const JobContext& job) {
+    ViewSettings view;
+    view.lighting = lighting;
+    if (auto done = drawFrame(view, job); !done)
         return done;
     const glm::mat4 worldToClip =
         m_frame.camera.projectionMatrix(static_cast<float>(m_frame.width) /
@@ -296,29 +346,23 @@ Result<void> WarmUp::inspectAll(const JobContext& job) {
     return {};
 }
 
-Result<void> WarmUp::draw(SurfaceOutput output, const JobContext& job) {
+Result<void> WarmUp::draw(const FrameKind& frame, const JobContext& job) {
     if (m_scene.meshes.empty())
         return {};
-    switch (output) {
-    case SurfaceOutput::Picture:
-        return drawFrame({}, job);
-    case SurfaceOutput::OneView:
-        return drawViews(job);
-    case SurfaceOutput::EightViews: {
-        ViewSheet sheet{{shading::kViewFinal, shading::kViewBaseColor, shading::kViewNoV}};
-        // The thumbnails of ways to light, whose light under transfer is compiled with them.
-        if (hasTransfer(m_scene))
-            sheet.kinds.insert(sheet.kinds.end(),
-                               {shading::kViewUnshadowedLight, shading::kViewShadowedLight,
-                                shading::kViewInterreflectedLight});
-        sheet.width = m_frame.width;
-        sheet.height = m_frame.height;
-        if (auto drawn = m_renderer->drawSheet(m_frame, sheet); !drawn)
-            return drawn.error();
-        return {};
+    if (job.cancelled())
+        return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
+    switch (frame.output) {
+    case SurfaceOutput::Picture: {
+        ViewSettings view;
+        view.lighting = frame.lighting;
+        return drawFrame(view, job);
     }
+    case SurfaceOutput::OneView:
+        return drawViews(frame.lighting, job);
+    case SurfaceOutput::EightViews:
+        return drawSheet(frame.lighting);
     case SurfaceOutput::Inspection:
-        return inspectAll(job);
+        return inspectAll(frame.lighting, job);
     }
     return {};
 }

@@ -9,16 +9,34 @@
 #include "render/Renderer.h"
 #include "render/pass/SurfaceOutput.h"
 
+#include <compare>
 #include <cstdint>
 #include <map>
+#include <vector>
 
 namespace patina::render {
 
+// Frames of a document that are drawn with the same programs: what surfaces write, and how they are
+// lit.
+struct FrameKind {
+    SurfaceOutput output = SurfaceOutput::Picture;
+    LightingMode lighting = LightingMode::Ibl;
+    friend auto operator<=>(const FrameKind&, const FrameKind&) = default;
+};
+
+// What a frame with this view is drawn as: one kind, or one for each side.
+[[nodiscard]] std::vector<FrameKind> frameKinds(const ViewSettings& view, const Document& document);
+// What a thumbnail of a view is drawn as.
+[[nodiscard]] FrameKind sheetKind(ViewKind kind, const Document& document);
+// Everything that may be looked at: first in the document's light, then in the others that have
+// views in this document.
+[[nodiscard]] std::vector<FrameKind> allFrameKinds(const Document& document);
+
 // The programs of surface.frag that frames of `document` are drawn with, and for each a mesh
 // instance that needs it. A program's name is a hash of what drivers compile it for: its variant
-// and the formats of the maps it reads.
+// and the formats of the maps it reads; light under transfer comes with it.
 [[nodiscard]] std::map<std::uint64_t, Id> surfacePrograms(const Document& document,
-                                                          SurfaceOutput output);
+                                                          const FrameKind& frame);
 
 // A document that is drawn with the programs of `document` at next to no cost: for each of them a
 // square with its material, side by side along x, the maps reduced to 4 × 4 texels.
@@ -32,13 +50,16 @@ class WarmUp {
 
     // Draws what frames of this kind need: the picture with its overlays, every view, a sheet, the
     // explanation of a pixel. Cancelled between two frames when the job is.
-    Result<void> draw(SurfaceOutput output, const JobContext& job);
+    Result<void> draw(const FrameKind& frame, const JobContext& job);
+
+    [[nodiscard]] const Renderer& renderer() const { return *m_renderer; }
 
   private:
     WarmUp(gl::Context& context, std::unique_ptr<Renderer> renderer, const Document& document);
     Result<void> drawFrame(const ViewSettings& view, const JobContext& job);
-    Result<void> drawViews(const JobContext& job);
-    Result<void> inspectAll(const JobContext& job);
+    Result<void> drawViews(LightingMode lighting, const JobContext& job);
+    Result<void> drawSheet(LightingMode lighting);
+    Result<void> inspectAll(LightingMode lighting, const JobContext& job);
 
     gl::Context& m_context;
     std::unique_ptr<Renderer> m_renderer;

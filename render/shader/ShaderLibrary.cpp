@@ -74,6 +74,13 @@ Result<const gl::Program*> ShaderLibrary::program(const ProgramKey& key) {
     return &m_programs.emplace(key, std::move(entry)).first->second.program;
 }
 
+std::vector<ProgramKey> ShaderLibrary::keys() const {
+    std::vector<ProgramKey> keys;
+    for (const auto& [key, entry] : m_programs)
+        keys.push_back(key);
+    return keys;
+}
+
 std::vector<std::string> ShaderLibrary::reload() {
     std::vector<std::string> messages;
     for (auto& [key, entry] : m_programs) {

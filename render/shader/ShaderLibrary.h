@@ -33,6 +33,7 @@ class ShaderLibrary {
     // failed, each line as "file:line: …"; they keep their last good program.
     std::vector<std::string> reload();
 
+    [[nodiscard]] std::vector<ProgramKey> keys() const; // of its programs
     [[nodiscard]] std::size_t programCount() const { return m_programs.size(); }
     [[nodiscard]] std::size_t compilations() const { return m_compilations; } // so far
 

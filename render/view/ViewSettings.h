@@ -1,7 +1,7 @@
 // What of the shading equation a frame shows, and how.
 #pragma once
 
-#include "core/document/Views.h"
+#include "core/document/Lighting.h"
 #include "core/material/Material.h"
 
 #include <array>
@@ -45,6 +45,8 @@ struct ViewSettings {
     // Whose D, G, F, N·L …: a shining light's id; 0: the mirror direction of the view.
     Id light = 0;
     float flags = 1.0f; // 0…1: strength of the marks of invalid pixels, so that they can blink
+    // How the picture is lit instead of what the document says, where the view has no say in it.
+    std::optional<LightingMode> lighting;
     // A constant environment of this radiance instead of the document's, without lights.
     std::optional<glm::vec3> furnace;
     friend bool operator==(const ViewSettings&, const ViewSettings&) = default;

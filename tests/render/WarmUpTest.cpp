@@ -1,5 +1,5 @@
 #include "render/WarmUp.h"
-#include "tests/render/RenderTest.h"
+#include "tests/render/TransferScenes.h"
 
 #include <algorithm>
 
@@ -7,6 +7,8 @@ using namespace patina;
 using namespace patina::render;
 
 namespace {
+
+constexpr FrameKind kPicture{SurfaceOutput::Picture, LightingMode::Ibl};
 
 // Two spheres of one material and one of another, which has two maps of one image.
 Document twoMaterials() {
@@ -36,32 +38,32 @@ Light bulb(Document& document, LightType type) {
 
 TEST(SurfacePrograms, AreTheSameForWhatIsDrawnTheSame) {
     const Document document = twoMaterials();
-    const auto programs = surfacePrograms(document, SurfaceOutput::Picture);
+    const auto programs = surfacePrograms(document, kPicture);
     EXPECT_EQ(programs.size(), 2u);
     Document other = document;
     other.materials[0].baseColor = {1, 0, 0};
     other.view.camera.yawDeg += 10.0f;
     other.environment.exposureEv = 1.0f;
-    EXPECT_EQ(surfacePrograms(other, SurfaceOutput::Picture), programs);
+    EXPECT_EQ(surfacePrograms(other, kPicture), programs);
     other.meshes[2].visible = false;
-    EXPECT_EQ(surfacePrograms(other, SurfaceOutput::Picture).size(), 1u);
+    EXPECT_EQ(surfacePrograms(other, kPicture).size(), 1u);
 }
 
 TEST(SurfacePrograms, DifferByWhatDriversCompileFor) {
     const Document document = twoMaterials();
-    const auto programs = surfacePrograms(document, SurfaceOutput::Picture);
-    const auto differs = [&](const char* what, auto edit, SurfaceOutput output) {
+    const auto programs = surfacePrograms(document, kPicture);
+    const auto differs = [&](const char* what, auto edit, FrameKind frame) {
         SCOPED_TRACE(what);
         Document other = document;
         edit(other);
-        const auto now = surfacePrograms(other, output);
-        for (const auto& [program, mesh] : surfacePrograms(document, output))
+        const auto now = surfacePrograms(other, frame);
+        for (const auto& [program, mesh] : surfacePrograms(document, frame))
             EXPECT_FALSE(now.contains(program));
     };
     const auto light = [](LightType type) {
         return [type](Document& d) { d.lights.push_back(bulb(d, type)); };
     };
-    const auto picture = SurfaceOutput::Picture, view = SurfaceOutput::OneView;
+    const FrameKind picture = kPicture, view{SurfaceOutput::OneView, LightingMode::Ibl};
     differs("a light", light(LightType::Point), picture);
     differs("an area light", light(LightType::Rectangle), view);
     differs(
@@ -89,6 +91,67 @@ TEST(SurfacePrograms, DifferByWhatDriversCompileFor) {
     EXPECT_NE(surfacePrograms(sharper, picture), programs) << "a side that is a power of two";
 }
 
+// Transfer for one of two meshes that share a material: in classical light one program draws both.
+Document halfBaked() {
+    Document document = twoMaterials();
+    Document baked = document;
+    baked.meshes.resize(1);
+    document.bakes = {openBake(baked, 3, 0.5f)};
+    return document;
+}
+
+TEST(FrameKinds, AreThoseOfTheViewsOnBothSides) {
+    Document document = makeScene(makeSphere(8));
+    ViewSettings view;
+    using Kinds = std::vector<FrameKind>;
+    EXPECT_EQ(frameKinds(view, document), Kinds{kPicture});
+    view.shown.kind = shading::kViewUnshadowedLight;
+    const FrameKind unshadowed{SurfaceOutput::Picture, LightingMode::Unshadowed};
+    EXPECT_EQ(frameKinds(view, document), Kinds{unshadowed});
+    view.split.emplace().other.kind = shading::kViewNoV;
+    EXPECT_EQ(frameKinds(view, document),
+              (Kinds{unshadowed, {SurfaceOutput::OneView, LightingMode::Ibl}}));
+    view.split->other.kind = shading::kViewUnshadowedLight;
+    EXPECT_EQ(frameKinds(view, document), Kinds{unshadowed}) << "once for both";
+    view.terms[1] = false;
+    view.split.reset();
+    EXPECT_EQ(frameKinds(view, document),
+              (Kinds{{SurfaceOutput::OneView, LightingMode::Unshadowed}}));
+    document.view.lighting = LightingMode::Cosine;
+    EXPECT_EQ(frameKinds({}, document), (Kinds{{SurfaceOutput::Picture, LightingMode::Cosine}}));
+    view = {};
+    view.lighting = LightingMode::Ibl; // held while the document's is compiled
+    EXPECT_EQ(frameKinds(view, document), Kinds{kPicture});
+    EXPECT_EQ(sheetKind(shading::kViewShadowedLight, document),
+              (FrameKind{SurfaceOutput::EightViews, LightingMode::Shadowed}));
+    EXPECT_EQ(sheetKind(shading::kViewNoV, document),
+              (FrameKind{SurfaceOutput::EightViews, LightingMode::Cosine}));
+}
+
+TEST(FrameKinds, LightNeedsProgramsOfItsOwn) {
+    const Document document = halfBaked();
+    const auto programs = [&](LightingMode lighting) {
+        return surfacePrograms(document, {SurfaceOutput::Picture, lighting});
+    };
+    EXPECT_EQ(programs(LightingMode::Ibl).size(), 2u);
+    EXPECT_EQ(programs(LightingMode::Shadowed).size(), 3u);
+    for (const auto& [program, mesh] : programs(LightingMode::Ibl))
+        EXPECT_FALSE(programs(LightingMode::Unshadowed).contains(program));
+    const auto all = allFrameKinds(document);
+    for (const LightingMode lighting :
+         {LightingMode::Cosine, LightingMode::ShIrradiance, LightingMode::Unshadowed,
+          LightingMode::Shadowed, LightingMode::Prt})
+        for (const SurfaceOutput output : {SurfaceOutput::Picture, SurfaceOutput::EightViews})
+            EXPECT_EQ(std::count(all.begin(), all.end(), FrameKind{output, lighting}), 1);
+    const auto unbaked = allFrameKinds(twoMaterials());
+    for (const FrameKind& frame : unbaked)
+        EXPECT_LT(frame.lighting, LightingMode::Shadowed) << "there is no such view";
+    const Document scene = warmUpScene(document);
+    EXPECT_EQ(scene.meshes.size(), 3u);
+    for (const FrameKind& frame : all)
+        EXPECT_EQ(surfacePrograms(scene, frame), surfacePrograms(document, frame));
+}
+
 TEST(WarmUpScene, NeedsTheSameProgramsAtNextToNoCost) {
     Document document = twoMaterials();
     document.lights = {bulb(document, LightType::Spot), bulb(document, LightType::Rectangle)};
@@ -98,9 +161,8 @@ TEST(WarmUpScene, NeedsTheSameProgramsAtNextToNoCost) {
     ao.vertices.push_back({baked.id, 1, std::vector<float>(baked.mesh->vertexCount(), 0.5f)});
     document.bakes.push_back(std::make_shared<const BakeArtifact>(ao));
     const Document scene = warmUpScene(document);
-    for (const SurfaceOutput output : {SurfaceOutput::Picture, SurfaceOutput::OneView,
-                                       SurfaceOutput::EightViews, SurfaceOutput::Inspection})
-        EXPECT_EQ(surfacePrograms(scene, output), surfacePrograms(document, output));
+    for (const FrameKind& frame : allFrameKinds(document))
+        EXPECT_EQ(surfacePrograms(scene, frame), surfacePrograms(document, frame));
     EXPECT_EQ(scene.meshes.size(), 2u);
     EXPECT_EQ(scene.triangleCount(), 4u);
     const Material& packed = scene.materials.back();
@@ -111,16 +173,40 @@ TEST(WarmUpScene, NeedsTheSameProgramsAtNextToNoCost) {
 
 class WarmUpTest : public RenderTest {};
 
-TEST_F(WarmUpTest, DrawsEveryKindOfFrame) {
-    Document document = twoMaterials();
+// What the viewport does later, with a renderer of its own, needs nothing that is not there
+// already.
+TEST_F(WarmUpTest, CoversEveryWayToLight) {
+    Document document = halfBaked();
+    document.meshes.pop_back();
     document.lights = {bulb(document, LightType::Point)};
     auto warmUp = WarmUp::create(context(), document);
     ASSERT_TRUE(warmUp.ok()) << warmUp.error().text();
-    for (const SurfaceOutput output : {SurfaceOutput::Picture, SurfaceOutput::EightViews,
-                                       SurfaceOutput::Inspection, SurfaceOutput::OneView}) {
-        const auto done = warmUp->draw(output, JobContext());
-        EXPECT_TRUE(done.ok()) << done.error().text();
+    for (const FrameKind& frame : allFrameKinds(document))
+        ASSERT_TRUE(warmUp->draw(frame, JobContext()).ok());
+    const std::vector<ProgramKey> known = warmUp->renderer().programs();
+
+    FrameSettings frame;
+    frame.samples = 1;
+    for (const ViewInfo& info : views()) {
+        const bool light = info.group == ViewGroup::Lighting;
+        if (!light && info.kind != shading::kViewFinal && info.kind != shading::kViewNoV)
+            continue;
+        ASSERT_EQ(whyEmpty(info.kind, document), "");
+        SCOPED_TRACE(info.id);
+        frame.view.shown.kind = info.kind;
+        draw(document, 16, frame);
+        ViewSheet sheet{{info.kind}};
+        sheet.width = sheet.height = 8;
+        EXPECT_TRUE(renderer().drawSheet(frame, sheet).ok());
+        EXPECT_TRUE(renderer().inspect(8, 8).ok());
     }
+    std::size_t lit = 0;
+    for (const ProgramKey& key : renderer().programs()) {
+        EXPECT_NE(std::find(known.begin(), known.end(), key), known.end())
+            << ::testing::PrintToString(key.files) << ::testing::PrintToString(key.defines);
+        lit += key.files.front() == "relight.comp" ? 1 : 0;
+    }
+    EXPECT_GE(lit, 3u) << "transfer was lit";
 }
 
 TEST_F(WarmUpTest, StopsWhenItIsCancelled) {
@@ -128,8 +214,8 @@ TEST_F(WarmUpTest, StopsWhenItIsCancelled) {
     ASSERT_TRUE(warmUp.ok());
     JobControl control;
     control.cancel();
-    for (const SurfaceOutput output : {SurfaceOutput::Picture, SurfaceOutput::OneView}) {
-        const auto done = warmUp->draw(output, control.context());
+    for (const FrameKind& frame : allFrameKinds(twoMaterials())) {
+        const auto done = warmUp->draw(frame, control.context());
         ASSERT_FALSE(done.ok());
         EXPECT_EQ(done.error().kind, ErrorKind::Cancelled);
     }

@@ -2,7 +2,6 @@
 
 #include "core/base/Log.h"
 #include "core/job/Parallel.h"
-#include "render/WarmUp.h"
 
 #include <QMetaObject>
 #include <algorithm>
@@ -11,6 +10,7 @@
 namespace patina::editor {
 namespace {
 
+using render::FrameKind;
 using render::SurfaceOutput;
 
 // Of the calling thread, where drivers compile: other programs do not disturb the measurement.
@@ -24,7 +24,7 @@ constexpr double kCompilingMs = 100.0; // nothing but compiling makes a small sh
 
 // Milliseconds of drawing such frames in a context of its own, which is gone afterwards: only then
 // everything lies in the cache.
-Result<double> warmUp(const Document& document, SurfaceOutput output, const JobContext& job) {
+Result<double> warmUp(const Document& document, const FrameKind& frame, const JobContext& job) {
     auto context = gl::Context::createHeadless();
     if (!context)
         return context.error();
@@ -32,7 +32,7 @@ Result<double> warmUp(const Document& document, SurfaceOutput output, const JobC
     if (!made)
         return made.error();
     const double start = threadMs();
-    if (auto done = made->draw(output, job); !done)
+    if (auto done = made->draw(frame, job); !done)
         return done.error();
     return threadMs() - start;
 }
@@ -52,31 +52,31 @@ ProgramWarmer::~ProgramWarmer() {
 }
 
 ProgramWarmer::Programs ProgramWarmer::missing(const Document& document,
-                                               SurfaceOutput output) const {
+                                               const FrameKind& frame) const {
     Programs programs;
     if (!m_useless)
-        for (const auto& [program, mesh] : render::surfacePrograms(document, output))
+        for (const auto& [program, mesh] : render::surfacePrograms(document, frame))
             if (!m_known.contains(program))
                 programs.insert(program);
     return programs;
 }
 
-bool ProgramWarmer::knows(const Document& document, SurfaceOutput output) const {
-    return missing(document, output).empty();
+bool ProgramWarmer::knows(const Document& document, const FrameKind& frame) const {
+    return missing(document, frame).empty();
 }
 
-void ProgramWarmer::learn(const Document& document, SurfaceOutput output) {
-    m_known.merge(missing(document, output));
+void ProgramWarmer::learn(const Document& document, const FrameKind& frame) {
+    m_known.merge(missing(document, frame));
 }
 
-void ProgramWarmer::request(const Document& document, const std::vector<SurfaceOutput>& outputs,
+void ProgramWarmer::request(const Document& document, const std::vector<FrameKind>& frames,
                             Urgency urgency) {
     Task task{document, {}, !m_verified};
     Programs all;
-    for (const SurfaceOutput output : outputs)
-        if (Programs programs = missing(document, output); !programs.empty()) {
+    for (const FrameKind& frame : frames)
+        if (Programs programs = missing(document, frame); !programs.empty()) {
             all.insert(programs.begin(), programs.end());
-            task.outputs.emplace_back(output, std::move(programs));
+            task.frames.emplace_back(frame, std::move(programs));
         }
     const bool coming = m_running && m_urgency >= urgency &&
                         std::includes(m_underWay.begin(), m_underWay.end(), all.begin(), all.end());
@@ -126,12 +126,15 @@ void ProgramWarmer::work(quint64 id, const Task& task, const JobContext& job) {
 
 Result<void> ProgramWarmer::warm(quint64 id, const Task& task, const JobContext& job) {
     double sheetMs = 0.0;
-    for (const auto& [output, programs] : task.outputs) {
-        const auto ms = warmUp(task.document, output, job);
+    FrameKind sheet;
+    for (const auto& [frame, programs] : task.frames) {
+        const auto ms = warmUp(task.document, frame, job);
         if (!ms)
             return ms.error();
-        if (output == SurfaceOutput::EightViews)
+        if (frame.output == SurfaceOutput::EightViews) {
+            sheet = frame;
             sheetMs = *ms;
+        }
         post(id, [this, known = programs] {
             m_known.insert(known.begin(), known.end());
             Q_EMIT progressed();
@@ -140,7 +143,7 @@ Result<void> ProgramWarmer::warm(quint64 id, const Task& task, const JobContext&
     if (!task.verify || sheetMs < kCompilingMs)
         return {};
     // What was compiled just now should be found by whoever comes next.
-    const auto ms = warmUp(task.document, SurfaceOutput::EightViews, job);
+    const auto ms = warmUp(task.document, sheet, job);
     if (!ms)
         return ms.error();
     if (*ms > 0.5 * sheetMs)

@@ -6,7 +6,7 @@
 #include "core/base/Result.h"
 #include "core/document/Document.h"
 #include "core/job/JobContext.h"
-#include "render/pass/SurfaceOutput.h"
+#include "render/WarmUp.h"
 
 #include <QObject>
 #include <QThreadPool>
@@ -26,14 +26,14 @@ class ProgramWarmer : public QObject {
 
     // Whether such frames of the document are drawn without a stall: what they need is compiled, or
     // nothing can be done about it.
-    [[nodiscard]] bool knows(const Document& document, render::SurfaceOutput output) const;
+    [[nodiscard]] bool knows(const Document& document, const render::FrameKind& frame) const;
     // They have been drawn, or are about to be.
-    void learn(const Document& document, render::SurfaceOutput output);
+    void learn(const Document& document, const render::FrameKind& frame);
 
     enum class Urgency { Idle, Awaited };
     // Prepares frames of these kinds, one after the other. The newest request wins; one that asks
     // for nothing new leaves what is under way alone.
-    void request(const Document& document, const std::vector<render::SurfaceOutput>& outputs,
+    void request(const Document& document, const std::vector<render::FrameKind>& frames,
                  Urgency urgency);
     [[nodiscard]] bool busy() const { return m_running; }
 
@@ -45,10 +45,10 @@ class ProgramWarmer : public QObject {
     using Programs = std::set<std::uint64_t>;
     struct Task {
         Document document;
-        std::vector<std::pair<render::SurfaceOutput, Programs>> outputs;
+        std::vector<std::pair<render::FrameKind, Programs>> frames;
         bool verify = false; // that the driver keeps what it compiles
     };
-    [[nodiscard]] Programs missing(const Document& document, render::SurfaceOutput output) const;
+    [[nodiscard]] Programs missing(const Document& document, const render::FrameKind& frame) const;
 
     // On the pool's thread.
     void work(quint64 id, const Task& task, const JobContext& job);

@@ -39,10 +39,13 @@ void SheetScheduler::remove(SheetClient& client) {
     std::erase_if(m_entries, [&](const Entry& entry) { return entry.client == &client; });
 }
 
-bool SheetScheduler::wanted() const {
-    return std::any_of(m_entries.begin(), m_entries.end(), [](const Entry& entry) {
-        return !entry.client->wantedSheet().kinds.empty();
-    });
+std::vector<ViewKind> SheetScheduler::wanted() const {
+    std::vector<ViewKind> kinds;
+    for (const Entry& entry : m_entries) {
+        const render::ViewSheet sheet = entry.client->wantedSheet();
+        kinds.insert(kinds.end(), sheet.kinds.begin(), sheet.kinds.end());
+    }
+    return kinds;
 }
 
 void SheetScheduler::wake() {
@@ -63,7 +66,7 @@ void SheetScheduler::setResting(bool resting) {
         m_timer.stop();
 }
 
-render::ViewSheet SheetScheduler::nextSheet(Entry& entry) const {
+render::ViewSheet SheetScheduler::nextSheet(Entry& entry) {
     render::ViewSheet sheet = entry.client->wantedSheet();
     render::ViewSheet& format = entry.format;
     if (sheet.mode != format.mode || sheet.width != format.width || sheet.height != format.height) {
@@ -76,6 +79,8 @@ render::ViewSheet SheetScheduler::nextSheet(Entry& entry) const {
     });
     if (sheet.width <= 0 || sheet.height <= 0)
         sheet.kinds.clear();
+    if (m_ready && std::erase_if(sheet.kinds, [&](ViewKind kind) { return !m_ready(kind); }) > 0)
+        m_waits = true;
     if (sheet.kinds.size() > static_cast<std::size_t>(m_passViews))
         sheet.kinds.resize(static_cast<std::size_t>(m_passViews));
     return sheet;
@@ -84,6 +89,7 @@ render::ViewSheet SheetScheduler::nextSheet(Entry& entry) const {
 void SheetScheduler::drawNext() {
     if (!m_resting || !m_draw)
         return;
+    m_waits = false;
     for (std::size_t i = 0; i < m_entries.size(); ++i) {
         const std::size_t index = (m_turn + i) % m_entries.size();
         Entry& entry = m_entries[index];
@@ -119,7 +125,8 @@ void SheetScheduler::drawNext() {
         Q_EMIT passDrawn(static_cast<int>(sheet.kinds.size()), milliseconds);
         return;
     }
-    Q_EMIT allDrawn();
+    if (!m_waits)
+        Q_EMIT allDrawn();
 }
 
 } // namespace patina::editor

@@ -39,11 +39,15 @@ class SheetScheduler : public QObject {
 
     explicit SheetScheduler(QObject* parent = nullptr);
 
+    // Whether a view can be drawn now without a stall; others wait for wake().
+    using Ready = std::function<bool(ViewKind)>;
+
     void setDraw(Draw draw) { m_draw = std::move(draw); }
+    void setReady(Ready ready) { m_ready = std::move(ready); }
     void add(SheetClient& client);
     void remove(SheetClient& client);
 
-    [[nodiscard]] bool wanted() const; // some client shows thumbnails
+    [[nodiscard]] std::vector<ViewKind> wanted() const; // by all clients
 
     void wake();                   // a client wants others, or another size
     void invalidate();             // the scene looks different: every thumbnail is old
@@ -74,9 +78,11 @@ class SheetScheduler : public QObject {
     };
     void drawNext();
     // The oldest wishes of one client that one pass can fulfil; no kinds: it has none.
-    [[nodiscard]] render::ViewSheet nextSheet(Entry& entry) const;
+    [[nodiscard]] render::ViewSheet nextSheet(Entry& entry);
 
     Draw m_draw;
+    Ready m_ready;
+    bool m_waits = false; // for what is not ready
     std::vector<Entry> m_entries;
     std::size_t m_turn = 0; // whose pass it is, so that no client waits for another
     quint64 m_version = 1;

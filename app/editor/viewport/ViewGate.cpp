@@ -2,26 +2,33 @@
 
 #include "app/editor/document/DocumentController.h"
 
+#include <algorithm>
+
 namespace patina::editor {
 namespace {
 
+using render::FrameKind;
 using render::SurfaceOutput;
 using render::ViewSettings;
 
 // A driver that takes longer may as well do so in the viewport.
 constexpr int kLongestWaitMs = 10'000;
 
-bool recordsTerms(const ViewSettings& view) {
-    return !view.isOrdinary(view.shown) || (view.split && !view.isOrdinary(view.split->other));
-}
-
 } // namespace
 
 ViewGate::ViewGate(DocumentController& controller, QObject* parent)
     : QObject(parent)
     , m_controller(controller) {
-    connect(&m_warmer, &ProgramWarmer::progressed, this, &ViewGate::opened);
+    connect(&m_warmer, &ProgramWarmer::progressed, this, [this] {
+        m_known.clear();
+        Q_EMIT opened();
+    });
     connect(&m_warmer, &ProgramWarmer::finished, this, &ViewGate::opened);
+    connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
+        m_passes |= change.affects == Affects::Everything;
+        if (change.affects != Affects::Nothing)
+            m_known.clear();
+    });
     m_limit.setSingleShot(true);
     m_limit.setInterval(kLongestWaitMs);
     connect(&m_limit, &QTimer::timeout, this, [this] {
@@ -31,20 +38,35 @@ ViewGate::ViewGate(DocumentController& controller, QObject* parent)
 }
 
 ViewSettings ViewGate::choose(const ViewSettings& wanted) {
-    // Who looks at a term already sees it follow edits at once, as the picture does.
-    const bool opens = recordsTerms(wanted) && !recordsTerms(m_view);
     const Document& document = m_controller.document();
-    if (opens && !m_passes && !m_warmer.knows(document, SurfaceOutput::OneView)) {
-        m_warmer.request(document, {SurfaceOutput::OneView}, ProgramWarmer::Urgency::Awaited);
+    std::vector<FrameKind> frames = render::frameKinds(wanted, document);
+    // What is looked at already is seen to follow edits at once.
+    const bool opens = !std::ranges::all_of(frames, [&](const FrameKind& frame) {
+        return std::ranges::find(m_drawn, frame) != m_drawn.end() || isOpen(frame);
+    });
+    if (opens && !m_passes) {
+        m_warmer.request(document, frames, ProgramWarmer::Urgency::Awaited);
         setWaiting(true);
-        return m_view;
+        return lastView();
     }
-    if (recordsTerms(wanted))
-        m_warmer.learn(document, SurfaceOutput::OneView);
+    for (const FrameKind& frame : frames)
+        if (!isOpen(frame)) {
+            m_warmer.learn(document, frame);
+            m_known[frame] = true;
+        }
     m_view = wanted;
+    m_lighting = document.view.lighting;
+    m_drawn = std::move(frames);
     m_passes = false;
     setWaiting(false);
     return m_view;
+}
+
+ViewSettings ViewGate::lastView() const {
+    ViewSettings view = m_view;
+    if (!view.lighting && m_lighting != m_controller.document().view.lighting)
+        view.lighting = m_lighting;
+    return view;
 }
 
 void ViewGate::setWaiting(bool waiting) {
@@ -58,21 +80,48 @@ void ViewGate::setWaiting(bool waiting) {
     Q_EMIT waitingChanged();
 }
 
-bool ViewGate::isOpen(SurfaceOutput output) const {
-    return m_warmer.knows(m_controller.document(), output);
+bool ViewGate::isOpen(const FrameKind& frame) const {
+    const auto [entry, isNew] = m_known.try_emplace(frame, false);
+    if (isNew)
+        entry->second = m_warmer.knows(m_controller.document(), frame);
+    return entry->second;
 }
 
-void ViewGate::prepare(SurfaceOutput output) {
+bool ViewGate::isOpenForSheets(ViewKind kind) const {
+    return isOpen(render::sheetKind(kind, m_controller.document()));
+}
+
+FrameKind ViewGate::inspection() const {
+    return {SurfaceOutput::Inspection, m_controller.document().view.lighting};
+}
+
+bool ViewGate::isOpenForInspection() const {
+    return isOpen(inspection());
+}
+
+void ViewGate::prepare(const std::vector<FrameKind>& frames) {
     if (!m_waiting)
-        m_warmer.request(m_controller.document(), {output}, ProgramWarmer::Urgency::Awaited);
+        m_warmer.request(m_controller.document(), frames, ProgramWarmer::Urgency::Awaited);
+}
+
+void ViewGate::prepareSheets(const std::vector<ViewKind>& kinds) {
+    std::vector<FrameKind> frames;
+    for (const ViewKind kind : kinds)
+        if (const FrameKind frame = render::sheetKind(kind, m_controller.document());
+            !isOpen(frame) && std::ranges::find(frames, frame) == frames.end())
+            frames.push_back(frame);
+    if (!frames.empty())
+        prepare(frames);
+}
+
+void ViewGate::prepareInspection() {
+    prepare({inspection()});
 }
 
 void ViewGate::rest() {
     if (!m_waiting && !m_warmer.busy())
-        m_warmer.request(
-            m_controller.document(),
-            {SurfaceOutput::OneView, SurfaceOutput::EightViews, SurfaceOutput::Inspection},
-            ProgramWarmer::Urgency::Idle);
+        m_warmer.request(m_controller.document(), render::allFrameKinds(m_controller.document()),
+                         ProgramWarmer::Urgency::Idle);
 }
 
 } // namespace patina::editor

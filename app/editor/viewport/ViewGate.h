@@ -1,5 +1,6 @@
 // Decides which view the next frame shows: the wanted one, or for a moment the last one, while the
-// driver compiles what the wanted one needs. So no frame stalls because somebody looks at a term.
+// driver compiles what the wanted one needs. So no frame stalls because somebody looks at a term,
+// or at the picture in another light.
 #pragma once
 
 #include "app/editor/viewport/ProgramWarmer.h"
@@ -7,6 +8,8 @@
 
 #include <QObject>
 #include <QTimer>
+#include <map>
+#include <vector>
 
 namespace patina::editor {
 
@@ -21,11 +24,14 @@ class ViewGate : public QObject {
     [[nodiscard]] render::ViewSettings choose(const render::ViewSettings& wanted);
     // The last frame is not the view that was asked for: it is being compiled.
     [[nodiscard]] bool waiting() const { return m_waiting; }
-    // Whether frames of that kind can be drawn without a stall.
-    [[nodiscard]] bool isOpen(render::SurfaceOutput output) const;
+    // Whether such frames can be drawn without a stall.
+    [[nodiscard]] bool isOpen(const render::FrameKind& frame) const;
+    [[nodiscard]] bool isOpenForSheets(ViewKind kind) const; // thumbnails of that view
+    [[nodiscard]] bool isOpenForInspection() const;
     [[nodiscard]] bool compiling() const { return m_warmer.busy(); }
-    // Somebody waits for such frames.
-    void prepare(render::SurfaceOutput output);
+    // Somebody waits for thumbnails of these views, or for the explanation of a pixel.
+    void prepareSheets(const std::vector<ViewKind>& kinds);
+    void prepareInspection();
     // Nobody needs the processor: what may be looked at next is prepared.
     void rest();
 
@@ -35,12 +41,18 @@ class ViewGate : public QObject {
 
   private:
     void setWaiting(bool waiting);
+    void prepare(const std::vector<render::FrameKind>& frames);
+    [[nodiscard]] render::FrameKind inspection() const;
+    [[nodiscard]] render::ViewSettings lastView() const;
 
     DocumentController& m_controller;
     ProgramWarmer m_warmer;
-    QTimer m_limit;              // runs out when a view has been waited for too long
-    bool m_passes = false;       // nothing is held back: the limit is reached
-    render::ViewSettings m_view; // of the last frame
+    QTimer m_limit;       // runs out when a view has been waited for too long
+    bool m_passes = true; // nothing is held back: the limit is reached, or the document is new
+    render::ViewSettings m_view;                       // of the last frame
+    LightingMode m_lighting = LightingMode::Ibl;       // of its document
+    std::vector<render::FrameKind> m_drawn;            // what it was drawn as
+    mutable std::map<render::FrameKind, bool> m_known; // what the warmer says of this document
     bool m_waiting = false;
 };
 

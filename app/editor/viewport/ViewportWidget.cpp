@@ -25,8 +25,6 @@
 namespace patina::editor {
 namespace {
 
-using render::SurfaceOutput;
-
 constexpr int kRestMs = 250;                        // without movement until the picture is refined
 constexpr int kAdaptationMs = 16;                   // between the frames of an eye that adapts
 constexpr int kAccumulationMs = 16;                 // between frames that are added up
@@ -78,8 +76,7 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     connect(&m_gate, &ViewGate::opened, this, &ViewportWidget::gateOpened);
     connect(&m_gate, &ViewGate::waitingChanged, this,
             [this] { m_viewFeed.setPreparing(m_gate.waiting()); });
-    connect(&m_picker, &PixelPicker::notReady, this,
-            [this] { m_gate.prepare(SurfaceOutput::Inspection); });
+    connect(&m_picker, &PixelPicker::notReady, &m_gate, &ViewGate::prepareInspection);
     m_restTimer.start();
     m_clock.start();
     m_adaptationTimer.setSingleShot(true);
@@ -124,6 +121,7 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
         update();
     });
     m_picker.setInspect([this](const QPoint& pixel) { return inspect(pixel); });
+    m_sheets.setReady([this](ViewKind kind) { return m_gate.isOpenForSheets(kind); });
     m_sheets.setDraw([this](const render::ViewSheet& sheet) { return drawSheet(sheet); });
     connect(&m_preview, &PreviewFeed::changed, this, &ViewportWidget::lookChanged);
     connect(&m_bounces, &BounceFeed::changed, this, &ViewportWidget::lookChanged);
@@ -315,11 +313,10 @@ void ViewportWidget::paintGL() {
 
 void ViewportWidget::letOthersDraw() {
     const bool rests = !m_pacing.moving();
-    const bool open = m_gate.isOpen(SurfaceOutput::EightViews);
-    m_sheets.setResting(rests && open);
-    if (rests && !open && m_sheets.wanted())
-        m_gate.prepare(SurfaceOutput::EightViews);
-    m_picker.setReady(m_gate.isOpen(SurfaceOutput::Inspection));
+    m_sheets.setResting(rests);
+    if (rests)
+        m_gate.prepareSheets(m_sheets.wanted());
+    m_picker.setReady(m_gate.isOpenForInspection());
 }
 
 void ViewportWidget::gateOpened() {
