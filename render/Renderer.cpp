@@ -1,5 +1,6 @@
 #include "render/RendererImpl.h"
 
+#include "core/base/Check.h"
 #include "core/base/Log.h"
 #include "core/document/Lighting.h"
 
@@ -300,6 +301,27 @@ bool Renderer::luminancePending() const {
 
 std::optional<Luminance> Renderer::readLuminance() {
     return m_impl->adaptation.read();
+}
+
+Result<void> Renderer::prepareNearLights(LightingMode lighting) {
+    Impl& r = *m_impl;
+    CHECK(r.targets.width() > 0);
+    LightBlock point, sphere, rectangle;
+    point.place = sphere.place = rectangle.place = glm::vec4(0.0f, 0.0f, 2.0f, -1.0f);
+    point.axis.w = 1.0f;
+    sphere.axis.x = rectangle.axis.x = rectangle.side.y = 0.5f;
+    FrameBlock block = r.lastBlock;
+    block.lightEnds = {0, 1, 2, 3};
+    block.lights[0] = point;
+    block.lights[1] = sphere;
+    block.lights[2] = rectangle;
+    r.beginGl();
+    r.useFrame(block);
+    Result<void> done = r.relight.update(r.scene, lighting, block);
+    r.useFrame(r.lastBlock);
+    r.endGl(0);
+    r.sceneIsNew = true;
+    return done;
 }
 
 std::vector<ProgramKey> Renderer::programs() const {

@@ -144,6 +144,9 @@ class Renderer {
     [[nodiscard]] std::optional<ViewRange> shownRange() const;
     [[nodiscard]] std::optional<ViewRange> otherRange() const;
 
+    // Has the driver compile what lights near by need under transfer in such light; shows nothing.
+    // CHECKs that there was a frame.
+    Result<void> prepareNearLights(LightingMode lighting);
     // What it has compiled so far: files and #defines of each program.
     [[nodiscard]] std::vector<ProgramKey> programs() const;
 

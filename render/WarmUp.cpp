@@ -313,15 +313,18 @@ Result<void> WarmUp::drawViews(LightingMode lighting, const JobContext& job) {
     return {};
 }
 
-Result<void> WarmUp::drawSheet(LightingMode lighting) {
+Result<void> WarmUp::drawSheet(LightingMode lighting, const JobContext& job) {
+    ViewSettings view;
+    view.lighting = lighting;
+    if (auto done = drawFrame(view, job); !done)
+        return done;
     ViewSheet sheet{{shading::kViewFinal, shading::kViewBaseColor, shading::kViewNoV}};
     sheet.width = m_frame.width;
     sheet.height = m_frame.height;
-    m_frame.view = {};
-    m_frame.view.lighting = lighting;
     if (auto drawn = m_renderer->drawSheet(m_frame, sheet); !drawn)
         return drawn.error();
-    return {};
+    // A lamp that is set up later finds its programs, too.
+    return m_renderer->prepareNearLights(lighting);
 }
 
 Result<void> WarmUp::inspectAll(LightingMode lighting, const JobContext& job) {
@@ -360,7 +363,7 @@ Result<void> WarmUp::draw(const FrameKind& frame, const JobContext& job) {
     case SurfaceOutput::OneView:
         return drawViews(frame.lighting, job);
     case SurfaceOutput::EightViews:
-        return drawSheet(frame.lighting);
+        return drawSheet(frame.lighting, job);
     case SurfaceOutput::Inspection:
         return inspectAll(frame.lighting, job);
     }

@@ -58,7 +58,7 @@ class WarmUp {
     WarmUp(gl::Context& context, std::unique_ptr<Renderer> renderer, const Document& document);
     Result<void> drawFrame(const ViewSettings& view, const JobContext& job);
     Result<void> drawViews(LightingMode lighting, const JobContext& job);
-    Result<void> drawSheet(LightingMode lighting);
+    Result<void> drawSheet(LightingMode lighting, const JobContext& job);
     Result<void> inspectAll(LightingMode lighting, const JobContext& job);
 
     gl::Context& m_context;

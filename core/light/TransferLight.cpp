@@ -2,6 +2,7 @@
 
 #include "core/base/Check.h"
 #include "core/document/Lights.h"
+#include "core/light/NearRectangle.h"
 #include "core/math/ShRotation.h"
 #include "core/math/Shading.h"
 
@@ -138,8 +139,9 @@ void addNearLights(const Document& document, const glm::vec3& place, int order,
             break;
         case LightType::Rectangle: {
             const RectangleAxes axes = rectangleAxes(light);
-            shading::nearRectangleSh(toLight, 0.5f * light.width * axes.x,
-                                     0.5f * light.height * axes.y, order, window.data(), y.data());
+            projectRectangle(nearRectangle(light.position, 0.5f * light.width * axes.x,
+                                           0.5f * light.height * axes.y),
+                             place, order, window, y);
             break;
         }
         }

@@ -1,7 +1,6 @@
 #include "render/pass/RelightPass.h"
 
 #include "core/base/Check.h"
-#include "core/light/TransferLight.h"
 
 #include <algorithm>
 #include <epoxy/gl.h>
@@ -10,57 +9,26 @@ namespace patina::render {
 
 namespace {
 
-constexpr unsigned kElementsUnit = 0, kBouncedUnit = 1, kPlacesUnit = 2;
-constexpr std::size_t kGroup = 64;                // local_size_x of relight.comp
-constexpr std::size_t kMaxElements = 1024 * 1024; // of a dispatch: no driver has too few groups
-constexpr int kVertexVectors = 3;                 // of GpuMesh::vertices
-
 struct TransferLightBlock {
     std::array<glm::vec4, 48> coefficients{};
-    std::array<float, 8> window{};
 };
-static_assert(sizeof(TransferLightBlock) == 50 * sizeof(glm::vec4));
 
-TransferLightBlock pack(const std::vector<glm::vec3>& light, int order) {
+TransferLightBlock pack(const std::vector<glm::vec3>& light) {
     TransferLightBlock block;
     for (std::size_t i = 0; i < light.size(); ++i)
         for (int c = 0; c < 3; ++c)
             block.coefficients[static_cast<std::size_t>(c) * 16 + i / 4]
                               [static_cast<glm::length_t>(i % 4)] = light[i][c];
-    block.window = nearLightWindow(order);
     return block;
-}
-
-// How many bytes of `vectors` vec4 for each of so many elements lie before an element.
-std::size_t bytesOf(std::size_t elements, int vectors) {
-    return elements * static_cast<std::size_t>(vectors) * sizeof(glm::vec4);
 }
 
 } // namespace
 
-// What is to be computed for an item.
-struct RelightPass::Work {
-    const gl::Buffer& exit;
-    const gl::Buffer& elements;
-    int elementVectors = 0;
-    const gl::Buffer* bounced = nullptr; // three times as many vectors; null: none
-    std::size_t count = 0;
-    const FarLight& light;
-    int order = 0;
-    bool openSky = false;
-    glm::mat3 normalToWorld{1.0f};
-    bool adds = false;
-    const gl::Buffer* places = nullptr; // null: no lights near by
-    int placeVectors = 1;
-    glm::mat4 placeToWorld{1.0f};
-};
-
 RelightPass::RelightPass(gl::Context& context, ShaderLibrary& shaders)
     : m_context(context)
     , m_shaders(shaders)
-    , m_elements(context, "elements")
-    , m_bounced(context, "bounced elements")
-    , m_places(context, "places of elements") {}
+    , m_near(context, shaders)
+    , m_parts(context) {}
 
 RelightPass::FarLight& RelightPass::farLight(const GpuScene& scene, int order) {
     FarLight& light = m_far[static_cast<std::size_t>(order)];
@@ -72,7 +40,7 @@ RelightPass::FarLight& RelightPass::farLight(const GpuScene& scene, int order) {
         return light;
     if (light.block.empty())
         light.block = gl::Buffer(m_context, "light of transfer", sizeof(TransferLightBlock));
-    light.block.writeValue(pack(coefficients, order));
+    light.block.writeValue(pack(coefficients));
     light.coefficients = std::move(coefficients);
     light.revision = ++m_farRevision;
     return light;
@@ -83,15 +51,7 @@ Result<void> RelightPass::update(GpuScene& scene, LightingMode mode, const Frame
         return {};
     for (FarLight& light : m_far)
         light.current = false;
-    NearLights lights{
-        frame.lightEnds,
-        {frame.lights.begin() + frame.lightEnds.x, frame.lights.begin() + frame.lightEnds.w}};
-    for (LightBlock& light : lights.lights)
-        light.place.w = 0.0f; // the slot of its shadow map says nothing here
-    if (!(lights == m_near)) {
-        m_near = std::move(lights);
-        ++m_nearRevision;
-    }
+    m_near.setLights(frame);
     bool any = false;
     for (const DrawItem& item : scene.items()) {
         const Result<bool> done = relight(scene, item, mode);
@@ -115,47 +75,52 @@ Result<bool> RelightPass::relight(GpuScene& scene, const DrawItem& item, Lightin
     const FarLight& light = farLight(scene, order);
     ExitRadiance& exit = (openSky ? item.litVertices : item.lit)->stage(mode);
 
+    TransferWork work{.elements = openSky ? item.mesh->vertices : transfer->direct,
+                      .elementVectors = openSky ? kVertexVectors : transfer->vectors(),
+                      .count = openSky ? item.mesh->vertexCount : transfer->count,
+                      .order = order,
+                      .openSky = openSky,
+                      .normalToWorld = item.normalToWorld};
+    if (bounces && !transfer->bounced.empty())
+        work.bounced = &transfer->bounced;
     ExitRadiance::Sources sources;
-    sources.light = light.revision;
     sources.transfer = openSky ? 0 : transfer->revision;
-    sources.bounced = bounces ? item.lit->bouncedRevision : 0;
-    if (!m_near.lights.empty())
-        sources.nearLights = m_nearRevision;
-    if (!m_near.lights.empty() && perTexel)
-        sources.places = scene.placeRevision();
-    if (openSky || (!m_near.lights.empty() && !perTexel))
+    if (openSky)
         sources.transform = item.transform;
-    const std::size_t count = openSky ? item.mesh->vertexCount : transfer->count;
-    const std::size_t bytes = bytesOf(count, 1);
+    if (m_near.any()) {
+        ExitRadiance::Sources nearSources = sources;
+        nearSources.nearLights = m_near.revision();
+        if (perTexel)
+            nearSources.places = scene.placeRevision();
+        else
+            nearSources.transform = item.transform;
+        work.places = perTexel ? &scene.texelPositions(item.materialId, transfer->side)
+                               : &item.mesh->vertices;
+        work.placeVectors = perTexel ? 1 : kVertexVectors;
+        if (!perTexel)
+            work.placeToWorld = item.transform;
+        if (auto done = relightNear(exit, work, nearSources); !done)
+            return done.error();
+        sources.nearLights = exit.nearRevision;
+    } else if (!exit.nearValues.empty()) {
+        exit.nearValues = gl::Buffer();
+        exit.nearSources = {};
+    }
+    sources.light = light.revision;
+    sources.bounced = bounces ? item.lit->bouncedRevision : 0;
+    const std::size_t bytes = elementBytes(work.count, 1);
     if (exit.values.size() == bytes && exit.sources == sources)
         return false;
     exit.sources = sources;
     if (exit.values.size() != bytes)
         exit.values = gl::Buffer(m_context, "exit radiance", bytes);
 
-    Work work{.exit = exit.values,
-              .elements = openSky ? item.mesh->vertices : transfer->direct,
-              .elementVectors = openSky ? kVertexVectors : transfer->vectors(),
-              .count = count,
-              .light = light,
-              .order = order,
-              .openSky = openSky,
-              .normalToWorld = item.normalToWorld};
-    if (bounces && !transfer->bounced.empty())
-        work.bounced = &transfer->bounced;
     // What a solver found for this very light stands in for the coefficients.
-    work.adds = bounces && item.lit->bouncedLight.size() == bytes;
-    if (work.adds)
+    const bool adds = bounces && item.lit->bouncedLight.size() == bytes;
+    if (adds)
         glCopyNamedBufferSubData(item.lit->bouncedLight.id(), exit.values.id(), 0, 0,
                                  static_cast<GLsizeiptr>(bytes));
-    if (!m_near.lights.empty()) {
-        work.places = perTexel ? &scene.texelPositions(item.materialId, transfer->side)
-                               : &item.mesh->vertices;
-        work.placeVectors = perTexel ? 1 : kVertexVectors;
-        if (!perTexel)
-            work.placeToWorld = item.transform;
-    }
-    if (auto done = dispatch(work); !done)
+    if (auto done = dispatch(work, exit, light, adds); !done)
         return done.error();
 
     if (perTexel) { // filtered lookups want a texture
@@ -172,58 +137,48 @@ Result<bool> RelightPass::relight(GpuScene& scene, const DrawItem& item, Lightin
     return true;
 }
 
-Result<void> RelightPass::dispatch(const Work& work) {
+Result<void> RelightPass::relightNear(ExitRadiance& exit, const TransferWork& work,
+                                      const ExitRadiance::Sources& sources) {
+    const std::size_t bytes = elementBytes(work.count, 1);
+    if (exit.nearValues.size() == bytes && exit.nearSources == sources)
+        return {};
+    if (exit.nearValues.size() != bytes)
+        exit.nearValues = gl::Buffer(m_context, "light near by", bytes);
+    exit.nearSources = sources;
+    exit.nearRevision = ++m_farRevision;
+    m_nearElementsDone += work.count;
+    auto done = m_near.light(work, exit.nearValues);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    return done;
+}
+
+Result<void> RelightPass::dispatch(const TransferWork& work, const ExitRadiance& exit,
+                                   const FarLight& light, bool adds) {
     ProgramKey key{{"relight.comp"}, {}};
     if (work.bounced)
         key.defines.emplace_back("COLORED");
     if (work.openSky)
         key.defines.emplace_back("OPEN_SKY");
-    if (m_near.ends.y > m_near.ends.x)
-        key.defines.emplace_back("NEAR_POINTS");
-    if (m_near.ends.z > m_near.ends.y)
-        key.defines.emplace_back("NEAR_SPHERES");
-    if (m_near.ends.w > m_near.ends.z)
-        key.defines.emplace_back("NEAR_RECTANGLES");
+    if (work.places)
+        key.defines.emplace_back("NEAR_LIGHTS");
     const auto shader = m_shaders.program(key);
     if (!shader)
         return shader.error();
     const gl::Program& program = **shader;
     program.use();
-    work.light.block.bindUniform(kTransferLightBinding);
-    work.exit.bindStorage(kExitBinding);
-    const int vectors = (shCount(work.order) + 3) / 4;
-    program.set("u_vectors", vectors);
-    program.set("u_adds", work.adds ? 1 : 0);
+    light.block.bindUniform(kTransferLightBinding);
+    exit.values.bindStorage(kExitBinding);
+    if (work.places)
+        exit.nearValues.bindStorage(kNearBinding);
+    program.set("u_vectors", work.vectors());
+    program.set("u_adds", adds ? 1 : 0);
     if (work.openSky)
         program.set("u_normalToWorld", glm::mat4(work.normalToWorld));
-    if (work.places) {
-        program.set("u_order", work.order);
-        program.set("u_placeVectors", work.placeVectors);
-        program.set("u_placeToWorld", work.placeToWorld);
-    }
-    // Whole groups of 64 elements keep the alignment of views.
-    const int widest = std::max(work.elementVectors, work.bounced ? 3 * vectors : 0);
-    const std::size_t most =
-        std::clamp(gl::BufferView::maxBytes() / bytesOf(1, std::max(widest, work.placeVectors)) /
-                       kGroup * kGroup,
-                   kGroup, kMaxElements);
-    for (std::size_t first = 0; first < work.count; first += most) {
-        const std::size_t part = std::min(most, work.count - first);
-        const auto show = [&](const gl::BufferView& view, const gl::Buffer& buffer, int each,
-                              unsigned unit) {
-            view.show(buffer, bytesOf(first, each), bytesOf(part, each));
-            view.bind(unit);
-        };
-        show(m_elements, work.elements, work.elementVectors, kElementsUnit);
-        if (work.bounced)
-            show(m_bounced, *work.bounced, 3 * vectors, kBouncedUnit);
-        if (work.places)
-            show(m_places, *work.places, work.placeVectors, kPlacesUnit);
-        program.set("u_first", static_cast<int>(first));
-        program.set("u_count", static_cast<int>(part));
-        glDispatchCompute(static_cast<GLuint>((part + kGroup - 1) / kGroup), 1, 1);
-        m_elementsDone += part;
-    }
+    m_parts.run(work, [&](int first, int count) {
+        program.set("u_first", first);
+        program.set("u_count", count);
+        m_elementsDone += static_cast<std::uint64_t>(count);
+    });
     return {};
 }
 

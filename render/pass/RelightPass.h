@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/math/SphericalHarmonics.h"
-#include "render/gl/BufferView.h"
+#include "render/pass/NearLightPass.h"
 #include "render/scene/GpuScene.h"
 #include "render/shader/ShaderLibrary.h"
 
@@ -25,6 +25,7 @@ class RelightPass {
 
     // Elements that have been computed since the beginning, to see that nothing is done in vain.
     [[nodiscard]] std::uint64_t elementsDone() const { return m_elementsDone; }
+    [[nodiscard]] std::uint64_t nearElementsDone() const { return m_nearElementsDone; } // near by
 
   private:
     // Light from far away in so many bands: of how many depends what a point of light becomes.
@@ -34,26 +35,21 @@ class RelightPass {
         std::uint64_t revision = 0;
         bool current = false; // in this update
     };
-    // Those near by, as the frame has them.
-    struct NearLights {
-        glm::ivec4 ends{0};
-        std::vector<LightBlock> lights;
-        friend bool operator==(const NearLights&, const NearLights&) = default;
-    };
-    struct Work;
-
     FarLight& farLight(const GpuScene& scene, int order);
     // Whether there was something to do.
     Result<bool> relight(GpuScene& scene, const DrawItem& item, LightingMode mode);
-    Result<void> dispatch(const Work& work);
+    Result<void> relightNear(ExitRadiance& exit, const TransferWork& work,
+                             const ExitRadiance::Sources& sources);
+    Result<void> dispatch(const TransferWork& work, const ExitRadiance& exit, const FarLight& light,
+                          bool adds);
 
     gl::Context& m_context;
     ShaderLibrary& m_shaders;
-    gl::BufferView m_elements, m_bounced, m_places;
+    NearLightPass m_near;
+    TransferParts m_parts;
     std::array<FarLight, kMaxShOrder + 1> m_far; // by order
-    NearLights m_near;
-    std::uint64_t m_farRevision = 0, m_nearRevision = 0;
-    std::uint64_t m_elementsDone = 0;
+    std::uint64_t m_farRevision = 0;
+    std::uint64_t m_elementsDone = 0, m_nearElementsDone = 0;
 };
 
 } // namespace patina::render

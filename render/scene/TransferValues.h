@@ -41,6 +41,10 @@ struct ExitRadiance {
         glm::mat4 transform{0.0f};
         friend bool operator==(const Sources&, const Sources&) = default;
     } sources;
+    // The share of lights near by, and what it was made of; empty where there are none.
+    gl::Buffer nearValues;
+    Sources nearSources;
+    std::uint64_t nearRevision = 0;
 };
 
 // One for each of Unshadowed, Shadowed and Prt, so that two can be seen side by side.

@@ -7,33 +7,32 @@
 #include "constants.glsl"
 #include "sh.glsl"
 
-// shBasis64() up to a band that is not known before, by the recurrences of associated Legendre
-// functions: a few instructions, where the polynomials' hundreds, inlined at each call, take software
-// OpenGL ten seconds to compile.
-PT_FN void shBasisOfOrder(vec3 d, int order, PT_OUT_ARRAY(float, y, 64)) {
-    float diagonal = 0.282094791773878f; // normalised P_mm, without sin^m
-    float c = 1.0f;                      // sin^m cos(m phi)
-    float s = 0.0f;                      // sin^m sin(m phi)
-    for (int m = 0; m < order; ++m) {
-        float m2 = float(m * m);
-        float p = m > 0 ? 1.41421356237310f * diagonal : diagonal;
-        float previous = 0.0f;
-        for (int l = m; l < order; ++l) {
-            int center = l * (l + 1);
-            y[center - m] = p * s;
-            y[center + m] = p * c;
-            float l2 = float(l * l);
-            float n2 = float((l + 1) * (l + 1));
-            float next = sqrt((4.0f * n2 - 1.0f) / (n2 - m2)) *
-                         (d.z * p - sqrt((l2 - m2) / (4.0f * l2 - 1.0f)) * previous);
-            previous = p;
-            p = next;
-        }
-        diagonal = -diagonal * sqrt((2.0f * float(m) + 3.0f) / (2.0f * float(m) + 2.0f));
-        float turned = c * d.x - s * d.y;
-        s = c * d.y + s * d.x;
-        c = turned;
-    }
+// Loops have constant ends where `order` is one: drivers that unroll them keep harmonics in registers.
+
+// Each band of 64 harmonics times its factor.
+PT_FN void scaleBands(int order, PT_ARRAY(float, factor, 8), PT_INOUT_ARRAY(float, y, 64)) {
+    y[0] = y[0] * factor[0];
+    if (order > 1)
+        for (int i = 1; i < 4; ++i)
+            y[i] = y[i] * factor[1];
+    if (order > 2)
+        for (int i = 4; i < 9; ++i)
+            y[i] = y[i] * factor[2];
+    if (order > 3)
+        for (int i = 9; i < 16; ++i)
+            y[i] = y[i] * factor[3];
+    if (order > 4)
+        for (int i = 16; i < 25; ++i)
+            y[i] = y[i] * factor[4];
+    if (order > 5)
+        for (int i = 25; i < 36; ++i)
+            y[i] = y[i] * factor[5];
+    if (order > 6)
+        for (int i = 36; i < 49; ++i)
+            y[i] = y[i] * factor[6];
+    if (order > 7)
+        for (int i = 49; i < 64; ++i)
+            y[i] = y[i] * factor[7];
 }
 
 // ---- Discs and spheres ------------------------------------------------------------------------
@@ -76,35 +75,32 @@ PT_FN float capScale(float cosine, int order, PT_ARRAY(float, window, 8)) {
 
 // A point of light in direction `d` (unit), of irradiance 1 on a surface that faces it.
 PT_FN void nearPointSh(vec3 d, int order, PT_ARRAY(float, window, 8), PT_OUT_ARRAY(float, y, 64)) {
-    shBasisOfOrder(d, order, y);
+    shBasis64(d, y);
     float scale = capScale(1.0f, order, window);
-    for (int l = 0; l < order; ++l)
-        for (int i = l * l; i < (l + 1) * (l + 1); ++i)
-            y[i] = y[i] * scale * window[l];
+    float factor[8];
+    for (int l = 0; l < 8; ++l)
+        factor[l] = scale * window[l];
+    scaleBands(order, factor, y);
 }
 
 // A sphere of radiance 1, `toCenter` from its centre away; inside of it light comes from everywhere.
 PT_FN void nearSphereSh(vec3 toCenter, float radius, int order, PT_ARRAY(float, window, 8),
                         PT_OUT_ARRAY(float, y, 64)) {
-    float distance2 = dot(toCenter, toCenter);
-    float sin2 = radius * radius / max(distance2, 1e-12f);
-    if (sin2 >= 1.0f) {
-        for (int i = 1; i < order * order; ++i)
-            y[i] = 0.0f;
-        y[0] = 3.54490770181103f; // sqrt(4pi)
-    } else {
-        float cosine = sqrt(1.0f - sin2);
-        float bands[8];
-        capBands(cosine, bands);
-        shBasisOfOrder(toCenter * inversesqrt(distance2), order, y);
-        float scale = kTwoPi * sin2 * capScale(cosine, order, window);
-        for (int l = 0; l < order; ++l)
-            for (int i = l * l; i < (l + 1) * (l + 1); ++i)
-                y[i] = y[i] * scale * window[l] * bands[l];
-    }
+    float distance2 = max(dot(toCenter, toCenter), 1e-12f);
+    float sin2 = radius * radius / distance2;
+    bool inside = sin2 >= 1.0f;
+    float cosine = sqrt(max(1.0f - sin2, 0.0f));
+    float bands[8];
+    capBands(cosine, bands);
+    float scale = kTwoPi * sin2 * capScale(cosine, order, window);
+    float factor[8];
+    for (int l = 0; l < 8; ++l)
+        factor[l] = inside ? (l == 0 ? 2.0f * kTwoPi : 0.0f) : scale * window[l] * bands[l];
+    shBasis64(toCenter * inversesqrt(distance2), y);
+    scaleBands(order, factor, y);
 }
 
-// ---- Polygons -----------------------------------------------------------------------------------
+// ---- Rectangles -----------------------------------------------------------------------------------
 
 // Solid angle of a triangle, positive where its corners run clockwise as seen from the origin. Van
 // Oosterom & Strackee 1983, "The Solid Angle of a Plane Triangle". Unit vectors.
@@ -114,146 +110,163 @@ PT_FN float triangleSolidAngle(vec3 a, vec3 b, vec3 c) {
     return volume == 0.0f ? 0.0f : 2.0f * atan(volume, divisor);
 }
 
-// ∫ Y_i along an arc of a great circle, `angle` long about `middle`, where it runs `along`. On the
-// circle a harmonic of band l is a trigonometric polynomial of the frequencies l, l - 2, …; `order`
-// samples on half of the circle hold it, and the integral of each sample's interpolation kernel is
-// its weight.
-PT_FN void arcSh(vec3 middle, vec3 along, float angle, int order, PT_OUT_ARRAY(float, sums, 64)) {
-    for (int i = 0; i < order * order; ++i)
-        sums[i] = 0.0f;
-    float share = 1.0f / float(order);
-    for (int j = 0; j < order; ++j) {
-        float t = kPi * float(j) * share;
-        float even = angle;
-        float odd = 0.0f;
-        for (int k = 1; k < order; ++k) {
-            float n = float(k);
-            float kernel = 4.0f / n * sin(0.5f * n * angle) * cos(n * t);
-            if (k == 2 || k == 4 || k == 6)
-                even = even + kernel;
-            else
-                odd = odd + kernel;
-        }
-        float y[64];
-        shBasisOfOrder(middle * cos(t) + along * sin(t), order, y);
-        for (int l = 0; l < order; ++l) {
-            float weight = (l == 0 || l == 2 || l == 4 || l == 6 ? even : odd) * share;
-            for (int i = l * l; i < (l + 1) * (l + 1); ++i)
-                sums[i] = sums[i] + weight * y[i];
-        }
-    }
-}
-
-// Of complex harmonics, Y_lm = (Y_l,m + i Y_l,-m) / sqrt 2 for m > 0 and Y_l,-m = (-1)^m conj(Y_lm).
-PT_FN vec2 complexSh(PT_ARRAY(float, y, 64), int l, int m) {
-    int size = m < 0 ? -m : m;
-    if (size > l)
-        return vec2(0.0f);
+// Band l of the slope across a meridian whose azimuth has these cosines and sines of its multiples.
+PT_FN void addMeridianBand(int l, PT_ARRAY(float, a, 8), PT_ARRAY(float, c, 8),
+                           PT_ARRAY(float, s, 8), PT_INOUT_ARRAY(float, y, 64)) {
     int center = l * (l + 1);
-    if (m == 0)
-        return vec2(y[center], 0.0f);
-    vec2 value = 0.707106781186548f * vec2(y[center + size], y[center - size]);
-    if (m > 0)
-        return value;
-    float sign = size == 2 || size == 4 || size == 6 ? 1.0f : -1.0f;
-    return vec2(sign * value.x, -sign * value.y);
+    for (int m = 1; m <= l; ++m) {
+        y[center + m] = y[center + m] + a[m] * s[m];
+        y[center - m] = y[center - m] - a[m] * c[m];
+    }
 }
 
-// ∫ n·∇(r^l Y_lm) along an arc from the integrals of the harmonics of band l - 1: derivatives of solid
-// harmonics are solid harmonics of one degree less.
-PT_FN vec2 arcSlope(PT_ARRAY(float, arc, 64), vec3 n, int l, int m) {
-    vec2 same = complexSh(arc, l - 1, m);
-    vec2 up = complexSh(arc, l - 1, m + 1);
-    vec2 down = complexSh(arc, l - 1, m - 1);
-    float a = float(l);
-    float b = float(m);
-    float kSame = n.z * sqrt((a - b) * (a + b));
-    float kUp = 0.5f * sqrt(max((a - b) * (a - b - 1.0f), 0.0f));
-    float kDown = 0.5f * sqrt((a + b) * (a + b - 1.0f));
-    // conj(n) up and n down, n = n.x + i n.y
-    vec2 turnedUp = vec2(n.x * up.x + n.y * up.y, n.x * up.y - n.y * up.x);
-    vec2 turnedDown = vec2(n.x * down.x - n.y * down.y, n.x * down.y + n.y * down.x);
-    return sqrt((2.0f * a + 1.0f) / (2.0f * a - 1.0f)) *
-           (kSame * same + kUp * turnedUp - kDown * turnedDown);
-}
+// The share of an edge in the harmonics about an axis that it runs along: its place in the plane
+// across (x, y), where it begins along the axis (z), and its length. Δ Y_lm = -l (l + 1) Y_lm, so by
+// Gauss' theorem on the sphere the slope across the border is left; such an edge lies on a meridian,
+// where that is ∂/∂φ: of m √2 K_lm / (l (l + 1)) ∫ P_lm(sin s) / cos s ds the integrand is a
+// trigonometric polynomial of the latitude s. docs/maths/spherical-harmonics.md.
+PT_FN void addMeridianSh(vec2 across, float begin, float size, float sign, int order,
+                         PT_INOUT_ARRAY(float, y, 64)) {
+    float rho2 = dot(across, across);
+    float end = begin + size;
+    // Else we look along the edge.
+    if (rho2 > 1e-14f * max(begin * begin, end * end)) {
+        float invRho = inversesqrt(rho2);
+        float rho = rho2 * invRho;
+        float invBegin = inversesqrt(rho2 + begin * begin);
+        float invEnd = inversesqrt(rho2 + end * end);
+        // Of the whole angle; from the length, so that short edges keep their digits.
+        float sinWhole = rho * size * invBegin * invEnd;
+        float cosWhole = (rho2 + begin * end) * invBegin * invEnd;
+        vec2 middle = vec2(rho * (invBegin + invEnd), begin * invBegin + end * invEnd);
+        float twoCos = max(length(middle), 1e-6f); // of the half
+        middle = middle / twoCos;
 
-// The share of the edge from p to q in the harmonics of bands 1 and up: Δ Y_lm = -l (l + 1) Y_lm, so
-// by Gauss' theorem on the sphere the slope across the border is left.
-PT_FN void addEdgeSh(vec3 p, vec3 q, int order, PT_INOUT_ARRAY(float, y, 64)) {
-    vec3 normal = cross(p, q - p);
-    float size = length(normal);
-    if (size > 1e-7f * sqrt(dot(p, p) * dot(q, q))) { // otherwise it points at us
-        vec3 n = normal / size;
-        float angle = atan(size, dot(p, q));
-        vec3 from = normalize(p);
-        vec3 across = cross(n, from);
-        float c = cos(0.5f * angle);
-        float s = sin(0.5f * angle);
-        float arc[64];
-        arcSh(from * c + across * s, across * c - from * s, angle, order - 1, arc);
-        for (int l = 1; l < order; ++l) {
-            int center = l * (l + 1);
-            float share = 1.0f / float(center);
-            for (int m = 0; m <= l; ++m) {
-                vec2 slope = share * arcSlope(arc, n, l, m);
-                float both = m > 0 ? 1.41421356237310f : 1.0f;
-                y[center + m] = y[center + m] + both * slope.x;
-                if (m > 0)
-                    y[center - m] = y[center - m] + both * slope.y;
-            }
+        // ∫ cos ks ds and ∫ sin ks ds.
+        float even[7];
+        float odd[7];
+        even[0] = sign * atan(sinWhole, cosWhole);
+        odd[0] = 0.0f;
+        float kernel = sign * 2.0f * sinWhole / twoCos; // 2 sin(k half)
+        float before = 0.0f;
+        vec2 turned = middle;
+        for (int k = 1; k < 7; ++k) {
+            even[k] = kernel * turned.x / float(k);
+            odd[k] = kernel * turned.y / float(k);
+            float next = twoCos * kernel - before;
+            before = kernel;
+            kernel = next;
+            turned = vec2(turned.x * middle.x - turned.y * middle.y,
+                          turned.x * middle.y + turned.y * middle.x);
+        }
+        float c[8]; // cos m phi
+        float s[8];
+        vec2 azimuth = across * invRho;
+        c[0] = 1.0f;
+        s[0] = 0.0f;
+        for (int m = 1; m < 8; ++m) {
+            c[m] = c[m - 1] * azimuth.x - s[m - 1] * azimuth.y;
+            s[m] = c[m - 1] * azimuth.y + s[m - 1] * azimuth.x;
+        }
+        float a[8];
+        if (order > 1) {
+            a[1] = -0.244301256f * even[0];
+            addMeridianBand(1, a, c, s, y);
+        }
+        if (order > 2) {
+            a[1] = -0.182091405f * odd[1];
+            a[2] = 0.182091405f * even[1];
+            addMeridianBand(2, a, c, s, y);
+        }
+        if (order > 3) {
+            a[1] = -0.0571307249f * even[0] + 0.0952178749f * even[2];
+            a[2] = 0.120442143f * odd[2];
+            a[3] = -0.0737554487f * even[0] - 0.0737554487f * even[2];
+            addMeridianBand(3, a, c, s, y);
+        }
+        if (order > 4) {
+            a[1] = -0.0752677362f * odd[1] + 0.0585415726f * odd[3];
+            a[2] = 0.0354815511f * even[1] - 0.0827902859f * even[3];
+            a[3] = -0.0663799039f * odd[1] - 0.0663799039f * odd[3];
+            a[4] = 0.0938753603f * even[1] + 0.0312917868f * even[3];
+            addMeridianBand(4, a, c, s, y);
+        }
+        if (order > 5) {
+            a[1] = -0.0283091657f * even[0] + 0.052843776f * even[2] - 0.039632832f * even[4];
+            a[2] = 0.0399461399f * odd[2] - 0.0599192098f * odd[4];
+            a[3] = -0.0305773937f * even[0] + 0.024461915f * even[2] + 0.0550393087f * even[4];
+            a[4] = 0.0691887438f * odd[2] + 0.0345943719f * odd[4];
+            a[5] = -0.0410238786f * even[0] - 0.0546985047f * even[2] - 0.0136746262f * even[4];
+            addMeridianBand(5, a, c, s, y);
+        }
+        if (order > 6) {
+            a[1] = -0.0433498038f * odd[1] + 0.0390148234f * odd[3] - 0.0286108705f * odd[5];
+            a[2] = 0.0137084116f * even[1] - 0.0370127113f * even[3] + 0.0452377583f * even[5];
+            a[3] = -0.0411252348f * odd[1] + 0.00411252348f * odd[3] + 0.0452377583f * odd[5];
+            a[4] = 0.030033625f * even[1] - 0.0450504376f * even[3] - 0.0330369875f * even[5];
+            a[5] = -0.0352175471f * odd[1] - 0.0528263206f * odd[3] - 0.0176087735f * odd[5];
+            a[6] = 0.0609985808f * even[1] + 0.0304992904f * even[3] + 0.00609985808f * even[5];
+            addMeridianBand(6, a, c, s, y);
+        }
+        if (order > 7) {
+            a[1] = -0.0176428921f * even[0] + 0.0340255776f * even[2] - 0.0299425083f * even[4] + 0.0216251449f * even[6];
+            a[2] = 0.0185211785f * odd[2] - 0.0325972742f * odd[4] + 0.0353137137f * odd[6];
+            a[3] = -0.0183350313f * even[0] + 0.0248832568f * even[2] + 0.00576243841f * even[4] - 0.0374558497f * even[6];
+            a[4] = 0.0347488111f * odd[2] - 0.0277990489f * odd[4] - 0.0301156363f * odd[6];
+            a[5] = -0.0202701398f * even[0] + 0.00434360138f * even[2] + 0.0434360138f * even[4] + 0.0188222727f * even[6];
+            a[6] = 0.0442962164f * odd[2] + 0.0354369731f * odd[4] + 0.00885924329f * odd[6];
+            a[7] = -0.0276235442f * even[0] - 0.0414353164f * even[2] - 0.0165741265f * even[4] - 0.00276235442f * even[6];
+            addMeridianBand(7, a, c, s, y);
         }
     }
 }
 
-// ∫ Y_i over the directions to a planar convex quadrilateral; its lit side is the one from which the
-// corners run clockwise, from the other it is dark. Not cut off at any horizon. The integral over a
-// polygon becomes ones along its edges as in Wang & Ramamoorthi 2018, "Analytic Spherical Harmonic
-// Coefficients for Polygonal Area Lights"; docs/maths/spherical-harmonics.md. Returns the solid angle.
-PT_FN float quadSh(vec3 a, vec3 b, vec3 c, vec3 d, int order, PT_OUT_ARRAY(float, y, 64)) {
-    for (int i = 0; i < order * order; ++i)
-        y[i] = 0.0f;
-    float nearest2 = min(min(dot(a, a), dot(b, b)), min(dot(c, c), dot(d, d)));
-    if (nearest2 < 1e-18f) // on a corner
-        return 0.0f;
-    vec3 ua = normalize(a);
-    vec3 ub = normalize(b);
-    vec3 uc = normalize(c);
-    vec3 ud = normalize(d);
-    float solidAngle = triangleSolidAngle(ua, ub, uc) + triangleSolidAngle(ua, uc, ud);
-    if (solidAngle <= 0.0f) // from behind, or edge-on
-        return 0.0f;
-    vec3 middle = ua + ub + uc + ud;
-    vec3 across = ua - uc;
-    vec3 other = ub - ud;
-    // In single precision the edges' sum keeps 1e-7 / size; a sample in the middle is off by some
-    // l² size² / 16.
-    if (max(dot(across, across), dot(other, other)) < 1e-4f) {
-        shBasisOfOrder(normalize(middle), order, y);
-        for (int i = 0; i < order * order; ++i)
-            y[i] = y[i] * solidAngle;
-    } else {
-        y[0] = 0.282094791773878f * solidAngle;
-        // A loop, and not four calls: drivers inline them, and compile for a minute.
-        for (int edge = 0; edge < 4 && order > 1; ++edge) {
-            vec3 from = edge == 0 ? ua : edge == 1 ? ub : edge == 2 ? uc : ud;
-            vec3 to = edge == 0 ? ub : edge == 1 ? uc : edge == 2 ? ud : ua;
-            addEdgeSh(from, to, order, y);
+// A rectangle of radiance 1 in a frame of its own: `center` is where it lies along its two sides and
+// before us, `half` half of its sides. Dark from behind, edge-on and on a corner; not cut off at any
+// horizon. Bands 1 and up as two sums, in harmonics about its first side (with the second as their
+// x) and about its second side (with the normal as their x); those of m = 0 stay zero. Returns the
+// solid angle, negative where it is so small that a sample in its middle says more than edges, which
+// keep 1e-7 / size; the sample is off by some l² size² / 16.
+PT_FN float rectangleSh(vec3 center, vec2 halfSides, int order, PT_OUT_ARRAY(float, first, 64),
+                        PT_OUT_ARRAY(float, second, 64)) {
+    for (int band = 0; band < 8; ++band)
+        for (int i = 0; i < 8; ++i) {
+            first[8 * band + i] = 0.0f;
+            second[8 * band + i] = 0.0f;
         }
+    vec2 low = vec2(center.x - halfSides.x, center.y - halfSides.y);
+    vec2 high = vec2(center.x + halfSides.x, center.y + halfSides.y);
+    vec3 a = vec3(low.x, low.y, center.z);
+    vec3 b = vec3(high.x, low.y, center.z);
+    vec3 c = vec3(high.x, high.y, center.z);
+    vec3 d = vec3(low.x, high.y, center.z);
+    if (center.z <= 0.0f || min(min(dot(a, a), dot(b, b)), min(dot(c, c), dot(d, d))) < 1e-18f)
+        return 0.0f;
+    a = normalize(a);
+    b = normalize(b);
+    c = normalize(c);
+    d = normalize(d);
+    float solidAngle = max(triangleSolidAngle(a, b, c) + triangleSolidAngle(a, c, d), 0.0f);
+    vec3 across = a - c;
+    vec3 other = b - d;
+    if (max(dot(across, across), dot(other, other)) < 1e-4f)
+        return -solidAngle;
+    if (order > 1) {
+        vec2 sides = 2.0f * halfSides;
+        addMeridianSh(vec2(low.y, center.z), low.x, sides.x, 1.0f, order, first);
+        addMeridianSh(vec2(high.y, center.z), low.x, sides.x, -1.0f, order, first);
+        addMeridianSh(vec2(center.z, high.x), low.y, sides.y, 1.0f, order, second);
+        addMeridianSh(vec2(center.z, low.x), low.y, sides.y, -1.0f, order, second);
     }
     return solidAngle;
 }
 
-// A rectangle of radiance 1: `toCenter` to its centre, `halfX` and `halfY` half of its sides; the
-// side that cross(halfY, halfX) points to shines, as in shadeRectangle().
-PT_FN void nearRectangleSh(vec3 toCenter, vec3 halfX, vec3 halfY, int order,
-                           PT_ARRAY(float, window, 8), PT_OUT_ARRAY(float, y, 64)) {
-    float solidAngle = quadSh(toCenter - halfX - halfY, toCenter + halfX - halfY,
-                              toCenter + halfX + halfY, toCenter - halfX + halfY, order, y);
-    // As the cap of the same solid angle.
+// The factors of a rectangle's bands: as of the cap of the same solid angle.
+PT_FN void rectangleFactors(float solidAngle, int order, PT_ARRAY(float, window, 8),
+                            PT_OUT_ARRAY(float, factor, 8)) {
     float scale = capScale(1.0f - solidAngle / kTwoPi, order, window);
-    for (int l = 0; l < order; ++l)
-        for (int i = l * l; i < (l + 1) * (l + 1); ++i)
-            y[i] = y[i] * scale * window[l];
+    for (int l = 0; l < 8; ++l)
+        factor[l] = scale * window[l];
 }
 
 #endif

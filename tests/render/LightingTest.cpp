@@ -301,9 +301,15 @@ TEST_F(Lighting, StillLightCostsNothing) {
     EXPECT_EQ(edited(Change::everything()), count);
     document.lights[0].shadowSoftness = 20.0f;
     EXPECT_EQ(edited(lights), count);
+    EXPECT_EQ(relight.nearElementsDone(), 0u);
     document.lights[0].type = LightType::Point;
     EXPECT_EQ(edited(lights), count);
     EXPECT_EQ(done(LightingMode::Shadowed), 0u);
+    // What is near is kept while the surroundings change.
+    EXPECT_EQ(relight.nearElementsDone(), count);
+    document.environment.exposureEv = 2.0f;
+    EXPECT_EQ(edited({Affects::Uniform, Target{Scope::Environment, 0}}), count);
+    EXPECT_EQ(relight.nearElementsDone(), count);
     document.lights[0].position.x += 0.5f;
     EXPECT_EQ(edited(lights), count);
     document.lights[0].castsShadow = false; // says nothing to transfer

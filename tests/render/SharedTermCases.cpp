@@ -255,29 +255,33 @@ std::vector<SharedTermCase> makeCases() {
                  for (int i = 0; i < 8; ++i) O(i) = y[56 + i];),
             CASE("near point and sphere", directions, 1e-1f, float window[8];
                  for (int l = 0; l < 8; ++l) window[l] = 1.0f - 0.1f * float(l); float y[64];
-                 shBasisOfOrder(vec3(I(0), I(1), I(2)), 5, y); O(0) = y[20]; O(1) = y[24];
-                 shBasisOfOrder(vec3(I(0), I(1), I(2)), 7, y); O(2) = y[30]; O(3) = y[48];
-                 nearPointSh(vec3(I(0), I(1), I(2)), 6, window, y); O(4) = y[0]; O(5) = y[7];
-                 O(6) = y[35];
+                 nearPointSh(vec3(I(0), I(1), I(2)), 8, window, y); O(0) = y[20]; O(1) = y[30];
+                 O(2) = y[48]; O(3) = y[63]; nearPointSh(vec3(I(0), I(1), I(2)), 6, window, y);
+                 O(4) = y[0]; O(5) = y[7]; O(6) = y[35];
                  nearSphereSh(2.0f * vec3(I(3), I(4), I(5)), 1.0f + 1.2f * I(6), 5, window, y);
                  for (int i = 0; i < 9; ++i) O(7 + i) = y[i]; O(16) = y[24]; float bands[8];
                  capBands(I(7), bands); for (int l = 1; l < 8; ++l) O(16 + l) = bands[l];
                  O(24) = capScale(0.9f * I(8), 5, window);),
-            CASE("near polygon", directions, 1e-1f, vec3 a = vec3(I(0), I(1), I(2));
-                 vec3 b = vec3(I(3), I(4), I(5)); vec3 c = vec3(I(6), I(7), I(8));
-                 vec3 n = normalize(cross(a, b)); float y[64];
-                 for (int i = 0; i < 64; ++i) y[i] = 0.0f; O(0) = triangleSolidAngle(a, b, c);
-                 arcSh(a, cross(n, a), 1.0f + I(9), 4, y); O(1) = y[0]; O(2) = y[2]; O(3) = y[7];
-                 O(4) = y[13]; vec2 slope = arcSlope(y, n, 4, 3); O(5) = slope.x; O(6) = slope.y;
-                 slope = complexSh(y, 3, -2); O(7) = slope.x; O(8) = slope.y; addEdgeSh(a, b, 4, y);
-                 O(9) = y[3]; O(10) = y[9]; O(11) = y[15]; vec3 x = 0.6f * b; vec3 z = 0.4f * c;
-                 O(12) = quadSh(2.0f * a - x - z, 2.0f * a + x - z, 2.0f * a + x + z,
-                                2.0f * a - x + z, 5, y);
-                 for (int i = 0; i < 9; ++i) O(13 + i) = O(12) > 1e-3f ? y[i] : 0.0f;
-                 O(22) = O(12) > 1e-3f ? y[24] : 0.0f; float window[8];
-                 for (int l = 0; l < 8; ++l) window[l] = 1.0f - 0.1f * float(l);
-                 nearRectangleSh(2.0f * a, x, z, 7, window, y); O(23) = O(12) > 1e-3f ? y[0] : 0.0f;
-                 O(24) = O(12) > 1e-3f ? y[40] : 0.0f;),
+            CASE(
+                "near rectangle", directions, 1e-1f, float y[64]; float other[64];
+                for (int i = 0; i < 64; ++i) y[i] = 0.0f;
+                O(0) = triangleSolidAngle(vec3(I(0), I(1), I(2)), vec3(I(3), I(4), I(5)),
+                                          vec3(I(6), I(7), I(8)));
+                addMeridianSh(vec2(I(0), I(1)), I(2), 1.0f + I(9), 1.0f, 8, y); O(1) = y[3];
+                O(2) = y[7]; O(3) = y[14]; O(4) = y[24]; O(5) = y[31]; O(6) = y[45]; O(7) = y[57];
+                O(8) = y[63]; vec3 center = vec3(I(3), I(4), 0.3f + abs(I(5)));
+                vec2 sides = vec2(0.6f, 0.4f); O(9) = rectangleSh(center, sides, 5, y, other);
+                O(10) = y[1]; O(11) = y[13]; O(12) = y[22]; O(13) = other[5]; O(14) = other[17];
+                O(15) = y[25]; float window[8]; float factor[8];
+                for (int l = 0; l < 8; ++l) window[l] = 1.0f - 0.1f * float(l);
+                rectangleFactors(abs(O(9)), 6, window, factor); O(16) = factor[0];
+                O(17) = factor[5]; scaleBands(6, factor, y); O(18) = y[3]; O(19) = y[21];
+                float a[8]; float c[8]; float s[8]; for (int i = 0; i < 8; ++i) {
+                    a[i] = I(0);
+                    c[i] = I(1);
+                    s[i] = I(2);
+                } addMeridianBand(3, a, c, s, y);
+                O(20) = y[9]; O(21) = y[15];),
             CASE("cosine factor", unit, 1.0f,
                  for (int l = 0; l < 8; ++l) O(l) = shCosineFactor(l);),
             CASE("irradiance", directions, 1.0f, vec3 sh[9];

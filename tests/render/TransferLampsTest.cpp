@@ -151,8 +151,6 @@ TEST_F(TransferLamps, LightsNearByAgreeWithTheirClosedForms) {
         document.view.lighting = LightingMode::Ibl;
         const Image closed = diffuse(document, 48);
         for (const LightingMode mode : {LightingMode::Shadowed, LightingMode::Unshadowed}) {
-            if (type == LightType::Rectangle && mode == LightingMode::Unshadowed)
-                continue; // software OpenGL takes seconds to compile it
             document.view.lighting = mode;
             const Image transfer = diffuse(document, 48);
             float largest = 0.0f, most = 0.0f;

@@ -207,6 +207,23 @@ TEST_F(WarmUpTest, CoversEveryWayToLight) {
         lit += key.files.front() == "relight.comp" ? 1 : 0;
     }
     EXPECT_GE(lit, 3u) << "transfer was lit";
+
+    // Nor does the light of lamps that were not there yet.
+    document.lights = {bulb(document, LightType::Sphere), bulb(document, LightType::Rectangle)};
+    for (const ViewKind kind : {shading::kViewUnshadowedLight, shading::kViewShadowedLight,
+                                shading::kViewInterreflectedLight}) {
+        frame.view.shown.kind = kind;
+        draw(document, 16, frame);
+    }
+    std::size_t near = 0;
+    for (const ProgramKey& key : renderer().programs()) {
+        if (key.files.size() > 1)
+            continue;
+        EXPECT_NE(std::find(known.begin(), known.end(), key), known.end())
+            << ::testing::PrintToString(key.files) << ::testing::PrintToString(key.defines);
+        near += key.files.front() == "nearlight.comp" ? 1 : 0;
+    }
+    EXPECT_EQ(near, 9u) << "points, spheres and rectangles, each in three ways";
 }
 
 TEST_F(WarmUpTest, StopsWhenItIsCancelled) {

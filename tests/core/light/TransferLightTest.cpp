@@ -2,10 +2,12 @@
 
 #include "core/document/Lights.h"
 #include "core/light/EnvironmentBlend.h"
+#include "core/light/NearRectangle.h"
 #include "core/math/ShRotation.h"
 #include "core/math/ShWindow.h"
 #include "core/math/Shading.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -211,13 +213,78 @@ TEST_F(TransferLight, NearLightsAgreeWithAnalyticOnes) {
             setDirectionToLight(panel, n);
             panel.position = 2.0f * n;
             const RectangleAxes axes = rectangleAxes(panel);
-            shading::nearRectangleSh(panel.position, 0.5f * size * axes.x, 0.5f * size * axes.y,
-                                     order, window.data(), y.data());
+            projectRectangle(
+                nearRectangle(panel.position, 0.5f * size * axes.x, 0.5f * size * axes.y), {},
+                order, window, y);
             const double expected = illuminanceAt(panel, {});
             // A square is not quite the cap of its solid angle.
             EXPECT_NEAR(facing(y, n, order), expected, 0.02 * expected) << order << ' ' << size;
         }
     }
+}
+
+// What a place sees of lights near by: each as its closed form says, added to what is there.
+TEST_F(TransferLight, AddsTheNearLightsThatShineAsAPlaceSeesThem) {
+    constexpr int kOrder = 5;
+    const glm::vec3 place(0.5f, -1.0f, 0.25f), up(0, 1, 0);
+    const auto seen = [&](const std::vector<Light>& lights) {
+        document.lights = lights;
+        std::vector<glm::vec3> sum(25, glm::vec3(0.0f));
+        addNearLights(document, place, kOrder, sum);
+        return sum;
+    };
+    const auto dark = [](const std::vector<glm::vec3>& sum) {
+        return std::ranges::all_of(sum, [](const glm::vec3& c) { return c == glm::vec3(0.0f); });
+    };
+    Light bulb;
+    bulb.type = LightType::Point;
+    bulb.color = {1.0f, 0.5f, 0.25f};
+    bulb.intensity = 8.0f;
+    bulb.position = place + 2.0f * up;
+    const std::vector<glm::vec3> one = seen({bulb});
+    for (int c = 0; c < 3; ++c) // I / d²
+        EXPECT_NEAR(irradiance(one, up)[c], 2.0f * bulb.color[c], 1e-5f);
+    // Band 0 of a point is damped by no window: L_00 = I / d² Y_00, times what makes up for the
+    // rest.
+    const float ratio = one[6].x / one[0].x; // Y_20 / Y_00 towards y, times the window
+    EXPECT_NEAR(ratio, -0.5f * std::sqrt(5.0f) * nearLightWindow(kOrder)[2], 1e-5f);
+
+    Light far = bulb, off = bulb, sun = bulb, spot = bulb;
+    far.range = 1.5f;
+    off.enabled = false;
+    sun.type = LightType::Directional;
+    spot.type = LightType::Spot;
+    setDirectionToLight(spot, -up); // shines upwards
+    for (const Light& light : {far, off, sun, spot})
+        EXPECT_TRUE(dark(seen({light}))) << static_cast<int>(light.type);
+    setDirectionToLight(spot, up);
+    EXPECT_NEAR(irradiance(seen({spot}), up).x, 2.0f, 1e-5f);
+    Light alone = bulb;
+    alone.solo = true;
+    EXPECT_EQ(seen({bulb, alone}), one) << "only what is solo";
+
+    Light ball = bulb, panel = bulb;
+    ball.type = LightType::Sphere;
+    ball.radius = 0.5f;
+    panel.type = LightType::Rectangle;
+    panel.width = 1.0f;
+    panel.height = 0.5f;
+    setDirectionToLight(panel, up); // shines downwards
+    // Of radiance 8: pi sin² of the ball.
+    const std::vector<glm::vec3> ballLight = seen({ball}), panelLight = seen({panel});
+    EXPECT_NEAR(irradiance(ballLight, up).x, 8.0 * kPi / 16.0, 1e-4);
+    EXPECT_NEAR(irradiance(panelLight, up).x, illuminanceAt(panel, place), 0.02f);
+    EXPECT_NEAR(panelLight[0].y, 0.5f * panelLight[0].x, 1e-6f);
+    setDirectionToLight(panel, -up);
+    EXPECT_TRUE(dark(seen({panel}))) << "from behind";
+    setDirectionToLight(panel, up);
+
+    // Together they add up, to what is there.
+    document.lights = {bulb, ball, panel};
+    std::vector<glm::vec3> sum(25, glm::vec3(1.0f));
+    addNearLights(document, place, kOrder, sum);
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        EXPECT_NEAR(sum[i].x, 1.0f + one[i].x + ballLight[i].x + panelLight[i].x, 1e-5f) << i;
 }
 
 } // namespace

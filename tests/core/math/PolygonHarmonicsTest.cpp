@@ -2,7 +2,6 @@
 #include "core/math/PolygonHarmonics.h"
 
 #include "core/math/Quadrature.h"
-#include "core/math/Shading.h"
 #include "core/math/ZonalHarmonics.h"
 
 #include <array>
@@ -167,44 +166,6 @@ TEST(PolygonHarmonics, SolidAngles) {
     // A rectangle 2a × 2b at distance d: 4 asin(a b / sqrt((a² + d²) (b² + d²))).
     const double expected = 4.0 * std::asin(1.0 * 0.5 / std::sqrt((1.0 + 4.0) * (0.25 + 4.0)));
     EXPECT_NEAR(polygonSolidAngle(rectangle({0, 0, 2}, {1, 0, 0}, {0, 0.5, 0})), expected, 1e-15);
-}
-
-// What the GPU runs, in single precision.
-TEST(PolygonHarmonics, TheSharedTermAgrees) {
-    std::mt19937 random(3);
-    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-    const auto vector = [&] {
-        return glm::dvec3(uniform(random), uniform(random), uniform(random));
-    };
-    int lit = 0;
-    for (int i = 0; i < 400; ++i) {
-        SCOPED_TRACE(i);
-        const double size = std::pow(10.0, 1.7 * uniform(random) - 1.0);
-        const glm::dvec3 x = size * glm::normalize(vector());
-        const glm::dvec3 y = 0.6 * size * glm::normalize(glm::cross(x, vector()));
-        const Quad q = rectangle(3.0 * vector(), x, y);
-        for (const int order : {1, 3, 5, 8}) {
-            std::array<float, 64> actual{};
-            const float solidAngle = shading::quadSh(q[0], q[1], q[2], q[3], order, actual.data());
-            const std::vector<double> expected = project(q, order);
-            if (expected[0] < 0.0) {
-                EXPECT_LT(solidAngle, 1e-5f);
-                continue;
-            }
-            ++lit;
-            for (std::size_t k = 0; k < expected.size(); ++k)
-                EXPECT_NEAR(actual[k], expected[k], 2e-6 + 1e-4 * expected[0]) << order << ' ' << k;
-        }
-    }
-    EXPECT_GT(lit, 500);
-    // Beyond the border of the methods, and where nothing is seen.
-    std::array<float, 64> y{};
-    const glm::vec3 a(-1, -1, 0), b(1, -1, 0), c(1, 1, 0), d(-1, 1, 0);
-    EXPECT_EQ(shading::quadSh(a - a, b - a, c - a, d - a, 5, y.data()), 0.0f); // on a corner
-    const glm::vec3 behind(0, 0, -2);
-    EXPECT_EQ(shading::quadSh(a + behind, b + behind, c + behind, d + behind, 5, y.data()), 0.0f);
-    EXPECT_EQ(y[0], 0.0f);
-    EXPECT_EQ(y[24], 0.0f);
 }
 
 } // namespace

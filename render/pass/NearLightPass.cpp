@@ -1,0 +1,123 @@
+#include "render/pass/NearLightPass.h"
+
+#include "core/light/NearRectangle.h"
+#include "core/light/TransferLight.h"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+namespace patina::render {
+namespace {
+
+struct NearLightBlock {
+    std::array<float, kMaxShOrder> window{};
+    glm::vec4 center{0.0f}, sideX{0.0f}, sideY{0.0f}, normal{0.0f};
+    std::array<float, kRectangleTurnSize> turnFirst{}, turnSecond{};
+};
+static_assert(sizeof(NearLightBlock) == (2 + 4 + 2 * 154) * sizeof(glm::vec4));
+
+NearLightBlock blockOf(const LightBlock& light) {
+    const NearRectangle r =
+        nearRectangle(glm::vec3(light.place), glm::vec3(light.axis), glm::vec3(light.side));
+    NearLightBlock block;
+    block.center = glm::vec4(r.center, 0.0f);
+    block.sideX = glm::vec4(r.x, r.halfX);
+    block.sideY = glm::vec4(r.y, r.halfY);
+    block.normal = glm::vec4(r.normal, 0.0f);
+    block.turnFirst = r.turnFirst;
+    block.turnSecond = r.turnSecond;
+    return block;
+}
+
+} // namespace
+
+NearLightPass::NearLightPass(gl::Context& context, ShaderLibrary& shaders)
+    : m_context(context)
+    , m_shaders(shaders)
+    , m_parts(context) {}
+
+void NearLightPass::setLights(const FrameBlock& frame) {
+    Lights lights{
+        frame.lightEnds,
+        {frame.lights.begin() + frame.lightEnds.x, frame.lights.begin() + frame.lightEnds.w}};
+    for (LightBlock& light : lights.lights)
+        light.place.w = 0.0f; // the slot of its shadow map says nothing here
+    if (lights == m_lights)
+        return;
+    m_lights = std::move(lights);
+    m_blocksOrder = 0;
+    ++m_revision;
+}
+
+const std::vector<gl::Buffer>& NearLightPass::blocks(int order) {
+    if (order == m_blocksOrder)
+        return m_blocks;
+    m_blocksOrder = order;
+    m_blocks.clear();
+    const glm::ivec4 ends = m_lights.ends;
+    const auto add = [&](NearLightBlock block) {
+        block.window = nearLightWindow(order);
+        m_blocks.push_back(
+            gl::Buffer::of(m_context, "light near by", std::span<const NearLightBlock>(&block, 1)));
+    };
+    add({});
+    for (int i = ends.z; i < ends.w; ++i)
+        add(blockOf(m_lights.lights[static_cast<std::size_t>(i - ends.x)]));
+    return m_blocks;
+}
+
+Result<void> NearLightPass::light(const TransferWork& work, const gl::Buffer& target) {
+    target.bindStorage(kNearBinding);
+    const std::vector<gl::Buffer>& own = blocks(work.order);
+    const glm::ivec4 ends = m_lights.ends;
+    bool adds = false;
+    const auto run = [&](const char* kind, const gl::Buffer& block, int begin,
+                         int end) -> Result<void> {
+        if (begin == end)
+            return {};
+        if (adds)
+            glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        auto done = dispatch(work, kind, block, begin, end, adds);
+        adds = true;
+        return done;
+    };
+    if (auto done = run("NEAR_POINTS", own.front(), ends.x, ends.y); !done)
+        return done;
+    if (auto done = run("NEAR_SPHERES", own.front(), ends.y, ends.z); !done)
+        return done;
+    for (int i = ends.z; i < ends.w; ++i)
+        if (auto done =
+                run("NEAR_RECTANGLE", own[static_cast<std::size_t>(1 + i - ends.z)], i, i + 1);
+            !done)
+            return done;
+    return {};
+}
+
+Result<void> NearLightPass::dispatch(const TransferWork& work, const char* kind,
+                                     const gl::Buffer& block, int begin, int end, bool adds) {
+    ProgramKey key{{"nearlight.comp"}, {kind, fmt::format("ORDER {}", work.order)}};
+    if (work.bounced)
+        key.defines.emplace_back("COLORED");
+    if (work.openSky)
+        key.defines.emplace_back("OPEN_SKY");
+    const auto shader = m_shaders.program(key);
+    if (!shader)
+        return shader.error();
+    const gl::Program& program = **shader;
+    program.use();
+    block.bindUniform(kNearLightBinding);
+    program.set("u_adds", adds ? 1 : 0);
+    program.set("u_lightBegin", begin);
+    program.set("u_lightEnd", end);
+    program.set("u_placeVectors", work.placeVectors);
+    program.set("u_placeToWorld", work.placeToWorld);
+    if (work.openSky)
+        program.set("u_normalToWorld", glm::mat4(work.normalToWorld));
+    m_parts.run(work, [&](int first, int count) {
+        program.set("u_first", first);
+        program.set("u_count", count);
+    });
+    return {};
+}
+
+} // namespace patina::render

@@ -1,0 +1,46 @@
+// What lights near by add under transfer, for each vertex or texel: made anew when a light, the
+// transfer or a place has changed, and kept while the surroundings turn.
+#pragma once
+
+#include "render/pass/TransferWork.h"
+#include "render/scene/Blocks.h"
+#include "render/shader/ShaderLibrary.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace patina::render {
+
+class NearLightPass {
+  public:
+    NearLightPass(gl::Context& context, ShaderLibrary& shaders);
+
+    // Those of the frame, whose buffer is bound.
+    void setLights(const FrameBlock& frame);
+    [[nodiscard]] bool any() const { return !m_lights.lights.empty(); }
+    [[nodiscard]] std::uint64_t revision() const { return m_revision; } // grows with each change
+
+    // The light of all of them into `target`, a vec4 for each element.
+    Result<void> light(const TransferWork& work, const gl::Buffer& target);
+
+  private:
+    struct Lights {
+        glm::ivec4 ends{0};
+        std::vector<LightBlock> lights;
+        friend bool operator==(const Lights&, const Lights&) = default;
+    };
+    Result<void> dispatch(const TransferWork& work, const char* kind, const gl::Buffer& block,
+                          int begin, int end, bool adds);
+    [[nodiscard]] const std::vector<gl::Buffer>& blocks(int order);
+
+    gl::Context& m_context;
+    ShaderLibrary& m_shaders;
+    TransferParts m_parts;
+    Lights m_lights;
+    std::uint64_t m_revision = 0;
+    // For bakes of that order: one without a rectangle, then one for each.
+    std::vector<gl::Buffer> m_blocks;
+    int m_blocksOrder = 0;
+};
+
+} // namespace patina::render

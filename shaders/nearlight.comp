@@ -1,0 +1,167 @@
+#version 450 core
+// What lights near by add to the radiance that surfaces of albedo 1 send out, for each vertex or
+// texel: each place sees them differently, so their harmonics are made there, in closed form, and
+// multiplied with its transfer. Run when one of them, the transfer or a place has changed.
+// NEAR_POINTS, NEAR_SPHERES: the lights u_lightBegin … u_lightEnd - 1; NEAR_RECTANGLE: one light.
+// ORDER: bands; known to the compiler, so that harmonics stay in registers.
+// COLORED, OPEN_SKY: as in relight.comp. The C++ side is render/pass/NearLightPass.h.
+#include "include/frame.glsl"
+#include "shared/lights.glsl"
+#include "shared/nearlight.glsl"
+
+layout(local_size_x = 64) in;
+
+#define COUNT (ORDER * ORDER)
+#define VECTORS ((COUNT + 3) / 4)
+
+layout(std430, binding = 4) buffer NearRadiance {
+    vec4 b_near[];
+};
+layout(std140, binding = 8) uniform NearLight {
+    vec4 u_window[2]; // of the bands
+    // Of a rectangle: position, unit vectors along its sides with half of their lengths, normal.
+    vec4 u_center;
+    vec4 u_sideX;
+    vec4 u_sideY;
+    vec4 u_normal;
+    vec4 u_turnFirst[154]; // NearRectangle::turnFirst
+    vec4 u_turnSecond[154];
+};
+// Of the chunk's elements: coefficients, VECTORS each (OPEN_SKY: vertices, three vectors each); the
+// same of what comes by way of other surfaces, three times as many; positions.
+layout(binding = 0) uniform samplerBuffer u_elements;
+#ifdef COLORED
+layout(binding = 1) uniform samplerBuffer u_bounced;
+#endif
+layout(binding = 2) uniform samplerBuffer u_places;
+
+uniform int u_first;        // element of b_near that the chunk begins with
+uniform int u_count;        // elements in the chunk
+uniform int u_adds;         // to what is there
+uniform int u_placeVectors; // of u_places, the first holds the position
+uniform mat4 u_placeToWorld;
+uniform int u_lightBegin;
+uniform int u_lightEnd;
+#ifdef OPEN_SKY
+uniform mat4 u_normalToWorld;
+#endif
+
+float[8] window() {
+    return float[8](u_window[0].x, u_window[0].y, u_window[0].z, u_window[0].w, u_window[1].x,
+                    u_window[1].y, u_window[1].z, u_window[1].w);
+}
+
+// The transfer of an element, times light.
+vec3 transferred(int element, float light[64]) {
+    vec3 sum = vec3(0.0);
+#ifdef OPEN_SKY
+    // Position, normal, tangent, uv: 12 floats.
+    vec4 a = texelFetch(u_elements, 3 * element);
+    vec4 b = texelFetch(u_elements, 3 * element + 1);
+    float cosine[64];
+    shBasis64(normalize(mat3(u_normalToWorld) * vec3(a.w, b.x, b.y)), cosine);
+    float factor[8];
+    for (int l = 0; l < 8; ++l)
+        factor[l] = shCosineFactor(l) * kInvPi;
+    scaleBands(ORDER, factor, cosine);
+    for (int k = 0; k < VECTORS; ++k)
+        for (int c = 0; c < 4; ++c)
+            sum += 4 * k + c < COUNT ? cosine[4 * k + c] * light[4 * k + c] : 0.0;
+#else
+    for (int k = 0; k < VECTORS; ++k) {
+        vec4 part;
+        for (int c = 0; c < 4; ++c) // the last vector may hold more than there is
+            part[c] = 4 * k + c < COUNT ? light[4 * k + c] : 0.0;
+        sum += vec3(dot(texelFetch(u_elements, element * VECTORS + k), part));
+#ifdef COLORED
+        int at = 3 * element * VECTORS + k;
+        sum += vec3(dot(texelFetch(u_bounced, at), part),
+                    dot(texelFetch(u_bounced, at + VECTORS), part),
+                    dot(texelFetch(u_bounced, at + 2 * VECTORS), part));
+#endif
+    }
+#endif
+    return sum;
+}
+
+#ifdef NEAR_RECTANGLE
+// Band l from the light's frames to the world.
+void turnBand(int l, int begin, float first[64], float second[64], inout float y[64]) {
+    for (int row = 0; row < 2 * l + 1; ++row) {
+        float sum = 0.0;
+        for (int c = 0; c < 2 * l; ++c) {
+            int at = begin + row * 2 * l + c;
+            int from = l * l + c + (c < l ? 0 : 1); // m = 0 is left out
+            sum += u_turnFirst[at >> 2][at & 3] * first[from] +
+                   u_turnSecond[at >> 2][at & 3] * second[from];
+        }
+        y[l * l + row] = sum;
+    }
+}
+
+vec3 rectangleLight(int element, vec3 place) {
+    vec3 toCenter = u_center.xyz - place;
+    float first[64];
+    float second[64];
+    float seen = rectangleSh(vec3(dot(toCenter, u_sideX.xyz), dot(toCenter, u_sideY.xyz),
+                                  dot(toCenter, u_normal.xyz)),
+                             vec2(u_sideX.w, u_sideY.w), ORDER, first, second);
+    if (seen == 0.0)
+        return vec3(0.0);
+    float y[64];
+    if (seen < 0.0) {
+        shBasis64(normalize(toCenter), y);
+        for (int row = 0; row < 8; ++row)
+            for (int i = 0; i < 8; ++i)
+                y[8 * row + i] *= -seen;
+    } else {
+        y[0] = 0.282094791773878 * seen;
+        if (ORDER > 1)
+            turnBand(1, 0, first, second, y);
+        if (ORDER > 2)
+            turnBand(2, 6, first, second, y);
+        if (ORDER > 3)
+            turnBand(3, 26, first, second, y);
+        if (ORDER > 4)
+            turnBand(4, 68, first, second, y);
+        if (ORDER > 5)
+            turnBand(5, 140, first, second, y);
+        if (ORDER > 6)
+            turnBand(6, 250, first, second, y);
+        if (ORDER > 7)
+            turnBand(7, 406, first, second, y);
+    }
+    float factor[8];
+    rectangleFactors(abs(seen), ORDER, window(), factor);
+    scaleBands(ORDER, factor, y);
+    return u_lights[u_lightBegin].color.rgb * transferred(element, y);
+}
+#endif
+
+void main() {
+    int i = int(gl_GlobalInvocationID.x);
+    if (i >= u_count)
+        return;
+    vec3 place = (u_placeToWorld * vec4(texelFetch(u_places, i * u_placeVectors).xyz, 1.0)).xyz;
+    vec3 sum = u_adds != 0 ? b_near[u_first + i].rgb : vec3(0.0);
+#ifdef NEAR_RECTANGLE
+    sum += rectangleLight(i, place);
+#else
+    for (int k = u_lightBegin; k < u_lightEnd; ++k) {
+        vec3 toLight = u_lights[k].place.xyz - place;
+        float y[64];
+#ifdef NEAR_POINTS
+        float distance2 = dot(toLight, toLight);
+        vec3 l = toLight * inversesqrt(max(distance2, 1e-12));
+        float reaches = pointFalloff(distance2, u_lights[k].color.w) *
+                        spotFalloff(dot(u_lights[k].axis.xyz, l), 1.0, u_lights[k].axis.w);
+        nearPointSh(l, ORDER, window(), y);
+#else
+        const float reaches = 1.0;
+        nearSphereSh(toLight, u_lights[k].axis.x, ORDER, window(), y);
+#endif
+        sum += u_lights[k].color.rgb * reaches * transferred(i, y);
+    }
+#endif
+    b_near[u_first + i] = vec4(sum, 0.0);
+}
