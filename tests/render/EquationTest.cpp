@@ -206,7 +206,6 @@ TEST_F(Equations, TermsAndFactorsAddUpUnderTransfer) {
             Document document = scene(materials[i]);
             document.environment.image = lit.environment.image;
             document.lights = lights(document);
-            document.lights.pop_back(); // rectangles take software OpenGL seconds to compile
             document.view.lighting = mode;
             document.bakes = {openBake(document, 4, 0.3f)};
             const std::string where = materials[i].name + " " + std::to_string(int(mode));

@@ -123,6 +123,33 @@ TEST_F(TransferPanelTest, ShowsThePinnedPointBandByBand) {
     EXPECT_EQ(undoCount(), 1) << "attaching the bake; looking is no edit";
 }
 
+// A cross-fade meets the point as exactly the mix of both environments' light.
+TEST_F(TransferPanelTest, FollowsTheMixOfTwoEnvironments) {
+    controller().attachBake(openBake());
+    controller().setSecondEnvironment(QStringLiteral("builtin:sunset"));
+    ASSERT_TRUE(eventually(
+        [] { return !controller().tasks().busy() && document().environment.second.image; }));
+    pin();
+    std::vector<glm::vec3> last;
+    const auto at = [&](float fade) {
+        controller().setParameter(*findParameter("environment.fade"), {Scope::Environment, 0},
+                                  fade);
+        EXPECT_TRUE(eventually([&] {
+            return studied() && panel().study()->light.size() == 9 &&
+                   panel().study()->light != last;
+        })) << fade;
+        last = panel().study()->light;
+        return last;
+    };
+    const auto first = at(0.0f), half = at(0.25f), second = at(1.0f);
+    const float size = std::max(first[0].x, second[0].x);
+    EXPECT_GT(std::abs(first[0].x - second[0].x), 0.01f * size);
+    for (std::size_t i = 0; i < half.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(half[i][c], 0.75f * first[i][c] + 0.25f * second[i][c], 1e-4f * size)
+                << i << ' ' << c;
+}
+
 TEST_F(TransferPanelTest, ShowsTheSurroundingsInAnyNumberOfBands) {
     controller().attachBake(openBake());
     pin();

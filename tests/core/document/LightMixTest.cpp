@@ -163,6 +163,72 @@ TEST_F(LightMix, TheBlendedPictureIsTheSumOfTheParts) {
     EXPECT_EQ(shownEnvironment(document).role, Role::First);
 }
 
+// For files that know of no mix: a single environment that lights the scene alike.
+TEST_F(LightMix, BecomesASingleEnvironment) {
+    Environment& e = document.environment;
+    const auto single = [&](float fade) {
+        e.fade = fade;
+        const std::optional<Environment> mixed = mixedEnvironment(document);
+        EXPECT_TRUE(mixed.has_value());
+        Document alone = document;
+        alone.environment = mixed.value_or(Environment());
+        EXPECT_EQ(alone.environment.second, SecondEnvironment());
+        EXPECT_EQ(alone.environment.tint, glm::vec3(1.0f));
+        EXPECT_EQ(alone.environment.blended, nullptr);
+        return alone.environment;
+    };
+    const auto texel = [](const Environment& from, int x, int y, int c) {
+        return from.image->f32()[static_cast<std::size_t>(3 * (y * 64 + x) + c)] *
+               std::exp2(from.exposureEv);
+    };
+    const auto scaled = [&](const ImagePtr& image, int x, int y, int c, float scale) {
+        return scale * image->f32()[static_cast<std::size_t>(3 * (y * 64 + x) + c)];
+    };
+    const glm::vec3 first(2.0f, 1.0f, 0.5f), second(0.1f, 0.2f, 0.4f); // tint · 2^EV
+    const Environment a = single(0.0f), b = single(1.0f), both = single(0.25f);
+    EXPECT_EQ(a.rotationDeg, 30.0f);
+    EXPECT_EQ(b.rotationDeg, 75.0f);
+    EXPECT_EQ(b.source, "/tmp/second.hdr");
+    EXPECT_EQ(both.rotationDeg, 30.0f);
+    for (const auto& [x, y] : {std::pair(10, 9), std::pair(40, 20), std::pair(0, 0)})
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_FLOAT_EQ(texel(a, x, y, c), scaled(e.image, x, y, c, first[c]));
+            EXPECT_FLOAT_EQ(texel(b, x, y, c), scaled(e.second.image, x, y, c, second[c]));
+        }
+    // The second stands 45° and 8 of 64 pixels further: of the two lamps each is where it was seen.
+    const auto sum = [&](int c) {
+        double total = 0.0;
+        for (int y = 0; y < 32; ++y)
+            for (int x = 0; x < 64; ++x)
+                total += static_cast<double>(texel(both, x, y, c));
+        return total;
+    };
+    for (int c = 0; c < 3; ++c) {
+        double expected = 0.0;
+        for (int y = 0; y < 32; ++y)
+            for (int x = 0; x < 64; ++x)
+                expected += static_cast<double>(scaled(e.image, x, y, c, 0.75f * first[c]) +
+                                                scaled(e.second.image, x, y, c, 0.25f * second[c]));
+        EXPECT_NEAR(sum(c), expected, 1e-4 * expected) << c;
+        EXPECT_GT(texel(both, 10, 9, c), 40.0f * 0.75f * first[c]);
+    }
+
+    // What is plain already stays the picture that it is; without surroundings there is none.
+    e.tint = glm::vec3(1.0f);
+    const Environment plain = single(0.0f);
+    EXPECT_EQ(plain.image, e.image);
+    EXPECT_EQ(plain.exposureEv, 1.0f);
+    e.enabled = false;
+    EXPECT_EQ(mixedEnvironment(document), std::nullopt);
+    e.fade = 0.5f;
+    EXPECT_EQ(mixedEnvironment(document)->source, "/tmp/second.hdr")
+        << "the other one still shines";
+    e.enabled = true;
+    JobControl control;
+    control.cancel();
+    EXPECT_EQ(mixedEnvironment(document, control.context()), std::nullopt);
+}
+
 TEST_F(LightMix, ProjectsKeepTheMix) {
     Environment& e = document.environment;
     e.fade = 0.375f;
