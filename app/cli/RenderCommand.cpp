@@ -2,8 +2,10 @@
 #include "app/cli/InspectPixel.h"
 #include "app/cli/RenderViews.h"
 #include "app/cli/SceneSetup.h"
+#include "core/bake/Interreflection.h"
 #include "core/document/Edit.h"
 #include "core/document/LightMix.h"
+#include "core/document/Lighting.h"
 #include "core/image/DisplayTransform.h"
 #include "core/image/ImageIO.h"
 #include "core/light/Ibl.h"
@@ -110,6 +112,26 @@ Result<void> applyView(Session& session, const RenderOptions& options, Document&
     frame.transparentBackground = environment.background == BackgroundMode::Off;
     if (Result<void> offered = checkOffered(document, "view.lighting"); !offered)
         return offered;
+    return {};
+}
+
+// What the picture is lit by bounces as often as view.bounces says.
+Result<void> followBounces(Session& session, const render::ViewSettings& shown,
+                           Document& document) {
+    const int bounces = document.view.bounces;
+    if (bounces == 0 || lightingOf(shown.shown.kind, document.view.lighting) != LightingMode::Prt)
+        return {};
+    for (BakeArtifactPtr& bake : document.bakes) {
+        if (!holdsTransfer(bake->kind) || bake->transfer != TransferKind::Interreflected ||
+            bake->bounces == bounces)
+            continue;
+        session.beginPhase();
+        Result<BakeArtifactPtr> followed =
+            withBounces(*bake, bakeInputs(document), bounces, session.job());
+        if (!followed)
+            return followed.error();
+        bake = std::move(*followed);
+    }
     return {};
 }
 
@@ -278,6 +300,8 @@ Result<void> run(Session& session, const RenderOptions& options) {
     if (!shown)
         return shown.error();
     frame->view = *shown;
+    if (Result<void> followed = followBounces(session, *shown, *document); !followed)
+        return followed;
     if (!options.view.empty()) {
         json["settings"]["view"] = options.view;
         json["settings"]["viewMode"] = options.viewMode;

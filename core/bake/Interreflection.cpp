@@ -1,5 +1,7 @@
 #include "core/bake/Interreflection.h"
 
+#include "core/bake/BakeOptions.h"
+#include "core/bake/BakeScene.h"
 #include "core/base/Check.h"
 
 #include <algorithm>
@@ -140,6 +142,35 @@ std::optional<Error> addInterreflection(BakeArtifact& artifact, const BakeInputs
     artifact.transfer = TransferKind::Interreflected;
     artifact.bounces = settings.bounces;
     return std::nullopt;
+}
+
+Result<BakeArtifactPtr> withBounces(const BakeArtifact& artifact, const BakeInputs& inputs,
+                                    int bounces, const JobContext& job) {
+    const auto refused = [&](std::string_view why) {
+        return Error{ErrorKind::Usage,
+                     fmt::format("The bake holds {} bounces together, and not {} alone: {}. Bake "
+                                 "with --bounces {}, or leave view.bounces at 0.",
+                                 artifact.bounces, bounces, why, bounces),
+                     {},
+                     {}};
+    };
+    if (artifact.kind != BakeKind::PrtVertex)
+        return refused("between texels light is not followed again");
+    if (hashBakeInputs(inputs) != artifact.inputs)
+        return refused("it is of other geometry, where its rays cannot be traced again");
+    PrtSettings settings = requestFromText(artifact.kind, artifact.settings).prt;
+    settings.order = artifact.order;
+    settings.bounces = bounces;
+    const Result<BakeScene> scene = BakeScene::build(inputs, job);
+    if (!scene)
+        return scene.error();
+    auto result = std::make_shared<BakeArtifact>(artifact);
+    TileSink nobody;
+    if (const std::optional<Error> error = addInterreflection(*result, inputs, *scene->geometry,
+                                                              scene->rays, settings, nobody, job))
+        return *error;
+    result->settings["bounces"] = fmt::format("{}", bounces);
+    return BakeArtifactPtr(std::move(result));
 }
 
 } // namespace patina

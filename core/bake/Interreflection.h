@@ -32,6 +32,13 @@ Result<HitSourcePtr> traceHits(const RayScene& scene, const BakeGeometry& geomet
 void setBounced(BakeArtifact& artifact, const BounceElements& elements,
                 std::span<const float> bounced);
 
+// A per-vertex bake as if it had been made for so many bounces off the surfaces of `inputs`: its
+// rays are traced again. Errors: Usage where they cannot be (another geometry, texels), as
+// traceHits().
+[[nodiscard]] Result<BakeArtifactPtr> withBounces(const BakeArtifact& artifact,
+                                                  const BakeInputs& inputs, int bounces,
+                                                  const JobContext& job);
+
 // The last step of an interreflected bake: `artifact` has its direct coefficients (those of every
 // shard, and fitted) and gets `bounced`, `albedo`, `transfer` and `bounces`. Hits that fit the
 // budget go to `sink`. The result depends on nothing but `inputs`, the coefficients and

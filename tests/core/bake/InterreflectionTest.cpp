@@ -2,6 +2,7 @@
 // interreflection there is a geometric series in every band (integrating sphere; see
 // docs/maths/baking.md).
 #include "core/bake/Interreflection.h"
+#include "core/bake/BakeOptions.h"
 #include "core/job/Parallel.h"
 #include "core/math/Shading.h"
 #include "tests/core/bake/BakeTestScene.h"
@@ -477,4 +478,32 @@ TEST(Interreflection, CancelLeavesNothing) {
         bakePrtVertex(inputs, bouncing(2, 3, 64, 32), sink, sink.control.context());
     ASSERT_FALSE(artifact.ok());
     EXPECT_EQ(artifact.error().kind, ErrorKind::Cancelled);
+}
+
+// A bake of many bounces tells of fewer, and of more, to the bit what a bake of so many does.
+TEST(Interreflection, IsFollowedAgainForAnotherNumberOfBounces) {
+    const BakeInputs inputs =
+        withAlbedo(sceneOf({bowlMesh(16, 8)}), {0.5f, 0.25f, 0.8f});
+    BakeArtifact three = bake(inputs, bouncing(2, 3, 32, 32));
+    BakeRequest request;
+    request.kind = BakeKind::PrtVertex;
+    request.prt = bouncing(2, 3, 32, 32);
+    three.settings = settingsText(request);
+    for (const int bounces : {1, 3, 5}) {
+        const auto followed = withBounces(three, inputs, bounces, {});
+        ASSERT_TRUE(followed.ok()) << followed.error().text();
+        const BakeArtifact fresh = bake(inputs, bouncing(2, bounces, 32, 32));
+        EXPECT_EQ((*followed)->vertices[0].bounced, fresh.vertices[0].bounced) << bounces;
+        EXPECT_EQ((*followed)->vertices[0].values, three.vertices[0].values);
+        EXPECT_EQ((*followed)->bounces, bounces);
+    }
+    EXPECT_NE((*withBounces(three, inputs, 1, {}))->vertices[0].bounced, three.vertices[0].bounced);
+    BakeInputs moved = inputs;
+    moved.meshes[0].transform[3].x += 1.0f;
+    const auto refused = withBounces(three, moved, 1, {});
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().kind, ErrorKind::Usage);
+    EXPECT_NE(refused.error().message.find("--bounces 1"), std::string::npos);
+    three.kind = BakeKind::PrtTexel;
+    EXPECT_FALSE(withBounces(three, inputs, 1, {}).ok());
 }
