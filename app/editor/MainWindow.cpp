@@ -19,6 +19,7 @@
 #include "app/editor/panel/MaterialPanel.h"
 #include "app/editor/panel/MixerPanel.h"
 #include "app/editor/panel/ModelPanel.h"
+#include "app/editor/panel/ParameterRow.h"
 #include "app/editor/panel/PixelPanel.h"
 #include "app/editor/panel/ScenePanel.h"
 #include "app/editor/panel/TransferPanel.h"
@@ -100,6 +101,7 @@ MainWindow::MainWindow(Session& session)
     m_looks->equation->setChecked(!equation->isFolded());
     auto* strip = new ViewStrip(session.views, session.controller, m_viewport->sheets());
     layout->addWidget(strip);
+    strip->addControl(ViewGroup::Lighting, makeReflectionMix());
     connect(m_looks->strip, &QAction::toggled, strip,
             [strip](bool shown) { strip->setFolded(!shown); });
     connect(strip, &ViewStrip::foldedChanged, m_looks->strip,
@@ -136,6 +138,30 @@ QDockWidget* MainWindow::addDock(const QString& name, const QString& title, cons
     connect(dock, &QDockWidget::dockLocationChanged, this, &MainWindow::refreshDockTitles,
             Qt::QueuedConnection);
     return dock;
+}
+
+// Narrow, its name below it: it stands among thumbnails.
+QWidget* MainWindow::makeReflectionMix() {
+    constexpr int kWidth = 160;
+    DocumentController& controller = m_session.controller;
+    const ParameterInfo& mix = parameter("view.reflectionMix");
+    auto* row = makeParameterRow(mix, {controller, m_session.thumbnails, [] {
+                                           return Target{Scope::View, 0};
+                                       }});
+    row->refresh();
+    connect(&controller, &DocumentController::changed, row, &ParameterRow::refresh);
+    auto* name = new QLabel(toQString(mix.label));
+    name->setAlignment(Qt::AlignCenter);
+    name->setToolTip(toQString(mix.help));
+    auto* box = new QWidget;
+    box->setFixedWidth(kWidth);
+    auto* layout = new QVBoxLayout(box);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addStretch(1);
+    layout->addWidget(row);
+    layout->addWidget(name);
+    layout->addStretch(1);
+    return box;
 }
 
 void MainWindow::makeDocks() {

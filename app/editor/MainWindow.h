@@ -40,6 +40,7 @@ class MainWindow : public QMainWindow {
     void dropEvent(QDropEvent* event) override;
 
   private:
+    QWidget* makeReflectionMix();
     void makeDocks();
     QDockWidget* addDock(const QString& name, const QString& title, const QString& iconName,
                          const QString& help, QWidget* panel);

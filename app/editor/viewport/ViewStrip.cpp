@@ -110,7 +110,7 @@ ViewStrip::~ViewStrip() {
 void ViewStrip::makeThumbs() {
     auto* row = new QWidget;
     row->setObjectName(QStringLiteral("panelContents"));
-    auto* thumbs = new QHBoxLayout(row);
+    auto* thumbs = m_row = new QHBoxLayout(row);
     thumbs->setContentsMargins(tokens::kGap, 0, tokens::kGap, 0);
     thumbs->setSpacing(6);
     for (const ViewInfo& info : views()) {
@@ -145,13 +145,26 @@ void ViewStrip::setFolded(bool folded) {
     m_fold->setIcon(icon(folded ? QStringLiteral("chevron-right") : QStringLiteral("chevron-down"),
                          tokens::kTextDim));
     QSettings().setValue(QLatin1String(kFoldedKey), folded);
+    showControls();
     m_sheets->wake();
     Q_EMIT foldedChanged(folded);
+}
+
+void ViewStrip::addControl(ViewGroup group, QWidget* control) {
+    m_row->insertWidget(m_row->count() - 1, control); // before what stretches
+    m_controls.emplace_back(group, control);
+    showControls();
+}
+
+void ViewStrip::showControls() {
+    for (const auto& [group, control] : m_controls)
+        control->setVisible(!isFolded() && m_groups->currentIndex() == static_cast<int>(group));
 }
 
 void ViewStrip::showGroup(int group) {
     for (ViewThumb* thumb : m_thumbs)
         thumb->setVisible(static_cast<int>(viewInfo(thumb->kind()).group) == group);
+    showControls();
     m_scroll->horizontalScrollBar()->setValue(0);
     m_sheets->wake();
 }

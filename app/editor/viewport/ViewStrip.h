@@ -6,8 +6,10 @@
 
 #include <QPointer>
 #include <QWidget>
+#include <utility>
 #include <vector>
 
+class QHBoxLayout;
 class QScrollArea;
 class QTabBar;
 class QToolButton;
@@ -27,6 +29,8 @@ class ViewStrip : public QWidget, private SheetClient {
 
     [[nodiscard]] bool isFolded() const;
     void setFolded(bool folded); // remembered over sessions
+    // A control that belongs to a group: right of its thumbnails.
+    void addControl(ViewGroup group, QWidget* control);
 
   Q_SIGNALS:
     void foldedChanged(bool folded);
@@ -41,6 +45,7 @@ class ViewStrip : public QWidget, private SheetClient {
 
     void makeThumbs();
     void showGroup(int group);
+    void showControls();
     void refreshShown();
     void refreshWhy();
     void click(ViewKind kind);
@@ -52,6 +57,8 @@ class ViewStrip : public QWidget, private SheetClient {
     QPointer<SheetScheduler> m_sheets; // the viewport's, which may go first
     QToolButton* m_fold;
     QTabBar* m_groups;
+    QHBoxLayout* m_row = nullptr; // of the thumbnails
+    std::vector<std::pair<ViewGroup, QWidget*>> m_controls;
     QScrollArea* m_scroll;
     std::vector<ViewThumb*> m_thumbs; // by ViewKind
     ViewKind m_marked = -1;           // as shown last

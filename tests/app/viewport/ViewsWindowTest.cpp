@@ -9,6 +9,7 @@
 #include "app/editor/viewport/ViewThumb.h"
 #include "app/editor/widget/ColorScale.h"
 #include "app/editor/widget/NumberField.h"
+#include "app/editor/widget/Slider.h"
 #include "core/document/Lights.h"
 #include "tests/app/editor/EditorFixture.h"
 
@@ -121,6 +122,29 @@ TEST_F(ViewsWindowTest, ZeroReturnsToThePictureAndGoesBack) {
     EXPECT_EQ(shown(), kViewFinal);
     key(Qt::Key_0);
     EXPECT_EQ(shown(), kViewBaseColor);
+}
+
+TEST_F(ViewsWindowTest, TheLightingGroupMixesDiffuseLightAndReflections) {
+    strip().setFolded(false);
+    auto* slider = strip().findChild<Slider*>();
+    ASSERT_NE(slider, nullptr);
+    key(Qt::Key_B);
+    EXPECT_TRUE(eventually([&] { return !slider->isVisible(); })) << "no concern of materials";
+    key(Qt::Key_7);
+    ASSERT_TRUE(eventually([&] { return slider->isVisible(); }));
+    EXPECT_THAT(slider->toolTip().toStdString(), HasSubstr("reflections alone"));
+    const float before = document().view.reflectionMix;
+    QTest::mouseClick(slider, Qt::LeftButton, {}, {1, slider->height() / 2});
+    EXPECT_LT(document().view.reflectionMix, 0.1f);
+    EXPECT_EQ(undoCount(), 1);
+    const QString shown = strip().findChild<NumberField*>()->text();
+    controller().undoStack().undo();
+    EXPECT_EQ(document().view.reflectionMix, before);
+    EXPECT_NE(strip().findChild<NumberField*>()->text(), shown);
+    keepPicture("lighting-strip.png");
+    strip().setFolded(true);
+    EXPECT_FALSE(slider->isVisible());
+    strip().setFolded(false);
 }
 
 TEST_F(ViewsWindowTest, EveryLetterShowsItsView) {
