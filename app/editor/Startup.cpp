@@ -1,12 +1,33 @@
 #include "app/editor/Startup.h"
 
 #include <QCoreApplication>
+#include <QFileInfo>
 #include <QGuiApplication>
+#include <QStandardPaths>
+#include <QStorageInfo>
 #include <QSurfaceFormat>
 
 namespace patina::editor {
+namespace {
+
+// Mesa maps the index of its shader cache (1.3 MB, sparse) into memory: on a full disk, writing to
+// it would end the process. Without the cache the first frames only take longer.
+void avoidFullShaderCache() {
+    constexpr qint64 kEnough = 16 << 20;
+    QString folder = qEnvironmentVariable(
+        "MESA_SHADER_CACHE_DIR",
+        QStandardPaths::writableLocation(QStandardPaths::GenericCacheLocation));
+    while (!QFileInfo::exists(folder)) // Mesa would create it
+        folder = QFileInfo(folder).path();
+    const QStorageInfo disk(folder);
+    if (disk.isValid() && disk.bytesAvailable() < kEnough)
+        qputenv("MESA_SHADER_CACHE_DISABLE", "true");
+}
+
+} // namespace
 
 void prepareApplication() {
+    avoidFullShaderCache();
     // Without shared contexts, floating a dock would destroy the viewport's.
     QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
     QSurfaceFormat format;

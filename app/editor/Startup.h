@@ -3,7 +3,8 @@
 
 namespace patina::editor {
 
-// Shared OpenGL contexts, the surface format of the viewport, names for settings.
+// Shared OpenGL contexts, the surface format of the viewport, names for settings, no shader cache
+// on a disk that is full.
 void prepareApplication();
 
 } // namespace patina::editor
