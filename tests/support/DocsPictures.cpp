@@ -77,7 +77,7 @@ void settle(Session& session, MainWindow& window) {
                    viewport.frameSize() == full;
         },
         60'000);
-    bool drawn = !viewport.sheets().wanted();
+    bool drawn = viewport.sheets().wanted().empty();
     QObject here;
     QObject::connect(&viewport.sheets(), &SheetScheduler::allDrawn, &here, [&] { drawn = true; });
     viewport.sheets().invalidate();

@@ -2,6 +2,7 @@
 #include "core/math/PolygonHarmonics.h"
 
 #include "core/math/Quadrature.h"
+#include "core/math/Shading.h"
 #include "core/math/ZonalHarmonics.h"
 
 #include <array>
