@@ -244,10 +244,11 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
     color(kViewIblFresnel, "iblFresnel", "IBL Fresnel", "F̄", kIbl,
           "Mean Fresnel reflectance over the lobe: (F0 A + B) / (A + B)",
           "The reflection that Fresnel adds to the one at normal incidence"),
-    color(kViewTransmission, "kd", "kD", "kD", kIbl,
-          "Share that the specular layer lets through to the diffuse lobe: 1 - its albedo; where the "
-          "mix fades reflections it takes less",
-          "The diffuse light that the specular layer takes away"),
+    color(
+        kViewTransmission, "kd", "kD", "kD", kIbl,
+        "Share that the specular layer lets through to the diffuse lobe: 1 - its albedo; where the "
+        "mix fades reflections it takes less",
+        "The diffuse light that the specular layer takes away"),
     radiance(kViewSpecularIbl, "specularIbl", "Specular IBL", "", kIbl,
              "Specular reflection of the surroundings",
              "Specular image-based light as it stands in the picture's sum"),
@@ -308,7 +309,8 @@ bool anyMaterial(const Document& document, Has has) {
                        });
 }
 
-constexpr const char* kNoTransfer = "There is no finished radiance transfer bake: make one in Bakes.";
+constexpr const char* kNoTransfer =
+    "There is no finished radiance transfer bake: make one in Bakes.";
 
 // Whether transfer lights every mesh, and so holds the diffuse light of the lamps.
 bool transferHoldsLamps(const Document& document) {
