@@ -482,8 +482,7 @@ TEST(Interreflection, CancelLeavesNothing) {
 
 // A bake of many bounces tells of fewer, and of more, to the bit what a bake of so many does.
 TEST(Interreflection, IsFollowedAgainForAnotherNumberOfBounces) {
-    const BakeInputs inputs =
-        withAlbedo(sceneOf({bowlMesh(16, 8)}), {0.5f, 0.25f, 0.8f});
+    const BakeInputs inputs = withAlbedo(sceneOf({bowlMesh(16, 8)}), {0.5f, 0.25f, 0.8f});
     BakeArtifact three = bake(inputs, bouncing(2, 3, 32, 32));
     BakeRequest request;
     request.kind = BakeKind::PrtVertex;
