@@ -5,6 +5,7 @@
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/panel/ParameterList.h"
 #include "app/editor/style/Icons.h"
+#include "app/editor/style/LightIcon.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/PanelScroll.h"
 #include "core/document/LightMix.h"
@@ -70,22 +71,6 @@ QToolButton* iconButton(const QString& iconName, const QString& tip) {
     return button;
 }
 
-QString iconOf(LightType type) {
-    switch (type) {
-    case LightType::Point:
-        return QStringLiteral("light-point");
-    case LightType::Directional:
-        return QStringLiteral("light-sun");
-    case LightType::Spot:
-        return QStringLiteral("light-spot");
-    case LightType::Sphere:
-        return QStringLiteral("light-sphere");
-    case LightType::Rectangle:
-        return QStringLiteral("light-rectangle");
-    }
-    return {};
-}
-
 // Keeps the selected light in sight when its parameters take the room.
 class LightList : public QTreeWidget {
   protected:
@@ -148,7 +133,7 @@ LightsPanel::LightsPanel(DocumentController& controller, SelectionModel& selecti
     addLabel->setObjectName(QStringLiteral("dim"));
     head->addWidget(addLabel);
     for (const auto& kind : kinds) {
-        QToolButton* button = iconButton(iconOf(kind.type), kind.tip);
+        QToolButton* button = iconButton(lightIcon(kind.type), kind.tip);
         button->setObjectName(QStringLiteral("raised"));
         head->addWidget(button);
         connect(button, &QToolButton::clicked, this,
@@ -210,7 +195,7 @@ void LightsPanel::refreshList() {
         const Light& light = lights[static_cast<std::size_t>(row)];
         QTreeWidgetItem* item = m_list->topLevelItem(row);
         item->setText(kNameColumn, QString::fromStdString(light.name));
-        item->setIcon(kNameColumn, icon(iconOf(light.type)));
+        item->setIcon(kNameColumn, icon(lightIcon(light.type)));
         item->setFlags(item->flags() | Qt::ItemIsEditable | Qt::ItemIsUserCheckable);
         item->setCheckState(kNameColumn, light.enabled ? Qt::Checked : Qt::Unchecked);
         item->setCheckState(kSoloColumn, light.solo ? Qt::Checked : Qt::Unchecked);

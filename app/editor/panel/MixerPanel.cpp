@@ -4,6 +4,7 @@
 #include "app/editor/document/FileKinds.h"
 #include "app/editor/panel/ParameterRow.h"
 #include "app/editor/style/Icons.h"
+#include "app/editor/style/LightIcon.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/MapSlotWidget.h"
 #include "app/editor/widget/NumberField.h"
@@ -30,22 +31,6 @@ namespace {
 
 constexpr Target kEnvironment{Scope::Environment, 0};
 constexpr qint64 kStepPauseMs = 700; // a longer pause begins a new undo step
-
-QString iconOf(const Light& light) {
-    switch (light.type) {
-    case LightType::Point:
-        return QStringLiteral("light-point");
-    case LightType::Directional:
-        return QStringLiteral("light-sun");
-    case LightType::Spot:
-        return QStringLiteral("light-spot");
-    case LightType::Sphere:
-        return QStringLiteral("light-sphere");
-    case LightType::Rectangle:
-        return QStringLiteral("light-rectangle");
-    }
-    return {};
-}
 
 QString titleOf(const Environment& environment) {
     switch (environment.kind) {
@@ -284,7 +269,7 @@ void MixerPanel::refreshStrip(MixerStrip& strip) {
     const Environment& environment = document.environment;
     if (strip.channel().target.scope == Scope::Light) {
         const Light& light = *document.light(strip.channel().target.id);
-        strip.setName(QString::fromStdString(light.name), iconOf(light));
+        strip.setName(QString::fromStdString(light.name), lightIcon(light.type));
         strip.refresh(lightLevel(document, light), shines(document, light));
         return;
     }

@@ -1,13 +1,13 @@
 #include "app/editor/viewport/EquationBar.h"
 
 #include "app/editor/document/DocumentController.h"
-#include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/viewport/EquationText.h"
 #include "app/editor/viewport/TermTile.h"
 #include "app/editor/viewport/ViewState.h"
 #include "app/editor/viewport/ViewThumb.h"
 #include "app/editor/widget/ElidedLabel.h"
+#include "app/editor/widget/FoldButton.h"
 #include "core/document/LightMix.h"
 #include "core/document/Lights.h"
 
@@ -16,7 +16,6 @@
 #include <QKeyEvent>
 #include <QScrollArea>
 #include <QScrollBar>
-#include <QSettings>
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <QWheelEvent>
@@ -55,7 +54,7 @@ EquationBar::EquationBar(ViewState& views, DocumentController& controller, Sheet
     , m_views(views)
     , m_controller(controller)
     , m_sheets(&sheets)
-    , m_fold(new QToolButton)
+    , m_fold(new FoldButton(tr("Equation"), QLatin1String(kFoldedKey)))
     , m_allOn(new QToolButton)
     , m_crumbs(new QWidget)
     , m_formula(new ElidedLabel)
@@ -65,12 +64,8 @@ EquationBar::EquationBar(ViewState& views, DocumentController& controller, Sheet
     setObjectName(QStringLiteral("equationBar"));
     setAttribute(Qt::WA_StyledBackground);
     m_fold->setObjectName(QStringLiteral("foldEquation"));
-    m_fold->setText(tr("Equation"));
     m_fold->setAccessibleName(tr("Show the picture as its sum"));
     m_fold->setToolTip(tr("Show or hide the picture as its sum (=)"));
-    m_fold->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-    m_fold->setIconSize({14, 14});
-    m_fold->setFocusPolicy(Qt::TabFocus);
     connect(m_fold, &QToolButton::clicked, this, [this] { setFolded(!isFolded()); });
     m_formula->setObjectName(QStringLiteral("formula"));
     m_note->setObjectName(QStringLiteral("dim"));
@@ -120,7 +115,7 @@ EquationBar::EquationBar(ViewState& views, DocumentController& controller, Sheet
     connect(&m_views, &ViewState::changed, this, &EquationBar::refresh);
     connect(&m_controller, &DocumentController::changed, this, &EquationBar::refresh);
     m_sheets->add(*this);
-    setFolded(QSettings().value(QLatin1String(kFoldedKey), true).toBool());
+    setFolded(m_fold->remembered(true));
 }
 
 EquationBar::~EquationBar() {
@@ -129,14 +124,11 @@ EquationBar::~EquationBar() {
 }
 
 bool EquationBar::isFolded() const {
-    return m_fold->property("folded").toBool();
+    return m_fold->isFolded();
 }
 
 void EquationBar::setFolded(bool folded) {
-    m_fold->setProperty("folded", folded);
-    m_fold->setIcon(icon(folded ? QStringLiteral("chevron-right") : QStringLiteral("chevron-down"),
-                         tokens::kTextDim));
-    QSettings().setValue(QLatin1String(kFoldedKey), folded);
+    m_fold->setFolded(folded);
     refresh();
     m_sheets->wake();
     Q_EMIT foldedChanged(folded);
@@ -373,9 +365,7 @@ bool EquationBar::eventFilter(QObject* watched, QEvent* event) {
         m_sheets->wake();
     // The wheel turns sideways: there is nothing to scroll the other way.
     if (event->type() == QEvent::Wheel && watched == m_scroll->viewport()) {
-        const QPoint angle = static_cast<QWheelEvent*>(event)->angleDelta();
-        QScrollBar* bar = m_scroll->horizontalScrollBar();
-        bar->setValue(bar->value() - (angle.x() != 0 ? angle.x() : angle.y()));
+        scrollSideways(*m_scroll, *static_cast<QWheelEvent*>(event));
         return true;
     }
     return QWidget::eventFilter(watched, event);

@@ -20,6 +20,7 @@ class QToolButton;
 namespace patina::editor {
 
 class DocumentController;
+class FoldButton;
 class TermTile;
 class ViewState;
 
@@ -64,7 +65,8 @@ class EquationBar : public QWidget, private SheetClient {
     ViewState& m_views;
     DocumentController& m_controller;
     QPointer<SheetScheduler> m_sheets; // the viewport's, which may go first
-    QToolButton *m_fold, *m_allOn;
+    FoldButton* m_fold;
+    QToolButton* m_allOn;
     QWidget* m_crumbs;
     QLabel *m_formula, *m_note;
     QComboBox* m_lights;

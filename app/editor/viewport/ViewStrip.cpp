@@ -1,10 +1,10 @@
 #include "app/editor/viewport/ViewStrip.h"
 
 #include "app/editor/document/DocumentController.h"
-#include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/viewport/ViewState.h"
 #include "app/editor/viewport/ViewThumb.h"
+#include "app/editor/widget/FoldButton.h"
 
 #include <QContextMenuEvent>
 #include <QHBoxLayout>
@@ -12,7 +12,6 @@
 #include <QScreen>
 #include <QScrollArea>
 #include <QScrollBar>
-#include <QSettings>
 #include <QTabBar>
 #include <QToolButton>
 #include <QWheelEvent>
@@ -50,18 +49,14 @@ ViewStrip::ViewStrip(ViewState& views, DocumentController& controller, SheetSche
     , m_views(views)
     , m_controller(controller)
     , m_sheets(&sheets)
-    , m_fold(new QToolButton)
+    , m_fold(new FoldButton(tr("Views"), QLatin1String(kFoldedKey)))
     , m_groups(new QTabBar)
     , m_scroll(new QScrollArea) {
     setObjectName(QStringLiteral("viewStrip"));
     setAttribute(Qt::WA_StyledBackground);
     m_fold->setObjectName(QStringLiteral("foldViews"));
-    m_fold->setText(tr("Views"));
     m_fold->setAccessibleName(tr("Show the thumbnails of views"));
     m_fold->setToolTip(tr("Show or hide the thumbnails of the views (T)"));
-    m_fold->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-    m_fold->setIconSize({14, 14});
-    m_fold->setFocusPolicy(Qt::TabFocus);
     connect(m_fold, &QToolButton::clicked, this, [this] { setFolded(!isFolded()); });
     m_groups->setObjectName(QStringLiteral("viewGroups"));
     m_groups->setAccessibleName(tr("Groups of views"));
@@ -98,7 +93,7 @@ ViewStrip::ViewStrip(ViewState& views, DocumentController& controller, SheetSche
     refreshShown();
     showGroup(m_groups->currentIndex());
     const bool small = screen()->availableSize().height() < kRoomyScreen;
-    setFolded(QSettings().value(QLatin1String(kFoldedKey), small).toBool());
+    setFolded(m_fold->remembered(small));
     m_sheets->add(*this);
 }
 
@@ -136,15 +131,13 @@ void ViewStrip::makeThumbs() {
 }
 
 bool ViewStrip::isFolded() const {
-    return m_scroll->isHidden();
+    return m_fold->isFolded();
 }
 
 void ViewStrip::setFolded(bool folded) {
     m_scroll->setVisible(!folded);
     m_groups->setVisible(!folded);
-    m_fold->setIcon(icon(folded ? QStringLiteral("chevron-right") : QStringLiteral("chevron-down"),
-                         tokens::kTextDim));
-    QSettings().setValue(QLatin1String(kFoldedKey), folded);
+    m_fold->setFolded(folded);
     showControls();
     m_sheets->wake();
     Q_EMIT foldedChanged(folded);
@@ -249,10 +242,7 @@ bool ViewStrip::eventFilter(QObject* watched, QEvent* event) {
     }
     // The wheel turns sideways: there is nothing to scroll the other way.
     if (event->type() == QEvent::Wheel && watched == m_scroll->viewport()) {
-        const QPoint angle = static_cast<QWheelEvent*>(event)->angleDelta();
-        const int delta = angle.x() != 0 ? angle.x() : angle.y();
-        QScrollBar* bar = m_scroll->horizontalScrollBar();
-        bar->setValue(bar->value() - delta);
+        scrollSideways(*m_scroll, *static_cast<QWheelEvent*>(event));
         return true;
     }
     return QWidget::eventFilter(watched, event);

@@ -12,11 +12,11 @@
 class QHBoxLayout;
 class QScrollArea;
 class QTabBar;
-class QToolButton;
 
 namespace patina::editor {
 
 class DocumentController;
+class FoldButton;
 class ViewState;
 class ViewThumb;
 
@@ -55,7 +55,7 @@ class ViewStrip : public QWidget, private SheetClient {
     ViewState& m_views;
     DocumentController& m_controller;
     QPointer<SheetScheduler> m_sheets; // the viewport's, which may go first
-    QToolButton* m_fold;
+    FoldButton* m_fold;
     QTabBar* m_groups;
     QHBoxLayout* m_row = nullptr; // of the thumbnails
     std::vector<std::pair<ViewGroup, QWidget*>> m_controls;
