@@ -218,8 +218,8 @@ TEST_F(Shadow, LightsThatMissTheSceneAndFlatScenesAreHarmless) {
     for (int meshes = 2; meshes >= 0; --meshes) {
         document.meshes.resize(static_cast<std::size_t>(meshes));
         const Image image = draw(document, 64);
-        const auto broken = std::ranges::find_if_not(
-            image.f32(), [](float value) { return std::isfinite(value); });
+        const auto broken =
+            std::ranges::find_if_not(image.f32(), [](float value) { return std::isfinite(value); });
         EXPECT_EQ(broken, image.f32().end())
             << meshes << " meshes, number " << broken - image.f32().begin();
     }
