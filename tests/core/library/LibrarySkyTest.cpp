@@ -107,7 +107,8 @@ TEST_P(EverySky, HasNoSeamAndNoPoles) {
 }
 
 TEST(LibrarySky, WhiteIsAFurnace) {
-    for (const float value : library::environment("white").value()->f32())
+    const ImagePtr white = library::environment("white").value();
+    for (const float value : white->f32())
         ASSERT_EQ(value, 1.0f);
 }
 
