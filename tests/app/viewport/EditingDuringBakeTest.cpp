@@ -188,6 +188,7 @@ class EditingDuringABake : public EditorTest {
         }
         std::printf("[ figures  ] the bake on %d thread%s traced %.2f M rays/s between frames\n",
                     threads, threads == 1 ? "" : "s", traced / seconds * 1e-6);
+        EXPECT_GT(traced, 0.0) << "the bake goes on, too";
         session->jobs.cancelAll();
         EXPECT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
         return pairs;
