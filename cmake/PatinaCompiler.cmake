@@ -25,7 +25,9 @@ endif()
 
 find_program(PATINA_CCACHE ccache)
 if(PATINA_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${PATINA_CCACHE})
+  # What ccache wants to be told before it stores objects compiled with precompiled headers.
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+    ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${PATINA_CCACHE})
 endif()
 
 find_program(PATINA_MOLD mold)

@@ -16,6 +16,25 @@ if(PATINA_SANITIZERS)
     "TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/cmake/tsan.supp")
 endif()
 
+# Compiling tests would take longer than running them: they are optimized a little only. The other
+# options make all of them reuse the same precompiled headers: some libraries bring -pthread and others
+# do not, and Qt defines a folder that differs from test to test.
+function(patina_test_options target)
+  target_compile_options(${target} PRIVATE
+    $<$<CONFIG:Release>:-O1> -pthread -UQT_TESTCASE_BUILDDIR -UQT_TESTCASE_SOURCEDIR)
+endfunction()
+
+# patina_test_support(NAME): a static library that tests share. Compiled like a program, so that tests
+# can reuse the headers it precompiles.
+function(patina_test_support name)
+  add_library(${name} STATIC)
+  target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
+  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+  target_link_libraries(${name} PRIVATE patina_compiler)
+  target_compile_options(${name} PRIVATE -fPIE)
+  patina_test_options(${name})
+endfunction()
+
 # patina_test(NAME LABEL core|render|app SOURCES … LIBRARIES … [TIMEOUT s])
 # One GoogleTest program, one ctest entry.
 function(patina_test name)
@@ -25,7 +44,14 @@ function(patina_test name)
   endif()
   patina_executable(${name})
   target_sources(${name} PRIVATE ${T_SOURCES})
-  target_link_libraries(${name} PRIVATE ${T_LIBRARIES} GTest::gmock GTest::gtest_main)
+  target_link_libraries(${name} PRIVATE ${T_LIBRARIES} patina_core GTest::gmock GTest::gtest_main)
+  patina_test_options(${name})
+  if(patina_editor_lib IN_LIST T_LIBRARIES)
+    target_link_libraries(${name} PRIVATE Qt6::Test)
+    patina_reuse_precompiled(${name} patina_gui_test_support)
+  else()
+    patina_reuse_precompiled(${name} patina_core_test_support)
+  endif()
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   add_test(NAME ${name} COMMAND ${name})
   math(EXPR timeout "${T_TIMEOUT} * ${PATINA_TIMEOUT_FACTOR}")
@@ -45,18 +71,21 @@ function(patina_golden name)
 endfunction()
 
 # patina_gui_test(NAME SOURCES … LIBRARIES …): a GoogleTest program with a window, on an X server of
-# its own (tests/support/with-xvfb). Brings its main() from tests/support/GuiTestMain.cpp. Pictures
-# that a test takes are kept in tests/screenshots of the build folder.
+# its own (tests/support/with-xvfb). Brings its main() and the editor's fixture from
+# patina_gui_test_support. Pictures that a test takes are kept in tests/screenshots of the build folder.
 function(patina_gui_test name)
   cmake_parse_arguments(T "" "TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
   if(NOT T_TIMEOUT)
     set(T_TIMEOUT 300)
   endif()
   patina_executable(${name})
-  target_sources(${name} PRIVATE ${T_SOURCES} ${CMAKE_SOURCE_DIR}/tests/support/GuiTestMain.cpp)
-  target_link_libraries(${name} PRIVATE ${T_LIBRARIES} patina_editor_lib Qt6::Test GTest::gmock)
+  target_sources(${name} PRIVATE ${T_SOURCES})
+  target_link_libraries(${name} PRIVATE
+    ${T_LIBRARIES} patina_gui_test_support patina_editor_lib Qt6::Test GTest::gmock)
+  patina_test_options(${name})
+  patina_reuse_precompiled(${name} patina_gui_test_support)
   add_dependencies(${name} patina-worker)
-  set_target_properties(${name} PROPERTIES AUTOMOC ON
+  set_target_properties(${name} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   add_test(NAME ${name} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-xvfb $<TARGET_FILE:${name}>)
   set_tests_properties(${name} PROPERTIES LABELS "app" TIMEOUT ${T_TIMEOUT}
@@ -64,7 +93,16 @@ function(patina_gui_test name)
     ENVIRONMENT "PATINA_BIN_DIR=${CMAKE_BINARY_DIR}/bin;LP_NUM_THREADS=2;XDG_RUNTIME_DIR=${CMAKE_BINARY_DIR}/run;PATINA_SCREENSHOTS=${CMAKE_BINARY_DIR}/tests/screenshots")
 endfunction()
 
-# patina_benchmark(NAME SOURCES … LIBRARIES …): a Google Benchmark program; never run by ctest.
+# patina_on_demand(TARGET): built by name, or with everything else of its kind by the target `tools`,
+# which scripts/test --all builds.
+add_custom_target(tools)
+function(patina_on_demand target)
+  set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL ON)
+  add_dependencies(tools ${target})
+endfunction()
+
+# patina_benchmark(NAME SOURCES … LIBRARIES …): a Google Benchmark program, built on demand; never run
+# by ctest.
 function(patina_benchmark name)
   if(NOT PATINA_BENCHMARKS)
     return()
@@ -74,6 +112,7 @@ function(patina_benchmark name)
   target_sources(${name} PRIVATE ${B_SOURCES})
   target_link_libraries(${name} PRIVATE ${B_LIBRARIES} benchmark::benchmark benchmark::benchmark_main)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/benchmarks)
+  patina_on_demand(${name})
 endfunction()
 
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/run)
