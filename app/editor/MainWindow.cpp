@@ -1,6 +1,7 @@
 #include "app/editor/MainWindow.h"
 
 #include "app/editor/Actions.h"
+#include "app/editor/Docks.h"
 #include "app/editor/EnvironmentSaveDialog.h"
 #include "app/editor/ExportDialog.h"
 #include "app/editor/FileFlow.h"
@@ -51,8 +52,7 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kLayoutVersion = 4; // raise when docks come or go: older layouts are ignored
-constexpr int kInstrumentHeight = 280;
+constexpr int kLayoutVersion = 4;    // raise when docks come or go: older layouts are ignored
 constexpr qint64 kFrameTimeMs = 250; // how often the number changes, so that it can be read
 
 QStringList droppedFiles(const QMimeData* data) {
@@ -70,14 +70,11 @@ MainWindow::MainWindow(Session& session)
     , m_actions(new Actions(session.controller.undoStack(), this))
     , m_looks(new ViewActions(session.views, session.controller, this))
     , m_files(new FileFlow(session, *this))
+    , m_docks(new Docks(*this))
     , m_notices(new NoticeArea)
     , m_viewport(new ViewportWidget(session.controller, session.selection)) {
     setObjectName(QStringLiteral("mainWindow"));
     setAcceptDrops(true);
-    setDockNestingEnabled(true);
-    setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
-    setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
-    setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
     m_viewport->setJobs(session.jobs);
     m_viewport->setBounces(session.bounces);
     m_viewport->setDisplays(session.displays);
@@ -121,25 +118,6 @@ MainWindow::~MainWindow() = default;
 
 // --- Docks ---------------------------------------------------------------------------------------
 
-QDockWidget* MainWindow::addDock(const QString& name, const QString& title, const QString& iconName,
-                                 const QString& help, QWidget* panel) {
-    auto* dock = new QDockWidget(title, this);
-    dock->setObjectName(name); // saveState() finds it by this
-    panel->setAttribute(Qt::WA_StyledBackground);
-    dock->setWidget(panel);
-    QAction* toggle = dock->toggleViewAction();
-    toggle->setIcon(icon(iconName));
-    toggle->setStatusTip(help);
-    toggle->setToolTip(help);
-    m_docks << dock;
-    // In a group of tabs the tab is title enough.
-    for (auto signal : {&QDockWidget::topLevelChanged, &QDockWidget::visibilityChanged})
-        connect(dock, signal, this, &MainWindow::refreshDockTitles, Qt::QueuedConnection);
-    connect(dock, &QDockWidget::dockLocationChanged, this, &MainWindow::refreshDockTitles,
-            Qt::QueuedConnection);
-    return dock;
-}
-
 // Narrow, its name below it: it stands among thumbnails.
 QWidget* MainWindow::makeReflectionMix() {
     constexpr int kWidth = 160;
@@ -168,115 +146,50 @@ void MainWindow::makeDocks() {
     DocumentController& controller = m_session.controller;
     auto* scene = new ScenePanel(controller, m_session.selection, m_session.thumbnails);
     connect(scene, &ScenePanel::frameRequested, m_viewport, &ViewportWidget::frameSelection);
-    addDock(QStringLiteral("scene"), tr("Scene"), QStringLiteral("scene"),
-            tr("Show or hide the list of meshes and materials"), scene);
-    addDock(QStringLiteral("material"), tr("Material"), QStringLiteral("material"),
-            tr("Show or hide the parameters of the material"),
-            new MaterialPanel(controller, m_session.selection, m_session.thumbnails));
+    m_docks->add(QStringLiteral("scene"), tr("Scene"), QStringLiteral("scene"),
+                 tr("Show or hide the list of meshes and materials"), scene);
+    m_docks->add(QStringLiteral("material"), tr("Material"), QStringLiteral("material"),
+                 tr("Show or hide the parameters of the material"),
+                 new MaterialPanel(controller, m_session.selection, m_session.thumbnails));
     auto* environment = new EnvironmentPanel(controller, m_session.thumbnails);
     connect(environment, &EnvironmentPanel::saveRequested, m_actions->saveEnvironment,
             &QAction::trigger);
-    addDock(QStringLiteral("environment"), tr("Environment"), QStringLiteral("environment"),
-            tr("Show or hide what surrounds and lights the scene"), environment);
-    addDock(QStringLiteral("lights"), tr("Lights"), QStringLiteral("light-sun"),
-            tr("Show or hide the list of lights"),
-            new LightsPanel(controller, m_session.selection, m_session.thumbnails));
+    m_docks->add(QStringLiteral("environment"), tr("Environment"), QStringLiteral("environment"),
+                 tr("Show or hide what surrounds and lights the scene"), environment);
+    m_docks->add(QStringLiteral("lights"), tr("Lights"), QStringLiteral("light-sun"),
+                 tr("Show or hide the list of lights"),
+                 new LightsPanel(controller, m_session.selection, m_session.thumbnails));
     auto* view = new ViewPanel(controller, m_session.displays, m_session.thumbnails);
     connect(m_viewport, &ViewportWidget::luminanceMeasured, view, &ViewPanel::setLuminance);
     QDockWidget* viewDock =
-        addDock(QStringLiteral("view"), tr("View"), QStringLiteral("view"),
-                tr("Show or hide exposure, tone mapping, display and field of view"), view);
+        m_docks->add(QStringLiteral("view"), tr("View"), QStringLiteral("view"),
+                     tr("Show or hide exposure, tone mapping, display and field of view"), view);
     connect(viewDock, &QDockWidget::visibilityChanged, m_viewport,
             &ViewportWidget::setLuminanceWanted);
-    addDock(QStringLiteral("bake"), tr("Bake"), QStringLiteral("bake"),
-            tr("Show or hide the baking of light"), new BakePanel(controller, m_session.jobs));
-    addDock(QStringLiteral("model"), tr("Model"), QStringLiteral("model"),
-            tr("Show or hide which shading model is used"),
-            new ModelPanel(controller, m_session.selection, m_session.thumbnails));
-    addDock(QStringLiteral("jobs"), tr("Jobs"), QStringLiteral("jobs"),
-            tr("Show or hide what runs in the background"), new JobsPanel(m_session.jobs));
-    addDock(QStringLiteral("log"), tr("Log"), QStringLiteral("log"),
-            tr("Show or hide the messages of this session"), new LogPanel);
-    addInstrument(m_actions->pixel, QStringLiteral("pixel"),
-                  new PixelPanel(controller, m_session.probe, m_viewport->picker()));
+    m_docks->add(QStringLiteral("bake"), tr("Bake"), QStringLiteral("bake"),
+                 tr("Show or hide the baking of light"), new BakePanel(controller, m_session.jobs));
+    m_docks->add(QStringLiteral("model"), tr("Model"), QStringLiteral("model"),
+                 tr("Show or hide which shading model is used"),
+                 new ModelPanel(controller, m_session.selection, m_session.thumbnails));
+    m_docks->add(QStringLiteral("jobs"), tr("Jobs"), QStringLiteral("jobs"),
+                 tr("Show or hide what runs in the background"), new JobsPanel(m_session.jobs));
+    m_docks->add(QStringLiteral("log"), tr("Log"), QStringLiteral("log"),
+                 tr("Show or hide the messages of this session"), new LogPanel);
+    m_docks->addInstrument(m_actions->pixel, QStringLiteral("pixel"),
+                           new PixelPanel(controller, m_session.probe, m_viewport->picker()));
     auto* lightLab = new LightLabPanel(controller, m_viewport->ibl(), m_session.probe);
     connect(m_viewport, &ViewportWidget::luminanceMeasured, lightLab, &LightLabPanel::setLuminance);
-    connect(addInstrument(m_actions->lightLab, QStringLiteral("lightLab"), lightLab),
+    connect(m_docks->addInstrument(m_actions->lightLab, QStringLiteral("lightLab"), lightLab),
             &QDockWidget::visibilityChanged, lightLab, &LightLabPanel::setSeen);
-    addInstrument(
+    m_docks->addInstrument(
         m_actions->lens, QStringLiteral("lens"),
         new BrdfLensPanel(controller, m_session.selection, m_session.probe, m_session.lobe));
-    addInstrument(m_actions->energy, QStringLiteral("energy"),
-                  new EnergyPanel(controller, m_session.selection, m_session.views));
-    addInstrument(m_actions->mixer, QStringLiteral("mixer"), new MixerPanel(controller));
-    addInstrument(m_actions->transfer, QStringLiteral("transfer"),
-                  new TransferPanel(controller, m_session.probe, m_session.lobe));
-    resetLayout();
-}
-
-QDockWidget* MainWindow::addInstrument(QAction* toggle, const QString& name, QWidget* panel) {
-    const QString title = toggle->iconText(); // without the mnemonic
-    QDockWidget* dock = addDock(name, title, QStringLiteral("view"), toggle->statusTip(), panel);
-    dock->toggleViewAction()->setIcon(toggle->icon());
-    m_instruments << dock;
-    // Not the dock's own action: that one counts a dock behind a tab as shown, and would close it.
-    connect(dock, &QDockWidget::visibilityChanged, toggle, &QAction::setChecked);
-    connect(toggle, &QAction::triggered, dock, [this, dock](bool on) {
-        dock->setVisible(on);
-        if (!on)
-            return;
-        dock->raise();
-        if (!dock->isFloating() && dock->height() < kInstrumentHeight &&
-            dockWidgetArea(dock) == Qt::BottomDockWidgetArea)
-            resizeDocks({dock}, {kInstrumentHeight}, Qt::Vertical);
-    });
-    return dock;
-}
-
-void MainWindow::refreshDockTitles() {
-    for (QDockWidget* dock : std::as_const(m_docks)) {
-        // Docks that are closed have no tab; those behind the current one are not hidden.
-        const QList<QDockWidget*> others = tabifiedDockWidgets(dock);
-        const bool tabbed = !dock->isFloating() &&
-                            std::any_of(others.begin(), others.end(), [](const QDockWidget* other) {
-                                return !other->isHidden();
-                            });
-        QWidget* custom = dock->titleBarWidget();
-        if (tabbed && !custom) {
-            auto* none = new QWidget;
-            none->setFixedHeight(0);
-            dock->setTitleBarWidget(none);
-        } else if (!tabbed && custom) {
-            dock->setTitleBarWidget(nullptr);
-            delete custom;
-        }
-    }
-}
-
-void MainWindow::resetLayout() {
-    enum { Scene, MaterialDock, EnvironmentDock, Lights, ViewDock, Bake, Model, Jobs, Log };
-    for (QDockWidget* dock : std::as_const(m_docks)) {
-        dock->setFloating(false);
-        removeDockWidget(dock);
-    }
-    addDockWidget(Qt::LeftDockWidgetArea, m_docks[Scene]);
-    addDockWidget(Qt::LeftDockWidgetArea, m_docks[EnvironmentDock]);
-    tabifyDockWidget(m_docks[EnvironmentDock], m_docks[Lights]);
-    tabifyDockWidget(m_docks[Lights], m_docks[ViewDock]);
-    addDockWidget(Qt::RightDockWidgetArea, m_docks[MaterialDock]);
-    tabifyDockWidget(m_docks[MaterialDock], m_docks[Model]);
-    tabifyDockWidget(m_docks[Model], m_docks[Bake]);
-    addDockWidget(Qt::BottomDockWidgetArea, m_docks[Jobs]);
-    tabifyDockWidget(m_docks[Jobs], m_docks[Log]);
-    for (QDockWidget* dock : std::as_const(m_instruments))
-        tabifyDockWidget(m_docks[Log], dock);
-    for (QDockWidget* dock : std::as_const(m_docks))
-        dock->setVisible(dock != m_docks[Jobs] && dock != m_docks[Log] &&
-                         !m_instruments.contains(dock));
-    m_docks[EnvironmentDock]->raise();
-    m_docks[MaterialDock]->raise();
-    resizeDocks({m_docks[Scene], m_docks[MaterialDock]}, {304, 356}, Qt::Horizontal);
-    resizeDocks({m_docks[Scene], m_docks[EnvironmentDock]}, {340, 420}, Qt::Vertical);
+    m_docks->addInstrument(m_actions->energy, QStringLiteral("energy"),
+                           new EnergyPanel(controller, m_session.selection, m_session.views));
+    m_docks->addInstrument(m_actions->mixer, QStringLiteral("mixer"), new MixerPanel(controller));
+    m_docks->addInstrument(m_actions->transfer, QStringLiteral("transfer"),
+                           new TransferPanel(controller, m_session.probe, m_session.lobe));
+    m_docks->reset();
 }
 
 void MainWindow::restoreLayout() {
@@ -285,7 +198,11 @@ void MainWindow::restoreLayout() {
     resize(QSize(1440, 900).boundedTo(screen()->availableSize()));
     if (!restoreGeometry(settings.value(QStringLiteral("window/geometry")).toByteArray()) ||
         !restoreState(settings.value(QStringLiteral("window/state")).toByteArray(), kLayoutVersion))
-        resetLayout();
+        m_docks->reset();
+}
+
+void MainWindow::resetLayout() {
+    m_docks->reset();
 }
 
 // --- Menus, tool bar, status bar -----------------------------------------------------------------
@@ -322,9 +239,7 @@ void MainWindow::makeMenus() {
     view->addSeparator();
     view->addActions({a.lightingIbl, a.lightingPrt});
     view->addSeparator();
-    for (QDockWidget* dock : std::as_const(m_docks))
-        if (!m_instruments.contains(dock))
-            view->addAction(dock->toggleViewAction());
+    view->addActions(m_docks->toggles());
     view->addSeparator();
     view->addActions(
         {a.pixel, a.lightLab, a.lens, a.energy, a.mixer, a.transfer, a.pinPixel, a.furnace});

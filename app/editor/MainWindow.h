@@ -11,6 +11,7 @@ namespace patina::editor {
 
 class Actions;
 class BusyIndicator;
+class Docks;
 class FileFlow;
 class MaterialPanel;
 class NoticeArea;
@@ -42,11 +43,6 @@ class MainWindow : public QMainWindow {
   private:
     QWidget* makeReflectionMix();
     void makeDocks();
-    QDockWidget* addDock(const QString& name, const QString& title, const QString& iconName,
-                         const QString& help, QWidget* panel);
-    // A dock to look closer with: below the viewport, hidden at first; `toggle` shows and hides it.
-    QDockWidget* addInstrument(QAction* toggle, const QString& name, QWidget* panel);
-    void refreshDockTitles();
     void makeMenus();
     void makeToolBar();
     void makeStatusBar();
@@ -64,10 +60,9 @@ class MainWindow : public QMainWindow {
     Actions* m_actions;
     ViewActions* m_looks;
     FileFlow* m_files;
+    Docks* m_docks;
     NoticeArea* m_notices;
     ViewportWidget* m_viewport;
-    QList<QDockWidget*> m_docks;
-    QList<QDockWidget*> m_instruments; // of m_docks
     QMenu* m_recentMenu = nullptr;
     BusyIndicator* m_busy = nullptr;
     QLabel *m_gpu = nullptr, *m_frameTime = nullptr, *m_triangles = nullptr;
