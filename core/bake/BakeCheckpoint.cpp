@@ -3,6 +3,7 @@
 #include "core/base/AtomicFile.h"
 #include "core/base/Check.h"
 #include "core/base/FileDescriptor.h"
+#include "core/base/OwnFile.h"
 
 #include <array>
 #include <bit>
@@ -239,7 +240,8 @@ std::optional<std::string> whyDifferent(const BakeManifest& there, const BakeMan
 }
 
 Result<void> writeBakeCheckpoint(const fs::path& file, const BakeManifest& manifest,
-                                 const PassState& state, std::span<const PointRange> ranges) {
+                                 const PassState& state, std::span<const PointRange> ranges,
+                                 CheckpointName name) {
     const std::string text = manifestText(manifest);
     Prologue prologue;
     prologue.manifestBytes = static_cast<std::uint32_t>(text.size());
@@ -262,7 +264,8 @@ Result<void> writeBakeCheckpoint(const fs::path& file, const BakeManifest& manif
     });
     const Hash hash = hasher.finish();
     pieces.push_back(std::as_bytes(std::span(&hash, 1)));
-    return writePiecesAtomically(file, pieces);
+    return name == CheckpointName::OfUser ? writePiecesAtomically(file, pieces)
+                                          : writeOwnPieces(file, pieces);
 }
 
 bool looksLikeCheckpoint(const fs::path& file) {

@@ -104,8 +104,8 @@ Result<std::optional<PassState>> ResumableTracer::trace(const TraceRequest& requ
     manifest.complete = m_complete;
     manifest.samplesDone = traced->samplesDone;
     manifest.done = tracedShare(*traced, request.ranges, settings);
-    if (Result<void> written =
-            writeBakeCheckpoint(m_settings.part, manifest, *traced, request.ranges);
+    if (Result<void> written = writeBakeCheckpoint(m_settings.part, manifest, *traced,
+                                                   request.ranges, CheckpointName::OfUser);
         !written)
         return written.error();
     return std::optional<PassState>();

@@ -1,11 +1,14 @@
 #include "core/base/AtomicFile.h"
 
 #include "core/base/FileDescriptor.h"
+#include "core/base/OwnFile.h"
+#include "core/base/TemporaryName.h"
 
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <optional>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
@@ -58,6 +61,53 @@ fs::path resolveLinks(const fs::path& path) {
     return path;
 }
 
+// Makes `target` hold the pieces in one step; `named` is what the user knows it as. `mode`: of the
+// file that is replaced.
+Result<void> replaceFile(const fs::path& target, const fs::path& named,
+                         std::span<const std::span<const std::byte>> pieces,
+                         const std::optional<mode_t>& mode) {
+    fs::path folder = target.parent_path();
+    if (folder.empty())
+        folder = ".";
+
+    // An unnamed file cannot outlive a crash. Where the file system has none, a named one is used
+    // and removed on every error path.
+    const std::string temporary = temporaryPath(target).string();
+    int fd = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    const bool unnamed = fd >= 0;
+    if (!unnamed && errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL)
+        return cannotCreate(named, errno);
+    if (!unnamed)
+        fd = ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    if (fd < 0)
+        return cannotCreate(named, errno);
+    const FileDescriptor file(fd);
+    const auto fail = [&](int code) -> Result<void> {
+        ::unlink(temporary.c_str());
+        return cannotWrite(named, code);
+    };
+
+    if (mode)
+        static_cast<void>(::fchmod(fd, *mode & 07777)); // best effort: not ours to own
+    if (const int code = writeAll(fd, pieces))
+        return fail(code);
+    if (::fdatasync(fd) != 0)
+        return fail(errno);
+
+    // Give it a name, then move the name over the old one.
+    if (unnamed) {
+        const std::string self = fmt::format("/proc/self/fd/{}", fd);
+        if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, temporary.c_str(), AT_SYMLINK_FOLLOW) != 0)
+            return fail(errno);
+    }
+    if (::rename(temporary.c_str(), target.c_str()) != 0)
+        return fail(errno);
+    const FileDescriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (directory.valid())
+        ::fsync(directory.get());
+    return {};
+}
+
 } // namespace
 
 Result<void> writeFileAtomically(const fs::path& path, std::span<const std::byte> data) {
@@ -67,10 +117,6 @@ Result<void> writeFileAtomically(const fs::path& path, std::span<const std::byte
 Result<void> writePiecesAtomically(const fs::path& path,
                                    std::span<const std::span<const std::byte>> pieces) {
     const fs::path target = resolveLinks(path);
-    fs::path folder = target.parent_path();
-    if (folder.empty())
-        folder = ".";
-
     struct stat existing {};
     const bool replaces = ::stat(target.c_str(), &existing) == 0;
     if (replaces && S_ISDIR(existing.st_mode))
@@ -84,45 +130,50 @@ Result<void> writePiecesAtomically(const fs::path& path,
             return cannotWrite(path, code);
         return {};
     }
+    return replaceFile(target, path, pieces,
+                       replaces ? std::optional(existing.st_mode) : std::nullopt);
+}
 
-    // An unnamed file cannot outlive a crash. Where the file system has none, a named one is used
-    // and removed on every error path.
-    const std::string temporary =
-        (folder / fmt::format(".{}.{}.part", target.filename().string().substr(0, 200), ::getpid()))
-            .string();
-    int fd = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
-    const bool unnamed = fd >= 0;
-    if (!unnamed && errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL)
-        return cannotCreate(path, errno);
-    if (!unnamed)
-        fd = ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-    if (fd < 0)
-        return cannotCreate(path, errno);
-    const FileDescriptor file(fd);
-    const auto fail = [&](int code) -> Result<void> {
-        ::unlink(temporary.c_str());
-        return cannotWrite(path, code);
-    };
+Result<void> writeOwnPieces(const fs::path& path,
+                            std::span<const std::span<const std::byte>> pieces) {
+    struct stat existing {};
+    const bool replaces = ::lstat(path.c_str(), &existing) == 0;
+    if (replaces && S_ISDIR(existing.st_mode))
+        return cannotCreate(path, EISDIR);
+    return replaceFile(path, path, pieces,
+                       replaces && S_ISREG(existing.st_mode) ? std::optional(existing.st_mode)
+                                                             : std::nullopt);
+}
 
-    if (replaces)
-        static_cast<void>(::fchmod(fd, existing.st_mode & 07777)); // best effort: not ours to own
-    if (const int code = writeAll(fd, pieces))
-        return fail(code);
-    if (::fdatasync(fd) != 0)
-        return fail(errno);
+Result<void> writeOwnFile(const fs::path& path, std::span<const std::byte> data) {
+    return writeOwnPieces(path, std::span(&data, 1));
+}
 
-    // Give it a name, then move the name over the old one.
-    if (unnamed) {
-        ::unlink(temporary.c_str());
-        const std::string self = fmt::format("/proc/self/fd/{}", fd);
-        if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, temporary.c_str(), AT_SYMLINK_FOLLOW) != 0)
-            return fail(errno);
+Result<void> makeOwnFolder(const fs::path& folder) {
+    const bool made = ::mkdir(folder.c_str(), 0777) == 0;
+    if (!made && errno != EEXIST)
+        return systemError(ErrorKind::CannotCreate, folder,
+                           "the folder cannot be created; check that the one around it exists and "
+                           "is writable",
+                           errno);
+    struct stat there {};
+    if (::lstat(folder.c_str(), &there) != 0 || S_ISLNK(there.st_mode))
+        return Error{ErrorKind::CannotCreate,
+                     "there is a link in the place of this folder, and it is not followed; put the "
+                     "folder itself there",
+                     folder,
+                     {}};
+    if (!S_ISDIR(there.st_mode))
+        return Error{ErrorKind::CannotCreate,
+                     "there is a file in the place of this folder; move it away",
+                     folder,
+                     {}};
+    if (made) {
+        const fs::path around = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
+        const FileDescriptor parent(::open(around.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+        if (parent.valid())
+            ::fsync(parent.get());
     }
-    if (::rename(temporary.c_str(), target.c_str()) != 0)
-        return fail(errno);
-    const FileDescriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (directory.valid())
-        ::fsync(directory.get());
     return {};
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/base/Check.h"
 #include "core/base/FileDescriptor.h"
+#include "core/base/TemporaryName.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -136,8 +137,7 @@ Result<void> writeFolderAtomically(const fs::path& folder, std::span<const Folde
         return possible;
     const fs::path path = target(folder);
     const fs::path parent = path.parent_path();
-    const fs::path part =
-        parent / fmt::format(".{}.{}.part", path.filename().string().substr(0, 200), ::getpid());
+    const fs::path part = temporaryPath(path);
 
     // Unnamed files vanish with the process. Where the file system has none, the files get their
     // names at once, in a folder that has not got its own yet.

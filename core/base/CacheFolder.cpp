@@ -1,6 +1,7 @@
 #include "core/base/CacheFolder.h"
 
 #include "core/base/Log.h"
+#include "core/base/OwnFile.h"
 
 #include <algorithm>
 #include <array>
@@ -62,7 +63,7 @@ Result<void> CacheFolder::store(const Hash& key, const Bytes& content) const {
     const std::array<std::span<const std::byte>, 2> pieces{
         std::span<const std::byte>(content), std::as_bytes(std::span<const Hash>(&hash, 1))};
     const fs::path path = file(key);
-    if (Result<void> written = writePiecesAtomically(path, pieces); !written)
+    if (Result<void> written = writeOwnPieces(path, pieces); !written)
         return written;
     evict(path);
     return {};

@@ -4,7 +4,9 @@
 #include "core/base/FileDescriptor.h"
 #include "core/base/Result.h"
 
+#include <chrono>
 #include <filesystem>
+#include <optional>
 
 namespace patina {
 
@@ -13,9 +15,16 @@ namespace patina {
 // between machines where the drive supports that.
 class FileLock {
   public:
-    // Errors: CannotCreate when the folder is not writable, or when another process (or lock of
-    // this process) holds it; the message names it.
+    // Errors: CannotCreate when the folder is not writable, when another process (or lock of this
+    // process) holds it, which the message names, or when something that is no lock has its name:
+    // links are not followed, and what other files hold is not touched.
     static Result<FileLock> take(const std::filesystem::path& path);
+
+    // The same for writers who are done soon: waits up to `patience` for whoever holds it, and then
+    // is the same error. Nothing where the folder or the drive lets nobody lock (a line in the
+    // log).
+    static Result<std::optional<FileLock>> takeWhenFree(const std::filesystem::path& path,
+                                                        std::chrono::milliseconds patience);
 
     ~FileLock();
     FileLock(FileLock&&) noexcept = default;

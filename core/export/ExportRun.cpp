@@ -1,4 +1,5 @@
 #include "core/base/AtomicFile.h"
+#include "core/base/OwnFile.h"
 #include "core/export/Export.h"
 #include "core/export/ExportContents.h"
 #include "core/export/GltfEnvironment.h"
@@ -58,7 +59,9 @@ Result<std::vector<Bytes>> encodeTextures(WorkerClient& worker,
 
 // Writes all files, the one that refers to the others last. When one fails, those that were not
 // there before disappear again.
-Result<std::vector<fs::path>> writeAll(std::vector<FileToWrite> files, const JobContext& job) {
+// `named`: the one whose name the user chose; a link there is followed.
+Result<std::vector<fs::path>> writeAll(std::vector<FileToWrite> files, const fs::path& named,
+                                       const JobContext& job) {
     std::vector<fs::path> written, created;
     const auto undo = [&](Error error) {
         std::error_code ignored;
@@ -71,7 +74,9 @@ Result<std::vector<fs::path>> writeAll(std::vector<FileToWrite> files, const Job
             return undo(cancelled());
         std::error_code ignored;
         const bool existed = fs::exists(file.path, ignored);
-        if (Result<void> result = writeFileAtomically(file.path, file.data); !result)
+        if (Result<void> result = file.path == named ? writeFileAtomically(file.path, file.data)
+                                                     : writeOwnFile(file.path, file.data);
+            !result)
             return undo(result.error());
         written.push_back(file.path);
         if (!existed)
@@ -147,7 +152,7 @@ Result<std::vector<fs::path>> runExport(WorkerClient& worker, const Document& do
         files.push_back({contents.buffer, std::move(gltf->buffer)});
         files.push_back({settings.output, bytesOf(gltf->json)});
     }
-    Result<std::vector<fs::path>> written = writeAll(std::move(files), job);
+    Result<std::vector<fs::path>> written = writeAll(std::move(files), settings.output, job);
     if (written)
         job.setProgress(1.0);
     return written;

@@ -1,12 +1,21 @@
 #include "core/base/AtomicFile.h"
+#include "core/base/Leftovers.h"
+#include "core/base/OwnFile.h"
+#include "core/base/TemporaryName.h"
 #include "tests/support/TemporaryFolder.h"
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <set>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
+#include <vector>
 
 namespace fs = std::filesystem;
 using namespace patina;
@@ -99,6 +108,89 @@ TEST_F(AtomicFileTest, SurvivesBeingKilled) {
     }
     // Between linkat and rename a name may remain; the window is a few microseconds.
     EXPECT_LE(entries(), 2u);
+}
+
+// Two saves of one file at once, in this process: each is whole, none spoils the other.
+TEST_F(AtomicFileTest, WritersOfOneFileDoNotDisturbEachOther) {
+    const fs::path file = folder / "a.bin";
+    std::atomic<int> failed = 0;
+    std::vector<std::thread> writers;
+    for (int writer = 0; writer < 4; ++writer)
+        writers.emplace_back([&, writer] {
+            for (int round = 0; round < 50; ++round)
+                if (!writeFileAtomically(
+                         file, std::string_view(std::string(5000, static_cast<char>('a' + writer))))
+                         .ok())
+                    ++failed;
+        });
+    for (std::thread& writer : writers)
+        writer.join();
+    EXPECT_EQ(failed, 0);
+    const std::string text = readTextFile(file, 10'000).value();
+    EXPECT_EQ(text, std::string(5000, text.at(0)));
+    EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(AtomicFileTest, TemporaryNamesAreGivenOnce) {
+    std::set<fs::path> names;
+    for (int i = 0; i < 1000; ++i)
+        names.insert(temporaryPath(folder / std::string(250, 'n')));
+    EXPECT_EQ(names.size(), 1000u);
+    for (const fs::path& name : names) {
+        EXPECT_EQ(name.parent_path(), folder);
+        EXPECT_LE(name.filename().string().size(), 255u);
+        EXPECT_FALSE(isAbandoned(name.filename().string())) << "its process is alive";
+    }
+}
+
+TEST_F(AtomicFileTest, OnlyWhatEndedProcessesOfThisMachineLeftIsRemoved) {
+    const pid_t ended = ::fork();
+    if (ended == 0) {
+        std::ofstream(temporaryPath(folder / "a.bin")) << "half";
+        ::_exit(0);
+    }
+    ::waitpid(ended, nullptr, 0);
+    const std::string own = temporaryPath(folder / "a.bin").filename().string();
+    const std::string other = own.substr(0, own.find('-') + 1) + "00000000" +
+                              own.substr(own.find('-') + 9); // another host's
+    const std::string older = ".a.bin." + std::to_string(ended) + ".part";
+    for (const std::string& name : {own, other, older, std::string("a.bin"), std::string(".part")})
+        std::ofstream(folder / name) << "x";
+    removeLeftovers(folder / "b.bin");
+    EXPECT_EQ(entries(), 6u) << "those of another file stay";
+    removeLeftovers(folder / "a.bin");
+    EXPECT_EQ(entries(), 4u);
+    EXPECT_TRUE(fs::exists(folder / own));
+    EXPECT_TRUE(fs::exists(folder / other));
+    EXPECT_FALSE(fs::exists(folder / older));
+}
+
+// Somebody put a link where a file of ours goes: it would lead to a file of the user's.
+TEST_F(AtomicFileTest, OwnFilesReplaceALinkAndDoNotFollowIt) {
+    const fs::path victim = folder / "victim.txt", file = folder / "checkpoint";
+    ASSERT_TRUE(writeFileAtomically(victim, std::string_view("precious")).ok());
+    fs::create_symlink(victim, file);
+    const std::string data = "ours";
+    ASSERT_TRUE(writeOwnFile(file, std::as_bytes(std::span(data))).ok());
+    EXPECT_EQ(readTextFile(victim, 100).value(), "precious");
+    EXPECT_FALSE(fs::is_symlink(file));
+    EXPECT_EQ(readTextFile(file, 100).value(), "ours");
+    // A pipe would wait for a reader for ever.
+    const fs::path pipe = folder / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    ASSERT_TRUE(writeOwnFile(pipe, std::as_bytes(std::span(data))).ok());
+    EXPECT_TRUE(fs::is_regular_file(pipe));
+}
+
+TEST_F(AtomicFileTest, OwnFoldersAreMadeOnceAndNeverLinks) {
+    EXPECT_TRUE(makeOwnFolder(folder / "a").ok());
+    EXPECT_TRUE(makeOwnFolder(folder / "a").ok());
+    EXPECT_EQ(makeOwnFolder(folder / "no" / "b").error().kind, ErrorKind::CannotCreate);
+    EXPECT_FALSE(fs::exists(folder / "no")) << "folders around it are the user's to make";
+    fs::create_directory_symlink(folder / "a", folder / "link");
+    EXPECT_EQ(makeOwnFolder(folder / "link").error().kind, ErrorKind::CannotCreate);
+    ASSERT_TRUE(writeFileAtomically(folder / "file", std::string_view("x")).ok());
+    EXPECT_EQ(makeOwnFolder(folder / "file").error().kind, ErrorKind::CannotCreate);
 }
 
 TEST_F(AtomicFileTest, ReadReportsMissingFoldersAndLargeFiles) {

@@ -1,10 +1,14 @@
 #include "core/base/FileLock.h"
 #include "tests/support/TemporaryFolder.h"
 
+#include <chrono>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <optional>
+#include <sys/stat.h>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
 namespace fs = std::filesystem;
@@ -72,6 +76,50 @@ TEST_F(FileLockTest, EndsWithItsProcess) {
     EXPECT_EQ(entries(), 0u) << "what the killed process left was taken over";
     ::close(ready[0]);
     ::close(ready[1]);
+}
+
+// Links and files that somebody put where the lock goes are neither followed nor emptied.
+TEST_F(FileLockTest, TouchesNothingThatIsNoLock) {
+    const fs::path victim = folder / "victim", lock = folder / ".a.exr.lock";
+    std::ofstream(victim) << "precious";
+    const auto expectRefused = [&](const char* what) {
+        const Result<FileLock> taken = FileLock::take(file);
+        ASSERT_FALSE(taken.ok()) << what;
+        EXPECT_EQ(taken.error().kind, ErrorKind::CannotCreate) << what;
+        EXPECT_THAT(taken.error().message, HasSubstr(".a.exr.lock")) << what;
+        EXPECT_EQ(fs::file_size(victim), 8u) << what;
+        EXPECT_TRUE(fs::exists(fs::symlink_status(lock))) << what;
+        fs::remove(lock);
+    };
+    fs::create_symlink(victim, lock);
+    expectRefused("a link");
+    fs::create_hard_link(victim, lock);
+    expectRefused("a second name");
+    fs::copy_file(victim, lock);
+    expectRefused("a file that says something");
+    ASSERT_EQ(::mkfifo(lock.c_str(), 0600), 0);
+    expectRefused("a pipe");
+    EXPECT_TRUE(FileLock::take(file).ok());
+}
+
+TEST_F(FileLockTest, WhoWaitsGetsItWhenItIsFree) {
+    std::optional<FileLock> first;
+    first.emplace(FileLock::take(file).value());
+    const auto impatient = FileLock::takeWhenFree(file, std::chrono::milliseconds(1));
+    ASSERT_FALSE(impatient.ok());
+    EXPECT_THAT(impatient.error().message, HasSubstr(std::to_string(::getpid())));
+    bool locked = false;
+    std::thread waiting([&] {
+        const auto patient = FileLock::takeWhenFree(file, std::chrono::minutes(1));
+        locked = patient.ok() && patient.value().has_value();
+    });
+    first.reset();
+    waiting.join();
+    EXPECT_TRUE(locked);
+    // Where nobody can lock it is for the writer to fail, or not.
+    const auto none = FileLock::takeWhenFree(folder / "no" / "a.exr", std::chrono::minutes(1));
+    ASSERT_TRUE(none.ok());
+    EXPECT_FALSE(none.value().has_value());
 }
 
 TEST_F(FileLockTest, NeedsAFolder) {
