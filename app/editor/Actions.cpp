@@ -35,6 +35,28 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
                        tr("Light from the environment, with every reflection")))
     , lightingPrt(make(tr("&Precomputed Transfer"), {}, {tr("Ctrl+Shift+L")},
                        tr("Light through the baked transfer, with its soft shadows")))
+    , sceneDock(make(tr("S&cene"), QStringLiteral("scene"), {tr("Ctrl+Shift+1")},
+                     tr("Show or hide the list of meshes and materials")))
+    , materialDock(make(tr("Material"), QStringLiteral("material"), {tr("Ctrl+Shift+2")},
+                        tr("Show or hide the parameters of the material")))
+    , environmentDock(make(tr("Envir&onment"), QStringLiteral("environment"), {tr("Ctrl+Shift+3")},
+                           tr("Show or hide what surrounds and lights the scene")))
+    , lightsDock(make(tr("Light&s"), QStringLiteral("light-sun"), {tr("Ctrl+Shift+4")},
+                      tr("Show or hide the list of lights")))
+    , viewDock(make(tr("&View"), QStringLiteral("view"), {tr("Ctrl+Shift+5")},
+                    tr("Show or hide exposure, tone mapping, display and field of view")))
+    , bakeDock(make(tr("Ba&ke"), QStringLiteral("bake"), {tr("Ctrl+Shift+6")},
+                    tr("Show or hide the baking of light")))
+    , modelDock(make(tr("Mo&del"), QStringLiteral("model"), {tr("Ctrl+Shift+7")},
+                     tr("Show or hide which shading model is used")))
+    , jobsDock(make(tr("&Jobs"), QStringLiteral("jobs"), {tr("Ctrl+Shift+8")},
+                    tr("Show or hide what runs in the background")))
+    , logDock(make(tr("Log"), QStringLiteral("log"), {tr("Ctrl+Shift+9")},
+                   tr("Show or hide the messages of this session")))
+    , nextDock(make(tr("Next Dock"), {}, {tr("Ctrl+Tab")},
+                    tr("Move the keyboard focus to the next dock, or to the viewport")))
+    , previousDock(make(tr("Previous Dock"), {}, {tr("Ctrl+Shift+Tab")},
+                        tr("Move the keyboard focus to the dock before, or to the viewport")))
     , pixel(make(tr("Pi&xel"), QStringLiteral("pixel"), {tr("Ctrl+1")},
                  tr("Explain the pixel under the pointer: every factor, formula and share")))
     , lightLab(make(tr("Light La&b"), QStringLiteral("light-lab"), {tr("Ctrl+2")},
@@ -75,12 +97,8 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
     describe(redo, tr("Make the change again that was taken back"));
     overlays->setCheckable(true);
     overlays->setChecked(true);
-    pixel->setCheckable(true);
-    lightLab->setCheckable(true);
-    lens->setCheckable(true);
-    energy->setCheckable(true);
-    mixer->setCheckable(true);
-    transfer->setCheckable(true);
+    for (QAction* dock : docks() + instruments())
+        dock->setCheckable(true);
     furnace->setCheckable(true);
     fullScreen->setCheckable(true);
     auto* lighting = new QActionGroup(this);
@@ -108,12 +126,21 @@ void Actions::describe(QAction* action, const QString& sentence) {
     action->setToolTip(keys.isEmpty() ? sentence : tr("%1 (%2)").arg(sentence, keys));
 }
 
+QList<QAction*> Actions::docks() const {
+    return {sceneDock, materialDock, environmentDock, lightsDock, viewDock,
+            bakeDock,  modelDock,    jobsDock,        logDock};
+}
+
+QList<QAction*> Actions::instruments() const {
+    return {pixel, lightLab, lens, energy, mixer, transfer};
+}
+
 QList<QAction*> Actions::all() const {
-    return {newScene,    open,        addModel,    save,     saveAs,   saveEnvironment,
-            exportScene, quit,        undo,        redo,     frame,    home,
-            overlays,    lightingIbl, lightingPrt, pixel,    lightLab, lens,
-            energy,      mixer,       transfer,    pinPixel, furnace,  fullScreen,
-            resetLayout, shortcuts,   about};
+    return QList<QAction*>{newScene,        open,        addModel, save,        saveAs,
+                           saveEnvironment, exportScene, quit,     undo,        redo,
+                           frame,           home,        overlays, lightingIbl, lightingPrt} +
+           docks() + QList<QAction*>{nextDock, previousDock} + instruments() +
+           QList<QAction*>{pinPixel, furnace, fullScreen, resetLayout, shortcuts, about};
 }
 
 } // namespace patina::editor

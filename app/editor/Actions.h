@@ -20,6 +20,9 @@ class Actions : public QObject {
     QAction *newScene, *open, *addModel, *save, *saveAs, *saveEnvironment, *exportScene, *quit;
     QAction *undo, *redo;
     QAction *frame, *home, *overlays, *lightingIbl, *lightingPrt;
+    QAction *sceneDock, *materialDock, *environmentDock, *lightsDock, *viewDock, *bakeDock;
+    QAction *modelDock, *jobsDock, *logDock;
+    QAction *nextDock, *previousDock;                             // by key
     QAction *pixel, *lightLab, *lens, *energy, *mixer, *transfer; // docks to look closer with
     QAction* pinPixel;
     QAction* furnace;
@@ -27,6 +30,9 @@ class Actions : public QObject {
     QAction *shortcuts, *about;
 
     [[nodiscard]] QList<QAction*> all() const;
+    // Each shows a dock or closes it, checked while it is seen.
+    [[nodiscard]] QList<QAction*> docks() const;
+    [[nodiscard]] QList<QAction*> instruments() const;
     // The usual completion: a tool tip that names the shortcut, and a status tip.
     static void describe(QAction* action, const QString& sentence);
 

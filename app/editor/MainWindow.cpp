@@ -143,53 +143,51 @@ QWidget* MainWindow::makeReflectionMix() {
 }
 
 void MainWindow::makeDocks() {
+    const Actions& a = *m_actions;
     DocumentController& controller = m_session.controller;
     auto* scene = new ScenePanel(controller, m_session.selection, m_session.thumbnails);
     connect(scene, &ScenePanel::frameRequested, m_viewport, &ViewportWidget::frameSelection);
-    m_docks->add(QStringLiteral("scene"), tr("Scene"), QStringLiteral("scene"),
-                 tr("Show or hide the list of meshes and materials"), scene);
-    m_docks->add(QStringLiteral("material"), tr("Material"), QStringLiteral("material"),
-                 tr("Show or hide the parameters of the material"),
+    m_docks->add(a.sceneDock, QStringLiteral("scene"), scene);
+    m_docks->add(a.materialDock, QStringLiteral("material"),
                  new MaterialPanel(controller, m_session.selection, m_session.thumbnails));
     auto* environment = new EnvironmentPanel(controller, m_session.thumbnails);
-    connect(environment, &EnvironmentPanel::saveRequested, m_actions->saveEnvironment,
-            &QAction::trigger);
-    m_docks->add(QStringLiteral("environment"), tr("Environment"), QStringLiteral("environment"),
-                 tr("Show or hide what surrounds and lights the scene"), environment);
-    m_docks->add(QStringLiteral("lights"), tr("Lights"), QStringLiteral("light-sun"),
-                 tr("Show or hide the list of lights"),
+    connect(environment, &EnvironmentPanel::saveRequested, a.saveEnvironment, &QAction::trigger);
+    m_docks->add(a.environmentDock, QStringLiteral("environment"), environment);
+    m_docks->add(a.lightsDock, QStringLiteral("lights"),
                  new LightsPanel(controller, m_session.selection, m_session.thumbnails));
     auto* view = new ViewPanel(controller, m_session.displays, m_session.thumbnails);
     connect(m_viewport, &ViewportWidget::luminanceMeasured, view, &ViewPanel::setLuminance);
-    QDockWidget* viewDock =
-        m_docks->add(QStringLiteral("view"), tr("View"), QStringLiteral("view"),
-                     tr("Show or hide exposure, tone mapping, display and field of view"), view);
-    connect(viewDock, &QDockWidget::visibilityChanged, m_viewport,
-            &ViewportWidget::setLuminanceWanted);
-    m_docks->add(QStringLiteral("bake"), tr("Bake"), QStringLiteral("bake"),
-                 tr("Show or hide the baking of light"), new BakePanel(controller, m_session.jobs));
-    m_docks->add(QStringLiteral("model"), tr("Model"), QStringLiteral("model"),
-                 tr("Show or hide which shading model is used"),
+    connect(m_docks->add(a.viewDock, QStringLiteral("view"), view), &QDockWidget::visibilityChanged,
+            m_viewport, &ViewportWidget::setLuminanceWanted);
+    m_docks->add(a.bakeDock, QStringLiteral("bake"), new BakePanel(controller, m_session.jobs));
+    m_docks->add(a.modelDock, QStringLiteral("model"),
                  new ModelPanel(controller, m_session.selection, m_session.thumbnails));
-    m_docks->add(QStringLiteral("jobs"), tr("Jobs"), QStringLiteral("jobs"),
-                 tr("Show or hide what runs in the background"), new JobsPanel(m_session.jobs));
-    m_docks->add(QStringLiteral("log"), tr("Log"), QStringLiteral("log"),
-                 tr("Show or hide the messages of this session"), new LogPanel);
-    m_docks->addInstrument(m_actions->pixel, QStringLiteral("pixel"),
+    m_docks->add(a.jobsDock, QStringLiteral("jobs"), new JobsPanel(m_session.jobs));
+    m_docks->add(a.logDock, QStringLiteral("log"), new LogPanel);
+    m_docks->addInstrument(a.pixel, QStringLiteral("pixel"),
                            new PixelPanel(controller, m_session.probe, m_viewport->picker()));
     auto* lightLab = new LightLabPanel(controller, m_viewport->ibl(), m_session.probe);
     connect(m_viewport, &ViewportWidget::luminanceMeasured, lightLab, &LightLabPanel::setLuminance);
-    connect(m_docks->addInstrument(m_actions->lightLab, QStringLiteral("lightLab"), lightLab),
+    connect(m_docks->addInstrument(a.lightLab, QStringLiteral("lightLab"), lightLab),
             &QDockWidget::visibilityChanged, lightLab, &LightLabPanel::setSeen);
     m_docks->addInstrument(
-        m_actions->lens, QStringLiteral("lens"),
+        a.lens, QStringLiteral("lens"),
         new BrdfLensPanel(controller, m_session.selection, m_session.probe, m_session.lobe));
-    m_docks->addInstrument(m_actions->energy, QStringLiteral("energy"),
+    m_docks->addInstrument(a.energy, QStringLiteral("energy"),
                            new EnergyPanel(controller, m_session.selection, m_session.views));
-    m_docks->addInstrument(m_actions->mixer, QStringLiteral("mixer"), new MixerPanel(controller));
-    m_docks->addInstrument(m_actions->transfer, QStringLiteral("transfer"),
+    m_docks->addInstrument(a.mixer, QStringLiteral("mixer"), new MixerPanel(controller));
+    m_docks->addInstrument(a.transfer, QStringLiteral("transfer"),
                            new TransferPanel(controller, m_session.probe, m_session.lobe));
     m_docks->reset();
+}
+
+// Of the menu bar and the titles of docks. Qt's own would close docks that are behind a tab.
+QMenu* MainWindow::createPopupMenu() {
+    auto* menu = new QMenu(this);
+    menu->addActions(m_actions->docks());
+    menu->addSeparator();
+    menu->addActions(m_actions->instruments());
+    return menu;
 }
 
 void MainWindow::restoreLayout() {
@@ -197,7 +195,8 @@ void MainWindow::restoreLayout() {
     // Scaled screens are small in device-independent pixels.
     resize(QSize(1440, 900).boundedTo(screen()->availableSize()));
     if (!restoreGeometry(settings.value(QStringLiteral("window/geometry")).toByteArray()) ||
-        !restoreState(settings.value(QStringLiteral("window/state")).toByteArray(), kLayoutVersion))
+        !m_docks->restore(settings.value(QStringLiteral("window/state")).toByteArray(),
+                          kLayoutVersion))
         m_docks->reset();
 }
 
@@ -239,7 +238,8 @@ void MainWindow::makeMenus() {
     view->addSeparator();
     view->addActions({a.lightingIbl, a.lightingPrt});
     view->addSeparator();
-    view->addActions(m_docks->toggles());
+    view->addActions(a.docks());
+    view->addActions({a.nextDock, a.previousDock});
     view->addSeparator();
     view->addActions(
         {a.pixel, a.lightLab, a.lens, a.energy, a.mixer, a.transfer, a.pinPixel, a.furnace});
@@ -250,6 +250,11 @@ void MainWindow::makeMenus() {
 
     QMenu* help = menuBar()->addMenu(tr("&Help"));
     help->addActions({a.shortcuts, a.about});
+
+    // Open or closed, on or off: a tick says it, which an icon would hide.
+    for (QAction* action : a.all())
+        if (action->isCheckable())
+            action->setIconVisibleInMenu(false);
 
     // Shortcuts go on in full screen, where the menu bar may be hidden.
     addActions(a.all());
@@ -344,6 +349,8 @@ void MainWindow::connectActions() {
     connect(a.fullScreen, &QAction::toggled, this,
             [this](bool on) { setWindowState(windowState().setFlag(Qt::WindowFullScreen, on)); });
     connect(a.resetLayout, &QAction::triggered, this, &MainWindow::resetLayout);
+    connect(a.nextDock, &QAction::triggered, m_docks, &Docks::focusNext);
+    connect(a.previousDock, &QAction::triggered, m_docks, &Docks::focusPrevious);
     connect(a.pinPixel, &QAction::triggered, &m_viewport->picker(), &PixelPicker::togglePin);
     connect(&m_viewport->picker(), &PixelPicker::pinned, this, [this] {
         if (!m_session.probe.wanted()) // nobody shows what was asked for

@@ -32,6 +32,7 @@ class MainWindow : public QMainWindow {
     [[nodiscard]] NoticeArea& notices() { return *m_notices; }
     [[nodiscard]] ViewportWidget& viewport() { return *m_viewport; }
 
+    [[nodiscard]] QMenu* createPopupMenu() override;
     void restoreLayout(); // of the last time, or the first one
     void resetLayout();
 

@@ -1,5 +1,6 @@
 #include "app/editor/panel/LabPicture.h"
 
+#include "app/editor/style/FocusRing.h"
 #include "app/editor/style/Tokens.h"
 #include "core/image/ColorMap.h"
 #include "core/light/EnvironmentMapping.h"
@@ -330,7 +331,7 @@ void LabPicture::paintEvent(QPaintEvent*) {
     QPainter painter(this);
     painter.setRenderHints(QPainter::Antialiasing | QPainter::SmoothPixmapTransform);
     if (m_role == Role::Thumbnail && (m_selected || m_hovered)) {
-        painter.setPen(m_selected && hasFocus() ? QPen(QColor(tokens::kAccent), 1)
+        painter.setPen(m_selected && hasFocus() ? QPen(QColor(tokens::kFocus), 1)
                                                 : QPen(Qt::NoPen));
         painter.setBrush(QColor(m_selected ? tokens::kAccentDeep : tokens::kRaised));
         painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), tokens::kRadius,

@@ -1,5 +1,6 @@
 #include "app/editor/style/Style.h"
 
+#include "app/editor/style/FocusRing.h"
 #include "app/editor/style/Tokens.h"
 
 #include <QApplication>
@@ -58,8 +59,8 @@ QString styleSheet() {
                  {"@hover", kHover},     {"@line", kLine},
                  {"@textDim", kTextDim}, {"@textOff", kTextOff},
                  {"@text", kText},       {"@accentDeep", kAccentDeep},
-                 {"@accent", kAccent},   {"@copper", kCopper},
-                 {"@danger", kDanger}};
+                 {"@accent", kAccent},   {"@focus", kFocus},
+                 {"@copper", kCopper},   {"@danger", kDanger}};
     for (const auto& [name, color] : table)
         sheet.replace(QLatin1String(name), QColor(color).name());
     sheet.replace(QLatin1String("@radius"), QStringLiteral("%1px").arg(kRadius));

@@ -66,7 +66,7 @@ TermTile::TermTile(ViewKind kind, const QString& caption, Abilities abilities, Q
 QToolButton* TermTile::makeButton(const QString& id, const QString& name, const QString& sentence) {
     auto* button = new QToolButton;
     button->setObjectName(id);
-    button->setFixedSize(18, 18);
+    button->setFixedSize(20, 20);
     button->setIconSize({14, 14});
     button->setFocusPolicy(Qt::TabFocus);
     button->setAccessibleName(name);

@@ -1,6 +1,7 @@
 #include "app/editor/viewport/ViewThumb.h"
 
 #include "app/editor/ViewActions.h"
+#include "app/editor/style/FocusRing.h"
 #include "app/editor/style/Tokens.h"
 
 #include <QMouseEvent>
@@ -89,14 +90,20 @@ void ViewThumb::paintEvent(QPaintEvent*) {
     paintPicture(painter, place);
     const QRect frame = place.adjusted(-1, -1, 0, 0);
     const bool current = m_shown || m_other;
-    if (current || underMouse() || hasFocus()) {
-        const QRgb color = current || hasFocus() ? tokens::kAccent : tokens::kHover;
+    if (current || underMouse()) {
+        const QRgb color = current ? tokens::kAccent : tokens::kHover;
         QPen pen{QColor(color), 2.0};
         if (m_other && !m_shown)
             pen.setStyle(Qt::DashLine);
         pen.setJoinStyle(Qt::MiterJoin);
         painter.setPen(pen);
         painter.drawRect(frame);
+    }
+    if (hasFocus()) { // inside the mark of the view that is shown: both may be here
+        painter.setPen(QPen{QColor(tokens::kWell), 4.0});
+        painter.drawRect(place.adjusted(2, 2, -2, -2));
+        painter.setPen(QPen{QColor(tokens::kFocus), 2.0});
+        painter.drawRect(place.adjusted(2, 2, -2, -2));
     }
     if (m_size != kPicture)
         return;

@@ -1,5 +1,6 @@
 #include "app/editor/widget/BandBars.h"
 
+#include "app/editor/style/FocusRing.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/PlotStyle.h"
 
@@ -123,7 +124,7 @@ void BandBars::paintEvent(QPaintEvent*) {
         const bool on = (m_on >> static_cast<unsigned>(l) & 1u) != 0;
         painter.fillRect(area, QColor(on ? tokens::kRaised : tokens::kWell));
         if (hasFocus() && l == m_current) {
-            painter.setPen(QColor(tokens::kAccent));
+            painter.setPen(QColor(tokens::kFocus));
             painter.drawRect(area);
         }
         const QRectF bars = area.adjusted(3, line + 2, -3, -line - 2);

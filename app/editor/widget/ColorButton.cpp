@@ -1,5 +1,6 @@
 #include "app/editor/widget/ColorButton.h"
 
+#include "app/editor/style/FocusRing.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/ColorConversion.h"
 #include "app/editor/widget/ColorPicker.h"
@@ -51,7 +52,7 @@ void ColorButton::paintEvent(QPaintEvent*) {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     const QRectF frame = QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5);
-    painter.setPen(QColor(hasFocus()     ? tokens::kAccent
+    painter.setPen(QColor(hasFocus()     ? tokens::kFocus
                           : underMouse() ? tokens::kTextOff
                                          : tokens::kLine));
     painter.setBrush(toDisplay(m_linear));

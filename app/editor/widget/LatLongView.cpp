@@ -1,5 +1,6 @@
 #include "app/editor/widget/LatLongView.h"
 
+#include "app/editor/style/FocusRing.h"
 #include "app/editor/style/Tokens.h"
 #include "core/light/LatLongGrid.h"
 
@@ -417,7 +418,7 @@ void LatLongView::paintEvent(QPaintEvent*) {
             paintHint(painter, tr("Double-click to add a softbox"));
     }
     painter.restore();
-    painter.setPen(QPen(QColor(hasFocus() ? tokens::kAccent : tokens::kLine), 1));
+    painter.setPen(QPen(QColor(hasFocus() ? tokens::kFocus : tokens::kLine), 1));
     painter.setBrush(Qt::NoBrush);
     painter.drawPath(frame);
 }

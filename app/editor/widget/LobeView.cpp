@@ -1,5 +1,6 @@
 #include "app/editor/widget/LobeView.h"
 
+#include "app/editor/style/FocusRing.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/PlotStyle.h"
 
@@ -102,7 +103,7 @@ void LobeView::paintEvent(QPaintEvent*) {
         }
     }
     if (hasFocus()) {
-        painter.setPen(QColor(tokens::kAccent));
+        painter.setPen(QColor(tokens::kFocus));
         painter.setBrush(Qt::NoBrush);
         painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), tokens::kRadius,
                                 tokens::kRadius);

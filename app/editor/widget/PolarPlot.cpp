@@ -1,5 +1,6 @@
 #include "app/editor/widget/PolarPlot.h"
 
+#include "app/editor/style/FocusRing.h"
 #include "app/editor/style/Tokens.h"
 
 #include <QKeyEvent>
@@ -150,7 +151,7 @@ void PolarPlot::paintEvent(QPaintEvent*) {
     paintLight(painter);
     paintProbe(painter);
     if (hasFocus()) {
-        painter.setPen(QColor(tokens::kAccent));
+        painter.setPen(QColor(tokens::kFocus));
         painter.setBrush(Qt::NoBrush);
         painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), tokens::kRadius,
                                 tokens::kRadius);
