@@ -3,6 +3,7 @@
 #include "app/editor/Actions.h"
 #include "app/editor/Docks.h"
 #include "app/editor/EnvironmentSaveDialog.h"
+#include "app/editor/EscapeKey.h"
 #include "app/editor/ExportDialog.h"
 #include "app/editor/FileFlow.h"
 #include "app/editor/HelpDialogs.h"
@@ -105,6 +106,18 @@ MainWindow::MainWindow(Session& session)
             [this](bool folded) { m_looks->strip->setChecked(!folded); });
     m_looks->strip->setChecked(!strip->isFolded());
     setCentralWidget(centre);
+    new EscapeKey(*this, {[this] {
+                              const bool splits = m_session.views.settings().split.has_value();
+                              if (splits)
+                                  m_session.views.toggleSplit();
+                              return splits;
+                          },
+                          [equation] { return equation->back(); },
+                          [this] {
+                              const bool full = windowState().testFlag(Qt::WindowFullScreen);
+                              m_actions->fullScreen->setChecked(false);
+                              return full;
+                          }});
 
     makeDocks();
     makeMenus();
@@ -290,8 +303,9 @@ void MainWindow::makeStatusBar() {
     m_frameTime = new QLabel;
     m_gpu = new QLabel(tr("Starting OpenGL…"));
     m_triangles->setStatusTip(tr("Triangles of the visible meshes"));
-    m_frameTime->setStatusTip(tr("Time that the last frame took, and the frames per second that "
-                                 "this allows"));
+    m_frameTime->setObjectName(QStringLiteral("frameTime"));
+    m_frameTime->setStatusTip(tr("During interaction the time of a frame and the frames per second "
+                                 "that it allows; at rest, whether the picture is refined"));
     m_frameTime->setMinimumWidth(
         fontMetrics().horizontalAdvance(QStringLiteral("000.0 ms  00 fps")));
     m_frameTime->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
@@ -306,7 +320,13 @@ void MainWindow::refreshTriangles() {
     m_triangles->setText(tr("%L1 triangles").arg(m_session.controller.document().triangleCount()));
 }
 
-void MainWindow::showFrameTime(double milliseconds) {
+void MainWindow::showFrame(double milliseconds, PictureState state) {
+    // At rest a frame's time is that of a finer picture, and says nothing about interaction.
+    if (state != PictureState::Moving) {
+        m_frameTimeShown.invalidate();
+        m_frameTime->setText(state == PictureState::Refined ? tr("Refined") : tr("Refining…"));
+        return;
+    }
     if (m_frameTimeShown.isValid() && m_frameTimeShown.elapsed() < kFrameTimeMs)
         return;
     m_frameTimeShown.start();
@@ -372,7 +392,7 @@ void MainWindow::connectActions() {
             touches(change.affects, Affects::Bakes))
             refreshView();
     });
-    connect(m_viewport, &ViewportWidget::frameRendered, this, &MainWindow::showFrameTime);
+    connect(m_viewport, &ViewportWidget::frameRendered, this, &MainWindow::showFrame);
     connect(m_viewport, &ViewportWidget::displayRefused, &m_session.displays,
             &DisplayLoader::refuse);
     connect(&m_session.displays, &DisplayLoader::noticed, this, &MainWindow::notice);
@@ -459,6 +479,13 @@ void MainWindow::openEnvironmentSaveDialog() {
 }
 
 // --- Window events -------------------------------------------------------------------------------
+
+// Window managers have ways of their own into full screen and out of it.
+void MainWindow::changeEvent(QEvent* event) {
+    if (event->type() == QEvent::WindowStateChange)
+        m_actions->fullScreen->setChecked(windowState().testFlag(Qt::WindowFullScreen));
+    QMainWindow::changeEvent(event);
+}
 
 void MainWindow::closeEvent(QCloseEvent* event) {
     if (!m_mayClose) {

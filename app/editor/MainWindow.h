@@ -17,6 +17,7 @@ class MaterialPanel;
 class NoticeArea;
 class ViewActions;
 class ViewportWidget;
+enum class PictureState;
 struct Session;
 struct UserNotice;
 
@@ -37,6 +38,7 @@ class MainWindow : public QMainWindow {
     void resetLayout();
 
   protected:
+    void changeEvent(QEvent* event) override;
     void closeEvent(QCloseEvent* event) override;
     void dragEnterEvent(QDragEnterEvent* event) override;
     void dropEvent(QDropEvent* event) override;
@@ -52,7 +54,7 @@ class MainWindow : public QMainWindow {
     void refreshTitle();
     void refreshView();
     void refreshTriangles();
-    void showFrameTime(double milliseconds);
+    void showFrame(double milliseconds, PictureState state);
     void notice(const UserNotice& notice);
     void openExportDialog();
     void openEnvironmentSaveDialog();

@@ -152,11 +152,16 @@ Equation EquationBar::equation() const {
     return *equationOf(opened(), m_controller.document().model);
 }
 
+bool EquationBar::back() {
+    if (m_path.size() < 2)
+        return false;
+    close(m_path.size() - 2);
+    return true;
+}
+
 void EquationBar::keyPressEvent(QKeyEvent* event) {
-    const bool back = event->key() == Qt::Key_Escape || event->key() == Qt::Key_Backspace;
-    if (back && m_path.size() > 1)
-        close(m_path.size() - 2);
-    else
+    const bool leads = event->key() == Qt::Key_Escape || event->key() == Qt::Key_Backspace;
+    if (!leads || !back())
         QWidget::keyPressEvent(event);
 }
 

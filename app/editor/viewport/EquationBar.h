@@ -38,6 +38,7 @@ class EquationBar : public QWidget, private SheetClient {
     [[nodiscard]] ViewKind opened() const { return m_path.back(); }
     void open(ViewKind kind);      // a part of what is open
     void close(std::size_t depth); // back to a part that was opened before; 0: the sum
+    bool back();                   // one step; false: the sum is open already
 
   Q_SIGNALS:
     void foldedChanged(bool folded);

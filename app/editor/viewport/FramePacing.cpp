@@ -50,11 +50,16 @@ bool FramePacing::refine() {
         m_stage = Stage::FullResolution;
         return true;
     }
-    if (m_stage == Stage::FullResolution && !m_accumulates && m_fullMs < kAffordableMs) {
+    if (!refined()) {
         m_stage = Stage::Antialiased;
         return true;
     }
     return false;
+}
+
+bool FramePacing::refined() const {
+    return m_stage == Stage::Antialiased ||
+           (m_stage == Stage::FullResolution && (m_accumulates || m_fullMs >= kAffordableMs));
 }
 
 void FramePacing::pictureChanged() {

@@ -22,6 +22,8 @@ class FramePacing {
     // The hand rests: one step finer. Returns whether there is something new to draw; false when
     // the picture is as fine as it gets, or anti-aliasing would hold up the hand for too long.
     bool refine();
+    // refine() has nothing to offer any more.
+    [[nodiscard]] bool refined() const;
     // The picture has changed, but not by the hand: at rest it is refined anew, for an anti-aliased
     // frame may hold up whatever comes next.
     void pictureChanged();

@@ -305,10 +305,19 @@ void ViewportWidget::paintGL() {
     if (frame.accumulate && m_renderer->accumulatedFrames() < render::Renderer::kSteadyFrames)
         m_accumulationTimer.start();
     m_slowestFrameMs = std::max(m_slowestFrameMs, milliseconds);
-    Q_EMIT frameRendered(milliseconds);
+    Q_EMIT frameRendered(milliseconds, pictureState());
     followLuminance();
     letOthersDraw();
     m_picker.frameDrawn(size, m_pacing.moving());
+}
+
+PictureState ViewportWidget::pictureState() const {
+    if (m_pacing.moving())
+        return PictureState::Moving;
+    const bool adding = m_pacing.accumulating() &&
+                        m_renderer->accumulatedFrames() < render::Renderer::kSteadyFrames;
+    return m_pacing.refined() && !adding && !m_gate.waiting() ? PictureState::Refined
+                                                              : PictureState::Refining;
 }
 
 void ViewportWidget::letOthersDraw() {

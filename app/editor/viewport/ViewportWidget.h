@@ -40,6 +40,10 @@ class LobeOnSurface;
 class SelectionModel;
 class ViewState;
 
+// How far the picture of the scene has come: drawn for speed, on its way to be as fine as it gets,
+// or there.
+enum class PictureState { Moving, Refining, Refined };
+
 class ViewportWidget : public QOpenGLWidget {
     Q_OBJECT
   public:
@@ -80,7 +84,7 @@ class ViewportWidget : public QOpenGLWidget {
   Q_SIGNALS:
     void contextReady(const QString& gpu, const QString& glVersion); // after initializeGL
     void contextFailed(const QString& reason); // no OpenGL 4.5: the widget stays grey
-    void frameRendered(double milliseconds);
+    void frameRendered(double milliseconds, patina::editor::PictureState state);
     void luminanceMeasured(const patina::Luminance& luminance); // when it has changed
     void displayRefused(const patina::Error& error);            // by the graphics driver
     void shaderProblems(const QStringList& messages); // a reload failed; the last good ones stay
@@ -108,6 +112,7 @@ class ViewportWidget : public QOpenGLWidget {
     void followLuminance();
     void pickAt(const QPointF& position);
     [[nodiscard]] float viewAspect() const;
+    [[nodiscard]] PictureState pictureState() const; // of the frame that was drawn last
 
     DocumentController& m_controller;
     SelectionModel& m_selection;

@@ -6,7 +6,9 @@
 #include "app/editor/HelpDialogs.h"
 #include "app/editor/ViewActions.h"
 #include "app/editor/document/Commands.h"
+#include "app/editor/viewport/EquationBar.h"
 #include "app/editor/widget/NoticeArea.h"
+#include "app/editor/widget/NumberField.h"
 
 #include <QAbstractButton>
 #include <QCheckBox>
@@ -16,6 +18,7 @@
 #include <QDockWidget>
 #include <QDropEvent>
 #include <QFile>
+#include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
@@ -23,7 +26,9 @@
 #include <QMimeData>
 #include <QSettings>
 #include <QToolBar>
+#include <QTreeView>
 #include <map>
+#include <set>
 
 namespace patina::editor {
 namespace {
@@ -302,6 +307,92 @@ TEST_F(WindowTest, LightingFollowsTheDocument) {
     actions.undo->trigger();
     EXPECT_EQ(document().view.lighting, LightingMode::Ibl);
     EXPECT_TRUE(actions.lightingIbl->isChecked());
+}
+
+// --- Esc and the status bar ----------------------------------------------------------------------
+
+TEST_F(WindowTest, EscLeadsOutWhereverTheFocusIs) {
+    window->activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(window.get(), 30'000));
+    auto* equation = window->findChild<EquationBar*>();
+    ASSERT_NE(equation, nullptr);
+    QAction* split = window->looks().split;
+    QAction* fullScreen = window->actions().fullScreen;
+    window->findChild<QDockWidget*>(QStringLiteral("log"))->show();
+    auto* scene = window->findChild<QDockWidget*>(QStringLiteral("scene"));
+    int kinds = 0;
+    std::set<std::string> seen;
+    for (const bool floating : {false, true}) {
+        scene->setFloating(floating);
+        QTest::qWait(50);
+        seen.clear();
+        for (QWidget* widget : window->findChildren<QWidget*>()) {
+            if (!widget->isVisible() || !widget->isEnabled() || widget->visibleRegion().isEmpty() ||
+                widget->focusPolicy() == Qt::NoFocus ||
+                widget->window()->windowType() == Qt::Popup ||
+                (floating && !scene->isAncestorOf(widget)) ||
+                !seen.insert(widget->metaObject()->className()).second)
+                continue;
+            ++kinds;
+            const std::string where = widget->metaObject()->className();
+            const auto press = [&] {
+                widget->window()->activateWindow();
+                widget->setFocus();
+                QTest::keyClick(widget, Qt::Key_Escape);
+            };
+            split->trigger();
+            ASSERT_TRUE(split->isChecked());
+            equation->open(shading::kViewSpecularIbl);
+            press();
+            EXPECT_FALSE(split->isChecked()) << where;
+            press();
+            EXPECT_EQ(equation->opened(), shading::kViewFinal) << where;
+            if (split->isChecked())
+                split->trigger();
+            equation->close(0);
+        }
+    }
+    scene->setFloating(false);
+    EXPECT_GT(kinds, 8);
+    window->viewport().setFocus();
+    fullScreen->setChecked(true);
+    ASSERT_TRUE(eventually([] { return window->isFullScreen(); }));
+    window->findChild<QTreeView*>()->setFocus();
+    QTest::keyClick(window->findChild<QTreeView*>(), Qt::Key_Escape);
+    EXPECT_TRUE(eventually([&] { return !window->isFullScreen(); }));
+    EXPECT_FALSE(fullScreen->isChecked());
+    window->resetLayout();
+}
+
+TEST_F(WindowTest, EscEndsWhatIsTypedFirst) {
+    window->activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(window.get(), 30'000));
+    QAction* split = window->looks().split;
+    split->trigger();
+    auto* field = find<NumberField>(*window, QStringLiteral("Roughness"));
+    ASSERT_NE(field, nullptr);
+    const double before = field->value();
+    field->setFocus();
+    QTest::keyClick(field, Qt::Key_Return);
+    QTest::keyClicks(field, QStringLiteral("0.77"));
+    QTest::keyClick(field, Qt::Key_Escape);
+    EXPECT_TRUE(split->isChecked());
+    EXPECT_EQ(field->value(), before);
+    QTest::keyClick(field, Qt::Key_Escape);
+    EXPECT_FALSE(split->isChecked());
+}
+
+TEST_F(WindowTest, TheStatusBarSaysRefinedAtRest) {
+    auto* label = window->findChild<QLabel*>(QStringLiteral("frameTime"));
+    ASSERT_NE(label, nullptr);
+    ASSERT_TRUE(eventually([&] { return label->text() == QStringLiteral("Refined"); }))
+        << label->text().toStdString();
+    Camera camera = document().view.camera;
+    camera.distance *= 1.1f;
+    controller().setCamera(camera);
+    window->viewport().resetCamera(); // as a key does: the next frames are drawn for speed
+    EXPECT_TRUE(eventually([&] { return label->text().contains(QStringLiteral("fps")); }));
+    EXPECT_TRUE(eventually([&] { return label->text() == QStringLiteral("Refined"); }));
 }
 
 // --- Layout and pictures -------------------------------------------------------------------------
