@@ -43,6 +43,15 @@ QString containerOf(const PlannedFile& file) {
     return name.left(name.lastIndexOf(QLatin1Char('#')));
 }
 
+// As the list shows it: below the folder that is written to; its own name alone where it is part of
+// another file, which the last column names.
+QString shownName(const PlannedFile& file, const std::filesystem::path& folder) {
+    const QString path = fromPath(file.path.lexically_relative(folder));
+    if (path.isEmpty())
+        return fromPath(file.path);
+    return file.embedded ? path.section(QLatin1Char('#'), -1) : path;
+}
+
 } // namespace
 
 ExportDialog::ExportDialog(DocumentController& controller, JobManager& jobs, QWidget* parent)
@@ -72,7 +81,10 @@ ExportDialog::ExportDialog(DocumentController& controller, JobManager& jobs, QWi
     m_files->setHorizontalHeaderLabels(
         {tr("File"), tr("Contents"), tr("Colour space"), tr("Format"), tr("Note")});
     m_files->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-    m_files->horizontalHeader()->setSectionResizeMode(1, QHeaderView::Stretch);
+    // What does not fit ends in an ellipsis, and the tool tip has it.
+    m_files->horizontalHeader()->setMinimumSectionSize(90);
+    for (const int column : {0, 1, 4})
+        m_files->horizontalHeader()->setSectionResizeMode(column, QHeaderView::Stretch);
     m_files->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     m_files->verticalHeader()->hide();
     m_files->setWordWrap(false); // a tool tip holds what does not fit
@@ -156,9 +168,8 @@ void ExportDialog::refresh() {
     m_files->setRowCount(static_cast<int>(m_plan.files.size()));
     for (int row = 0; row < m_files->rowCount(); ++row) {
         const PlannedFile& file = m_plan.files[static_cast<std::size_t>(row)];
-        const QString shown = fromPath(file.path.lexically_relative(folder));
         const QStringList cells = {
-            shown.isEmpty() ? fromPath(file.path) : shown,
+            shownName(file, folder),
             QString::fromStdString(file.contents),
             QString::fromStdString(file.colorSpace),
             QString::fromStdString(file.format),

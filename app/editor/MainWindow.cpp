@@ -53,6 +53,8 @@
 namespace patina::editor {
 namespace {
 
+constexpr QSize kComfortable(1440, 900);
+constexpr int kFrameHeight = 60;     // more than a title bar needs; what it is is known too late
 constexpr int kLayoutVersion = 4;    // raise when docks come or go: older layouts are ignored
 constexpr qint64 kFrameTimeMs = 250; // how often the number changes, so that it can be read
 
@@ -203,10 +205,17 @@ QMenu* MainWindow::createPopupMenu() {
     return menu;
 }
 
+QSize MainWindow::firstSize(const QSize& available) {
+    return kComfortable.boundedTo(available - QSize(0, kFrameHeight));
+}
+
 void MainWindow::restoreLayout() {
     QSettings settings;
-    // Scaled screens are small in device-independent pixels.
-    resize(QSize(1440, 900).boundedTo(screen()->availableSize()));
+    // Small screens, and scaled ones, which are small in device-independent pixels, are filled.
+    const QSize available = screen()->availableSize();
+    resize(firstSize(available));
+    if (firstSize(available) != kComfortable)
+        setWindowState(windowState() | Qt::WindowMaximized);
     if (!restoreGeometry(settings.value(QStringLiteral("window/geometry")).toByteArray()) ||
         !m_docks->restore(settings.value(QStringLiteral("window/state")).toByteArray(),
                           kLayoutVersion))

@@ -34,6 +34,8 @@ class MainWindow : public QMainWindow {
     [[nodiscard]] ViewportWidget& viewport() { return *m_viewport; }
 
     [[nodiscard]] QMenu* createPopupMenu() override;
+    // Of the window on a screen with so much room, in the first session.
+    [[nodiscard]] static QSize firstSize(const QSize& available);
     void restoreLayout(); // of the last time, or the first one
     void resetLayout();
 

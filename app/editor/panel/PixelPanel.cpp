@@ -28,6 +28,7 @@ constexpr int kBeside = 620;     // wide enough for waterfall and tree side by s
 constexpr int kOneRow = 440;     // wide enough for colour and buttons in one row
 constexpr int kChartWidth = 330; // beside the tree
 constexpr int kSwatch = 34;
+constexpr int kNameWidth = 130; // of the names in the tree at least: the numbers scroll before
 
 QString sentence(PinState state) {
     switch (state) {
@@ -185,7 +186,7 @@ QWidget* PixelPanel::makeTree() {
     m_tree->setSelectionMode(QAbstractItemView::SingleSelection);
     m_tree->setTextElideMode(Qt::ElideRight);
     m_tree->header()->setStretchLastSection(false);
-    m_tree->header()->setMinimumSectionSize(60);
+    m_tree->header()->setMinimumSectionSize(kNameWidth);
     m_tree->header()->setSectionResizeMode(ExplanationModel::Name, QHeaderView::Stretch);
     m_tree->header()->setSectionResizeMode(ExplanationModel::Numbers, QHeaderView::Interactive);
     connect(m_model, &QAbstractItemModel::modelReset, this, &PixelPanel::openSections);

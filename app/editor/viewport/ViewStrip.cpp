@@ -63,9 +63,9 @@ ViewStrip::ViewStrip(ViewState& views, DocumentController& controller, SheetSche
     m_groups->setDrawBase(false);
     m_groups->setExpanding(false);
     m_groups->setFocusPolicy(Qt::TabFocus);
-    // In narrow windows the longest names are cut, so that no group hides behind an arrow.
-    m_groups->setUsesScrollButtons(false);
-    m_groups->setElideMode(Qt::ElideRight);
+    // In narrow windows they scroll: a name that is cut says nothing.
+    m_groups->setUsesScrollButtons(true);
+    m_groups->setElideMode(Qt::ElideNone);
     for (int i = 0; i < kViewGroupCount; ++i) {
         const std::string_view label = viewGroupLabel(static_cast<ViewGroup>(i));
         const QString name = QString::fromUtf8(label.data(), static_cast<qsizetype>(label.size()));

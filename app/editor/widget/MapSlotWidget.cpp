@@ -12,6 +12,7 @@
 #include <QDragEnterEvent>
 #include <QFileInfo>
 #include <QGridLayout>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QMimeData>
 #include <QPainter>
@@ -63,7 +64,7 @@ MapSlotWidget::MapSlotWidget(Thumbnails& thumbnails, const QString& name, bool w
     setAcceptDrops(true);
     setAccessibleName(name);
     m_facts->setObjectName(QStringLiteral("dim"));
-    m_facts->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred); // gives way first
+    m_facts->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred); // the name gives way
     for (const QString& channel : {tr("RGB"), tr("Red"), tr("Green"), tr("Blue"), tr("Alpha")})
         m_channel->addItem(channel);
     m_channel->setObjectName(QStringLiteral("small"));
@@ -79,9 +80,13 @@ MapSlotWidget::MapSlotWidget(Thumbnails& thumbnails, const QString& name, bool w
     grid->setContentsMargins(kThumbnail + kGap, 0, 0, 0);
     grid->setHorizontalSpacing(3);
     grid->setVerticalSpacing(0);
-    grid->addWidget(m_title, 0, 0, 1, 5);
+    auto* heading = new QHBoxLayout;
+    heading->setContentsMargins(0, 0, 0, 0);
+    heading->setSpacing(kGap);
+    heading->addWidget(m_title, 1);
+    heading->addWidget(m_facts);
+    grid->addLayout(heading, 0, 0, 1, 5);
     grid->addWidget(m_channel, 1, 0);
-    grid->addWidget(m_facts, 1, 1);
     grid->addWidget(m_tilingButton, 1, 2);
     grid->addWidget(m_browse, 1, 3);
     grid->addWidget(m_clear, 1, 4);
@@ -181,9 +186,8 @@ void MapSlotWidget::show(const MapSlot& slot) {
                : assigned ? source
                           : tr("Drop an image here, or click to choose one"));
     setStatusTip(broken ? problem : assigned ? source : toolTip());
-    // Beside the choice of a channel there is no room for the size; the tool tip has it, too.
     const bool choosesChannel = assigned && !m_channel->property("wholeColor").toBool();
-    m_facts->setText(broken ? tr("missing") : choosesChannel ? QString() : size);
+    m_facts->setText(broken ? tr("missing") : size);
     m_channel->setVisible(choosesChannel);
     m_channel->setCurrentIndex(static_cast<int>(slot.channel));
     m_tilingButton->setVisible(assigned);

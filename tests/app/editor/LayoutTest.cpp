@@ -1,0 +1,159 @@
+// Everything fits on every screen: sizes of the window, texts in docks and dialogs.
+// PATINA_SCREENSHOTS keeps a picture of each.
+
+#include "tests/app/editor/EditorFixture.h"
+#include "tests/app/editor/TextFit.h"
+
+#include "app/editor/EnvironmentSaveDialog.h"
+#include "app/editor/ExportDialog.h"
+#include "app/editor/HelpDialogs.h"
+#include "app/editor/ViewActions.h"
+#include "app/editor/viewport/EquationBar.h"
+#include "app/editor/viewport/ViewStrip.h"
+#include "core/document/Edit.h"
+
+#include <QDialog>
+#include <QDir>
+#include <QDockWidget>
+#include <QScreen>
+#include <QStatusBar>
+
+namespace patina::editor {
+namespace {
+
+// Screens in device-independent pixels, less the title bar and a panel: 1366×768, 1920×1080,
+// 1920×1080 at scale 1.5, 2880×1800 at scale 2.
+struct Screen {
+    const char* name;
+    QSize size;
+};
+constexpr int kTaken = 60; // height of title bar and panel
+const Screen kScreens[] = {{"1366x768", {1366, 768 - kTaken}},
+                           {"1920x1080", {1920, 1080 - kTaken}},
+                           {"1920x1080@1.5", {1280, 720 - kTaken}},
+                           {"2880x1800@2", {1440, 900 - kTaken}}};
+
+struct LayoutTest : EditorTest {
+    void SetUp() override {
+        EditorTest::SetUp();
+        window->resetLayout();
+        const QString longName =
+            QStringLiteral("Weathered copper of the harbour master's roof, v%1");
+        controller().addLight(LightType::Rectangle);
+        controller().addLight(LightType::Spot);
+        controller().editStructure(QStringLiteral("Long names"), [&](Document& document) {
+            int number = 100;
+            for (Material& material : document.materials)
+                material.name = longName.arg(++number).toStdString();
+            for (MeshInstance& mesh : document.meshes)
+                mesh.name = longName.arg(++number).toStdString();
+            for (Light& light : document.lights)
+                light.name = longName.arg(++number).toStdString();
+        });
+        controller().setMap(parameter("material.baseColor.map"),
+                            {Scope::Material, selectedMaterial().id}, picture(2048, 1024));
+        controller().setMap(parameter("material.metallic.map"),
+                            {Scope::Material, selectedMaterial().id}, picture(1024, 1024));
+        ASSERT_TRUE(settled(*session));
+    }
+    QString picture(int width, int height) {
+        QImage image(width, height, QImage::Format_RGB32);
+        image.fill(Qt::darkCyan);
+        const QString file = folder.filePath(
+            QStringLiteral("harbour_roof_weathered_copper_%1x%2.png").arg(width).arg(height));
+        EXPECT_TRUE(image.save(file));
+        return file;
+    }
+    static void keep(QWidget& widget, const QString& name) {
+        const QString target = qEnvironmentVariable("PATINA_SCREENSHOTS");
+        if (target.isEmpty())
+            return;
+        ASSERT_TRUE(QDir().mkpath(target));
+        ASSERT_TRUE(widget.grab().save(QDir(target).filePath(name + QStringLiteral(".png"))));
+    }
+    static void settle() { QTest::qWait(80); }
+    static void resizeTo(const QSize& size) {
+        window->resize(size);
+        ASSERT_TRUE(eventually([&] { return window->size() == size; }))
+            << window->width() << "x" << window->height() << ", at least "
+            << window->minimumSizeHint().width() << "x" << window->minimumSizeHint().height();
+        settle();
+    }
+    static void expectNothingCut(const QWidget& widget, const std::string& where) {
+        for (const QString& text : cutTexts(widget))
+            ADD_FAILURE() << where << ": " << text.toStdString();
+    }
+};
+
+TEST_F(LayoutTest, EveryDockFitsEveryScreen) {
+    for (const Screen& screen : kScreens) {
+        resizeTo(screen.size);
+        for (QDockWidget* dock : window->findChildren<QDockWidget*>()) {
+            const bool wasHidden = dock->isHidden();
+            dock->show();
+            dock->raise();
+            settle();
+            const std::string where = screen.name + (" " + dock->objectName().toStdString());
+            EXPECT_EQ(window->size(), screen.size) << where << ": the window has grown";
+            expectNothingCut(*dock, where);
+            if (wasHidden) {
+                keep(*window,
+                     QLatin1String(screen.name) + QStringLiteral("-") + dock->objectName());
+                dock->hide();
+            } else {
+                keep(*dock,
+                     QLatin1String(screen.name) + QStringLiteral("-dock-") + dock->objectName());
+            }
+        }
+        // Bars under the picture, open both.
+        window->looks().equation->setChecked(true);
+        window->looks().strip->setChecked(true);
+        settle();
+        EXPECT_EQ(window->size(), screen.size) << screen.name << " with both bars";
+        expectNothingCut(*window, screen.name);
+        keep(*window, QLatin1String(screen.name) + QStringLiteral("-window"));
+        // And an instrument below them.
+        window->actions().pixel->trigger();
+        settle();
+        EXPECT_EQ(window->size(), screen.size) << screen.name << " with bars and an instrument";
+        EXPECT_GE(window->viewport().height(), 160) << screen.name;
+        keep(*window, QLatin1String(screen.name) + QStringLiteral("-all"));
+        window->actions().pixel->trigger();
+        window->looks().equation->setChecked(false);
+        settle();
+    }
+}
+
+TEST_F(LayoutTest, EveryDialogFitsEveryScreen) {
+    for (const Screen& screen : kScreens) {
+        resizeTo(screen.size);
+        const auto check = [&](QDialog* dialog, const char* name) {
+            dialog->show();
+            settle();
+            const std::string where = screen.name + std::string(" ") + name;
+            EXPECT_LE(dialog->width(), screen.size.width()) << where;
+            EXPECT_LE(dialog->height(), screen.size.height()) << where;
+            expectNothingCut(*dialog, where);
+            keep(*dialog,
+                 QLatin1String(screen.name) + QStringLiteral("-dialog-") + QLatin1String(name));
+            delete dialog;
+        };
+        check(new ExportDialog(controller(), session->jobs, window.get()), "export");
+        check(new EnvironmentSaveDialog(controller(), session->jobs, window.get()), "environment");
+        check(makeShortcutsDialog(window->actions().all(), window->looks().listed(), window.get()),
+              "shortcuts");
+        check(makeAboutDialog(window.get()), "about");
+    }
+}
+
+TEST_F(LayoutTest, TheFirstWindowLeavesRoomForItsFrame) {
+    for (const Screen& screen : kScreens) {
+        const QSize available = screen.size + QSize(0, kTaken);
+        const QSize first = MainWindow::firstSize(available);
+        EXPECT_LE(first.width(), available.width()) << screen.name;
+        EXPECT_LE(first.height(), available.height() - kTaken) << screen.name;
+    }
+}
+
+} // namespace
+} // namespace patina::editor
