@@ -3,6 +3,7 @@
 #include "app/cli/SceneSetup.h"
 #include "core/bake/BakeCheckpoint.h"
 #include "core/bake/BakeHeader.h"
+#include "core/document/AbsentBake.h"
 #include "core/document/EnvironmentFile.h"
 #include "core/document/LightMix.h"
 #include "core/document/Lights.h"
@@ -161,6 +162,8 @@ void describeScene(Report& report, const OpenedScene& scene) {
     }
     Rows bakes;
     for (const BakeArtifactPtr& bake : document.bakes) {
+        if (isAbsent(*bake)) // among the notices
+            continue;
         json["bakes"].push_back({{"kind", kindText(bake->kind)}, {"samples", bake->samplesDone}});
         bakes.emplace_back(kindText(bake->kind),
                            fmt::format("{} rays per element", bake->samplesDone));

@@ -2,13 +2,21 @@
 
 #include "core/bake/BakeIO.h"
 #include "core/base/AtomicFile.h"
+#include "core/base/FileLock.h"
+#include "core/base/Leftovers.h"
 #include "core/base/Limits.h"
 #include "core/base/Utf8.h"
+#include "core/document/AbsentBake.h"
+#include "core/document/ProjectBakes.h"
 #include "core/document/ProjectJson.h"
 #include "core/document/SceneLoader.h"
 
+#include <chrono>
 #include <set>
+#include <span>
+#include <sys/stat.h>
 #include <system_error>
+#include <unistd.h>
 
 namespace patina {
 namespace {
@@ -57,48 +65,88 @@ void loadBakes(SceneLoader& loader, WorkerClient& worker, Document& document,
         loader.job().setActivity("reading " +
                                  makeValidUtf8(fs::path(reference.file).filename().string()));
         Result<BakeArtifact> bake = loadBake(worker, reference.file, document);
-        if (bake.ok() && bake->kind == reference.kind)
+        if (bake.ok() && bake->kind == reference.kind) {
             document.bakes.push_back(std::make_shared<const BakeArtifact>(*std::move(bake)));
-        else if (!bake.ok() && bake.error().kind == ErrorKind::InputMissing)
+            continue;
+        }
+        document.bakes.push_back(absentBake(reference.kind, reference.file));
+        if (!bake.ok() && bake.error().kind == ErrorKind::InputMissing)
             loader.addNotice("a bake of this project is missing; put the file back or bake it anew",
                              reference.file);
         else
-            loader.addNotice("a bake of this project is left out: " +
+            loader.addNotice("a bake of this project cannot be used: " +
                                  (bake.ok() ? "the file holds a bake of another kind; bake it anew"
                                             : bake.error().message),
                              reference.file);
     }
 }
 
-Result<void> makeFolder(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error)
-        return Error{
-            ErrorKind::CannotCreate,
-            "the folder for the project's bakes cannot be created; check that the project's "
-            "folder exists and is writable",
-            folder, error.message()};
+// How long a save waits for another one of the same project, in this process or another.
+constexpr std::chrono::seconds kPatience(30);
+
+// What stands in the way of writing `file`, which is locked.
+SaveOutcome checkSave(const fs::path& file, const SaveTerms& terms) {
+    const auto stopped = [&](SaveObstacle obstacle, std::string message) {
+        return SaveOutcome{
+            Error{ErrorKind::CannotCreate, std::move(message), file, {}}, obstacle, {}};
+    };
+    struct stat there {};
+    if (::stat(file.c_str(), &there) != 0)
+        return {};
+    if (terms.expected && projectVersion(file) != terms.expected)
+        return stopped(SaveObstacle::Changed,
+                       "the file was changed by something else since it was opened or saved here; "
+                       "save under another name, or open it again");
+    const bool writable = (there.st_mode & 0222) != 0 && ::access(file.c_str(), W_OK) == 0;
+    if (!terms.mayReplaceReadOnly && S_ISREG(there.st_mode) && !writable)
+        return stopped(SaveObstacle::ReadOnly,
+                       "the file is write-protected; save under another name");
     return {};
 }
 
 } // namespace
 
+std::optional<Hash> projectVersion(const fs::path& projectFile) {
+    const Result<Bytes> bytes = readFile(projectFile, limits::kMaxProjectFileBytes);
+    return bytes ? std::optional(hashBytes(*bytes)) : std::nullopt;
+}
+
 Result<void> saveProject(WorkerClient& worker, const Document& document,
                          const fs::path& projectFile) {
-    for (const BakeArtifactPtr& bake : document.bakes) {
-        if (!bake)
-            continue;
-        Result<Bytes> bytes = encodeBake(worker, *bake, document);
-        if (!bytes)
-            return bytes.error();
-        const fs::path file = project::bakeFile(projectFile, bake->kind);
-        if (Result<void> made = makeFolder(file.parent_path()); !made)
-            return made;
-        if (Result<void> written = writeFileAtomically(file, *bytes); !written)
-            return written;
-    }
-    return writeFileAtomically(projectFile, documentToJson(document, projectFile));
+    SaveOutcome outcome = saveProject(worker, document, projectFile, SaveTerms{});
+    if (outcome.error)
+        return *std::move(outcome.error);
+    return {};
+}
+
+SaveOutcome saveProject(WorkerClient& worker, const Document& document, const fs::path& projectFile,
+                        const SaveTerms& terms) {
+    const fs::path folder = projectFile.has_parent_path() ? projectFile.parent_path() : ".";
+    std::error_code ignored;
+    if (!fs::is_directory(folder, ignored))
+        return {Error{ErrorKind::CannotCreate,
+                      "the folder of this project is not there; it was moved, renamed or removed. "
+                      "Save the project in another place",
+                      projectFile,
+                      {}},
+                SaveObstacle::FolderGone,
+                {}};
+    const Result<std::optional<FileLock>> lock = FileLock::takeWhenFree(projectFile, kPatience);
+    if (!lock)
+        return {lock.error(), SaveObstacle::None, {}};
+    if (SaveOutcome stopped = checkSave(projectFile, terms); stopped.error)
+        return stopped;
+    removeLeftovers(projectFile);
+
+    const Result<project::BakeNames> bakes = project::writeBakes(worker, document, projectFile);
+    if (!bakes)
+        return {bakes.error(), SaveObstacle::None, {}};
+    const std::string text = project::projectText(document, projectFile, *bakes);
+    if (Result<void> written = writeFileAtomically(projectFile, text); !written)
+        return {written.error(), SaveObstacle::None, {}};
+    project::removeOldBakes(projectFile, *bakes);
+    return {std::nullopt, SaveObstacle::None,
+            hashBytes(std::as_bytes(std::span(text.data(), text.size())))};
 }
 
 Result<OpenedScene> loadProject(WorkerClient& worker, const fs::path& projectFile,

@@ -1,6 +1,7 @@
 #include "core/document/Edit.h"
 
 #include "core/base/Check.h"
+#include "core/document/AbsentBake.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -216,12 +217,13 @@ BakeArtifactPtr findBake(const Document& document, BakeKind kind) {
     const auto found =
         std::find_if(document.bakes.begin(), document.bakes.end(),
                      [&](const BakeArtifactPtr& bake) { return bake->kind == kind; });
-    return found == document.bakes.end() ? nullptr : *found;
+    return found == document.bakes.end() || isAbsent(**found) ? nullptr : *found;
 }
 
 bool hasTransfer(const Document& document) {
-    return std::any_of(document.bakes.begin(), document.bakes.end(),
-                       [](const BakeArtifactPtr& bake) { return holdsTransfer(bake->kind); });
+    return std::any_of(
+        document.bakes.begin(), document.bakes.end(),
+        [](const BakeArtifactPtr& bake) { return holdsTransfer(bake->kind) && !isAbsent(*bake); });
 }
 
 } // namespace patina

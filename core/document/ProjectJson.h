@@ -8,6 +8,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -33,7 +34,9 @@ inline constexpr std::array<std::pair<BakeKind, std::string_view>, 4> kBakeKinds
     return std::string(info.id.substr(info.id.find('.') + 1));
 }
 
-// "chair.bakes/aoTexel.exr" beside "chair.patina".
+// "chair.bakes/aoTexel.exr" beside "chair.patina": what a bake is called where its content does not
+// matter, and what it was called by earlier versions. Saving names it by its content
+// (ProjectBakes.h).
 [[nodiscard]] std::filesystem::path bakeFile(const std::filesystem::path& projectFile,
                                              BakeKind kind);
 
@@ -48,6 +51,10 @@ struct ParsedProject {
     Document document; // every payload null
     std::vector<BakeReference> bakes;
 };
+// The project's text with these files for its bakes.
+[[nodiscard]] std::string projectText(const Document& document,
+                                      const std::filesystem::path& projectFile,
+                                      const std::map<BakeKind, std::string>& bakes);
 [[nodiscard]] Result<ParsedProject> parseProject(const std::string& json,
                                                  const std::filesystem::path& projectFile);
 

@@ -1,4 +1,6 @@
+#include "core/document/AbsentBake.h"
 #include "core/document/DocumentIO.h"
+#include "core/document/ProjectBakes.h"
 #include "core/document/ProjectJson.h"
 #include "core/document/ProjectPath.h"
 
@@ -10,8 +12,7 @@ namespace patina {
 namespace project {
 
 std::filesystem::path bakeFile(const std::filesystem::path& projectFile, BakeKind kind) {
-    std::filesystem::path folder = projectFile;
-    folder.replace_extension(".bakes");
+    const std::filesystem::path folder = bakeFolder(projectFile);
     for (const auto& [known, name] : kBakeKinds)
         if (known == kind)
             return folder / (std::string(name) + ".exr");
@@ -186,6 +187,17 @@ void print(const Json& json, int indent, std::string& out) {
 } // namespace
 
 std::string documentToJson(const Document& document, const fs::path& projectFile) {
+    project::BakeNames names;
+    for (const BakeArtifactPtr& bake : document.bakes)
+        if (bake)
+            names[bake->kind] = isAbsent(*bake)
+                                    ? absentFile(*bake)
+                                    : project::bakeFile(projectFile, bake->kind).string();
+    return project::projectText(document, projectFile, names);
+}
+
+std::string project::projectText(const Document& document, const fs::path& projectFile,
+                                 const BakeNames& bakes) {
     Json json{{"format", "patina"}, {"version", kProjectVersion}, {"nextId", document.nextId}};
 
     json["view"] = Json::object();
@@ -212,11 +224,9 @@ std::string documentToJson(const Document& document, const fs::path& projectFile
     json["bakes"] = Json::array();
     for (const BakeArtifactPtr& bake : document.bakes)
         for (const auto& [kind, name] : project::kBakeKinds)
-            if (bake && bake->kind == kind) {
-                const std::string file = project::bakeFile(projectFile, kind).string();
-                json["bakes"].push_back(
-                    {{"kind", std::string(name)}, {"file", toProjectPath(file, projectFile)}});
-            }
+            if (bake && bake->kind == kind)
+                json["bakes"].push_back({{"kind", std::string(name)},
+                                         {"file", toProjectPath(bakes.at(kind), projectFile)}});
 
     std::string text;
     print(json, 0, text);

@@ -1,6 +1,7 @@
 #include "core/document/Views.h"
 
 #include "core/base/Check.h"
+#include "core/document/AbsentBake.h"
 #include "core/document/Edit.h"
 #include "core/document/LightMix.h"
 #include "core/document/Lighting.h"
@@ -348,7 +349,7 @@ std::string whyNotBaked(ViewKind kind, const Document& document) {
     };
     bool baked = false;
     for (const BakeArtifactPtr& bake : document.bakes) {
-        if (!holdsTransfer(bake->kind))
+        if (!holdsTransfer(bake->kind) || isAbsent(*bake))
             continue;
         baked = true;
         if (holds(bake->vertices) || holds(bake->texels))

@@ -1,6 +1,7 @@
 #include "core/export/ExportContents.h"
 
 #include "core/bake/Bake.h"
+#include "core/document/AbsentBake.h"
 #include "core/document/Edit.h"
 #include "core/document/ModelPresets.h"
 #include "core/export/GltfEnvironment.h"
@@ -44,7 +45,7 @@ void addInstances(const Document& document, const ExportSettings& settings,
 void warnAboutBakes(const Document& document, const ExportSettings& settings,
                     std::vector<std::string>& warnings) {
     for (const BakeArtifactPtr& bake : document.bakes) {
-        if (bake == nullptr)
+        if (bake == nullptr || isAbsent(*bake))
             continue;
         if (bake->kind == BakeKind::AoVertex)
             warnings.emplace_back("glTF has no place for ambient occlusion per vertex; bake it per "

@@ -5,8 +5,11 @@
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/TextButton.h"
 #include "core/bake/BakeOptions.h"
+#include "core/document/AbsentBake.h"
 
 #include <QColor>
+#include <QFile>
+#include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLocale>
@@ -67,6 +70,10 @@ void AttachedBakes::refresh() {
     }
     std::vector<BakeRequest> stale;
     for (const BakeArtifactPtr& bake : document.bakes) {
+        if (isAbsent(*bake)) {
+            addAbsentRow(*bake);
+            continue;
+        }
         const BakeRequest wanted = m_wanted(bake->kind);
         const Hash albedo = bake->albedo == Hash{} ? Hash{} : m_runner.currentAlbedo();
         const BakeStaleness staleness =
@@ -126,12 +133,35 @@ void AttachedBakes::addRow(const BakeArtifact& bake, const BakeStaleness& stalen
                 [this, request = again(bake, staleness)] { m_runner.start(request); });
         buttons->addWidget(rebake);
     }
-    QPushButton* remove = makeTextButton(tr("Remove"), tr("Detaches this bake from the scene"));
-    connect(remove, &QPushButton::clicked, this,
-            [this, kind = bake.kind] { m_controller.detachBake(kind); });
-    buttons->addWidget(remove);
+    buttons->addWidget(removeButton(bake.kind));
     layout->addLayout(buttons);
     m_rows->addWidget(row);
+}
+
+// A bake whose file could not be read: its reference stays with the scene until it is removed.
+void AttachedBakes::addAbsentRow(const BakeArtifact& bake) {
+    const QFileInfo file(QFile::decodeName(absentFile(bake).c_str()));
+    auto* text = new QLabel(
+        QStringLiteral("%1<br><span style='color:%2'>%3</span>")
+            .arg(bakeTitle(bake.kind).toHtmlEscaped(), QColor(tokens::kCopper).name(),
+                 tr("Missing: %1. Put the file back and open the project again, or bake anew.")
+                     .arg(file.fileName())
+                     .toHtmlEscaped()));
+    text->setWordWrap(true);
+    text->setObjectName(QStringLiteral("bakeMissing"));
+    text->setToolTip(file.filePath());
+    auto* row = new QWidget;
+    auto* layout = new QVBoxLayout(row);
+    layout->setContentsMargins(0, 2, 0, tokens::kGap);
+    layout->addWidget(text);
+    layout->addWidget(removeButton(bake.kind), 0, Qt::AlignRight);
+    m_rows->addWidget(row);
+}
+
+QPushButton* AttachedBakes::removeButton(BakeKind kind) {
+    QPushButton* remove = makeTextButton(tr("Remove"), tr("Detaches this bake from the scene"));
+    connect(remove, &QPushButton::clicked, this, [this, kind] { m_controller.detachBake(kind); });
+    return remove;
 }
 
 } // namespace patina::editor

@@ -7,6 +7,7 @@
 #include <QWidget>
 #include <functional>
 
+class QPushButton;
 class QVBoxLayout;
 
 namespace patina::editor {
@@ -25,6 +26,8 @@ class AttachedBakes : public QWidget {
 
   private:
     void addRow(const BakeArtifact& bake, const BakeStaleness& staleness);
+    void addAbsentRow(const BakeArtifact& bake);
+    QPushButton* removeButton(BakeKind kind);
     [[nodiscard]] BakeRequest again(const BakeArtifact& bake, const BakeStaleness& why) const;
 
     DocumentController& m_controller;

@@ -10,6 +10,8 @@
 #include "app/editor/widget/Section.h"
 #include "app/editor/widget/TextButton.h"
 #include "core/bake/BakeMemory.h"
+#include "core/document/AbsentBake.h"
+#include "core/document/Edit.h"
 #include "core/material/Parameters.h"
 
 #include <QButtonGroup>
@@ -151,7 +153,8 @@ QWidget* BakePanel::makeLighting() {
 
 void BakePanel::takeSettings() {
     for (const BakeArtifactPtr& bake : m_controller.document().bakes)
-        m_form->setRequest(requestFromText(bake->kind, bake->settings));
+        if (!isAbsent(*bake))
+            m_form->setRequest(requestFromText(bake->kind, bake->settings));
 }
 
 void BakePanel::refreshCost() {
@@ -260,9 +263,7 @@ void BakePanel::refreshInterrupted() {
 
 void BakePanel::refreshLighting() {
     const Document& document = m_controller.document();
-    const bool hasPrt = (m_runner.running() && m_jobs.preview()) ||
-                        std::any_of(document.bakes.begin(), document.bakes.end(),
-                                    [](const auto& bake) { return holdsTransfer(bake->kind); });
+    const bool hasPrt = (m_runner.running() && m_jobs.preview()) || hasTransfer(document);
     m_prt->setEnabled(hasPrt);
     m_prt->setChecked(document.view.lighting == LightingMode::Prt);
     m_ibl->setChecked(document.view.lighting == LightingMode::Ibl);

@@ -190,7 +190,7 @@ TEST_F(ProjectFile, BakesLieBesideTheProject) {
     }
     attachBake(document, std::make_shared<const BakeArtifact>(bake));
     saveTo(document, m_folder / "p.patina");
-    EXPECT_TRUE(std::filesystem::exists(m_folder / "p.bakes/aoVertex.exr"));
+    ASSERT_TRUE(std::filesystem::is_directory(m_folder / "p.bakes"));
     const OpenedScene opened = open((m_folder / "p.patina").string());
     EXPECT_TRUE(opened.notices.empty()) << opened.notices.front().message;
     expectSameDocument(opened.document, document);
@@ -198,7 +198,7 @@ TEST_F(ProjectFile, BakesLieBesideTheProject) {
     // Without the file the project opens, and says what to do.
     std::filesystem::remove_all(m_folder / "p.bakes");
     const OpenedScene without = open((m_folder / "p.patina").string());
-    EXPECT_TRUE(without.document.bakes.empty());
+    EXPECT_EQ(findBake(without.document, BakeKind::AoVertex), nullptr);
     EXPECT_TRUE(mentions(without.notices, "bake it anew"));
 }
 
