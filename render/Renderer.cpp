@@ -52,7 +52,7 @@ Result<void> Renderer::Impl::drawPicture(const FrameSettings& frame, const Frame
         return done;
     const Document& document = scene.document();
     SurfaceSettings settings = surfaceSettings(block, output, lighting);
-    settings.floats = target.id() != targets.scene().id();
+    settings.floats = targets.floats() || target.id() != targets.scene().id();
     if (frame.coarse)
         settings.coarseView = block.worldToClip;
     shadows.bind();
@@ -216,12 +216,15 @@ void Renderer::Impl::endGl(unsigned targetFramebuffer) {
 Result<void> Renderer::render(const FrameSettings& frame, unsigned targetFramebuffer) {
     Impl& r = *m_impl;
     if (frame.width != r.targets.width() || frame.height != r.targets.height() ||
-        frame.samples != r.lastFrame.samples || frame.coarse != r.lastFrame.coarse ||
-        frame.accumulate != r.lastFrame.accumulate || !(frame.view == r.lastFrame.view))
+        frame.samples != r.lastFrame.samples || frame.floats != r.lastFrame.floats ||
+        frame.coarse != r.lastFrame.coarse || frame.accumulate != r.lastFrame.accumulate ||
+        !(frame.view == r.lastFrame.view))
         r.sceneIsNew = true;
     const bool continues = !r.sceneIsNew && frame.camera == r.lastFrame.camera;
     r.lastFrame = frame;
-    if (auto sized = r.targets.resize(r.context, frame.width, frame.height, frame.samples); !sized)
+    if (auto sized =
+            r.targets.resize(r.context, frame.width, frame.height, frame.samples, frame.floats);
+        !sized)
         return sized;
     r.beginGl();
 

@@ -41,6 +41,7 @@ struct FrameSettings {
     float overlayScale = 1.0f; // pixels per pixel that marks are sized in (the editor: a widget's)
     bool coarse = false;       // fewer triangles, where a reduced frame hides it (the editor)
     bool dither = false;       // hides the bands of 8-bit values (the editor)
+    bool floats = false;       // 32-bit floats instead of half floats: pictures for linear files
 
     // Seconds since the last frame, for automatic exposure; infinite: the eye is used to the
     // picture already.
@@ -129,9 +130,13 @@ class Renderer {
     [[nodiscard]] Image readDisplayed();
 
     // The numbers of a view for the camera and size of the last frame: linear RGBA floats, top row
-    // first; alpha 1 where a surface is (radiance: premultiplied by its opacity). One sample per
-    // pixel. CHECKs that there was a frame. Errors: Internal from the driver.
+    // first; alpha 1 where a surface is. Radiance is premultiplied by its opacity and sampled like
+    // the picture, other numbers are of one sample per pixel. CHECKs that there was a frame.
+    // Errors: Internal from the driver.
     [[nodiscard]] Result<Image> readView(ViewKind kind, ViewMode mode = ViewMode::Raw);
+    // What the background adds to the last frame's picture beside and behind its surfaces, the same
+    // way: with the terms (kTermViews) it adds up to readLinear().
+    [[nodiscard]] Result<Image> readBackground();
     // The views of `sheet` as displayed, each 8-bit RGBA, top row first, for the camera of the last
     // frame; up to eight are drawn in one pass.
     [[nodiscard]] Result<std::vector<Image>> drawSheet(const FrameSettings& frame,

@@ -87,7 +87,7 @@ struct Renderer::Impl {
     // The radiance that a side shows, into targets.linear().
     Result<void> drawRadiance(const FrameSettings& frame, const ViewChoice& choice,
                               std::size_t sideIndex);
-    // The numbers of views into a target of floats, without anti-aliasing.
+    // The numbers of views into a target of floats; anti-aliased where that is multisampled.
     Result<void> drawNumbers(const FrameSettings& frame, const FrameBlock& block,
                              const gl::Framebuffer& target, const ViewsBlock& settings,
                              bool asPicture, SurfaceOutput output,
@@ -95,6 +95,8 @@ struct Renderer::Impl {
     // Settings of `choices`, eight at most; `halfFloats`: the target is of half floats.
     [[nodiscard]] ViewsBlock viewsBlock(const ViewSettings& view,
                                         std::span<const ViewChoice> choices, bool halfFloats) const;
+    // The numbers of one view of the last frame, looked at in another way.
+    Result<Image> readNumbers(const ViewSettings& view, const ViewChoice& choice);
     Result<void> showOnSheet(const FrameSettings& frame, const FrameBlock& block,
                              const ViewChoice& choice, const gl::Texture& values);
     Result<ViewRange> rangeFor(const ViewChoice& choice, const gl::Texture& values);

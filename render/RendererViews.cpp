@@ -2,6 +2,7 @@
 #include "render/RendererImpl.h"
 
 #include "core/base/Check.h"
+#include "core/document/ViewReasons.h"
 #include "render/scene/LightBlocks.h"
 
 #include <algorithm>
@@ -132,7 +133,7 @@ Result<void> Renderer::Impl::drawRadiance(const FrameSettings& frame, const View
                                           std::size_t sideIndex) {
     if (accumulated > Renderer::kSteadyFrames)
         return screen.showMean(targets, sideIndex);
-    views.setBlock(viewsBlock(frame.view, std::span(&choice, 1), true));
+    views.setBlock(viewsBlock(frame.view, std::span(&choice, 1), !targets.floats()));
     FrameBlock block = lastBlock;
     if (accumulated > 1) {
         block.worldToClip = besideBy(accumulated - 1, frame.width, frame.height, block.worldToClip);
@@ -158,7 +159,7 @@ Result<void> Renderer::Impl::drawSide(const FrameSettings& frame, const ViewChoi
     const ViewInfo& info = viewInfo(choice.kind);
     const View& look = scene.document().view;
     const bool ordinary = frame.view.isOrdinary(choice);
-    if (!whyEmpty(choice.kind, scene.document()).empty()) {
+    if (!whyEmpty(choice.kind, scene.document(), frame.view.light).empty()) {
         const auto target = targets.dataTarget(context);
         if (!target)
             return target.error();
@@ -246,7 +247,7 @@ Result<void> Renderer::Impl::showOnSheet(const FrameSettings& frame, const Frame
                                          const ViewChoice& choice, const gl::Texture& values) {
     const View& look = scene.document().view;
     adaptation.bind();
-    if (!whyEmpty(choice.kind, scene.document()).empty())
+    if (!whyEmpty(choice.kind, scene.document(), frame.view.light).empty())
         return views.showEmpty(values, glm::vec3(0.0f), sheet.display());
     if (!showsRadiance(choice)) {
         const auto range = rangeFor(choice, values);
@@ -276,32 +277,43 @@ std::optional<ViewRange> Renderer::otherRange() const {
     return m_impl->otherRange;
 }
 
-Result<Image> Renderer::readView(ViewKind kind, ViewMode mode) {
-    Impl& r = *m_impl;
-    CHECK(r.targets.width() > 0);
-    const auto target = r.targets.dataTarget(r.context);
+Result<Image> Renderer::Impl::readNumbers(const ViewSettings& view, const ViewChoice& choice) {
+    CHECK(targets.width() > 0);
+    const bool asPicture = blends(choice);
+    const auto target =
+        asPicture ? targets.dataSamplesTarget(context) : targets.dataTarget(context);
     if (!target)
         return target.error();
-    r.beginGl();
-    r.useFrame(r.lastBlock);
-    const ViewChoice choice{kind, mode, {}};
-    Result<void> done = r.drawNumbers(r.lastFrame, r.lastBlock, **target,
-                                      r.viewsBlock(r.lastFrame.view, std::span(&choice, 1), false),
-                                      blends(choice), SurfaceOutput::OneView, choice.kind);
+    beginGl();
+    useFrame(lastBlock);
+    Result<void> done =
+        drawNumbers(lastFrame, lastBlock, **target, viewsBlock(view, std::span(&choice, 1), false),
+                    asPicture, SurfaceOutput::OneView, choice.kind);
     Image image;
     if (done) {
-        image =
-            Image(r.targets.width(), r.targets.height(), 4, PixelType::F32, ColorEncoding::Linear);
-        const auto values = r.targets.data().readFloats(4);
+        if (asPicture)
+            targets.resolveData();
+        image = Image(targets.width(), targets.height(), 4, PixelType::F32, ColorEncoding::Linear);
+        const auto values = targets.data().readFloats(4);
         std::copy(values.begin(), values.end(), image.f32().begin());
         flipRows(image);
     }
-    r.endGl(0);
+    endGl(0);
     // The numbers of the last frame's own view are gone.
-    r.sceneIsNew = true;
+    sceneIsNew = true;
     if (!done)
         return done.error();
     return image;
+}
+
+Result<Image> Renderer::readView(ViewKind kind, ViewMode mode) {
+    return m_impl->readNumbers(m_impl->lastFrame.view, {kind, mode, {}});
+}
+
+Result<Image> Renderer::readBackground() {
+    ViewSettings without = m_impl->lastFrame.view;
+    without.terms.fill(false);
+    return m_impl->readNumbers(without, {kViewFinal, ViewMode::Raw, {}});
 }
 
 Result<std::vector<Image>> Renderer::drawSheet(const FrameSettings& frame, const ViewSheet& sheet) {

@@ -29,5 +29,9 @@ void main() {
     dy.x -= round(dy.x);
     vec3 radiance = u_radianceScale * textureGrad(u_environment, uv, dx, dy).rgb;
 #endif
+#ifdef FLOATS
+    o_radiance = vec4(radiance, 1.0);
+#else
     o_radiance = vec4(min(radiance, vec3(65504.0)), 1.0);
+#endif
 }

@@ -138,10 +138,15 @@ ShadedLight mixedLamp(ShadedLight light) {
 }
 
 // Half floats end at 65504, and one NaN would spread over its pixel in the resolve.
+#ifdef FLOATS
+const float kBrightest = 3.4e38;
+#else
+const float kBrightest = 65504.0;
+#endif
 vec3 storable(vec3 c) {
-    return vec3(isnan(c.x) ? 0.0 : clamp(c.x, 0.0, 65504.0),
-                isnan(c.y) ? 0.0 : clamp(c.y, 0.0, 65504.0),
-                isnan(c.z) ? 0.0 : clamp(c.z, 0.0, 65504.0));
+    return vec3(isnan(c.x) ? 0.0 : clamp(c.x, 0.0, kBrightest),
+                isnan(c.y) ? 0.0 : clamp(c.y, 0.0, kBrightest),
+                isnan(c.z) ? 0.0 : clamp(c.z, 0.0, kBrightest));
 }
 
 #ifdef VIEWS
@@ -149,6 +154,10 @@ vec3 storable(vec3 c) {
 #endif
 
 void main() {
+#if defined(VIEWS) && !defined(INSPECT)
+    for (int i = 0; i < VIEW_OUTPUTS; ++i)
+        s_views[i] = vec4(0.0); // of a surface that has no such number
+#endif
     vec4 baseColor = baseColorAt(v_uv);
 #ifdef ALPHA_MASK
     if (baseColor.a < u_emissive.a)

@@ -223,7 +223,7 @@ Result<std::vector<ImagePart>> takePictures(Session& session, render::Renderer& 
                                             const render::FrameSettings& frame, bool linear) {
     const render::ViewChoice& shown = frame.view.shown;
     if (linear && wantsAllViews(options))
-        return viewParts(renderer, shown.mode);
+        return viewParts(renderer, document, frame.view);
     std::vector<ImagePart> parts(1);
     const auto take = [&](Result<Image> image) -> Result<std::vector<ImagePart>> {
         if (!image)
@@ -260,8 +260,19 @@ Result<void> writePictures(Session& session, render::Renderer& renderer, const D
     session.report().output(
         options.output,
         fmt::format("{} × {} pixels{}", first.width(), first.height(),
-                    pictures->size() > 1 ? fmt::format(", {} views", pictures->size()) : ""));
+                    pictures->size() > 1 ? fmt::format(", {} parts", pictures->size()) : ""));
     return {};
+}
+
+void reportLeftOut(Report& report, const std::vector<LeftOut>& left) {
+    auto& json = report.json()["leftOut"] = nlohmann::ordered_json::array();
+    std::vector<std::pair<std::string, std::string>> rows;
+    for (const LeftOut& one : left) {
+        json.push_back({{"view", std::string(one.view->id)}, {"reason", one.reason}});
+        rows.emplace_back(one.view->id, one.reason);
+    }
+    if (!rows.empty())
+        report.table("Does not apply to this scene:", rows);
 }
 
 } // namespace
@@ -300,6 +311,9 @@ Result<void> run(Session& session, const RenderOptions& options) {
     if (!shown)
         return shown.error();
     frame->view = *shown;
+    frame->floats = writes && isLinear(*format);
+    if (wantsAllViews(options))
+        reportLeftOut(session.report(), leftOutViews(*document, *shown));
     if (Result<void> followed = followBounces(session, *shown, *document); !followed)
         return followed;
     if (!options.view.empty()) {

@@ -1,7 +1,9 @@
 #include "app/cli/RenderViews.h"
 
+#include "core/document/Edit.h"
 #include "core/document/LightMix.h"
 #include "core/document/Lights.h"
+#include "core/document/ViewReasons.h"
 #include "core/image/TextRaster.h"
 
 #include <algorithm>
@@ -25,6 +27,20 @@ std::string viewNames() {
     for (const ViewInfo& info : views())
         names += fmt::format("{}{}", names.empty() ? "" : ", ", info.id);
     return names;
+}
+
+// Whether a view shows what a bake of transfer holds.
+bool readsTransfer(ViewKind kind) {
+    switch (kind) {
+    case shading::kViewBentNormal:
+    case shading::kViewSkyVisibility:
+    case shading::kViewBakeError:
+    case shading::kViewShadowedLight:
+    case shading::kViewInterreflectedLight:
+        return true;
+    default:
+        return false;
+    }
 }
 
 bool hasNumbers(const ViewInfo& info) {
@@ -58,6 +74,7 @@ Channels channelsOf(const ViewChoice& choice) {
 constexpr int kColumns = 6, kMargin = 16, kGap = 12;
 constexpr int kHeading = 20, kLabel = 14, kSmall = 11; // pixels per em
 constexpr int kCaption = 42, kHeadingRow = 44;
+constexpr int kLine = 20, kReasonIndent = 150; // of what does not apply
 constexpr glm::vec3 kPaper{0.085f}, kWhite{0.94f}, kGrey{0.62f}, kAmber{0.95f, 0.70f, 0.30f};
 
 void fill(Image& image, int x, int y, int width, int height, const glm::vec3& color) {
@@ -212,7 +229,27 @@ Result<render::ViewSettings> viewSettings(const RenderOptions& options, const Do
         }
         settings.light = light->id;
     }
+    if (wantsAllViews(options))
+        return settings;
+    const ViewKind kind = settings.shown.kind;
+    if (const std::string reason = whyEmpty(kind, document, settings.light); !reason.empty())
+        return usage(fmt::format(
+            "the view \"{}\" does not apply to this scene: {}{}", viewInfo(kind).id, reason,
+            readsTransfer(kind) && !hasTransfer(document)
+                ? " Compute one with \"patina bake prt\" and add it with --bake."
+                : ""));
     return settings;
+}
+
+std::vector<LeftOut> leftOutViews(const Document& document, const render::ViewSettings& settings) {
+    std::vector<LeftOut> left;
+    for (const ViewInfo& info : views()) {
+        if (settings.shown.mode == ViewMode::Contribution && info.contribution.empty())
+            continue;
+        if (std::string reason = whyEmpty(info.kind, document, settings.light); !reason.empty())
+            left.push_back({&info, std::move(reason)});
+    }
+    return left;
 }
 
 Result<Image> viewNumbers(render::Renderer& renderer, const ViewChoice& choice) {
@@ -238,21 +275,38 @@ Result<Image> viewNumbers(render::Renderer& renderer, const ViewChoice& choice) 
     return image;
 }
 
-Result<std::vector<ImagePart>> viewParts(render::Renderer& renderer, ViewMode mode) {
+Result<std::vector<ImagePart>> viewParts(render::Renderer& renderer, const Document& document,
+                                         const render::ViewSettings& settings) {
+    const ViewMode mode = settings.shown.mode;
     std::vector<ImagePart> parts;
+    const auto add = [&](std::string_view name, std::string_view label, std::string_view unit,
+                         Image image) {
+        ImagePart part;
+        part.name = name;
+        part.image = std::move(image);
+        part.attributes["patina:view"] = label;
+        if (!unit.empty())
+            part.attributes["patina:units"] = unit;
+        parts.push_back(std::move(part));
+    };
+    // Before other numbers take the picture's place.
+    const ViewInfo& final = viewInfo(shading::kViewFinal);
+    if (mode == ViewMode::Raw) {
+        add(final.id, final.label, final.unit, renderer.readLinear());
+        Result<Image> background = renderer.readBackground();
+        if (!background)
+            return background.error();
+        add("background", "Background", final.unit, std::move(*background));
+    }
     for (const ViewInfo& info : views()) {
-        if (!hasNumbers(info) || (mode == ViewMode::Contribution && info.contribution.empty()))
+        if (!hasNumbers(info) || (mode == ViewMode::Contribution && info.contribution.empty()) ||
+            (mode == ViewMode::Raw && info.kind == final.kind) ||
+            !whyEmpty(info.kind, document, settings.light).empty())
             continue;
         Result<Image> numbers = viewNumbers(renderer, {info.kind, mode, {}});
         if (!numbers)
             return numbers.error();
-        ImagePart part;
-        part.name = info.id;
-        part.image = std::move(*numbers);
-        part.attributes["patina:view"] = info.label;
-        if (!info.unit.empty())
-            part.attributes["patina:units"] = info.unit;
-        parts.push_back(std::move(part));
+        add(info.id, info.label, info.unit, std::move(*numbers));
     }
     return parts;
 }
@@ -265,10 +319,14 @@ Result<Image> contactSheet(Session& session, render::Renderer& renderer, const D
     const ViewMode mode = frame.view.shown.mode;
     Sheet sheet{{}, frame.width, frame.height};
     for (const ViewInfo& info : views())
-        if (mode == ViewMode::Raw || !info.contribution.empty())
+        if ((mode == ViewMode::Raw || !info.contribution.empty()) &&
+            whyEmpty(info.kind, document, frame.view.light).empty())
             sheet.shown.push_back(&info);
+    const std::vector<LeftOut> left = leftOutViews(document, frame.view);
     const int width = 2 * kMargin + kColumns * frame.width + (kColumns - 1) * kGap;
-    const int height = sheet.layOut([](int, std::string_view) {}, [](int, int, const ViewInfo&) {});
+    const int below = sheet.layOut([](int, std::string_view) {}, [](int, int, const ViewInfo&) {});
+    const int height =
+        below + (left.empty() ? 0 : kHeadingRow + static_cast<int>(left.size()) * kLine + kMargin);
     if (width > 16384 || height > 16384)
         return usage("the contact sheet would have more than 16384 pixels a side; choose a smaller "
                      "--size for its pictures");
@@ -298,12 +356,8 @@ Result<Image> contactSheet(Session& session, render::Renderer& renderer, const D
             const int first = y + sheet.tileHeight + 18, second = first + 17;
             text->draw(image, x, first, kLabel, kWhite,
                        fitting(*text, info.label, kLabel, sheet.tileWidth));
-            const std::string why = whyEmpty(info.kind, document);
             const auto range = mode == ViewMode::Raw ? renderer.shownRange() : std::nullopt;
-            if (!why.empty())
-                text->draw(image, x, second, kSmall, kAmber,
-                           fitting(*text, why, kSmall, sheet.tileWidth));
-            else if (range)
+            if (range)
                 drawLegend(image, *text, x, second, info, *range);
             else
                 text->draw(image, x, second, kSmall, kGrey,
@@ -312,6 +366,16 @@ Result<Image> contactSheet(Session& session, render::Renderer& renderer, const D
         });
     if (!done)
         return done.error();
+    if (!left.empty())
+        text->draw(image, kMargin, below + 28, kHeading, kWhite, "Does not apply to this scene");
+    int baseline = below + kHeadingRow + kLine - 4;
+    for (const LeftOut& one : left) {
+        text->draw(image, kMargin, baseline, kLabel, kWhite, one.view->label);
+        const int x = kMargin + kReasonIndent;
+        text->draw(image, x, baseline, kLabel, kAmber,
+                   fitting(*text, one.reason, kLabel, width - kMargin - x));
+        baseline += kLine;
+    }
     return image;
 }
 

@@ -143,8 +143,12 @@ Result<void> checkOffered(const Document& document, const std::string& name) {
     for (const Target& target : selection->targets) {
         const ParameterValue value = selection->info->get(document, target.id);
         if (const int* choice = std::get_if<int>(&value))
-            if (std::string why = whyUnavailable(*selection->info, document, *choice); !why.empty())
+            if (std::string why = whyUnavailable(*selection->info, document, *choice);
+                !why.empty()) {
+                if (selection->info->id == "view.lighting")
+                    why += "; compute one with \"patina bake prt\" and add it with --bake";
                 return Error{ErrorKind::Usage, std::move(why), {}, {}};
+            }
     }
     return {};
 }

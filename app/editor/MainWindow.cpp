@@ -91,7 +91,7 @@ MainWindow::MainWindow(Session& session)
     layout->setSpacing(0);
     layout->addWidget(m_notices);
     layout->addWidget(m_viewport, 1);
-    new ViewOverlay(session.views, session.controller, *m_viewport);
+    m_overlay = new ViewOverlay(session.views, session.controller, *m_viewport);
     auto* equation = new EquationBar(session.views, session.controller, m_viewport->sheets());
     layout->addWidget(equation);
     connect(m_looks->equation, &QAction::toggled, equation,
@@ -174,7 +174,14 @@ void MainWindow::makeDocks() {
     connect(m_viewport, &ViewportWidget::luminanceMeasured, view, &ViewPanel::setLuminance);
     connect(m_docks->add(a.viewDock, QStringLiteral("view"), view), &QDockWidget::visibilityChanged,
             m_viewport, &ViewportWidget::setLuminanceWanted);
-    m_docks->add(a.bakeDock, QStringLiteral("bake"), new BakePanel(controller, m_session.jobs));
+    auto* bake = new BakePanel(controller, m_session.jobs);
+    m_docks->add(a.bakeDock, QStringLiteral("bake"), bake);
+    connect(m_overlay, &ViewOverlay::remedyWanted, this, [&controller, bake](ViewRemedy remedy) {
+        if (remedy == ViewRemedy::AddLight)
+            controller.addLight(LightType::Directional);
+        else
+            bake->bakeTransfer(remedy == ViewRemedy::BakeBounces);
+    });
     m_docks->add(a.modelDock, QStringLiteral("model"),
                  new ModelPanel(controller, m_session.selection, m_session.thumbnails));
     m_docks->add(a.jobsDock, QStringLiteral("jobs"), new JobsPanel(m_session.jobs));
@@ -191,8 +198,9 @@ void MainWindow::makeDocks() {
     m_docks->addInstrument(a.energy, QStringLiteral("energy"),
                            new EnergyPanel(controller, m_session.selection, m_session.views));
     m_docks->addInstrument(a.mixer, QStringLiteral("mixer"), new MixerPanel(controller));
-    m_docks->addInstrument(a.transfer, QStringLiteral("transfer"),
-                           new TransferPanel(controller, m_session.probe, m_session.lobe));
+    auto* transfer = new TransferPanel(controller, m_session.probe, m_session.lobe);
+    connect(transfer, &TransferPanel::bakeWanted, bake, [bake] { bake->bakeTransfer(false); });
+    m_docks->addInstrument(a.transfer, QStringLiteral("transfer"), transfer);
     m_docks->reset();
 }
 

@@ -16,6 +16,7 @@ class FileFlow;
 class MaterialPanel;
 class NoticeArea;
 class ViewActions;
+class ViewOverlay;
 class ViewportWidget;
 enum class PictureState;
 struct Session;
@@ -68,6 +69,7 @@ class MainWindow : public QMainWindow {
     Docks* m_docks;
     NoticeArea* m_notices;
     ViewportWidget* m_viewport;
+    ViewOverlay* m_overlay = nullptr; // over the viewport
     QMenu* m_recentMenu = nullptr;
     BusyIndicator* m_busy = nullptr;
     QLabel *m_gpu = nullptr, *m_frameTime = nullptr, *m_triangles = nullptr;

@@ -64,7 +64,8 @@ void noteCoarseMeshes(BakeArtifact& artifact, const BakeInputs& inputs) {
     if (!note.empty())
         note += ' ';
     note += fmt::format("On {:.1f} % of the surface, triangles are too coarse for its shadows: "
-                        "\"patina refine\" splits those; a bake per texel has no such limit.",
+                        "smaller ones are needed there, or a bake per texel, which has no such "
+                        "limit.",
                         100.0 * share);
 }
 

@@ -1,11 +1,6 @@
 #include "core/document/Views.h"
 
 #include "core/base/Check.h"
-#include "core/document/AbsentBake.h"
-#include "core/document/Edit.h"
-#include "core/document/LightMix.h"
-#include "core/document/Lighting.h"
-#include "core/document/Lights.h"
 
 #include <algorithm>
 #include <array>
@@ -296,71 +291,6 @@ constexpr bool numbered() {
 }
 static_assert(numbered(), "a row for every kView… of views.glsl, in its order");
 
-bool anyShines(const Document& document) {
-    return std::any_of(document.lights.begin(), document.lights.end(),
-                       [&](const Light& light) { return shines(document, light); });
-}
-
-template <class Has>
-bool anyMaterial(const Document& document, Has has) {
-    return std::any_of(document.meshes.begin(), document.meshes.end(),
-                       [&](const MeshInstance& mesh) {
-                           const Material* material = document.material(mesh.material);
-                           return mesh.visible && material != nullptr && has(*material);
-                       });
-}
-
-constexpr const char* kNoTransfer =
-    "There is no finished radiance transfer bake: make one in Bakes.";
-
-// Whether transfer lights every mesh, and so holds the diffuse light of the lamps.
-bool transferHoldsLamps(const Document& document) {
-    if (!readsBake(document.view.lighting))
-        return document.view.lighting == LightingMode::Unshadowed;
-    const BakeArtifactPtr vertices = findBake(document, BakeKind::PrtVertex);
-    const BakeArtifactPtr texels = findBake(document, BakeKind::PrtTexel);
-    const auto isBaked = [&](const MeshInstance& mesh) {
-        const auto ofMesh = [&](const VertexBake& b) {
-            return b.mesh == mesh.id && !b.values.empty() &&
-                   b.values.size() == mesh.mesh->vertexCount() * static_cast<std::size_t>(b.stride);
-        };
-        const auto ofMaterial = [&](const TexelBake& b) {
-            return b.material == mesh.material && !b.values.empty();
-        };
-        return (vertices &&
-                std::any_of(vertices->vertices.begin(), vertices->vertices.end(), ofMesh)) ||
-               (texels && std::any_of(texels->texels.begin(), texels->texels.end(), ofMaterial));
-    };
-    return std::all_of(
-        document.meshes.begin(), document.meshes.end(),
-        [&](const MeshInstance& mesh) { return !mesh.visible || !mesh.mesh || isBaked(mesh); });
-}
-
-// Views of what a transfer bake knows besides light.
-std::string whyNotBaked(ViewKind kind, const Document& document) {
-    if (document.view.lighting == LightingMode::Unshadowed)
-        return "Unshadowed light looks at no bake: light the scene in another way.";
-    const auto holds = [kind](const auto& elements) {
-        return std::any_of(elements.begin(), elements.end(), [kind](const auto& e) {
-            return kind == kViewBentNormal  ? e.stride >= 4
-                   : kind == kViewBakeError ? !e.error.empty()
-                                            : !e.sky.empty();
-        });
-    };
-    bool baked = false;
-    for (const BakeArtifactPtr& bake : document.bakes) {
-        if (!holdsTransfer(bake->kind) || isAbsent(*bake))
-            continue;
-        baked = true;
-        if (holds(bake->vertices) || holds(bake->texels))
-            return {};
-    }
-    if (!baked)
-        return kNoTransfer;
-    return kind == kViewBentNormal ? "A bent normal needs a transfer bake of order 2 or more."
-                                   : "This bake does not hold it: bake once more.";
-}
-
 } // namespace
 
 std::string_view viewGroupLabel(ViewGroup group) {
@@ -383,67 +313,6 @@ const ViewInfo* findView(std::string_view id) {
     const auto found = std::find_if(kViews.begin(), kViews.end(),
                                     [&](const ViewInfo& info) { return info.id == id; });
     return found == kViews.end() ? nullptr : &*found;
-}
-
-std::string whyEmpty(ViewKind kind, const Document& document) {
-    switch (kind) {
-    case kViewDirectDiffuse:
-    case kViewLightDiffuse:
-        if (anyShines(document) && transferHoldsLamps(document))
-            return "Transfer holds the diffuse light of lamps: see Diffuse IBL.";
-        [[fallthrough]];
-    case kViewDirect:
-    case kViewDirectSpecular:
-    case kViewLightArriving:
-    case kViewLightSpecular:
-        return anyShines(document) ? "" : "No light shines: add one, or switch one on.";
-    case kViewShadow:
-        return std::any_of(document.lights.begin(), document.lights.end(),
-                           [&](const Light& light) {
-                               return shines(document, light) && light.castsShadow &&
-                                      canCastShadow(light.type);
-                           })
-                   ? ""
-                   : "No light casts a shadow: directional lights and spots can.";
-    case kViewEmissive:
-        return anyMaterial(document,
-                           [](const Material& m) {
-                               return m.emissiveStrength > 0.0f && m.emissive != glm::vec3(0.0f);
-                           })
-                   ? ""
-                   : "No material sends out light.";
-    case kViewUvChecker:
-    case kViewTexelDensity:
-    case kViewTangent:
-    case kViewBitangent:
-        return std::any_of(
-                   document.meshes.begin(), document.meshes.end(),
-                   [](const MeshInstance& mesh) { return mesh.visible && !mesh.mesh->uvs.empty(); })
-                   ? ""
-                   : "No mesh has texture coordinates.";
-    case kViewBentNormal:
-    case kViewSkyVisibility:
-    case kViewBakeError:
-        return whyNotBaked(kind, document);
-    case kViewShadowedLight:
-        return hasTransfer(document) ? "" : kNoTransfer;
-    case kViewInterreflectedLight:
-        if (!hasTransfer(document))
-            return kNoTransfer;
-        return std::any_of(document.bakes.begin(), document.bakes.end(),
-                           [](const BakeArtifactPtr& bake) {
-                               return holdsTransfer(bake->kind) &&
-                                      bake->transfer == TransferKind::Interreflected;
-                           })
-                   ? ""
-                   : "This bake holds no bounces: bake interreflected transfer.";
-    case kViewNormalMap:
-        return anyMaterial(document, [](const Material& m) { return m.normalMap.image != nullptr; })
-                   ? ""
-                   : "No material has a normal map.";
-    default:
-        return "";
-    }
 }
 
 } // namespace patina

@@ -116,7 +116,7 @@ void addEnvironment(const Document& document, ExportContents& contents) {
     if (fitRgbd(*contents.environment->image).tooBright)
         contents.warnings.emplace_back(
             "the environment has lights that are brighter than glTF's 8-bit images can hold; "
-            "mirrors will show them dimmer (patina bake ibl keeps them)");
+            "mirrors will show them dimmer");
 }
 
 } // namespace

@@ -297,8 +297,7 @@ std::string toneMapUnavailable(const Document& document, int choice) {
 std::string lightingUnavailable(const Document& document, int choice) {
     if (static_cast<LightingMode>(choice) < LightingMode::Shadowed || hasTransfer(document))
         return {};
-    return "Shadows and interreflection need a radiance transfer bake: make one in Bakes, or with "
-           "patina bake prt and --bake";
+    return "Shadows and interreflection need a radiance transfer bake";
 }
 
 constexpr ParameterInfo unitOfElement(std::string_view (*unitOf)(const Document&, Id),

@@ -214,6 +214,7 @@ class Reader {
     std::size_t m_linesAndPoints = 0;
     std::size_t m_triangles = 0;
     bool m_animated = false;
+    bool m_holdsTransfer = false; // attributes of core/export/TransferExport.h
 };
 
 int Reader::defaultMaterial() {
@@ -236,6 +237,7 @@ std::optional<Mesh> Reader::primitive(const json& source, const std::string& nam
     if (!attributes.contains("POSITION"))
         return std::nullopt;
     m_animated = m_animated || source.contains("targets") || attributes.contains("JOINTS_0");
+    m_holdsTransfer = m_holdsTransfer || attributes.contains("_PRT_0");
 
     Mesh mesh;
     mesh.name = name;
@@ -411,6 +413,10 @@ ImportedModel Reader::read() {
     if (m_animated || m_root.contains("animations"))
         m_model.warnings.emplace_back(
             "Animation, skinning and morphing are not read; the model is shown at rest.");
+    if (m_holdsTransfer)
+        m_model.warnings.emplace_back(
+            "The radiance transfer in this file (attributes _PRT_n) is for engines and is not read "
+            "back; open the project it was exported from, or bake once more.");
     return std::move(m_model);
 }
 

@@ -5,7 +5,8 @@
 
 namespace patina::render {
 
-Result<void> Targets::resize(gl::Context& context, int width, int height, int samples) {
+Result<void> Targets::resize(gl::Context& context, int width, int height, int samples,
+                             bool floats) {
     const int limit = context.info().maxTextureSize;
     if (width < 1 || height < 1 || width > limit || height > limit)
         return Error{
@@ -16,9 +17,10 @@ Result<void> Targets::resize(gl::Context& context, int width, int height, int sa
             {},
             {}};
     samples = std::clamp(samples, 1, std::min(4, context.info().maxSamples));
-    if (width == m_width && height == m_height && samples == m_samples)
+    if (width == m_width && height == m_height && samples == m_samples && floats == m_floats)
         return {};
     *this = {};
+    const gl::PixelFormat color = floats ? gl::PixelFormat::Rgba32f : gl::PixelFormat::Rgba16f;
 
     const auto texture = [&](const char* label, gl::PixelFormat format, int n) {
         return gl::Texture(context, label,
@@ -28,7 +30,7 @@ Result<void> Targets::resize(gl::Context& context, int width, int height, int sa
                             .height = height,
                             .samples = n});
     };
-    m_linear = texture("linear", gl::PixelFormat::Rgba16f, 1);
+    m_linear = texture("linear", color, 1);
     m_depth = texture("depth", gl::PixelFormat::Depth32f, 1);
     m_displayed = texture("displayed", gl::PixelFormat::Rgba8, 1);
     auto resolved = gl::Framebuffer::create(context, "scene", {&m_linear}, &m_depth);
@@ -38,7 +40,7 @@ Result<void> Targets::resize(gl::Context& context, int width, int height, int sa
     m_resolved = std::move(*resolved);
     m_display = std::move(*display);
     if (samples > 1) {
-        m_linearSamples = texture("linear samples", gl::PixelFormat::Rgba16f, samples);
+        m_linearSamples = texture("linear samples", color, samples);
         m_depthSamples = texture("depth samples", gl::PixelFormat::Depth32f, samples);
         auto multisampled = gl::Framebuffer::create(context, "multisampled scene",
                                                     {&m_linearSamples}, &m_depthSamples);
@@ -49,6 +51,7 @@ Result<void> Targets::resize(gl::Context& context, int width, int height, int sa
     m_width = width;
     m_height = height;
     m_samples = samples;
+    m_floats = floats;
     return {};
 }
 
@@ -63,6 +66,31 @@ Result<const gl::Framebuffer*> Targets::dataTarget(gl::Context& context) {
         m_dataTarget = std::move(*made);
     }
     return &m_dataTarget;
+}
+
+Result<const gl::Framebuffer*> Targets::dataSamplesTarget(gl::Context& context) {
+    auto plain = dataTarget(context);
+    if (!plain || m_samples == 1)
+        return plain;
+    if (m_dataSamplesTarget.empty()) {
+        m_dataSamples = gl::Texture(context, "view data samples",
+                                    {.kind = gl::TextureKind::Multisample,
+                                     .format = gl::PixelFormat::Rgba32f,
+                                     .width = m_width,
+                                     .height = m_height,
+                                     .samples = m_samples});
+        auto made = gl::Framebuffer::create(context, "view data samples", {&m_dataSamples},
+                                            &m_depthSamples);
+        if (!made)
+            return made.error();
+        m_dataSamplesTarget = std::move(*made);
+    }
+    return &m_dataSamplesTarget;
+}
+
+void Targets::resolveData() const {
+    if (m_samples > 1)
+        m_dataSamplesTarget.resolveTo(m_dataTarget, true);
 }
 
 Result<const gl::Framebuffer*> Targets::meanTarget(gl::Context& context, std::size_t side) {

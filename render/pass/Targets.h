@@ -11,13 +11,16 @@ namespace patina::render {
 
 class Targets {
   public:
-    // Makes them anew when the size or the number of samples changed. `samples` is limited to what
-    // the context has. Errors: Usage for an impossible size, Internal from the driver.
-    Result<void> resize(gl::Context& context, int width, int height, int samples);
+    // Makes them anew when the size, the number of samples or the format changed. `samples` is
+    // limited to what the context has; `floats`: colour of 32 bits instead of half floats. Errors:
+    // Usage for an impossible size, Internal from the driver.
+    Result<void> resize(gl::Context& context, int width, int height, int samples,
+                        bool floats = false);
 
     [[nodiscard]] int width() const { return m_width; }
     [[nodiscard]] int height() const { return m_height; }
     [[nodiscard]] int samples() const { return m_samples; }
+    [[nodiscard]] bool floats() const { return m_floats; }
 
     // Where the scene is drawn; resolve() makes linear() and depth() readable.
     [[nodiscard]] const gl::Framebuffer& scene() const {
@@ -25,7 +28,7 @@ class Targets {
     }
     void resolve() const;
 
-    [[nodiscard]] const gl::Texture& linear() const { return m_linear; } // premultiplied RGBA16F
+    [[nodiscard]] const gl::Texture& linear() const { return m_linear; } // premultiplied
     [[nodiscard]] const gl::Texture& depth() const { return m_depth; }
     [[nodiscard]] const gl::Framebuffer& display() const { return m_display; }
     [[nodiscard]] const gl::Texture& displayed() const { return m_displayed; } // RGBA8, sRGB values
@@ -40,11 +43,17 @@ class Targets {
     // when first asked for. Error Internal from the driver.
     Result<const gl::Framebuffer*> dataTarget(gl::Context& context);
     [[nodiscard]] const gl::Texture& data() const { return m_data; } // once there is a target
+    // The same sampled as the scene is: resolveData() makes data() readable. Without multisampling
+    // dataTarget() itself.
+    Result<const gl::Framebuffer*> dataSamplesTarget(gl::Context& context);
+    void resolveData() const;
 
   private:
     int m_width = 0, m_height = 0, m_samples = 0;
-    gl::Texture m_linearSamples, m_depthSamples, m_linear, m_depth, m_displayed, m_data;
-    gl::Framebuffer m_multisampled, m_resolved, m_display, m_dataTarget;
+    bool m_floats = false;
+    gl::Texture m_linearSamples, m_depthSamples, m_linear, m_depth, m_displayed, m_data,
+        m_dataSamples;
+    gl::Framebuffer m_multisampled, m_resolved, m_display, m_dataTarget, m_dataSamplesTarget;
     std::array<gl::Texture, 2> m_means;
     std::array<gl::Framebuffer, 2> m_meanTargets;
 };

@@ -71,22 +71,95 @@ TEST(RenderViews, WritesAPartForEachAndTheyAddUp) {
     EXPECT_NEAR(at(metallic->image, 12, 12, "Y"), 0.3f, 1e-6f);
 
     const ImagePart* final = findPart(*loaded, "final");
+    const ImagePart* background = findPart(*loaded, "background");
     ASSERT_NE(final, nullptr);
-    int surfaces = 0;
+    ASSERT_NE(background, nullptr);
+    // No light: their terms are left out, and add nothing.
+    std::vector<const ImagePart*> terms{background};
+    for (const ViewKind term : kTermViews)
+        if (const ImagePart* part = findPart(*loaded, viewInfo(term).id))
+            terms.push_back(part);
+    EXPECT_EQ(terms.size(), 4u) << "diffuse and specular IBL, emission, background";
+    int surfaces = 0, edges = 0;
     for (int y = 0; y < 24; ++y)
         for (int x = 0; x < 24; ++x) {
-            if (at(metallic->image, x, y, "A") == 0.0f)
-                continue;
-            ++surfaces;
+            surfaces += at(metallic->image, x, y, "A") > 0.0f ? 1 : 0;
+            const float covered = at(terms[1]->image, x, y, "A");
+            edges += covered > 0.0f && covered < 1.0f ? 1 : 0;
             for (const char* channel : {"R", "G", "B"}) {
                 float sum = 0.0f;
-                for (const ViewKind term : kTermViews)
-                    sum += at(findPart(*loaded, viewInfo(term).id)->image, x, y, channel);
+                for (const ImagePart* term : terms)
+                    sum += at(term->image, x, y, channel);
                 const float whole = at(final->image, x, y, channel);
                 ASSERT_NEAR(sum, whole, 1e-5f * std::max(1.0f, whole));
             }
         }
     EXPECT_GT(surfaces, 100);
+    EXPECT_GT(edges, 10) << "anti-aliased";
+
+    // And the picture is the very one that is written without --view.
+    const std::string alone = folder / "alone.exr";
+    const Outcome picture =
+        runPatina({"render", "builtin:cornell-box", "--environment", "builtin:sunset", "--set",
+                   "material.metallic=0.3", "--set", "material.emissive=0.1,0.2,0.3", "--size",
+                   "24x24", "-o", alone});
+    ASSERT_EQ(picture.status, 0) << picture.err;
+    const auto rendered = loadImage(worker, alone, options);
+    ASSERT_TRUE(rendered.ok()) << rendered.error().text();
+    for (int y = 0; y < 24; ++y)
+        for (int x = 0; x < 24; ++x)
+            for (const char* channel : {"R", "G", "B"})
+                ASSERT_EQ(at(rendered->image(), x, y, channel), at(final->image, x, y, channel))
+                    << x << ' ' << y;
+}
+
+// Whatever a view needs and the scene lacks: alone it is refused, among all it is left out and
+// listed, in numbers and on the contact sheet.
+TEST(RenderViews, LeavesOutWhatDoesNotApplyAndSaysWhy) {
+    const TemporaryFolder folder;
+    const auto render = [&](const std::string& view, const char* name) {
+        return runPatina({"render", "builtin:sphere", "--size", "8x8", "--samples", "1", "--view",
+                          view, "-o", folder / name, "--json"});
+    };
+    const Outcome all = render("all", "all.exr");
+    ASSERT_EQ(all.status, 0) << all.err;
+    WorkerClient worker;
+    ImageLoadOptions options;
+    options.allParts = true;
+    const auto loaded = loadImage(worker, folder / "all.exr", options);
+    ASSERT_TRUE(loaded.ok()) << loaded.error().text();
+    std::vector<std::string> left;
+    const nlohmann::json report = all.json();
+    for (const auto& one : report["leftOut"]) {
+        left.push_back(one["view"]);
+        EXPECT_EQ(findPart(*loaded, left.back()), nullptr) << left.back();
+        for (const char* name : {"a.exr", "a.png"}) {
+            const Outcome alone = render(left.back(), name);
+            EXPECT_EQ(alone.status, 2) << left.back();
+            EXPECT_THAT(std::string(alone.json()["error"]["message"]),
+                        HasSubstr(std::string(one["reason"])));
+        }
+    }
+    for (const char* needed : {"bentNormal", "skyVisibility", "bakeError", "shadowed",
+                               "interreflected", "shadow", "direct", "lightArriving", "emissive"})
+        EXPECT_THAT(left, testing::Contains(needed));
+    EXPECT_THAT(folder.files(), testing::ElementsAre("all.exr"));
+    for (const ViewInfo& info : views()) {
+        const bool isLeft = std::find(left.begin(), left.end(), info.id) != left.end();
+        if (info.value == ViewValue::Picture || info.kind == shading::kViewUvChecker)
+            continue; // no numbers
+        EXPECT_EQ(findPart(*loaded, info.id) == nullptr, isLeft) << info.id;
+    }
+
+    const Outcome sheet = render("all", "all.png");
+    ASSERT_EQ(sheet.status, 0) << sheet.err;
+    EXPECT_EQ(sheet.json()["leftOut"], all.json()["leftOut"]);
+    // Without an environment its views are left out, too, and a switched-off one is refused.
+    const Outcome dark =
+        runPatina({"render", "builtin:sphere", "--size", "8x8", "--set", "environment.enabled=off",
+                   "--view", "specularIbl", "-o", folder / "a.exr"});
+    EXPECT_EQ(dark.status, 2);
+    EXPECT_THAT(dark.err, HasSubstr("No environment is on"));
 }
 
 TEST(RenderViews, ShowsOneViewAndTellsItsRange) {

@@ -125,6 +125,14 @@ BakePanel::BakePanel(DocumentController& controller, JobManager& jobs, QWidget* 
     refreshState();
 }
 
+void BakePanel::bakeTransfer(bool bounces) {
+    BakeRequest request = m_form->requestFor(BakeKind::PrtVertex);
+    if (bounces)
+        request.prt.transfer = TransferKind::Interreflected;
+    m_form->setRequest(request);
+    m_runner.start(request);
+}
+
 QWidget* BakePanel::makeLighting() {
     auto* row = new QWidget;
     auto* layout = new QHBoxLayout(row);

@@ -24,6 +24,9 @@ class BakePanel : public QWidget {
     BakePanel(DocumentController& controller, JobManager& jobs, QWidget* parent = nullptr);
 
     [[nodiscard]] BakeRunner& runner() { return m_runner; }
+    // Starts a bake of radiance transfer per vertex with the form's settings, with bounces where
+    // they are asked for; elsewhere a button asks for it.
+    void bakeTransfer(bool bounces);
 
   private:
     QWidget* makeLighting();

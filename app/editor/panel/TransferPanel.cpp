@@ -7,6 +7,7 @@
 #include "app/editor/widget/BandBars.h"
 #include "app/editor/widget/PictureTile.h"
 #include "app/editor/widget/PlotStyle.h"
+#include "app/editor/widget/TextButton.h"
 #include "app/editor/widget/TileArea.h"
 #include "core/document/Edit.h"
 
@@ -39,6 +40,17 @@ TransferPanel::TransferPanel(DocumentController& controller, PixelProbe& probe,
     m_message->setAlignment(Qt::AlignCenter);
     m_message->setMargin(tokens::kMargin);
     m_message->setObjectName(QStringLiteral("transferMessage"));
+
+    m_bake =
+        makeTextButton(tr("Bake now"), tr("Bakes radiance transfer with the Bake dock's settings"));
+    m_bake->setObjectName(QStringLiteral("transferBake"));
+    connect(m_bake, &QPushButton::clicked, this, &TransferPanel::bakeWanted);
+    auto* empty = new QWidget;
+    auto* words = new QVBoxLayout(empty);
+    words->addStretch(1);
+    words->addWidget(m_message);
+    words->addWidget(m_bake, 0, Qt::AlignHCenter);
+    words->addStretch(1);
 
     m_numbers = new QLabel;
     m_numbers->setWordWrap(true);
@@ -73,7 +85,7 @@ TransferPanel::TransferPanel(DocumentController& controller, PixelProbe& probe,
     layout->addLayout(header);
     layout->addWidget(tiles, 1);
     m_pages = new QStackedWidget;
-    m_pages->addWidget(m_message);
+    m_pages->addWidget(empty);
     m_pages->addWidget(shown);
     auto* outer = new QVBoxLayout(this);
     outer->setContentsMargins(0, 0, 0, 0);
@@ -117,13 +129,13 @@ std::optional<TransferAsk> TransferPanel::ask(QString& problem) const {
     if (!ask.bake)
         ask.bake = findBake(document, BakeKind::PrtTexel);
     if (!ask.bake) {
-        problem = tr("There is no radiance transfer yet: bake it in the Bake dock.");
+        problem = tr("There is no radiance transfer yet.");
         return std::nullopt;
     }
     const std::optional<render::Inspection>& at = m_probe.shown();
     if (!at || !at->onSurface()) {
-        problem = tr("Point at the model to see how light comes to it. P or Alt + click pins a "
-                     "point.");
+        problem = tr("Point at the model to see how light comes to it. P or Ctrl + Shift + click "
+                     "pins a point.");
         return std::nullopt;
     }
     ask.surroundings = shownEnvironment(document);
@@ -170,6 +182,7 @@ void TransferPanel::refresh() {
 void TransferPanel::show(std::shared_ptr<const TransferStudy> study, const QString& problem) {
     m_study = std::move(study);
     m_message->setText(problem);
+    m_bake->setVisible(!hasTransfer(m_controller.document()));
     m_pages->setCurrentIndex(m_study ? 1 : 0);
     m_onSurface.setOther(m_study ? m_study->lobe : nullptr);
     if (!m_study)

@@ -9,6 +9,7 @@
 
 class QComboBox;
 class QLabel;
+class QPushButton;
 class QStackedWidget;
 
 namespace patina::editor {
@@ -33,6 +34,9 @@ class TransferPanel : public QWidget {
     [[nodiscard]] QSize sizeHint() const override { return {780, 280}; }
     [[nodiscard]] QSize minimumSizeHint() const override { return {240, 160}; }
 
+  Q_SIGNALS:
+    void bakeWanted(); // there is none to look at
+
   protected:
     void showEvent(QShowEvent* event) override;
     void hideEvent(QHideEvent* event) override;
@@ -51,6 +55,7 @@ class TransferPanel : public QWidget {
 
     QStackedWidget* m_pages;
     QLabel *m_message, *m_numbers;
+    QPushButton* m_bake; // under the message, where a bake is what is missing
     QComboBox* m_lightBands;
     BandBars* m_bars;
     PictureTile *m_seen, *m_function, *m_sum;

@@ -10,6 +10,7 @@
 #include "app/editor/widget/FoldButton.h"
 #include "core/document/LightMix.h"
 #include "core/document/Lights.h"
+#include "core/document/ViewReasons.h"
 
 #include <QComboBox>
 #include <QHBoxLayout>
@@ -57,6 +58,7 @@ EquationBar::EquationBar(ViewState& views, DocumentController& controller, Sheet
     , m_fold(new FoldButton(tr("Equation"), QLatin1String(kFoldedKey)))
     , m_allOn(new QToolButton)
     , m_crumbs(new QWidget)
+    , m_lacks(new ElidedLabel)
     , m_formula(new ElidedLabel)
     , m_note(new QLabel)
     , m_lights(new QComboBox)
@@ -67,7 +69,10 @@ EquationBar::EquationBar(ViewState& views, DocumentController& controller, Sheet
     m_fold->setAccessibleName(tr("Show the picture as its sum"));
     m_fold->setToolTip(tr("Show or hide the picture as its sum (=)"));
     connect(m_fold, &QToolButton::clicked, this, [this] { setFolded(!isFolded()); });
+    m_lacks->setObjectName(QStringLiteral("lacks"));
+    m_lacks->setStyleSheet(QStringLiteral("color: %1").arg(QColor(tokens::kCopper).name()));
     m_formula->setObjectName(QStringLiteral("formula"));
+    m_formula->setStyleSheet(QStringLiteral("color: %1").arg(QColor(tokens::kTextDim).name()));
     m_note->setObjectName(QStringLiteral("dim"));
     m_note->setWordWrap(true);
     m_note->setContentsMargins(tokens::kMargin, 0, tokens::kMargin, tokens::kGap);
@@ -96,6 +101,7 @@ EquationBar::EquationBar(ViewState& views, DocumentController& controller, Sheet
     header->addWidget(m_fold);
     header->addWidget(m_crumbs);
     header->addWidget(m_formula, 1);
+    header->addWidget(m_lacks, 1);
     header->addWidget(m_lights);
     header->addWidget(m_allOn);
     auto* layout = new QVBoxLayout(this);
@@ -192,7 +198,7 @@ void EquationBar::refresh() {
         ViewThumb& thumb = tile->thumb();
         thumb.setCurrent(thumb.kind() == settings.shown.kind,
                          settings.split && thumb.kind() == settings.split->other.kind);
-        tile->setWhyEmpty(QString::fromStdString(whyEmpty(thumb.kind(), document)));
+        tile->setWhyEmpty(QString::fromStdString(whyEmpty(thumb.kind(), document, settings.light)));
     }
     if (opened() == shading::kViewFinal)
         for (std::size_t i = 0; i < kTermCount; ++i)
@@ -202,22 +208,24 @@ void EquationBar::refresh() {
 void EquationBar::refreshHeader() {
     const Terms& terms = m_views.settings().terms;
     m_allOn->setVisible(!allOn(terms));
-    const bool lacks = opened() == shading::kViewFinal && !allOn(terms);
-    m_formula->setText(lacks ? withoutText(terms) : formulaText(equation()));
+    m_lacks->setVisible(!allOn(terms));
+    m_lacks->setText(allOn(terms) ? QString() : withoutText(terms));
+    m_lacks->setToolTip(m_lacks->text());
+    // Folded it is the picture's sum, whatever is open. Beside that, what is lacking says it all.
+    const bool isSum = isFolded() || opened() == shading::kViewFinal;
+    m_formula->setVisible(!isSum || allOn(terms));
+    m_formula->setText(formulaText(
+        isSum ? *equationOf(shading::kViewFinal, m_controller.document().model) : equation()));
     m_formula->setToolTip(m_formula->text());
-    const QRgb color = lacks ? tokens::kCopper : tokens::kTextDim;
-    if (const QString style = QStringLiteral("color: %1").arg(QColor(color).name());
-        style != m_formula->styleSheet())
-        m_formula->setStyleSheet(style);
     refreshCrumbs();
     refreshLights();
 }
 
 void EquationBar::refreshCrumbs() {
+    m_crumbs->setVisible(m_path.size() > 1 && !isFolded());
     if (m_crumbsShown == m_path)
         return;
     m_crumbsShown = m_path;
-    m_crumbs->setVisible(m_path.size() > 1);
     QLayout* row = m_crumbs->layout();
     while (QLayoutItem* item = row->takeAt(0)) {
         item->widget()->hide();
@@ -316,6 +324,8 @@ void EquationBar::addPart(QBoxLayout& row, const EquationPart& part) {
 
 TermTile* EquationBar::addTile(QBoxLayout& row, TermTile* tile) {
     ViewThumb& thumb = tile->thumb();
+    if (const auto picture = m_pictures.find(thumb.kind()); picture != m_pictures.end())
+        thumb.setPicture(picture->second);
     connect(&thumb, &ViewThumb::clicked, this, [this, kind = thumb.kind()] { m_views.show(kind); });
     thumb.installEventFilter(this);
     row.addWidget(tile);
@@ -356,6 +366,7 @@ render::ViewSheet EquationBar::wantedSheet() const {
 }
 
 void EquationBar::showThumbnail(ViewKind kind, const QImage& picture) {
+    m_pictures[kind] = picture;
     for (TermTile* tile : m_tiles)
         if (tile->thumb().kind() == kind)
             tile->thumb().setPicture(picture);

@@ -1,6 +1,6 @@
 // The picture as its sum, under the viewport: image-based and direct light, diffuse and specular,
 // and emission are live thumbnails that are switched, shown alone, looked at, and opened into their
-// factors. It folds away to one line, which says what the picture lacks.
+// factors. It folds away to one line, the sum; what the picture lacks is said in either.
 #pragma once
 
 #include "app/editor/viewport/SheetScheduler.h"
@@ -9,6 +9,7 @@
 #include <QPointer>
 #include <QWidget>
 #include <array>
+#include <map>
 #include <vector>
 
 class QBoxLayout;
@@ -69,13 +70,15 @@ class EquationBar : public QWidget, private SheetClient {
     FoldButton* m_fold;
     QToolButton* m_allOn;
     QWidget* m_crumbs;
-    QLabel *m_formula, *m_note;
+    QLabel *m_lacks, *m_formula, *m_note;
     QComboBox* m_lights;
     QScrollArea* m_scroll;
     std::vector<ViewKind> m_path{shading::kViewFinal}; // from the sum to what is open
     std::vector<ViewKind> m_crumbsShown;
     std::vector<TermTile*> m_tiles;        // of the row: its parts, then what they come to
     const EquationPart* m_built = nullptr; // the row's parts
+    // The newest pictures, for tiles that are made later: the scheduler draws each once.
+    std::map<ViewKind, QImage> m_pictures;
     std::array<bool, kTermCount> m_beforeSolo{true, true, true, true, true};
 };
 

@@ -4,6 +4,7 @@
 #include "core/document/Document.h"
 #include "core/document/LightMix.h"
 #include "core/document/Lights.h"
+#include "core/document/ViewReasons.h"
 #include "core/math/Shading.h"
 
 #include <QCoreApplication>
@@ -116,6 +117,16 @@ void describeColors(LegendContent& content, const ViewInfo& info, const Document
     }
 }
 
+void addLights(LegendContent& content, const render::ViewSettings& settings,
+               const Document& document) {
+    content.light = settings.light;
+    content.lights.push_back(
+        {0, content.kind == kViewShadow ? tr("All lights") : tr("Mirror direction")});
+    for (const Light& light : document.lights)
+        if (shines(document, light))
+            content.lights.push_back({light.id, QString::fromStdString(light.name)});
+}
+
 } // namespace
 
 LegendContent describeView(const render::ViewSettings& settings, const render::ViewChoice& choice,
@@ -130,9 +141,12 @@ LegendContent describeView(const render::ViewSettings& settings, const render::V
     content.hasModes = !info.contribution.empty();
     if (content.hasModes)
         content.help += tr("\nContribution: ") + text(info.contribution);
-    content.why = QString::fromStdString(whyEmpty(choice.kind, document));
+    content.why = QString::fromStdString(whyEmpty(choice.kind, document, settings.light));
     if (!content.why.isEmpty()) {
         content.hasModes = false;
+        content.remedy = viewRemedy(choice.kind, document);
+        if (whyEmpty(choice.kind, document).empty())
+            addLights(content, settings, document); // another light would do
         return content;
     }
     if (choice.kind == kViewFinal)
@@ -143,14 +157,8 @@ LegendContent describeView(const render::ViewSettings& settings, const render::V
         content.unit = text(info.unit);
         describeColors(content, info, document);
     }
-    if (dependsOnLight(choice.kind)) {
-        content.light = settings.light;
-        content.lights.push_back(
-            {0, choice.kind == kViewShadow ? tr("All lights") : tr("Mirror direction")});
-        for (const Light& light : document.lights)
-            if (shines(document, light))
-                content.lights.push_back({light.id, QString::fromStdString(light.name)});
-    }
+    if (dependsOnLight(choice.kind))
+        addLights(content, settings, document);
     return content;
 }
 

@@ -1,6 +1,7 @@
 // What the legend of a view says, as plain values: names, colours, why there is nothing to see.
 #pragma once
 
+#include "core/document/ViewReasons.h"
 #include "render/view/ViewSettings.h"
 
 #include <QColor>
@@ -27,12 +28,13 @@ struct LegendContent {
 
     ViewKind kind = shading::kViewFinal;
     QString symbol, title, unit;
-    QString help;              // a sentence or two, for the tool tip
-    QString note;              // how numbers became colours, where no scale says it
-    QString why;               // why the view does not apply; then nothing below is there
-    bool hasModes = false;     // raw and contribution
-    bool contribution = false; // which of them is shown
-    bool hasScale = false;     // a colour map over a range
+    QString help; // a sentence or two, for the tool tip
+    QString note; // how numbers became colours, where no scale says it
+    QString why;  // why the view does not apply; then nothing below is there but the lights
+    ViewRemedy remedy = ViewRemedy::None; // what would help
+    bool hasModes = false;                // raw and contribution
+    bool contribution = false;            // which of them is shown
+    bool hasScale = false;                // a colour map over a range
     std::vector<Swatch> swatches;
     int moreSwatches = 0;            // that found no room
     std::vector<LightChoice> lights; // whose D, G, F …; empty: the view depends on none

@@ -3,6 +3,7 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/viewport/ViewGate.h"
 #include "app/editor/viewport/ViewState.h"
+#include "core/document/ViewReasons.h"
 #include "render/Renderer.h"
 
 #include <utility>
@@ -43,7 +44,7 @@ void ViewFeed::follow() {
 }
 
 void ViewFeed::standIn(render::ViewChoice& choice) const {
-    if (!whyEmpty(choice.kind, m_controller.document()).empty())
+    if (!whyEmpty(choice.kind, m_controller.document(), m_views->settings().light).empty())
         choice = {};
 }
 

@@ -6,6 +6,7 @@
 #include "app/editor/viewport/ViewState.h"
 #include "app/editor/widget/ColorScale.h"
 #include "app/editor/widget/NumberField.h"
+#include "app/editor/widget/TextButton.h"
 
 #include <QButtonGroup>
 #include <QComboBox>
@@ -114,6 +115,7 @@ void ViewLegend::rebuild() {
         auto* why = wrapped(m_content.why);
         why->setObjectName(QStringLiteral("legendWhy"));
         rows->addWidget(why);
+        addRemedy(*rows);
     }
     if (m_content.hasModes)
         addModes(*rows);
@@ -133,6 +135,29 @@ void ViewLegend::rebuild() {
     setAccessibleName(tr("Legend: %1").arg(m_content.title));
     setAccessibleDescription(m_content.why.isEmpty() ? m_content.help : m_content.why);
     refreshRange();
+}
+
+void ViewLegend::addRemedy(QVBoxLayout& rows) {
+    QPushButton* button = nullptr;
+    switch (m_content.remedy) {
+    case ViewRemedy::None:
+        return;
+    case ViewRemedy::AddLight:
+        button = makeTextButton(tr("Add a light"), tr("Adds a directional light to the scene"));
+        break;
+    case ViewRemedy::BakeTransfer:
+        button = makeTextButton(tr("Bake transfer"),
+                                tr("Bakes radiance transfer with the Bake dock's settings"));
+        break;
+    case ViewRemedy::BakeBounces:
+        button = makeTextButton(tr("Bake with bounces"),
+                                tr("Bakes interreflected transfer with the Bake dock's settings"));
+        break;
+    }
+    button->setObjectName(QStringLiteral("legendRemedy"));
+    connect(button, &QPushButton::clicked, this,
+            [this, remedy = m_content.remedy] { Q_EMIT remedyWanted(remedy); });
+    rows.addWidget(button, 0, Qt::AlignLeft);
 }
 
 void ViewLegend::addTitle(QVBoxLayout& rows) {

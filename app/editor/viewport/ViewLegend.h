@@ -27,7 +27,8 @@ class ViewLegend : public QFrame {
     [[nodiscard]] bool isWanted() const;
 
   Q_SIGNALS:
-    void changed(); // its size, or whether it is wanted
+    void changed();                               // its size, or whether it is wanted
+    void remedyWanted(patina::ViewRemedy remedy); // by a click, so that the view applies
 
   private:
     void refresh();
@@ -37,6 +38,7 @@ class ViewLegend : public QFrame {
     void addScale(QVBoxLayout& rows);
     void addSwatches(QVBoxLayout& rows);
     void addLights(QVBoxLayout& rows);
+    void addRemedy(QVBoxLayout& rows);
     void refreshRange();
     void lockRange(double min, double max);
     void typeEnd(double value, bool isMax);

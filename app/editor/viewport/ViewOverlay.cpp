@@ -16,8 +16,10 @@ ViewOverlay::ViewOverlay(ViewState& views, DocumentController& controller, QWidg
     , m_split(new SplitHandle(views, viewport))
     , m_shown(new ViewLegend(views, controller, ViewSide::Shown, &viewport))
     , m_other(new ViewLegend(views, controller, ViewSide::Other, &viewport)) {
-    for (ViewLegend* legend : {m_shown, m_other})
+    for (ViewLegend* legend : {m_shown, m_other}) {
         connect(legend, &ViewLegend::changed, this, &ViewOverlay::place);
+        connect(legend, &ViewLegend::remedyWanted, this, &ViewOverlay::remedyWanted);
+    }
     viewport.installEventFilter(this);
     place();
 }

@@ -2,6 +2,8 @@
 // between them. Sees to their places.
 #pragma once
 
+#include "core/document/ViewReasons.h"
+
 #include <QObject>
 
 class QWidget;
@@ -17,6 +19,9 @@ class ViewOverlay : public QObject {
     Q_OBJECT
   public:
     ViewOverlay(ViewState& views, DocumentController& controller, QWidget& viewport);
+
+  Q_SIGNALS:
+    void remedyWanted(patina::ViewRemedy remedy); // ViewLegend::remedyWanted()
 
   protected:
     bool eventFilter(QObject* viewport, QEvent* event) override;

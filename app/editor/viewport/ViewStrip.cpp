@@ -5,6 +5,7 @@
 #include "app/editor/viewport/ViewState.h"
 #include "app/editor/viewport/ViewThumb.h"
 #include "app/editor/widget/FoldButton.h"
+#include "core/document/ViewReasons.h"
 
 #include <QContextMenuEvent>
 #include <QHBoxLayout>
@@ -168,6 +169,10 @@ void ViewStrip::refreshShown() {
     for (ViewThumb* thumb : m_thumbs)
         thumb->setCurrent(thumb->kind() == shown,
                           settings.split && thumb->kind() == settings.split->other.kind);
+    if (settings.light != m_light) {
+        m_light = settings.light;
+        refreshWhy();
+    }
     if (shown == m_marked)
         return;
     m_marked = shown;
@@ -184,8 +189,8 @@ void ViewStrip::refreshShown() {
 
 void ViewStrip::refreshWhy() {
     for (ViewThumb* thumb : m_thumbs)
-        thumb->setWhyEmpty(
-            QString::fromStdString(whyEmpty(thumb->kind(), m_controller.document())));
+        thumb->setWhyEmpty(QString::fromStdString(
+            whyEmpty(thumb->kind(), m_controller.document(), m_views.settings().light)));
     m_sheets->wake();
 }
 

@@ -62,6 +62,7 @@ class ViewStrip : public QWidget, private SheetClient {
     QScrollArea* m_scroll;
     std::vector<ViewThumb*> m_thumbs; // by ViewKind
     ViewKind m_marked = -1;           // as shown last
+    Id m_light = 0;                   // whose factors the reasons are of
     ViewKind m_beforeClick = shading::kViewFinal;
 };
 

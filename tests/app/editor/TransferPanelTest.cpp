@@ -80,7 +80,8 @@ struct TransferPanelTest : EditorTest {
 };
 
 TEST_F(TransferPanelTest, TellsWhatIsMissing) {
-    EXPECT_TRUE(eventually([] { return panel().message().contains(QStringLiteral("bake it")); }));
+    EXPECT_TRUE(
+        eventually([] { return panel().message().contains(QStringLiteral("no radiance")); }));
     controller().attachBake(openBake());
     EXPECT_TRUE(eventually(
         [] { return panel().message().contains(QStringLiteral("Point at")) || panel().study(); }));

@@ -59,9 +59,13 @@ class EquationWindowTest : public EditorTest {
     static void key(int code, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
         QTest::keyClick(&window->viewport(), static_cast<Qt::Key>(code), modifiers);
     }
-    static std::string formula() {
-        return bar().findChild<QLabel*>(QStringLiteral("formula"))->text().toStdString();
+    // Of a line of the header; empty where it does not show.
+    static std::string lineOf(const char* name) {
+        const auto* label = bar().findChild<QLabel*>(QLatin1String(name));
+        return label->isVisible() ? label->text().toStdString() : std::string();
     }
+    static std::string formula() { return lineOf("formula"); }
+    static std::string lacks() { return lineOf("lacks"); }
     static bool rested() {
         // Its size may be about to change.
         const ViewportWidget& viewport = window->viewport();
@@ -111,7 +115,7 @@ TEST_F(EquationWindowTest, TermsAreTakenOutOfThePictureAndPutBack) {
     EXPECT_FALSE(allOn->isVisible());
     click(button(kViewDiffuseIbl, "on"));
     EXPECT_EQ(terms(), (Terms{false, true, true, true, true}));
-    EXPECT_EQ(formula(), "The picture lacks Diffuse IBL");
+    EXPECT_EQ(lacks(), "The picture lacks Diffuse IBL");
     EXPECT_TRUE(inTime([&] { return tile(kViewFinal).thumb().picture() != whole; }))
         << "the sum of what is on";
     keepPicture("equation-muted.png");
@@ -119,7 +123,7 @@ TEST_F(EquationWindowTest, TermsAreTakenOutOfThePictureAndPutBack) {
     click(*bar().findChild<QToolButton*>(QStringLiteral("foldEquation")));
     EXPECT_TRUE(bar().isFolded());
     EXPECT_TRUE(allOn->isVisible());
-    EXPECT_EQ(formula(), "The picture lacks Diffuse IBL");
+    EXPECT_EQ(lacks(), "The picture lacks Diffuse IBL");
     click(*allOn);
     EXPECT_EQ(terms(), (Terms{true, true, true, true, true}));
     EXPECT_FALSE(allOn->isVisible());
@@ -166,6 +170,46 @@ TEST_F(EquationWindowTest, ATermOpensIntoItsFactorsAndTheirs) {
     EXPECT_EQ(formula(), "= ( A + B ) × F̄");
     click(*bar().findChild<QToolButton*>(QStringLiteral("crumb")));
     EXPECT_EQ(bar().opened(), kViewFinal);
+}
+
+// A view that was a factor becomes the result: its tile is new, its thumbnail is not.
+TEST_F(EquationWindowTest, TheResultHasItsPictureAtEveryDepth) {
+    click(button(kViewSpecularIbl, "open"));
+    ASSERT_TRUE(hasPicture(kViewSingleScatterAlbedo));
+    ASSERT_TRUE(hasPicture(kViewSpecularIbl));
+    click(button(kViewSingleScatterAlbedo, "open"));
+    for (const ViewKind kind : {kViewSingleScatterAlbedo, kViewF0, kViewDfgScale, kViewDfgBias})
+        EXPECT_TRUE(hasPicture(kind)) << viewInfo(kind).id;
+    keepPicture("equation-result.png");
+    bar().close(1);
+    for (const ViewKind kind : {kViewSpecularIbl, kViewSingleScatterAlbedo})
+        EXPECT_TRUE(hasPicture(kind)) << viewInfo(kind).id;
+    bar().close(0);
+    EXPECT_TRUE(hasPicture(kViewFinal));
+}
+
+TEST_F(EquationWindowTest, WhatThePictureLacksIsSaidAtEveryDepthAndFolded) {
+    click(button(kViewDirectDiffuse, "on"));
+    const std::string lacking = "The picture lacks Direct Diffuse";
+    EXPECT_EQ(lacks(), lacking);
+    click(button(kViewSpecularIbl, "open"));
+    EXPECT_EQ(lacks(), lacking);
+    EXPECT_EQ(formula(), "= Lₚ × (F0·A + B) × gain × AOₛ");
+    click(button(kViewSingleScatterAlbedo, "open"));
+    EXPECT_EQ(lacks(), lacking);
+    keepPicture("equation-lacks.png");
+    // Folded it is the sum again, not where the artist went into it.
+    auto* fold = bar().findChild<QToolButton*>(QStringLiteral("foldEquation"));
+    click(*fold);
+    EXPECT_EQ(lacks(), lacking);
+    EXPECT_FALSE(bar().findChild<QToolButton*>(QStringLiteral("crumb"))->isVisible());
+    click(*bar().findChild<QToolButton*>(QStringLiteral("allTermsOn")));
+    EXPECT_EQ(lacks(), "");
+    EXPECT_EQ(formula(),
+              "Final = Diffuse IBL + Specular IBL + Direct Diffuse + Direct Specular + Emission");
+    click(*fold);
+    EXPECT_EQ(formula(), "= F0 × A + B");
+    EXPECT_TRUE(bar().findChild<QToolButton*>(QStringLiteral("crumb"))->isVisible());
 }
 
 TEST_F(EquationWindowTest, FactorsOfDirectLightAreThoseOfALight) {

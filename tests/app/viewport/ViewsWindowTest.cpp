@@ -18,6 +18,7 @@
 #include <QElapsedTimer>
 #include <QLabel>
 #include <QMenu>
+#include <QPushButton>
 #include <QTabBar>
 #include <QToolButton>
 #include <algorithm>
@@ -297,13 +298,31 @@ TEST_F(ViewsWindowTest, ContributionsAreAWishThatOtherViewsOutlive) {
 TEST_F(ViewsWindowTest, AViewThatDoesNotApplySaysWhyAndIsNoBlackPicture) {
     key(Qt::Key_0);
     key(Qt::Key_L); // direct light
-    EXPECT_THAT(legendText(), HasSubstr("No light shines"));
+    EXPECT_THAT(legendText(), HasSubstr("No light is on"));
     EXPECT_EQ(legend().findChild<ColorScale*>(), nullptr);
     ASSERT_TRUE(rested() && frameCame());
     const QImage picture = viewport().grabFramebuffer();
     EXPECT_GT(qGray(picture.pixel(picture.rect().center())), 5);
-    controller().addLight(LightType::Point);
-    EXPECT_THAT(legendText(), Not(HasSubstr("No light shines")));
+    // The next step is a button.
+    auto* add = find<QPushButton>(legend(), QStringLiteral("Add a light"));
+    ASSERT_NE(add, nullptr);
+    QTest::mouseClick(add, Qt::LeftButton);
+    EXPECT_EQ(document().lights.size(), 1u);
+    EXPECT_THAT(legendText(), Not(HasSubstr("No light is on")));
+    EXPECT_EQ(legend().findChild<QPushButton*>(QStringLiteral("legendRemedy")), nullptr);
+}
+
+// Needs a bake with bounces: the button bakes it, and then the view is there.
+TEST_F(ViewsWindowTest, AViewWithoutItsBakeOffersToBakeIt) {
+    views().show(kViewInterreflectedLight);
+    EXPECT_THAT(legendText(), HasSubstr("bounces"));
+    auto* bake = find<QPushButton>(legend(), QStringLiteral("Bake with bounces"));
+    ASSERT_NE(bake, nullptr);
+    EXPECT_EQ(session->jobs.runningCount(), 0);
+    QTest::mouseClick(bake, Qt::LeftButton);
+    ASSERT_TRUE(eventually([] { return session->jobs.runningCount() > 0; }));
+    session->jobs.cancelAll();
+    EXPECT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
 }
 
 TEST_F(ViewsWindowTest, FactorsAreComputedForTheLightThatIsChosen) {

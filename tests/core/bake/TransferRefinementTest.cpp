@@ -66,7 +66,7 @@ TEST(TransferRefinement, IsAdvisedOfCoarseMeshes) {
     EXPECT_EQ(coarseShare(inputs, coarse.vertices, 10.0f), 0.0);
     const std::string note = coarse.settings.at("note");
     EXPECT_EQ(note.find(fmt::format("On {:.1f} % of the surface", 100.0 * share)), 0u) << note;
-    EXPECT_NE(note.find("patina refine"), std::string::npos);
+    EXPECT_NE(note.find("too coarse"), std::string::npos);
     EXPECT_FALSE(bakeWith(64, true).settings.contains("note"));
     EXPECT_FALSE(bakeWith(128, false).settings.contains("note"));
     BakeInputs flat = sceneOf({planeMesh(4.0, 4)});

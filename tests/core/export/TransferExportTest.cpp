@@ -6,6 +6,7 @@
 #include "core/export/Export.h"
 #include "core/light/OrientedEnvironment.h"
 #include "core/math/SphericalHarmonics.h"
+#include "core/mesh/MeshImport.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/support/TemporaryFolder.h"
 
@@ -145,6 +146,18 @@ TEST_P(TransferExport, DotProductsOfTheFilesAreOurs) {
               4u + 2u * extras["attributes"].get<std::size_t>());
     EXPECT_THAT(text(extras["shader"].get<std::string>().c_str()),
                 HasSubstr(fmt::format("uniform vec4 prtLight[{}];", 3 * vectors)));
+
+    // Opened again it says that its transfer is not read.
+    const Result<ImportedModel> again = importModel(worker, folder / "a b.glb");
+    ASSERT_TRUE(again.ok()) << again.error().text();
+    EXPECT_THAT(again->warnings, testing::ElementsAre(HasSubstr("_PRT_n")));
+    settings.includeTransfer = false;
+    settings.output = folder / "plain.glb";
+    const ExportPlan plain = planExport(scene.document, settings);
+    ASSERT_TRUE(runExport(worker, scene.document, plain, JobContext()).ok());
+    const Result<ImportedModel> without = importModel(worker, folder / "plain.glb");
+    ASSERT_TRUE(without.ok()) << without.error().text();
+    EXPECT_THAT(without->warnings, testing::IsEmpty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Layouts, TransferExport,

@@ -272,7 +272,7 @@ TEST(ParameterTable, LightingByTransferNeedsABake) {
                                     LightingMode::ShIrradiance, LightingMode::Unshadowed})
         EXPECT_EQ(why(document, mode), "");
     for (const LightingMode mode : {LightingMode::Shadowed, LightingMode::Prt})
-        EXPECT_NE(why(document, mode).find("bake prt"), std::string::npos);
+        EXPECT_NE(why(document, mode).find("radiance transfer bake"), std::string::npos);
     auto bake = std::make_shared<BakeArtifact>();
     bake->kind = BakeKind::PrtVertex;
     document.bakes.push_back(bake);
