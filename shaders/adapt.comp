@@ -14,12 +14,19 @@ uniform int u_tileCount;
 uniform float u_seconds; // since the last frame; negative: the eye has had all the time it needs
 
 void main() {
-    LuminanceSum sum = noPixels();
-    for (int i = int(gl_LocalInvocationIndex); i < u_tileCount; i += 256)
-        sum = add(sum, b_tiles[i]);
-    sum = addGroup(sum);
+    LuminanceSum model = noPixels();
+    LuminanceSum all = noPixels();
+    for (int i = int(gl_LocalInvocationIndex); i < u_tileCount; i += 256) {
+        model = add(model, b_tiles[2 * i]);
+        all = add(all, b_tiles[2 * i + 1]);
+    }
+    model = addGroup(model);
+    all = addGroup(all);
     if (gl_LocalInvocationIndex != 0u)
         return;
+    // A dark room around the model burns nothing out. Where there is no model, or only glass, the
+    // whole picture counts.
+    LuminanceSum sum = model.weight > 0.0 ? model : all;
     // A picture without a pixel in it changes nothing.
     float logAverage = b_adapted > 0.0 ? b_logAverage : kMiddleGrey;
     if (sum.weight > 0.0) {

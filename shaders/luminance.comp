@@ -1,16 +1,19 @@
 #version 450 core
-// Each work group sums up one tile of 64 × 64 pixels of the picture.
+// Each work group sums up one tile of 64 × 64 pixels of the picture: those where the model is, and
+// all of them.
 #include "include/luminance.glsl"
 #include "shared/tonemap.glsl"
 
 layout(binding = 0) uniform sampler2D u_radiance; // premultiplied
-layout(std430, binding = 0) writeonly buffer Tiles { LuminanceSum b_tiles[]; };
+layout(binding = 1) uniform sampler2D u_depth; // 1: no opaque surface
+layout(std430, binding = 0) writeonly buffer Tiles { LuminanceSum b_tiles[]; }; // two for each
 
 void main() {
     ivec2 size = textureSize(u_radiance, 0);
     ivec2 corner = ivec2(gl_WorkGroupID.xy) * 64;
     ivec2 first = corner + ivec2(gl_LocalInvocationIndex % 16u, gl_LocalInvocationIndex / 16u);
-    LuminanceSum sum = noPixels();
+    LuminanceSum model = noPixels();
+    LuminanceSum all = noPixels();
     for (int y = 0; y < 64; y += 16)
         for (int x = 0; x < 64; x += 16) {
             ivec2 p = first + ivec2(x, y);
@@ -20,10 +23,17 @@ void main() {
             float alpha = finiteRadiance(c.a);
             if (alpha > 0.0) {
                 float L = logLuminance(c.rgb / alpha);
-                sum = add(sum, LuminanceSum(alpha * L, alpha, L, L));
+                LuminanceSum pixel = LuminanceSum(alpha * L, alpha, L, L);
+                all = add(all, pixel);
+                if (texelFetch(u_depth, p, 0).r < 1.0)
+                    model = add(model, pixel);
             }
         }
-    sum = addGroup(sum);
-    if (gl_LocalInvocationIndex == 0u)
-        b_tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = sum;
+    model = addGroup(model);
+    all = addGroup(all);
+    if (gl_LocalInvocationIndex == 0u) {
+        uint tile = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+        b_tiles[2u * tile] = model;
+        b_tiles[2u * tile + 1u] = all;
+    }
 }

@@ -26,8 +26,14 @@ glm::vec3 scaleOf(const Document& document, const Surroundings& environment, flo
     return environment.tint * (share * std::exp2(environment.exposureEv));
 }
 
-float firstShare(const Environment& first) {
-    return first.second.image ? 1.0f - first.fade : 1.0f;
+// Where the cross-fade stands: one environment alone is shown in full.
+float effectiveFade(const Environment& first) {
+    const SecondEnvironment& second = first.second;
+    if (!second.image)
+        return 0.0f;
+    if (first.solo != second.solo)
+        return first.solo ? 0.0f : 1.0f;
+    return first.fade;
 }
 
 } // namespace
@@ -41,9 +47,10 @@ std::vector<EnvironmentPart> environmentParts(const Document& document) {
         if (environment.image && scale != glm::vec3(0.0f))
             parts.push_back({role, environment.image, environment.rotationDeg, scale});
     };
-    add(EnvironmentPart::Role::First, first, firstShare(first));
+    const float fade = effectiveFade(first);
+    add(EnvironmentPart::Role::First, first, 1.0f - fade);
     if (second.image)
-        add(EnvironmentPart::Role::Second, second, first.fade);
+        add(EnvironmentPart::Role::Second, second, fade);
     return parts;
 }
 
@@ -57,7 +64,7 @@ EnvironmentPart shownEnvironment(const Document& document) {
         return parts.front();
     // Without a picture a grey one stands in, which is mixed all the same.
     return {EnvironmentPart::Role::First, environment.image, environment.rotationDeg,
-            scaleOf(document, environment, firstShare(environment))};
+            scaleOf(document, environment, 1.0f - effectiveFade(environment))};
 }
 
 } // namespace patina

@@ -24,9 +24,9 @@ struct EnvironmentPart {
     friend bool operator==(const EnvironmentPart&, const EnvironmentPart&) = default;
 };
 
-// Those that take part: on, solo if anything is, and neither faded out nor tinted to black. Their
-// radiances add up; the cross-fade weighs the first by 1 - fade and the second by fade, as long as
-// there is a second one with an image. At most two, the first one first.
+// Those that take part: on, solo if anything is, neither faded out nor black. Their radiances add
+// up; the cross-fade weighs the first by 1 - fade, the second by fade, as long as there is a second
+// one with an image and not one alone is solo, which is in full. At most two, the first one first.
 [[nodiscard]] std::vector<EnvironmentPart> environmentParts(const Document& document);
 
 // The same as one picture: the part where there is one; `blended` where there are two, or the first

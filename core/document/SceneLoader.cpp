@@ -8,6 +8,7 @@
 #include "core/light/EnvironmentBlend.h"
 #include "core/light/GeneratedEnvironment.h"
 #include "core/material/Parameters.h"
+#include "core/worker/InputFile.h"
 
 #include <algorithm>
 #include <atomic>
@@ -97,11 +98,11 @@ std::vector<Notice> SceneLoader::takeNotices(const fs::path& file) {
         if (names.size() < kShownFiles)
             names.push_back(fileName(missing));
     std::string text =
-        fmt::format("{} missing or empty: {}", m_missing.size() == 1 ? "a file is" : "files are",
+        fmt::format("{} missing: {}", m_missing.size() == 1 ? "a file is" : "files are",
                     fmt::join(names, ", "));
     if (m_missing.size() > kShownFiles)
         text += fmt::format(" and {} more", m_missing.size() - kShownFiles);
-    text += "; placeholders stand in. Put the files back and open it again, or assign others";
+    text += ". Put the files back and open it again, or assign others";
     notices.insert(notices.begin(), Notice{std::move(text), file});
     return notices;
 }
@@ -128,8 +129,13 @@ Result<SceneLoader::Model> SceneLoader::readModel(const std::string& source) {
         return imported.error();
     for (const std::string& warning : imported->warnings)
         addNotice(warning, file);
-    for (const std::string& missing : imported->missingTextures)
-        addMissing((file.parent_path() / missing).lexically_normal().string());
+    // The importer counts empty files among them: loadMaps() says what is wrong with those.
+    for (const std::string& missing : imported->missingTextures) {
+        const fs::path path = (file.parent_path() / missing).lexically_normal();
+        std::error_code unknown;
+        if (!fs::exists(path, unknown))
+            addMissing(path.string());
+    }
     return convertModel(*std::move(imported), source);
 }
 
@@ -178,14 +184,13 @@ void SceneLoader::loadMaps(std::span<Material> materials) {
     // Note what went wrong, in the order of the materials.
     for (const Request& request : requests) {
         const Result<MapImage>& result = *request.result;
-        // The importer counts empty files among the missing ones.
-        if (!result.ok() &&
-            (result.error().kind == ErrorKind::InputMissing || m_known.contains(request.source)))
+        if (!result.ok() && result.error().message == kNoSuchFile) {
             addMissing(request.source);
-        else if (!result.ok())
-            addNotice(result.error().message + "; a placeholder stands in", request.source);
-        else if (result->repairedSamples > 0)
+        } else if (!result.ok()) {
+            addNotice(result.error().message, request.source);
+        } else if (result->repairedSamples > 0) {
             addNotice(repairedText(result->repairedSamples), request.source);
+        }
     }
     for (Material& material : materials)
         forEachMap(material, [&](const ParameterInfo& info, MapSlot& slot) {

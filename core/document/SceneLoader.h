@@ -49,7 +49,8 @@ class SceneLoader {
     [[nodiscard]] const JobContext& job() const { return m_job; }
     [[nodiscard]] WorkerClient* worker() const { return m_worker; }
 
-    // Everything noted, the missing files summed up in one notice about `file`.
+    // Everything noted; the missing files, if any, summed up in the first one, which is about
+    // `file`.
     [[nodiscard]] std::vector<Notice> takeNotices(const std::filesystem::path& file);
     [[nodiscard]] const std::vector<std::string>& missingFiles() const { return m_missing; }
 

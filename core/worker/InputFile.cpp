@@ -18,7 +18,7 @@ Result<InputFile> openInputFile(const std::filesystem::path& path, std::size_t m
     file.fd = FileDescriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
     if (!file.fd.valid()) {
         if (errno == ENOENT || errno == ENOTDIR)
-            return missing("the file does not exist; check its name and folder");
+            return missing(std::string(kNoSuchFile));
         if (errno == EACCES)
             return missing("the file cannot be read; you do not have the permission");
         return missing("the file cannot be opened", std::strerror(errno));

@@ -7,8 +7,13 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace patina {
+
+// The message of the error where there is no file of that name.
+inline constexpr std::string_view kNoSuchFile =
+    "the file does not exist; check its name and folder";
 
 struct InputFile {
     FileDescriptor fd;

@@ -7,10 +7,10 @@ namespace patina::render {
 
 namespace {
 
-constexpr int kTile = 64; // pixels a side: luminance.comp
-constexpr std::size_t kSumBytes = 4 * sizeof(float);
+constexpr int kTile = 64;                                // pixels a side: luminance.comp
+constexpr std::size_t kSumBytes = 2 * 4 * sizeof(float); // of the model, of all pixels
 constexpr unsigned kTilesBinding = 0, kStateBinding = 1; // storage blocks of the shaders
-constexpr unsigned kPictureUnit = 0;
+constexpr unsigned kPictureUnit = 0, kDepthUnit = 1;
 
 gl::Handle<gl::deleteBuffer> makeReadback(std::size_t bytes) {
     GLuint id = 0;
@@ -57,6 +57,7 @@ Result<void> AdaptationPass::measure(const Targets& targets) {
         m_tiles = gl::Buffer(m_context, "luminance of tiles", bytes);
     (*shader)->use();
     targets.linear().bind(kPictureUnit);
+    targets.depth().bind(kDepthUnit);
     m_tiles.bindStorage(kTilesBinding);
     glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(rows), 1);
     return {};

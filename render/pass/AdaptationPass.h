@@ -20,7 +20,7 @@ class AdaptationPass {
     AdaptationPass(const AdaptationPass&) = delete;
     AdaptationPass& operator=(const AdaptationPass&) = delete;
 
-    // Sums up targets.linear().
+    // Sums up targets.linear() where the model is, by targets.depth(); all of it where none is.
     Result<void> measure(const Targets& targets);
     // The eye looks at what was measured for `seconds` more; infinite: until it is used to it.
     Result<void> adapt(float seconds);

@@ -80,15 +80,11 @@ std::array<const MapSlot*, kMaterialMapCount> slots(const Material& m) {
             &m.normalMap,    &m.occlusionMap, &m.emissiveMap};
 }
 
-// How much of the surface the pattern covers: all of it for a missing colour, a hint for others,
-// so that the rest of the material can still be judged.
+// How much of the surface the pattern covers: all of it in place of a base colour that is missing.
+// Where numbers are missing, the material's factor stands for them, and the colour that is there
+// can still be judged; their slots say what they lack.
 float placeholderShare(const Material& m) {
-    if (missing(m.baseColorMap))
-        return 1.0f;
-    for (const MapSlot* map : slots(m))
-        if (missing(*map))
-            return 0.15f;
-    return 0.0f;
+    return missing(m.baseColorMap) ? 1.0f : 0.0f;
 }
 
 } // namespace

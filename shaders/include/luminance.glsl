@@ -25,6 +25,7 @@ shared LuminanceSum s_sums[256];
 // picture gives the same bits.
 LuminanceSum addGroup(LuminanceSum own) {
     uint i = gl_LocalInvocationIndex;
+    barrier(); // the sum before has been read
     s_sums[i] = own;
     barrier();
     for (uint half_ = 128u; half_ > 0u; half_ /= 2u) {

@@ -310,6 +310,25 @@ TEST_F(Surface, MissingMapIsVisible) {
     EXPECT_GT(black, 300);
 }
 
+// Numbers that are missing are the material's factors; the base colour that is there stays as it
+// is.
+TEST_F(Surface, MissingDataMapsFallBackToTheirFactors) {
+    renderer().setIbl(uniformIbl(glm::vec3(1.0f)));
+    Document document = planeSeenFromAbove();
+    const Image whole = draw(document, 32);
+    Material& m = materialOf(document);
+    for (MapSlot* map : {&m.metallicMap, &m.perceptualRoughnessMap, &m.normalMap, &m.occlusionMap,
+                         &m.emissiveMap}) {
+        map->source = "/nowhere/data.png";
+        map->problem = "not found";
+        const Image without = draw(document, 32);
+        for (int y = 0; y < 32; ++y)
+            for (int x = 0; x < 32; ++x)
+                ASSERT_EQ(pixel(without, x, y), pixel(whole, x, y)) << x << ' ' << y;
+        *map = {};
+    }
+}
+
 TEST_F(Surface, AlphaModesCutAndBlend) {
     Document document = planeSeenFromAbove();
     Material& m = materialOf(document);

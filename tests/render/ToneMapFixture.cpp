@@ -21,6 +21,7 @@ void ToneMapFixture::setPicture(int width, const std::vector<glm::vec4>& pixels)
     ASSERT_TRUE(targets().resize(context(), width, height, 1).ok());
     glTextureSubImage2D(targets().linear().id(), 0, 0, 0, width, height, GL_RGBA, GL_FLOAT,
                         pixels.data());
+    targets().resolved().clearDepth(1.0f); // background alone
 }
 
 void ToneMapFixture::setLuminance(const Luminance& luminance) {

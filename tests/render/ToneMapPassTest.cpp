@@ -234,6 +234,26 @@ TEST_F(ExposureOfFrames, AutomaticExposureShowsTheAverageAsMiddleGrey) {
     }
 }
 
+// A bright model in a dark room must not burn out, nor one in front of a white wall go black.
+TEST_F(ExposureOfFrames, AutomaticExposureMetersTheModelAndNotTheBackground) {
+    constexpr float kRadiance = 2.0f;
+    for (const int samples : {1, 4})
+        for (const float behind : {0.0f, 0.18f, 20.0f}) {
+            Document document = background(behind);
+            document.meshes[0].visible = true;
+            document.materials[0].baseColor = glm::vec3(0.0f);
+            document.materials[0].emissive = glm::vec3(kRadiance);
+            document.environment.enabled = false;
+            FrameSettings frame;
+            frame.samples = samples;
+            draw(document, 64, frame);
+            // Pixels of the outline hold a little of both.
+            EXPECT_NEAR(std::log2(renderer().readLuminance()->logAverage / kRadiance), 0.0f, 0.3f)
+                << behind << ' ' << samples;
+            EXPECT_NEAR(shownLinear(), 0.18f, 0.04f) << behind << ' ' << samples;
+        }
+}
+
 TEST_F(ExposureOfFrames, FixedExposureMeasuresOnlyWhenAsked) {
     Document document = background(0.5f);
     document.view.exposureMode = ExposureMode::Fixed;

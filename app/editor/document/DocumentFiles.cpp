@@ -4,6 +4,7 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/EnvironmentResolver.h"
 #include "app/editor/document/FileKinds.h"
+#include "app/editor/document/ImportNotice.h"
 #include "core/base/Check.h"
 #include "core/document/DocumentIO.h"
 #include "core/document/Scene.h"
@@ -102,7 +103,7 @@ void DocumentController::openScene(const QString& scene, std::function<void(bool
 }
 
 void DocumentController::takeOpened(OpenedScene opened, const QString& scene, const QString& name) {
-    const UserNotice notice = UserNotice::fromImport(name, opened.notices, opened.missingFiles);
+    const UserNotice notice = importNotice(name, opened);
     const QString file =
         isBuiltin(scene.toStdString()) ? scene : QFileInfo(scene).absoluteFilePath();
     replaceDocument(std::move(opened.document), opened.isProject ? file : QString(),
@@ -172,28 +173,31 @@ void DocumentController::setEnvironment(const QString& source) {
 
 void DocumentController::setSecondEnvironment(const QString& source) {
     const QString title = shortName(source);
-    m_tasks.start(QStringLiteral("second environment"), tr("Reading %1").arg(title),
-                  [this, source, title](const JobContext& job) -> BackgroundTasks::Apply {
-                      const std::string name = normalizeSource(source.toStdString());
-                      auto notices = std::make_shared<std::vector<Notice>>();
-                      auto image = std::make_shared<Result<ImagePtr>>(loadEnvironmentImage(
-                          m_worker, name, *notices, EnvironmentLayout::Automatic, job));
-                      return [this, title, name, notices, image] {
-                          if (!image->ok()) {
-                              Q_EMIT noticed(UserNotice::fromError(image->error()));
-                              return;
-                          }
-                          MapSlot slot;
-                          slot.source = name;
-                          slot.image = image->value();
-                          pushParameters({Scope::Environment, 0},
-                                         {{&parameter("environment.secondImage"), slot}}, 0,
-                                         tr("Fade to %1").arg(title));
-                          const UserNotice notice = UserNotice::fromImport(title, *notices, {});
-                          if (!notice.text.isEmpty())
-                              Q_EMIT noticed(notice);
-                      };
-                  });
+    m_tasks.start(
+        QStringLiteral("second environment"), tr("Reading %1").arg(title),
+        [this, source, title](const JobContext& job) -> BackgroundTasks::Apply {
+            const std::string name = normalizeSource(source.toStdString());
+            auto notices = std::make_shared<std::vector<Notice>>();
+            auto image = std::make_shared<Result<ImagePtr>>(
+                loadEnvironmentImage(m_worker, name, *notices, EnvironmentLayout::Automatic, job));
+            return [this, title, name, notices, image] {
+                if (!image->ok()) {
+                    Q_EMIT noticed(UserNotice::fromError(image->error()));
+                    return;
+                }
+                MapSlot slot;
+                slot.source = name;
+                slot.image = image->value();
+                std::vector<ParameterEdit> edits{{&parameter("environment.secondImage"), slot}};
+                // A new one is seen at once, and the first is not lost for it.
+                if (m_document.environment.second.source.empty())
+                    edits.push_back({&parameter("environment.fade"), 0.5f});
+                pushParameters({Scope::Environment, 0}, edits, 0, tr("Fade to %1").arg(title));
+                const UserNotice notice = UserNotice::fromImport(title, *notices, {});
+                if (!notice.text.isEmpty())
+                    Q_EMIT noticed(notice);
+            };
+        });
 }
 
 void DocumentController::readEnvironment(const QString& source, EnvironmentLayout layout,

@@ -5,9 +5,11 @@
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/ColorConversion.h"
 #include "app/editor/widget/Thumbnails.h"
+#include "core/document/ImageProblem.h"
 
 #include <QPainter>
 #include <QPixmap>
+#include <QStringList>
 #include <algorithm>
 
 namespace patina::editor {
@@ -22,7 +24,14 @@ int rowOf(const List& list, Id id) {
     return found == list.end() ? -1 : static_cast<int>(found - list.begin());
 }
 
-QIcon swatch(const QColor& color, bool metal) {
+QStringList problemsOf(const Document& document, Id material) {
+    QStringList lines;
+    for (const std::string& line : mapProblems(document, material))
+        lines << QString::fromStdString(line);
+    return lines;
+}
+
+QIcon swatch(const QColor& color, bool metal, bool marked) {
     constexpr int kSize = 32; // painted at twice the size for high-density screens
     QPixmap pixmap(kSize, kSize);
     pixmap.fill(Qt::transparent);
@@ -34,6 +43,8 @@ QIcon swatch(const QColor& color, bool metal) {
     painter.setBrush(gradient);
     painter.setPen(Qt::NoPen);
     painter.drawEllipse(QRectF(3, 3, kSize - 6, kSize - 6));
+    if (marked) // over its lower right
+        icon(QStringLiteral("warning"), tokens::kCopper).paint(&painter, QRect(13, 13, 19, 19));
     return QIcon(pixmap);
 }
 
@@ -202,9 +213,15 @@ QVariant SceneModel::materialData(std::size_t row, int column, int role) const {
     case Qt::EditRole:
         return QString::fromStdString(material.name);
     case Qt::DecorationRole:
-        return swatch(colorOf(material), material.metallic > 0.5f && !material.metallicMap.image);
+        return swatch(colorOf(material), material.metallic > 0.5f && !material.metallicMap.image,
+                      !problemsOf(m_controller.document(), material.id).isEmpty());
     case Qt::ToolTipRole:
-        return tr("%1: double-click or F2 to rename").arg(QString::fromStdString(material.name));
+        return (problemsOf(m_controller.document(), material.id)
+                << tr("%1: double-click or F2 to rename")
+                       .arg(QString::fromStdString(material.name)))
+            .join(QLatin1Char('\n'));
+    case Qt::AccessibleDescriptionRole:
+        return problemsOf(m_controller.document(), material.id).join(QLatin1Char('\n'));
     default:
         return {};
     }

@@ -6,6 +6,7 @@
 #include "app/editor/widget/ElidedLabel.h"
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Thumbnails.h"
+#include "core/document/ImageProblem.h"
 #include "core/library/Library.h"
 
 #include <QComboBox>
@@ -36,13 +37,13 @@ QToolButton* smallButton(const QString& iconName, const QString& tip, const QStr
     return button;
 }
 
+// One image is this map; several go by their names, which the window sees to.
 QString droppedImage(const QMimeData* data) {
-    for (const QUrl& url : data->urls()) {
-        const FileKind kind = fileKind(url.toLocalFile());
-        if (kind == FileKind::Image || kind == FileKind::Environment)
-            return url.toLocalFile();
-    }
-    return {};
+    if (data->urls().size() != 1)
+        return {};
+    const QString file = data->urls().front().toLocalFile();
+    const FileKind kind = fileKind(file);
+    return kind == FileKind::Image || kind == FileKind::Environment ? file : QString();
 }
 
 } // namespace
@@ -187,7 +188,9 @@ void MapSlotWidget::show(const MapSlot& slot) {
                           : tr("Drop an image here, or click to choose one"));
     setStatusTip(broken ? problem : assigned ? source : toolTip());
     const bool choosesChannel = assigned && !m_channel->property("wholeColor").toBool();
-    m_facts->setText(broken ? tr("missing") : size);
+    const QString word = broken ? QString::fromStdString(problemWord(slot.problem)) : QString();
+    m_facts->setText(broken ? word : size);
+    setAccessibleDescription(broken ? tr("%1: %2").arg(word, problem) : QString());
     m_channel->setVisible(choosesChannel);
     m_channel->setCurrentIndex(static_cast<int>(slot.channel));
     m_tilingButton->setVisible(assigned);

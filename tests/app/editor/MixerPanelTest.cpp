@@ -140,8 +140,21 @@ TEST_F(MixerPanelTest, SurroundingsAreFadedAndTheLightFollows) {
     addSecond();
     ASSERT_TRUE(named<NumberField>(tr("Cross-fade")).isEnabled());
     EXPECT_EQ(panel.findChildren<Fader*>().size(), 3);
+    // It is seen at once, beside the first one; taking it back is one step.
+    EXPECT_EQ(document().environment.fade, 0.5f);
+    EXPECT_NE(level("Sunset"), tr("dark"));
+    controller().undoStack().undo();
+    EXPECT_EQ(document().environment.fade, 0.0f);
+    EXPECT_TRUE(document().environment.second.source.empty());
+    controller().undoStack().redo();
+    controller().setParameter(parameter("environment.fade"), {Scope::Environment, 0}, 0.0f);
     EXPECT_EQ(shownEnvironment(document()).image, document().environment.image);
     EXPECT_EQ(level("Sunset"), tr("dark")); // faded out
+    // Solo, it is there however it is faded.
+    controller().setParameter(parameter("environment.secondSolo"), {Scope::Environment, 0}, true);
+    EXPECT_NE(level("Sunset"), tr("dark"));
+    EXPECT_EQ(shownEnvironment(document()).image, document().environment.second.image);
+    controller().setParameter(parameter("environment.secondSolo"), {Scope::Environment, 0}, false);
     Slider& fade = named<Slider>(tr("Cross-fade"));
     const int steps = controller().undoStack().count();
     QTest::mousePress(&fade, Qt::LeftButton, {}, QPoint(fade.handleX(), fade.height() / 2));

@@ -94,6 +94,27 @@ TEST_F(LightMix, SoloAndMuteAreOfOneDeskForLightsAndSurroundings) {
     e.second.enabled = false;
     EXPECT_TRUE(environmentParts(document).empty());
 
+    // What is solo is there in full, wherever the cross-fade stands.
+    e.enabled = e.second.enabled = true;
+    for (const bool second : {false, true})
+        for (const float fade : {0.0f, 0.3f, 1.0f}) {
+            e.fade = fade;
+            e.solo = !second;
+            e.second.solo = second;
+            ASSERT_EQ(environmentParts(document).size(), 1u) << fade;
+            const EnvironmentPart part = environmentParts(document)[0];
+            EXPECT_EQ(part.role, second ? Role::Second : Role::First);
+            EXPECT_EQ(part.scale, second ? 0.5f * e.second.tint : 2.0f * e.tint) << fade;
+            EXPECT_EQ(shownEnvironment(document), part);
+        }
+    e.fade = 0.25f;
+    e.solo = e.second.solo = true; // both: as without
+    EXPECT_EQ(environmentParts(document).size(), 2u);
+    e.solo = e.second.solo = false;
+    document.lights[0].solo = true;
+    EXPECT_TRUE(environmentParts(document).empty());
+    document.lights[0].solo = false;
+
     // A second environment that was taken away takes its solo along.
     e = Environment();
     e.second.solo = true;

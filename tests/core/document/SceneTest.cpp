@@ -1,5 +1,6 @@
 #include "SceneFixture.h"
 #include "core/document/Edit.h"
+#include "core/document/ImageProblem.h"
 
 #include <gmock/gmock.h>
 #include <set>
@@ -82,15 +83,20 @@ TEST_F(SceneFixture, AModelOpensWithItsMaterialsMapsAndAListOfWhatIsMissing) {
     EXPECT_TRUE(mentions(opened.notices, "lost.png"));
 }
 
-// A download that was cut off at once is as good as missing: one notice names all such files.
-TEST_F(SceneFixture, EmptyTexturesAreListedWithTheMissingOnes) {
+// A download that was cut off at once is there, and damaged: it is not called missing.
+TEST_F(SceneFixture, EmptyTexturesAreDamagedAndNotMissing) {
     const std::string file = writeModel();
     m_folder.write("models/red.png", "");
     const OpenedScene opened = open(file);
-    EXPECT_THAT(opened.missingFiles,
-                testing::UnorderedElementsAre((m_folder / "models/red.png").string(),
-                                              (m_folder / "models/lost.png").string()));
-    EXPECT_FALSE(materialNamed(opened.document, "Red")->baseColorMap.problem.empty());
+    EXPECT_THAT(opened.missingFiles, testing::ElementsAre((m_folder / "models/lost.png").string()));
+    EXPECT_THAT(damagedMaps(opened.document),
+                testing::ElementsAre((m_folder / "models/red.png").string()));
+    EXPECT_THAT(mapProblems(opened.document, materialNamed(opened.document, "Red")->id),
+                testing::ElementsAre("Base colour map is damaged: red.png"));
+    EXPECT_THAT(mapProblems(opened.document, materialNamed(opened.document, "Lost")->id),
+                testing::ElementsAre("Base colour map is missing: lost.png"));
+    EXPECT_EQ(problemWord(materialNamed(opened.document, "Red")->baseColorMap.problem), "damaged");
+    EXPECT_EQ(problemWord(materialNamed(opened.document, "Lost")->baseColorMap.problem), "missing");
     const auto concerned = [](const Notice& notice) {
         return notice.message.find("red.png") != std::string::npos ||
                notice.file.filename() == "red.png";
@@ -104,6 +110,7 @@ TEST_F(SceneFixture, BrokenTexturesAreReportedOneByOne) {
     m_folder.write("models/red.png", "this is no picture");
     const OpenedScene opened = open(file);
     EXPECT_EQ(opened.missingFiles.size(), 1u);
+    EXPECT_EQ(damagedMaps(opened.document).size(), 1u);
     const auto concerned = [](const Notice& notice) { return notice.file.filename() == "red.png"; };
     EXPECT_EQ(std::ranges::count_if(opened.notices, concerned), 1);
 }

@@ -1,0 +1,59 @@
+#include "core/document/ImageProblem.h"
+
+#include "core/base/Utf8.h"
+#include "core/material/Parameters.h"
+#include "core/worker/InputFile.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace patina {
+namespace {
+
+template <class Visit>
+void forEachProblem(const Document& document, Id material, const Visit& visit) {
+    for (const ParameterInfo& info : parameters()) {
+        if (info.scope != Scope::Material || info.type != ParameterType::Map)
+            continue;
+        const MapSlot slot = std::get<MapSlot>(info.get(document, material));
+        if (!slot.problem.empty())
+            visit(info, slot);
+    }
+}
+
+} // namespace
+
+std::string problemWord(std::string_view problem) {
+    if (problem == kNoSuchFile)
+        return "missing";
+    // The other refusals of openInputFile() to read what is there.
+    for (const std::string_view begin :
+         {"the file cannot be", "this is a folder", "this is a pipe"})
+        if (problem.starts_with(begin))
+            return "unreadable";
+    return "damaged";
+}
+
+std::vector<std::string> damagedMaps(const Document& document) {
+    std::vector<std::string> sources;
+    for (const Material& material : document.materials)
+        forEachProblem(document, material.id, [&](const ParameterInfo&, const MapSlot& slot) {
+            if (problemWord(slot.problem) != "missing" &&
+                std::find(sources.begin(), sources.end(), slot.source) == sources.end())
+                sources.push_back(slot.source);
+        });
+    return sources;
+}
+
+std::vector<std::string> mapProblems(const Document& document, Id material) {
+    std::vector<std::string> lines;
+    forEachProblem(document, material, [&](const ParameterInfo& info, const MapSlot& slot) {
+        lines.push_back(
+            fmt::format("{} is {}: {}", info.label, problemWord(slot.problem),
+                        makeValidUtf8(std::filesystem::path(slot.source).filename().string())));
+    });
+    return lines;
+}
+
+} // namespace patina
