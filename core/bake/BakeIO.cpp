@@ -1,5 +1,6 @@
 #include "core/bake/BakeIO.h"
 
+#include "core/bake/BakePacking.h"
 #include "core/bake/BakeParts.h"
 #include "core/image/ImageIO.h"
 
@@ -9,8 +10,8 @@ Result<Bytes> encodeBake(WorkerClient& worker, const BakeArtifact& artifact,
                          const Document& document, const BakeFileOptions& options) {
     ImageSaveOptions save;
     save.half = options.storage != BakeStorage::Float; // whole numbers are exact in halves
-    return encodeImage(worker, bakeToParts(artifact, document, options), ImageFileFormat::Exr,
-                       save);
+    return encodeImage(worker, packParts(bakeToParts(artifact, document, options)),
+                       ImageFileFormat::Exr, save);
 }
 
 Result<BakeArtifact> loadBake(WorkerClient& worker, const std::filesystem::path& file,
@@ -18,10 +19,13 @@ Result<BakeArtifact> loadBake(WorkerClient& worker, const std::filesystem::path&
     ImageLoadOptions options;
     options.sanitize = false; // coefficients are signed
     options.allParts = true;
-    const Result<LoadedImage> image = loadImage(worker, file, options);
+    Result<LoadedImage> image = loadImage(worker, file, options);
     if (!image)
         return image.error();
-    return bakeFromParts(image->parts, document, file);
+    const Result<std::vector<ImagePart>> parts = unpackParts(std::move(image->parts), file);
+    if (!parts)
+        return parts.error();
+    return bakeFromParts(*parts, document, file);
 }
 
 } // namespace patina

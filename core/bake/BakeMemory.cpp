@@ -1,6 +1,7 @@
 #include "core/bake/BakeMemory.h"
 
 #include "core/bake/VertexSamples.h"
+#include "core/base/Check.h"
 #include "core/job/Parallel.h"
 
 #include <algorithm>
@@ -174,6 +175,22 @@ Result<void> checkBakeMemory(const BakeRequest& request, const BakeInputs& input
                                  .value_or("Hide meshes, or bake fewer of them at a time.")),
                  {},
                  {}};
+}
+
+std::size_t texturesAtOnce(const BakeRequest& request, const BakeInputs& inputs,
+                           std::uint64_t available) {
+    CHECK(request.kind == BakeKind::AoTexel);
+    std::set<Id> materials;
+    for (const BakeMesh& mesh : inputs.meshes)
+        materials.insert(mesh.material);
+    const BakeEstimate all = estimateBake(request, inputs);
+    if (available == 0 || all.bytes <= available || materials.empty())
+        return materials.size();
+    BakeRequest tiny = request; // what the scene takes by itself
+    tiny.ao.size = 1;
+    const std::uint64_t scene = estimateBake(tiny, inputs).bytes;
+    const std::uint64_t each = (all.bytes - scene) / materials.size();
+    return available <= scene ? 0 : static_cast<std::size_t>((available - scene) / each);
 }
 
 std::string memoryText(std::uint64_t bytes) {

@@ -25,6 +25,10 @@ struct BakeEstimate {
 Result<void> checkBakeMemory(const BakeRequest& request, const BakeInputs& inputs,
                              std::uint64_t available);
 
+// How many textures of an AoTexel bake fit at a time (core/bake/OcclusionTextures.h); 0: none does.
+[[nodiscard]] std::size_t texturesAtOnce(const BakeRequest& request, const BakeInputs& inputs,
+                                         std::uint64_t available);
+
 [[nodiscard]] std::string memoryText(std::uint64_t bytes); // "640 MiB", "1.4 GiB"
 
 } // namespace patina

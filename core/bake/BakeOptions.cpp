@@ -149,7 +149,7 @@ constexpr std::array kOptions{
                {},
                [](const BakeRequest& r) { return r.prt.fitted ? 1.0 : 0.0; },
                [](BakeRequest& r, double v) { r.prt.fitted = v != 0.0; },
-               [](const BakeRequest& r) { return r.kind == BakeKind::PrtVertex; }},
+               [](const BakeRequest& r) { return r.kind == BakeKind::PrtVertex && traces(r); }},
     BakeOption{"size",
                "Size",
                "Side of the square texture that each material gets",

@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <unordered_map>
 
 namespace patina {
 namespace {
@@ -21,12 +22,11 @@ constexpr const char* kStorageError = "patina:storageError";
 constexpr const char* kContentHash = "patina:contentHash";
 
 template <class Element>
-std::optional<std::size_t> indexOf(const std::vector<Element>& elements, Id id) {
-    const auto found = std::find_if(elements.begin(), elements.end(),
-                                    [id](const Element& e) { return e.id == id; });
-    if (found == elements.end())
-        return std::nullopt;
-    return static_cast<std::size_t>(found - elements.begin());
+std::unordered_map<Id, std::size_t> indicesById(const std::vector<Element>& elements) {
+    std::unordered_map<Id, std::size_t> indices;
+    for (std::size_t i = 0; i < elements.size(); ++i)
+        indices.try_emplace(elements[i].id, i);
+    return indices;
 }
 
 template <class Bake>
@@ -91,7 +91,7 @@ void addElements(ImagePart& part, const BakeElementsView& elements, const BakeAr
 struct Reader {
     const BakeHeader& header;
     const std::filesystem::path& file;
-    const Document& document;
+    const BakeTargets& targets;
 
     [[nodiscard]] bool transfer() const { return holdsTransfer(header.artifact.kind); }
     [[nodiscard]] Error damaged(const std::string& what) const { return damagedBake(file, what); }
@@ -131,10 +131,10 @@ Result<BakeElements> readElements(const Reader& reader, const ImagePart& part, s
 }
 
 Result<VertexBake> readVertices(const Reader& reader, const ImagePart& part) {
-    if (const std::string why = meshMismatch(reader.document, part.attributes); !why.empty())
+    if (const std::string why = meshMismatch(reader.targets, part.attributes); !why.empty())
         return reader.misfit(why);
     const MeshInstance& mesh =
-        reader.document.meshes[meshOfPart(reader.document, part.attributes).value()];
+        reader.targets.document().meshes[reader.targets.mesh(part.attributes).value()];
     const auto count = numberAttribute(part.attributes, kVertexCountAttribute, 1, 1ll << 32);
     if (!count || static_cast<std::size_t>(*count) != mesh.mesh->vertexCount())
         return reader.damaged("the number of vertices is wrong");
@@ -147,7 +147,7 @@ Result<VertexBake> readVertices(const Reader& reader, const ImagePart& part) {
 }
 
 Result<TexelBake> readTexels(const Reader& reader, const ImagePart& part) {
-    const std::optional<std::size_t> target = materialOfPart(reader.document, part.attributes);
+    const std::optional<std::size_t> target = reader.targets.material(part.attributes);
     if (!target) {
         const std::string* name = findAttribute(part.attributes, kTargetAttribute);
         return reader.misfit(fmt::format("has values for a material \"{}\", which the scene does "
@@ -162,7 +162,7 @@ Result<TexelBake> readTexels(const Reader& reader, const ImagePart& part) {
     if (!e)
         return e.error();
     TexelBake bake;
-    bake.material = reader.document.materials[*target].id;
+    bake.material = reader.targets.document().materials[*target].id;
     if (!reader.transfer()) {
         auto image = std::make_shared<Image>(side, side, 1, PixelType::F32, ColorEncoding::Data);
         std::copy(e->values.begin(), e->values.end(), image->f32().begin());
@@ -186,34 +186,38 @@ std::vector<ImagePart> bakeToParts(const BakeArtifact& artifact, const Document&
     const BakeAttributes header = headerAttributes(artifact, options);
     const std::vector<std::string> meshNames = partNames(document.meshes);
     const std::vector<std::string> materialNames = partNames(document.materials);
+    const std::unordered_map<Id, std::size_t> meshes = indicesById(document.meshes);
+    const std::unordered_map<Id, std::size_t> materials = indicesById(document.materials);
     std::vector<ImagePart> parts;
     for (const VertexBake& bake : artifact.vertices) {
-        const std::optional<std::size_t> index = indexOf(document.meshes, bake.mesh);
+        const auto found = meshes.find(bake.mesh);
         const std::optional<std::size_t> count = countOf(viewOf(bake));
-        if (!index || !count || !document.meshes[*index].mesh ||
-            document.meshes[*index].mesh->vertexCount() != *count)
+        if (found == meshes.end() || !count)
+            continue;
+        const std::size_t index = found->second;
+        if (!document.meshes[index].mesh || document.meshes[index].mesh->vertexCount() != *count)
             continue;
         ImagePart& part = parts.emplace_back();
-        part.name = meshNames[*index];
+        part.name = meshNames[index];
         part.attributes = header;
-        describeMesh(document.meshes[*index], part.name, *index, part.attributes);
+        describeMesh(document.meshes[index], part.name, index, part.attributes);
         addElements(part, viewOf(bake), artifact, std::min<std::size_t>(*count, kMaxBakeRow),
                     options);
     }
     for (const TexelBake& bake : artifact.texels) {
-        const std::optional<std::size_t> index = indexOf(document.materials, bake.material);
+        const auto found = materials.find(bake.material);
         BakeElementsView elements = viewOf(bake);
         std::size_t side = static_cast<std::size_t>(bake.side);
         if (bake.image) {
             elements = {1, bake.image->f32(), {}, {}, {}};
             side = static_cast<std::size_t>(bake.image->width());
         }
-        if (!index || countOf(elements) != side * side)
+        if (found == materials.end() || countOf(elements) != side * side)
             continue;
         ImagePart& part = parts.emplace_back();
-        part.name = materialNames[*index];
+        part.name = materialNames[found->second];
         part.attributes = header;
-        describeMaterial(part.name, *index, part.attributes);
+        describeMaterial(part.name, found->second, part.attributes);
         addElements(part, elements, artifact, side, options);
     }
     if (parts.empty()) {
@@ -231,7 +235,8 @@ Result<BakeArtifact> bakeFromParts(const std::vector<ImagePart>& parts, const Do
     Result<BakeHeader> header = readBakeHeader(parts.front().attributes, file);
     if (!header)
         return header.error();
-    const Reader reader{*header, file, document};
+    const BakeTargets targets(document);
+    const Reader reader{*header, file, targets};
     BakeArtifact artifact = header->artifact;
     std::set<Id> seen;
     for (const ImagePart& part : parts) {

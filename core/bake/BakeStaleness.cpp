@@ -1,6 +1,7 @@
 #include "core/bake/BakeStaleness.h"
 
 #include "core/bake/BakeOptions.h"
+#include "core/bake/BakeTracer.h"
 #include "core/document/Document.h"
 
 #include <algorithm>
@@ -49,7 +50,7 @@ bool sameMeshes(const BakeArtifact& artifact, const Document& document) {
 } // namespace
 
 BakeStaleness bakeStaleness(const BakeArtifact& artifact, const Document& document,
-                            const Hash& inputs, const Hash& albedo, const BakeRequest* wanted) {
+                            const Hash& inputs, const Hash& albedo) {
     BakeStaleness result;
     if (artifact.inputs != inputs) {
         result.geometry = true;
@@ -61,20 +62,32 @@ BakeStaleness bakeStaleness(const BakeArtifact& artifact, const Document& docume
         result.albedo = true;
         result.reasons.emplace_back("the albedo has changed, and light bounces off it");
     }
-    if (wanted == nullptr)
-        return result;
-    // Only settings that the bake knows of: older files do not hold them all.
-    const auto asked = settingsText(normalized(*wanted));
+    return result;
+}
+
+std::vector<SettingDifference> settingDifferences(const BakeArtifact& artifact,
+                                                  const BakeRequest& wanted) {
+    std::vector<SettingDifference> result;
+    const auto asked = settingsText(normalized(wanted));
     for (const BakeOption& option : bakeOptions()) {
         const auto now = asked.find(option.name);
         const auto then = artifact.settings.find(option.name);
-        if (now == asked.end() || then == artifact.settings.end() || now->second == then->second)
-            continue;
-        result.settings = true;
-        result.reasons.push_back(
-            fmt::format("{}: {} instead of {}", option.label, then->second, now->second));
+        if (now != asked.end() && then != artifact.settings.end() && now->second != then->second)
+            result.push_back({option.label, then->second, now->second});
     }
     return result;
+}
+
+std::optional<StoppedBake> stoppedEarly(const BakeArtifact& artifact) {
+    const BakeRequest request = requestFromText(artifact.kind, artifact.settings);
+    const int asked = holdsTransfer(artifact.kind) ? request.prt.samples : request.ao.samples;
+    if (!artifact.settings.contains("samples") || artifact.samplesDone >= asked)
+        return std::nullopt;
+    // Bakes to a tolerance end before their last ray by themselves.
+    const bool toTolerance = holdsTransfer(artifact.kind) && request.prt.tolerance > 0.0f;
+    if (toTolerance && !artifact.settings.contains(kStoppedSetting))
+        return std::nullopt;
+    return StoppedBake{artifact.samplesDone, asked};
 }
 
 } // namespace patina

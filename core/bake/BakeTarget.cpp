@@ -18,25 +18,35 @@ template <class Element>
 std::vector<std::string> namesOf(const std::vector<Element>& elements) {
     std::vector<std::string> names;
     std::set<std::string> taken;
+    std::map<std::string, int> lastNumber; // of a name that repeats: lower ones are taken
     for (const Element& element : elements) {
         const std::string base = element.name.empty() ? "unnamed" : element.name;
         std::string name = base;
-        for (int number = 2; !taken.insert(name).second; ++number)
-            name = fmt::format("{}#{}", base, number);
+        if (!taken.insert(name).second) {
+            int& number = lastNumber.try_emplace(base, 1).first->second;
+            do
+                name = fmt::format("{}#{}", base, ++number);
+            while (!taken.insert(name).second);
+        }
         names.push_back(std::move(name));
     }
     return names;
 }
 
-template <class Element>
-std::optional<std::size_t> targetOf(const std::vector<Element>& elements,
+std::map<std::string, std::size_t> indicesOf(const std::vector<std::string>& names) {
+    std::map<std::string, std::size_t> indices;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        indices[names[i]] = i;
+    return indices;
+}
+
+std::optional<std::size_t> targetOf(const std::map<std::string, std::size_t>& indices,
                                     const BakeAttributes& attributes) {
-    const std::vector<std::string> names = namesOf(elements);
     if (const std::string* target = findAttribute(attributes, kTargetAttribute))
-        if (const auto named = std::find(names.begin(), names.end(), *target); named != names.end())
-            return static_cast<std::size_t>(named - names.begin());
+        if (const auto named = indices.find(*target); named != indices.end())
+            return named->second;
     const auto index = numberAttribute(attributes, kIndex, 0, 1 << 30);
-    if (!index || static_cast<std::size_t>(*index) >= elements.size())
+    if (!index || static_cast<std::size_t>(*index) >= indices.size())
         return std::nullopt;
     return static_cast<std::size_t>(*index);
 }
@@ -95,19 +105,24 @@ void describeMaterial(const std::string& name, std::size_t index, BakeAttributes
     attributes[kIndex] = std::to_string(index);
 }
 
-std::optional<std::size_t> meshOfPart(const Document& document, const BakeAttributes& attributes) {
-    return targetOf(document.meshes, attributes);
+BakeTargets::BakeTargets(const Document& document)
+    : m_document(document)
+    , m_meshes(indicesOf(namesOf(document.meshes)))
+    , m_materials(indicesOf(namesOf(document.materials))) {}
+
+std::optional<std::size_t> BakeTargets::mesh(const BakeAttributes& attributes) const {
+    return targetOf(m_meshes, attributes);
 }
 
-std::optional<std::size_t> materialOfPart(const Document& document,
-                                          const BakeAttributes& attributes) {
-    return targetOf(document.materials, attributes);
+std::optional<std::size_t> BakeTargets::material(const BakeAttributes& attributes) const {
+    return targetOf(m_materials, attributes);
 }
 
-std::string meshMismatch(const Document& document, const BakeAttributes& attributes) {
+std::string meshMismatch(const BakeTargets& targets, const BakeAttributes& attributes) {
+    const Document& document = targets.document();
     const std::string* name = findAttribute(attributes, kTargetAttribute);
     const std::string part = name != nullptr ? *name : "unnamed";
-    const std::optional<std::size_t> target = meshOfPart(document, attributes);
+    const std::optional<std::size_t> target = targets.mesh(attributes);
     if (!target)
         return fmt::format("has values for a mesh \"{}\", which the scene does not have", part);
     const MeshInstance& instance = document.meshes[*target];

@@ -9,17 +9,10 @@
 #include "core/bake/TexelTransfer.h"
 #include "core/bake/WorkOrder.h"
 
-#include <algorithm>
+#include <optional>
 
 namespace patina {
 namespace {
-
-ImagePtr occlusionImage(std::span<const float> values, int size) {
-    auto image = std::make_shared<Image>(size, size, 1, PixelType::F32, ColorEncoding::Data);
-    std::transform(values.begin(), values.end(), image->f32().begin(),
-                   [](float v) { return std::clamp(v, 0.0f, 1.0f); }); // means of ones may round up
-    return image;
-}
 
 // Everything the two texel bakes share; `artifact` arrives with kind, order and settings, `prt`
 // with those of a transfer bake.
@@ -33,10 +26,14 @@ Result<BakeArtifact> bakeTexels(const BakeInputs& inputs, PassSettings settings,
     const Result<TexelLayout> layout = texelLayout(*geometry, size, job);
     if (!layout)
         return layout.error();
-    const Result<RayScene> scene = RayScene::build(
-        *geometry, job, 0, static_cast<double>(layout->points.size()) * settings.samples);
-    if (!scene)
-        return scene.error();
+    std::optional<RayScene> scene;
+    if (!settings.unshadowed) {
+        Result<RayScene> built = RayScene::build(
+            *geometry, job, 0, static_cast<double>(layout->points.size()) * settings.samples);
+        if (!built)
+            return built.error();
+        scene.emplace(std::move(*built));
+    }
     settings.maxDistance *= static_cast<float>(geometry->unitsPerMetre);
 
     PassCallbacks callbacks;
@@ -50,7 +47,10 @@ Result<BakeArtifact> bakeTexels(const BakeInputs& inputs, PassSettings settings,
     callbacks.passDone = [&](int samples) { sink.passDone(samples); };
     callbacks.view = [&] { return toSceneUnits(sink.view(), *geometry); };
     Result<std::optional<PassState>> traced =
-        tracePoints(tracer, {*scene, layout->points, layout->ranges, settings, callbacks, job});
+        scene
+            ? tracePoints(tracer,
+                          {*scene, layout->points, layout->ranges, settings, callbacks, job})
+            : passesOrNothing(openPasses(layout->points, layout->ranges, settings, callbacks, job));
     if (!traced)
         return traced.error();
     artifact.inputs = hashBakeInputs(inputs);
@@ -61,15 +61,13 @@ Result<BakeArtifact> bakeTexels(const BakeInputs& inputs, PassSettings settings,
     artifact.settings["size"] = std::to_string(size);
     if (const std::string note = layout->note(); !note.empty())
         artifact.settings["note"] = note;
-    artifact.samplesDone = passes.samplesDone;
-    constexpr float kOpen[] = {1.0f};
+    noteRays(artifact, passes, settings, job);
     if (holdsTransfer(artifact.kind))
         artifact.texels = finishTexelTransfer(*layout, settings, passes);
     else
         for (const MaterialTexels& part : layout->parts)
             artifact.texels.push_back(
-                {part.material,
-                 occlusionImage(texelTexture(*layout, part, passes.values, kOpen), size)});
+                {part.material, occlusionTexture(*layout, part, passes.values)});
     if (prt && prt->transfer == TransferKind::Interreflected)
         if (std::optional<Error> error = addTexelInterreflection(
                 artifact, inputs, *geometry, *scene, *layout, passes, *prt, job))

@@ -78,14 +78,19 @@ Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings setting
     const Result<BakeGeometry> geometry = makeBakeGeometry(inputs, job);
     if (!geometry)
         return geometry.error();
-    const bool fitted = prt && prt->fitted;
+    // Nothing shades an open surface: its values are exact at the vertices, and no ray is needed.
+    const bool traces = !settings.unshadowed;
+    const bool fitted = prt && prt->fitted && traces;
     const VertexSamples samples =
         fitted ? fittedVertexSamples(*geometry, job) : vertexSamples(*geometry, job);
-    Result<RayScene> built = RayScene::build(
-        *geometry, job, 0, static_cast<double>(samples.points.size()) * settings.samples);
-    if (!built)
-        return built.error();
-    std::optional<RayScene> scene = std::move(*built);
+    std::optional<RayScene> scene;
+    if (traces) {
+        Result<RayScene> built = RayScene::build(
+            *geometry, job, 0, static_cast<double>(samples.points.size()) * settings.samples);
+        if (!built)
+            return built.error();
+        scene.emplace(std::move(*built));
+    }
     settings.maxDistance *= static_cast<float>(geometry->unitsPerMetre);
 
     PassCallbacks callbacks;
@@ -99,7 +104,10 @@ Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings setting
     callbacks.passDone = [&](int rays) { sink.passDone(rays); };
     callbacks.view = [&] { return toSceneUnits(sink.view(), *geometry); };
     Result<std::optional<PassState>> traced =
-        tracePoints(tracer, {*scene, samples.points, samples.ranges, settings, callbacks, job});
+        traces
+            ? tracePoints(tracer,
+                          {*scene, samples.points, samples.ranges, settings, callbacks, job})
+            : passesOrNothing(openPasses(samples.points, samples.ranges, settings, callbacks, job));
     if (!traced)
         return traced.error();
     artifact.inputs = hashBakeInputs(inputs);
@@ -107,9 +115,11 @@ Result<BakeArtifact> bakeVertices(const BakeInputs& inputs, PassSettings setting
         return artifact;
     PassState& passes = **traced;
 
-    artifact.samplesDone = passes.samplesDone;
-    if (std::string note = noteOf(*geometry, *scene, samples, settings, passes, job); !note.empty())
-        artifact.settings["note"] = std::move(note);
+    noteRays(artifact, passes, settings, job);
+    if (traces)
+        if (std::string note = noteOf(*geometry, *scene, samples, settings, passes, job);
+            !note.empty())
+            artifact.settings["note"] = std::move(note);
     // What is not needed any more makes room for what comes.
     const bool bounces = prt && prt->transfer == TransferKind::Interreflected;
     if (!bounces)

@@ -83,31 +83,6 @@ class PassRunner {
                 CHECK(std::abs(point.origin[axis]) < 1e6f && std::abs(point.normal[axis]) < 2.0f);
     }
 
-    // T_lm = A_l Y_lm(n) / pi.
-    void fillUnshadowed() {
-        const OpenTransfer open(m_settings.shOrder);
-        const auto stride = static_cast<std::size_t>(m_settings.stride());
-        for (std::size_t r = 0; r < m_ranges.size() && !m_job.cancelled(); ++r) {
-            if (!m_settings.shard.holds(r))
-                continue;
-            const PointRange& range = m_ranges[r];
-            for (std::size_t p = range.first; p < range.first + range.count; ++p) {
-                const std::span<float> values =
-                    std::span(m_state.values).subspan(p * stride, stride);
-                std::ranges::fill(values, 0.0f);
-                open.subtract(m_points[p].normal, values); // from nothing
-                m_state.passes[p] = m_state.wanted[p] =
-                    static_cast<std::uint8_t>(m_plan.schedule().passes());
-            }
-            if (m_callbacks.range)
-                m_callbacks.range(range, std::span<const float>(m_state.values)
-                                             .subspan(range.first * stride, range.count * stride));
-        }
-        m_plan.updateSamplesDone();
-        if (m_callbacks.passDone)
-            m_callbacks.passDone(m_state.samplesDone);
-    }
-
     void run() {
         while (m_plan.pending() || m_plan.wantMore()) {
             if (m_job.cancelled() || (m_state.samplesDone > 0 && m_job.stopping()))
@@ -229,7 +204,7 @@ class PassRunner {
             return false;
         const auto stride = static_cast<std::size_t>(m_settings.stride());
         std::vector<RangeElement> order, elements;
-        orderRange(m_points, range, m_cluster, m_settings.seed, order);
+        orderRange(m_points, range, m_cluster, m_settings.seed, order, m_settings.firstPoint);
         if (m_plan.tiles())
             for (RangeElement& element : order)
                 element.seed = m_plan.tiles()->seedOf(element.point);
@@ -334,6 +309,38 @@ Result<int> roundSamples(int samples, SampleMethod method) {
     return static_cast<int>(std::bit_ceil(static_cast<unsigned>(samples)));
 }
 
+// T_lm = A_l Y_lm(n) / pi.
+Result<PassState> openPasses(std::span<const BakePoint> points, std::span<const PointRange> ranges,
+                             const PassSettings& settings, const PassCallbacks& callbacks,
+                             const JobContext& job) {
+    CHECK(settings.shOrder > 0 && settings.shOrder <= kMaxShOrder);
+    PassState state;
+    PassPlan plan(points, ranges, settings, state);
+    const OpenTransfer open(settings.shOrder);
+    const auto stride = static_cast<std::size_t>(settings.stride());
+    const auto passes = static_cast<std::uint8_t>(plan.schedule().passes());
+    parallelFor(job, ranges.size(), 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t r = begin; r < end; ++r) {
+            const PointRange& range = ranges[r];
+            for (std::size_t p = range.first; p < range.first + range.count; ++p) {
+                // From nothing.
+                open.subtract(points[p].normal,
+                              std::span(state.values).subspan(p * stride, stride));
+                state.passes[p] = state.wanted[p] = passes;
+            }
+            if (callbacks.range)
+                callbacks.range(range, std::span<const float>(state.values)
+                                           .subspan(range.first * stride, range.count * stride));
+        }
+    });
+    if (job.cancelled())
+        return Error{ErrorKind::Cancelled, "The bake was cancelled.", {}, {}};
+    plan.updateSamplesDone();
+    if (callbacks.passDone)
+        callbacks.passDone(state.samplesDone);
+    return state;
+}
+
 Result<PassState> runPasses(const RayScene& scene, std::span<const BakePoint> points,
                             std::span<const PointRange> ranges, const PassSettings& settings,
                             const PassCallbacks& callbacks, const JobContext& job,
@@ -341,15 +348,10 @@ Result<PassState> runPasses(const RayScene& scene, std::span<const BakePoint> po
     CHECK(settings.method == SampleMethod::Stratified ||
           std::has_single_bit(static_cast<unsigned>(settings.samples)));
     CHECK(settings.shOrder >= 0 && settings.shOrder <= kMaxShOrder);
-    CHECK(!settings.unshadowed || settings.shOrder > 0);
     CHECK(settings.tolerance == 0.0f || // which looks at all points
           (settings.shard.count == 1 && settings.method != SampleMethod::Stratified));
     CHECK(settings.shard.index >= 0 && settings.shard.index < settings.shard.count);
-    PassRunner runner(scene, points, ranges, settings, callbacks, job, state);
-    if (settings.unshadowed)
-        runner.fillUnshadowed();
-    else
-        runner.run();
+    PassRunner(scene, points, ranges, settings, callbacks, job, state).run();
     if (job.cancelled()) {
         if (callbacks.checkpoint)
             callbacks.checkpoint(state);

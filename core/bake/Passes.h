@@ -45,13 +45,16 @@ struct PassShard {
 struct PassSettings {
     int samples = 256;        // Stratified: a square; else a power of two
     int shOrder = 0;          // 0: ambient visibility; 1…8: transfer coefficients
-    bool unshadowed = false;  // transfer of open surfaces, in closed form: no ray is cast
+    bool unshadowed = false;  // transfer of open surfaces: by openPasses(), without a ray
     float maxDistance = 0.0f; // scene units; 0: unlimited
     std::uint32_t seed = 0;
     SampleMethod method = SampleMethod::Qmc; // Stratified makes one pass of all samples
     float tolerance = 0.0f; // RMS error of the points at which to end; 0: never before all samples
     int cluster = 0;        // points that share directions: 1…1024; 0: as fits the scene's size
     PassShard shard;
+    // Index of the first point among those of the whole bake, which decides its directions: where
+    // some are traced at a time, they see what they would see with the others.
+    std::uint32_t firstPoint = 0;
     [[nodiscard]] int stride() const { return shOrder == 0 ? 1 : shOrder * shOrder; }
 };
 
@@ -97,6 +100,12 @@ Result<PassState> runPasses(const RayScene& scene, std::span<const BakePoint> po
                             std::span<const PointRange> ranges, const PassSettings& settings,
                             const PassCallbacks& callbacks, const JobContext& job,
                             PassState state = {});
+
+// The transfer of surfaces that nothing shades (PassSettings::unshadowed), in closed form.
+// Errors: Cancelled.
+Result<PassState> openPasses(std::span<const BakePoint> points, std::span<const PointRange> ranges,
+                             const PassSettings& settings, const PassCallbacks& callbacks,
+                             const JobContext& job);
 
 // Errors (Usage) unless 1 <= samples <= 65536; rounds up to a power of two, for Stratified to a
 // square.

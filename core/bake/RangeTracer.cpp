@@ -39,7 +39,7 @@ void sortBySeed(std::vector<RangeElement>& elements) {
 } // namespace
 
 void orderRange(std::span<const BakePoint> points, const PointRange& range, int cluster,
-                std::uint32_t seed, std::vector<RangeElement>& order) {
+                std::uint32_t seed, std::vector<RangeElement>& order, std::uint32_t firstPoint) {
     const std::span<const BakePoint> own = points.subspan(range.first, range.count);
     glm::vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
     for (const BakePoint& point : own) {
@@ -56,7 +56,8 @@ void orderRange(std::span<const BakePoint> points, const PointRange& range, int 
     sortBySeed(order); // still the place on the curve
     const auto size = static_cast<std::size_t>(cluster);
     for (std::size_t i = 0; i < order.size(); ++i)
-        order[i].seed = i % size == 0 ? seedFor(seed, order[i].point) : order[i - 1].seed;
+        order[i].seed =
+            i % size == 0 ? seedFor(seed, firstPoint + order[i].point) : order[i - 1].seed;
 }
 
 RangeTracer::RangeTracer(const RayScene& scene, std::span<const BakePoint> points,

@@ -17,9 +17,10 @@ struct RangeElement {
 };
 
 // The points of a range along a Z-curve, so that neighbours follow each other; `cluster` of them
-// share a seed. Depends on the points of the range alone.
+// share a seed. Depends on the points of the range alone, and on the index of the first of `points`
+// among those of the whole bake.
 void orderRange(std::span<const BakePoint> points, const PointRange& range, int cluster,
-                std::uint32_t seed, std::vector<RangeElement>& order);
+                std::uint32_t seed, std::vector<RangeElement>& order, std::uint32_t firstPoint = 0);
 
 // Means over a batch of rays, for some elements.
 struct RangeMeans {

@@ -4,20 +4,13 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace patina {
 namespace {
 
 constexpr int kMaxSide = 8192;
 constexpr std::size_t kTexelsPerRange = 64;
-
-std::vector<Id> materialsInOrder(const BakeGeometry& geometry) {
-    std::vector<Id> materials;
-    for (const BakeGeometryMesh& mesh : geometry.meshes)
-        if (std::find(materials.begin(), materials.end(), mesh.material) == materials.end())
-            materials.push_back(mesh.material);
-    return materials;
-}
 
 // Appends the mean over the points of texel `t`; `values` begin with the material's point `first`.
 void appendTexel(const TexelPoints& texels, std::size_t t, std::size_t stride,
@@ -61,7 +54,21 @@ const MaterialTexels& TexelLayout::partOf(std::size_t point) const {
              1);
 }
 
+std::vector<Id> materialsInOrder(const BakeGeometry& geometry) {
+    std::vector<Id> materials;
+    std::set<Id> seen;
+    for (const BakeGeometryMesh& mesh : geometry.meshes)
+        if (seen.insert(mesh.material).second)
+            materials.push_back(mesh.material);
+    return materials;
+}
+
 Result<TexelLayout> texelLayout(const BakeGeometry& geometry, int size, const JobContext& job) {
+    return texelLayout(geometry, materialsInOrder(geometry), size, job);
+}
+
+Result<TexelLayout> texelLayout(const BakeGeometry& geometry, std::span<const Id> materials,
+                                int size, const JobContext& job) {
     if (size < 1 || size > kMaxSide)
         return Error{
             ErrorKind::Usage,
@@ -79,7 +86,7 @@ Result<TexelLayout> texelLayout(const BakeGeometry& geometry, int size, const Jo
                 {}};
     TexelLayout layout;
     layout.size = size;
-    for (const Id material : materialsInOrder(geometry)) {
+    for (const Id material : materials) {
         MaterialTexels part{material, texelPoints(geometry, material, size, job),
                             layout.points.size()};
         if (job.cancelled())
@@ -142,6 +149,17 @@ std::vector<float> texelTexture(const TexelLayout& layout, const MaterialTexels&
     }
     fillGutters(texture, std::move(known), layout.size, fallback);
     return texture;
+}
+
+ImagePtr occlusionTexture(const TexelLayout& layout, const MaterialTexels& part,
+                          std::span<const float> values) {
+    constexpr float kOpen[] = {1.0f};
+    const std::vector<float> texels = texelTexture(layout, part, values, kOpen);
+    auto image =
+        std::make_shared<Image>(layout.size, layout.size, 1, PixelType::F32, ColorEncoding::Data);
+    std::transform(texels.begin(), texels.end(), image->f32().begin(),
+                   [](float v) { return std::clamp(v, 0.0f, 1.0f); }); // means of ones may round up
+    return image;
 }
 
 std::vector<TexelBake> finishTexelTransfer(const TexelLayout& layout, const PassSettings& settings,

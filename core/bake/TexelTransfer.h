@@ -32,6 +32,13 @@ struct TexelLayout {
 // Errors: Usage unless 1 <= size <= 8192; InputBroken for a mesh without texture coordinates;
 // Cancelled.
 Result<TexelLayout> texelLayout(const BakeGeometry& geometry, int size, const JobContext& job);
+// The same of some materials alone.
+Result<TexelLayout> texelLayout(const BakeGeometry& geometry, std::span<const Id> materials,
+                                int size, const JobContext& job);
+[[nodiscard]] std::vector<Id> materialsInOrder(const BakeGeometry& geometry); // of the meshes
+// A texture of ambient visibility with gutters filled: 1 channel, F32 Data.
+[[nodiscard]] ImagePtr occlusionTexture(const TexelLayout& layout, const MaterialTexels& part,
+                                        std::span<const float> values);
 
 // What the texels of a range show: `values` are those of its points, `stride` floats each. Calls
 // row(x, y, width, values) for runs of neighbours in one row.

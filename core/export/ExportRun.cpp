@@ -1,4 +1,5 @@
 #include "core/base/AtomicFile.h"
+#include "core/base/DiskSpace.h"
 #include "core/base/OwnFile.h"
 #include "core/export/Export.h"
 #include "core/export/ExportContents.h"
@@ -6,6 +7,7 @@
 #include "core/export/GltfWriter.h"
 #include "core/job/Parallel.h"
 
+#include <algorithm>
 #include <atomic>
 #include <fmt/format.h>
 #include <optional>
@@ -152,6 +154,13 @@ Result<std::vector<fs::path>> runExport(WorkerClient& worker, const Document& do
         files.push_back({contents.buffer, std::move(gltf->buffer)});
         files.push_back({settings.output, bytesOf(gltf->json)});
     }
+    std::uint64_t bytes = 0, largest = 0;
+    for (const FileToWrite& file : files) {
+        bytes += file.data.size();
+        largest = std::max<std::uint64_t>(largest, file.data.size());
+    }
+    if (Result<void> fits = checkDiskSpace(settings.output, bytes, largest); !fits)
+        return fits.error();
     Result<std::vector<fs::path>> written = writeAll(std::move(files), settings.output, job);
     if (written)
         job.setProgress(1.0);

@@ -1,10 +1,14 @@
 #include "app/editor/job/BakeRunner.h"
 
 #include "app/editor/document/DocumentController.h"
+#include "app/editor/document/UserNotice.h"
 #include "app/editor/job/LivePreview.h"
+#include "core/bake/BakeFileSize.h"
 #include "core/bake/BakeMemory.h"
+#include "core/bake/BakeStaleness.h"
 #include "core/bake/ResumableTracer.h"
 #include "core/base/Log.h"
+#include "core/document/Edit.h"
 #include "core/material/Parameters.h"
 
 #include <QFile>
@@ -26,9 +30,34 @@ std::filesystem::path bakeFolder() {
 }
 
 QString summaryOf(const BakeArtifact& artifact) {
-    return BakeRunner::tr("%1 rays per %2")
-        .arg(artifact.samplesDone)
-        .arg(isPerTexel(artifact.kind) ? BakeRunner::tr("texel") : BakeRunner::tr("vertex"));
+    const QString element =
+        isPerTexel(artifact.kind) ? BakeRunner::tr("texel") : BakeRunner::tr("vertex");
+    if (const std::optional<StoppedBake> stopped = stoppedEarly(artifact))
+        return BakeRunner::tr("%1 of %2 rays per %3")
+            .arg(stopped->done)
+            .arg(stopped->asked)
+            .arg(element);
+    return BakeRunner::tr("%1 rays per %2").arg(artifact.samplesDone).arg(element);
+}
+
+// A bake that was stopped does not take the place of one of the same scene that holds more.
+bool holdsMore(const BakeArtifact& attached, const BakeArtifact& stopped) {
+    return attached.inputs == stopped.inputs && attached.samplesDone > stopped.samplesDone &&
+           attached.order >= stopped.order && attached.transfer >= stopped.transfer;
+}
+
+void attach(DocumentController& controller, const BakeArtifactPtr& artifact) {
+    const BakeArtifactPtr attached = findBake(controller.document(), artifact->kind);
+    if (!attached || !stoppedEarly(*artifact) || !holdsMore(*attached, *artifact)) {
+        controller.attachBake(artifact);
+        return;
+    }
+    UserNotice notice;
+    notice.text =
+        BakeRunner::tr("The bake stopped at %1. The attached one has more (%2) and stays; "
+                       "the Bake dock can resume the other.")
+            .arg(summaryOf(*artifact), summaryOf(*attached));
+    Q_EMIT controller.noticed(notice);
 }
 
 // Of a checkpoint that cannot be written; from the job's thread.
@@ -72,6 +101,12 @@ Result<BakeArtifact> bakeResumably(const BakeRequest& request, const BakeInputs&
 
 } // namespace
 
+Result<void> checkBake(const BakeRequest& request, const BakeInputs& inputs) {
+    if (Result<void> fits = checkBakeFile(request, inputs); !fits)
+        return fits;
+    return checkBakeMemory(request, inputs, availableMemory());
+}
+
 QString bakeTitle(BakeKind kind) {
     switch (kind) {
     case BakeKind::AoTexel:
@@ -99,7 +134,10 @@ BakeRunner::BakeRunner(DocumentController& controller, JobManager& jobs, QObject
     connect(&m_viewTimer, &QTimer::timeout, this, &BakeRunner::passView);
     m_settled.setInterval(kSettleMs);
     m_settled.setSingleShot(true);
-    connect(&m_settled, &QTimer::timeout, this, &BakeRunner::stateChanged);
+    connect(&m_settled, &QTimer::timeout, this, [this] {
+        showPreviews();
+        Q_EMIT stateChanged();
+    });
 }
 
 BakeRunner::~BakeRunner() {
@@ -115,9 +153,7 @@ void BakeRunner::interrupt() {
 }
 
 void BakeRunner::start(const BakeRequest& request, JobPriority priority) {
-    const Result<void> fits =
-        checkBakeMemory(request, bakeInputs(m_controller.document()), availableMemory());
-    if (!fits) {
+    if (const Result<void> fits = checkBake(request, bakeInputs(m_controller.document())); !fits) {
         Q_EMIT m_controller.noticed(UserNotice::fromError(fits.error()));
         return;
     }
@@ -139,7 +175,7 @@ Result<JobManager::Work> BakeRunner::prepare(const std::shared_ptr<quint64>& id,
     const BakeRequest& request = wanted.request;
     auto inputs = std::make_shared<const BakeInputs>(bakeInputs(m_controller.document()));
     // Asked again: others may have taken it since the job was queued.
-    if (const Result<void> fits = checkBakeMemory(request, *inputs, availableMemory()); !fits)
+    if (const Result<void> fits = checkBake(request, *inputs); !fits)
         return fits.error();
 
     // Transfer is only visible in PRT lighting.
@@ -148,14 +184,15 @@ Result<JobManager::Work> BakeRunner::prepare(const std::shared_ptr<quint64>& id,
                                   static_cast<int>(LightingMode::Prt));
 
     auto preview = std::make_shared<LivePreview>(request.kind);
+    preview->setShown(showsMore(*preview));
     // By the time this runs, enqueue() has returned and the id is known.
     QMetaObject::invokeMethod(
         this,
         [this, id, preview] {
             if (const auto bake = m_bakes.find(*id); bake != m_bakes.end())
                 bake->second.preview = preview;
-            passView();
             jobsChanged();
+            passView();
         },
         Qt::QueuedConnection);
 
@@ -163,22 +200,24 @@ Result<JobManager::Work> BakeRunner::prepare(const std::shared_ptr<quint64>& id,
     return JobManager::Work([controller = &m_controller, cache = m_cache, folder = m_folder, inputs,
                              preview, request,
                              resumable = wanted.resumable](const JobContext& job) -> JobOutcome {
-        const auto attach = [controller](BakeArtifact artifact, const QString& summary) {
+        const auto done = [controller](BakeArtifact artifact, const QString& summary) {
             auto shared = std::make_shared<const BakeArtifact>(std::move(artifact));
             return JobOutcome{std::nullopt, summary,
-                              [controller, shared] { controller->attachBake(shared); }};
+                              [controller, shared] { attach(*controller, shared); }};
         };
         const Hash key = BakeCache::key(request, *inputs);
         if (std::optional<BakeArtifact> kept = cache.find(key, *inputs)) {
             const QString summary =
                 BakeRunner::tr("%1, kept from an earlier bake").arg(summaryOf(*kept));
-            return attach(std::move(*kept), summary);
+            return done(std::move(*kept), summary);
         }
         preview->begin(*inputs, request.prt.order, request.ao.size);
         Result<BakeArtifact> result =
             bakeResumably(request, *inputs, *preview, checkpointFile(folder, key), job,
                           [controller](const Error& error) { warn(*controller, error); });
-        if (!job.cancelled() || !*resumable) {
+        // What was stopped can be resumed, and so can what a quit interrupts.
+        const bool stopped = result && stoppedEarly(*result);
+        if (job.cancelled() ? !*resumable : !stopped) {
             std::error_code gone;
             std::filesystem::remove(checkpointFile(folder, key), gone);
         }
@@ -191,11 +230,11 @@ Result<JobManager::Work> BakeRunner::prepare(const std::shared_ptr<quint64>& id,
                            : QString(),
                     {}};
         }
-        if (!job.stopping())
+        if (!stopped)
             if (const Result<void> stored = cache.store(key, *inputs, *result); !stored)
                 logWarning("The bake is not kept for the next time: {}", stored.error().text());
         const QString summary = summaryOf(*result);
-        return attach(std::move(result).value(), summary);
+        return done(std::move(result).value(), summary);
     });
 }
 
@@ -225,10 +264,29 @@ void BakeRunner::documentChanged(const Change& change) {
     const bool material = change.target && change.target->scope == Scope::Material;
     if (bakes || material)
         m_inputsValid = m_albedoValid = m_interruptedValid = false;
-    if (bakes)
+    if (bakes) {
+        showPreviews();
         Q_EMIT stateChanged();
-    else if (material)
+    } else if (material) {
         m_settled.start();
+    }
+}
+
+// A finished bake of this scene shows more than one that runs: all its rays, fitted to the surface,
+// and its bounces. One of another scene is wrong, but its bounces are not given up for a picture
+// without any, nor its shadows before there are others everywhere.
+bool BakeRunner::showsMore(const LivePreview& preview) {
+    const BakeArtifactPtr attached = findBake(m_controller.document(), preview.kind());
+    if (!attached)
+        return true;
+    return attached->inputs != currentInputs() && attached->bounces == 0 &&
+           preview.samplesDone() > 0;
+}
+
+void BakeRunner::showPreviews() {
+    for (const auto& [id, bake] : m_bakes)
+        if (bake.preview)
+            bake.preview->setShown(showsMore(*bake.preview));
 }
 
 void BakeRunner::jobsChanged() {
@@ -245,6 +303,7 @@ void BakeRunner::jobsChanged() {
         if (bake.preview && runs)
             break;
     }
+    showPreviews();
     m_jobs.setPreview(shown);
     if (m_bakes.empty())
         m_viewTimer.stop();
@@ -260,6 +319,8 @@ void BakeRunner::passView() {
     for (const auto& [id, bake] : m_bakes)
         if (bake.preview)
             bake.preview->setView(view);
+    if (m_inputsValid) // or it waits until edits pause
+        showPreviews();
 }
 
 std::vector<quint64> BakeRunner::jobIds() const {

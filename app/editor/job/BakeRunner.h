@@ -1,5 +1,5 @@
-// Bakes of the controller's document as jobs that take turns: shown live, kept in a cache, attached
-// when they are done.
+// Bakes of the controller's document as jobs that take turns: shown live where no finished bake
+// shows more, kept in a cache, attached when they are done.
 #pragma once
 
 #include "app/editor/job/InterruptedBakes.h"
@@ -22,6 +22,9 @@ namespace patina::editor {
 class DocumentController;
 
 [[nodiscard]] QString bakeTitle(BakeKind kind); // "Radiance transfer (PRT, per vertex)"
+// Errors (Usage): the bake does not fit into memory now, or not into the file that the project
+// keeps it in; the message says what would.
+Result<void> checkBake(const BakeRequest& request, const BakeInputs& inputs);
 
 class BakeRunner : public QObject {
     Q_OBJECT
@@ -60,6 +63,9 @@ class BakeRunner : public QObject {
     void documentChanged(const Change& change);
     void jobsChanged();
     void passView();
+    // Decides which running bakes belong into the picture.
+    void showPreviews();
+    [[nodiscard]] bool showsMore(const LivePreview& preview);
 
     DocumentController& m_controller;
     JobManager& m_jobs;

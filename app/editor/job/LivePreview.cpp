@@ -139,6 +139,12 @@ bool LivePreview::collect(const VertexSink& vertices, const TexelSink& texels) {
     return any;
 }
 
+void LivePreview::setShown(bool shown) {
+    if (shown && !m_shown)
+        markAllChanged();
+    m_shown = shown;
+}
+
 void LivePreview::markAllChanged() {
     const std::lock_guard lock(m_mutex);
     for (auto& [mesh, surface] : m_vertices)

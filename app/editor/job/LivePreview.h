@@ -34,6 +34,10 @@ class LivePreview : public TileSink {
     [[nodiscard]] bool changed() const;    // collect() would hand something over
     void setView(const BakeView& view);    // what is seen comes first, from the next pass on
 
+    // Whether it belongs into the picture; not while a finished bake shows more. The UI thread's.
+    [[nodiscard]] bool shown() const { return m_shown; }
+    void setShown(bool shown);
+
     // Of an interreflected bake that keeps them, when it is done; null before.
     [[nodiscard]] std::shared_ptr<const HitSource> bounceHits() const;
 
@@ -51,6 +55,7 @@ class LivePreview : public TileSink {
         bool changed = true;
     };
     BakeKind m_kind;
+    bool m_shown = true;
     mutable std::mutex m_mutex; // guards what follows
     std::map<Id, Surface> m_vertices, m_texels;
     int m_textureSize = 0, m_samplesDone = 0;

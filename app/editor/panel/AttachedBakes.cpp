@@ -8,6 +8,7 @@
 #include "core/document/AbsentBake.h"
 
 #include <QColor>
+#include <QCoreApplication>
 #include <QFile>
 #include <QFileInfo>
 #include <QHBoxLayout>
@@ -15,6 +16,8 @@
 #include <QLocale>
 #include <QStringList>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <optional>
 #include <vector>
 
 namespace patina::editor {
@@ -37,25 +40,55 @@ QString whatChanged(const BakeStaleness& staleness) {
         parts << AttachedBakes::tr("geometry");
     if (staleness.albedo)
         parts << AttachedBakes::tr("albedo");
-    if (staleness.settings)
-        parts << AttachedBakes::tr("settings");
     return parts.join(QStringLiteral(", "));
+}
+
+BakeRequest madeWith(const BakeArtifact& bake) {
+    return requestFromText(bake.kind, bake.settings);
+}
+
+// "1,024 rays, 3 bounces"
+QString holdsText(const BakeArtifact& bake) {
+    QString text = AttachedBakes::tr("%1 rays").arg(QLocale().toString(bake.samplesDone));
+    if (bake.bounces > 0)
+        text += bake.bounces == 1 ? AttachedBakes::tr(", 1 bounce")
+                                  : AttachedBakes::tr(", %1 bounces").arg(bake.bounces);
+    return text;
+}
+
+// "Form differs: Rays 16384 (this bake: 1024)"; empty: it does not.
+QString differenceText(const BakeArtifact& bake, const BakeRequest& wanted) {
+    QStringList parts;
+    for (const SettingDifference& difference : settingDifferences(bake, wanted))
+        parts << AttachedBakes::tr("%1 %2 (this bake: %3)")
+                     .arg(QCoreApplication::translate("BakeOptions", difference.label.c_str()),
+                          QString::fromStdString(difference.wanted),
+                          QString::fromStdString(difference.baked));
+    return parts.isEmpty()
+               ? QString()
+               : AttachedBakes::tr("Form differs: %1").arg(parts.join(QStringLiteral(", ")));
 }
 
 } // namespace
 
 AttachedBakes::AttachedBakes(DocumentController& controller, BakeRunner& runner,
-                             std::function<BakeRequest(BakeKind)> wanted, QWidget* parent)
+                             std::function<BakeRequest(BakeKind)> wanted,
+                             std::function<void(const BakeRequest&)> resume, QWidget* parent)
     : QWidget(parent)
     , m_controller(controller)
     , m_runner(runner)
     , m_wanted(std::move(wanted))
+    , m_resume(std::move(resume))
     , m_rows(new QVBoxLayout(this)) {
     m_rows->setContentsMargins(0, 0, 0, 0);
 }
 
-BakeRequest AttachedBakes::again(const BakeArtifact& bake, const BakeStaleness& why) const {
-    return why.settings ? m_wanted(bake.kind) : requestFromText(bake.kind, bake.settings);
+bool AttachedBakes::offers(const BakeRequest& request) const {
+    const auto settings = settingsText(normalized(request));
+    return std::ranges::any_of(m_controller.document().bakes, [&](const BakeArtifactPtr& bake) {
+        return bake->kind == request.kind && stoppedEarly(*bake) &&
+               settingsText(normalized(madeWith(*bake))) == settings;
+    });
 }
 
 void AttachedBakes::refresh() {
@@ -74,12 +107,11 @@ void AttachedBakes::refresh() {
             addAbsentRow(*bake);
             continue;
         }
-        const BakeRequest wanted = m_wanted(bake->kind);
         const Hash albedo = bake->albedo == Hash{} ? Hash{} : m_runner.currentAlbedo();
         const BakeStaleness staleness =
-            bakeStaleness(*bake, document, m_runner.currentInputs(), albedo, &wanted);
+            bakeStaleness(*bake, document, m_runner.currentInputs(), albedo);
         if (staleness.stale())
-            stale.push_back(again(*bake, staleness));
+            stale.push_back(madeWith(*bake));
         addRow(*bake, staleness);
     }
     if (stale.size() > 1) {
@@ -97,8 +129,12 @@ void AttachedBakes::refresh() {
 
 void AttachedBakes::addRow(const BakeArtifact& bake, const BakeStaleness& staleness) {
     const bool stale = staleness.stale();
-    QString status = stale ? tr("Stale: %1").arg(whatChanged(staleness))
-                           : tr("Up to date, %1 rays").arg(QLocale().toString(bake.samplesDone));
+    const std::optional<StoppedBake> stopped = stoppedEarly(bake);
+    QString status =
+        stale     ? tr("Stale: %1").arg(whatChanged(staleness))
+        : stopped ? tr("Stopped at %1 of %2 rays")
+                        .arg(QLocale().toString(stopped->done), QLocale().toString(stopped->asked))
+                  : tr("Up to date, %1").arg(holdsText(bake));
     QStringList reasons;
     for (const std::string& reason : staleness.reasons)
         reasons << QString::fromStdString(reason).toHtmlEscaped();
@@ -108,7 +144,9 @@ void AttachedBakes::addRow(const BakeArtifact& bake, const BakeStaleness& stalen
         return QStringLiteral("<br><span style='color:%1'>%2</span>").arg(color.name(), html);
     };
     QString html = bakeTitle(bake.kind).toHtmlEscaped() +
-                   colored(status, stale ? tokens::kCopper : tokens::kTextDim);
+                   colored(status, stale || stopped ? tokens::kCopper : tokens::kTextDim);
+    if (const QString differs = differenceText(bake, m_wanted(bake.kind)); !differs.isEmpty())
+        html += colored(differs.toHtmlEscaped(), tokens::kTextDim);
     // What the user should know of this bake, such as overlapping texture coordinates.
     if (const auto note = bake.settings.find("note"); note != bake.settings.end())
         html += colored(QString::fromStdString(note->second).toHtmlEscaped(), tokens::kTextDim);
@@ -124,14 +162,20 @@ void AttachedBakes::addRow(const BakeArtifact& bake, const BakeStaleness& stalen
     auto* buttons = new QHBoxLayout;
     buttons->addStretch(1);
     if (stale) {
-        const QString help = staleness.settings
-                                 ? tr("Bakes again with the settings above")
-                                 : tr("Bakes again with the settings this bake was made with");
-        QPushButton* rebake = makeTextButton(tr("Re-bake"), help);
+        QPushButton* rebake = makeTextButton(
+            tr("Re-bake"), tr("Bakes again with the settings this bake was made with"));
         rebake->setObjectName(QStringLiteral("rebake"));
         connect(rebake, &QPushButton::clicked, this,
-                [this, request = again(bake, staleness)] { m_runner.start(request); });
+                [this, request = madeWith(bake)] { m_runner.start(request); });
         buttons->addWidget(rebake);
+    } else if (stopped) {
+        QPushButton* resume = makeTextButton(
+            tr("Continue"), tr("Casts the remaining rays; the picture keeps this bake meanwhile"));
+        resume->setObjectName(QStringLiteral("bakeContinue"));
+        resume->setEnabled(!m_runner.running());
+        connect(resume, &QPushButton::clicked, this,
+                [this, request = madeWith(bake)] { m_resume(request); });
+        buttons->addWidget(resume);
     }
     buttons->addWidget(removeButton(bake.kind));
     layout->addLayout(buttons);

@@ -1,5 +1,5 @@
-// The bakes that are attached to the scene: whether each is up to date, and if not, why; baking
-// again what is stale, all at once or one by one.
+// The bakes that are attached to the scene: what each holds, whether it is up to date, and if not,
+// why; baking again what is stale, all at once or one by one; going on with what was stopped.
 #pragma once
 
 #include "core/bake/BakeStaleness.h"
@@ -18,21 +18,25 @@ class DocumentController;
 class AttachedBakes : public QWidget {
     Q_OBJECT
   public:
-    // `wanted`: what would be asked for of a kind; a bake with other settings is stale.
+    // `wanted`: what the form asks for of a kind; a bake with other settings says so. `resume` goes
+    // on with a bake that was stopped.
     AttachedBakes(DocumentController& controller, BakeRunner& runner,
-                  std::function<BakeRequest(BakeKind)> wanted, QWidget* parent = nullptr);
+                  std::function<BakeRequest(BakeKind)> wanted,
+                  std::function<void(const BakeRequest&)> resume, QWidget* parent = nullptr);
 
     void refresh();
+    // Whether a row offers to go on with this bake.
+    [[nodiscard]] bool offers(const BakeRequest& request) const;
 
   private:
     void addRow(const BakeArtifact& bake, const BakeStaleness& staleness);
     void addAbsentRow(const BakeArtifact& bake);
     QPushButton* removeButton(BakeKind kind);
-    [[nodiscard]] BakeRequest again(const BakeArtifact& bake, const BakeStaleness& why) const;
 
     DocumentController& m_controller;
     BakeRunner& m_runner;
     std::function<BakeRequest(BakeKind)> m_wanted;
+    std::function<void(const BakeRequest&)> m_resume;
     QVBoxLayout* m_rows;
 };
 

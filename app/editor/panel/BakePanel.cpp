@@ -10,6 +10,7 @@
 #include "app/editor/widget/Section.h"
 #include "app/editor/widget/TextButton.h"
 #include "core/bake/BakeMemory.h"
+#include "core/bake/BakeStaleness.h"
 #include "core/document/AbsentBake.h"
 #include "core/document/Edit.h"
 #include "core/material/Parameters.h"
@@ -23,6 +24,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace patina::editor {
 namespace {
@@ -100,8 +102,9 @@ BakePanel::BakePanel(DocumentController& controller, JobManager& jobs, QWidget* 
 
     auto* attached = new Section(tr("Attached bakes"));
     layout->addWidget(attached);
-    m_attached = new AttachedBakes(controller, m_runner,
-                                   [this](BakeKind kind) { return m_form->requestFor(kind); });
+    m_attached = new AttachedBakes(
+        controller, m_runner, [this](BakeKind kind) { return m_form->requestFor(kind); },
+        [this](const BakeRequest& request) { resume(request); });
     attached->add(m_attached);
 
     auto* lighting = new Section(tr("Lighting"));
@@ -118,6 +121,8 @@ BakePanel::BakePanel(DocumentController& controller, JobManager& jobs, QWidget* 
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
         if (change.affects == Affects::Everything)
             takeSettings();
+        else if (touches(change.affects, Affects::Bakes))
+            followBakes();
         refreshLighting();
     });
     m_poll.setInterval(kPollMs);
@@ -160,9 +165,24 @@ QWidget* BakePanel::makeLighting() {
 }
 
 void BakePanel::takeSettings() {
-    for (const BakeArtifactPtr& bake : m_controller.document().bakes)
+    m_followed.clear();
+    for (const BakeArtifactPtr& bake : m_controller.document().bakes) {
+        m_followed[bake->kind] = bake;
         if (!isAbsent(*bake))
             m_form->setRequest(requestFromText(bake->kind, bake->settings));
+    }
+}
+
+void BakePanel::followBakes() {
+    for (const BakeArtifactPtr& bake : m_controller.document().bakes)
+        if (std::exchange(m_followed[bake->kind], bake) != bake && !isAbsent(*bake))
+            m_form->follow(requestFromText(bake->kind, bake->settings));
+}
+
+void BakePanel::resume(const BakeRequest& request) {
+    m_form->setRequest(request);
+    m_form->showKind(request.kind);
+    m_runner.start(request);
 }
 
 void BakePanel::refreshCost() {
@@ -170,7 +190,7 @@ void BakePanel::refreshCost() {
     const BakeInputs inputs = bakeInputs(m_controller.document());
     const BakeEstimate cost = estimateBake(request, inputs);
     const std::uint64_t available = availableMemory();
-    const Result<void> fits = checkBakeMemory(request, inputs, available);
+    const Result<void> fits = checkBake(request, inputs);
     m_start->setEnabled(m_controller.document().triangleCount() > 0 && fits.ok());
     if (!fits) {
         m_cost->setText(QStringLiteral("<span style='color:%1'>%2</span>")
@@ -239,6 +259,8 @@ void BakePanel::refreshInterrupted() {
     if (m_runner.running())
         return; // the checkpoint may be the one that is being written
     for (const InterruptedBake& bake : m_runner.interrupted()) {
+        if (m_attached->offers(bake.request))
+            continue;
         auto* row = new QWidget;
         auto* layout = new QVBoxLayout(row);
         layout->setContentsMargins(0, tokens::kGap / 2, 0, 0);
@@ -255,14 +277,14 @@ void BakePanel::refreshInterrupted() {
         layout->addWidget(text);
         auto* buttons = new QHBoxLayout;
         buttons->addStretch(1);
-        QPushButton* resume = makeTextButton(tr("Resume"), tr("Goes on from its last checkpoint"));
-        resume->setObjectName(QStringLiteral("bakeResume"));
-        QPushButton* discard = makeTextButton(tr("Discard"), tr("Forgets what it had come to"));
+        QPushButton* goOn = makeTextButton(tr("Resume"), tr("Goes on from its last checkpoint"));
+        goOn->setObjectName(QStringLiteral("bakeResume"));
+        QPushButton* discard = makeTextButton(tr("Discard"), tr("Deletes the saved progress"));
         discard->setObjectName(QStringLiteral("bakeDiscard"));
-        connect(resume, &QPushButton::clicked, this,
-                [this, request = bake.request] { m_runner.start(request); });
+        connect(goOn, &QPushButton::clicked, this,
+                [this, request = bake.request] { resume(request); });
         connect(discard, &QPushButton::clicked, this, [this, bake] { m_runner.discard(bake); });
-        buttons->addWidget(resume);
+        buttons->addWidget(goOn);
         buttons->addWidget(discard);
         layout->addLayout(buttons);
         m_interrupted->addWidget(row);

@@ -37,6 +37,8 @@ class BakePanel : public QWidget {
     void pollQueue();
     void refreshLighting();
     void takeSettings(); // of the bakes that came with another document
+    void followBakes();  // that were attached since
+    void resume(const BakeRequest& request);
 
     DocumentController& m_controller;
     JobManager& m_jobs;
@@ -52,6 +54,7 @@ class BakePanel : public QWidget {
     QPushButton* m_ibl = nullptr;
     QPushButton* m_prt = nullptr;
     std::map<quint64, JobRow*> m_rows;
+    std::map<BakeKind, BakeArtifactPtr> m_followed; // whose settings the form took over last
 };
 
 } // namespace patina::editor

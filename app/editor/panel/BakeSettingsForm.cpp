@@ -117,15 +117,32 @@ BakeRequest BakeSettingsForm::requestFor(BakeKind kind) const {
 }
 
 void BakeSettingsForm::setRequest(const BakeRequest& request) {
-    m_requests[request.kind] = request;
+    BakeRequest& mine = m_requests[request.kind];
+    const BakeRequest before = mine;
+    mine = request;
+    for (const BakeOption& option : bakeOptions())
+        if (!option.shapesResult)
+            option.set(mine, option.get(before));
+    m_edited.erase(request.kind);
     if (request.kind == kind())
         refresh();
+}
+
+void BakeSettingsForm::follow(const BakeRequest& request) {
+    if (!m_edited.contains(request.kind) ||
+        settingsText(normalized(m_requests[request.kind])) == settingsText(normalized(request)))
+        setRequest(request);
+}
+
+void BakeSettingsForm::showKind(BakeKind kind) {
+    m_kind->setCurrentIndex(m_kind->findData(static_cast<int>(kind)));
 }
 
 void BakeSettingsForm::edit(const BakeOption& option, double value) {
     if (m_refreshing)
         return;
     option.set(m_requests[kind()], value);
+    m_edited.insert(kind());
     refresh(); // which settings apply may have changed
 }
 

@@ -6,6 +6,7 @@
 
 #include <QWidget>
 #include <map>
+#include <set>
 #include <vector>
 
 class QComboBox;
@@ -21,7 +22,12 @@ class BakeSettingsForm : public QWidget {
     [[nodiscard]] BakeRequest request() const { return requestFor(kind()); }
     // What the form would ask for if it showed that kind.
     [[nodiscard]] BakeRequest requestFor(BakeKind kind) const;
-    void setRequest(const BakeRequest& request); // of its kind; shown when that is the one shown
+    // What the request says of its kind. What it does not say, because it does not shape the
+    // result, stays as it is.
+    void setRequest(const BakeRequest& request);
+    // The same, unless the user has changed something since.
+    void follow(const BakeRequest& request);
+    void showKind(BakeKind kind);
 
   Q_SIGNALS:
     void changed();
@@ -42,6 +48,7 @@ class BakeSettingsForm : public QWidget {
     QComboBox* m_kind;
     std::vector<Row> m_rows;
     std::map<BakeKind, BakeRequest> m_requests;
+    std::set<BakeKind> m_edited; // since setRequest()
     bool m_refreshing = false;
 };
 

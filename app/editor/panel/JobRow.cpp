@@ -1,6 +1,5 @@
 #include "app/editor/panel/JobRow.h"
 
-#include "app/editor/job/JobManager.h"
 #include "app/editor/panel/JobTexts.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/TextButton.h"
@@ -8,6 +7,7 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QMessageBox>
 #include <QProgressBar>
 #include <QVBoxLayout>
 
@@ -20,12 +20,19 @@ QPushButton* makeButton(const QString& text, const QString& help, const QString&
     return button;
 }
 
+constexpr double kMuchSeconds = 60.0;
+
 } // namespace
+
+bool cancelLosesMuch(const JobRecord& record) {
+    return !record.ended() && record.begun && record.canStop &&
+           record.progress.secondsSoFar > kMuchSeconds;
+}
 
 JobRow::JobRow(JobManager& jobs, const JobRecord& record, const QString& names, QWidget* parent)
     : QWidget(parent)
     , m_jobs(jobs)
-    , m_id(record.id) {
+    , m_record(record) {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, tokens::kGap);
     layout->setSpacing(tokens::kGap / 2);
@@ -65,35 +72,64 @@ JobRow::JobRow(JobManager& jobs, const JobRecord& record, const QString& names, 
     layout->addWidget(m_text);
     layout->addLayout(buttons);
 
-    connect(m_stop, &QPushButton::clicked, this, [this] { m_jobs.stop(m_id); });
-    connect(m_cancel, &QPushButton::clicked, this, [this] { m_jobs.cancel(m_id); });
+    connect(m_stop, &QPushButton::clicked, this, [this] { m_jobs.stop(m_record.id); });
+    connect(m_cancel, &QPushButton::clicked, this, &JobRow::cancel);
     connect(m_pause, &QPushButton::clicked, this, [this] {
-        if (m_paused)
-            m_jobs.resume(m_id);
+        if (m_record.state == JobState::Paused)
+            m_jobs.resume(m_record.id);
         else
-            m_jobs.pause(m_id);
+            m_jobs.pause(m_record.id);
     });
     connect(m_priority, &QComboBox::activated, this, [this] {
-        m_jobs.setPriority(m_id, static_cast<JobPriority>(m_priority->currentData().toInt()));
+        m_jobs.setPriority(m_record.id,
+                           static_cast<JobPriority>(m_priority->currentData().toInt()));
     });
     show(record);
 }
 
 void JobRow::show(const JobRecord& record) {
+    m_record = record;
     const bool live = !record.ended();
+    if (!live && m_question)
+        m_question->close();
     m_bar->setVisible(live && record.begun);
     m_bar->setValue(static_cast<int>(record.progress.fraction * 1000.0));
     m_text->setText(stateText(record));
-    m_paused = record.state == JobState::Paused;
+    const bool paused = record.state == JobState::Paused;
     m_pause->setVisible(live && record.queued);
-    m_pause->setText(m_paused ? tr("Resume") : tr("Pause"));
-    m_pause->setToolTip(m_paused
-                            ? tr("Goes on when it is its turn")
-                            : tr("Rests where it is; the next in the queue goes on meanwhile"));
+    m_pause->setText(paused ? tr("Resume") : tr("Pause"));
+    m_pause->setToolTip(paused ? tr("Goes on when it is its turn")
+                               : tr("Rests where it is; the next in the queue goes on meanwhile"));
     m_stop->setVisible(live && record.canStop && record.begun);
     m_cancel->setVisible(live);
     m_priority->setVisible(live && record.queued);
     m_priority->setCurrentIndex(m_priority->findData(static_cast<int>(record.priority)));
+}
+
+void JobRow::cancel() {
+    if (!cancelLosesMuch(m_record)) {
+        m_jobs.cancel(m_record.id);
+        return;
+    }
+    if (m_question) {
+        m_question->raise();
+        return;
+    }
+    m_question = new QMessageBox(QMessageBox::Question, tr("Cancel Job"),
+                                 tr("Discard what %1 of work has computed?")
+                                     .arg(durationText(m_record.progress.secondsSoFar)),
+                                 QMessageBox::NoButton, this);
+    m_question->setObjectName(QStringLiteral("cancelQuestion"));
+    m_question->setInformativeText(
+        tr("“Stop and Keep” ends it now and keeps what has converged; it can be resumed later."));
+    QPushButton* stop = m_question->addButton(tr("&Stop and Keep"), QMessageBox::AcceptRole);
+    QPushButton* discard = m_question->addButton(tr("&Discard"), QMessageBox::DestructiveRole);
+    m_question->addButton(tr("&Keep Running"), QMessageBox::RejectRole);
+    m_question->setDefaultButton(stop);
+    m_question->setAttribute(Qt::WA_DeleteOnClose);
+    connect(stop, &QPushButton::clicked, this, [this] { m_jobs.stop(m_record.id); });
+    connect(discard, &QPushButton::clicked, this, [this] { m_jobs.cancel(m_record.id); });
+    m_question->open();
 }
 
 } // namespace patina::editor

@@ -1,17 +1,21 @@
 // One job in words and a bar, with what can be done about it: pause, priority, stop, cancel.
 #pragma once
 
+#include "app/editor/job/JobManager.h"
+
+#include <QPointer>
 #include <QWidget>
 
 class QComboBox;
 class QLabel;
+class QMessageBox;
 class QProgressBar;
 class QPushButton;
 
 namespace patina::editor {
 
-class JobManager;
-struct JobRecord;
+// Whether a cancel would lose more than a minute of work that a stop would keep.
+[[nodiscard]] bool cancelLosesMuch(const JobRecord& record);
 
 class JobRow : public QWidget {
     Q_OBJECT
@@ -23,9 +27,11 @@ class JobRow : public QWidget {
     void show(const JobRecord& record);
 
   private:
+    void cancel(); // asks first where much would be lost
+
     JobManager& m_jobs;
-    quint64 m_id;
-    bool m_paused = false;
+    JobRecord m_record; // that was shown last
+    QPointer<QMessageBox> m_question;
     QProgressBar* m_bar;
     QLabel* m_text;
     QComboBox* m_priority;

@@ -45,7 +45,8 @@ void PreviewFeed::restart() {
 
 void PreviewFeed::upload(render::Renderer& renderer) {
     const std::shared_ptr<LivePreview> preview = m_jobs ? m_jobs->preview() : nullptr;
-    if (m_pending && preview) {
+    const bool shown = preview && preview->shown();
+    if (m_pending && shown) {
         m_pending = false;
         m_shown |= preview->collect(
             [&renderer, kind = preview->kind()](Id mesh, int stride,
@@ -55,7 +56,7 @@ void PreviewFeed::upload(render::Renderer& renderer) {
             [&renderer](Id material, int size, std::span<const float> values) {
                 renderer.previewTexels(material, size, values);
             });
-    } else if (m_shown && !preview) {
+    } else if (m_shown && !shown) {
         renderer.clearPreview();
         m_shown = false;
     }
@@ -66,10 +67,16 @@ void PreviewFeed::poll() {
     const std::shared_ptr<LivePreview> preview = m_jobs->preview();
     if (!preview)
         return;
+    if (!preview->shown()) {
+        m_pending = true; // once it is
+        if (m_shown)
+            Q_EMIT changed();
+        return;
+    }
     if (m_handMoves && m_sinceShown.isValid() && m_sinceShown.elapsed() < kMovingMs)
         return;
     const bool part = m_sinceShown.isValid() && m_sinceShown.elapsed() > kPartMs;
-    if (preview->samplesDone() == m_samples && !(part && preview->changed()))
+    if (!m_pending && preview->samplesDone() == m_samples && !(part && preview->changed()))
         return;
     m_samples = preview->samplesDone();
     m_sinceShown.start();

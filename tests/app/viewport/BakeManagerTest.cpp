@@ -1,15 +1,21 @@
 // The Bake and Jobs docks, driven by real clicks: queue, pause, staleness, cache, interruption.
 #include "tests/app/editor/EditorFixture.h"
 
+#include "app/editor/document/Commands.h"
 #include "app/editor/job/InterruptedBakes.h"
+#include "app/editor/job/LivePreview.h"
 #include "app/editor/panel/BakePanel.h"
+#include "app/editor/panel/JobRow.h"
 #include "app/editor/panel/JobTexts.h"
+#include "app/editor/viewport/IblUpdater.h"
 #include "core/bake/BakeOptions.h"
+#include "core/bake/BakeStaleness.h"
 
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDir>
 #include <QLabel>
+#include <QMessageBox>
 #include <QPushButton>
 #include <QStandardPaths>
 
@@ -18,6 +24,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class BakeManagerTest : public EditorTest {
   protected:
@@ -149,10 +156,11 @@ TEST_F(BakeManagerTest, AStaleBakeSaysWhyAndIsBakedAgainByOneClick) {
     ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
     EXPECT_THAT(status(), HasSubstr("Up to date, 32 rays"));
 
-    rays(64);
-    EXPECT_THAT(status(), HasSubstr("Stale: settings"));
-    EXPECT_THAT(status(), HasSubstr("Rays: 32 instead of 64"));
-    click("rebake");
+    rays(64); // the bake stays right, whatever else could be baked
+    EXPECT_THAT(status(), HasSubstr("Up to date, 32 rays"));
+    EXPECT_THAT(status(), HasSubstr("Form differs: Rays 64 (this bake: 32)"));
+    EXPECT_EQ(visible<QPushButton>("rebake"), nullptr);
+    click("bakeStart");
     ASSERT_TRUE(eventually([] { return document().bakes.front()->samplesDone == 64; }));
     EXPECT_TRUE(eventually([] { return status().find("Up to date") != std::string::npos; }));
 
@@ -228,6 +236,189 @@ TEST_F(BakeManagerTest, AnInterruptedBakeIsOfferedAndGoesOn) {
     EXPECT_EQ(resumed.vertices[0].values, whole.vertices[0].values);
     EXPECT_EQ(visible<QPushButton>("bakeResume"), nullptr);
     EXPECT_TRUE(QDir(cacheFolder()).entryList({QStringLiteral("*.checkpoint")}).isEmpty());
+}
+
+// The bake that goes on may have been asked for with quite other settings than the form has.
+TEST_F(BakeManagerTest, TheFormFollowsABakeThatIsResumed) {
+    rays(512);
+    click("bakeStart");
+    ASSERT_TRUE(traces(0));
+    controller().newDocument();
+    ASSERT_TRUE(settled(*session));
+    ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
+    ASSERT_EQ(job(0).state, JobState::Cancelled);
+    rays(32);
+    choose("bakeKind", QStringLiteral("Radiance transfer (PRT, per vertex)"));
+    controller().openScene(QStringLiteral("builtin:torus-knot"));
+    ASSERT_TRUE(settled(*session));
+    click("bakeResume");
+    EXPECT_EQ(visible<QComboBox>("bakeKind")->currentText(),
+              QStringLiteral("Ambient occlusion (per vertex)"));
+    EXPECT_EQ(visible<QComboBox>("bakeSamples")->currentText(), QLocale().toString(512));
+    ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
+    ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
+    EXPECT_THAT(status(),
+                AllOf(HasSubstr("Up to date, 512 rays"), Not(HasSubstr("Form differs"))));
+    EXPECT_EQ(visible<QPushButton>("rebake"), nullptr);
+}
+
+// Attached from elsewhere, it takes the form along, unless that was edited.
+TEST_F(BakeManagerTest, TheFormFollowsAnAttachedBakeUntilItIsEdited) {
+    controller().openScene(QStringLiteral("builtin:sphere"));
+    ASSERT_TRUE(settled(*session));
+    const auto attach = [](int samples) {
+        TileSink sink;
+        AoSettings settings;
+        settings.samples = samples;
+        controller().attachBake(std::make_shared<const BakeArtifact>(
+            *bakeAoVertex(bakeInputs(document()), settings, sink, {})));
+    };
+    const auto shown = [] { return visible<QComboBox>("bakeSamples")->currentText().toInt(); };
+    rays(64);
+    attach(64); // as the form has it: nothing is edited any more
+    attach(32);
+    EXPECT_EQ(shown(), 32);
+    rays(128);
+    attach(64);
+    EXPECT_EQ(shown(), 128);
+    EXPECT_THAT(status(), HasSubstr("Form differs: Rays 128 (this bake: 64)"));
+}
+
+TEST_F(BakeManagerTest, AStoppedBakeSaysAtHowManyRaysAndGoesOn) {
+    rays(512);
+    click("bakeStart");
+    ASSERT_TRUE(eventually(
+        [] { return session->jobs.preview() && session->jobs.preview()->samplesDone() >= 32; }));
+    click("bakeStop");
+    ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
+    ASSERT_EQ(job(0).state, JobState::Stopped);
+    ASSERT_EQ(document().bakes.size(), 1u);
+    const std::optional<StoppedBake> stopped = stoppedEarly(*document().bakes[0]);
+    ASSERT_TRUE(stopped);
+    EXPECT_EQ(stopped->asked, 512);
+    EXPECT_THAT(status(), HasSubstr("Stopped at " + std::to_string(stopped->done) + " of "));
+    EXPECT_THAT(job(0).summary.toStdString(), HasSubstr(" of 512 rays"));
+    EXPECT_EQ(visible<QPushButton>("bakeResume"), nullptr) << "offered once";
+    EXPECT_FALSE(QDir(cacheFolder()).entryList({QStringLiteral("*.checkpoint")}).isEmpty());
+
+    click("bakeContinue");
+    ASSERT_TRUE(traces(1));
+    // Progress starts where it was: the rays that are known are not traced again.
+    ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
+    ASSERT_EQ(job(1).state, JobState::Done) << job(1).summary.toStdString();
+    EXPECT_THAT(status(), HasSubstr("Up to date, 512 rays"));
+    EXPECT_LT(job(1).progress.workDone,
+              512.0 * static_cast<double>(document().meshes[0].mesh->vertexCount()));
+    EXPECT_TRUE(QDir(cacheFolder()).entryList({QStringLiteral("*.checkpoint")}).isEmpty());
+    TileSink sink;
+    AoSettings settings;
+    settings.samples = 512;
+    EXPECT_EQ(document().bakes[0]->vertices,
+              bakeAoVertex(bakeInputs(document()), settings, sink, {})->vertices);
+}
+
+TEST_F(BakeManagerTest, AStoppedBakeDoesNotReplaceABetterOne) {
+    rays(256);
+    click("bakeStart");
+    ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
+    const BakeArtifactPtr better = document().bakes[0];
+    ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
+    rays(16384);
+    click("bakeStart");
+    ASSERT_TRUE(eventually(
+        [] { return session->jobs.preview() && session->jobs.preview()->samplesDone() >= 32; }));
+    click("bakeStop");
+    ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
+    if (stoppedEarly(*document().bakes.at(0)))
+        GTEST_FAIL() << "the better one was replaced";
+    if (document().bakes[0] == better) { // else the machine was faster than the click
+        EXPECT_NE(visible<QPushButton>("bakeResume"), nullptr);
+    }
+}
+
+// Re-baking shows the finished bake, bounces and all, until the better one is there.
+TEST_F(BakeManagerTest, AFinishedBakeStaysInThePictureUntilTheNextIsDone) {
+    controller().openScene(QStringLiteral("builtin:cornell-box"));
+    ASSERT_TRUE(settled(*session));
+    ASSERT_TRUE(eventually([] { return !controller().document().meshes.empty(); }));
+    controller().setParameter(parameter("view.lighting"), {Scope::View, 0},
+                              static_cast<int>(LightingMode::Prt));
+    TileSink sink;
+    PrtSettings settings;
+    settings.samples = 64;
+    settings.transfer = TransferKind::Interreflected;
+    controller().attachBake(std::make_shared<const BakeArtifact>(
+        *bakePrtVertex(bakeInputs(document()), settings, sink, {})));
+    ASSERT_TRUE(eventually([] { return session->bounces.upToDate(); }));
+    const auto difference = [](const QImage& a, const QImage& b) {
+        double sum = 0.0;
+        for (int y = 0; y < a.height(); ++y)
+            for (int x = 0; x < a.width(); ++x)
+                sum += std::abs(qGray(a.pixel(x, y)) - qGray(b.pixel(x, y)));
+        return sum / (a.width() * a.height());
+    };
+    const auto picture = [] { return window->viewport().grabFramebuffer(); };
+    QImage before = picture();
+    ASSERT_TRUE(eventually([&] { // light that has just been loaded comes in steps
+        QTest::qWait(400);
+        const QImage last = std::exchange(before, picture());
+        return window->viewport().ibl().maps() && !window->viewport().waitsForPrograms() &&
+               difference(last, before) < 0.02;
+    }));
+
+    choose("bakeKind", QStringLiteral("Radiance transfer (PRT, per vertex)"));
+    choose("bakeTransfer", QStringLiteral("Interreflected"));
+    rays(16384);
+    click("bakeStart");
+    ASSERT_TRUE(eventually(
+        [] { return session->jobs.preview() && session->jobs.preview()->samplesDone() >= 32; }));
+    QTest::qWait(2000); // time enough for the preview to be uploaded, where it would be
+    EXPECT_FALSE(session->jobs.preview()->shown());
+    EXPECT_LT(difference(before, picture()), 0.5);
+    // Without a bake to keep, what is known so far is shown.
+    controller().detachBake(BakeKind::PrtVertex);
+    EXPECT_TRUE(session->jobs.preview()->shown());
+    EXPECT_TRUE(eventually([&] {
+        QTest::qWait(100);
+        return difference(before, picture()) > 1.0;
+    })) << "bounces are missing in it";
+    session->jobs.cancelAll();
+    ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
+}
+
+TEST_F(BakeManagerTest, CancellingALongBakeAsksAndStoppingIsTheDefault) {
+    rays(16384);
+    click("bakeStart");
+    ASSERT_TRUE(eventually(
+        [] { return session->jobs.preview() && session->jobs.preview()->samplesDone() >= 32; }));
+    JobRow row(session->jobs, job(0), QStringLiteral("test"));
+    auto* cancel = row.findChild<QPushButton*>(QStringLiteral("testCancel"));
+    const auto question = [&] { return row.findChild<QMessageBox*>(); };
+    JobRecord record = job(0);
+    record.progress.secondsSoFar = 61.0;
+    EXPECT_TRUE(cancelLosesMuch(record));
+    row.show(record);
+    cancel->click();
+    ASSERT_NE(question(), nullptr);
+    EXPECT_EQ(session->jobs.runningCount(), 1) << "nothing is lost before the answer";
+    EXPECT_EQ(question()->defaultButton()->text(), QStringLiteral("&Stop and Keep"));
+    question()->reject();
+    EXPECT_TRUE(eventually([&] { return question() == nullptr; }));
+    EXPECT_EQ(session->jobs.runningCount(), 1);
+
+    cancel->click();
+    ASSERT_NE(question(), nullptr);
+    question()->defaultButton()->click();
+    ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
+    EXPECT_EQ(job(0).state, JobState::Stopped);
+    EXPECT_EQ(document().bakes.size(), 1u);
+
+    // A short one is cancelled at once.
+    record.progress.secondsSoFar = 59.0;
+    EXPECT_FALSE(cancelLosesMuch(record));
+    record.progress.secondsSoFar = 61.0;
+    record.canStop = false; // an export has nothing to keep
+    EXPECT_FALSE(cancelLosesMuch(record));
 }
 
 TEST_F(BakeManagerTest, TimesAreToldAsCoarselyAsTheyMatter) {

@@ -54,8 +54,7 @@ TEST(BakeOptions, TextsAreThoseOfTheFiles) {
 TEST(BakeOptions, WhatDoesNotApplyIsNotSaid) {
     BakeRequest request = unusual(BakeKind::PrtVertex);
     request.prt.transfer = TransferKind::Unshadowed;
-    const std::map<std::string, std::string> unshadowed{
-        {"transfer", "unshadowed"}, {"order", "5"}, {"fitted", "false"}};
+    const std::map<std::string, std::string> unshadowed{{"transfer", "unshadowed"}, {"order", "5"}};
     EXPECT_EQ(settingsText(request), unshadowed);
     EXPECT_FALSE(settingsText(unusual(BakeKind::AoVertex)).contains("size"));
 }

@@ -17,13 +17,15 @@ using namespace patina::test;
 
 namespace {
 
-// The first block of Python in the document.
-std::string documentedReader() {
+// A block of Python in the document: the first reads files, the second unpacks parts.
+std::string documentedBlock(int number) {
     std::ifstream file(PATINA_SOURCE_DIR "/docs/prt-format.md");
     std::stringstream text;
     text << file.rdbuf();
     const std::string all = text.str(), fence = "```python\n";
-    const std::size_t begin = all.find(fence) + fence.size();
+    std::size_t begin = 0;
+    for (int i = 0; i < number; ++i)
+        begin = all.find(fence, begin) + fence.size();
     return all.substr(begin, all.find("```", begin) - begin);
 }
 
@@ -31,7 +33,7 @@ std::string documentedReader() {
 // without bounces without them.
 constexpr const char* kProgram = R"(
 import sys
-for attributes, width, height, numbers in read_bake(sys.argv[1]):
+for attributes, width, height, numbers in unpack(read_bake(sys.argv[1])):
     count, order = int(attributes["patina:vertexCount"]), int(attributes["patina:order"])
     names = [f"l{l}m{m}" for l in range(order) for m in range(-l, l + 1)]
     steps = [[float(s) for s in attributes[k].split() ] if k in attributes else [1.0] * order
@@ -49,7 +51,7 @@ for attributes, width, height, numbers in read_bake(sys.argv[1]):
 
 std::vector<double> readByPython(const TemporaryFolder& folder, const std::filesystem::path& bake) {
     const std::filesystem::path script = folder.path() / "read.py", out = folder.path() / "out.txt";
-    std::ofstream(script) << documentedReader() << kProgram;
+    std::ofstream(script) << documentedBlock(1) << documentedBlock(2) << kProgram;
     const std::string command =
         fmt::format("python3 \"{}\" \"{}\" > \"{}\"", script.string(), bake.string(), out.string());
     EXPECT_EQ(std::system(command.c_str()), 0) << "is python3 installed?";
@@ -79,7 +81,8 @@ std::vector<double> exitRadiance(const BakeArtifact& artifact) {
 } // namespace
 
 TEST(BakeReader, FitsThirtyLines) {
-    const std::string reader = documentedReader();
+    const std::string reader = documentedBlock(1);
+    EXPECT_NE(documentedBlock(2).find("def unpack"), std::string::npos);
     EXPECT_LE(std::count(reader.begin(), reader.end(), '\n'), 30);
     EXPECT_NE(reader.find("def read_bake"), std::string::npos);
 }
@@ -112,4 +115,28 @@ TEST(BakeReader, ReadsWhatWeWrite) {
                     ASSERT_NEAR(found[i], expected[i], 1e-6) << i;
             }
     }
+}
+
+// More meshes, of one name, than a file has parts.
+TEST(BakeReader, ReadsWhatSharesAPart) {
+    Document scene = bakeDocument();
+    scene.meshes.erase(scene.meshes.begin(), scene.meshes.begin() + 2); // the cube is left
+    for (int i = 1; i < 1100; ++i) {
+        scene.meshes.push_back(scene.meshes.front());
+        scene.meshes.back().id = scene.takeId();
+    }
+    WorkerClient worker;
+    const TemporaryFolder folder;
+    const BakeArtifact bake =
+        randomBake(scene, BakeKind::PrtVertex, 1, TransferKind::Interreflected);
+    const Result<Bytes> bytes = encodeBake(worker, bake, scene, {});
+    ASSERT_TRUE(bytes.ok()) << bytes.error().text();
+    const auto file = folder.write("bake.exr", *bytes);
+    const Result<BakeArtifact> ours = loadBake(worker, file, scene);
+    ASSERT_TRUE(ours.ok()) << ours.error().text();
+    expectSame(*ours, bake);
+    const std::vector<double> expected = exitRadiance(*ours), found = readByPython(folder, file);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+        ASSERT_NEAR(found[i], expected[i], 1e-6) << i;
 }

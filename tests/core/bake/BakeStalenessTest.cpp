@@ -37,7 +37,7 @@ class BakeStalenessTest : public ::testing::Test {
     }
     [[nodiscard]] Hash inputs() const { return hashBakeInputs(bakeInputs(document)); }
     [[nodiscard]] BakeStaleness staleness(const Hash& albedo = {}) const {
-        return bakeStaleness(bake, document, inputs(), albedo, &request);
+        return bakeStaleness(bake, document, inputs(), albedo);
     }
 
     Document document;
@@ -49,15 +49,12 @@ TEST_F(BakeStalenessTest, AFreshBakeIsNotStale) {
     EXPECT_FALSE(staleness().stale());
     EXPECT_THAT(staleness().reasons, IsEmpty());
     EXPECT_FALSE(staleness({3, 4}).stale()) << "nothing bounces in this one";
-    request.prt.samples = 50; // traced as 64
-    EXPECT_FALSE(staleness().stale());
 }
 
 TEST_F(BakeStalenessTest, SaysWhatChangedOfTheGeometry) {
     const Document before = document;
     document.meshes[1].visible = false;
     EXPECT_TRUE(staleness().geometry);
-    EXPECT_FALSE(staleness().settings);
     EXPECT_THAT(staleness().reasons, ElementsAre("“Wall” was hidden"));
     document = before;
     document.meshes.erase(document.meshes.begin());
@@ -96,16 +93,62 @@ TEST_F(BakeStalenessTest, AlbedoCountsWhereLightBounces) {
     EXPECT_FALSE(staleness({1, 2}).albedo);
 }
 
-TEST_F(BakeStalenessTest, NamesTheSettingsThatDiffer) {
+TEST_F(BakeStalenessTest, NamesTheSettingsThatDifferWithoutCallingItStale) {
+    request.prt.samples = 50; // traced as 64
+    EXPECT_THAT(settingDifferences(bake, request), IsEmpty());
     request.prt.samples = 256;
     request.prt.order = 5;
-    EXPECT_TRUE(staleness().settings);
-    EXPECT_FALSE(staleness().geometry);
-    EXPECT_THAT(staleness().reasons,
-                ElementsAre("Bands: 3 instead of 5", "Rays: 64 instead of 256"));
+    EXPECT_FALSE(staleness().stale());
+    const SettingDifference bands{"Bands", "3", "5"}, rays{"Rays", "64", "256"};
+    EXPECT_THAT(settingDifferences(bake, request), ElementsAre(bands, rays));
     bake.settings.erase("order"); // of an older file
-    EXPECT_THAT(staleness().reasons, ElementsAre("Rays: 64 instead of 256"));
-    EXPECT_FALSE(bakeStaleness(bake, document, inputs(), {}, nullptr).stale());
+    EXPECT_THAT(settingDifferences(bake, request), ElementsAre(rays));
+}
+
+TEST_F(BakeStalenessTest, ABakeThatWasStoppedSaysAtHowManyRays) {
+    bake.samplesDone = 64;
+    EXPECT_EQ(stoppedEarly(bake), std::nullopt);
+    bake.samplesDone = 32;
+    ASSERT_TRUE(stoppedEarly(bake));
+    EXPECT_EQ(stoppedEarly(bake)->done, 32);
+    EXPECT_EQ(stoppedEarly(bake)->asked, 64);
+    // Bakes to a tolerance may well be done with fewer.
+    bake.settings["tolerance"] = "0.01";
+    EXPECT_EQ(stoppedEarly(bake), std::nullopt);
+    bake.settings["stopped"] = "true";
+    EXPECT_TRUE(stoppedEarly(bake));
+    bake.settings.erase("samples"); // unshadowed transfer casts none
+    EXPECT_EQ(stoppedEarly(bake), std::nullopt);
+}
+
+// By the bake itself, with and without a tolerance.
+TEST_F(BakeStalenessTest, AStopIsNotedInTheBake) {
+    class StopAfterFirstPass : public TileSink {
+      public:
+        explicit StopAfterFirstPass(JobControl& control)
+            : m_control(control) {}
+        void passDone(int /*samples*/) override { m_control.stop(); }
+
+      private:
+        JobControl& m_control;
+    };
+    for (const float tolerance : {0.0f, 1e-6f}) {
+        JobControl control;
+        StopAfterFirstPass sink(control);
+        request.prt.samples = 1024;
+        request.prt.tolerance = tolerance;
+        const Result<BakeArtifact> stopped =
+            bakePrtVertex(bakeInputs(document), request.prt, sink, control.context());
+        ASSERT_TRUE(stopped) << stopped.error().text();
+        ASSERT_TRUE(stoppedEarly(*stopped)) << tolerance;
+        EXPECT_LT(stoppedEarly(*stopped)->done, 1024);
+        EXPECT_EQ(stoppedEarly(*stopped)->asked, 1024);
+        TileSink nobody;
+        const Result<BakeArtifact> whole =
+            bakePrtVertex(bakeInputs(document), request.prt, nobody, JobContext());
+        ASSERT_TRUE(whole) << whole.error().text();
+        EXPECT_FALSE(stoppedEarly(*whole)) << tolerance;
+    }
 }
 
 } // namespace

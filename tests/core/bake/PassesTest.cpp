@@ -9,6 +9,7 @@
 #include "core/math/SphericalHarmonics.h"
 #include "tests/core/bake/BakeTestScene.h"
 
+#include <cstdio>
 #include <gtest/gtest.h>
 #include <numeric>
 #include <set>
@@ -251,6 +252,39 @@ TEST(Passes, ATolerancePutsRaysWhereTheErrorIs) {
     EXPECT_EQ(ready.trace(settings).samplesDone, 64);
 }
 
+// The stated error is an estimate, no bound: what of the surface is within how much of it, with a
+// fixed count and to a tolerance (docs/maths/baking.md).
+TEST(Passes, TheStatedErrorIsAnEstimateOfKnownCoverage) {
+    const Ready ready = sphereOverFloor();
+    PassSettings settings = transferSettings(16384, 4);
+    settings.seed = 9;
+    const PassState reference = ready.trace(settings);
+    for (const float tolerance : {0.0f, 0.005f}) {
+        settings = transferSettings(tolerance > 0.0f ? 4096 : 128, 4);
+        settings.tolerance = tolerance;
+        const PassState done = ready.trace(settings);
+        double once = 0.0, thrice = 0.0;
+        for (std::size_t p = 0; p < ready.points.size(); ++p) {
+            double squares = 0.0;
+            for (std::size_t i = 16 * p; i < 16 * p + 16; ++i)
+                squares += std::pow(double(done.values[i]) - reference.values[i], 2.0);
+            const double error = std::sqrt(squares / 16.0);
+            // Of the reference itself, too: a hundredth of the tolerance.
+            once += error <= done.error[p] + 5e-5 ? 1.0 : 0.0;
+            thrice += error <= 3.0 * done.error[p] + 5e-5 ? 1.0 : 0.0;
+        }
+        once /= double(ready.points.size());
+        thrice /= double(ready.points.size());
+        const double ratio = rmse(done, reference) / rmsError(done);
+        std::printf("[ figures  ] tolerance %g: true / stated RMS %.2f, within once %.0f %%, "
+                    "within three times %.1f %%\n",
+                    double(tolerance), ratio, 100.0 * once, 100.0 * thrice);
+        EXPECT_LT(ratio, 1.4) << tolerance;
+        EXPECT_GT(once, 0.5) << tolerance;
+        EXPECT_GT(thrice, 0.85) << tolerance;
+    }
+}
+
 // Neighbours that have nothing in common are not taken for one another: grass stands before the
 // floor, and what the rim of a tile sees says nothing about the points in between.
 TEST(Passes, NeighboursThatDifferAreTracedOneByOne) {
@@ -319,7 +353,10 @@ TEST(Passes, UnshadowedIsTheClampedCosineWithoutARay) {
     PassSettings settings = transferSettings(64, 8);
     settings.unshadowed = true;
     const JobControl control;
-    const PassState done = ready.trace(settings, {}, {}, control.context());
+    const Result<PassState> opened =
+        openPasses(ready.points, ready.ranges, settings, {}, control.context());
+    ASSERT_TRUE(opened);
+    const PassState& done = *opened;
     EXPECT_EQ(done.samplesDone, 64);
     EXPECT_EQ(control.progress().workDone, 0.0);
     EXPECT_EQ(rmsError(done), 0.0);
