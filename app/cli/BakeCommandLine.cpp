@@ -111,8 +111,9 @@ void CommandParser::addBakePrt(CLI::App& bake) {
                               s.size))
         ->check(plain(CLI::Range(1, 8192)))
         ->type_name("N");
-    c->add_flag("!--no-fit", s.fitted,
-                "Per vertex: values at the vertices instead of the best fit over the surface");
+    c->add_flag_callback(
+        "--no-fit", [&s] { s.fitted = false; },
+        "Per vertex: values at the vertices instead of the best fit over the surface");
     c->add_option("--method", s.method,
                   "Sample pattern: qmc (Owen-scrambled Sobol'), stratified (jittered N × N, "
                   "the classical one), random (to compare with)")

@@ -2,6 +2,7 @@
 
 #include "core/bake/BakeCheckpoint.h"
 #include "core/bake/BakeHeader.h"
+#include "core/bake/BakeStaleness.h"
 #include "core/bake/BakeTarget.h"
 
 #include <algorithm>
@@ -113,7 +114,12 @@ Result<void> describeBake(Report& report, const std::vector<ImagePart>& parts,
     }
     if (header->options.storage == BakeStorage::Quantised)
         json["bits"] = header->options.bits;
-    rows.emplace_back("rays", fmt::format("{} per element", artifact.samplesDone));
+    const std::optional<StoppedBake> stopped = stoppedEarly(artifact);
+    if (stopped)
+        json["samplesAsked"] = stopped->asked;
+    rows.emplace_back("rays", stopped ? fmt::format("{} of {} per element: it was stopped",
+                                                    stopped->done, stopped->asked)
+                                      : fmt::format("{} per element", artifact.samplesDone));
     rows.emplace_back("stored as", storageText(header->options));
     rows.emplace_back("inputs", artifact.inputs.hex());
     report.table({}, rows);

@@ -2,7 +2,6 @@
 
 #include "app/cli/SceneSetup.h"
 #include "core/bake/BakeIO.h"
-#include "core/export/Names.h"
 #include "core/image/ImageIO.h"
 
 #include <fmt/format.h>
@@ -13,13 +12,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+Error cancelled() {
+    return {ErrorKind::Cancelled, "the bake was cancelled", {}, {}};
+}
+
 Result<void> writeBakeFile(Session& session, const Document& document, const BakeArtifact& artifact,
                            const fs::path& output, const BakeFileOptions& storage) {
     Result<Bytes> bytes = encodeBake(session.worker(), artifact, document, storage);
     if (!bytes)
         return bytes.error();
     if (session.job().cancelled())
-        return Error{ErrorKind::Cancelled, "the bake was cancelled", {}, {}};
+        return cancelled();
     if (Result<void> written = writeFileAtomically(output, *bytes); !written)
         return written;
     std::string what = bytesText(bytes->size());
@@ -32,27 +35,19 @@ Result<void> writeBakeFile(Session& session, const Document& document, const Bak
     return {};
 }
 
-// One picture for each material: OUT.png, or OUT-<material>.png when there are several.
+// All of them or, where one cannot be encoded, none.
 Result<void> writePictures(Session& session, const Document& document, const BakeArtifact& artifact,
                            const fs::path& output) {
-    UniqueNames names;
+    PictureWriter writer(session, document, output, artifact.texels.size() > 1);
     std::vector<std::pair<fs::path, Bytes>> files;
     for (const TexelBake& texel : artifact.texels) {
-        fs::path path = output;
-        if (artifact.texels.size() > 1) {
-            const Material* material = document.material(texel.material);
-            const std::string name =
-                fileSafeName(material != nullptr ? material->name : "", "material");
-            path.replace_filename(fmt::format("{}-{}{}", output.stem().string(), names.take(name),
-                                              output.extension().string()));
-        }
-        Result<Bytes> bytes = encodeImage(session.worker(), *texel.image, ImageFileFormat::Png);
-        if (!bytes)
-            return bytes.error();
-        files.emplace_back(std::move(path), std::move(*bytes));
+        Result<std::pair<fs::path, Bytes>> file = writer.encode(texel);
+        if (!file)
+            return file.error();
+        files.push_back(*std::move(file));
     }
     if (session.job().cancelled())
-        return Error{ErrorKind::Cancelled, "the bake was cancelled", {}, {}};
+        return cancelled();
     for (const auto& [path, bytes] : files) {
         if (Result<void> written = writeFileAtomically(path, bytes); !written)
             return written;
@@ -80,6 +75,33 @@ Result<void> writeBake(Session& session, const Document& document, const BakeArt
     return extensionOf(output) == ".png"
                ? writePictures(session, document, artifact, output)
                : writeBakeFile(session, document, artifact, output, storage);
+}
+
+Result<std::pair<fs::path, Bytes>> PictureWriter::encode(const TexelBake& texel) {
+    fs::path path = m_output;
+    if (m_several) {
+        const Material* material = m_document.material(texel.material);
+        const std::string name =
+            fileSafeName(material != nullptr ? material->name : "", "material");
+        path.replace_filename(fmt::format("{}-{}{}", m_output.stem().string(), m_names.take(name),
+                                          m_output.extension().string()));
+    }
+    Result<Bytes> bytes = encodeImage(m_session.worker(), *texel.image, ImageFileFormat::Png);
+    if (!bytes)
+        return bytes.error();
+    return std::pair(std::move(path), *std::move(bytes));
+}
+
+Result<void> PictureWriter::write(const TexelBake& texel) {
+    const Result<std::pair<fs::path, Bytes>> file = encode(texel);
+    if (!file)
+        return file.error();
+    if (m_session.job().cancelled())
+        return cancelled();
+    if (Result<void> written = writeFileAtomically(file->first, file->second); !written)
+        return written;
+    m_session.report().output(file->first, bytesText(file->second.size()));
+    return {};
 }
 
 } // namespace patina::cli

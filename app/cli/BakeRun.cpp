@@ -2,10 +2,13 @@
 
 #include "app/cli/BakeOutput.h"
 #include "app/cli/LongBake.h"
+#include "app/cli/OcclusionRun.h"
 #include "app/cli/SceneSetup.h"
+#include "core/bake/BakeFileSize.h"
 #include "core/bake/BakeMemory.h"
 #include "core/bake/BakeOptions.h"
 #include "core/bake/ResumableTracer.h"
+#include "core/base/DiskSpace.h"
 #include "core/base/FileLock.h"
 #include "core/base/Leftovers.h"
 #include "core/document/Scene.h"
@@ -13,8 +16,11 @@
 
 #include <filesystem>
 #include <fmt/format.h>
+#include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <unistd.h>
 
 namespace patina::cli {
 namespace {
@@ -102,6 +108,57 @@ void warnAboutOverlaps(Session& session, const Document& document) {
                 mesh.name));
 }
 
+// What cannot be written is refused before the first ray; what can is said.
+Result<void> checkOutputSize(Session& session, const BakeRequest& request, const BakeInputs& inputs,
+                             const Plan& plan, const std::string& output,
+                             const BakeFileOptions& storage) {
+    if (plan.part) // whose state is about as large as the memory it takes, and says so itself
+        return {};
+    const bool pictures = extensionOf(output) == ".png";
+    if (!pictures)
+        if (Result<void> fits = checkBakeFile(request, inputs); !fits)
+            return fits;
+    const std::uint64_t bytes =
+        pictures ? bakePictureBytes(request, inputs) : bakeFileBytes(request, inputs, storage);
+    session.report().json()["plan"] = {{"memoryBytes", estimateBake(request, inputs).bytes},
+                                       {"outputBytes", bytes}};
+    return checkDiskSpace(output, bytes, pictures ? 0 : bytes);
+}
+
+// A result that cannot be written where it was wanted is not lost: a user at a terminal is asked
+// for another place, else it goes into the folder for temporary files.
+Result<void> rescueBake(Session& session, const Document& document, const BakeArtifact& artifact,
+                        const std::string& output, const BakeFileOptions& storage, Error error) {
+    if (error.kind != ErrorKind::Io && error.kind != ErrorKind::CannotCreate)
+        return error;
+    const CommonOptions& common = session.options();
+    if (!common.quiet && !common.json && ::isatty(STDIN_FILENO) == 1 &&
+        ::isatty(STDERR_FILENO) == 1) {
+        session.endProgress();
+        for (std::string place; !session.interrupted();) {
+            fmt::print(stderr,
+                       "patina: {}\nAnother place for the bake (empty: none): ", error.text());
+            if (!std::getline(std::cin, place) || place.empty())
+                return error;
+            Result<void> written = checkBakeOutput(place, artifact.kind);
+            if (written)
+                written = writeBake(session, document, artifact, place, storage);
+            if (written)
+                return written;
+            error = written.error();
+        }
+        return error;
+    }
+    std::error_code none;
+    const fs::path folder = fs::temp_directory_path(none);
+    const fs::path kept =
+        folder / fmt::format("patina-{}-{}", ::getpid(), fs::path(output).filename().string());
+    if (none || !writeBake(session, document, artifact, kept, storage))
+        return error;
+    error.message += fmt::format("; the bake is kept in {}", kept.string());
+    return error;
+}
+
 } // namespace
 
 void reportBake(Session& session, const BakeInputs& inputs, const BakeArtifact& artifact) {
@@ -152,6 +209,10 @@ Result<void> bakeScene(Session& session, const std::string& scene, const std::st
         report.warn(fmt::format("{}: this checkpoint of an earlier bake will be replaced; --resume "
                                 "would have gone on from it",
                                 plan->checkpoint.string()));
+    if (plan->resume && fs::is_regular_file(plan->checkpoint, ignored)) {
+        session.keptCheckpoint(plan->checkpoint); // whatever comes: it is not touched before
+        session.expectCheckpoint(plan->checkpoint, false);
+    }
 
     session.beginPhase();
     SceneRequest sceneRequest;
@@ -163,8 +224,17 @@ Result<void> bakeScene(Session& session, const std::string& scene, const std::st
         warnAboutOverlaps(session, *document);
 
     const BakeInputs inputs = bakeInputs(*document);
-    if (Result<void> fits = checkBakeMemory(request, inputs, plan->maxMemory); !fits)
+    if (Result<void> fits = checkOutputSize(session, request, inputs, *plan, output, storage);
+        !fits)
         return fits;
+    if (Result<void> fits = checkBakeMemory(request, inputs, plan->maxMemory); !fits) {
+        const bool inGroups = request.kind == BakeKind::AoTexel && extensionOf(output) == ".png" &&
+                              !plan->part && !plan->keepWhenInterrupted &&
+                              !session.options().keepPartial;
+        return inGroups ? bakeOcclusionPictures(session, *document, inputs, request,
+                                                plan->maxMemory, output)
+                        : fits;
+    }
     ResumeSettings resume;
     resume.manifest = manifestOf(session, scene, inputs, request, plan->shard);
     resume.manifest.storage = storage;
@@ -201,7 +271,9 @@ Result<void> bakeScene(Session& session, const std::string& scene, const std::st
                                           plan->shard.count));
     } else if (Result<void> written = writeBake(session, *document, *artifact, output, storage);
                !written) {
-        return written;
+        written = rescueBake(session, *document, *artifact, output, storage, written.error());
+        if (!written)
+            return written;
     }
     // What is complete needs no checkpoint; neither does anybody need an older one.
     if (!session.interrupted() && !plan->checkpoint.empty())

@@ -1,6 +1,7 @@
 #include "app/cli/CommandLine.h"
 
 #include "app/cli/CommandParser.h"
+#include "app/cli/HelpFormatter.h"
 #include "app/cli/RenderViews.h"
 
 #include <CLI/Config.hpp>
@@ -9,6 +10,7 @@
 #include <array>
 #include <filesystem>
 #include <fmt/format.h>
+#include <memory>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -29,7 +31,7 @@ constexpr const char* kAbout =
 constexpr const char* kFooter =
     "Exit status: 0 done, 2 wrong usage, 65 an input is broken, 66 an input is missing, 69 no\n"
     "OpenGL, 70 a fault of ours, 73 an output cannot be created, 74 I/O error or disk full,\n"
-    "75 stopped with a checkpoint to go on from, 130/143 interrupted.";
+    "75 stopped for now (--checkpoint, --resume), 130/143 interrupted.";
 
 } // namespace
 
@@ -37,6 +39,7 @@ CommandParser::CommandParser()
     : m_app(kAbout, "patina") {
     m_app.set_version_flag("--version", "patina " PATINA_VERSION, "Print the version");
     m_app.footer(kFooter);
+    m_app.formatter(std::make_shared<HelpFormatter>()); // which commands take over
     m_app.require_subcommand(1);
     addInfo();
     addRender();
@@ -73,6 +76,8 @@ Result<std::variant<Invocation, HelpText>> CommandParser::parse(int argc, const 
     }
     m_invocation.common.command = innermostName().substr(std::string_view("patina ").size());
     m_invocation.options = m_select.at(innermost())();
+    for (const LongBakeOptions* work : {&m_ao.work, &m_prt.work}) // only one was filled in
+        m_invocation.common.requeues |= work->resume || !work->checkpoint.empty();
     return {std::move(m_invocation)};
 }
 

@@ -3,6 +3,7 @@
 #include "app/cli/SceneSetup.h"
 #include "core/bake/BakeCheckpoint.h"
 #include "core/bake/BakeHeader.h"
+#include "core/bake/BakePacking.h"
 #include "core/document/AbsentBake.h"
 #include "core/document/EnvironmentFile.h"
 #include "core/document/LightMix.h"
@@ -216,6 +217,7 @@ Result<void> describeImage(Session& session, const std::string& file) {
     json["channelNames"] = info->channelNames;
     if (!info->partNames.empty())
         json["parts"] = info->partNames;
+    info->attributes.erase(kPackedAttribute); // it is listed as the bake's parts
     if (!info->attributes.empty())
         json["attributes"] = info->attributes;
 
@@ -244,10 +246,13 @@ Result<void> describeImage(Session& session, const std::string& file) {
     ImageLoadOptions options; // all of it: what is damaged or cut short is found
     options.sanitize = false;
     options.allParts = true;
-    const Result<LoadedImage> parts = loadImage(session.worker(), file, options);
+    Result<LoadedImage> image = loadImage(session.worker(), file, options);
+    if (!image)
+        return image.error();
+    const Result<std::vector<ImagePart>> parts = unpackParts(std::move(image->parts), file);
     if (!parts)
         return parts.error();
-    return describeBake(report, parts->parts, file);
+    return describeBake(report, *parts, file);
 }
 
 bool isScene(const std::string& file) {

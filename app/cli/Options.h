@@ -19,6 +19,7 @@ struct CommonOptions {
     bool json = false;
     bool quiet = false;
     bool keepPartial = false; // bakes: an interrupt writes what has converged
+    bool requeues = false;    // bakes: an interrupt means "for now" (--checkpoint, --resume)
     int threads = 0;          // 0: all cores
 };
 

@@ -67,6 +67,11 @@ Result<void> run(Session& session, const RefineOptions& options) {
         const std::uintmax_t size = std::filesystem::file_size(file, unknown);
         report.output(file, unknown ? "" : bytesText(size));
     }
+    if (refined->rounds == 0 && refined->tooCoarse == 0)
+        report.warn(fmt::format("nothing was split: no triangle's error is above the tolerance of "
+                                "{}; finer shadows take a smaller --tolerance, and more --samples "
+                                "so that it is above their noise",
+                                options.tolerance));
     if (refined->tooCoarse > 0)
         report.warn(fmt::format("{} triangles are still above the tolerance; allow more rounds or "
                                 "triangles, or bake per texel",

@@ -2,6 +2,7 @@
 #include "app/cli/InspectPixel.h"
 #include "app/cli/RenderViews.h"
 #include "app/cli/SceneSetup.h"
+#include "core/bake/BakeStaleness.h"
 #include "core/bake/Interreflection.h"
 #include "core/document/Edit.h"
 #include "core/document/LightMix.h"
@@ -13,9 +14,11 @@
 #include "render/Renderer.h"
 #include "render/gl/Context.h"
 
+#include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 
 namespace patina::cli {
@@ -115,24 +118,66 @@ Result<void> applyView(Session& session, const RenderOptions& options, Document&
     return {};
 }
 
-// What the picture is lit by bounces as often as view.bounces says.
+// What the picture is lit by bounces as often as view.bounces says, and off the colours that
+// surfaces have now.
 Result<void> followBounces(Session& session, const render::ViewSettings& shown,
                            Document& document) {
     const int bounces = document.view.bounces;
-    if (bounces == 0 || lightingOf(shown.shown.kind, document.view.lighting) != LightingMode::Prt)
+    if (document.bakes.empty() ||
+        lightingOf(shown.shown.kind, document.view.lighting) != LightingMode::Prt)
         return {};
+    const BakeInputs inputs = bakeInputs(document);
+    const Hash geometry = hashBakeInputs(inputs);
+    std::optional<Hash> albedo; // reads every texel of the maps
     for (BakeArtifactPtr& bake : document.bakes) {
-        if (!holdsTransfer(bake->kind) || bake->transfer != TransferKind::Interreflected ||
-            bake->bounces == bounces)
+        if (!holdsTransfer(bake->kind) || bake->transfer != TransferKind::Interreflected)
             continue;
+        if (!albedo)
+            albedo = hashBakeAlbedo(inputs);
+        const bool otherColors = bake->albedo != *albedo;
+        const bool otherNumber = bounces != 0 && bake->bounces != bounces;
+        if (!otherColors && !otherNumber)
+            continue;
+        const bool canFollow = bake->kind == BakeKind::PrtVertex && bake->inputs == geometry;
+        if (!otherNumber && !canFollow) {
+            session.report().warn("the bounces of the bake are of other colours than the scene "
+                                  "has now, and show those; bake it anew");
+            continue;
+        }
         session.beginPhase();
         Result<BakeArtifactPtr> followed =
-            withBounces(*bake, bakeInputs(document), bounces, session.job());
+            withBounces(*bake, inputs, bounces != 0 ? bounces : bake->bounces, session.job());
         if (!followed)
             return followed.error();
         bake = std::move(*followed);
     }
     return {};
+}
+
+// Pictures of a scene that has changed since are no pictures of the scene.
+void warnOfStaleBakes(Session& session, const Document& document) {
+    if (document.bakes.empty())
+        return;
+    const Hash geometry = hashBakeInputs(bakeInputs(document));
+    for (const BakeArtifactPtr& bake : document.bakes)
+        for (const std::string& reason :
+             bakeStaleness(*bake, document, geometry, bake->albedo).reasons)
+            session.report().warn(fmt::format("a bake is stale: {}; bake it anew", reason));
+}
+
+// A few bands know no sharp shadow: what hides a light near by lets some of it through.
+void warnOfNearLights(Session& session, const render::ViewSettings& shown,
+                      const Document& document) {
+    const LightingMode mode = lightingOf(shown.shown.kind, document.view.lighting);
+    const auto isNear = [&](const Light& light) {
+        return light.type != LightType::Directional && shines(document, light);
+    };
+    if ((mode == LightingMode::Shadowed || mode == LightingMode::Prt) &&
+        std::ranges::any_of(document.bakes,
+                            [](const auto& bake) { return holdsTransfer(bake->kind); }) &&
+        std::ranges::any_of(document.lights, isNear))
+        session.report().warn("lights near by are soft under transfer: where they are hidden, some "
+                              "15 % of their light is left with 8 bands, and more with fewer");
 }
 
 // Opaque pictures carry no alpha.
@@ -314,6 +359,8 @@ Result<void> run(Session& session, const RenderOptions& options) {
     frame->floats = writes && isLinear(*format);
     if (wantsAllViews(options))
         reportLeftOut(session.report(), leftOutViews(*document, *shown));
+    warnOfStaleBakes(session, *document);
+    warnOfNearLights(session, *shown, *document);
     if (Result<void> followed = followBounces(session, *shown, *document); !followed)
         return followed;
     if (!options.view.empty()) {

@@ -48,8 +48,9 @@ class Report {
 
 // The exit status of COMMANDS: sysexits.h where it has a number for it.
 [[nodiscard]] int exitStatus(ErrorKind kind);
-// Interrupted, but the work can go on from a checkpoint: farms put the task back into the queue.
-inline constexpr int kStoppedWithCheckpoint = 75;
+// Interrupted for now: farms put the task back into the queue. Whenever a checkpoint is there or
+// was asked for, from the first moment on.
+inline constexpr int kStoppedForNow = 75;
 
 // "12,345,678" and "1.2 MiB".
 [[nodiscard]] std::string countText(std::size_t count);

@@ -47,6 +47,10 @@ void Session::beginPhase() {
     m_watcher->showProgress();
 }
 
+void Session::endProgress() {
+    m_watcher->hideProgress();
+}
+
 void Session::allowPartialResult() {
     if (m_options.keepPartial)
         m_watcher->allowPartialResult();
@@ -79,13 +83,16 @@ int Session::finish(const Result<void>& result) {
     if (result.ok() && !m_watcher->stoppedEarly())
         return m_report.succeed();
     std::string left = result.ok() ? "what had converged was written" : "nothing was written";
-    if (!m_checkpoint.empty())
+    if (m_checkpoint.empty() && m_options.requeues)
+        left += "; run it again";
+    else if (!m_checkpoint.empty())
         left = (result.ok() ? left + "; " : std::string()) + "--resume goes on from where it was";
     return m_report.fail({ErrorKind::Cancelled,
                           fmt::format("interrupted by {}; {}", signalName(signal), left),
                           m_checkpoint,
                           {}},
-                         m_checkpoint.empty() ? 128 + signal : kStoppedWithCheckpoint);
+                         m_checkpoint.empty() && !m_options.requeues ? 128 + signal
+                                                                     : kStoppedForNow);
 }
 
 } // namespace patina::cli

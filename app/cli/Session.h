@@ -31,6 +31,7 @@ class Session {
 
     // From here on standard error shows the job's progress, which starts anew.
     void beginPhase();
+    void endProgress(); // before the user is asked something; the next phase shows it again
     // With --keep-partial: from here on the first signal means "finish with what there is".
     void allowPartialResult();
     [[nodiscard]] bool interrupted() const;

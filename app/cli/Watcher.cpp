@@ -161,10 +161,11 @@ void Watcher::leave() {
     const std::lock_guard lock(m_mutex);
     std::error_code ignored;
     const bool kept = !m_checkpoint.empty() && std::filesystem::exists(m_checkpoint, ignored);
-    const int status = kept ? kStoppedWithCheckpoint : 128 + m_signal;
+    const int status = kept || m_options.requeues ? kStoppedForNow : 128 + m_signal;
     const std::string message =
         kept ? "interrupted; --resume goes on from " + m_checkpoint.filename().string()
-             : "interrupted; nothing was written";
+        : m_options.requeues ? "interrupted; nothing was written; run it again"
+                             : "interrupted; nothing was written";
     if (m_options.json)
         fmt::print("{}\n",
                    nlohmann::ordered_json{{"command", m_options.command},

@@ -27,6 +27,7 @@ class Watcher {
     [[nodiscard]] JobControl control() const; // of the current phase
 
     void showProgress() { m_showsProgress = true; }
+    void hideProgress() { m_showsProgress = false; }
     void allowPartialResult() { m_partialAllowed = true; }
     // `checkpoint` may be there when a signal comes. With `endsInOrder` the work writes it then and
     // is given the time; a second signal ends it at once.

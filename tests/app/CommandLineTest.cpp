@@ -1,9 +1,11 @@
 // What every command has in common: help, usage errors, exit statuses, the shape of JSON.
 #include "CommandRunner.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <gmock/gmock.h>
+#include <sstream>
 
 using namespace patina::test;
 using testing::ElementsAre;
@@ -27,6 +29,40 @@ TEST(CommandLine, HelpListsTheCommandsThatExistAndNoOthers) {
     const Outcome render = runPatina({"render", "--help"});
     EXPECT_THAT(render.out, HasSubstr("Usage: patina render [OPTIONS] SCENE"));
     EXPECT_THAT(render.out, Not(HasSubstr("whitted")));
+}
+
+// Letters count, not the bytes they take; defaults of flags are not shown as "{false}".
+TEST(CommandLine, HelpStandsInTwoColumns) {
+    const auto letters = [](const std::string& text) {
+        return std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; });
+    };
+    const std::vector<std::vector<std::string>> commands{
+        {"bake", "prt"}, {"bake", "ao"}, {"bake", "ibl"}, {"render"}, {"merge"}, {"refine"}};
+    for (std::vector<std::string> command : commands) {
+        SCOPED_TRACE(command.back());
+        command.emplace_back("--help");
+        std::istringstream help(runPatina(command).out);
+        bool options = false;
+        int rows = 0;
+        for (std::string line; std::getline(help, line);) {
+            EXPECT_LE(letters(line), 100) << line;
+            EXPECT_THAT(line, Not(HasSubstr("{")));
+            options = options || line == "Options:";
+            if (!options || line.size() < 3 || line[0] != ' ')
+                continue;
+            // Names have no two spaces in a row.
+            const std::size_t name = line.find_first_not_of(' ');
+            const std::size_t gap = name < 10 ? line.find("  ", name) : 0;
+            if (gap == std::string::npos) { // a long name, the text stands below
+                EXPECT_GE(letters(line), 29) << line;
+                continue;
+            }
+            const std::size_t text = line.find_first_not_of(' ', gap);
+            EXPECT_EQ(letters(line.substr(0, text)), 30) << line;
+            ++rows;
+        }
+        EXPECT_GT(rows, 3);
+    }
 }
 
 // The program is copied beside an editor that only tells how it was called.

@@ -60,7 +60,7 @@ Outcome runPatina(const std::vector<std::string>& arguments, const RunOptions& o
     ::close(err[1]);
 
     Outcome outcome;
-    bool signalled = options.signal == 0;
+    bool signalled = options.signal == 0 && !options.when;
     pollfd streams[2] = {{out[0], POLLIN, 0}, {err[0], POLLIN, 0}};
     while (streams[0].fd >= 0 || streams[1].fd >= 0) {
         ::poll(streams, 2, -1);
@@ -69,7 +69,10 @@ Outcome runPatina(const std::vector<std::string>& arguments, const RunOptions& o
         if (streams[1].revents != 0 && !drain(err[0], outcome.err))
             streams[1].fd = -1;
         if (!signalled && outcome.err.find(options.signalWhen) != std::string::npos) {
-            ::kill(child, options.signal);
+            if (options.when)
+                options.when();
+            else
+                ::kill(child, options.signal);
             signalled = true;
         }
     }

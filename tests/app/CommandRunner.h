@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -21,6 +22,7 @@ struct RunOptions {
     std::string program;                            // empty: the one in $PATINA_BIN_DIR
     int signal = 0;                                 // sent when `signalWhen` appears on stderr
     std::string signalWhen;
+    std::function<void()> when; // called at that moment instead of sending a signal
 };
 
 Outcome runPatina(const std::vector<std::string>& arguments, const RunOptions& options = {});

@@ -1,5 +1,7 @@
 // The commands themselves, on built-in scenes.
 #include "CommandRunner.h"
+#include "core/document/DocumentIO.h"
+#include "core/document/Scene.h"
 #include "core/image/ImageIO.h"
 #include "core/worker/WorkerClient.h"
 
@@ -130,6 +132,11 @@ TEST_F(Commands, RefineWritesAModelThatIsFinerWhereItsShadowsAre) {
     EXPECT_EQ(read["bounds"], built["bounds"]);
     EXPECT_EQ(read["counts"]["meshes"], built["counts"]["meshes"]);
     EXPECT_EQ(runPatina({"refine", "builtin:sphere", "-o", m_folder / "fine.obj"}).status, 2);
+    // Where nothing is done, it says why.
+    const Outcome nothing = runPatina({"refine", "builtin:sphere", "-o", m_folder / "same.glb",
+                                       "--tolerance", "0.5", "--samples", "32", "--json"});
+    EXPECT_EQ(nothing.json()["counts"]["rounds"], 0);
+    EXPECT_THAT(nothing.json()["warnings"].dump(), HasSubstr("a smaller --tolerance"));
 }
 
 TEST_F(Commands, ExportPlansWithoutWriting) {
@@ -328,6 +335,108 @@ TEST_F(Commands, TexelBakesBecomeOnePictureForEachMaterial) {
         EXPECT_THAT(file.get<std::string>(), HasSubstr("/ball-"));
         EXPECT_THAT(several.err, HasSubstr(file.get<std::string>()));
     }
+}
+
+// The light that bounces off a wall has the colour that the wall has in the picture.
+TEST_F(Commands, RenderFollowsBouncesOffOtherColors) {
+    const std::string repaint = "material[Red].baseColor=0.05,0.08,0.6";
+    const auto bake = [&](const std::string& name, std::vector<std::string> more) {
+        std::vector<std::string> arguments{
+            "bake",      "prt", "builtin:cornell-box", "-o", m_folder / name, "--order", "2",
+            "--samples", "32",  "--bounces",           "2"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = runPatina(arguments);
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+    };
+    const auto render = [&](const std::string& bakeName, const std::string& name) {
+        const Outcome outcome = runPatina(
+            {"render", "builtin:cornell-box", "-o", m_folder / name, "--size", "64x64", "--samples",
+             "1", "--lighting", "prt", "--bake", m_folder / bakeName, "--set", repaint, "--json"});
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return outcome;
+    };
+    bake("before.exr", {"--bounce-samples", "16"});
+    bake("after.exr", {"--bounce-samples", "16", "--set", repaint});
+    EXPECT_FALSE(render("after.exr", "wanted.exr").json().contains("warnings"));
+    EXPECT_FALSE(render("before.exr", "found.exr").json().contains("warnings"));
+    EXPECT_EQ(readBytes(m_folder / "found.exr"), readBytes(m_folder / "wanted.exr"));
+
+    // Between texels light is not followed again: then the picture says so.
+    bake("texels.exr", {"--bounce-samples", "16", "--target", "texel", "--size", "16"});
+    const Outcome texels = render("texels.exr", "texels-picture.exr");
+    EXPECT_THAT(texels.json()["warnings"].dump(), HasSubstr("other colours"));
+}
+
+// Bands know no sharp edge, and so some light gets behind what hides a lamp near by.
+TEST_F(Commands, RenderWarnsOfLightsNearByUnderTransfer) {
+    const Result<OpenedScene> opened = openScene(m_worker, "builtin:sphere", {});
+    ASSERT_TRUE(opened);
+    for (const LightType type : {LightType::Directional, LightType::Sphere}) {
+        Document document = opened->document;
+        Light& light = document.lights.emplace_back();
+        light.id = document.takeId();
+        light.type = type;
+        const std::string scene = m_folder / "scene.patina", bake = m_folder / "bake.exr";
+        ASSERT_TRUE(saveProject(m_worker, document, scene));
+        ASSERT_EQ(
+            runPatina({"bake", "prt", scene, "-o", bake, "--order", "2", "--samples", "32"}).status,
+            0);
+        const Outcome outcome =
+            runPatina({"render", scene, "-o", m_folder / "x.png", "--size", "32x32", "--samples",
+                       "1", "--bake", bake, "--lighting", "prt", "--json"});
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_EQ(outcome.out.find("lights near by are soft") != std::string::npos,
+                  type == LightType::Sphere)
+            << outcome.out;
+    }
+}
+
+// A bake of a scene that was changed since says so.
+TEST_F(Commands, RenderWarnsOfStaleBakes) {
+    ASSERT_EQ(runPatina({"bake", "ao", "builtin:shader-ball", "--target", "vertex", "-o",
+                         m_folder / "ao.exr", "--samples", "32"})
+                  .status,
+              0);
+    nlohmann::json scene = runPatina({"info", "builtin:shader-ball", "--json"}).json();
+    const std::string mesh = scene["meshes"][0]["name"];
+    const Outcome stale = runPatina(
+        {"render", "builtin:shader-ball", "-o", m_folder / "x.png", "--size", "32x32", "--samples",
+         "1", "--bake", m_folder / "ao.exr", "--set", "mesh[" + mesh + "].visible=false"});
+    EXPECT_EQ(stale.status, 0) << stale.err;
+    EXPECT_THAT(stale.err, HasSubstr("a bake is stale: “" + mesh + "” was hidden"));
+}
+
+// Textures that do not fit into memory together are baked a few at a time: to the same pictures.
+TEST_F(Commands, TexturesAreBakedAsMemoryAllows) {
+    const std::vector<std::string> common{
+        "bake", "ao", "builtin:shader-ball", "--size", "256", "--samples", "32", "--json"};
+    const auto bake = [&](const std::string& name, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = common;
+        arguments.insert(arguments.end(), {"-o", m_folder / name});
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runPatina(arguments);
+    };
+    const Outcome whole = bake("a.png", {});
+    ASSERT_EQ(whole.status, 0) << whole.err;
+    EXPECT_GT(whole.json()["plan"]["outputBytes"], 0);
+    const std::size_t count = whole.json()["outputs"].size();
+    ASSERT_GE(count, 2u);
+    const std::string memory =
+        std::to_string(whole.json()["plan"]["memoryBytes"].get<std::uint64_t>() - 1'000'000);
+    const Outcome groups = bake("b.png", {"--max-memory", memory});
+    ASSERT_EQ(groups.status, 0) << groups.err;
+    EXPECT_LT(groups.json()["plan"]["texturesAtOnce"], count);
+    EXPECT_THAT(groups.json()["warnings"].dump(), HasSubstr("written as they are finished"));
+    ASSERT_EQ(groups.json()["outputs"].size(), count);
+    EXPECT_EQ(groups.json()["counts"], whole.json()["counts"]);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string a = whole.json()["outputs"][i], b = groups.json()["outputs"][i];
+        EXPECT_EQ(readBytes(a), readBytes(b)) << b;
+        EXPECT_NE(a, b);
+    }
+    // Not even one fits, or a checkpoint is to hold all.
+    EXPECT_EQ(bake("c.png", {"--max-memory", "1MiB"}).status, 2);
+    EXPECT_EQ(bake("c.png", {"--max-memory", memory, "--resume"}).status, 2);
 }
 
 TEST_F(Commands, SignalsStopABakeAndLeaveNothing) {

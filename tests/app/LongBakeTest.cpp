@@ -97,23 +97,22 @@ TEST(CheckpointOption, TakesTimes) {
 }
 
 // Two square grids, a floor and a wall at its edge, that shadow and light each other.
-std::string cornerObj() {
-    constexpr int kSide = 24; // cells
+std::string cornerObj(int side = 24) { // cells
     std::string text;
     for (int grid = 0; grid < 2; ++grid)
-        for (int row = 0; row <= kSide; ++row)
-            for (int column = 0; column <= kSide; ++column) {
-                const double u = static_cast<double>(column) / kSide;
-                const double v = static_cast<double>(row) / kSide;
+        for (int row = 0; row <= side; ++row)
+            for (int column = 0; column <= side; ++column) {
+                const double u = static_cast<double>(column) / side;
+                const double v = static_cast<double>(row) / side;
                 text += grid == 0 ? fmt::format("v {} 0 {}\n", u, -v)
                                   : fmt::format("v 0 {} {}\n", u, -v);
                 text += fmt::format("vt {} {}\n", 0.5 * (u + grid), v);
             }
     for (int grid = 0; grid < 2; ++grid)
-        for (int row = 0; row < kSide; ++row)
-            for (int column = 0; column < kSide; ++column) {
-                const int a = (grid * (kSide + 1) + row) * (kSide + 1) + column + 1;
-                const int b = a + 1, c = a + kSide + 1, d = c + 1;
+        for (int row = 0; row < side; ++row)
+            for (int column = 0; column < side; ++column) {
+                const int a = (grid * (side + 1) + row) * (side + 1) + column + 1;
+                const int b = a + 1, c = a + side + 1, d = c + 1;
                 text += grid == 0 ? fmt::format("f {0}/{0} {1}/{1} {3}/{3} {2}/{2}\n", a, b, c, d)
                                   : fmt::format("f {0}/{0} {2}/{2} {3}/{3} {1}/{1}\n", a, b, c, d);
             }
@@ -308,6 +307,25 @@ TEST_F(LongBake, AnInterruptLeavesACheckpointToGoOnFrom) {
     }
 }
 
+// Importing takes its time; a farm that takes the machine back then must not lose the task.
+TEST_F(LongBake, AnInterruptDuringTheImportIsForNowToo) {
+    const std::string scene = m_sceneFolder / "large.obj";
+    writeBytes(scene, cornerObj(300));
+    for (const auto& [given, status] : {std::pair{true, 75}, std::pair{false, 143}}) {
+        writeBytes(m_folder / "a.exr.checkpoint", "of an earlier bake");
+        RunOptions interrupt;
+        interrupt.signal = SIGTERM;
+        interrupt.signalWhen = "will be replaced"; // said before the scene is opened
+        std::vector<std::string> options{"--samples", "16384", "--json"};
+        if (given)
+            options.insert(options.end(), {"--checkpoint", "1h"});
+        const Outcome stopped = bake("a.exr", options, interrupt, scene);
+        EXPECT_EQ(stopped.status, status) << stopped.err;
+        EXPECT_EQ(stopped.json()["error"]["exitStatus"], status);
+        EXPECT_EQ(bytes("a.exr.checkpoint"), "of an earlier bake") << "no ray was cast";
+    }
+}
+
 TEST_F(LongBake, InfoSaysWhatPartsAndCheckpointsAre) {
     const auto info = [&](const std::string& name) {
         return runPatina({"info", m_folder / name, "--json"}).json();
@@ -363,6 +381,50 @@ TEST_F(LongBake, AFullDiskAtACheckpointIsAWarning) {
                 Contains(AllOf(HasSubstr("the bake goes on"), HasSubstr("a.exr.checkpoint"),
                                HasSubstr("the disk is full")))
                     .Times(1));
+}
+
+// At the end the result is there, and its place is full or gone: it is kept elsewhere.
+TEST_F(LongBake, ABakeThatCannotBeWrittenIsKeptElsewhere) {
+    const std::vector<std::string> options{"--order", "2", "--samples", "2048", "--no-fit"};
+    ASSERT_EQ(bake("whole.exr", options).status, 0);
+    for (const bool full : {true, false}) {
+        const TemporaryFolder elsewhere;
+        const std::string folder = m_folder / (full ? "full" : "gone");
+        fs::create_directory(folder);
+        if (full)
+            fs::create_symlink("/dev/full", folder + "/a.exr");
+        RunOptions run;
+        run.environment["TMPDIR"] = elsewhere.path();
+        if (!full) {
+            run.signalWhen = "%";
+            run.when = [&] { fs::remove_all(folder); };
+        }
+        std::vector<std::string> more = options;
+        more.emplace_back("--json");
+        const Outcome outcome = bake((full ? "full" : "gone") + std::string("/a.exr"), more, run);
+        EXPECT_EQ(outcome.status, full ? 74 : 73) << outcome.err;
+        ASSERT_EQ(elsewhere.files().size(), 1u) << outcome.err;
+        const std::string kept = elsewhere / elsewhere.files()[0];
+        EXPECT_THAT(outcome.json()["error"]["message"].get<std::string>(),
+                    HasSubstr("; the bake is kept in " + kept));
+        EXPECT_EQ(readBytes(kept), bytes("whole.exr"));
+    }
+}
+
+// Whatever limits the size of files: it is known before the first ray.
+TEST_F(LongBake, WhatDoesNotFitOnTheDiskIsRefusedBeforeTheFirstRay) {
+    RunOptions limited;
+    limited.program = "/usr/bin/prlimit";
+    const std::string patina = std::string(std::getenv("PATINA_BIN_DIR")) + "/patina";
+    const Outcome outcome =
+        runPatina({"--fsize=250000", patina, "bake", "prt", m_scene, "-o", m_folder / "a.exr",
+                   "--order", "8", "--samples", "32", "--json"},
+                  limited);
+    EXPECT_EQ(outcome.status, 74) << outcome.err;
+    EXPECT_THAT(outcome.json()["error"]["message"].get<std::string>(),
+                AllOf(HasSubstr("can be written there"), HasSubstr("0.2 MiB")));
+    EXPECT_FALSE(outcome.json().contains("rays"));
+    EXPECT_THAT(m_folder.files(), IsEmpty());
 }
 
 TEST_F(LongBake, TwoBakesIntoOneFileAreRefused) {
