@@ -11,6 +11,7 @@
 #include <QKeyEvent>
 #include <QMenu>
 #include <algorithm>
+#include <utility>
 
 namespace patina::editor {
 
@@ -51,6 +52,8 @@ QString text(std::string_view utf8) {
 QString menuText(QString name) {
     return name.replace(QLatin1Char('&'), QLatin1String("&&"));
 }
+
+constexpr const char* kPeeks = "peeks"; // of an action
 
 bool isModifier(int key) {
     return key == Qt::Key_Shift || key == Qt::Key_Control || key == Qt::Key_Alt ||
@@ -99,6 +102,7 @@ ViewActions::ViewActions(ViewState& views, DocumentController& controller, QObje
     connect(split, &QAction::triggered, &m_state, &ViewState::toggleSplit);
     connect(allTerms, &QAction::triggered, this,
             [this] { m_state.edit([](ViewSettings& settings) { settings.terms.fill(true); }); });
+    QCoreApplication::instance()->installEventFilter(this); // sees keys before their actions do
     makeViews();
     makeCycles();
     makeTerms();
@@ -120,8 +124,7 @@ QAction* ViewActions::make(const QString& label, const QString& keys, const QStr
         action->setShortcut(QKeySequence(keys));
     action->setAutoRepeat(false); // a held key peeks
     Actions::describe(action, sentence);
-    if (peeks)
-        action->installEventFilter(this);
+    action->setProperty(kPeeks, peeks);
     return action;
 }
 
@@ -265,16 +268,21 @@ void ViewActions::fillLights(QMenu& menu) {
 
 bool ViewActions::eventFilter(QObject* watched, QEvent* event) {
     switch (event->type()) {
+    case QEvent::ShortcutOverride: // comes before the action's event, which has no time of its own
+        if (const auto* key = static_cast<QKeyEvent*>(event); !key->isAutoRepeat())
+            m_lastPressMs = key->timestamp();
+        break;
     case QEvent::Shortcut: // to one of the actions; it is triggered next
-        if (!m_held.isValid())
-            QCoreApplication::instance()->installEventFilter(this);
+        if (!watched->property(kPeeks).toBool())
+            break;
         m_beforeHold = m_state.settings();
         m_held.start();
+        m_heldSinceMs = std::exchange(m_lastPressMs, 0);
         break;
     case QEvent::KeyRelease: {
         const auto* key = static_cast<QKeyEvent*>(event);
         if (m_held.isValid() && !key->isAutoRepeat() && !isModifier(key->key()))
-            endHold(m_held.elapsed() > kPeekMs);
+            endHold(heldUntil(key->timestamp()));
         break;
     }
     case QEvent::ApplicationDeactivate: // the release goes elsewhere
@@ -287,9 +295,16 @@ bool ViewActions::eventFilter(QObject* watched, QEvent* event) {
     return QObject::eventFilter(watched, event);
 }
 
+// By when the key moved, not by when the program got round to it: behind a slow frame a tap is
+// still a tap. Events that other programs make may have no time.
+bool ViewActions::heldUntil(quint64 releaseMs) const {
+    if (m_heldSinceMs == 0 || releaseMs < m_heldSinceMs)
+        return m_held.elapsed() > kPeekMs;
+    return releaseMs - m_heldSinceMs > quint64{kPeekMs};
+}
+
 void ViewActions::endHold(bool restore) {
     m_held.invalidate();
-    QCoreApplication::instance()->removeEventFilter(this);
     if (!restore)
         return;
     m_state.edit([this](ViewSettings& settings) {

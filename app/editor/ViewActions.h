@@ -50,6 +50,7 @@ class ViewActions : public QObject {
     void refresh();
     void fillLights(QMenu& menu);
     void endHold(bool restore);
+    [[nodiscard]] bool heldUntil(quint64 releaseMs) const; // longer than a moment
 
     ViewState& m_state;
     DocumentController& m_controller;
@@ -57,6 +58,8 @@ class ViewActions : public QObject {
     std::vector<QAction*> m_cycles; // by ViewGroup: forwards and back
     std::vector<QAction*> m_terms;  // by kTermViews: part of the picture
     QElapsedTimer m_held;           // since the key of an action went down; invalid: none is
+    quint64 m_lastPressMs = 0;      // of the newest key press, by the window system's clock
+    quint64 m_heldSinceMs = 0;      // of the key that m_held is about; 0: not known
     render::ViewSettings m_beforeHold;
 };
 

@@ -187,6 +187,29 @@ TEST_F(ViewsWindowTest, AKeyThatIsHeldPeeks) {
     EXPECT_EQ(shown(), kViewBaseColor);
 }
 
+// Behind a slow frame a tap is still a tap, and holding is holding: the keys' own times count.
+TEST_F(ViewsWindowTest, ATapIsATapHoweverLateItIsHandled) {
+    const auto press = [](int key, const QString& letter, ulong ms) {
+        EXPECT_TRUE(qt_sendShortcutOverrideEvent(&viewport(), ms, key, Qt::NoModifier, letter));
+    };
+    const auto release = [](int key, const QString& letter, ulong ms) {
+        QKeyEvent event(QEvent::KeyRelease, key, Qt::NoModifier, letter);
+        event.setTimestamp(ms);
+        QApplication::sendEvent(&viewport(), &event);
+    };
+    key(Qt::Key_B);
+    press(Qt::Key_N, QStringLiteral("n"), 100'000);
+    EXPECT_EQ(shown(), kViewShadingNormal);
+    QTest::qSleep(ViewActions::kPeekMs + 100); // the program is busy
+    release(Qt::Key_N, QStringLiteral("n"), 100'060);
+    EXPECT_EQ(shown(), kViewShadingNormal) << "tapped";
+
+    press(Qt::Key_B, QStringLiteral("b"), 200'000);
+    EXPECT_EQ(shown(), kViewBaseColor);
+    release(Qt::Key_B, QStringLiteral("b"), 200'000 + ViewActions::kPeekMs + 1);
+    EXPECT_EQ(shown(), kViewShadingNormal) << "held, although both were handled at once";
+}
+
 TEST_F(ViewsWindowTest, KeysBelongToTheFieldThatIsTypedInto) {
     auto* roughness = find<NumberField>(*window, QStringLiteral("Roughness"));
     ASSERT_NE(roughness, nullptr);
