@@ -2,6 +2,7 @@
 
 #include "core/base/Check.h"
 #include "core/document/AbsentBake.h"
+#include "core/document/ResetValue.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -110,9 +111,7 @@ std::vector<ParameterEdit> editsForMap(const Document& document, const Parameter
         std::find_if(parameters().begin(), parameters().end(),
                      [&](const ParameterInfo& info) { return mapOf(info) == &map; });
     if (isFirst && slot.assigned() && number != parameters().end()) {
-        ParameterValue neutral = 1.0f;
-        if (number->type == ParameterType::Color)
-            neutral = glm::vec3(1.0f);
+        const ParameterValue neutral = neutralFactor(*number);
         if (number->get(document, target.id) != neutral)
             edits.push_back({&*number, neutral});
     }

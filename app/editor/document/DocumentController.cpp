@@ -4,6 +4,7 @@
 #include "app/editor/document/EnvironmentResolver.h"
 #include "core/base/Check.h"
 #include "core/document/Lights.h"
+#include "core/document/ResetValue.h"
 
 #include <algorithm>
 
@@ -140,7 +141,8 @@ void DocumentController::setParameters(Target target, const std::vector<Paramete
 }
 
 void DocumentController::resetParameter(const ParameterInfo& info, Target target) {
-    setParameter(info, target, info.defaultValue());
+    if (targetExists(m_document, target))
+        setParameter(info, target, resetValue(m_document, info, target));
 }
 
 // --- Structure -----------------------------------------------------------------------------------

@@ -10,6 +10,7 @@ class RowLabel : public QLabel {
   public:
     explicit RowLabel(const QString& text, QWidget* parent = nullptr);
     void setAtDefault(bool atDefault);
+    [[nodiscard]] bool isAtDefault() const { return m_atDefault; }
 
   Q_SIGNALS:
     void resetRequested();
