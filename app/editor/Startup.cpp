@@ -1,5 +1,7 @@
 #include "app/editor/Startup.h"
 
+#include "core/base/HeapGrowth.h"
+
 #include <QCoreApplication>
 #include <QFileInfo>
 #include <QGuiApplication>
@@ -27,6 +29,7 @@ void avoidFullShaderCache() {
 } // namespace
 
 void prepareApplication() {
+    boundHeapGrowth();
     avoidFullShaderCache();
     // Without shared contexts, floating a dock would destroy the viewport's.
     QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);

@@ -1,5 +1,6 @@
 #include "core/bake/RayScene.h"
 
+#include "core/base/HeapGrowth.h"
 #include "core/job/ForkJoin.h"
 #include "core/math/Sampling.h"
 
@@ -11,9 +12,6 @@
 #include <fmt/format.h>
 #include <new>
 
-#if defined(__GLIBC__)
-#include <malloc.h>
-#endif
 #if defined(__SSE2__)
 #include <pmmintrin.h>
 #include <xmmintrin.h>
@@ -69,13 +67,6 @@ void keepSolid(const RTCFilterFunctionNArguments* args) {
     }
 }
 
-// Embree builds in memory of malloc's, which keeps for the process what is freed amid its heap.
-void returnFreedMemory() {
-#if defined(__GLIBC__)
-    malloc_trim(0);
-#endif
-}
-
 } // namespace
 
 struct RayScene::Impl {
@@ -95,7 +86,7 @@ struct RayScene::Impl {
             rtcReleaseScene(scene);
         if (device)
             rtcReleaseDevice(device);
-        returnFreedMemory();
+        returnFreedMemory(); // Embree builds in memory of malloc's
     }
 };
 
