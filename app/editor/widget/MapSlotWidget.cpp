@@ -203,7 +203,7 @@ void MapSlotWidget::show(const MapSlot& slot) {
 }
 
 void MapSlotWidget::refreshThumbnail() {
-    m_picture = m_thumbnails.thumbnail(m_slot.image, 2 * kThumbnail);
+    m_picture = m_thumbnails.thumbnail(m_slot.image, 2 * kThumbnail, m_slot.channel);
     update();
 }
 

@@ -10,7 +10,7 @@ namespace {
 constexpr int kMaxEntries = 256;
 }
 
-QImage displayImage(const Image& image, int maxSide, float exposureEv) {
+QImage displayImage(const Image& image, int maxSide, float exposureEv, MapChannel channel) {
     if (image.empty())
         return {};
     const Image small = shrinkImage(image, maxSide);
@@ -21,7 +21,11 @@ QImage displayImage(const Image& image, int maxSide, float exposureEv) {
     for (int y = 0; y < small.height(); ++y) {
         auto* row = reinterpret_cast<QRgb*>(picture.scanLine(y));
         for (int x = 0; x < small.width(); ++x) {
-            glm::vec3 color(small.linear(x, y));
+            const glm::vec4 texel = small.linear(x, y);
+            glm::vec3 color(texel);
+            if (channel != MapChannel::Rgb)
+                color =
+                    glm::vec3(texel[static_cast<int>(channel) - static_cast<int>(MapChannel::R)]);
             if (highRange && !data) {
                 color *= exposure;
                 color = color / (color + glm::vec3(1.0f)) * 1.6f; // Reinhard, a little brighter
@@ -46,18 +50,18 @@ Thumbnails::~Thumbnails() {
     m_pool.waitForDone();
 }
 
-QImage Thumbnails::thumbnail(const ImagePtr& image, int side) {
+QImage Thumbnails::thumbnail(const ImagePtr& image, int side, MapChannel channel) {
     if (!image)
         return {};
-    const QPair<quintptr, int> key(reinterpret_cast<quintptr>(image.get()), side);
+    const Key key(reinterpret_cast<quintptr>(image.get()), {side, static_cast<int>(channel)});
     const auto found = m_entries.constFind(key);
     if (found != m_entries.constEnd() && found->image.lock() == image)
         return found->picture;
     if (m_entries.size() >= kMaxEntries)
         m_entries.clear();
     m_entries.insert(key, {image, {}});
-    m_pool.start([this, image, key, side] {
-        const QImage picture = displayImage(*image, side);
+    m_pool.start([this, image, key, side, channel] {
+        const QImage picture = displayImage(*image, side, 0.0f, channel);
         QMetaObject::invokeMethod(
             this,
             [this, image, key, picture] {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/image/Image.h"
+#include "core/material/Material.h"
 
 #include <QHash>
 #include <QImage>
@@ -11,9 +12,10 @@
 
 namespace patina::editor {
 
-// An image as a screen shows it: Data as it is, high dynamic range exposed and tone mapped, alpha
-// ignored.
-[[nodiscard]] QImage displayImage(const Image& image, int maxSide, float exposureEv = 0.0f);
+// An image as a screen shows it: Data as it is, high dynamic range exposed and tone mapped. Of a
+// single channel in grey; Rgb ignores alpha.
+[[nodiscard]] QImage displayImage(const Image& image, int maxSide, float exposureEv = 0.0f,
+                                  MapChannel channel = MapChannel::Rgb);
 
 class Thumbnails : public QObject {
     Q_OBJECT
@@ -22,7 +24,8 @@ class Thumbnails : public QObject {
     ~Thumbnails() override;
 
     // At most `side` pixels; null until ready() comes.
-    [[nodiscard]] QImage thumbnail(const ImagePtr& image, int side);
+    [[nodiscard]] QImage thumbnail(const ImagePtr& image, int side,
+                                   MapChannel channel = MapChannel::Rgb);
 
   Q_SIGNALS:
     void ready();
@@ -33,7 +36,8 @@ class Thumbnails : public QObject {
         QImage picture;                   // null while it is being made
     };
     QThreadPool m_pool;
-    QHash<QPair<quintptr, int>, Entry> m_entries;
+    using Key = QPair<quintptr, QPair<int, int>>; // address of the image; side and channel
+    QHash<Key, Entry> m_entries;
 };
 
 } // namespace patina::editor

@@ -299,6 +299,33 @@ TEST(ThumbnailsTest, ShowsWhatTheEncodingMeans) {
     EXPECT_TRUE(displayImage(Image(), 8).isNull());
 }
 
+// Two maps in one image look like two maps.
+TEST(ThumbnailsTest, ShowTheChannelThatIsRead) {
+    auto packed = std::make_shared<Image>(2, 2, 4, PixelType::U8, ColorEncoding::Data);
+    for (std::size_t i = 0; i < packed->u8().size(); ++i)
+        packed->u8()[i] = static_cast<std::uint8_t>(40 + 50 * (i % 4));
+    const MapChannel channels[] = {MapChannel::R, MapChannel::G, MapChannel::B, MapChannel::A};
+    for (int c = 0; c < 4; ++c)
+        EXPECT_EQ(displayImage(*packed, 8, 0.0f, channels[c]).pixel(1, 1),
+                  qRgb(40 + 50 * c, 40 + 50 * c, 40 + 50 * c));
+    EXPECT_EQ(displayImage(*packed, 8).pixel(1, 1), qRgb(40, 90, 140));
+
+    // In the slot's own picture, which follows the choice of the channel.
+    Thumbnails thumbnails;
+    MapSlotWidget widget(thumbnails, QStringLiteral("Roughness map"), false);
+    widget.resize(240, 60);
+    MapSlot slot;
+    slot.source = "/packed.png";
+    slot.image = packed;
+    for (int c = 0; c < 4; ++c) {
+        slot.channel = channels[c];
+        widget.setSlot(slot);
+        EXPECT_TRUE(QTest::qWaitFor([&] {
+            return qRed(widget.grab().toImage().pixel(20, 20)) == 40 + 50 * c;
+        })) << c;
+    }
+}
+
 TEST(NoticeAreaTest, StacksCountsAndDismisses) {
     NoticeArea area;
     const UserNotice missing{NoticeKind::Warning,
