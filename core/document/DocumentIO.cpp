@@ -154,7 +154,12 @@ Result<OpenedScene> loadProject(WorkerClient& worker, const fs::path& projectFil
     Result<std::string> json = readTextFile(projectFile, limits::kMaxProjectFileBytes);
     if (!json)
         return json.error();
-    Result<project::ParsedProject> parsed = project::parseProject(*json, projectFile);
+    return loadProjectText(worker, *json, projectFile, job);
+}
+
+Result<OpenedScene> loadProjectText(WorkerClient& worker, const std::string& json,
+                                    const fs::path& projectFile, const JobContext& job) {
+    Result<project::ParsedProject> parsed = project::parseProject(json, projectFile);
     if (!parsed)
         return parsed.error();
 

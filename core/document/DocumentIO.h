@@ -55,5 +55,9 @@ struct SaveOutcome {
 
 Result<OpenedScene> loadProject(WorkerClient& worker, const std::filesystem::path& projectFile,
                                 const JobContext& job = {});
+// The same of a text that need not be in that file.
+Result<OpenedScene> loadProjectText(WorkerClient& worker, const std::string& json,
+                                    const std::filesystem::path& projectFile,
+                                    const JobContext& job = {});
 
 } // namespace patina
