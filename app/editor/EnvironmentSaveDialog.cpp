@@ -1,6 +1,7 @@
 #include "app/editor/EnvironmentSaveDialog.h"
 
 #include "app/editor/document/DocumentController.h"
+#include "app/editor/document/ProposedFolder.h"
 #include "app/editor/job/JobManager.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/OutputFile.h"
@@ -12,9 +13,7 @@
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QLabel>
-#include <QSettings>
 #include <QSpinBox>
-#include <QStandardPaths>
 #include <QVBoxLayout>
 
 namespace patina::editor {
@@ -28,10 +27,8 @@ QString fromPath(const std::filesystem::path& path) {
     return QFile::decodeName(path.string().c_str());
 }
 
-QString suggestedPath() {
-    const QString documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
-    const QString folder = QSettings().value(kFolderKey, documents).toString();
-    return QDir(folder.isEmpty() ? QDir::homePath() : folder)
+QString suggestedPath(const DocumentController& controller) {
+    return QDir(proposedFolder(controller, QLatin1String(kFolderKey)))
         .filePath(QStringLiteral("environment.exr"));
 }
 
@@ -46,7 +43,7 @@ EnvironmentSaveDialog::EnvironmentSaveDialog(DocumentController& controller, Job
           QStringLiteral("environmentSave"),
           {{tr("OpenEXR (32-bit float)"), QStringLiteral("exr"), QStringLiteral("OpenEXR")},
            {tr("Radiance HDR"), QStringLiteral("hdr"), QStringLiteral("Radiance HDR")}},
-          suggestedPath(), *this)) {
+          suggestedPath(controller), *this)) {
     connect(m_output, &OutputFile::changed, this, &EnvironmentSaveDialog::refresh);
     connect(m_output, &OutputFile::accepted, this, &EnvironmentSaveDialog::run);
     setObjectName(QStringLiteral("environmentSaveDialog"));
@@ -164,7 +161,7 @@ void EnvironmentSaveDialog::run() {
         environment.rotationDeg = 0.0f;
         environment.exposureEv = 0.0f;
     }
-    QSettings().setValue(kFolderKey, QFileInfo(m_output->path()).absolutePath());
+    rememberFolder(m_controller, QLatin1String(kFolderKey), m_output->path());
     m_jobs.start(tr("Save environment: %1").arg(QFileInfo(m_output->path()).fileName()), false,
                  [environment, wanted = settings(), worker = &m_controller.worker(),
                   controller = &m_controller](const JobContext& job) -> JobOutcome {

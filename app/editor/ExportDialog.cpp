@@ -1,6 +1,7 @@
 #include "app/editor/ExportDialog.h"
 
 #include "app/editor/document/DocumentController.h"
+#include "app/editor/document/ProposedFolder.h"
 #include "app/editor/job/JobManager.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/OutputFile.h"
@@ -12,7 +13,6 @@
 #include <QFormLayout>
 #include <QHeaderView>
 #include <QLabel>
-#include <QStandardPaths>
 #include <QTableWidget>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -30,10 +30,7 @@ std::filesystem::path toPath(const QString& text) {
 
 QString suggestedPath(const DocumentController& controller) {
     const QString name = QFileInfo(controller.displayName()).completeBaseName();
-    const QString folder = controller.filePath().isEmpty()
-                               ? QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)
-                               : QFileInfo(controller.filePath()).absolutePath();
-    return QDir(folder.isEmpty() ? QDir::homePath() : folder)
+    return QDir(proposedFolder(controller, QStringLiteral("folders/exports")))
         .filePath((name.isEmpty() ? QStringLiteral("scene") : name) + QStringLiteral(".glb"));
 }
 

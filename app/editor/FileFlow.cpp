@@ -1,9 +1,12 @@
 #include "app/editor/FileFlow.h"
 
 #include "app/editor/Session.h"
+#include "app/editor/document/DropPlan.h"
 #include "app/editor/document/FileKinds.h"
+#include "app/editor/document/ProposedFolder.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/MapSlotWidget.h"
 #include "core/document/Scene.h"
 
 #include <QFileDialog>
@@ -50,8 +53,19 @@ void FileFlow::newScene() {
     guard([this] { m_session.controller.newDocument(); });
 }
 
+void FileFlow::openScene(const QString& scene, const std::function<void(bool)>& done) {
+    m_session.controller.openScene(scene, [this, done](bool opened) {
+        Q_EMIT openingChanged({});
+        if (done)
+            done(opened);
+    });
+    Q_EMIT openingChanged(isBuiltin(scene.toStdString())
+                              ? MapSlotWidget::sourceTitle(scene.toStdString())
+                              : QFileInfo(scene).fileName());
+}
+
 void FileFlow::open(const QString& scene) {
-    guard([this, scene] { m_session.controller.openScene(scene); });
+    guard([this, scene] { openScene(scene); });
 }
 
 void FileFlow::openWithDialog() {
@@ -60,7 +74,7 @@ void FileFlow::openWithDialog() {
         dialog->setAttribute(Qt::WA_DeleteOnClose);
         dialog->setFileMode(QFileDialog::ExistingFile);
         connect(dialog, &QFileDialog::fileSelected, this,
-                [this](const QString& file) { m_session.controller.openScene(file); });
+                [this](const QString& file) { openScene(file); });
         dialog->open();
     });
 }
@@ -86,13 +100,28 @@ void FileFlow::dropped(const QStringList& files, const QPoint& globalPosition) {
         }
         (kind == FileKind::Model ? models : others) << file;
     }
+    if (!models.isEmpty()) {
+        // Models bring their own maps, and the material that is selected may be about to go.
+        const DropPlan plan = planDrop(others);
+        QStringList images = plan.unclear;
+        for (const MapFile& one : plan.maps)
+            images << one.file;
+        for (const QString& image : images)
+            others.removeAll(image);
+        if (!images.isEmpty())
+            Q_EMIT m_session.controller.noticed(
+                {NoticeKind::Warning,
+                 tr("The images that came with the model were left out: drop them again, onto the "
+                    "material that they belong to."),
+                 images});
+    }
     m_session.controller.addFiles(others, m_session.selection.material());
     if (models.isEmpty())
         return;
 
     const auto openModels = [this, models] {
-        m_session.controller.openScene(
-            models.first(), [this, models](bool) { m_session.controller.addFiles(models.mid(1)); });
+        openScene(models.first(),
+                  [this, models](bool) { m_session.controller.addFiles(models.mid(1)); });
     };
     if (m_session.controller.isPristine()) {
         openModels();
@@ -131,7 +160,7 @@ void FileFlow::openFromCommandLine(const QStringList& files, const QString& envi
         m_session.controller.newDocument(then);
         return;
     }
-    m_session.controller.openScene(scene, [this, then](bool opened) {
+    openScene(scene, [this, then](bool opened) {
         if (opened)
             then(true);
         else
@@ -246,7 +275,7 @@ void FileFlow::remember(const QString& file) {
     files.prepend(file);
     QSettings settings;
     settings.setValue(recentKey(), files.mid(0, kMaxRecent));
-    settings.setValue(folderKey(), QFileInfo(file).absolutePath());
+    rememberFolder(m_session.controller, folderKey(), file);
     Q_EMIT recentFilesChanged();
 }
 
@@ -264,7 +293,7 @@ void FileFlow::clearRecentFiles() {
 }
 
 QString FileFlow::startFolder() const {
-    return QSettings().value(folderKey()).toString();
+    return proposedFolder(m_session.controller, folderKey());
 }
 
 } // namespace patina::editor

@@ -41,8 +41,11 @@ class FileFlow : public QObject {
 
   Q_SIGNALS:
     void recentFilesChanged();
+    void openingChanged(const QString& name); // of the scene that is being read; empty: none is
 
   private:
+    // Every scene is opened through this; `done` as of DocumentController::openScene().
+    void openScene(const QString& scene, const std::function<void(bool)>& done = {});
     void save(const std::function<void()>& then);
     void saveAs(const std::function<void()>& then);
     void remember(const QString& file);

@@ -27,7 +27,9 @@
 #include "app/editor/panel/TransferPanel.h"
 #include "app/editor/panel/ViewPanel.h"
 #include "app/editor/style/Icons.h"
+#include "app/editor/viewport/DropTarget.h"
 #include "app/editor/viewport/EquationBar.h"
+#include "app/editor/viewport/SceneProgress.h"
 #include "app/editor/viewport/ViewOverlay.h"
 #include "app/editor/viewport/ViewStrip.h"
 #include "app/editor/viewport/ViewportWidget.h"
@@ -92,6 +94,8 @@ MainWindow::MainWindow(Session& session)
     layout->addWidget(m_notices);
     layout->addWidget(m_viewport, 1);
     m_overlay = new ViewOverlay(session.views, session.controller, *m_viewport);
+    m_progress = new SceneProgress(session.controller, *m_viewport);
+    new DropTarget(*this, *m_viewport, session.controller, session.selection);
     auto* equation = new EquationBar(session.views, session.controller, m_viewport->sheets());
     layout->addWidget(equation);
     connect(m_looks->equation, &QAction::toggled, equation,
@@ -399,6 +403,8 @@ void MainWindow::connectActions() {
 
     connect(m_files, &FileFlow::recentFilesChanged, this, &MainWindow::fillRecentMenu);
     connect(&controller, &DocumentController::fileChanged, this, &MainWindow::refreshTitle);
+    connect(m_progress, &SceneProgress::sceneShown, this, &MainWindow::refreshTitle);
+    connect(m_files, &FileFlow::openingChanged, m_progress, &SceneProgress::setOpening);
     connect(&controller, &DocumentController::noticed, this, &MainWindow::notice);
     connect(&controller.tasks(), &BackgroundTasks::busyChanged, this,
             [this] { m_busy->setActivity(m_session.controller.tasks().activity()); });
@@ -450,8 +456,10 @@ void MainWindow::fillRecentMenu() {
 }
 
 void MainWindow::refreshTitle() {
-    setWindowTitle(tr("%1[*] — Patina").arg(m_session.controller.displayName()));
     setWindowModified(m_session.controller.isModified());
+    if (m_progress->pending())
+        return; // the picture is still that of the scene before
+    setWindowTitle(tr("%1[*] — Patina").arg(m_session.controller.displayName()));
     setWindowFilePath(m_session.controller.filePath());
 }
 

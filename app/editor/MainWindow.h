@@ -16,6 +16,7 @@ class FileFlow;
 class MaterialPanel;
 class NoticeArea;
 class ViewActions;
+class SceneProgress;
 class ViewOverlay;
 class ViewportWidget;
 enum class PictureState;
@@ -69,7 +70,8 @@ class MainWindow : public QMainWindow {
     Docks* m_docks;
     NoticeArea* m_notices;
     ViewportWidget* m_viewport;
-    ViewOverlay* m_overlay = nullptr; // over the viewport
+    ViewOverlay* m_overlay = nullptr;    // over the viewport
+    SceneProgress* m_progress = nullptr; // likewise
     QMenu* m_recentMenu = nullptr;
     BusyIndicator* m_busy = nullptr;
     QLabel *m_gpu = nullptr, *m_frameTime = nullptr, *m_triangles = nullptr;

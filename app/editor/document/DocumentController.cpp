@@ -3,6 +3,7 @@
 #include "app/editor/document/Commands.h"
 #include "app/editor/document/EnvironmentResolver.h"
 #include "core/base/Check.h"
+#include "core/document/LightPlacement.h"
 #include "core/document/Lights.h"
 #include "core/document/ResetValue.h"
 
@@ -175,7 +176,7 @@ QString DocumentController::nameText(Target target) const {
 }
 
 Id DocumentController::addLight(LightType type) {
-    Light light = defaultLight(type, m_document.bounds());
+    Light light = placedInView(defaultLight(type, m_document.bounds()), m_document);
     QString undoText;
     switch (type) {
     case LightType::Point:

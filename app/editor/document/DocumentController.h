@@ -124,8 +124,8 @@ class DocumentController : public QObject {
     void newDocument(std::function<void(bool)> done = {}); // the start scene
     // A project, a model file or "builtin:NAME".
     void openScene(const QString& scene, std::function<void(bool)> done = {});
-    // Models are added, HDRs light the scene, images become the base colour of a material, projects
-    // are opened.
+    // Models are added, HDRs light the scene, projects are opened, images become maps of a material
+    // by their names (document/DropPlan.h); one that says none becomes its base colour.
     void addFiles(const QStringList& files, Id baseColorOf = 0);
     void saveAs(const QString& file, std::function<void(bool)> done = {});
 

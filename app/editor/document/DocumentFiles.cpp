@@ -3,7 +3,6 @@
 #include "app/editor/document/Commands.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/EnvironmentResolver.h"
-#include "app/editor/document/FileKinds.h"
 #include "app/editor/document/ImportNotice.h"
 #include "core/base/Check.h"
 #include "core/document/DocumentIO.h"
@@ -13,6 +12,7 @@
 
 #include <QFileInfo>
 #include <algorithm>
+#include <utility>
 
 namespace patina::editor {
 namespace {
@@ -52,6 +52,19 @@ void appendScene(Document& document, const Document& part) {
     }
     for (const Light& light : part.lights)
         addLight(document, light);
+}
+
+// A model brings no light but its own lamps: it is lit as the scene before it was.
+void keepLight(Document& opened, const Document& before) {
+    if (!before.environment.image)
+        return; // nothing was open
+    opened.environment = before.environment;
+    for (Softbox& softbox : opened.environment.softboxes)
+        softbox.id = opened.takeId();
+    const std::vector<Light> own = std::exchange(opened.lights, {});
+    for (const std::vector<Light>* lights : {&before.lights, &own})
+        for (const Light& light : *lights)
+            addLight(opened, light);
 }
 
 } // namespace
@@ -106,6 +119,8 @@ void DocumentController::takeOpened(OpenedScene opened, const QString& scene, co
     const UserNotice notice = importNotice(name, opened);
     const QString file =
         isBuiltin(scene.toStdString()) ? scene : QFileInfo(scene).absoluteFilePath();
+    if (!opened.isProject)
+        keepLight(opened.document, m_document);
     replaceDocument(std::move(opened.document), opened.isProject ? file : QString(),
                     opened.isProject ? name : QFileInfo(name).completeBaseName(), false);
     if (!notice.text.isEmpty())
@@ -274,36 +289,6 @@ void DocumentController::applyLibraryMaterial(Id id, const QString& name) {
                         [&](Document& document) { replaceLook(document, id, result->value()); });
             };
         });
-}
-
-void DocumentController::addFiles(const QStringList& files, Id baseColorOf) {
-    for (const QString& file : files) {
-        switch (fileKind(file)) {
-        case FileKind::Model:
-            addModel(file);
-            break;
-        case FileKind::Environment:
-            setEnvironment(file);
-            break;
-        case FileKind::Image:
-            if (m_document.material(baseColorOf))
-                setMap(parameter("material.baseColor.map"), {Scope::Material, baseColorOf}, file);
-            break;
-        case FileKind::Project:
-            openScene(file);
-            break;
-        case FileKind::DisplayConfig:
-            setDisplayConfig(file);
-            break;
-        case FileKind::Unknown:
-            Q_EMIT noticed({NoticeKind::Error,
-                            tr("%1 is neither a model, an image, an environment nor a project "
-                               "that Patina can read.")
-                                .arg(QFileInfo(file).fileName()),
-                            {file}});
-            break;
-        }
-    }
 }
 
 void DocumentController::saveAs(const QString& file, std::function<void(bool)> done) {

@@ -2,6 +2,7 @@
 
 #include "app/editor/document/Commands.h"
 #include "app/editor/document/FileKinds.h"
+#include "app/editor/document/ProposedFolder.h"
 #include "app/editor/panel/ParameterList.h"
 #include "app/editor/panel/SoftboxList.h"
 #include "app/editor/style/Icons.h"
@@ -20,7 +21,6 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
-#include <QSettings>
 #include <QToolButton>
 #include <QVBoxLayout>
 
@@ -224,6 +224,9 @@ void EnvironmentPanel::refresh() {
     refreshPicture();
 
     const QString source = QString::fromStdString(environment.source);
+    if (environment.kind == EnvironmentKind::Image && environment.problem.empty() &&
+        environment.fileImage && !environment.source.empty() && !isBuiltin(environment.source))
+        m_gallery->addRecent(source, environment.fileImage);
     m_gallery->setCurrent(source);
     m_source->setText(MapSlotWidget::sourceTitle(environment.source));
     const bool broken = !environment.problem.empty();
@@ -249,11 +252,11 @@ void EnvironmentPanel::showEvent(QShowEvent* event) {
 void EnvironmentPanel::browse() {
     const QString key = QStringLiteral("folders/environments");
     auto* dialog = new QFileDialog(window(), tr("Choose Environment"),
-                                   QSettings().value(key).toString(), environmentFilter());
+                                   proposedFolder(m_controller, key), environmentFilter());
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->setFileMode(QFileDialog::ExistingFile);
     connect(dialog, &QFileDialog::fileSelected, this, [this, key](const QString& file) {
-        QSettings().setValue(key, QFileInfo(file).absolutePath());
+        rememberFolder(m_controller, key, file);
         m_controller.setEnvironment(file);
     });
     dialog->open();

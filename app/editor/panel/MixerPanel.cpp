@@ -2,6 +2,7 @@
 
 #include "app/editor/document/Commands.h"
 #include "app/editor/document/FileKinds.h"
+#include "app/editor/document/ProposedFolder.h"
 #include "app/editor/panel/ParameterRow.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/LightIcon.h"
@@ -185,10 +186,13 @@ void MixerPanel::fillSources(QMenu& menu) {
 }
 
 void MixerPanel::openSecond() {
-    const QString file =
-        QFileDialog::getOpenFileName(this, tr("Second Surroundings"), {}, environmentFilter());
-    if (!file.isEmpty())
-        m_controller.setSecondEnvironment(file);
+    const QString key = QStringLiteral("folders/environments");
+    const QString file = QFileDialog::getOpenFileName(
+        this, tr("Second Surroundings"), proposedFolder(m_controller, key), environmentFilter());
+    if (file.isEmpty())
+        return;
+    rememberFolder(m_controller, key, file);
+    m_controller.setSecondEnvironment(file);
 }
 
 // --- The channels --------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 // The rows for each type of parameter.
 
 #include "app/editor/document/FileKinds.h"
+#include "app/editor/document/ProposedFolder.h"
 #include "app/editor/panel/ParameterRow.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/ColorButton.h"
@@ -12,7 +13,6 @@
 #include <QComboBox>
 #include <QFileDialog>
 #include <QHBoxLayout>
-#include <QSettings>
 #include <QWheelEvent>
 
 namespace patina::editor {
@@ -236,16 +236,17 @@ class MapRow : public ParameterRow {
     }
 
     void browse() {
-        QSettings settings;
         const QString key = QStringLiteral("folders/images");
+        DocumentController& controller = context().controller;
         auto* dialog = new QFileDialog(window(), tr("Choose %1").arg(toQString(info().label)),
-                                       settings.value(key).toString(), imageFilter());
+                                       proposedFolder(controller, key), imageFilter());
         dialog->setAttribute(Qt::WA_DeleteOnClose);
         dialog->setFileMode(QFileDialog::ExistingFile);
-        connect(dialog, &QFileDialog::fileSelected, this, [this, key](const QString& file) {
-            QSettings().setValue(key, QFileInfo(file).absolutePath());
-            load(file);
-        });
+        connect(dialog, &QFileDialog::fileSelected, this,
+                [this, key, &controller](const QString& file) {
+                    rememberFolder(controller, key, file);
+                    load(file);
+                });
         dialog->open();
     }
 

@@ -63,7 +63,7 @@ PixelPanel::PixelPanel(DocumentController& controller, PixelProbe& probe, PixelP
     , m_model(new ExplanationModel(this)) {
     setObjectName(QStringLiteral("pixelPanel"));
     auto* empty = new QLabel(tr("Move the pointer over the picture to see what each pixel is made "
-                                "of. P or Alt + click pins a point of the surface."));
+                                "of. P or Ctrl + Shift + click pins a point of the surface."));
     empty->setWordWrap(true);
     empty->setAlignment(Qt::AlignCenter);
     empty->setMargin(tokens::kMargin);
@@ -279,8 +279,10 @@ void PixelPanel::refresh() {
 void PixelPanel::refreshHeader() {
     const bool pinned = m_probe.pin().has_value();
     m_pin->setChecked(pinned || m_picker.isPicking());
-    const QString help = pinned ? tr("Take the pin away (P)")
-                                : tr("Pin a point of the surface: click it then (P, Alt + click)");
+    const QString help =
+        pinned ? tr("Take the pin away (P)")
+               : tr("Pin a point of the surface: click it then (P, Ctrl + Shift + click, "
+                    "Alt + click)");
     m_pin->setAccessibleName(pinned ? tr("Unpin") : tr("Pin"));
     m_pin->setToolTip(help);
     m_pin->setStatusTip(help);

@@ -4,6 +4,7 @@
 #include "app/editor/document/DisplayLoader.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/FileKinds.h"
+#include "app/editor/document/ProposedFolder.h"
 #include "app/editor/panel/ParameterList.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
@@ -18,7 +19,6 @@
 #include <QFormLayout>
 #include <QLabel>
 #include <QPushButton>
-#include <QSettings>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -308,11 +308,11 @@ void ViewPanel::refreshDisplay() {
 void ViewPanel::browse() {
     const QString key = QStringLiteral("folders/openColorIo");
     auto* dialog = new QFileDialog(window(), tr("Choose OpenColorIO Configuration"),
-                                   QSettings().value(key).toString(), displayConfigFilter());
+                                   proposedFolder(m_controller, key), displayConfigFilter());
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->setFileMode(QFileDialog::ExistingFile);
     connect(dialog, &QFileDialog::fileSelected, this, [this, key](const QString& file) {
-        QSettings().setValue(key, QFileInfo(file).absolutePath());
+        rememberFolder(m_controller, key, file);
         m_controller.setDisplayConfig(file);
     });
     dialog->open();

@@ -100,8 +100,8 @@ EquationBar::EquationBar(ViewState& views, DocumentController& controller, Sheet
     header->setSpacing(tokens::kGap);
     header->addWidget(m_fold);
     header->addWidget(m_crumbs);
-    header->addWidget(m_formula, 1);
-    header->addWidget(m_lacks, 1);
+    header->addWidget(m_formula, 2);
+    header->addWidget(m_lacks, 3); // whole where one term is missing
     header->addWidget(m_lights);
     header->addWidget(m_allOn);
     auto* layout = new QVBoxLayout(this);

@@ -17,6 +17,11 @@ namespace {
 constexpr int kLookMs = 33;         // between two looks, at least
 constexpr double kLookShare = 0.25; // of the time, at most, while something is dragged
 
+// Many window managers keep Alt + click for themselves.
+bool pinsWith(Qt::KeyboardModifiers modifiers) {
+    return modifiers == (Qt::ControlModifier | Qt::ShiftModifier) || modifiers == Qt::AltModifier;
+}
+
 } // namespace
 
 PixelPicker::PixelPicker(DocumentController& controller, QWidget& viewport)
@@ -208,8 +213,7 @@ bool PixelPicker::eventFilter(QObject*, QEvent* event) {
     switch (event->type()) {
     case QEvent::MouseButtonPress: {
         const auto* mouse = static_cast<QMouseEvent*>(event);
-        if (mouse->button() == Qt::LeftButton &&
-            (m_picking || mouse->modifiers() == Qt::AltModifier)) {
+        if (mouse->button() == Qt::LeftButton && (m_picking || pinsWith(mouse->modifiers()))) {
             m_pointer = mouse->position();
             setPicking(false);
             pinAt(mouse->position());

@@ -26,6 +26,7 @@ namespace patina::editor {
 namespace {
 
 constexpr int kRestMs = 250;                        // without movement until the picture is refined
+constexpr int kPanelsMs = 10;                       // for lists to show what was added
 constexpr int kAdaptationMs = 16;                   // between the frames of an eye that adapts
 constexpr int kAccumulationMs = 16;                 // between frames that are added up
 constexpr std::size_t kEnvironmentBytes = 16 << 20; // of textures between frames: some 10 ms
@@ -85,6 +86,9 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
         m_onlyDisplay = true;
         update();
     });
+    m_panelsTimer.setSingleShot(true);
+    m_panelsTimer.setInterval(kPanelsMs);
+    connect(&m_panelsTimer, &QTimer::timeout, this, qOverload<>(&QWidget::update));
     m_accumulationTimer.setSingleShot(true);
     m_accumulationTimer.setInterval(kAccumulationMs);
     connect(&m_accumulationTimer, &QTimer::timeout, this, [this] {
@@ -106,7 +110,7 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     });
 
     connect(&controller, &DocumentController::changed, this, &ViewportWidget::applyChange);
-    connect(&selection, &SelectionModel::selectionChanged, this, qOverload<>(&QWidget::update));
+    connect(&selection, &SelectionModel::selectionChanged, this, &ViewportWidget::updateSoon);
     connect(&m_hand, &ViewportHand::cameraMoved, this, &ViewportWidget::touch);
     connect(&m_hand, &ViewportHand::clicked, this, &ViewportWidget::pickAt);
     connect(&m_viewFeed, &ViewFeed::changed, this, [this] {
@@ -166,7 +170,12 @@ void ViewportWidget::setProbe(PixelProbe& probe) {
 
 void ViewportWidget::lookChanged() {
     m_sheets.invalidate();
-    update();
+    updateSoon();
+}
+
+void ViewportWidget::updateSoon() {
+    if (!m_panelsTimer.isActive())
+        update();
 }
 
 void ViewportWidget::setLobe(LobeOnSurface& lobe) {
@@ -407,6 +416,10 @@ double ViewportWidget::takeSlowestFrameMs() {
 }
 
 void ViewportWidget::applyChange(const Change& change) {
+    // What is new may take a second until the driver has compiled for it: its row in a list, which
+    // is drawn in the same pass of the window, must not wait for that.
+    if (touches(change.affects, Affects::Structure) && change.affects != Affects::Everything)
+        m_panelsTimer.start();
     // Another document: a project brings its own view, anything else is framed for this widget.
     if (change.affects == Affects::Everything && m_controller.filePath().isEmpty()) {
         const Document& document = m_controller.document();

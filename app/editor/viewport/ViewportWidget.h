@@ -102,6 +102,7 @@ class ViewportWidget : public QOpenGLWidget {
     void setCamera(const Camera& camera);
     void touch();       // the hand moved something: draw fast now, refine when it rests
     void lookChanged(); // of the scene, other than by the hand: its thumbnails are old, too
+    void updateSoon();  // update(), after the panels where they go first
     void hurry();       // the next frames must be fast
     void holdJobs();    // until the frame is shown
     [[nodiscard]] Result<render::Inspection> inspect(const QPoint& pixel);
@@ -142,6 +143,7 @@ class ViewportWidget : public QOpenGLWidget {
 
     FramePacing m_pacing;
     QTimer m_restTimer, m_environmentTimer, m_shaderTimer, m_adaptationTimer, m_accumulationTimer;
+    QTimer m_panelsTimer; // while it runs, panels show a change before the viewport does
     double m_slowestFrameMs = 0.0;
     QSize m_lastFrameSize;
 

@@ -2,14 +2,17 @@
 
 #include "app/editor/document/BackgroundTasks.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/RecentSkies.h"
 #include "app/editor/widget/Thumbnails.h"
 #include "core/library/Library.h"
 
+#include <QFileInfo>
 #include <QGridLayout>
 #include <QPixmap>
 #include <QPointer>
 #include <QTimer>
 #include <QToolButton>
+#include <algorithm>
 
 namespace patina::editor {
 namespace {
@@ -19,37 +22,86 @@ constexpr int kPreviewDelayMs = 1500; // the first frame of the scene goes befor
 } // namespace
 
 SkyGallery::SkyGallery(QWidget* parent)
-    : QWidget(parent) {
-    auto* grid = new QGridLayout(this);
-    grid->setContentsMargins(0, 0, 0, 0);
-    grid->setSpacing(4);
-    int index = 0;
-    for (const library::Entry& entry : library::environments()) {
-        auto* button = new QToolButton;
-        button->setObjectName(QStringLiteral("sky"));
-        button->setText(QString::fromStdString(entry.title));
-        button->setToolTip(QString::fromStdString(entry.help));
-        button->setStatusTip(QString::fromStdString(entry.help));
-        button->setAccessibleName(tr("Environment %1").arg(button->text()));
-        button->setToolButtonStyle(Qt::ToolButtonTextUnderIcon);
-        button->setIconSize(kPicture);
-        QPixmap blank(kPicture);
-        blank.fill(QColor(tokens::kWell));
-        button->setIcon(blank);
-        button->setCheckable(true);
-        button->setFocusPolicy(Qt::TabFocus);
-        button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-        const QString source = QStringLiteral("builtin:") + QString::fromStdString(entry.name);
-        connect(button, &QToolButton::clicked, this, [=, this] { Q_EMIT chosen(source); });
-        m_skies.push_back({source, button});
-        grid->addWidget(button, index / kColumns, index % kColumns);
-        ++index;
+    : QWidget(parent)
+    , m_grid(new QGridLayout(this)) {
+    m_grid->setContentsMargins(0, 0, 0, 0);
+    m_grid->setSpacing(4);
+    for (const library::Entry& entry : library::environments())
+        m_skies.push_back(makeSky(QStringLiteral("builtin:") + QString::fromStdString(entry.name),
+                                  QString::fromStdString(entry.title),
+                                  QString::fromStdString(entry.help)));
+    for (const QString& file : recentSkies()) {
+        m_recent.push_back(makeSky(file, QFileInfo(file).completeBaseName(), file));
+        if (const QImage picture = skyPicture(file); !picture.isNull())
+            m_recent.back().button->setIcon(QPixmap::fromImage(picture));
     }
+    layOut();
+}
+
+SkyGallery::Sky SkyGallery::makeSky(const QString& source, const QString& title,
+                                    const QString& help) {
+    auto* button = new QToolButton;
+    button->setObjectName(QStringLiteral("sky"));
+    button->setText(fontMetrics().elidedText(title, Qt::ElideMiddle, kPicture.width()));
+    button->setToolTip(help);
+    button->setStatusTip(help);
+    button->setAccessibleName(tr("Environment %1").arg(title));
+    button->setToolButtonStyle(Qt::ToolButtonTextUnderIcon);
+    button->setIconSize(kPicture);
+    QPixmap blank(kPicture);
+    blank.fill(QColor(tokens::kWell));
+    button->setIcon(blank);
+    button->setCheckable(true);
+    button->setFocusPolicy(Qt::TabFocus);
+    button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    connect(button, &QToolButton::clicked, this, [this, source] { Q_EMIT chosen(source); });
+    return {source, button};
+}
+
+void SkyGallery::layOut() {
+    int index = 0;
+    for (const std::vector<Sky>* skies : {&m_skies, &m_recent})
+        for (const Sky& sky : *skies) {
+            m_grid->addWidget(sky.button, index / kColumns, index % kColumns);
+            ++index;
+        }
 }
 
 void SkyGallery::setCurrent(const QString& source) {
-    for (const Sky& sky : m_skies)
-        sky.button->setChecked(sky.source == source);
+    m_current = source;
+    for (const std::vector<Sky>* skies : {&m_skies, &m_recent})
+        for (const Sky& sky : *skies)
+            sky.button->setChecked(sky.source == source);
+}
+
+void SkyGallery::addRecent(const QString& file, const ImagePtr& image) {
+    const auto known = std::find_if(m_recent.begin(), m_recent.end(),
+                                    [&](const Sky& sky) { return sky.source == file; });
+    if (known != m_recent.end() && file == m_current)
+        return;
+    rememberSky(file);
+    if (known != m_recent.end())
+        return; // it stays where it is in this session
+    m_recent.insert(m_recent.begin(), makeSky(file, QFileInfo(file).completeBaseName(), file));
+    while (m_recent.size() > std::size_t{kMostRecentSkies}) {
+        m_recent.back().button->hide();
+        m_recent.back().button->deleteLater(); // it may be what was clicked
+        m_recent.pop_back();
+    }
+    layOut();
+    setCurrent(m_current);
+    if (!m_tasks || !image)
+        return;
+    const auto work = [file, image, button = QPointer(m_recent.front().button)](
+                          const JobContext&) -> BackgroundTasks::Apply {
+        const QImage picture = displayImage(*image, 2 * kPicture.width());
+        return [file, button, picture] {
+            keepSkyPicture(file, picture);
+            if (button)
+                button->setIcon(QPixmap::fromImage(picture));
+        };
+    };
+    m_tasks->start(QStringLiteral("sky:") + file, tr("Preparing previews"), work);
 }
 
 void SkyGallery::showEvent(QShowEvent* event) {

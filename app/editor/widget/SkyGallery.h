@@ -1,9 +1,12 @@
-// The built-in skies as a grid of small pictures.
+// The built-in skies, and the last ones from files, as a grid of small pictures.
 #pragma once
+
+#include "core/image/Image.h"
 
 #include <QWidget>
 #include <vector>
 
+class QGridLayout;
 class QToolButton;
 
 namespace patina::editor {
@@ -16,7 +19,10 @@ class SkyGallery : public QWidget {
     explicit SkyGallery(QWidget* parent = nullptr);
     // Pictures are made the first time the gallery is seen.
     void setTasks(BackgroundTasks& tasks) { m_tasks = &tasks; }
-    void setCurrent(const QString& source); // "builtin:studio", or a file: none is marked
+    void setCurrent(const QString& source); // "builtin:studio", or a file
+    // An environment from a file that lights the scene joins the gallery, now and in later
+    // sessions, as the first of kMostRecentSkies (widget/RecentSkies.h).
+    void addRecent(const QString& file, const ImagePtr& image);
 
   Q_SIGNALS:
     void chosen(const QString& source);
@@ -25,15 +31,19 @@ class SkyGallery : public QWidget {
     void showEvent(QShowEvent* event) override;
 
   private:
-    void makePictures();
-
     struct Sky {
         QString source;
         QToolButton* button;
     };
+    Sky makeSky(const QString& source, const QString& title, const QString& help);
+    void makePictures();
+    void layOut();
+
     BackgroundTasks* m_tasks = nullptr;
     bool m_requested = false;
-    std::vector<Sky> m_skies;
+    QString m_current;
+    QGridLayout* m_grid;
+    std::vector<Sky> m_skies, m_recent; // built in; from files, the newest first
 };
 
 } // namespace patina::editor

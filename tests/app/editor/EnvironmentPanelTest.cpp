@@ -7,11 +7,14 @@
 #include "app/editor/panel/ParameterList.h"
 #include "app/editor/panel/SoftboxList.h"
 #include "app/editor/widget/LatLongView.h"
+#include "app/editor/widget/RecentSkies.h"
 #include "app/editor/widget/SkyGallery.h"
+#include "core/document/EnvironmentSave.h"
 #include "core/library/SoftboxRigs.h"
 #include "core/light/GeneratedEnvironment.h"
 #include "core/light/LatLongGrid.h"
 
+#include <QFile>
 #include <QListWidget>
 #include <QMenu>
 #include <QToolButton>
@@ -427,6 +430,40 @@ TEST_F(EnvironmentPanelTest, RowsFollowTheKindAndTheBackground) {
         EXPECT_EQ(hidden("environment.backgroundBlur"), blur);
         EXPECT_EQ(hidden("environment.backgroundColor"), color);
     }
+}
+
+// An HDR that was dropped or chosen can be had again by a click, in this session and in later ones.
+TEST_F(EnvironmentPanelTest, EnvironmentsFromFilesJoinTheGallery) {
+    const QString file = folder.filePath(QStringLiteral("my street.hdr"));
+    const auto written = saveEnvironment(
+        controller().worker(), environment(),
+        EnvironmentSaveSettings{file.toStdString(), EnvironmentLayout::LatLong, 64, false});
+    ASSERT_TRUE(written.ok()) << written.error().text();
+    const auto button = [&](QWidget& gallery) {
+        return find<QToolButton>(gallery, QStringLiteral("Environment my street"));
+    };
+    auto& gallery = *panel().findChild<SkyGallery*>();
+    EXPECT_EQ(button(gallery), nullptr);
+    controller().addFiles({file});
+    ASSERT_TRUE(settled(*session));
+    ASSERT_NE(button(gallery), nullptr);
+    EXPECT_TRUE(button(gallery)->isChecked());
+
+    controller().setEnvironment(QStringLiteral("builtin:studio"));
+    ASSERT_TRUE(settled(*session));
+    EXPECT_FALSE(button(gallery)->isChecked());
+    QTest::mouseClick(button(gallery), Qt::LeftButton);
+    ASSERT_TRUE(settled(*session));
+    EXPECT_EQ(environment().source, file.toStdString());
+    EXPECT_EQ(gallery.findChildren<QToolButton*>().count(button(gallery)), 1);
+
+    // The picture is made in the background; the next session has both.
+    EXPECT_TRUE(eventually([&] { return !skyPicture(file).isNull(); }));
+    SkyGallery next;
+    ASSERT_NE(button(next), nullptr);
+    QFile::remove(file);
+    SkyGallery without;
+    EXPECT_EQ(button(without), nullptr) << "the file is gone";
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #include "app/editor/panel/ParameterList.h"
 #include "app/editor/panel/SceneModel.h"
 #include "app/editor/panel/ScenePanel.h"
+#include "app/editor/viewport/DropTarget.h"
 #include "app/editor/widget/ColorButton.h"
 #include "app/editor/widget/ColorPicker.h"
 #include "app/editor/widget/FurnacePlot.h"
@@ -25,6 +26,7 @@
 #include <QDir>
 #include <QDockWidget>
 #include <QDropEvent>
+#include <QLabel>
 #include <QLineEdit>
 #include <QMimeData>
 #include <QPushButton>
@@ -215,6 +217,161 @@ TEST_F(PanelTest, AnImageDroppedElsewhereBecomesTheBaseColour) {
     EXPECT_EQ(selectedMaterial().baseColorMap.source, file.toStdString());
     ASSERT_NE(selectedMaterial().baseColorMap.image, nullptr);
     EXPECT_EQ(selectedMaterial().baseColorMap.image->encoding(), ColorEncoding::Srgb);
+}
+
+// Five maps of a model in one go: each to its slot, shown before they are let go, one undo step.
+TEST_F(PanelTest, ImagesDroppedTogetherGoByTheirNames) {
+    QList<QUrl> urls;
+    for (const char* name : {"monkey_color.png", "monkey_metallic.png", "monkey_roughness.png",
+                             "monkey_normal.png", "monkey_ao.png", "notes.png"})
+        urls << QUrl::fromLocalFile(writeImage(QString::fromLatin1(name)));
+    QMimeData data;
+    data.setUrls(urls);
+    QWidget& viewport = *window->findChild<ViewportWidget*>();
+    auto* hint = viewport.findChild<DropHint*>();
+    ASSERT_NE(hint, nullptr);
+    EXPECT_TRUE(hint->lines().isEmpty());
+    QDragEnterEvent enter(window->rect().center(), Qt::CopyAction, &data, Qt::LeftButton, {});
+    QApplication::sendEvent(window.get(), &enter);
+    EXPECT_TRUE(enter.isAccepted());
+    EXPECT_FALSE(hint->isHidden()) << "the target is lit";
+    const std::string said = hint->lines().join(QLatin1Char('\n')).toStdString();
+    EXPECT_THAT(said, ::testing::HasSubstr("“" + selectedMaterial().name + "”"));
+    for (const char* line :
+         {"Base colour map ← monkey_color.png", "Metallic map ← monkey_metallic.png",
+          "Roughness map ← monkey_roughness.png", "Normal map ← monkey_normal.png",
+          "Occlusion map ← monkey_ao.png"})
+        EXPECT_THAT(said, ::testing::HasSubstr(line));
+    EXPECT_THAT(said, ::testing::HasSubstr("notes.png")) << "what is left out is said, too";
+    QDropEvent event(QPointF(window->rect().center()), Qt::CopyAction, &data, Qt::LeftButton, {});
+    QApplication::sendEvent(window.get(), &event);
+    EXPECT_TRUE(hint->isHidden());
+    ASSERT_TRUE(settled(*session));
+    const Material& m = selectedMaterial();
+    EXPECT_EQ(m.baseColorMap.source, urls[0].toLocalFile().toStdString());
+    EXPECT_EQ(m.metallicMap.source, urls[1].toLocalFile().toStdString());
+    EXPECT_EQ(m.perceptualRoughnessMap.source, urls[2].toLocalFile().toStdString());
+    EXPECT_EQ(m.normalMap.source, urls[3].toLocalFile().toStdString());
+    EXPECT_EQ(m.occlusionMap.source, urls[4].toLocalFile().toStdString());
+    for (const MapSlot* slot : {&m.baseColorMap, &m.metallicMap, &m.perceptualRoughnessMap,
+                                &m.normalMap, &m.occlusionMap})
+        EXPECT_NE(slot->image, nullptr) << slot->source;
+    EXPECT_EQ(m.metallic, 1.0f) << "a map comes with its factor";
+    EXPECT_EQ(m.normalMap.image->encoding(), ColorEncoding::Data);
+    ASSERT_EQ(undoCount(), 1);
+    controller().undoStack().undo();
+    for (const MapSlot* slot : {&m.baseColorMap, &m.metallicMap, &m.perceptualRoughnessMap,
+                                &m.normalMap, &m.occlusionMap})
+        EXPECT_FALSE(slot->assigned());
+}
+
+// A slot takes one image; several are none of its business, and the window has them.
+TEST_F(PanelTest, SeveralImagesOverASlotGoByTheirNames) {
+    QMimeData data;
+    data.setUrls({QUrl::fromLocalFile(writeImage(QStringLiteral("a_normal.png"))),
+                  QUrl::fromLocalFile(writeImage(QStringLiteral("a_rough.png")))});
+    auto& slot = in<MapSlotWidget>("material.baseColor.map");
+    const auto* hint = window->findChild<DropHint*>();
+    QDragEnterEvent enter(slot.rect().center(), Qt::CopyAction, &data, Qt::LeftButton, {});
+    QApplication::sendEvent(&slot, &enter);
+    EXPECT_TRUE(enter.isAccepted());
+    EXPECT_FALSE(hint->isHidden()) << "the window took them";
+    QDropEvent event(QPointF(slot.rect().center()), Qt::CopyAction, &data, Qt::LeftButton, {});
+    QApplication::sendEvent(&slot, &event);
+    EXPECT_TRUE(hint->isHidden());
+    ASSERT_TRUE(settled(*session));
+    EXPECT_FALSE(selectedMaterial().baseColorMap.assigned());
+    EXPECT_TRUE(selectedMaterial().normalMap.assigned());
+    EXPECT_TRUE(selectedMaterial().perceptualRoughnessMap.assigned());
+    EXPECT_EQ(undoCount(), 1);
+}
+
+// Images that could not be read are marked where they are missed, by what is wrong with them.
+TEST_F(PanelTest, SlotsAndMaterialsSayWhichImagesCouldNotBeRead) {
+    const QString model = folder.filePath(QStringLiteral("m.obj"));
+    const auto write = [&](const char* name, const char* text) {
+        QFile file(folder.filePath(QLatin1String(name)));
+        ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+        file.write(text);
+    };
+    write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+                   "usemtl Cloth\nf 1/1 2/2 3/3\n");
+    write("m.mtl", "newmtl Cloth\nKd 0.5 0.5 0.5\nmap_Kd gone.png\nnorm empty.png\n");
+    write("empty.png", "");
+    std::vector<UserNotice> notices;
+    const auto listening =
+        QObject::connect(&controller(), &DocumentController::noticed,
+                         [&](const UserNotice& notice) { notices.push_back(notice); });
+    controller().openScene(model);
+    ASSERT_TRUE(settled(*session));
+    QObject::disconnect(listening);
+    ASSERT_EQ(notices.size(), 1u);
+    EXPECT_EQ(notices[0].kind, NoticeKind::Warning);
+    EXPECT_THAT(notices[0].text.toStdString(), ::testing::HasSubstr("1 are missing and 1 damaged"));
+    for (const char* file : {"gone.png", "empty.png"})
+        EXPECT_EQ(notices[0].details.filter(QLatin1String(file)).size(), 1) << file << ": once";
+    const auto facts = [](const char* id) {
+        QStringList texts;
+        for (const QLabel* label : in<MapSlotWidget>(id).findChildren<QLabel*>())
+            texts << label->text();
+        return texts.join(QLatin1Char(' ')).toStdString();
+    };
+    ASSERT_EQ(selectedMaterial().name, "Cloth");
+    QApplication::processEvents();
+    EXPECT_THAT(facts("material.baseColor.map"), ::testing::HasSubstr("missing"));
+    EXPECT_THAT(facts("material.normalStrength.map"), ::testing::HasSubstr("damaged"));
+    const QAbstractItemModel* list = window->findChild<ScenePanel*>()->tree()->model();
+    const QModelIndex material = list->index(0, 0, list->index(1, 0));
+    EXPECT_THAT(material.data(Qt::ToolTipRole).toString().toStdString(),
+                ::testing::AllOf(::testing::HasSubstr("Base colour map is missing: gone.png"),
+                                 ::testing::HasSubstr("Normal map is damaged: empty.png")));
+    EXPECT_THAT(material.data(Qt::AccessibleDescriptionRole).toString().toStdString(),
+                ::testing::HasSubstr("damaged"));
+    // The next test begins as the first one did: ids are those of the scene.
+    controller().newDocument();
+    ASSERT_TRUE(settled(*session));
+    session->selection.selectMaterial(document().materials.front().id);
+}
+
+// The new row is painted before the frame that may have to be compiled for.
+TEST_F(PanelTest, ANewLightIsInTheListBeforeItIsInThePicture) {
+    auto& lights = *window->findChild<LightsPanel*>();
+    auto* list = lights.findChild<QTreeWidget*>();
+    for (QWidget* dock = &lights; dock; dock = dock->parentWidget())
+        if (auto* docked = qobject_cast<QDockWidget*>(dock))
+            docked->raise();
+    ASSERT_TRUE(eventually([&] { return list->isVisible() || lights.isVisible(); }));
+    ViewportWidget& viewport = window->viewport();
+    ASSERT_TRUE(eventually([&] { // nothing else is drawn
+        return viewport.frameSize() == viewport.size() * viewport.devicePixelRatioF();
+    }));
+    QStringList order;
+    struct Painted : QObject {
+        QStringList& order;
+        explicit Painted(QStringList& o)
+            : order(o) {}
+        bool eventFilter(QObject*, QEvent* event) override {
+            if (event->type() == QEvent::Paint)
+                order << QStringLiteral("list");
+            return false;
+        }
+    } painted(order);
+    list->viewport()->installEventFilter(&painted);
+    const auto frames = QObject::connect(&viewport, &ViewportWidget::frameRendered,
+                                         [&] { order << QStringLiteral("frame"); });
+    QTest::mouseClick(find<QToolButton>(lights, QStringLiteral("Add a rectangle light")),
+                      Qt::LeftButton);
+    ASSERT_EQ(document().lights.size(), 1u);
+    order.clear();
+    ASSERT_TRUE(eventually([&] { return order.contains(QStringLiteral("frame")); }));
+    QObject::disconnect(frames);
+    list->viewport()->removeEventFilter(&painted);
+    EXPECT_EQ(order.front(), QStringLiteral("list")) << order.join(QLatin1Char(' ')).toStdString();
+    // A second one stands beside it, and both are seen.
+    QTest::mouseClick(find<QToolButton>(lights, QStringLiteral("Add a rectangle light")),
+                      Qt::LeftButton);
+    ASSERT_EQ(document().lights.size(), 2u);
+    EXPECT_GT(glm::length(document().lights[1].position - document().lights[0].position), 0.1f);
 }
 
 TEST_F(PanelTest, TilingIsEditedPerMap) {

@@ -6,7 +6,9 @@
 #include "app/editor/HelpDialogs.h"
 #include "app/editor/ViewActions.h"
 #include "app/editor/document/Commands.h"
+#include "app/editor/document/ProposedFolder.h"
 #include "app/editor/viewport/EquationBar.h"
+#include "app/editor/viewport/SceneProgress.h"
 #include "app/editor/widget/NoticeArea.h"
 #include "app/editor/widget/NumberField.h"
 
@@ -18,6 +20,8 @@
 #include <QDockWidget>
 #include <QDropEvent>
 #include <QFile>
+#include <QFileDialog>
+#include <QFileInfo>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
@@ -82,13 +86,109 @@ struct WindowTest : EditorTest {
 };
 
 TEST_F(WindowTest, TheTitleNamesTheFileAndItsState) {
-    EXPECT_EQ(window->windowTitle().toStdString(), "Untitled[*] — Patina");
+    const auto titled = [](const char* title) {
+        return eventually([=] { return window->windowTitle() == QString::fromUtf8(title); });
+    };
+    EXPECT_TRUE(titled("Untitled[*] — Patina")) << "with its first picture";
     EXPECT_FALSE(window->isWindowModified());
     modify();
     EXPECT_TRUE(window->isWindowModified());
     saveProjectFile(QStringLiteral("chair.patina"));
     EXPECT_EQ(window->windowTitle().toStdString(), "chair.patina[*] — Patina");
     EXPECT_FALSE(window->isWindowModified());
+}
+
+// Until its picture is there the title is that of the scene that is seen, and says over it what
+// comes.
+TEST_F(WindowTest, TheTitleChangesWithThePicture) {
+    ASSERT_TRUE(
+        eventually([] { return window->windowTitle().startsWith(QStringLiteral("Untitled")); }));
+    const QString model = writeObj(QStringLiteral("wedge.obj"));
+    auto* progress = window->viewport().findChild<SceneProgress*>();
+    ASSERT_NE(progress, nullptr);
+    EXPECT_FALSE(progress->isVisible());
+    bool swapped = false, early = false, said = false;
+    const auto swap = QObject::connect(&window->viewport(), &QOpenGLWidget::frameSwapped, [&] {
+        swapped |= !document().meshes.empty() && document().meshes[0].name == "Triangle";
+    });
+    const auto look = QObject::connect(&controller(), &DocumentController::changed, [&] {
+        said |= progress->isVisible();
+        early |= window->windowTitle().startsWith(QStringLiteral("wedge"));
+    });
+    window->files().open(model);
+    EXPECT_TRUE(progress->isVisible()) << "reading";
+    EXPECT_TRUE(eventually([&] {
+        const bool titled = window->windowTitle().startsWith(QStringLiteral("wedge"));
+        early |= titled && !swapped;
+        return titled;
+    }));
+    EXPECT_FALSE(early) << "the old picture was still shown";
+    EXPECT_TRUE(said);
+    EXPECT_TRUE(swapped);
+    EXPECT_FALSE(progress->isVisible());
+    QObject::disconnect(swap);
+    QObject::disconnect(look);
+    // What cannot be read leaves title and picture.
+    window->files().open(folder.filePath(QStringLiteral("none.obj")));
+    EXPECT_TRUE(settled(*session));
+    EXPECT_FALSE(progress->isVisible());
+    EXPECT_TRUE(window->windowTitle().startsWith(QStringLiteral("wedge")));
+}
+
+// The environment and the lights are the artist's: a model is seen in them, a project in its own.
+TEST_F(WindowTest, AModelIsOpenedInTheLightThatIsThere) {
+    controller().setEnvironment(QStringLiteral("builtin:sunset"));
+    ASSERT_TRUE(settled(*session));
+    controller().addLight(LightType::Spot);
+    const Environment environment = document().environment;
+    const Light light = document().lights[0];
+    controller().undoStack().setClean(); // nothing to ask about
+    window->files().open(writeObj(QStringLiteral("wedge.obj")));
+    ASSERT_TRUE(settled(*session));
+    ASSERT_EQ(document().meshes.size(), 1u);
+    EXPECT_EQ(document().environment, environment);
+    ASSERT_EQ(document().lights.size(), 1u);
+    EXPECT_EQ(document().lights[0].position, light.position);
+    EXPECT_EQ(document().lights[0].name, light.name);
+    EXPECT_NE(document().lights[0].id, document().meshes[0].id);
+    const QString project = saveProjectFile(QStringLiteral("own.patina"));
+    controller().setEnvironment(QStringLiteral("builtin:studio"));
+    ASSERT_TRUE(settled(*session));
+    controller().undoStack().setClean();
+    window->files().open(project);
+    ASSERT_TRUE(settled(*session));
+    EXPECT_EQ(document().environment.source, "builtin:sunset");
+}
+
+// Where the model or the project lies, its maps and exports lie, too, until one goes elsewhere.
+TEST_F(WindowTest, DialogsProposeTheFolderOfTheScene) {
+    const QString key = QStringLiteral("folders/images");
+    QDir(folder.path()).mkpath(QStringLiteral("model"));
+    QDir(folder.path()).mkpath(QStringLiteral("project"));
+    QDir(folder.path()).mkpath(QStringLiteral("library"));
+    const QString model = folder.filePath(QStringLiteral("model"));
+    const QString project = folder.filePath(QStringLiteral("project"));
+    const QString library = folder.filePath(QStringLiteral("library"));
+    EXPECT_TRUE(QFileInfo(proposedFolder(controller(), key)).isDir()) << "without a scene on disk";
+    window->files().open(writeObj(QStringLiteral("model/wedge.obj")));
+    ASSERT_TRUE(settled(*session));
+    EXPECT_EQ(proposedFolder(controller(), key), model);
+    EXPECT_EQ(proposedFolder(controller(), QStringLiteral("folders/exports")), model);
+    rememberFolder(controller(), key, library + QStringLiteral("/wood.png"));
+    EXPECT_EQ(proposedFolder(controller(), key), library) << "chosen for this scene";
+    EXPECT_EQ(proposedFolder(controller(), QStringLiteral("folders/environments")), model);
+    saveProjectFile(QStringLiteral("project/wedge.patina"));
+    EXPECT_EQ(proposedFolder(controller(), key), project) << "another scene";
+    // The dialogs themselves.
+    window->files().saveAs();
+    auto* dialog = window->findChild<QFileDialog*>();
+    ASSERT_NE(dialog, nullptr);
+    EXPECT_EQ(dialog->directory().absolutePath(), project);
+    dialog->reject();
+    EXPECT_TRUE(eventually([] { return window->findChild<QFileDialog*>() == nullptr; }));
+    controller().newDocument();
+    ASSERT_TRUE(settled(*session));
+    EXPECT_EQ(proposedFolder(controller(), key), library) << "the last one, without a scene";
 }
 
 TEST_F(WindowTest, NothingAsksWhenNothingIsLost) {

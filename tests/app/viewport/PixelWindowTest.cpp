@@ -200,6 +200,15 @@ TEST_F(PixelWindowTest, AltClickPinsAndOpensTheDock) {
     // Beside the model: no pin.
     QTest::mouseClick(&viewport(), Qt::LeftButton, Qt::AltModifier, {4, 4});
     EXPECT_FALSE(probe().pin().has_value());
+    // The same where the window manager takes Alt + click; the camera stays where it is.
+    const Camera camera = document().view.camera;
+    const Qt::KeyboardModifiers second = Qt::ControlModifier | Qt::ShiftModifier;
+    QTest::mouseClick(&viewport(), Qt::LeftButton, second, center());
+    EXPECT_TRUE(probe().pin().has_value());
+    EXPECT_EQ(session->selection.mesh(), selected);
+    QTest::mouseClick(&viewport(), Qt::LeftButton, second, {4, 4});
+    EXPECT_FALSE(probe().pin().has_value());
+    EXPECT_EQ(document().view.camera, camera);
 
     ASSERT_TRUE(eventually([] { return find<QToolButton>(panel(), "Pin") != nullptr; }));
 

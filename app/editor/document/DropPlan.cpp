@@ -1,0 +1,109 @@
+#include "app/editor/document/DropPlan.h"
+
+#include "app/editor/document/FileKinds.h"
+#include "core/document/Document.h"
+#include "core/material/MapNames.h"
+
+#include <QCoreApplication>
+#include <QFileInfo>
+#include <algorithm>
+
+namespace patina::editor {
+namespace {
+
+QString tr(const char* text) {
+    return QCoreApplication::translate("DropPlan", text);
+}
+
+QString nameOf(const QString& file) {
+    return QFileInfo(file).fileName();
+}
+
+const ParameterInfo* mapOf(const QString& file) {
+    return mapForFileName(nameOf(file).toStdString());
+}
+
+QString labelOf(const ParameterInfo& info) {
+    return QString::fromUtf8(info.label.data(), static_cast<qsizetype>(info.label.size()));
+}
+
+void assign(DropPlan& plan, const QStringList& images) {
+    for (const QString& file : images) {
+        const ParameterInfo* map = mapOf(file);
+        if (!map && images.size() == 1)
+            map = findParameter("material.baseColor.map");
+        const bool taken = std::any_of(plan.maps.begin(), plan.maps.end(),
+                                       [&](const MapFile& other) { return other.map == map; });
+        if (map && !taken)
+            plan.maps.push_back({map, file});
+        else
+            plan.unclear << file;
+    }
+}
+
+} // namespace
+
+DropPlan planDrop(const QStringList& files) {
+    DropPlan plan;
+    QStringList images, radiance;
+    for (const QString& file : files) {
+        switch (fileKind(file)) {
+        case FileKind::Project:
+            plan.projects << file;
+            break;
+        case FileKind::Model:
+            plan.models << file;
+            break;
+        case FileKind::Environment:
+            radiance << file;
+            break;
+        case FileKind::Image:
+            images << file;
+            break;
+        case FileKind::DisplayConfig:
+            plan.displayConfigs << file;
+            break;
+        case FileKind::Unknown:
+            plan.unknown << file;
+            break;
+        }
+    }
+    const bool withImages = !images.isEmpty();
+    for (const QString& file : radiance)
+        (withImages && mapOf(file) ? images : plan.environments) << file;
+    assign(plan, images);
+    return plan;
+}
+
+QStringList DropPlan::lines(const Document& document, Id material) const {
+    QStringList result;
+    const Material* target = document.material(material);
+    for (const MapFile& one : maps)
+        result << tr("%1 ← %2").arg(labelOf(*one.map), nameOf(one.file));
+    if (target && !maps.empty())
+        result.prepend(tr("Onto the material “%1”:").arg(QString::fromStdString(target->name)));
+    const auto add = [&](const char* text, const QStringList& files) {
+        for (const QString& file : files)
+            result << tr(text).arg(nameOf(file));
+    };
+    add("Open the project %1", projects.mid(0, 1));
+    add("Add or open the model %1", models);
+    add("Light the scene with %1", environments);
+    add("Show through the OpenColorIO configuration %1", displayConfigs);
+    add("Left out, its name says no free map: %1", unclear);
+    add("Cannot be read by Patina: %1", unknown);
+    return result;
+}
+
+QString unclearText(const QStringList& files) {
+    QStringList names;
+    for (const QString& file : files)
+        names << nameOf(file);
+    return tr("Left out: %1. Of images that are dropped together each goes to the map that its "
+              "name "
+              "says (color, metallic, roughness, normal, ao, emissive); drop the others on their "
+              "slots in the Material dock.")
+        .arg(names.join(QStringLiteral(", ")));
+}
+
+} // namespace patina::editor

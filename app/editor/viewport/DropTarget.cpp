@@ -1,0 +1,106 @@
+#include "app/editor/viewport/DropTarget.h"
+
+#include "app/editor/document/DocumentController.h"
+#include "app/editor/document/DropPlan.h"
+#include "app/editor/document/SelectionModel.h"
+#include "app/editor/style/Tokens.h"
+
+#include <QDragEnterEvent>
+#include <QMimeData>
+#include <QPainter>
+#include <QUrl>
+#include <algorithm>
+
+namespace patina::editor {
+namespace {
+
+constexpr int kFrame = 3;       // round the target
+constexpr int kMostLines = 12;  // of a folder full of files
+constexpr int kVeilAlpha = 150; // over the picture, of 255
+
+} // namespace
+
+QStringList draggedFiles(const QMimeData& data) {
+    QStringList files;
+    for (const QUrl& url : data.urls())
+        if (url.isLocalFile())
+            files << url.toLocalFile();
+    return files;
+}
+
+DropHint::DropHint(QWidget& viewport)
+    : QWidget(&viewport) {
+    setObjectName(QStringLiteral("dropHint"));
+    setAttribute(Qt::WA_TransparentForMouseEvents);
+    hide();
+}
+
+void DropHint::setLines(const QStringList& lines) {
+    m_lines = lines;
+    setAccessibleName(m_lines.join(QLatin1Char('\n')));
+    setVisible(!m_lines.isEmpty());
+    if (m_lines.isEmpty())
+        return;
+    setGeometry(parentWidget()->rect());
+    raise();
+    update();
+}
+
+void DropHint::paintEvent(QPaintEvent*) {
+    QPainter painter(this);
+    QColor veil(tokens::kWell);
+    veil.setAlpha(kVeilAlpha);
+    painter.fillRect(rect(), veil);
+    painter.setPen(QPen(QColor(tokens::kAccent), kFrame));
+    painter.drawRect(rect().adjusted(kFrame / 2, kFrame / 2, -kFrame / 2 - 1, -kFrame / 2 - 1));
+
+    QStringList shown = m_lines.mid(0, kMostLines);
+    if (m_lines.size() > kMostLines)
+        shown << tr("… and %1 more").arg(m_lines.size() - kMostLines);
+    const int line = fontMetrics().lineSpacing() + 2, margin = tokens::kMargin;
+    int widest = 0;
+    for (QString& text : shown) {
+        text = fontMetrics().elidedText(text, Qt::ElideMiddle, width() - 4 * margin);
+        widest = std::max(widest, fontMetrics().horizontalAdvance(text));
+    }
+    QRect box(0, 0, widest + 2 * margin, static_cast<int>(shown.size()) * line + 2 * margin);
+    box.moveCenter(rect().center());
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(QColor(tokens::kPanel));
+    painter.drawRoundedRect(box, tokens::kRadius, tokens::kRadius);
+    painter.setPen(QColor(tokens::kText));
+    int y = box.top() + margin;
+    for (const QString& text : shown) {
+        painter.drawText(QRect(box.left() + margin, y, widest, line),
+                         Qt::AlignLeft | Qt::AlignVCenter, text);
+        y += line;
+    }
+}
+
+DropTarget::DropTarget(QWidget& window, QWidget& viewport, DocumentController& controller,
+                       SelectionModel& selection)
+    : QObject(&window)
+    , m_controller(controller)
+    , m_selection(selection)
+    , m_hint(new DropHint(viewport)) {
+    window.installEventFilter(this);
+}
+
+bool DropTarget::eventFilter(QObject*, QEvent* event) {
+    switch (event->type()) {
+    case QEvent::DragEnter: {
+        const QStringList files = draggedFiles(*static_cast<QDragEnterEvent*>(event)->mimeData());
+        m_hint->setLines(planDrop(files).lines(m_controller.document(), m_selection.material()));
+        break;
+    }
+    case QEvent::DragLeave:
+    case QEvent::Drop:
+        m_hint->setLines({});
+        break;
+    default:
+        break;
+    }
+    return false; // the window takes or refuses it
+}
+
+} // namespace patina::editor
