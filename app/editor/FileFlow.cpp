@@ -4,6 +4,7 @@
 #include "app/editor/document/DropPlan.h"
 #include "app/editor/document/FileKinds.h"
 #include "app/editor/document/ProposedFolder.h"
+#include "app/editor/document/SaveQuestion.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/MapSlotWidget.h"
@@ -45,6 +46,17 @@ FileFlow::FileFlow(Session& session, QWidget& window)
                 if (!QFileInfo::exists(file))
                     forget(file);
             });
+    session.controller.setSaveQuestion(
+        [this](const SaveQuestion& question) { askBeforeOverwriting(question); });
+    session.controller.setReplaceQuestion([this](const std::function<void()>& proceed) {
+        if (m_question) // about something else; one at a time
+            Q_EMIT m_session.controller.noticed(
+                {NoticeKind::Warning,
+                 tr("The scene was not opened: this one was edited meanwhile. Open it again."),
+                 {}});
+        else
+            guard(proceed);
+    });
 }
 
 // --- Opening -------------------------------------------------------------------------------------
@@ -175,22 +187,22 @@ void FileFlow::save() {
 }
 
 void FileFlow::saveAs() {
-    saveAs({});
+    saveAs([](bool) {});
 }
 
 void FileFlow::save(const std::function<void()>& then) {
     const QString file = m_session.controller.filePath();
-    if (file.isEmpty()) {
-        saveAs(then);
-        return;
-    }
-    m_session.controller.saveAs(file, [then](bool ok) {
+    const auto done = [then](bool ok) {
         if (ok && then)
             then();
-    });
+    };
+    if (file.isEmpty())
+        saveAs(done);
+    else
+        m_session.controller.saveAs(file, done);
 }
 
-void FileFlow::saveAs(const std::function<void()>& then) {
+void FileFlow::saveAs(const std::function<void(bool)>& done) {
     const QString file = m_session.controller.filePath();
     auto* dialog = new QFileDialog(&m_window, tr("Save As"), startFolder(), projectFilter());
     dialog->setAttribute(Qt::WA_DeleteOnClose);
@@ -198,13 +210,59 @@ void FileFlow::saveAs(const std::function<void()>& then) {
     dialog->setDefaultSuffix(QStringLiteral("patina"));
     dialog->selectFile(
         file.isEmpty() ? m_session.controller.displayName() + QStringLiteral(".patina") : file);
-    connect(dialog, &QFileDialog::fileSelected, this, [this, then](const QString& chosen) {
-        m_session.controller.saveAs(chosen, [then](bool ok) {
-            if (ok && then)
-                then();
-        });
-    });
+    connect(dialog, &QFileDialog::fileSelected, this,
+            [this, done](const QString& chosen) { m_session.controller.saveAs(chosen, done); });
     dialog->open();
+}
+
+void FileFlow::askBeforeOverwriting(const SaveQuestion& question) {
+    using Reason = SaveQuestion::Reason;
+    if (m_question) {
+        m_question->raise();
+        question.done(false);
+        return;
+    }
+    m_question = new QMessageBox(QMessageBox::Warning, tr("Save"), question.text,
+                                 QMessageBox::Cancel, &m_window);
+    m_question->setObjectName(QStringLiteral("overwriteQuestion"));
+    m_question->setIconPixmap(icon(QStringLiteral("warning"), tokens::kCopper)
+                                  .pixmap(QSize(36, 36), m_window.devicePixelRatioF()));
+    m_question->setInformativeText(
+        question.reason == Reason::FolderGone
+            ? tr("Nothing was saved. Choose another place for it.")
+            : tr("Nothing was saved. Overwriting replaces what the file holds."));
+    const auto add = [this](const QString& text, QMessageBox::ButtonRole role, const char* name) {
+        QPushButton* button = m_question->addButton(text, role);
+        button->setObjectName(QLatin1String(name));
+        return button;
+    };
+    QPushButton* elsewhere = add(tr("Save &As…"), QMessageBox::AcceptRole, "saveElsewhere");
+    QPushButton *overwrite = nullptr, *reload = nullptr;
+    if (question.reason != Reason::FolderGone)
+        overwrite = add(tr("&Overwrite"), QMessageBox::DestructiveRole, "overwrite");
+    if (question.reason == Reason::Changed || question.reason == Reason::OpenElsewhere) {
+        reload = add(tr("&Reload"), QMessageBox::DestructiveRole, "reload");
+        reload->setToolTip(tr("Opens the file as it is now; your changes are lost"));
+    }
+    m_question->setDefaultButton(elsewhere);
+    connect(m_question, &QMessageBox::finished, this,
+            [this, question, box = m_question.data(), elsewhere, overwrite, reload] {
+                m_question = nullptr;
+                const QAbstractButton* answer = box->clickedButton(); // null: closed
+                if (answer == nullptr) {
+                    question.done(false);
+                } else if (answer == elsewhere) {
+                    saveAs(question.done);
+                } else if (answer == overwrite) {
+                    question.overwrite();
+                } else {
+                    question.done(false);
+                    if (answer == reload)
+                        m_session.controller.openScene(question.file);
+                }
+            });
+    m_question->setAttribute(Qt::WA_DeleteOnClose);
+    m_question->open();
 }
 
 void FileFlow::guard(const std::function<void()>& proceed) {
@@ -222,14 +280,15 @@ void FileFlow::guard(const std::function<void()>& proceed) {
                         QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, &m_window);
     m_question->setIconPixmap(icon(QStringLiteral("warning"), tokens::kCopper)
                                   .pixmap(QSize(36, 36), m_window.devicePixelRatioF()));
-    m_question->setInformativeText(tr("Otherwise the changes since the last save are lost."));
+    m_question->setInformativeText(tr("Your changes will be lost if you don't save."));
     m_question->setDefaultButton(QMessageBox::Save);
     m_question->button(QMessageBox::Discard)->setText(tr("&Don't Save"));
     m_question->setAttribute(Qt::WA_DeleteOnClose);
     connect(m_question, &QMessageBox::finished, this, [this, proceed](int answer) {
         m_question = nullptr;
         if (answer == QMessageBox::Save)
-            save(proceed);
+            save(
+                [this, proceed] { guard(proceed); }); // what was edited meanwhile is asked for anew
         else if (answer == QMessageBox::Discard)
             proceed();
     });
@@ -247,13 +306,16 @@ void FileFlow::guardQuit(const std::function<void()>& proceed) {
         return;
     }
     m_question = new QMessageBox(QMessageBox::Question, tr("Jobs Are Running"),
-                                 tr("Quit although %n job(s) are still running?", nullptr, running),
+                                 running == 1 ? tr("A job is running. Quit?")
+                                              : tr("%1 jobs are running. Quit?").arg(running),
                                  QMessageBox::Cancel, &m_window);
     m_question->setIconPixmap(icon(QStringLiteral("jobs"), tokens::kCopper)
                                   .pixmap(QSize(36, 36), m_window.devicePixelRatioF()));
-    m_question->setInformativeText(tr("Bakes go on where they were when the scene is opened "
-                                      "again; what else runs is lost."));
+    m_question->setInformativeText(
+        tr("Bakes can be resumed when you open this scene again; what else "
+           "runs is lost."));
     QPushButton* quit = m_question->addButton(tr("&Quit"), QMessageBox::DestructiveRole);
+    m_question->button(QMessageBox::Cancel)->setText(tr("&Keep Working"));
     m_question->setDefaultButton(QMessageBox::Cancel);
     m_question->setAttribute(Qt::WA_DeleteOnClose);
     connect(quit, &QPushButton::clicked, this, [this, proceed] {

@@ -13,6 +13,7 @@ class QWidget;
 
 namespace patina::editor {
 
+struct SaveQuestion;
 struct Session;
 
 class FileFlow : public QObject {
@@ -47,7 +48,8 @@ class FileFlow : public QObject {
     // Every scene is opened through this; `done` as of DocumentController::openScene().
     void openScene(const QString& scene, const std::function<void(bool)>& done = {});
     void save(const std::function<void()>& then);
-    void saveAs(const std::function<void()>& then);
+    void saveAs(const std::function<void(bool)>& done);
+    void askBeforeOverwriting(const SaveQuestion& question);
     void remember(const QString& file);
     void forget(const QString& file);
     [[nodiscard]] QString startFolder() const;

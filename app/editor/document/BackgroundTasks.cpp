@@ -1,5 +1,7 @@
 #include "app/editor/document/BackgroundTasks.h"
 
+#include <QElapsedTimer>
+#include <algorithm>
 #include <exception>
 
 namespace patina::editor {
@@ -7,28 +9,41 @@ namespace patina::editor {
 BackgroundTasks::BackgroundTasks(int threads, QObject* parent)
     : QObject(parent) {
     m_pool.setMaxThreadCount(threads);
+    m_queue.setMaxThreadCount(1);
 }
 
 BackgroundTasks::~BackgroundTasks() {
     for (auto& [id, task] : m_running)
-        task.control.cancel();
+        if (!task.mustBeDone)
+            task.control.cancel();
     m_pool.waitForDone();
+    m_queue.waitForDone();
 }
 
 void BackgroundTasks::start(const QString& key, const QString& activity, Work work) {
     for (auto& [id, task] : m_running) {
-        if (task.key == key) {
+        if (!task.mustBeDone && task.key == key) {
             task.superseded = true;
             task.control.cancel();
         }
     }
+    run(m_pool, key, activity, false, std::move(work));
+}
+
+void BackgroundTasks::enqueue(const QString& activity, Work work) {
+    run(m_queue, {}, activity, true, std::move(work));
+}
+
+void BackgroundTasks::run(QThreadPool& pool, const QString& key, const QString& activity,
+                          bool mustBeDone, Work work) {
     const quint64 id = m_nextId++;
     Task& task = m_running[id];
     task.key = key;
     task.activity = activity;
-    // The destructor waits for the pool, so `this` is alive whenever the work runs; a call queued
+    task.mustBeDone = mustBeDone;
+    // The destructor waits for the pools, so `this` is alive whenever the work runs; a call queued
     // for an object that is gone is dropped by Qt.
-    m_pool.start([this, id, activity, job = task.control.context(), work = std::move(work)] {
+    pool.start([this, id, activity, job = task.control.context(), work = std::move(work)] {
         Apply apply;
         try {
             apply = work(job);
@@ -54,6 +69,8 @@ void BackgroundTasks::finish(quint64 id, const Apply& apply) {
 
 void BackgroundTasks::cancelAll() {
     for (auto& [id, task] : m_running) {
+        if (task.mustBeDone)
+            continue;
         task.superseded = true;
         task.control.cancel();
     }
@@ -61,7 +78,10 @@ void BackgroundTasks::cancelAll() {
 }
 
 bool BackgroundTasks::waitForDone(int milliseconds) {
-    return m_pool.waitForDone(milliseconds);
+    QElapsedTimer timer;
+    timer.start();
+    return m_pool.waitForDone(milliseconds) &&
+           m_queue.waitForDone(std::max(0, milliseconds - static_cast<int>(timer.elapsed())));
 }
 
 bool BackgroundTasks::busy() const {

@@ -25,7 +25,11 @@ class BackgroundTasks : public QObject {
     // The newest wins: a task of the same `key` that still runs is cancelled and applies nothing.
     // `activity` is what the status bar says meanwhile ("Opening teapot.obj").
     void start(const QString& key, const QString& activity, Work work);
-    void cancelAll();
+    // For what must be done, such as saving: one after another in the order of the calls, beside
+    // the other tasks. No newer one and no cancelAll() takes it back: it runs, and its result is
+    // applied. `work` throws nothing.
+    void enqueue(const QString& activity, Work work);
+    void cancelAll(); // but those that must be done
     // False when something still runs after `milliseconds`. Applies nothing.
     bool waitForDone(int milliseconds);
 
@@ -41,10 +45,14 @@ class BackgroundTasks : public QObject {
         QString key, activity;
         JobControl control;
         bool superseded = false;
+        bool mustBeDone = false;
     };
+    void run(QThreadPool& pool, const QString& key, const QString& activity, bool mustBeDone,
+             Work work);
     void finish(quint64 id, const Apply& apply);
 
     QThreadPool m_pool;
+    QThreadPool m_queue; // of one thread
     std::map<quint64, Task> m_running;
     quint64 m_nextId = 1;
 };

@@ -3,7 +3,8 @@
 #include "core/base/Check.h"
 
 #include <algorithm>
-#include <set>
+#include <map>
+#include <utility>
 
 namespace patina::editor {
 namespace {
@@ -34,6 +35,36 @@ std::map<const void*, std::size_t> payloads(const Elements& elements) {
 
 } // namespace
 
+DocumentCommand::DocumentCommand(DocumentController& controller, const QString& text)
+    : QUndoCommand(text)
+    , m_controller(controller)
+    , m_mergeMark(controller.m_mergeMark) {}
+
+void DocumentCommand::undo() {
+    m_controller.m_step = m_stepBefore;
+    m_controller.apply([this](Document& document) { return swap(document, false); });
+}
+
+void DocumentCommand::redo() {
+    if (m_stepAfter == 0) {
+        m_stepBefore = m_controller.m_step;
+        m_stepAfter = ++m_controller.m_lastStep;
+    }
+    m_controller.m_step = m_stepAfter;
+    m_controller.apply([this](Document& document) { return swap(document, true); });
+}
+
+void DocumentCommand::applyOnly() {
+    ++m_controller.m_history;
+    m_controller.apply([this](Document& document) { return swap(document, true); });
+}
+
+void DocumentCommand::merged(const DocumentCommand& next) {
+    m_stepAfter = next.m_stepAfter;
+    if (isObsolete())
+        m_controller.m_step = m_stepBefore;
+}
+
 SetParametersCommand::SetParametersCommand(DocumentController& controller, const QString& text,
                                            Target target, std::vector<ParameterEdit> after,
                                            DragSession session)
@@ -47,13 +78,14 @@ SetParametersCommand::SetParametersCommand(DocumentController& controller, const
 
 bool SetParametersCommand::mergeWith(const QUndoCommand* other) {
     const auto* next = dynamic_cast<const SetParametersCommand*>(other);
-    if (!next || next->m_session != m_session || next->m_target != m_target ||
+    if (!next || !mayMerge(*next) || next->m_session != m_session || next->m_target != m_target ||
         !std::equal(m_after.begin(), m_after.end(), next->m_after.begin(), next->m_after.end(),
                     [](const auto& a, const auto& b) { return a.info == b.info; }))
         return false;
     m_after = next->m_after;
     setObsolete(std::equal(m_before.begin(), m_before.end(), m_after.begin(),
                            [](const auto& a, const auto& b) { return a.value == b.value; }));
+    merged(*next);
     return true;
 }
 
@@ -107,30 +139,39 @@ Change ReplaceElementsCommand::swap(Document& document, bool forward) {
             std::nullopt};
 }
 
-SetBakesCommand::SetBakesCommand(DocumentController& controller, const QString& text,
-                                 std::vector<BakeArtifactPtr> after)
+SetBakeCommand::SetBakeCommand(DocumentController& controller, const QString& text, BakeKind kind,
+                               BakeArtifactPtr bake)
     : DocumentCommand(controller, text)
-    , m_before(controller.document().bakes)
-    , m_after(std::move(after)) {}
+    , m_kind(kind)
+    , m_other(std::move(bake)) {}
 
-std::size_t SetBakesCommand::payloadBytes() const {
+std::size_t SetBakeCommand::payloadBytes() const {
     std::size_t bytes = 0;
-    std::set<const BakeArtifact*> before;
-    for (const BakeArtifactPtr& artifact : m_before)
-        before.insert(artifact.get());
-    for (const BakeArtifactPtr& artifact : m_after) {
-        if (before.contains(artifact.get()))
-            continue;
-        for (const VertexBake& bake : artifact->vertices)
+    if (m_other) {
+        for (const VertexBake& bake : m_other->vertices)
             bytes += bake.values.size() * sizeof(float);
-        for (const TexelBake& bake : artifact->texels)
+        for (const TexelBake& bake : m_other->texels)
             bytes += imageBytes(bake.image);
     }
     return bytes;
 }
 
-Change SetBakesCommand::swap(Document& document, bool forward) {
-    document.bakes = forward ? m_after : m_before;
+// In the order of their kinds: a bake that comes back takes the place it had.
+Change SetBakeCommand::swap(Document& document, bool /*forward*/) {
+    std::vector<BakeArtifactPtr>& bakes = document.bakes;
+    const auto place =
+        std::ranges::find_if(bakes, [this](const auto& bake) { return bake->kind == m_kind; });
+    if (place == bakes.end()) {
+        if (m_other)
+            bakes.insert(std::ranges::find_if(
+                             bakes, [this](const auto& bake) { return bake->kind > m_kind; }),
+                         std::exchange(m_other, nullptr));
+    } else if (m_other) {
+        std::swap(*place, m_other);
+    } else {
+        m_other = *place;
+        bakes.erase(place);
+    }
     return {Affects::Bakes, std::nullopt};
 }
 

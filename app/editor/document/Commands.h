@@ -10,25 +10,29 @@ namespace patina::editor {
 
 class DocumentCommand : public QUndoCommand {
   public:
-    DocumentCommand(DocumentController& controller, const QString& text)
-        : QUndoCommand(text)
-        , m_controller(controller) {}
+    DocumentCommand(DocumentController& controller, const QString& text);
 
-    void undo() final {
-        m_controller.apply([this](Document& document) { return swap(document, false); });
-    }
-    void redo() final {
-        m_controller.apply([this](Document& document) { return swap(document, true); });
-    }
+    void undo() final;
+    void redo() final;
+    // Makes the edit where it is no undo step.
+    void applyOnly();
     // Memory that only this command keeps alive, roughly: images and meshes.
     [[nodiscard]] virtual std::size_t payloadBytes() const { return 0; }
 
   protected:
     virtual Change swap(Document& document, bool forward) = 0;
     [[nodiscard]] DocumentController& controller() const { return m_controller; }
+    // Edits on two sides of a save are two steps.
+    [[nodiscard]] bool mayMerge(const DocumentCommand& next) const {
+        return m_mergeMark == next.m_mergeMark;
+    }
+    // `next` has become a part of this one, which may be obsolete thereby.
+    void merged(const DocumentCommand& next);
 
   private:
     DocumentController& m_controller;
+    quint64 m_mergeMark;
+    quint64 m_stepBefore = 0, m_stepAfter = 0; // DocumentState::step; 0: not done yet
 };
 
 // Parameters of one element: one, or the few that belong together. Merges within a drag; a drag
@@ -63,17 +67,21 @@ class ReplaceElementsCommand : public DocumentCommand {
     Elements m_before, m_after;
 };
 
-class SetBakesCommand : public DocumentCommand {
+// The bake of one kind: attached, exchanged, removed. Holds what is not attached at the time, so
+// that what follows from later edits (DocumentController::renewBake) is kept by undo and redo.
+class SetBakeCommand : public DocumentCommand {
   public:
-    SetBakesCommand(DocumentController& controller, const QString& text,
-                    std::vector<BakeArtifactPtr> after);
+    // `bake`: null to remove it.
+    SetBakeCommand(DocumentController& controller, const QString& text, BakeKind kind,
+                   BakeArtifactPtr bake);
     [[nodiscard]] std::size_t payloadBytes() const override;
 
   protected:
     Change swap(Document& document, bool forward) override;
 
   private:
-    std::vector<BakeArtifactPtr> m_before, m_after;
+    BakeKind m_kind;
+    BakeArtifactPtr m_other;
 };
 
 // The name of a mesh, material or light.

@@ -28,15 +28,16 @@ DocumentController::DocumentController(WorkerClient& worker, QObject* parent)
     , m_tasks(4) // most of them wait for the worker process or for the disk
     , m_environment(new EnvironmentResolver(this)) {
     m_undo.setUndoLimit(kUndoSteps);
-    connect(&m_undo, &QUndoStack::cleanChanged, this, &DocumentController::fileChanged);
+    connect(&m_undo, &QUndoStack::canRedoChanged, this, &DocumentController::deliverWaiting,
+            Qt::QueuedConnection); // not in the middle of a push
     connect(m_environment, &EnvironmentResolver::refined, this, [this](const ImagePtr& image) {
         m_document.environment.image = image;
         m_environment->update(m_document);
-        Q_EMIT changed({Affects::EnvironmentMap, Target{Scope::Environment, 0}});
+        announce({Affects::EnvironmentMap, Target{Scope::Environment, 0}});
     });
     connect(m_environment, &EnvironmentResolver::blended, this, [this](const ImagePtr& image) {
         m_document.environment.blended = image;
-        Q_EMIT changed({Affects::EnvironmentMap, Target{Scope::Environment, 0}});
+        announce({Affects::EnvironmentMap, Target{Scope::Environment, 0}});
     });
     connect(&m_tasks, &BackgroundTasks::failed, this,
             [this](const QString& activity, const QString& reason) {
@@ -58,7 +59,24 @@ void DocumentController::apply(const std::function<Change(Document&)>& edit) {
     Change change = edit(m_document);
     if (m_environment->update(m_document))
         change.affects = change.affects | Affects::EnvironmentMap;
+    announce(change);
+}
+
+void DocumentController::announce(const Change& change) {
+    ++m_revision;
     Q_EMIT changed(change);
+    noteModified();
+}
+
+void DocumentController::noteModified() {
+    if (isModified() == m_shownModified)
+        return;
+    m_shownModified = !m_shownModified;
+    Q_EMIT fileChanged();
+}
+
+DocumentState DocumentController::state() const {
+    return {m_history, m_step, m_document.bakes};
 }
 
 void DocumentController::push(DocumentCommand* command) {
@@ -70,10 +88,7 @@ void DocumentController::push(DocumentCommand* command) {
             if (const auto* old = dynamic_cast<const DocumentCommand*>(m_undo.command(index)))
                 total += old->payloadBytes();
         if (total > kUndoPayloadBytes && m_undo.count() > 0) {
-            const bool wasClean = m_undo.isClean();
             m_undo.clear();
-            if (!wasClean)
-                m_undo.resetClean();
             m_pristine = false;
             Q_EMIT noticed({NoticeKind::Info,
                             tr("Earlier undo steps were dropped: their images took more than "
@@ -82,6 +97,39 @@ void DocumentController::push(DocumentCommand* command) {
         }
     }
     m_undo.push(command);
+    noteModified(); // a drag that returned to its start
+}
+
+void DocumentController::pushOrApply(std::unique_ptr<DocumentCommand> command) {
+    if (!m_undo.canRedo()) {
+        push(command.release());
+        return;
+    }
+    m_pristine = false;
+    command->applyOnly();
+}
+
+void DocumentController::deliver(const DocumentState& begun, const QString& name,
+                                 std::function<void()> edit) {
+    if (!m_undo.canRedo() || state() == begun) {
+        edit();
+        return;
+    }
+    m_waiting.push_back(std::move(edit));
+    Q_EMIT noticed(
+        {NoticeKind::Info,
+         tr("%1 is ready, but you have gone back since; it comes with your next edit, or "
+            "when you have redone everything.")
+             .arg(name),
+         {}});
+}
+
+void DocumentController::deliverWaiting() {
+    while (!m_waiting.empty() && !m_undo.canRedo()) {
+        const std::function<void()> edit = std::move(m_waiting.front());
+        m_waiting.erase(m_waiting.begin());
+        edit();
+    }
 }
 
 // --- Parameters ----------------------------------------------------------------------------------
@@ -151,7 +199,10 @@ void DocumentController::resetParameter(const ParameterInfo& info, Target target
 void DocumentController::editStructure(const QString& undoText,
                                        const std::function<void(Document&)>& edit) {
     Document copy = m_document; // payloads are shared, so this is cheap
+    // What still reads for an element that undo has removed must not find another one under its id.
+    copy.nextId = std::max(copy.nextId, m_firstFreeId);
     edit(copy);
+    m_firstFreeId = copy.nextId;
     push(new ReplaceElementsCommand(*this, undoText,
                                     {std::move(copy.meshes), std::move(copy.materials),
                                      std::move(copy.lights), std::move(copy.environment.softboxes),
@@ -269,16 +320,15 @@ void DocumentController::removeMesh(Id id) {
 
 void DocumentController::attachBake(BakeArtifactPtr artifact) {
     CHECK(artifact != nullptr);
-    std::vector<BakeArtifactPtr> bakes = m_document.bakes;
-    std::erase_if(bakes, [&](const BakeArtifactPtr& old) { return old->kind == artifact->kind; });
-    bakes.push_back(std::move(artifact));
-    push(new SetBakesCommand(*this, tr("Attach Bake"), std::move(bakes)));
+    const BakeKind kind = artifact->kind;
+    pushOrApply(
+        std::make_unique<SetBakeCommand>(*this, tr("Attach Bake"), kind, std::move(artifact)));
 }
 
 void DocumentController::detachBake(BakeKind kind) {
-    std::vector<BakeArtifactPtr> bakes = m_document.bakes;
-    if (std::erase_if(bakes, [&](const BakeArtifactPtr& old) { return old->kind == kind; }) > 0)
-        push(new SetBakesCommand(*this, tr("Remove Bake"), std::move(bakes)));
+    if (std::ranges::any_of(m_document.bakes,
+                            [&](const BakeArtifactPtr& bake) { return bake->kind == kind; }))
+        push(new SetBakeCommand(*this, tr("Remove Bake"), kind, nullptr));
 }
 
 void DocumentController::renewBake(const BakeArtifactPtr& before, BakeArtifactPtr after) {
@@ -286,14 +336,23 @@ void DocumentController::renewBake(const BakeArtifactPtr& before, BakeArtifactPt
     if (found == m_document.bakes.end())
         return;
     *found = std::move(after);
-    Q_EMIT changed({Affects::Bakes, std::nullopt});
+    announce({Affects::Bakes, std::nullopt});
+}
+
+void DocumentController::showLighting(LightingMode mode) {
+    const ParameterInfo& info = parameter("view.lighting");
+    const Target view{Scope::View, 0};
+    if (m_document.view.lighting != mode)
+        pushOrApply(std::make_unique<SetParametersCommand>(
+            *this, tr("Change %1").arg(fromText(info.label)), view,
+            std::vector<ParameterEdit>{{&info, static_cast<int>(mode)}}, 0));
 }
 
 void DocumentController::setCamera(const Camera& camera) {
     if (camera == m_document.view.camera)
         return;
     m_document.view.camera = camera;
-    Q_EMIT changed({Affects::Nothing, Target{Scope::View, 0}});
+    announce({Affects::Nothing, Target{Scope::View, 0}});
 }
 
 } // namespace patina::editor

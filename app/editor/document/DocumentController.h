@@ -6,6 +6,8 @@
 #pragma once
 
 #include "app/editor/document/BackgroundTasks.h"
+#include "app/editor/document/DocumentState.h"
+#include "app/editor/document/SaveQuestion.h"
 #include "app/editor/document/UserNotice.h"
 #include "core/document/Change.h"
 #include "core/document/Document.h"
@@ -16,10 +18,14 @@
 #include <QStringList>
 #include <QUndoStack>
 #include <functional>
+#include <map>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace patina {
 class WorkerClient;
+struct SaveOutcome;
 namespace library {
 struct SoftboxRig;
 }
@@ -32,6 +38,9 @@ using DragSession = quint64;
 
 class DocumentCommand;
 class EnvironmentResolver;
+class OpenProject;
+struct FileOnDisk;
+struct SaveOrder;
 
 // The lists that structural edits replace as a whole, ids kept.
 struct Elements {
@@ -57,7 +66,16 @@ class DocumentController : public QObject {
     // The project file, empty when it has not been saved yet.
     [[nodiscard]] QString filePath() const { return m_filePath; }
     [[nodiscard]] QString displayName() const; // "helmet.patina", "FlightHelmet", "Untitled"
-    [[nodiscard]] bool isModified() const { return !m_undo.isClean(); }
+    // Whether the document differs from what was last saved or opened: what was written is compared
+    // with what is there.
+    [[nodiscard]] bool isModified() const { return !(m_saved == state()); }
+    // Taken with a copy of the document it tells later whether the copy is still what is there.
+    [[nodiscard]] DocumentState state() const;
+    // Applies what was read in the background since `begun`: at once, or, when the user has gone
+    // back meanwhile, as soon as there is nothing to redo.
+    void deliver(const DocumentState& begun, const QString& name, std::function<void()> edit);
+    // Grows with each change of the document, whatever made it, navigation too.
+    [[nodiscard]] quint64 revision() const { return m_revision; }
     // Nothing would be lost by replacing it: the untouched start scene.
     [[nodiscard]] bool isPristine() const;
 
@@ -105,7 +123,9 @@ class DocumentController : public QObject {
     void editStructure(const QString& undoText, const std::function<void(Document&)>& edit);
 
     // --- Bakes -----------------------------------------------------------------------------------
-    void attachBake(BakeArtifactPtr artifact); // replaces the one of the same kind
+    // Replaces the one of the same kind. A bake arrives when it is done: as an undo step, unless
+    // there is something to redo, which that would erase; then as none.
+    void attachBake(BakeArtifactPtr artifact);
     void detachBake(BakeKind kind);
     // `after` is `before` with what follows from the rest of the document brought up to date: no
     // step of its own. Nothing happens when `before` is no longer attached.
@@ -116,18 +136,31 @@ class DocumentController : public QObject {
     // empty file: through the environment's, or, where there is none, the default tone curve.
     void setDisplayConfig(const QString& file);
     void setDisplayView(const QString& display, const QString& view); // empty view: the default
+    // For what the user set going that shows in one way only, such as a bake of transfer; a step as
+    // that of attachBake().
+    void showLighting(LightingMode mode);
     // Navigation is saved with the document, but is neither an undo step nor a modification.
     void setCamera(const Camera& camera);
 
     // --- Files -----------------------------------------------------------------------------------
-    // `done` runs on the UI thread with whether it worked; not when something newer was opened.
+    // `done` runs on the UI thread with whether it worked; not when something newer was opened, nor
+    // when edits made meanwhile were kept.
     void newDocument(std::function<void(bool)> done = {}); // the start scene
     // A project, a model file or "builtin:NAME".
     void openScene(const QString& scene, std::function<void(bool)> done = {});
     // Models are added, HDRs light the scene, projects are opened, images become maps of a material
     // by their names (document/DropPlan.h); one that says none becomes its base colour.
     void addFiles(const QStringList& files, Id baseColorOf = 0);
-    void saveAs(const QString& file, std::function<void(bool)> done = {});
+    // Saves follow each other in the order of the calls, and each tells its result. The next edit
+    // is an undo step of its own, so that undo leads back to what was saved.
+    void saveAs(const QString& file, std::function<void(bool)> done = {},
+                const SaveConsent& consent = {});
+    // Asks before a save does what the user may not want. Without one, such a save fails with a
+    // notice.
+    void setSaveQuestion(std::function<void(const SaveQuestion&)> ask);
+    // Asks before a scene that was being opened replaces edits made meanwhile; calls `proceed` when
+    // they may go. Without one they stay, with a notice.
+    void setReplaceQuestion(std::function<void(const std::function<void()>& proceed)> ask);
 
   Q_SIGNALS:
     void changed(const patina::Change& change);
@@ -142,10 +175,23 @@ class DocumentController : public QObject {
     [[nodiscard]] QString nameText(Target target) const;
     void apply(const std::function<Change(Document&)>& edit); // for commands only
     void push(DocumentCommand* command);
+    void pushOrApply(std::unique_ptr<DocumentCommand> command); // never erases what can be redone
+    void deliverWaiting();
+    void announce(const Change& change); // and whether isModified() has changed
+    void noteModified();
+    // Now, or when the user agrees to lose what was edited since `begun`.
+    void replaceWhenAllowed(const DocumentState& begun, const QString& name,
+                            std::function<void()> replace);
     void pushParameters(Target target, const std::vector<ParameterEdit>& edits, DragSession session,
                         const QString& text);
     void readEnvironment(const QString& source, EnvironmentLayout layout, const QString& undoText);
-    void takeOpened(OpenedScene opened, const QString& scene, const QString& name);
+    void takeOpened(OpenedScene opened, const QString& scene, const QString& name,
+                    const std::optional<Hash>& version);
+    // m_filePath is open here, and held this when it was read.
+    void holdFile(const std::optional<Hash>& version);
+    // Of what is open or being saved, if it is; `anew`: without what is known of the content.
+    std::shared_ptr<FileOnDisk> fileOnDisk(const QString& file, bool anew);
+    void saveEnded(const SaveOutcome& outcome, const SaveOrder& order);
     void replaceDocument(Document document, const QString& filePath, const QString& name,
                          bool pristine);
 
@@ -157,6 +203,20 @@ class DocumentController : public QObject {
     QString m_filePath, m_name;
     bool m_pristine = true;
     DragSession m_lastSession = 0;
+
+    quint64 m_revision = 0;
+    quint64 m_history = 0, m_step = 0; // of state()
+    quint64 m_lastStep = 0;            // steps are numbered once
+    quint64 m_mergeMark = 0;           // edits on two sides of a save do not merge
+    DocumentState m_saved;
+    bool m_shownModified = false;
+    Id m_firstFreeId = 1;                 // ids are never used twice, also after undo
+    quint64 m_documents = 0;              // which one this is, of those that were open
+    std::shared_ptr<FileOnDisk> m_onDisk; // what is known of the file at m_filePath
+    std::map<QString, std::weak_ptr<FileOnDisk>> m_files; // that, and of saves on their way
+    std::vector<std::function<void()>> m_waiting;         // for there being nothing to redo
+    std::function<void(const SaveQuestion&)> m_saveQuestion;
+    std::function<void(const std::function<void()>&)> m_replaceQuestion;
 };
 
 } // namespace patina::editor

@@ -3,6 +3,8 @@
 #include "app/editor/document/Commands.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/EnvironmentResolver.h"
+#include "app/editor/document/FileKinds.h"
+#include "app/editor/document/FileOnDisk.h"
 #include "app/editor/document/ImportNotice.h"
 #include "core/base/Check.h"
 #include "core/document/DocumentIO.h"
@@ -33,10 +35,6 @@ QString shortName(const QString& source) {
 
 QString labelOf(const ParameterInfo& info) {
     return QString::fromUtf8(info.label.data(), static_cast<qsizetype>(info.label.size()));
-}
-
-std::filesystem::path toPath(const QString& file) {
-    return {QFile::encodeName(QFileInfo(file).absoluteFilePath()).toStdString()};
 }
 
 // Appends what `part` holds under ids and names that are free in `document`.
@@ -73,23 +71,51 @@ void DocumentController::replaceDocument(Document document, const QString& fileP
                                          const QString& name, bool pristine) {
     // Results that were on their way belong to elements of the document that goes.
     m_tasks.cancelAll();
+    m_waiting.clear();
     m_document = std::move(document);
     m_environment->reset(m_document);
     m_undo.clear();
     m_filePath = filePath;
     m_name = name;
     m_pristine = pristine;
-    Q_EMIT changed(Change::everything());
+    ++m_documents;
+    ++m_history;
+    m_firstFreeId = m_document.nextId;
+    m_saved = state();
+    m_shownModified = false;
+    m_onDisk.reset();
+    announce(Change::everything());
     Q_EMIT fileChanged();
 }
 
+void DocumentController::setReplaceQuestion(
+    std::function<void(const std::function<void()>& proceed)> ask) {
+    m_replaceQuestion = std::move(ask);
+}
+
+void DocumentController::replaceWhenAllowed(const DocumentState& begun, const QString& name,
+                                            std::function<void()> replace) {
+    if (!isModified() || state() == begun)
+        replace();
+    else if (m_replaceQuestion)
+        m_replaceQuestion(replace);
+    else
+        Q_EMIT noticed({NoticeKind::Warning,
+                        tr("%1 was not opened: the scene was edited meanwhile. Save it, then open "
+                           "again.")
+                            .arg(name),
+                        {}});
+}
+
 void DocumentController::newDocument(std::function<void(bool)> done) {
-    const auto work = [this, done](const JobContext&) -> BackgroundTasks::Apply {
+    const auto work = [this, done, begun = state()](const JobContext&) -> BackgroundTasks::Apply {
         auto document = std::make_shared<Document>(startDocument());
-        return [this, document, done] {
-            replaceDocument(std::move(*document), {}, {}, true);
-            if (done)
-                done(true);
+        return [this, document, done, begun] {
+            replaceWhenAllowed(begun, tr("The start scene"), [this, document, done] {
+                replaceDocument(std::move(*document), {}, {}, true);
+                if (done)
+                    done(true);
+            });
         };
     };
     m_tasks.start(QStringLiteral("open"), tr("Preparing the start scene"), work);
@@ -97,25 +123,34 @@ void DocumentController::newDocument(std::function<void(bool)> done) {
 
 void DocumentController::openScene(const QString& scene, std::function<void(bool)> done) {
     const QString name = shortName(scene);
-    const auto work = [this, scene, name, done](const JobContext& job) -> BackgroundTasks::Apply {
+    const auto work = [this, scene, name, done,
+                       begun = state()](const JobContext& job) -> BackgroundTasks::Apply {
+        // Before it is read: what changes meanwhile is noticed when it is saved.
+        const std::optional<Hash> version =
+            fileKind(scene) == FileKind::Project ? projectVersion(toPath(scene)) : std::nullopt;
         auto result = std::make_shared<Result<OpenedScene>>(
             patina::openScene(m_worker, scene.toStdString(), job));
-        return [this, scene, name, done, result] {
-            if (result->ok()) {
-                takeOpened(std::move(result->value()), scene, name);
-            } else {
+        return [this, scene, name, done, begun, version, result] {
+            if (!result->ok()) {
                 if (result->error().kind != ErrorKind::Cancelled)
                     Q_EMIT noticed(UserNotice::fromError(result->error()));
                 Q_EMIT openFailed(scene);
+                if (done)
+                    done(false);
+                return;
             }
-            if (done)
-                done(result->ok());
+            replaceWhenAllowed(begun, name, [this, scene, name, done, version, result] {
+                takeOpened(std::move(result->value()), scene, name, version);
+                if (done)
+                    done(true);
+            });
         };
     };
     m_tasks.start(QStringLiteral("open"), tr("Opening %1").arg(name), work);
 }
 
-void DocumentController::takeOpened(OpenedScene opened, const QString& scene, const QString& name) {
+void DocumentController::takeOpened(OpenedScene opened, const QString& scene, const QString& name,
+                                    const std::optional<Hash>& version) {
     const UserNotice notice = importNotice(name, opened);
     const QString file =
         isBuiltin(scene.toStdString()) ? scene : QFileInfo(scene).absoluteFilePath();
@@ -123,6 +158,8 @@ void DocumentController::takeOpened(OpenedScene opened, const QString& scene, co
         keepLight(opened.document, m_document);
     replaceDocument(std::move(opened.document), opened.isProject ? file : QString(),
                     opened.isProject ? name : QFileInfo(name).completeBaseName(), false);
+    if (opened.isProject)
+        holdFile(version);
     if (!notice.text.isEmpty())
         Q_EMIT noticed(notice);
     Q_EMIT sceneOpened(file);
@@ -130,51 +167,56 @@ void DocumentController::takeOpened(OpenedScene opened, const QString& scene, co
 
 void DocumentController::addModel(const QString& source) {
     const QString name = shortName(source);
-    m_tasks.start(QStringLiteral("model:") + source, tr("Adding %1").arg(name),
-                  [this, source, name](const JobContext&) -> BackgroundTasks::Apply {
-                      // Read into a document of its own: the user's may change meanwhile.
-                      auto part = std::make_shared<Document>();
-                      auto result = std::make_shared<Result<std::vector<Notice>>>(
-                          patina::addModel(m_worker, *part, normalizeSource(source.toStdString())));
-                      return [this, name, part, result] {
-                          if (!result->ok()) {
-                              Q_EMIT noticed(UserNotice::fromError(result->error()));
-                              return;
-                          }
-                          editStructure(tr("Add %1").arg(name),
-                                        [&](Document& document) { appendScene(document, *part); });
-                          const UserNotice notice =
-                              UserNotice::fromImport(name, result->value(), {});
-                          if (!notice.text.isEmpty())
-                              Q_EMIT noticed(notice);
-                      };
-                  });
+    m_tasks.start(
+        QStringLiteral("model:") + source, tr("Adding %1").arg(name),
+        [this, source, name, begun = state()](const JobContext&) -> BackgroundTasks::Apply {
+            // Read into a document of its own: the user's may change meanwhile.
+            auto part = std::make_shared<Document>();
+            auto result = std::make_shared<Result<std::vector<Notice>>>(
+                patina::addModel(m_worker, *part, normalizeSource(source.toStdString())));
+            return [this, name, begun, part, result] {
+                if (!result->ok()) {
+                    Q_EMIT noticed(UserNotice::fromError(result->error()));
+                    return;
+                }
+                deliver(begun, name, [this, name, part] {
+                    editStructure(tr("Add %1").arg(name),
+                                  [&](Document& document) { appendScene(document, *part); });
+                });
+                const UserNotice notice = UserNotice::fromImport(name, result->value(), {});
+                if (!notice.text.isEmpty())
+                    Q_EMIT noticed(notice);
+            };
+        });
 }
 
 void DocumentController::setMap(const ParameterInfo& map, Target target, const QString& source) {
     const QString key = QStringLiteral("map:%1:%2")
                             .arg(QString::fromUtf8(map.id.data(), static_cast<int>(map.id.size())))
                             .arg(target.id);
-    m_tasks.start(key, tr("Reading %1").arg(shortName(source)),
-                  [this, &map, target, source](const JobContext&) -> BackgroundTasks::Apply {
-                      const std::string name = normalizeSource(source.toStdString());
-                      auto image = std::make_shared<Result<ImagePtr>>(
-                          loadMapImage(m_worker, name, map.mapEncoding));
-                      return [this, &map, target, name, image] {
-                          if (!image->ok()) {
-                              Q_EMIT noticed(UserNotice::fromError(image->error()));
-                              return;
-                          }
-                          if (!targetExists(m_document, target))
-                              return;
-                          MapSlot slot = std::get<MapSlot>(map.get(m_document, target.id));
-                          slot.source = name;
-                          slot.image = image->value();
-                          slot.problem.clear();
-                          pushParameters(target, editsForMap(m_document, map, target, slot), 0,
-                                         tr("Set %1").arg(labelOf(map)));
-                      };
-                  });
+    m_tasks.start(
+        key, tr("Reading %1").arg(shortName(source)),
+        [this, &map, target, source, begun = state()](const JobContext&) -> BackgroundTasks::Apply {
+            const std::string name = normalizeSource(source.toStdString());
+            auto image =
+                std::make_shared<Result<ImagePtr>>(loadMapImage(m_worker, name, map.mapEncoding));
+            return [this, &map, target, source, name, begun, image] {
+                if (!image->ok()) {
+                    Q_EMIT noticed(UserNotice::fromError(image->error()));
+                    return;
+                }
+                deliver(begun, shortName(source), [this, &map, target, name, image] {
+                    if (!targetExists(m_document, target))
+                        return;
+                    MapSlot slot = std::get<MapSlot>(map.get(m_document, target.id));
+                    slot.source = name;
+                    slot.image = image->value();
+                    slot.problem.clear();
+                    pushParameters(target, editsForMap(m_document, map, target, slot), 0,
+                                   tr("Set %1").arg(labelOf(map)));
+                });
+            };
+        });
 }
 
 void DocumentController::clearMap(const ParameterInfo& map, Target target) {
@@ -190,12 +232,12 @@ void DocumentController::setSecondEnvironment(const QString& source) {
     const QString title = shortName(source);
     m_tasks.start(
         QStringLiteral("second environment"), tr("Reading %1").arg(title),
-        [this, source, title](const JobContext& job) -> BackgroundTasks::Apply {
+        [this, source, title, begun = state()](const JobContext& job) -> BackgroundTasks::Apply {
             const std::string name = normalizeSource(source.toStdString());
             auto notices = std::make_shared<std::vector<Notice>>();
             auto image = std::make_shared<Result<ImagePtr>>(
                 loadEnvironmentImage(m_worker, name, *notices, EnvironmentLayout::Automatic, job));
-            return [this, title, name, notices, image] {
+            return [this, title, name, begun, notices, image] {
                 if (!image->ok()) {
                     Q_EMIT noticed(UserNotice::fromError(image->error()));
                     return;
@@ -203,11 +245,13 @@ void DocumentController::setSecondEnvironment(const QString& source) {
                 MapSlot slot;
                 slot.source = name;
                 slot.image = image->value();
-                std::vector<ParameterEdit> edits{{&parameter("environment.secondImage"), slot}};
-                // A new one is seen at once, and the first is not lost for it.
-                if (m_document.environment.second.source.empty())
-                    edits.push_back({&parameter("environment.fade"), 0.5f});
-                pushParameters({Scope::Environment, 0}, edits, 0, tr("Fade to %1").arg(title));
+                deliver(begun, title, [this, title, slot] {
+                    std::vector<ParameterEdit> edits{{&parameter("environment.secondImage"), slot}};
+                    // A new one is seen at once, and the first is not lost for it.
+                    if (m_document.environment.second.source.empty())
+                        edits.push_back({&parameter("environment.fade"), 0.5f});
+                    pushParameters({Scope::Environment, 0}, edits, 0, tr("Fade to %1").arg(title));
+                });
                 const UserNotice notice = UserNotice::fromImport(title, *notices, {});
                 if (!notice.text.isEmpty())
                     Q_EMIT noticed(notice);
@@ -220,12 +264,13 @@ void DocumentController::readEnvironment(const QString& source, EnvironmentLayou
     const QString title = shortName(source);
     m_tasks.start(
         QStringLiteral("environment"), tr("Reading %1").arg(title),
-        [this, source, layout, title, undoText](const JobContext& job) -> BackgroundTasks::Apply {
+        [this, source, layout, title, undoText,
+         begun = state()](const JobContext& job) -> BackgroundTasks::Apply {
             const std::string name = normalizeSource(source.toStdString());
             auto notices = std::make_shared<std::vector<Notice>>();
             auto image = std::make_shared<Result<ImagePtr>>(
                 loadEnvironmentImage(m_worker, name, *notices, layout, job));
-            return [this, title, name, layout, undoText, notices, image] {
+            return [this, title, name, layout, undoText, begun, notices, image] {
                 const Target environment{Scope::Environment, 0};
                 if (!image->ok()) {
                     Q_EMIT noticed(UserNotice::fromError(image->error()));
@@ -236,12 +281,14 @@ void DocumentController::readEnvironment(const QString& source, EnvironmentLayou
                 MapSlot sky;
                 sky.source = name;
                 sky.image = image->value();
-                pushParameters(
-                    environment,
-                    {{&parameter("environment.kind"), static_cast<int>(EnvironmentKind::Image)},
-                     {&parameter("environment.image"), sky},
-                     {&parameter("environment.layout"), static_cast<int>(layout)}},
-                    0, undoText);
+                deliver(begun, title, [this, environment, sky, layout, undoText] {
+                    pushParameters(
+                        environment,
+                        {{&parameter("environment.kind"), static_cast<int>(EnvironmentKind::Image)},
+                         {&parameter("environment.image"), sky},
+                         {&parameter("environment.layout"), static_cast<int>(layout)}},
+                        0, undoText);
+                });
                 const UserNotice notice = UserNotice::fromImport(title, *notices, {});
                 if (!notice.text.isEmpty())
                     Q_EMIT noticed(notice);
@@ -278,43 +325,22 @@ void DocumentController::applyLibraryMaterial(Id id, const QString& name) {
     const QString title = shortName(QStringLiteral("builtin:") + name);
     m_tasks.start(
         QStringLiteral("preset:%1").arg(id), tr("Making %1").arg(title),
-        [this, id, name, title](const JobContext&) -> BackgroundTasks::Apply {
+        [this, id, name, title, begun = state()](const JobContext&) -> BackgroundTasks::Apply {
             auto result = std::make_shared<Result<Material>>(library::material(name.toStdString()));
-            return [this, id, title, result] {
-                if (!result->ok())
+            return [this, id, title, begun, result] {
+                if (!result->ok()) {
                     Q_EMIT noticed(UserNotice::fromError(result->error()));
-                else if (m_document.material(id))
-                    editStructure(
-                        tr("Make %1 %2").arg(nameText({Scope::Material, id}), title),
-                        [&](Document& document) { replaceLook(document, id, result->value()); });
+                    return;
+                }
+                deliver(begun, title, [this, id, title, result] {
+                    if (m_document.material(id))
+                        editStructure(tr("Make %1 %2").arg(nameText({Scope::Material, id}), title),
+                                      [&](Document& document) {
+                                          replaceLook(document, id, result->value());
+                                      });
+                });
             };
         });
-}
-
-void DocumentController::saveAs(const QString& file, std::function<void(bool)> done) {
-    // A copy is a snapshot: editing goes on while it is written.
-    auto snapshot = std::make_shared<const Document>(m_document);
-    m_tasks.start(QStringLiteral("save"), tr("Saving %1").arg(QFileInfo(file).fileName()),
-                  [this, file, snapshot, done = std::move(done),
-                   step = m_undo.index()](const JobContext&) -> BackgroundTasks::Apply {
-                      auto result = std::make_shared<Result<void>>(
-                          saveProject(m_worker, *snapshot, toPath(file)));
-                      return [this, file, done, step, result] {
-                          if (result->ok()) {
-                              m_filePath = QFileInfo(file).absoluteFilePath();
-                              m_name = QFileInfo(file).fileName();
-                              m_pristine = false;
-                              if (m_undo.index() == step)
-                                  m_undo.setClean();
-                              Q_EMIT fileChanged();
-                              Q_EMIT saved(m_filePath);
-                          } else {
-                              Q_EMIT noticed(UserNotice::fromError(result->error()));
-                          }
-                          if (done)
-                              done(result->ok());
-                      };
-                  });
 }
 
 } // namespace patina::editor

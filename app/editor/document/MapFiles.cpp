@@ -31,8 +31,8 @@ void setMaps(DocumentController& controller, Id material, const std::vector<MapF
         Result<ImagePtr> image;
     };
     const QString count = QString::number(files.size());
-    const auto work = [&controller, files, target,
-                       count](const JobContext&) -> BackgroundTasks::Apply {
+    const auto work = [&controller, files, target, count,
+                       begun = controller.state()](const JobContext&) -> BackgroundTasks::Apply {
         auto read = std::make_shared<std::vector<Read>>();
         for (const MapFile& one : files) {
             std::string source = normalizeSource(one.file.toStdString());
@@ -40,7 +40,7 @@ void setMaps(DocumentController& controller, Id material, const std::vector<MapF
                 loadMapImage(controller.worker(), source, one.map->mapEncoding);
             read->push_back({one.map, std::move(source), std::move(image)});
         }
-        return [&controller, target, count, read] {
+        const auto apply = [&controller, target, count, read] {
             const Document& document = controller.document();
             if (!targetExists(document, target))
                 return;
@@ -61,6 +61,9 @@ void setMaps(DocumentController& controller, Id material, const std::vector<MapF
                 target, edits,
                 tr("Set %1 Maps of %2")
                     .arg(count, QString::fromStdString(nameOf(document, target))));
+        };
+        return [&controller, begun, count, apply] {
+            controller.deliver(begun, tr("What %1 images show").arg(count), apply);
         };
     };
     controller.tasks().start(QStringLiteral("maps:%1").arg(material),

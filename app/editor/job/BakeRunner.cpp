@@ -180,8 +180,7 @@ Result<JobManager::Work> BakeRunner::prepare(const std::shared_ptr<quint64>& id,
 
     // Transfer is only visible in PRT lighting.
     if (holdsTransfer(request.kind))
-        m_controller.setParameter(*findParameter("view.lighting"), Target{Scope::View, 0},
-                                  static_cast<int>(LightingMode::Prt));
+        m_controller.showLighting(LightingMode::Prt);
 
     auto preview = std::make_shared<LivePreview>(request.kind);
     preview->setShown(showsMore(*preview));

@@ -1,0 +1,21 @@
+// Names a content of the document without holding it: to know whether what was written is what is
+// there.
+#pragma once
+
+#include "core/bake/BakeArtifact.h"
+
+#include <QtGlobal>
+#include <vector>
+
+namespace patina::editor {
+
+// Of two states that are equal the content is the same, navigation (the camera) aside. Undo leads
+// back to a state, redo to a later one; what makes no undo step begins a new history.
+struct DocumentState {
+    quint64 history = 0, step = 0;
+    // By content: following bounces replaces a bake by an equal one when albedo is as it was.
+    std::vector<BakeArtifactPtr> bakes;
+};
+[[nodiscard]] bool operator==(const DocumentState& a, const DocumentState& b);
+
+} // namespace patina::editor
