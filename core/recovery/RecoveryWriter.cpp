@@ -15,6 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+constexpr std::chrono::milliseconds kPause{150}; // between two records
+
 std::int64_t secondsNow() {
     return std::chrono::duration_cast<std::chrono::seconds>(
                std::chrono::system_clock::now().time_since_epoch())
@@ -145,6 +147,8 @@ void RecoveryWriter::run() {
         m_working = false;
         m_idle.notify_all();
         m_wake.notify_all(); // there may be bakes to store
+        // A drag hands over a state with each frame: the disk need not have them all.
+        m_wake.wait_for(lock, kPause, [this] { return m_stop || m_hurry; });
     }
 }
 
