@@ -23,6 +23,8 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
     , exportScene(make(tr("&Export…"), QStringLiteral("export"), {tr("Ctrl+E")},
                        tr("Write the scene as glTF or GLB for other programs")))
     , quit(make(tr("&Quit"), QStringLiteral("quit"), {tr("Ctrl+Q")}, tr("Leave Patina")))
+    , recover(make(tr("Recover &Unsaved Work…"), {}, {},
+                   tr("Show work that was not saved when an editor ended")))
     , undo(undoStack.createUndoAction(this, tr("&Undo")))
     , redo(undoStack.createRedoAction(this, tr("&Redo")))
     , frame(make(tr("&Frame"), QStringLiteral("frame"), {tr("F")},
@@ -140,7 +142,7 @@ QList<QAction*> Actions::all() const {
                            saveEnvironment, exportScene, quit,     undo,        redo,
                            frame,           home,        overlays, lightingIbl, lightingPrt} +
            docks() + QList<QAction*>{nextDock, previousDock} + instruments() +
-           QList<QAction*>{pinPixel, furnace, fullScreen, resetLayout, shortcuts, about};
+           QList<QAction*>{pinPixel, furnace, fullScreen, resetLayout, shortcuts, about, recover};
 }
 
 } // namespace patina::editor

@@ -18,6 +18,7 @@ class Actions : public QObject {
     Actions(QUndoStack& undoStack, QObject* parent);
 
     QAction *newScene, *open, *addModel, *save, *saveAs, *saveEnvironment, *exportScene, *quit;
+    QAction* recover;
     QAction *undo, *redo;
     QAction *frame, *home, *overlays, *lightingIbl, *lightingPrt;
     QAction *sceneDock, *materialDock, *environmentDock, *lightsDock, *viewDock, *bakeDock;

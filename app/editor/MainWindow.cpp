@@ -246,6 +246,7 @@ void MainWindow::makeMenus() {
     file->addActions({a.newScene, a.open});
     m_recentMenu = file->addMenu(tr("Open &Recent"));
     m_recentMenu->setToolTipsVisible(true);
+    file->addAction(a.recover);
     file->addSeparator();
     file->addAction(a.addModel);
     QMenu* builtin = file->addMenu(icon(QStringLiteral("library")), tr("Add &Built-in Model"));

@@ -2,6 +2,7 @@
 
 #include "app/editor/FileFlow.h"
 #include "app/editor/MainWindow.h"
+#include "app/editor/Recovery.h"
 #include "app/editor/Session.h"
 #include "app/editor/Startup.h"
 #include "app/editor/style/Style.h"
@@ -77,6 +78,7 @@ int main(int argc, char* argv[]) {
     int status = 0;
     {
         MainWindow window(session);
+        Recovery recovery(session, window, recoveryFolder());
         if (parser.isSet(QStringLiteral("reset-layout")))
             QSettings().remove(QStringLiteral("window"));
         window.restoreLayout();
@@ -92,7 +94,11 @@ int main(int argc, char* argv[]) {
         window.files().openFromCommandLine(parser.positionalArguments(),
                                            parser.value(QStringLiteral("environment")));
         window.show();
+        if (!parser.isSet(QStringLiteral("quit-after-first-frame")))
+            recovery.offer();
         status = QApplication::exec();
+        if (!window.isVisible()) // closed by the user, who was asked about what is unsaved
+            recovery.leave();
     }
     session.controller.tasks().cancelAll();
     if (!session.controller.tasks().waitForDone(kPatienceMs))

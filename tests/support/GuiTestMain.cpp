@@ -35,6 +35,7 @@ int main(int argc, char* argv[]) {
     QTemporaryDir settings;
     QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, settings.path());
     qputenv("XDG_CACHE_HOME", QFile::encodeName(settings.path()));
+    qputenv("XDG_DATA_HOME", QFile::encodeName(settings.path()));
     QApplication application(argc, argv);
     patina::editor::applyStyle(application);
     const int status = RUN_ALL_TESTS();

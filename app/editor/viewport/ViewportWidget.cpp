@@ -15,6 +15,8 @@
 
 #include <QFile>
 #include <QOpenGLContext>
+#include <QOpenGLExtraFunctions>
+#include <QOpenGLFramebufferObject>
 #include <QOpenGLFunctions>
 #include <QStandardPaths>
 #include <algorithm>
@@ -485,6 +487,27 @@ void ViewportWidget::setOverlaysVisible(bool visible) {
     m_overlays = visible;
     m_hand.setHandlesVisible(visible);
     update();
+}
+
+QImage ViewportWidget::smallPicture(const QSize& largest) {
+    if (!m_renderer || m_lastFrameSize.isEmpty())
+        return {};
+    const QSize full(std::max(1, static_cast<int>(std::lround(width() * devicePixelRatioF()))),
+                     std::max(1, static_cast<int>(std::lround(height() * devicePixelRatioF()))));
+    const QSize size = full.scaled(largest, Qt::KeepAspectRatio).expandedTo({1, 1});
+    makeCurrent();
+    QImage picture;
+    {
+        QOpenGLFramebufferObject target(size);
+        QOpenGLExtraFunctions* gl = context()->extraFunctions();
+        gl->glBindFramebuffer(GL_READ_FRAMEBUFFER, defaultFramebufferObject());
+        gl->glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.handle());
+        gl->glBlitFramebuffer(0, 0, full.width(), full.height(), 0, 0, size.width(), size.height(),
+                              GL_COLOR_BUFFER_BIT, GL_LINEAR);
+        picture = target.toImage().convertToFormat(QImage::Format_RGB32);
+    }
+    doneCurrent();
+    return picture;
 }
 
 void ViewportWidget::pickAt(const QPointF& position) {

@@ -17,6 +17,7 @@
 #include "render/Renderer.h"
 
 #include <QElapsedTimer>
+#include <QImage>
 #include <QOpenGLWidget>
 #include <QTimer>
 #include <memory>
@@ -70,6 +71,9 @@ class ViewportWidget : public QOpenGLWidget {
     void resetCamera();                    // Home: the whole scene from the default side
     void setOverlaysVisible(bool visible); // ground grid, selection outline, light icons
     [[nodiscard]] bool overlaysVisible() const { return m_overlays; }
+
+    // What it shows, reduced to fit; null while nothing was drawn. Draws nothing.
+    [[nodiscard]] QImage smallPicture(const QSize& largest);
 
     // Of the next frame in device pixels: the widget's, or less while the hand moves.
     [[nodiscard]] QSize frameSize() const;
