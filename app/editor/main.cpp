@@ -2,24 +2,29 @@
 
 #include "app/editor/FileFlow.h"
 #include "app/editor/MainWindow.h"
+#include "app/editor/OpenGlProbe.h"
 #include "app/editor/Recovery.h"
 #include "app/editor/Session.h"
 #include "app/editor/Startup.h"
+#include "app/editor/StartupMessages.h"
 #include "app/editor/style/Style.h"
 #include "app/editor/viewport/ViewportWidget.h"
 
 #include <QApplication>
 #include <QCommandLineParser>
 #include <QIcon>
+#include <QMessageBox>
 #include <QSettings>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 
 namespace {
 
+using patina::editor::kNoOpenGlStatus;
+
 // Files that are still being read when the user leaves get this long to come to an end.
 constexpr int kPatienceMs = 1500;
-constexpr int kNoDisplay = 69; // EX_UNAVAILABLE, as the command line's "no OpenGL"
 
 void describe(QCommandLineParser& parser) {
     parser.setApplicationDescription(QCoreApplication::translate(
@@ -53,10 +58,21 @@ bool displayIsMissing() {
            qEnvironmentVariableIsEmpty("QT_QPA_PLATFORM");
 }
 
+// Without OpenGL there is no picture, and without a picture no editor.
+int endWithoutOpenGl(const QString& text, bool dialog) {
+    std::fprintf(stderr, "patina-editor: %s\n", qPrintable(text));
+    if (dialog)
+        QMessageBox::critical(nullptr, QCoreApplication::translate("main", "Patina"), text);
+    return kNoOpenGlStatus;
+}
+
 } // namespace
 
 int main(int argc, char* argv[]) {
     using namespace patina::editor;
+    if (OpenGlProbe::isWanted(argc, argv))
+        return OpenGlProbe::run(argc, argv);
+    OpenGlProbe probe; // while what needs no OpenGL is made
     prepareApplication();
     QCommandLineParser parser;
     describe(parser);
@@ -66,13 +82,23 @@ int main(int argc, char* argv[]) {
         std::fputs("patina-editor: there is no display (DISPLAY and WAYLAND_DISPLAY are empty). "
                    "Start it on a desktop, or use 'patina render' and 'patina bake'.\n",
                    stderr);
-        return kNoDisplay;
+        return kNoOpenGlStatus;
     }
+    const std::optional<QString> noOpenGl = probe.problem();
+    if (noOpenGl) { // nor may anything touch the driver that is only to show a message
+        QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts, false);
+        qputenv("QT_XCB_GL_INTEGRATION", "none");
+    }
+    std::optional<StartupMessages> messages(std::in_place);
     QApplication application(argc, argv);
+    messages.reset();
     QApplication::setWindowIcon(QIcon(QStringLiteral(":/icons/patina.svg")));
     applyStyle(application);
     parser.process(application);
 
+    const bool quits = parser.isSet(QStringLiteral("quit-after-first-frame"));
+    if (noOpenGl)
+        return endWithoutOpenGl(noOpenGlText(*noOpenGl), !quits);
     Session session;
     session.worker.warmUp();
     int status = 0;
@@ -82,7 +108,7 @@ int main(int argc, char* argv[]) {
         if (parser.isSet(QStringLiteral("reset-layout")))
             QSettings().remove(QStringLiteral("window"));
         window.restoreLayout();
-        if (parser.isSet(QStringLiteral("quit-after-first-frame")))
+        if (quits)
             QObject::connect(
                 &window.viewport(), &ViewportWidget::frameRendered, &application,
                 [&] {
@@ -90,13 +116,30 @@ int main(int argc, char* argv[]) {
                         QApplication::quit();
                 },
                 Qt::QueuedConnection); // not in the middle of painting
+        // Later than that: the driver gave up, or refuses what it promised.
+        QString lost;
+        QObject::connect(
+            &window.viewport(), &ViewportWidget::contextFailed, &application,
+            [&](const QString& reason) {
+                recovery.keeper().keepNow();
+                lost = noOpenGlText(reason);
+                if (session.controller.isModified())
+                    lost += QStringLiteral("\n\n") +
+                            QCoreApplication::translate(
+                                "main", "Your unsaved work is kept: Patina offers it when it "
+                                        "starts again.");
+                QCoreApplication::exit(kNoOpenGlStatus);
+            },
+            Qt::QueuedConnection); // not in the middle of painting
         // Read and made in the background while the window and OpenGL come up.
         window.files().openFromCommandLine(parser.positionalArguments(),
                                            parser.value(QStringLiteral("environment")));
         window.show();
-        if (!parser.isSet(QStringLiteral("quit-after-first-frame")))
+        if (!quits)
             recovery.offer();
         status = QApplication::exec();
+        if (!lost.isEmpty())
+            return endWithoutOpenGl(lost, !quits);
         if (!window.isVisible()) // closed by the user, who was asked about what is unsaved
             recovery.leave();
     }

@@ -32,6 +32,9 @@ int main(int argc, char* argv[]) {
     ::testing::InitGoogleMock(&argc, argv);
     qInstallMessageHandler(takeMessage);
     patina::editor::prepareApplication();
+#ifdef PATINA_UNSHARED_CONTEXTS // a viewport that changes its window loses its context
+    QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts, false);
+#endif
     QTemporaryDir settings;
     QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, settings.path());
     qputenv("XDG_CACHE_HOME", QFile::encodeName(settings.path()));

@@ -332,6 +332,8 @@ PictureState ViewportWidget::pictureState() const {
 }
 
 void ViewportWidget::letOthersDraw() {
+    if (!m_renderer)
+        return; // no context, or it is on its way
     const bool rests = !m_pacing.moving();
     m_sheets.setResting(rests);
     if (rests)
@@ -378,6 +380,8 @@ void ViewportWidget::feedEnvironment() {
 }
 
 Result<std::vector<Image>> ViewportWidget::drawSheet(const render::ViewSheet& sheet) {
+    if (!m_renderer)
+        return Error{ErrorKind::NoOpenGl, "there is no OpenGL to draw with", {}, {}};
     makeCurrent();
     render::FrameSettings frame;
     frame.camera = m_lastCamera;
@@ -504,6 +508,7 @@ QImage ViewportWidget::smallPicture(const QSize& largest) {
         gl->glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.handle());
         gl->glBlitFramebuffer(0, 0, full.width(), full.height(), 0, 0, size.width(), size.height(),
                               GL_COLOR_BUFFER_BIT, GL_LINEAR);
+        gl->glBindFramebuffer(GL_FRAMEBUFFER, target.handle()); // which is read from, too
         picture = target.toImage().convertToFormat(QImage::Format_RGB32);
     }
     doneCurrent();
