@@ -3,6 +3,7 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/job/BakeRunner.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/TextButton.h"
 #include "core/bake/BakeOptions.h"
 #include "core/document/AbsentBake.h"
@@ -22,16 +23,6 @@
 
 namespace patina::editor {
 namespace {
-
-void clear(QLayout* layout) {
-    while (QLayoutItem* item = layout->takeAt(0)) {
-        if (QWidget* widget = item->widget()) {
-            widget->hide(); // at once; deleting waits for the event loop
-            widget->deleteLater();
-        }
-        delete item;
-    }
-}
 
 // "Geometry, settings"
 QString whatChanged(const BakeStaleness& staleness) {
@@ -92,7 +83,7 @@ bool AttachedBakes::offers(const BakeRequest& request) const {
 }
 
 void AttachedBakes::refresh() {
-    clear(m_rows);
+    retireAll(*m_rows);
     const Document& document = m_controller.document();
     if (document.bakes.empty()) {
         auto* none = new QLabel(tr("None yet. A bake stays with the scene and is saved with it."));

@@ -6,6 +6,7 @@
 #include "app/editor/panel/BakeSettingsForm.h"
 #include "app/editor/panel/JobRow.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/PanelScroll.h"
 #include "app/editor/widget/Section.h"
 #include "app/editor/widget/TextButton.h"
@@ -226,8 +227,7 @@ void BakePanel::refreshQueue() {
     std::erase_if(m_rows, [&](const auto& row) {
         if (std::ranges::find(ids, row.first) != ids.end())
             return false;
-        row.second->hide();
-        row.second->deleteLater();
+        retire(row.second);
         return true;
     });
     for (const quint64 id : ids) {
@@ -251,11 +251,7 @@ void BakePanel::pollQueue() {
 }
 
 void BakePanel::refreshInterrupted() {
-    while (QLayoutItem* item = m_interrupted->takeAt(0)) {
-        item->widget()->hide(); // at once; deleting waits for the event loop
-        item->widget()->deleteLater();
-        delete item;
-    }
+    retireAll(*m_interrupted);
     if (m_runner.running())
         return; // the checkpoint may be the one that is being written
     for (const InterruptedBake& bake : m_runner.interrupted()) {

@@ -8,6 +8,7 @@
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/ColumnsLayout.h"
+#include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/EnergyBars.h"
 #include "app/editor/widget/EnergyMap.h"
 #include "app/editor/widget/EnergyPlot.h"
@@ -37,14 +38,6 @@ QLabel* makeText(bool dim) {
     if (dim)
         label->setObjectName(QStringLiteral("dim"));
     return label;
-}
-
-void clear(QLayout& layout) {
-    while (QLayoutItem* item = layout.takeAt(0)) {
-        if (item->widget())
-            item->widget()->deleteLater();
-        delete item;
-    }
 }
 
 EnergyShares sharesOf(const EnergyStudy& study, EnergyChannel channel, bool multiScatter) {
@@ -289,7 +282,7 @@ void EnergyPanel::refreshLedger() {
 }
 
 void EnergyPanel::refreshFaults() {
-    clear(*m_faults);
+    retireAll(*m_faults);
     if (!m_study)
         return;
     const Material* shown = material();

@@ -7,6 +7,7 @@
 #include "app/editor/panel/SoftboxList.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/ElidedLabel.h"
 #include "app/editor/widget/LatLongPicture.h"
 #include "app/editor/widget/LatLongView.h"
@@ -85,6 +86,11 @@ EnvironmentPanel::EnvironmentPanel(DocumentController& controller, Thumbnails& t
             [this] { m_view->setSelected(m_softboxes->selected()); });
     connectView();
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
+        if (change.affects == Affects::Everything) { // another document
+            abandonEdits(*m_view);
+            m_session = 0;
+            m_before.clear();
+        }
         if (!change.target || change.target->scope == Scope::Environment ||
             change.target->scope == Scope::Softbox)
             refresh();

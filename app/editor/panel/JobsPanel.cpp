@@ -2,6 +2,7 @@
 
 #include "app/editor/job/JobManager.h"
 #include "app/editor/panel/JobRow.h"
+#include "app/editor/widget/EditControl.h"
 
 #include <QLabel>
 #include <QPushButton>
@@ -53,7 +54,7 @@ void JobsPanel::rebuild() {
     std::erase_if(m_shown, [&](const auto& shown) {
         const bool gone = std::ranges::find(jobs, shown.first, &JobRecord::id) == jobs.end();
         if (gone)
-            shown.second->deleteLater();
+            retire(shown.second);
         return gone;
     });
     for (const JobRecord& record : jobs) {

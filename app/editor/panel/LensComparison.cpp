@@ -1,6 +1,7 @@
 #include "app/editor/panel/LensComparison.h"
 
 #include "app/editor/panel/ParameterRow.h"
+#include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/PlotStyle.h"
 #include "core/document/ModelPresets.h"
 
@@ -155,11 +156,7 @@ void LensComparison::fillMenu() {
 }
 
 void LensComparison::fillLegend() {
-    while (QLayoutItem* item = m_row->takeAt(0)) {
-        item->widget()->hide();
-        item->widget()->deleteLater(); // it may be the one that was clicked
-        delete item;
-    }
+    retireAll(*m_row);
     const auto add = [this](int slot, const QString& name, const QString& sentence) {
         auto* entry = new QToolButton;
         entry->setIcon(sampleOf(slot));

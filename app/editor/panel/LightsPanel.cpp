@@ -14,6 +14,7 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QSignalBlocker>
 #include <QStyledItemDelegate>
 #include <QToolButton>
 #include <QTreeWidget>
@@ -22,14 +23,10 @@
 namespace patina::editor {
 namespace {
 
-// Rows of numbers that the light does not use are hidden.
+// Rows of numbers that lights of this type do not use are hidden.
 bool applies(const ParameterInfo& info, const Document& document, Id id) {
     const Light& light = *document.light(id);
     const LightType type = light.type;
-    if (info.id == "light.color")
-        return !light.usesTemperature;
-    if (info.id == "light.temperatureK")
-        return light.usesTemperature;
     if (info.id == "light.position")
         return hasPosition(type);
     if (info.id == "light.azimuthDeg" || info.id == "light.elevationDeg")
@@ -45,11 +42,28 @@ bool applies(const ParameterInfo& info, const Document& document, Id id) {
     if (info.id == "light.castsShadow")
         return canCastShadow(type);
     if (info.id == "light.shadowSoftness")
-        return canCastShadow(type) && light.castsShadow;
+        return canCastShadow(type);
+    return true;
+}
+
+// Of rows that a switch beside them turns on or off.
+bool works(const ParameterInfo& info, const Document& document, Id id) {
+    const Light& light = *document.light(id);
+    if (info.id == "light.color")
+        return !light.usesTemperature;
+    if (info.id == "light.temperatureK")
+        return light.usesTemperature;
+    if (info.id == "light.shadowSoftness")
+        return light.castsShadow;
     return true;
 }
 
 constexpr int kNameColumn = 0, kSoloColumn = 1;
+constexpr int kTypeRole = Qt::UserRole + 1; // of the light whose icon an item has
+
+Id idOf(const QTreeWidgetItem& item) {
+    return item.data(kNameColumn, Qt::UserRole).toUInt();
+}
 
 // The solo column has a switch and no text to edit.
 class NoEditor : public QStyledItemDelegate {
@@ -100,7 +114,10 @@ LightsPanel::LightsPanel(DocumentController& controller, SelectionModel& selecti
                                           return Target{Scope::Light, selection.light()};
                                       },
                                       {"light.enabled", "light.solo"}, // the list has them
-                                      applies})) {
+                                      applies,
+                                      false,
+                                      std::nullopt,
+                                      works})) {
     m_list->setAccessibleName(tr("Lights"));
     m_list->setStatusTip(tr("Tick to switch a light on or to hear it solo, F2 to rename it"));
     m_list->setEditTriggers(QAbstractItemView::EditKeyPressed | QAbstractItemView::DoubleClicked);
@@ -158,12 +175,12 @@ LightsPanel::LightsPanel(DocumentController& controller, SelectionModel& selecti
             [this] { m_controller.removeLight(m_selection.light()); });
     connect(m_list, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* item) {
         if (!m_refreshing && item)
-            m_selection.selectLight(item->data(kNameColumn, Qt::UserRole).toUInt());
+            m_selection.selectLight(idOf(*item));
     });
     connect(m_list, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* item) {
         if (m_refreshing)
             return;
-        const Target target{Scope::Light, item->data(kNameColumn, Qt::UserRole).toUInt()};
+        const Target target{Scope::Light, idOf(*item)};
         const QString name = item->text(kNameColumn);
         const bool enabled = item->checkState(kNameColumn) == Qt::Checked;
         const bool solo = item->checkState(kSoloColumn) == Qt::Checked;
@@ -172,6 +189,10 @@ LightsPanel::LightsPanel(DocumentController& controller, SelectionModel& selecti
         m_controller.rename(target, name);
     });
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
+        if (change.affects == Affects::Everything) { // another document, in which ids mean others
+            const QSignalBlocker silent(m_list);
+            m_list->clear();
+        }
         if (touches(change.affects, Affects::Structure))
             refreshList();
     });
@@ -182,24 +203,42 @@ LightsPanel::LightsPanel(DocumentController& controller, SelectionModel& selecti
     refreshList();
 }
 
+// The light's item, at this row.
+QTreeWidgetItem* LightsPanel::placed(Id light, int row) {
+    int from = row;
+    while (from < m_list->topLevelItemCount() && idOf(*m_list->topLevelItem(from)) != light)
+        ++from;
+    if (from == row && from < m_list->topLevelItemCount())
+        return m_list->topLevelItem(row);
+    QTreeWidgetItem* item = m_list->takeTopLevelItem(from); // null: none yet
+    if (!item) {
+        item = new QTreeWidgetItem;
+        item->setData(kNameColumn, Qt::UserRole, light);
+        // Once: setting flags brings the old name back into an open editor.
+        item->setFlags(item->flags() | Qt::ItemIsEditable | Qt::ItemIsUserCheckable);
+    }
+    m_list->insertTopLevelItem(row, item);
+    return item;
+}
+
 void LightsPanel::refreshList() {
     m_refreshing = true;
     const std::vector<Light>& lights = m_controller.document().lights;
-    // Items are kept where they are: rebuilding the list would end an edit of a name.
+    // An item stays with its light, and so does the name that is being typed into it.
     const int count = static_cast<int>(lights.size());
-    while (m_list->topLevelItemCount() > count)
-        delete m_list->takeTopLevelItem(m_list->topLevelItemCount() - 1);
-    while (m_list->topLevelItemCount() < count)
-        m_list->addTopLevelItem(new QTreeWidgetItem);
+    for (int row = m_list->topLevelItemCount() - 1; row >= 0; --row)
+        if (!m_controller.document().light(idOf(*m_list->topLevelItem(row))))
+            delete m_list->takeTopLevelItem(row);
     for (int row = 0; row < count; ++row) {
         const Light& light = lights[static_cast<std::size_t>(row)];
-        QTreeWidgetItem* item = m_list->topLevelItem(row);
+        QTreeWidgetItem* item = placed(light.id, row);
         item->setText(kNameColumn, QString::fromStdString(light.name));
-        item->setIcon(kNameColumn, icon(lightIcon(light.type)));
-        item->setFlags(item->flags() | Qt::ItemIsEditable | Qt::ItemIsUserCheckable);
+        if (const int type = static_cast<int>(light.type); item->data(0, kTypeRole) != type) {
+            item->setData(0, kTypeRole, type);
+            item->setIcon(kNameColumn, icon(lightIcon(light.type)));
+        }
         item->setCheckState(kNameColumn, light.enabled ? Qt::Checked : Qt::Unchecked);
         item->setCheckState(kSoloColumn, light.solo ? Qt::Checked : Qt::Unchecked);
-        item->setData(kNameColumn, Qt::UserRole, light.id);
         // What does not shine is dimmed, whoever silences it.
         item->setForeground(kNameColumn, shines(m_controller.document(), light)
                                              ? QBrush()

@@ -2,11 +2,14 @@
 // selected one.
 #pragma once
 
+#include "core/document/Document.h"
+
 #include <QWidget>
 
 class QLabel;
 class QToolButton;
 class QTreeWidget;
+class QTreeWidgetItem;
 
 namespace patina::editor {
 
@@ -25,6 +28,7 @@ class LightsPanel : public QWidget {
 
   private:
     void refreshList();
+    [[nodiscard]] QTreeWidgetItem* placed(Id light, int row);
 
     DocumentController& m_controller;
     SelectionModel& m_selection;

@@ -7,6 +7,7 @@
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/LightIcon.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/MapSlotWidget.h"
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Slider.h"
@@ -96,7 +97,9 @@ MixerPanel::MixerPanel(DocumentController& controller, QWidget* parent)
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(scroll);
 
-    connect(&controller, &DocumentController::changed, this, [this] {
+    connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
+        if (change.affects == Affects::Everything) // another document
+            abandonEdits(*this);
         if (isVisible())
             refresh();
     });
@@ -228,7 +231,8 @@ void MixerPanel::rebuild() {
         }
     }
     for (MixerStrip* gone : m_channels)
-        delete gone;
+        if (gone)
+            retire(gone);
     m_channels = strips;
     // The cross-fade stands between the environments.
     int at = 0;
@@ -257,6 +261,9 @@ void MixerPanel::refresh() {
     for (MixerStrip* strip : m_channels)
         refreshStrip(*strip);
     const bool second = hasSecond(document);
+    if (!second)
+        for (QWidget* control : {static_cast<QWidget*>(m_fade), static_cast<QWidget*>(m_fadeField)})
+            abandonEdits(*control);
     m_add->setText(
         second ? QFontMetrics(m_add->font())
                      .elidedText(MapSlotWidget::sourceTitle(document.environment.second.source),

@@ -1,6 +1,7 @@
 #include "app/editor/panel/ParameterList.h"
 
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/Section.h"
 #include "core/base/Check.h"
 
@@ -74,6 +75,8 @@ void ParameterList::addBelow(std::string_view id, QWidget* widget) {
 }
 
 void ParameterList::documentChanged(const Change& change) {
+    if (change.affects == Affects::Everything) // another document, in which ids mean others
+        abandonEdits(*this);
     // An edit of another element concerns no row here; one of the shading model may make rows of
     // materials useful or useless.
     if (change.target && change.target != m_spec.target()) {
@@ -92,10 +95,20 @@ void ParameterList::refresh() {
 
 void ParameterList::refreshVisibility() {
     const auto target = m_spec.target();
-    if (!m_spec.applies || !target || !targetExists(m_controller.document(), *target))
+    const Document& document = m_controller.document();
+    if (!target || !targetExists(document, *target))
         return;
-    for (ParameterRow* row : m_rows)
-        row->setVisible(m_spec.applies(row->info(), m_controller.document(), target->id));
+    if (m_spec.works)
+        for (ParameterRow* row : m_rows)
+            row->setWorks(m_spec.works(row->info(), document, target->id));
+    if (!m_spec.applies)
+        return;
+    for (ParameterRow* row : m_rows) {
+        const bool applies = m_spec.applies(row->info(), document, target->id);
+        if (!applies)
+            abandonEdits(*row);
+        row->setVisible(applies);
+    }
     // A heading without a row would only be in the way.
     for (const auto& [section, rows] : m_sections)
         section->setVisible(std::any_of(rows.begin(), rows.end(),

@@ -22,6 +22,9 @@ struct ParameterListSpec {
     bool loneHeading = false; // a lone group has a heading, too
     // Of another list of the dock, whose labels stand in the same column.
     std::optional<Scope> alignedWith = std::nullopt;
+    // Whether a row that is shown has an effect now; else it is disabled, so that rows under the
+    // pointer keep their place when a switch beside them is clicked. Empty: always.
+    std::function<bool(const ParameterInfo&, const Document&, Id)> works = {};
 };
 
 class ParameterList : public QWidget {

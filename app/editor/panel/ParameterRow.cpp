@@ -1,7 +1,9 @@
 #include "app/editor/panel/ParameterRow.h"
 
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/RowLabel.h"
+#include "core/document/ResetValue.h"
 
 #include <QDateTime>
 #include <QHBoxLayout>
@@ -55,11 +57,26 @@ std::optional<ParameterValue> ParameterRow::current() const {
 
 void ParameterRow::refresh() {
     const auto value = current();
-    setEnabled(value.has_value());
+    // What was begun for another element, or for one that is gone, is not done to this one.
+    if (target() != m_shown || !value) {
+        abandonEdits(*this);
+        m_session = m_stepSession = 0;
+        m_shown = target();
+    }
+    setEnabled(value.has_value() && m_works);
     if (!value)
         return;
-    m_label->setAtDefault(*value == m_info.defaultValue());
+    m_label->setAtDefault(*value == resetValue(m_context.controller.document(), m_info, *m_shown));
     show(*value);
+}
+
+void ParameterRow::setWorks(bool works) {
+    if (works == m_works)
+        return;
+    m_works = works;
+    if (!works)
+        abandonEdits(*this);
+    setEnabled(works && current().has_value());
 }
 
 void ParameterRow::beginDrag() {

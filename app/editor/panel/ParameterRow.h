@@ -31,6 +31,7 @@ class ParameterRow : public QWidget {
 
     [[nodiscard]] const ParameterInfo& info() const { return m_info; }
     void refresh(); // shows the document's value
+    void setWorks(bool works); // false: shown but disabled, because it has no effect now
 
   protected:
     virtual void show(const ParameterValue& value) = 0;
@@ -54,6 +55,8 @@ class ParameterRow : public QWidget {
     RowContext m_context;
     RowLabel* m_label;
     QHBoxLayout* m_layout;
+    bool m_works = true;
+    std::optional<Target> m_shown; // whose value the row shows, and whose edits it reports
     DragSession m_session = 0, m_stepSession = 0;
     qint64 m_lastStepMs = 0;
 };

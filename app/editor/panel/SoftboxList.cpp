@@ -10,6 +10,7 @@
 #include <QHBoxLayout>
 #include <QListWidget>
 #include <QMenu>
+#include <QSignalBlocker>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -18,6 +19,10 @@ namespace patina::editor {
 namespace {
 
 constexpr int kShownRows = 4; // more scroll
+
+Id idOf(const QListWidgetItem& item) {
+    return item.data(Qt::UserRole).toUInt();
+}
 
 QToolButton* makeButton(const QString& iconName, const QString& text, const QString& tip) {
     auto* button = new QToolButton;
@@ -69,17 +74,21 @@ SoftboxList::SoftboxList(DocumentController& controller, Thumbnails& thumbnails,
     connect(m_remove, &QToolButton::clicked, this, [this] { remove(m_selected); });
     connect(m_list, &QListWidget::currentItemChanged, this, [this](QListWidgetItem* item) {
         if (!m_refreshing && item)
-            select(item->data(Qt::UserRole).toUInt());
+            select(idOf(*item));
     });
     connect(m_list, &QListWidget::itemChanged, this, [this](QListWidgetItem* item) {
         if (m_refreshing)
             return;
-        const Target target{Scope::Softbox, item->data(Qt::UserRole).toUInt()};
+        const Target target{Scope::Softbox, idOf(*item)};
         m_controller.setParameter(parameter("softbox.enabled"), target,
                                   item->checkState() == Qt::Checked);
         m_controller.rename(target, item->text());
     });
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
+        if (change.affects == Affects::Everything) { // another document, in which ids mean others
+            const QSignalBlocker silent(m_list);
+            m_list->clear();
+        }
         if (!change.target || change.target->scope == Scope::Softbox)
             refresh();
     });
@@ -150,6 +159,24 @@ void SoftboxList::remove(Id softbox) {
     select(next);
 }
 
+// The softbox's item, at this row.
+QListWidgetItem* SoftboxList::placed(Id softbox, int row) {
+    int from = row;
+    while (from < m_list->count() && idOf(*m_list->item(from)) != softbox)
+        ++from;
+    if (from == row && from < m_list->count())
+        return m_list->item(row);
+    QListWidgetItem* item = m_list->takeItem(from); // null: none yet
+    if (!item) {
+        item = new QListWidgetItem;
+        item->setData(Qt::UserRole, softbox);
+        // Once: setting flags brings the old name back into an open editor.
+        item->setFlags(item->flags() | Qt::ItemIsEditable | Qt::ItemIsUserCheckable);
+    }
+    m_list->insertItem(row, item);
+    return item;
+}
+
 void SoftboxList::refresh() {
     const std::vector<Softbox>& softboxes = m_controller.document().environment.softboxes;
     if (!m_controller.document().softbox(m_selected) && m_selected != 0) {
@@ -157,19 +184,16 @@ void SoftboxList::refresh() {
         Q_EMIT selectionChanged();
     }
     m_refreshing = true;
-    // Items are kept where they are: rebuilding the list would end an edit of a name.
-    while (m_list->count() > static_cast<int>(softboxes.size()))
-        delete m_list->takeItem(m_list->count() - 1);
-    while (m_list->count() < static_cast<int>(softboxes.size()))
-        m_list->addItem(new QListWidgetItem);
+    // An item stays with its softbox, and so does the name that is being typed into it.
+    for (int row = m_list->count() - 1; row >= 0; --row)
+        if (!m_controller.document().softbox(idOf(*m_list->item(row))))
+            delete m_list->takeItem(row);
     int current = -1;
-    for (int row = 0; row < m_list->count(); ++row) {
+    for (int row = 0; row < static_cast<int>(softboxes.size()); ++row) {
         const Softbox& softbox = softboxes[static_cast<std::size_t>(row)];
-        QListWidgetItem* item = m_list->item(row);
+        QListWidgetItem* item = placed(softbox.id, row);
         item->setText(QString::fromStdString(softbox.name));
-        item->setFlags(item->flags() | Qt::ItemIsEditable | Qt::ItemIsUserCheckable);
         item->setCheckState(softbox.enabled ? Qt::Checked : Qt::Unchecked);
-        item->setData(Qt::UserRole, softbox.id);
         if (softbox.id == m_selected)
             current = row;
     }

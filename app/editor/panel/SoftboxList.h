@@ -7,6 +7,7 @@
 #include <QWidget>
 
 class QListWidget;
+class QListWidgetItem;
 class QToolButton;
 
 namespace patina::editor {
@@ -32,6 +33,7 @@ class SoftboxList : public QWidget {
   private:
     [[nodiscard]] QWidget* makeButtons();
     void refresh();
+    [[nodiscard]] QListWidgetItem* placed(Id softbox, int row);
 
     DocumentController& m_controller;
     Id m_selected = 0;

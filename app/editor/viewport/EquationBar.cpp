@@ -6,6 +6,7 @@
 #include "app/editor/viewport/TermTile.h"
 #include "app/editor/viewport/ViewState.h"
 #include "app/editor/viewport/ViewThumb.h"
+#include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/ElidedLabel.h"
 #include "app/editor/widget/FoldButton.h"
 #include "core/document/LightMix.h"
@@ -227,11 +228,7 @@ void EquationBar::refreshCrumbs() {
         return;
     m_crumbsShown = m_path;
     QLayout* row = m_crumbs->layout();
-    while (QLayoutItem* item = row->takeAt(0)) {
-        item->widget()->hide();
-        item->widget()->deleteLater(); // it may be what was clicked
-        delete item;
-    }
+    retireAll(*row);
     for (std::size_t depth = 0; depth + 1 < m_path.size(); ++depth) {
         QToolButton* crumb = makeCrumb(labelText(m_path[depth]));
         connect(crumb, &QToolButton::clicked, this, [this, depth] { close(depth); });
@@ -300,9 +297,10 @@ void EquationBar::buildRow(const Equation& equation) {
     addText(QStringLiteral("="));
     addTile(*row, new TermTile(equation.result, labelText(equation.result), {}));
     row->addStretch(1);
-    // What is replaced may be what was clicked.
-    if (QWidget* before = m_scroll->takeWidget())
-        before->deleteLater();
+    if (QWidget* before = m_scroll->widget()) {
+        retire(before);
+        m_scroll->takeWidget(); // or setWidget() would delete it at once
+    }
     m_scroll->setWidget(contents);
     m_scroll->setFixedHeight(m_tiles.front()->sizeHint().height() +
                              m_scroll->horizontalScrollBar()->sizeHint().height());

@@ -5,9 +5,11 @@
 #include "app/editor/style/Tokens.h"
 #include "app/editor/viewport/ViewState.h"
 #include "app/editor/widget/ColorScale.h"
+#include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/TextButton.h"
 
+#include <QApplication>
 #include <QButtonGroup>
 #include <QComboBox>
 #include <QLabel>
@@ -99,13 +101,15 @@ void ViewLegend::refresh() {
 // --- Content ---------------------------------------------------------------------------------
 
 void ViewLegend::rebuild() {
+    QString focused; // the control that takes the place of the one with the keyboard
+    if (m_body) {
+        if (const QWidget* focus = QApplication::focusWidget(); focus && isAncestorOf(focus))
+            focused = focus->accessibleName();
+        retire(m_body);
+    }
     m_scale = nullptr;
     m_min = m_max = nullptr;
     m_automatic = nullptr;
-    if (m_body) {
-        m_body->setParent(nullptr);
-        m_body->deleteLater(); // one of its buttons may be what was pressed
-    }
     m_body = new QWidget;
     auto* rows = new QVBoxLayout(m_body);
     rows->setContentsMargins(10, 8, 10, 8);
@@ -135,6 +139,9 @@ void ViewLegend::rebuild() {
     setAccessibleName(tr("Legend: %1").arg(m_content.title));
     setAccessibleDescription(m_content.why.isEmpty() ? m_content.help : m_content.why);
     refreshRange();
+    for (QWidget* control : m_body->findChildren<QWidget*>())
+        if (!focused.isEmpty() && control->accessibleName() == focused)
+            control->setFocus(Qt::OtherFocusReason);
 }
 
 void ViewLegend::addRemedy(QVBoxLayout& rows) {

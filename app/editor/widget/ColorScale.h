@@ -2,6 +2,7 @@
 // that end of the range, dragging the middle moves both, a double-click gives the range back.
 #pragma once
 
+#include "app/editor/widget/EditControl.h"
 #include "core/image/ColorMap.h"
 
 #include <QWidget>
@@ -15,7 +16,7 @@ namespace patina::editor {
 // "0.25", "1000", "10⁵": short, and exact for round numbers.
 [[nodiscard]] QString tickText(double value);
 
-class ColorScale : public QWidget {
+class ColorScale : public QWidget, public EditControl {
     Q_OBJECT
   public:
     ColorScale(ColorMap map, bool logarithmic, QWidget* parent = nullptr);
@@ -24,6 +25,7 @@ class ColorScale : public QWidget {
     [[nodiscard]] double min() const { return m_min; }
     [[nodiscard]] double max() const { return m_max; }
     [[nodiscard]] QSize sizeHint() const override;
+    void abandonEdit() override { m_part = 0; }
     [[nodiscard]] QSize minimumSizeHint() const override { return sizeHint(); }
 
   Q_SIGNALS:

@@ -158,6 +158,11 @@ void Fader::mouseReleaseEvent(QMouseEvent* event) {
     update();
 }
 
+void Fader::abandonEdit() {
+    setSliderDown(false);
+    update();
+}
+
 void Fader::mouseDoubleClickEvent(QMouseEvent* event) {
     if (event->button() == Qt::LeftButton)
         Q_EMIT edited(0.0);

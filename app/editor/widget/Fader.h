@@ -1,12 +1,14 @@
 // A mixing desk's fader: upright, in EV, with a scale and, beside it, the meter of what comes out.
 #pragma once
 
+#include "app/editor/widget/EditControl.h"
+
 #include <QAbstractSlider>
 
 namespace patina::editor {
 
 // Up and down are a tenth of an EV, page up and page down one, Home and a double-click go to 0.
-class Fader : public QAbstractSlider {
+class Fader : public QAbstractSlider, public EditControl {
     Q_OBJECT
   public:
     static constexpr double kMaxEv = 6.0; // the scale's ends; values beyond stand there
@@ -18,6 +20,7 @@ class Fader : public QAbstractSlider {
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override;
     [[nodiscard]] QPoint handle() const; // its centre
+    void abandonEdit() override;
 
   Q_SIGNALS:
     void dragStarted();

@@ -2,6 +2,7 @@
 // image is turned. It changes nothing itself: it says what is wanted and shows what it is given.
 #pragma once
 
+#include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/LatLongMap.h"
 #include "core/document/Document.h"
 
@@ -10,7 +11,7 @@
 
 namespace patina::editor {
 
-class LatLongView : public QWidget {
+class LatLongView : public QWidget, public EditControl {
     Q_OBJECT
   public:
     explicit LatLongView(QWidget* parent = nullptr);
@@ -19,6 +20,7 @@ class LatLongView : public QWidget {
     void setPicture(const QImage& picture);              // of the environment as it is, unturned
     void setSelected(Id softbox);                        // 0: none
     [[nodiscard]] Id selected() const { return m_selected; }
+    void abandonEdit() override { m_pressed = m_dragging = false; }
 
     // Of the picture as it is shown: an image with its own middle (behind the model), what is
     // edited with the model's front in the middle, where most lights are.

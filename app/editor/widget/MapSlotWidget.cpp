@@ -3,6 +3,7 @@
 #include "app/editor/document/FileKinds.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/ElidedLabel.h"
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Thumbnails.h"
@@ -171,6 +172,8 @@ void MapSlotWidget::setSlot(const MapSlot& slot) {
 }
 
 void MapSlotWidget::show(const MapSlot& slot) {
+    if (slot.source != m_slot.source)
+        abandonEdits(*m_tiling); // was for the image before
     m_slot = slot;
     const bool assigned = slot.assigned();
     const bool broken = !slot.problem.empty();

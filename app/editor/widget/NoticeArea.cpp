@@ -2,6 +2,7 @@
 
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/EditControl.h"
 
 #include <QGridLayout>
 #include <QLabel>
@@ -111,8 +112,7 @@ void NoticeArea::remove(NoticeBar* bar) {
     if (!m_bars.removeOne(bar))
         return;
     m_layout->removeWidget(bar);
-    bar->hide();
-    bar->deleteLater();
+    retire(bar);
     setVisible(!m_bars.isEmpty());
 }
 

@@ -1,10 +1,13 @@
 #include "app/editor/widget/NumberField.h"
 
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/Arithmetic.h"
+#include "app/editor/widget/StatusHint.h"
 
+#include <QApplication>
 #include <QKeyEvent>
-#include <QLocale>
 #include <QMouseEvent>
+#include <QStyle>
 #include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
@@ -25,7 +28,7 @@ int tenths(Qt::KeyboardModifiers modifiers) {
 bool startsNumber(const QKeyEvent& event) {
     const QString text = event.text();
     return !text.isEmpty() && !(event.modifiers() & (Qt::ControlModifier | Qt::AltModifier)) &&
-           (text[0].isDigit() || QStringLiteral("-+.,").contains(text[0]));
+           (text[0].isDigit() || QStringLiteral("-+.,(").contains(text[0]));
 }
 
 // A hundredth of the range, as a round number: 1, 2 or 5 times a power of ten.
@@ -47,6 +50,7 @@ NumberField::NumberField(const NumberFormat& format, QWidget* parent)
     setFixedHeight(tokens::kRowHeight - 2);
     setContextMenuPolicy(Qt::NoContextMenu);
     showValue();
+    connect(this, &QLineEdit::textEdited, this, [this] { markRefused(false); });
 }
 
 void NumberField::setValue(double value) {
@@ -68,7 +72,8 @@ void NumberField::setFormat(const NumberFormat& format) {
 }
 
 void NumberField::showValue() {
-    setText(format(m_value, m_format.decimals) + m_format.unit);
+    const QString name = m_format.name ? m_format.name(m_value) : QString();
+    setText(name.isEmpty() ? format(m_value, m_format.decimals) + m_format.unit : name);
     setCursorPosition(0);
 }
 
@@ -89,12 +94,7 @@ std::optional<double> NumberField::parse(const QString& text, const QString& uni
     QString number = text.trimmed();
     if (!unit.trimmed().isEmpty() && number.endsWith(unit.trimmed(), Qt::CaseInsensitive))
         number.chop(unit.trimmed().size());
-    number.replace(QLatin1Char(','), QLatin1Char('.'));
-    bool ok = false;
-    const double value = QLocale::c().toDouble(number.trimmed(), &ok);
-    if (!ok || !std::isfinite(value))
-        return std::nullopt;
-    return value;
+    return evaluate(number);
 }
 
 double NumberField::bounded(double value) const {
@@ -219,7 +219,7 @@ void NumberField::keyPressEvent(QKeyEvent* event) {
         return;
     case Mode::Editing:
         if (key == Qt::Key_Return || key == Qt::Key_Enter)
-            endEditing(true);
+            enter();
         else if (key == Qt::Key_Escape)
             endEditing(false);
         else
@@ -241,6 +241,7 @@ void NumberField::keyPressEvent(QKeyEvent* event) {
 
 void NumberField::beginEditing() {
     m_mode = Mode::Editing;
+    qApp->installEventFilter(this);
     setReadOnly(false);
     setCursor(Qt::IBeamCursor);
     // The whole value, not the rounded one on display.
@@ -251,11 +252,9 @@ void NumberField::beginEditing() {
 void NumberField::endEditing(bool accept) {
     if (m_mode != Mode::Editing)
         return;
-    m_mode = Mode::Idle;
-    const std::optional<double> typed = isModified() ? parse(text(), m_format.unit) : std::nullopt;
-    setReadOnly(true);
-    setCursor(Qt::SizeHorCursor);
-    deselect();
+    const QString entered = isModified() ? text() : QString();
+    const std::optional<double> typed = parse(entered, m_format.unit);
+    leaveEditing();
     if (accept && typed) {
         // Typed values keep the digits that were typed.
         const double value = std::clamp(*typed, m_format.hardMin, m_format.hardMax);
@@ -267,7 +266,55 @@ void NumberField::endEditing(bool accept) {
         Q_EMIT edited(m_value);
     } else {
         showValue();
+        if (accept && !entered.trimmed().isEmpty())
+            showHint(*this, tr("“%1” is not a number. The value is still %2").arg(entered, text()));
     }
+}
+
+void NumberField::leaveEditing() {
+    m_mode = Mode::Idle;
+    qApp->removeEventFilter(this);
+    markRefused(false);
+    setReadOnly(true);
+    setCursor(Qt::SizeHorCursor);
+    deselect();
+}
+
+void NumberField::enter() {
+    if (isModified() && !text().trimmed().isEmpty() && !parse(text(), m_format.unit)) {
+        markRefused(true);
+        showHint(*this, tr("“%1” is not a number. Type a number or a sum like 1/3 or "
+                           "2*(0.5+1); Esc restores the value")
+                            .arg(text()));
+        return;
+    }
+    endEditing(true);
+}
+
+void NumberField::markRefused(bool refused) {
+    if (refused == m_refused)
+        return;
+    m_refused = refused;
+    setProperty("refused", refused); // in the style sheet
+    style()->unpolish(this);
+    style()->polish(this);
+}
+
+void NumberField::abandonEdit() {
+    if (m_mode == Mode::Editing)
+        leaveEditing();
+    m_mode = Mode::Idle; // of a scrub, too
+    showValue();
+}
+
+// While it is being typed into: whoever clicks elsewhere, or gives a command by its shortcut, means
+// the number that is there, whether or not the focus goes.
+bool NumberField::eventFilter(QObject* watched, QEvent* event) {
+    if (watched != this &&
+        ((event->type() == QEvent::MouseButtonPress && watched->isWidgetType()) ||
+         event->type() == QEvent::Shortcut))
+        endEditing(true);
+    return QLineEdit::eventFilter(watched, event);
 }
 
 void NumberField::focusInEvent(QFocusEvent* event) {

@@ -1,8 +1,12 @@
 // A number that is scrubbed by dragging, typed, stepped with the wheel or the arrow keys.
-// Shift is fine, Ctrl is coarse, Esc goes back to where it was.
+// Shift is fine, Ctrl is coarse, Esc goes back to where it was. Sums may be typed ("1/3"). What is
+// typed counts with Enter, when the focus goes, with a click elsewhere and with a shortcut.
 #pragma once
 
+#include "app/editor/widget/EditControl.h"
+
 #include <QLineEdit>
+#include <functional>
 #include <optional>
 
 namespace patina::editor {
@@ -13,9 +17,10 @@ struct NumberFormat {
     int decimals = 3;
     bool wraps = false; // leaving one end enters at the other
     QString unit;
+    std::function<QString(double)> name = {}; // shown instead of a number where it is not empty
 };
 
-class NumberField : public QLineEdit {
+class NumberField : public QLineEdit, public EditControl {
     Q_OBJECT
   public:
     explicit NumberField(const NumberFormat& format, QWidget* parent = nullptr);
@@ -27,7 +32,9 @@ class NumberField : public QLineEdit {
     void setFormat(const NumberFormat& format);
     [[nodiscard]] bool isEditing() const { return m_mode == Mode::Editing; }
 
-    // "0.5", "0,5", "45°": nothing when it is no finite number.
+    void abandonEdit() override;
+
+    // "0.5", "0,5", "45°", "1/3 EV": nothing when it is no finite number.
     [[nodiscard]] static std::optional<double> parse(const QString& text, const QString& unit);
     [[nodiscard]] static QString format(double value, int decimals);
 
@@ -48,11 +55,16 @@ class NumberField : public QLineEdit {
     bool event(QEvent* event) override;
     void focusInEvent(QFocusEvent* event) override;
     void focusOutEvent(QFocusEvent* event) override;
+    bool eventFilter(QObject* watched, QEvent* event) override;
 
   private:
     enum class Mode { Idle, Pressed, Scrubbing, Editing };
     void beginEditing();
     void endEditing(bool accept);
+    void leaveEditing();
+    // Enter: text that is no number stays, marked, to be corrected.
+    void enter();
+    void markRefused(bool refused);
     void finishScrub();
     void scrubBy(int pixels, Qt::KeyboardModifiers modifiers);
     void step(double steps, Qt::KeyboardModifiers modifiers);
@@ -62,6 +74,7 @@ class NumberField : public QLineEdit {
     NumberFormat m_format;
     double m_value = 0;
     Mode m_mode = Mode::Idle;
+    bool m_refused = false; // the text is marked as no number
     double m_scrubStart = 0;
     int m_lastX = 0;
     qint64 m_scrubOffset = 0; // in tenths of a pixel, so that going back ends where it began

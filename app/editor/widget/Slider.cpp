@@ -27,6 +27,12 @@ void Slider::setValue(double value) {
     update();
 }
 
+void Slider::setEnds(double min, double max) {
+    m_min = m_origin = min;
+    m_max = max;
+    update();
+}
+
 QSize Slider::sizeHint() const {
     return {110, tokens::kRowHeight - 2};
 }
@@ -105,6 +111,11 @@ void Slider::mouseReleaseEvent(QMouseEvent* event) {
         return;
     m_dragging = false;
     Q_EMIT dragFinished();
+    update();
+}
+
+void Slider::abandonEdit() {
+    m_dragging = false;
     update();
 }
 

@@ -2,20 +2,24 @@
 // The number field is the way for the keyboard.
 #pragma once
 
+#include "app/editor/widget/EditControl.h"
+
 #include <QWidget>
 
 namespace patina::editor {
 
-class Slider : public QWidget {
+class Slider : public QWidget, public EditControl {
     Q_OBJECT
   public:
     // `origin`: where the filled part begins.
     Slider(double min, double max, double origin, QWidget* parent = nullptr);
 
-    void setValue(double value); // shows, emits nothing; values outside stand at the end
+    void setValue(double value);          // shows, emits nothing; values outside stand at the end
+    void setEnds(double min, double max); // min < max; it fills from `min`
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override;
     [[nodiscard]] int handleX() const; // centre of the handle
+    void abandonEdit() override;
 
   Q_SIGNALS:
     void dragStarted();

@@ -130,10 +130,35 @@ TEST_F(PanelTest, TypingSetsTheValueAndClamps) {
 }
 
 TEST_F(PanelTest, ADoubleClickOnTheLabelResets) {
-    controller().setParameter(parameter(kRough), {Scope::Material, selectedMaterial().id}, 0.9f);
+    const Target target{Scope::Material, selectedMaterial().id};
+    controller().clearMap(parameter("material.roughness.map"), target);
+    controller().setParameter(parameter(kRough), target, 0.9f);
     QTest::mouseDClick(&in<RowLabel>(kRough), Qt::LeftButton);
     EXPECT_EQ(roughness(), Material{}.perceptualRoughness);
-    EXPECT_EQ(undoCount(), 2);
+    EXPECT_EQ(undoCount(), 3);
+}
+
+// A map multiplies its number: 0 would switch a metallic map off, 0.5 halve the roughness painted.
+TEST_F(PanelTest, ADoubleClickOnTheLabelOfAMapShowsTheMapAsItIs) {
+    const Target target{Scope::Material, selectedMaterial().id};
+    controller().applyLibraryMaterial(target.id, QStringLiteral("worn-painted-metal"));
+    ASSERT_TRUE(settled(*session));
+    ASSERT_TRUE(selectedMaterial().metallicMap.assigned());
+    for (const char* id : {"material.metallic", kRough, "material.baseColor"}) {
+        const ParameterInfo& info = parameter(id);
+        const bool color = info.type == ParameterType::Color;
+        controller().setParameter(info, target,
+                                  color ? ParameterValue(glm::vec3(0.2f)) : ParameterValue(0.3f));
+        QTest::mouseDClick(&in<RowLabel>(id), Qt::LeftButton);
+        EXPECT_EQ(info.get(document(), target.id),
+                  color ? ParameterValue(glm::vec3(1.0f)) : ParameterValue(1.0f))
+            << id;
+        EXPECT_TRUE(in<RowLabel>(id).isAtDefault()) << id;
+    }
+    controller().clearMap(parameter("material.metallic.map"), target);
+    EXPECT_FALSE(in<RowLabel>("material.metallic").isAtDefault());
+    QTest::mouseDClick(&in<RowLabel>("material.metallic"), Qt::LeftButton);
+    EXPECT_EQ(selectedMaterial().metallic, 0.0f);
 }
 
 TEST_F(PanelTest, RowsShowTheSelectedMaterialOnly) {
@@ -476,11 +501,22 @@ TEST_F(PanelTest, LightsOfEveryTypeShowTheirOwnRowsAndUnits) {
         EXPECT_FALSE(row(kind.shown).isHidden()) << kind.shown;
         EXPECT_TRUE(row(kind.hidden).isHidden()) << kind.hidden;
     }
-    EXPECT_TRUE(row("light.temperatureK").isHidden());
-    controller().setParameter(parameter("light.usesTemperature"),
-                              {Scope::Light, session->selection.light()}, true);
+    // Rows that a switch turns off stay where they are, so that a second click meets the switch.
+    window->findChild<QDockWidget*>(QStringLiteral("lights"))->raise();
+    EXPECT_FALSE(row("light.temperatureK").isEnabled());
+    EXPECT_TRUE(row("light.color").isEnabled());
+    QCheckBox& temperature = in<QCheckBox>("light.usesTemperature");
+    ASSERT_TRUE(eventually([&] { return temperature.isVisible(); }));
+    QTest::qWait(50); // the layout of the rows
+    const QPoint place = temperature.mapTo(window.get(), QPoint());
+    QTest::mouseClick(&temperature, Qt::LeftButton, {}, {8, 12});
+    QTest::qWait(50);
+    EXPECT_TRUE(document().light(session->selection.light())->usesTemperature);
+    EXPECT_EQ(temperature.mapTo(window.get(), QPoint()), place);
+    EXPECT_TRUE(row("light.temperatureK").isEnabled());
     EXPECT_FALSE(row("light.temperatureK").isHidden());
-    EXPECT_TRUE(row("light.color").isHidden());
+    EXPECT_FALSE(row("light.color").isEnabled());
+    EXPECT_FALSE(row("light.color").isHidden());
 
     const QString pictures = qEnvironmentVariable("PATINA_SCREENSHOTS", folder.path());
     list->setCurrentItem(list->topLevelItem(list->topLevelItemCount() - 4)); // the spot

@@ -184,6 +184,56 @@ TEST(NumberField, ParsesUnitsAndCommas) {
         EXPECT_EQ(NumberField::parse(QString::fromLatin1(bad), {}), std::nullopt) << bad;
 }
 
+TEST(NumberField, ComputesSums) {
+    const auto value = [](const char* text) {
+        return NumberField::parse(QString::fromUtf8(text), QStringLiteral("EV"));
+    };
+    EXPECT_EQ(value("1/3"), 1.0 / 3.0);
+    EXPECT_EQ(value("1/3 EV"), 1.0 / 3.0);
+    EXPECT_EQ(value("2+3*4"), 14.0);
+    EXPECT_EQ(value("(2+3)*4-1"), 19.0);
+    EXPECT_EQ(value("8/2/2"), 2.0);
+    EXPECT_EQ(value("2^3^2"), 512.0);
+    EXPECT_EQ(value("-2^2"), -4.0);
+    EXPECT_EQ(value("2^-1"), 0.5);
+    EXPECT_EQ(value(" 1 - -2 "), 3.0);
+    EXPECT_EQ(value("1e3/2"), 500.0);
+    EXPECT_EQ(value("0,5×2"), 1.0);
+    EXPECT_EQ(value("−1÷4"), -0.25);
+    for (const char* broken : {"", "1/", "/2", "1/0", "(1", "1)", "1 2", "2*", "1e", "a", "1..2",
+                               "0x10", "nan", "inf", "1e999", "()", "--", "1**2"})
+        EXPECT_EQ(value(broken), std::nullopt) << broken;
+    EXPECT_EQ(value(std::string(100'000, '(').c_str()), std::nullopt) << "no end of the stack";
+    EXPECT_EQ(value(std::string(100'000, '-').c_str()), std::nullopt);
+}
+
+TEST_F(NumberFieldTest, ASumIsTakenAndNonsenseIsMarkedUntilItIsCorrected) {
+    type("1/3");
+    QTest::keyClick(&field, Qt::Key_Return);
+    EXPECT_DOUBLE_EQ(field.value(), 1.0 / 3.0);
+    EXPECT_EQ(edited.count(), 1);
+
+    type("1/");
+    QTest::keyClick(&field, Qt::Key_Return);
+    EXPECT_TRUE(field.isEditing()) << "to be corrected";
+    EXPECT_TRUE(field.property("refused").toBool());
+    EXPECT_EQ(field.text(), QStringLiteral("1/"));
+    EXPECT_EQ(edited.count(), 1);
+    QTest::keyClick(&field, Qt::Key_4);
+    EXPECT_FALSE(field.property("refused").toBool());
+    QTest::keyClick(&field, Qt::Key_Return);
+    EXPECT_EQ(field.value(), 0.25);
+    EXPECT_EQ(edited.count(), 2);
+
+    type("x");
+    QTest::keyClick(&field, Qt::Key_Return);
+    QTest::keyClick(&field, Qt::Key_Escape);
+    EXPECT_FALSE(field.isEditing());
+    EXPECT_FALSE(field.property("refused").toBool());
+    EXPECT_EQ(field.value(), 0.25);
+    EXPECT_EQ(edited.count(), 2);
+}
+
 TEST(NumberField, FormatsWithoutNoise) {
     EXPECT_EQ(NumberField::format(0.5, 3).toStdString(), "0.50");
     EXPECT_EQ(NumberField::format(0.125, 3).toStdString(), "0.125");
