@@ -123,7 +123,8 @@ Result<void> applyView(Session& session, const RenderOptions& options, Document&
 Result<void> followBounces(Session& session, const render::ViewSettings& shown,
                            Document& document) {
     const int bounces = document.view.bounces;
-    if (document.bakes.empty() ||
+    // Less than 0 bounces: none are shown, which needs no other bake.
+    if (document.bakes.empty() || bounces < 0 ||
         lightingOf(shown.shown.kind, document.view.lighting) != LightingMode::Prt)
         return {};
     const BakeInputs inputs = bakeInputs(document);

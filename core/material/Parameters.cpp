@@ -472,7 +472,7 @@ constexpr std::array kParameters{
     text<&View::ocioView>("view.ocioView", "OpenColorIO view", "Display", "View of the OpenColorIO display; empty means the display's default.", kUniform),
     number<&View::camera, &Camera::fovDeg>("view.fovDeg", "Field of view", "Camera and lighting", {10.0f, 90.0f}, {1.0f, 170.0f}, 1, "°", "Vertical angle that the camera sees: small like a telephoto lens, large like a wide-angle lens."),
     offered(lightingUnavailable, choice<&View::lighting>("view.lighting", "Lighting", "Camera and lighting", kLightings, kLightingLabels, "How the surroundings light the scene: image-based light; one lamp (N·L); SH irradiance; transfer of an open sky; baked transfer with its soft shadows; and with interreflection.")),
-    number<&View::bounces>("view.bounces", "Bounces", "Camera and lighting", {0.0f, 8.0f}, {0.0f, 64.0f}, 0, "", "How often light may bounce between surfaces under interreflected transfer; 0 is as often as the bake was made for."),
+    number<&View::bounces>("view.bounces", "Bounces", "Camera and lighting", {0.0f, 8.0f}, {-1.0f, 64.0f}, 0, "", "How often light may bounce between surfaces under interreflected transfer; -1 is never, 0 as often as the bake was made for."),
     number<&View::reflectionMix>("view.reflectionMix", "Diffuse / reflection", "Camera and lighting", kUnit, kUnit, 2, "", "Fades between diffuse light alone (0) and reflections alone (1); in the middle both show in full. Reflections that are left out take nothing from the diffuse light."),
 
     text<&L::name>("light.name", "Name", "Light", "What the light is called in lists, exports and scripts."),

@@ -3,11 +3,14 @@
 #include "core/base/Check.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <epoxy/gl.h>
 
 namespace patina::render {
 
 namespace {
+
+constexpr std::uint64_t kNoBounces = ~std::uint64_t{0}; // in place of a revision of bounced light
 
 struct TransferLightBlock {
     std::array<glm::vec4, 48> coefficients{};
@@ -70,7 +73,7 @@ Result<bool> RelightPass::relight(GpuScene& scene, const DrawItem& item, Lightin
     if (!openSky && transfer == nullptr)
         return false;
     const bool perTexel = !openSky && transfer->side > 0;
-    const bool bounces = mode == LightingMode::Prt;
+    const bool bounces = mode == LightingMode::Prt && scene.document().view.bounces >= 0;
     const int order = openSky ? kMaxShOrder : transfer->order();
     const FarLight& light = farLight(scene, order);
     ExitRadiance& exit = (openSky ? item.litVertices : item.lit)->stage(mode);
@@ -85,6 +88,8 @@ Result<bool> RelightPass::relight(GpuScene& scene, const DrawItem& item, Lightin
         work.bounced = &transfer->bounced;
     ExitRadiance::Sources sources;
     sources.transfer = openSky ? 0 : transfer->revision;
+    // The lights near by bounce like the others.
+    sources.bounced = bounces ? 0 : kNoBounces;
     if (openSky)
         sources.transform = item.transform;
     if (m_near.any()) {
@@ -107,7 +112,7 @@ Result<bool> RelightPass::relight(GpuScene& scene, const DrawItem& item, Lightin
         exit.nearSources = {};
     }
     sources.light = light.revision;
-    sources.bounced = bounces ? item.lit->bouncedRevision : 0;
+    sources.bounced = bounces ? item.lit->bouncedRevision : kNoBounces;
     const std::size_t bytes = elementBytes(work.count, 1);
     if (exit.values.size() == bytes && exit.sources == sources)
         return false;

@@ -2,6 +2,7 @@
 
 #include "app/editor/document/FileKinds.h"
 #include "app/editor/document/ProposedFolder.h"
+#include "app/editor/panel/BouncesRow.h"
 #include "app/editor/panel/ParameterRow.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/ColorButton.h"
@@ -256,6 +257,8 @@ class MapRow : public ParameterRow {
 } // namespace
 
 ParameterRow* makeParameterRow(const ParameterInfo& info, const RowContext& context) {
+    if (info.id == "view.bounces")
+        return new BouncesRow(info, context);
     switch (info.type) {
     case ParameterType::Bool:
         return new BoolRow(info, context);

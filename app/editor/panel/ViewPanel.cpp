@@ -5,6 +5,7 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/FileKinds.h"
 #include "app/editor/document/ProposedFolder.h"
+#include "app/editor/panel/BouncesRow.h"
 #include "app/editor/panel/ParameterList.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
@@ -33,10 +34,9 @@ constexpr Target kView{Scope::View, 0};
 bool applies(const ParameterInfo& info, const Document& document, Id) {
     const View& view = document.view;
     const bool photographic = view.toneMap == ToneMap::ReinhardPhotographic;
-    if (info.id == "view.reinhardAutoKey" || info.id == "view.reinhardWhite")
+    if (info.id == "view.reinhardAutoKey" || info.id == "view.reinhardWhite" ||
+        info.id == "view.reinhardKey")
         return photographic;
-    if (info.id == "view.reinhardKey")
-        return photographic && !view.reinhardAutoKey;
     if (info.id == "view.exponentialK")
         return view.toneMap == ToneMap::Exponential;
     // OpenColorIO's views are made for their display.
@@ -46,11 +46,12 @@ bool applies(const ParameterInfo& info, const Document& document, Id) {
         return view.toneMap != ToneMap::OpenColorIo &&
                view.displayTransfer == DisplayTransfer::Gamma;
     if (info.id == "view.bounces") // also of the strip's interreflected light
-        return std::any_of(
-            document.bakes.begin(), document.bakes.end(), [](const BakeArtifactPtr& bake) {
-                return bake->transfer == TransferKind::Interreflected && holdsTransfer(bake->kind);
-            });
+        return bakedBounces(document) > 0;
     return true;
+}
+
+bool works(const ParameterInfo& info, const Document& document, Id) {
+    return info.id != "view.reinhardKey" || !document.view.reinhardAutoKey;
 }
 
 // Rows of the view's parameters that belong to camera and lighting, or the others.
@@ -68,6 +69,7 @@ ParameterListSpec listWithout(std::vector<std::string_view> ids) {
     spec.target = [] { return std::optional(kView); };
     spec.without = std::move(ids);
     spec.applies = applies;
+    spec.works = works;
     return spec;
 }
 
