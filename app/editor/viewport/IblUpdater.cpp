@@ -35,6 +35,7 @@ void IblUpdater::request(ImagePtr environment) {
     if (environment == m_environment || !environment)
         return;
     m_environment = std::move(environment);
+    m_finished = false;
     if (m_firstUnderWay)
         m_waiting = true;
     else
@@ -50,7 +51,7 @@ void IblUpdater::start() {
     m_control.cancel();
     m_control = JobControl();
     m_firstUnderWay = true;
-    m_waiting = false;
+    m_waiting = m_finished = false;
     const quint64 id = ++m_request;
     m_pool.start(
         [this, id, image = m_environment, job = m_control.context()] { prepare(id, image, job); });
@@ -69,7 +70,7 @@ void IblUpdater::prepare(quint64 request, const ImagePtr& environment, const Job
     if (!maps)
         return fail(request, maps.error());
     const auto shared = std::make_shared<const IblMaps>(std::move(*maps));
-    post(request, makeTexels(environment, *shared, *background), shared);
+    post(request, makeTexels(environment, *shared, *background), shared, known);
     if (!known)
         m_finePool.start([=, this, background = *background] {
             lowerThreadPriority();
@@ -83,7 +84,7 @@ void IblUpdater::refine(quint64 request, const Hash& key, const ImagePtr& enviro
     if (!maps)
         return fail(request, maps.error());
     const auto shared = std::make_shared<const IblMaps>(std::move(*maps));
-    post(request, makeTexels(environment, *shared, background), shared);
+    post(request, makeTexels(environment, *shared, background), shared, true);
     // The disk may take its time: nobody waits for it. What a drag passes over is not kept.
     if (request == m_request)
         if (const Result<void> stored = m_cache.store(key, *shared); !stored)
@@ -94,24 +95,25 @@ void IblUpdater::refine(quint64 request, const Hash& key, const ImagePtr& enviro
 void IblUpdater::fail(quint64 request, const Error& error) {
     if (error.kind != ErrorKind::Cancelled)
         logError("image-based light: {}", error.text());
-    post(request, nullptr, nullptr);
+    post(request, nullptr, nullptr, true);
 }
 
 void IblUpdater::post(quint64 request, EnvironmentTexelsPtr texels,
-                      std::shared_ptr<const IblMaps> maps) {
+                      std::shared_ptr<const IblMaps> maps, bool last) {
     // The destructor waits for the pool, so `this` is alive.
     QMetaObject::invokeMethod(
         this,
-        [this, request, texels = std::move(texels), maps = std::move(maps)]() mutable {
-            deliver(request, std::move(texels), std::move(maps));
+        [this, request, texels = std::move(texels), maps = std::move(maps), last]() mutable {
+            deliver(request, std::move(texels), std::move(maps), last);
         },
         Qt::QueuedConnection);
 }
 
 void IblUpdater::deliver(quint64 request, EnvironmentTexelsPtr texels,
-                         std::shared_ptr<const IblMaps> maps) {
+                         std::shared_ptr<const IblMaps> maps, bool last) {
     if (request != m_request)
         return;
+    m_finished = last;
     m_firstUnderWay = false; // whichever it is: small, full from the cache, or none
     if (texels) {
         m_texels = std::move(texels);

@@ -31,6 +31,8 @@ class IblUpdater : public QObject {
     [[nodiscard]] EnvironmentTexelsPtr take() { return std::exchange(m_texels, nullptr); }
     // What it was made of, for whoever else shows it; null before the first.
     [[nodiscard]] std::shared_ptr<const IblMaps> maps() const { return m_maps; }
+    // maps() are of the environment asked for last, at full resolution: nothing else is to come.
+    [[nodiscard]] bool finished() const { return m_finished; }
     // What has been taken is lost and needed again, by a new OpenGL context.
     void renew();
 
@@ -43,16 +45,18 @@ class IblUpdater : public QObject {
     void refine(quint64 request, const Hash& key, const ImagePtr& environment,
                 const HalfMipmapsPtr& background, const JobContext& job);
     void fail(quint64 request, const Error& error);
-    // From the pool to deliver(); null where there is no light.
-    void post(quint64 request, EnvironmentTexelsPtr texels, std::shared_ptr<const IblMaps> maps);
-    void deliver(quint64 request, EnvironmentTexelsPtr texels, std::shared_ptr<const IblMaps> maps);
+    // From the pool to deliver(); null where there is no light. `last`: nothing follows.
+    void post(quint64 request, EnvironmentTexelsPtr texels, std::shared_ptr<const IblMaps> maps,
+              bool last);
+    void deliver(quint64 request, EnvironmentTexelsPtr texels, std::shared_ptr<const IblMaps> maps,
+                 bool last);
 
     IblCache m_cache;
     QThreadPool m_pool, m_finePool; // first light in no time; full light when nobody is in a hurry
     JobControl m_control;
     ImagePtr m_environment;
     std::atomic<quint64> m_request = 0; // the newest
-    bool m_firstUnderWay = false, m_waiting = false;
+    bool m_firstUnderWay = false, m_waiting = false, m_finished = false;
     EnvironmentTexelsPtr m_texels; // until it is taken
     std::shared_ptr<const IblMaps> m_maps;
 };

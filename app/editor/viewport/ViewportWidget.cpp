@@ -417,6 +417,12 @@ void ViewportWidget::followLuminance() {
     }
 }
 
+bool ViewportWidget::isSettled() const {
+    return m_renderer && !m_gate.waiting() && m_ibl->finished() && !m_environmentTimer.isActive() &&
+           !m_pacing.moving() && !m_restTimer.isActive() && !m_adaptationTimer.isActive() &&
+           !m_accumulationTimer.isActive();
+}
+
 double ViewportWidget::takeSlowestFrameMs() {
     return std::exchange(m_slowestFrameMs, 0.0);
 }

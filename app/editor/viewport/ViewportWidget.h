@@ -82,6 +82,10 @@ class ViewportWidget : public QOpenGLWidget {
     [[nodiscard]] bool waitsForPrograms() const { return m_gate.waiting(); }
     [[nodiscard]] bool compilesPrograms() const { return m_gate.compiling(); } // or nobody waits
 
+    // The picture is as fine as it gets, in the light and with the programs it asks for: without
+    // an edit, or a background job that ends, the next frame is the same.
+    [[nodiscard]] bool isSettled() const;
+
     // Milliseconds of the slowest frame since the last call (tests and the status bar).
     double takeSlowestFrameMs();
 
