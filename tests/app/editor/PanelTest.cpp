@@ -268,6 +268,10 @@ TEST_F(PanelTest, ImagesDroppedTogetherGoByTheirNames) {
           "Occlusion map ← monkey_ao.png"})
         EXPECT_THAT(said, ::testing::HasSubstr(line));
     EXPECT_THAT(said, ::testing::HasSubstr("notes.png")) << "what is left out is said, too";
+    if (const QString pictures = qEnvironmentVariable("PATINA_SCREENSHOTS"); !pictures.isEmpty()) {
+        ASSERT_TRUE(QDir().mkpath(pictures));
+        EXPECT_TRUE(window->grab().save(QDir(pictures).filePath(QStringLiteral("drop-hint.png"))));
+    }
     QDropEvent event(QPointF(window->rect().center()), Qt::CopyAction, &data, Qt::LeftButton, {});
     QApplication::sendEvent(window.get(), &event);
     EXPECT_TRUE(hint->isHidden());
@@ -313,6 +317,7 @@ TEST_F(PanelTest, SeveralImagesOverASlotGoByTheirNames) {
 
 // Images that could not be read are marked where they are missed, by what is wrong with them.
 TEST_F(PanelTest, SlotsAndMaterialsSayWhichImagesCouldNotBeRead) {
+    const Id before = session->selection.material();
     const QString model = folder.filePath(QStringLiteral("m.obj"));
     const auto write = [&](const char* name, const char* text) {
         QFile file(folder.filePath(QLatin1String(name)));
@@ -355,7 +360,7 @@ TEST_F(PanelTest, SlotsAndMaterialsSayWhichImagesCouldNotBeRead) {
     // The next test begins as the first one did: ids are those of the scene.
     controller().newDocument();
     ASSERT_TRUE(settled(*session));
-    session->selection.selectMaterial(document().materials.front().id);
+    session->selection.selectMaterial(before);
 }
 
 // The new row is painted before the frame that may have to be compiled for.
