@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <span>
 
 namespace patina::editor {
@@ -23,6 +24,13 @@ constexpr int kPictureRestMs = 800;         // the picture is taken when frames 
 constexpr qint64 kPictureMs = 5000;         // and at the latest after
 constexpr QSize kPictureSize(480, 360);     // at most
 constexpr std::chrono::seconds kLongest{8}; // session managers end who takes longer
+
+// Of the calling thread: what a busy machine does meanwhile says nothing about the document.
+double threadMs() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
 
 std::filesystem::path toPath(const QString& file) {
     return {QFile::encodeName(file).toStdString()};
@@ -140,6 +148,7 @@ void RecoveryKeeper::take() {
     if (m_discarded || !m_controller.isModified())
         return;
     m_taken.start();
+    const double start = threadMs();
     const QUndoStack& undo = m_controller.undoStack();
     RecoverySnapshot snapshot;
     snapshot.document = m_controller.document();
@@ -149,7 +158,7 @@ void RecoveryKeeper::take() {
     snapshot.lastStep = undo.undoText().toStdString();
     snapshot.savedBakes = savedBakes();
     m_writer.keep(std::move(snapshot));
-    const double copyMs = static_cast<double>(m_taken.nsecsElapsed()) * 1e-6;
+    const double copyMs = threadMs() - start;
     m_periodMs = static_cast<int>(std::min<double>(copyMs / kCopyShare, kLongestPeriodMs));
 }
 
