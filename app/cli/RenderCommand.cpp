@@ -166,21 +166,6 @@ void warnOfStaleBakes(Session& session, const Document& document) {
             session.report().warn(fmt::format("a bake is stale: {}; bake it anew", reason));
 }
 
-// A few bands know no sharp shadow: what hides a light near by lets some of it through.
-void warnOfNearLights(Session& session, const render::ViewSettings& shown,
-                      const Document& document) {
-    const LightingMode mode = lightingOf(shown.shown.kind, document.view.lighting);
-    const auto isNear = [&](const Light& light) {
-        return light.type != LightType::Directional && shines(document, light);
-    };
-    if ((mode == LightingMode::Shadowed || mode == LightingMode::Prt) &&
-        std::ranges::any_of(document.bakes,
-                            [](const auto& bake) { return holdsTransfer(bake->kind); }) &&
-        std::ranges::any_of(document.lights, isNear))
-        session.report().warn("lights near by are soft under transfer: where they are hidden, some "
-                              "15 % of their light is left with 8 bands, and more with fewer");
-}
-
 // Opaque pictures carry no alpha.
 Image withoutAlpha(const Image& image) {
     Image result(image.width(), image.height(), 3, image.type(), image.encoding());
@@ -361,7 +346,6 @@ Result<void> run(Session& session, const RenderOptions& options) {
     if (wantsAllViews(options))
         reportLeftOut(session.report(), leftOutViews(*document, *shown));
     warnOfStaleBakes(session, *document);
-    warnOfNearLights(session, *shown, *document);
     if (Result<void> followed = followBounces(session, *shown, *document); !followed)
         return followed;
     if (!options.view.empty()) {

@@ -1,7 +1,5 @@
 // The commands themselves, on built-in scenes.
 #include "CommandRunner.h"
-#include "core/document/DocumentIO.h"
-#include "core/document/Scene.h"
 #include "core/image/ImageIO.h"
 #include "core/worker/WorkerClient.h"
 
@@ -365,30 +363,6 @@ TEST_F(Commands, RenderFollowsBouncesOffOtherColors) {
     bake("texels.exr", {"--bounce-samples", "16", "--target", "texel", "--size", "16"});
     const Outcome texels = render("texels.exr", "texels-picture.exr");
     EXPECT_THAT(texels.json()["warnings"].dump(), HasSubstr("other colours"));
-}
-
-// Bands know no sharp edge, and so some light gets behind what hides a lamp near by.
-TEST_F(Commands, RenderWarnsOfLightsNearByUnderTransfer) {
-    const Result<OpenedScene> opened = openScene(m_worker, "builtin:sphere", {});
-    ASSERT_TRUE(opened);
-    for (const LightType type : {LightType::Directional, LightType::Sphere}) {
-        Document document = opened->document;
-        Light& light = document.lights.emplace_back();
-        light.id = document.takeId();
-        light.type = type;
-        const std::string scene = m_folder / "scene.patina", bake = m_folder / "bake.exr";
-        ASSERT_TRUE(saveProject(m_worker, document, scene));
-        ASSERT_EQ(
-            runPatina({"bake", "prt", scene, "-o", bake, "--order", "2", "--samples", "32"}).status,
-            0);
-        const Outcome outcome =
-            runPatina({"render", scene, "-o", m_folder / "x.png", "--size", "32x32", "--samples",
-                       "1", "--bake", bake, "--lighting", "prt", "--json"});
-        ASSERT_EQ(outcome.status, 0) << outcome.err;
-        EXPECT_EQ(outcome.out.find("lights near by are soft") != std::string::npos,
-                  type == LightType::Sphere)
-            << outcome.out;
-    }
 }
 
 // A bake of a scene that was changed since says so.
