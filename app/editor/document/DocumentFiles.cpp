@@ -123,14 +123,23 @@ void DocumentController::newDocument(std::function<void(bool)> done) {
 
 void DocumentController::openScene(const QString& scene, std::function<void(bool)> done) {
     const QString name = shortName(scene);
-    const auto work = [this, scene, name, done,
-                       begun = state()](const JobContext& job) -> BackgroundTasks::Apply {
+    const auto savesOf = [this](const QString& file) {
+        const auto known = m_files.find(QFileInfo(file).absoluteFilePath());
+        const auto onDisk = known == m_files.end() ? nullptr : known->second.lock();
+        return onDisk ? onDisk->saves : 0;
+    };
+    const auto work = [this, scene, name, done, begun = state(), savesOf,
+                       saves = savesOf(scene)](const JobContext& job) -> BackgroundTasks::Apply {
         // Before it is read: what changes meanwhile is noticed when it is saved.
         const std::optional<Hash> version =
             fileKind(scene) == FileKind::Project ? projectVersion(toPath(scene)) : std::nullopt;
         auto result = std::make_shared<Result<OpenedScene>>(
             patina::openScene(m_worker, scene.toStdString(), job));
-        return [this, scene, name, done, begun, version, result] {
+        return [this, scene, name, done, begun, savesOf, saves, version, result] {
+            if (savesOf(scene) != saves) { // it was saved while it was read
+                openScene(scene, done);
+                return;
+            }
             if (!result->ok()) {
                 if (result->error().kind != ErrorKind::Cancelled)
                     Q_EMIT noticed(UserNotice::fromError(result->error()));

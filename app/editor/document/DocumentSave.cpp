@@ -166,6 +166,9 @@ void DocumentController::saveEnded(const SaveOutcome& outcome, const SaveOrder& 
             return;
         }
         Q_EMIT noticed(UserNotice::fromError(*outcome.error));
+    } else if (order.file == m_filePath && !stillOpen) {
+        m_saved.history = 0; // what was opened from this file is no longer what it holds
+        noteModified();
     } else if (stillOpen) {
         m_filePath = order.file;
         m_name = QFileInfo(order.file).fileName();
@@ -176,6 +179,7 @@ void DocumentController::saveEnded(const SaveOutcome& outcome, const SaveOrder& 
         Q_EMIT fileChanged();
     }
     if (!outcome.error) {
+        ++order.onDisk->saves;
         Q_EMIT saved(order.file);
     }
     if (order.done)

@@ -20,6 +20,7 @@ struct FileOnDisk {
     std::optional<Hash> version;
     std::shared_ptr<const OpenProject> mark; // that it is open here; never null, nor exchanged
     std::string sharedWith; // of the thread that saves: who the user agreed to overwrite
+    quint64 saves = 0;      // of the UI thread: how many have ended well
 };
 
 [[nodiscard]] inline std::filesystem::path toPath(const QString& file) {

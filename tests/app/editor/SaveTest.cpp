@@ -230,12 +230,15 @@ TEST_F(Saving, UndoKeepsWhatFollowedForABake) {
 
 TEST_F(Saving, WhatWasReadWaitsUntilNothingCanBeRedone) {
     setRoughness(0.3f);
+    const Document before = document();
     const ParameterInfo& map = parameter("material.baseColor.map");
     controller.setMap(map, firstMaterial(), QStringLiteral("builtin:wood/baseColor"));
     controller.applyLibraryMaterial(document().materials.back().id, QStringLiteral("leather"));
     undo().undo(); // before they are read
     settle();
     ASSERT_TRUE(undo().canRedo()) << "the way forward is still there";
+    EXPECT_EQ(document().materials.front().baseColorMap, before.materials.front().baseColorMap);
+    EXPECT_EQ(document().materials.back(), before.materials.back());
     ASSERT_EQ(notices.size(), 2u);
     EXPECT_EQ(notices[0].kind, NoticeKind::Info);
     undo().redo();
@@ -243,6 +246,7 @@ TEST_F(Saving, WhatWasReadWaitsUntilNothingCanBeRedone) {
     EXPECT_EQ(roughness(), 0.3f);
     EXPECT_EQ(document().materials.front().baseColorMap.source, "builtin:wood/baseColor");
     EXPECT_EQ(undo().count(), 3);
+    EXPECT_NE(document().materials.back(), before.materials.back());
 }
 
 // Undo takes an element away; the next one must not get its identifier, or what is still being read
@@ -263,6 +267,7 @@ TEST_F(Saving, IdentifiersAreUsedOnce) {
     const Id other = controller.duplicateMaterial(firstMaterial().id);
     ASSERT_NE(document().material(other), nullptr);
     settle();
+    EXPECT_NE(document().material(other)->baseColorMap.source, "builtin:wood/baseColor");
     EXPECT_NE(copy, other);
 }
 
