@@ -109,10 +109,13 @@ void DocumentController::pushOrApply(std::unique_ptr<DocumentCommand> command) {
     command->applyOnly();
 }
 
-void DocumentController::deliver(const DocumentState& begun, const QString& name,
+void DocumentController::deliver(const Begun& begun, const QString& name,
                                  std::function<void()> edit) {
-    if (!m_undo.canRedo() || state() == begun) {
+    if (!m_undo.canRedo() || state() == begun.state) {
+        const bool expected = m_opening && begun.opened < m_opened && *m_opening == state();
         edit();
+        if (expected)
+            *m_opening = state();
         return;
     }
     m_waiting.push_back(std::move(edit));

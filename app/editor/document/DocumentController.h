@@ -71,9 +71,15 @@ class DocumentController : public QObject {
     [[nodiscard]] bool isModified() const { return !(m_saved == state()); }
     // Taken with a copy of the document it tells later whether the copy is still what is there.
     [[nodiscard]] DocumentState state() const;
-    // Applies what was read in the background since `begun`: at once, or, when the user has gone
-    // back meanwhile, as soon as there is nothing to redo.
-    void deliver(const DocumentState& begun, const QString& name, std::function<void()> edit);
+    // When something was asked for that is read in the background.
+    struct Begun {
+        DocumentState state;
+        quint64 opened = 0; // how many scenes had been asked for
+    };
+    [[nodiscard]] Begun begun() const { return {state(), m_opened}; }
+    // Applies what was asked for at `begun`: at once, or, when the user has gone back meanwhile, as
+    // soon as there is nothing to redo.
+    void deliver(const Begun& begun, const QString& name, std::function<void()> edit);
     // Grows with each change of the document, whatever made it, navigation too.
     [[nodiscard]] quint64 revision() const { return m_revision; }
     // Nothing would be lost by replacing it: the untouched start scene.
@@ -205,6 +211,10 @@ class DocumentController : public QObject {
     DragSession m_lastSession = 0;
 
     quint64 m_revision = 0;
+    quint64 m_opened = 0; // scenes asked for
+    // What opening the newest of them replaces unasked: the state when it was asked for, and what
+    // came since of what had been asked for before.
+    std::shared_ptr<DocumentState> m_opening;
     quint64 m_history = 0, m_step = 0; // of state()
     quint64 m_lastStep = 0;            // steps are numbered once
     quint64 m_mergeMark = 0;           // edits on two sides of a save do not merge

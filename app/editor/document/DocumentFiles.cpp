@@ -108,10 +108,13 @@ void DocumentController::replaceWhenAllowed(const DocumentState& begun, const QS
 }
 
 void DocumentController::newDocument(std::function<void(bool)> done) {
-    const auto work = [this, done, begun = state()](const JobContext&) -> BackgroundTasks::Apply {
+    ++m_opened;
+    m_opening = std::make_shared<DocumentState>(state());
+    const auto work = [this, done,
+                       opening = m_opening](const JobContext&) -> BackgroundTasks::Apply {
         auto document = std::make_shared<Document>(startDocument());
-        return [this, document, done, begun] {
-            replaceWhenAllowed(begun, tr("The start scene"), [this, document, done] {
+        return [this, document, done, opening] {
+            replaceWhenAllowed(*opening, tr("The start scene"), [this, document, done] {
                 replaceDocument(std::move(*document), {}, {}, true);
                 if (done)
                     done(true);
@@ -128,14 +131,16 @@ void DocumentController::openScene(const QString& scene, std::function<void(bool
         const auto onDisk = known == m_files.end() ? nullptr : known->second.lock();
         return onDisk ? onDisk->saves : 0;
     };
-    const auto work = [this, scene, name, done, begun = state(), savesOf,
+    ++m_opened;
+    m_opening = std::make_shared<DocumentState>(state());
+    const auto work = [this, scene, name, done, opening = m_opening, savesOf,
                        saves = savesOf(scene)](const JobContext& job) -> BackgroundTasks::Apply {
         // Before it is read: what changes meanwhile is noticed when it is saved.
         const std::optional<Hash> version =
             fileKind(scene) == FileKind::Project ? projectVersion(toPath(scene)) : std::nullopt;
         auto result = std::make_shared<Result<OpenedScene>>(
             patina::openScene(m_worker, scene.toStdString(), job));
-        return [this, scene, name, done, begun, savesOf, saves, version, result] {
+        return [this, scene, name, done, opening, savesOf, saves, version, result] {
             if (savesOf(scene) != saves) { // it was saved while it was read
                 openScene(scene, done);
                 return;
@@ -148,7 +153,7 @@ void DocumentController::openScene(const QString& scene, std::function<void(bool
                     done(false);
                 return;
             }
-            replaceWhenAllowed(begun, name, [this, scene, name, done, version, result] {
+            replaceWhenAllowed(*opening, name, [this, scene, name, done, version, result] {
                 takeOpened(std::move(result->value()), scene, name, version);
                 if (done)
                     done(true);
@@ -178,7 +183,7 @@ void DocumentController::addModel(const QString& source) {
     const QString name = shortName(source);
     m_tasks.start(
         QStringLiteral("model:") + source, tr("Adding %1").arg(name),
-        [this, source, name, begun = state()](const JobContext&) -> BackgroundTasks::Apply {
+        [this, source, name, begun = begun()](const JobContext&) -> BackgroundTasks::Apply {
             // Read into a document of its own: the user's may change meanwhile.
             auto part = std::make_shared<Document>();
             auto result = std::make_shared<Result<std::vector<Notice>>>(
@@ -205,7 +210,7 @@ void DocumentController::setMap(const ParameterInfo& map, Target target, const Q
                             .arg(target.id);
     m_tasks.start(
         key, tr("Reading %1").arg(shortName(source)),
-        [this, &map, target, source, begun = state()](const JobContext&) -> BackgroundTasks::Apply {
+        [this, &map, target, source, begun = begun()](const JobContext&) -> BackgroundTasks::Apply {
             const std::string name = normalizeSource(source.toStdString());
             auto image =
                 std::make_shared<Result<ImagePtr>>(loadMapImage(m_worker, name, map.mapEncoding));
@@ -241,7 +246,7 @@ void DocumentController::setSecondEnvironment(const QString& source) {
     const QString title = shortName(source);
     m_tasks.start(
         QStringLiteral("second environment"), tr("Reading %1").arg(title),
-        [this, source, title, begun = state()](const JobContext& job) -> BackgroundTasks::Apply {
+        [this, source, title, begun = begun()](const JobContext& job) -> BackgroundTasks::Apply {
             const std::string name = normalizeSource(source.toStdString());
             auto notices = std::make_shared<std::vector<Notice>>();
             auto image = std::make_shared<Result<ImagePtr>>(
@@ -274,7 +279,7 @@ void DocumentController::readEnvironment(const QString& source, EnvironmentLayou
     m_tasks.start(
         QStringLiteral("environment"), tr("Reading %1").arg(title),
         [this, source, layout, title, undoText,
-         begun = state()](const JobContext& job) -> BackgroundTasks::Apply {
+         begun = begun()](const JobContext& job) -> BackgroundTasks::Apply {
             const std::string name = normalizeSource(source.toStdString());
             auto notices = std::make_shared<std::vector<Notice>>();
             auto image = std::make_shared<Result<ImagePtr>>(
@@ -334,7 +339,7 @@ void DocumentController::applyLibraryMaterial(Id id, const QString& name) {
     const QString title = shortName(QStringLiteral("builtin:") + name);
     m_tasks.start(
         QStringLiteral("preset:%1").arg(id), tr("Making %1").arg(title),
-        [this, id, name, title, begun = state()](const JobContext&) -> BackgroundTasks::Apply {
+        [this, id, name, title, begun = begun()](const JobContext&) -> BackgroundTasks::Apply {
             auto result = std::make_shared<Result<Material>>(library::material(name.toStdString()));
             return [this, id, title, begun, result] {
                 if (!result->ok()) {

@@ -32,7 +32,7 @@ void setMaps(DocumentController& controller, Id material, const std::vector<MapF
     };
     const QString count = QString::number(files.size());
     const auto work = [&controller, files, target, count,
-                       begun = controller.state()](const JobContext&) -> BackgroundTasks::Apply {
+                       begun = controller.begun()](const JobContext&) -> BackgroundTasks::Apply {
         auto read = std::make_shared<std::vector<Read>>();
         for (const MapFile& one : files) {
             std::string source = normalizeSource(one.file.toStdString());

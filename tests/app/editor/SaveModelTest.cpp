@@ -172,8 +172,9 @@ std::string SaveModel::step() {
     case 11: {
         const QString to =
             file(chance(2) ? QStringLiteral("a.patina") : QStringLiteral("b.patina"));
-        if (to != controller.filePath())
-            changedByOthers.erase(to); // the file dialog has asked
+        // The file dialog has asked: the scene has, or will have by then, another file.
+        if (to != controller.filePath() || controller.tasks().busy())
+            changedByOthers.erase(to);
         controller.saveAs(to);
         return "save as";
     }
@@ -277,7 +278,7 @@ void SaveModel::checkFile() {
 
 TEST_F(SaveModel, WhateverComesInBetweenNothingIsLost) {
     const unsigned sequences = number("PATINA_SEQUENCES", 30);
-    const unsigned first = number("PATINA_SEED", std::random_device()());
+    const unsigned first = number("PATINA_SEED", 1);
     QElapsedTimer timer;
     timer.start();
     for (unsigned i = 0; i < sequences; ++i) {
