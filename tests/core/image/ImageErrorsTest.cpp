@@ -129,7 +129,7 @@ TEST_F(ImageErrors, NamesAreBytes) {
 TEST_F(ImageErrors, AbsurdSizesAreRefusedBeforeMemoryIsTaken) {
     // A valid BMP header of 30,000 x 30,000 pixels at 32 bits: 3.4 GiB.
     std::string bmp("BM\x36\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0", 18);
-    bmp += std::string("\x30\x75\0\0\x30\x75\0\0\x01\0\x20\0", 12) + std::string(24, '\0');
+    bmp.append("\x30\x75\0\0\x30\x75\0\0\x01\0\x20\0", 12).append(24, '\0');
     const Error error = errorOf(folder.write("huge.bmp", bmp + std::string(1000, 'x')));
     EXPECT_EQ(error.kind, ErrorKind::InputBroken);
     EXPECT_THAT(error.message, HasSubstr("MiB"));
