@@ -215,13 +215,15 @@ TEST_F(DocksTest, AFloatedDockKeepsClearOfItsNeighbours) {
         const QRect floating = onScreen(*each);
         EXPECT_TRUE(window->screen()->availableGeometry().contains(floating)) << name;
         for (const QDockWidget* other : window->findChildren<QDockWidget*>())
-            if (other != each && !other->isFloating() && isSeen(*other))
+            if (other != each && !other->isFloating() && isSeen(*other)) {
                 EXPECT_FALSE(floating.intersects(onScreen(*other)))
                     << name << " covers " << other->objectName().toStdString();
+            }
         for (const QTabBar* bar :
              window->findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly))
-            if (bar->isVisible())
+            if (bar->isVisible()) {
                 EXPECT_FALSE(floating.intersects(onScreen(*bar))) << name;
+            }
     }
 }
 
@@ -376,9 +378,10 @@ void expectTargets(QWidget& parent, const std::string& where) {
                 << where << ": tab " << bar->tabText(i).toStdString();
     for (QAbstractItemView* view : parent.findChildren<QAbstractItemView*>()) {
         const QModelIndex first = view->model() ? view->model()->index(0, 0) : QModelIndex();
-        if (view->isVisible() && first.isValid())
+        if (view->isVisible() && first.isValid()) {
             EXPECT_GE(view->visualRect(first).height(), kTarget)
                 << where << ": rows of " << view->accessibleName().toStdString();
+        }
     }
 }
 

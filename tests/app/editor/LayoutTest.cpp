@@ -11,6 +11,7 @@
 #include "app/editor/viewport/EquationBar.h"
 #include "app/editor/viewport/ViewStrip.h"
 #include "core/document/Edit.h"
+#include "core/material/Parameters.h"
 
 #include <QDialog>
 #include <QDir>
