@@ -367,20 +367,19 @@ TEST_F(LongBake, InfoSaysWhatPartsAndCheckpointsAre) {
     EXPECT_THAT(cut.err, HasSubstr("its end is missing"));
 }
 
-TEST_F(LongBake, AFullDiskAtACheckpointIsAWarning) {
+TEST_F(LongBake, ACheckpointThatCannotBeWrittenIsAWarning) {
     const std::vector<std::string> options{"--order", "2", "--samples", "256"};
     ASSERT_EQ(bake("whole.exr", options).status, 0);
-    fs::create_symlink("/dev/full", m_folder / "a.exr.checkpoint");
+    fs::create_directory(m_folder / "a.exr.checkpoint");
     std::vector<std::string> more = options;
     more.insert(more.end(), {"--checkpoint", "0.001", "--json"});
     const Outcome outcome = bake("a.exr", more);
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_EQ(bytes("a.exr"), bytes("whole.exr"));
     const auto warnings = outcome.json()["warnings"].get<std::vector<std::string>>();
-    EXPECT_THAT(warnings,
-                Contains(AllOf(HasSubstr("the bake goes on"), HasSubstr("a.exr.checkpoint"),
-                               HasSubstr("the disk is full")))
-                    .Times(1));
+    EXPECT_THAT(
+        warnings,
+        Contains(AllOf(HasSubstr("the bake goes on"), HasSubstr("a.exr.checkpoint"))).Times(1));
 }
 
 // At the end the result is there, and its place is full or gone: it is kept elsewhere.

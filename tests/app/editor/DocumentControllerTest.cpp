@@ -274,7 +274,8 @@ TEST_F(Controller, WhatWasAskedForBeforeAModelIsOpenedDoesNotKeepItOut) {
     controller.setEnvironment(QStringLiteral("builtin:sunset"));
     controller.openScene(QStringLiteral("builtin:sphere"));
     settle();
-    EXPECT_EQ(controller.displayName(), QStringLiteral("sphere"));
+    EXPECT_EQ(controller.displayName(), QStringLiteral("Sphere"));
+    EXPECT_EQ(document().environment.source, "builtin:sunset");
     EXPECT_EQ(undo().count(), 0);
     EXPECT_TRUE(notices.empty());
 }
