@@ -131,7 +131,9 @@ QDialog* makeShortcutsDialog(const QList<QAction*>& commands, const QList<QActio
     const QSize wanted =
         pages->sizeHint() + QSize(margins.left() + margins.right() + air,
                                   dialog->sizeHint().height() - scroll->sizeHint().height() + air);
-    dialog->resize(wanted.boundedTo(0.95 * parent->screen()->availableSize()));
+    // No higher than the window that it explains: that fits the screen, frame included.
+    dialog->resize(wanted.boundedTo(0.95 * parent->screen()->availableSize())
+                       .boundedTo(QSize(QWIDGETSIZE_MAX, parent->window()->height())));
     return dialog;
 }
 

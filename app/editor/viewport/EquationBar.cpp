@@ -167,8 +167,8 @@ bool EquationBar::back() {
 }
 
 void EquationBar::keyPressEvent(QKeyEvent* event) {
-    const bool leads = event->key() == Qt::Key_Escape || event->key() == Qt::Key_Backspace;
-    if (!leads || !back())
+    // Esc is the window's: it leads out of the split first, wherever the focus is.
+    if (event->key() != Qt::Key_Backspace || !back())
         QWidget::keyPressEvent(event);
 }
 

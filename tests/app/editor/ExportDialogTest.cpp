@@ -31,7 +31,7 @@ TEST_F(ExportDialogTest, TheEnvironmentComesAlongWhenTicked) {
     QTest::mouseClick(box, Qt::LeftButton, Qt::NoModifier, {8, box->height() / 2});
     ASSERT_TRUE(box->isChecked());
     ASSERT_EQ(files->rowCount(), before + 1);
-    EXPECT_EQ(files->item(before, 0)->text(), QStringLiteral("scene.glb#environment"));
+    EXPECT_EQ(files->item(before, 0)->text(), QStringLiteral("environment"));
     EXPECT_EQ(files->item(before, 4)->text(), QStringLiteral("Inside scene.glb"));
     const QString target = qEnvironmentVariable("PATINA_SCREENSHOTS", folder.path());
     ASSERT_TRUE(QDir().mkpath(target));

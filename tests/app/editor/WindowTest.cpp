@@ -142,7 +142,8 @@ TEST_F(WindowTest, AModelIsOpenedInTheLightThatIsThere) {
     controller().addLight(LightType::Spot);
     const Environment environment = document().environment;
     const Light light = document().lights[0];
-    controller().undoStack().setClean(); // nothing to ask about
+    controller().saveAs(folder.filePath(QStringLiteral("light.patina"))); // nothing to ask about
+    ASSERT_TRUE(settled(*session));
     window->files().open(writeObj(QStringLiteral("wedge.obj")));
     ASSERT_TRUE(settled(*session));
     ASSERT_EQ(document().meshes.size(), 1u);
