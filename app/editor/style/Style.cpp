@@ -81,6 +81,13 @@ class PatinaStyle : public QProxyStyle {
             return QProxyStyle::styleHint(hint, option, widget, data);
         }
     }
+    int pixelMetric(PixelMetric metric, const QStyleOption* option,
+                    const QWidget* widget) const override {
+        // About both sides of a dock's buttons together: with their icons they are 20 px and more.
+        if (metric == PM_DockWidgetTitleBarButtonMargin)
+            return 10;
+        return QProxyStyle::pixelMetric(metric, option, widget);
+    }
 };
 
 } // namespace
