@@ -155,7 +155,8 @@ TEST_F(WindowTest, AModelIsOpenedInTheLightThatIsThere) {
     const QString project = saveProjectFile(QStringLiteral("own.patina"));
     controller().setEnvironment(QStringLiteral("builtin:studio"));
     ASSERT_TRUE(settled(*session));
-    controller().undoStack().setClean();
+    controller().saveAs(folder.filePath(QStringLiteral("other.patina"))); // nothing to ask about
+    ASSERT_TRUE(settled(*session));
     window->files().open(project);
     ASSERT_TRUE(settled(*session));
     EXPECT_EQ(document().environment.source, "builtin:sunset");
