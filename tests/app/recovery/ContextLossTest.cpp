@@ -26,13 +26,15 @@ class ContextLoss : public EditorTest {
             const bool same = !now.isNull() && now == before;
             before = now;
             QTest::qWait(700); // longer than the viewport waits before it refines
-            return same && !session->controller.tasks().busy() && viewport.ibl().maps() != nullptr;
+            return same && viewport.isSettled() && !session->controller.tasks().busy() &&
+                   viewport.ibl().maps() != nullptr;
         });
         EXPECT_TRUE(still);
         return before;
     }
     // Out of the window and back: two windows, two contexts.
     static void loseContext() {
+        const QByteArray layout = window->saveState(); // the docks take the room meanwhile
         QWidget* centre = window->takeCentralWidget();
         centre->setParent(nullptr);
         centre->resize(700, 500);
@@ -41,6 +43,7 @@ class ContextLoss : public EditorTest {
         centre->hide();
         window->setCentralWidget(centre);
         centre->show();
+        EXPECT_TRUE(window->restoreState(layout));
         QCoreApplication::processEvents();
     }
 };
