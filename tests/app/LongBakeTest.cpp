@@ -384,7 +384,7 @@ TEST_F(LongBake, ACheckpointThatCannotBeWrittenIsAWarning) {
 
 // At the end the result is there, and its place is full or gone: it is kept elsewhere.
 TEST_F(LongBake, ABakeThatCannotBeWrittenIsKeptElsewhere) {
-    const std::vector<std::string> options{"--order", "2", "--samples", "2048", "--no-fit"};
+    const std::vector<std::string> options{"--order", "2", "--samples", "16384", "--no-fit"};
     ASSERT_EQ(bake("whole.exr", options).status, 0);
     for (const bool full : {true, false}) {
         const TemporaryFolder elsewhere;
