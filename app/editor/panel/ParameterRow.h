@@ -30,7 +30,7 @@ class ParameterRow : public QWidget {
     ParameterRow(const ParameterInfo& info, const RowContext& context);
 
     [[nodiscard]] const ParameterInfo& info() const { return m_info; }
-    void refresh(); // shows the document's value
+    void refresh();            // shows the document's value
     void setWorks(bool works); // false: shown but disabled, because it has no effect now
 
   protected:

@@ -114,8 +114,7 @@ void Fader::paintEvent(QPaintEvent*) {
 
     const QRectF grip(kTrackX - kHandleWidth / 2, position(m_ev) - kHandleHeight / 2, kHandleWidth,
                       kHandleHeight);
-    painter.setPen(
-        QPen(QColor(hasFocus() ? tokens::kFocus : tokens::kWindow), hasFocus() ? 2 : 1));
+    painter.setPen(QPen(QColor(hasFocus() ? tokens::kFocus : tokens::kWindow), hasFocus() ? 2 : 1));
     painter.setBrush(QColor(underMouse() || isSliderDown() ? tokens::kTextDim : tokens::kTextOff));
     painter.drawRoundedRect(grip, 3, 3);
     painter.setPen(QPen(QColor(tokens::kWell), 2));
