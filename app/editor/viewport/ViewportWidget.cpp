@@ -57,7 +57,7 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     setAccessibleDescription(
         tr("The rendered scene. Drag to orbit, wheel to zoom, click to select."));
     setFocusPolicy(Qt::StrongFocus);
-    setMinimumSize(320, 144); // small screens, with an instrument below it
+    setMinimumSize(320, 136); // small screens, with an instrument below it
     setMouseTracking(true);   // the cursor shows what can be dragged
 
     m_restTimer.setSingleShot(true);

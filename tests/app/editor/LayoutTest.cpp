@@ -117,7 +117,7 @@ TEST_F(LayoutTest, EveryDockFitsEveryScreen) {
         window->actions().pixel->trigger();
         settle();
         EXPECT_EQ(window->size(), screen.size) << screen.name << " with bars and an instrument";
-        EXPECT_GE(window->viewport().height(), 144) << screen.name;
+        EXPECT_GE(window->viewport().height(), 136) << screen.name;
         keep(*window, QLatin1String(screen.name) + QStringLiteral("-all"));
         window->actions().pixel->trigger();
         window->looks().equation->setChecked(false);
