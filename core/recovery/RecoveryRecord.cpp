@@ -98,7 +98,6 @@ std::optional<RecoveryRecord> fromJson(const Json& json) {
     record.materials = json.at("materials").get<int>();
     record.lights = json.at("lights").get<int>();
     for (const Json& value : json.at("bakes")) {
-        RecoveryBake bake;
         const auto kind = value.at("kind").get<std::string>();
         const auto known = std::ranges::find(project::kBakeKinds, kind,
                                              [](const auto& entry) { return entry.second; });
