@@ -221,6 +221,7 @@ std::string SaveModel::step() {
         break;
     }
     if (chance(3)) {
+        changedByOthers.erase(controller.filePath()); // what others wrote is read now
         controller.openScene(controller.filePath());
         return "open";
     }
