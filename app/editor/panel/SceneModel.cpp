@@ -31,7 +31,7 @@ QStringList problemsOf(const Document& document, Id material) {
     return lines;
 }
 
-QIcon swatch(const QColor& color, bool metal, bool marked) {
+QIcon swatch(const QColor& color, bool metal) {
     constexpr int kSize = 32; // painted at twice the size for high-density screens
     QPixmap pixmap(kSize, kSize);
     pixmap.fill(Qt::transparent);
@@ -43,8 +43,6 @@ QIcon swatch(const QColor& color, bool metal, bool marked) {
     painter.setBrush(gradient);
     painter.setPen(Qt::NoPen);
     painter.drawEllipse(QRectF(3, 3, kSize - 6, kSize - 6));
-    if (marked) // over its lower right
-        icon(QStringLiteral("warning"), tokens::kCopper).paint(&painter, QRect(13, 13, 19, 19));
     return QIcon(pixmap);
 }
 
@@ -56,7 +54,8 @@ SceneModel::SceneModel(DocumentController& controller, Thumbnails& thumbnails, Q
     , m_thumbnails(thumbnails)
     , m_meshIcon(icon(QStringLiteral("mesh")))
     , m_eyeIcon(icon(QStringLiteral("eye")))
-    , m_eyeOffIcon(icon(QStringLiteral("eye-off"), tokens::kTextOff)) {
+    , m_eyeOffIcon(icon(QStringLiteral("eye-off"), tokens::kTextOff))
+    , m_warningIcon(icon(QStringLiteral("warning"), tokens::kCopper)) {
     connect(&thumbnails, &Thumbnails::ready, this, [this] {
         if (m_counts[Materials] > 0)
             Q_EMIT dataChanged(index(0, 0, branchIndex(Materials)),
@@ -176,7 +175,7 @@ QVariant SceneModel::meshData(std::size_t row, int column, int role) const {
     case Qt::DecorationRole:
         if (column == NameColumn)
             return m_meshIcon;
-        if (column == EyeColumn)
+        if (column == MarkColumn)
             return mesh.visible ? m_eyeIcon : m_eyeOffIcon;
         break;
     case Qt::ForegroundRole:
@@ -186,7 +185,7 @@ QVariant SceneModel::meshData(std::size_t row, int column, int role) const {
             return QColor(tokens::kTextDim);
         break;
     case Qt::ToolTipRole:
-        if (column == EyeColumn)
+        if (column == MarkColumn)
             return mesh.visible ? tr("Hide the mesh") : tr("Show the mesh");
         if (mesh.mesh)
             return tr("%1: %L2 triangles, material %3")
@@ -195,7 +194,7 @@ QVariant SceneModel::meshData(std::size_t row, int column, int role) const {
                 .arg(material ? QString::fromStdString(material->name) : QString());
         break;
     case Qt::AccessibleTextRole:
-        if (column == EyeColumn)
+        if (column == MarkColumn)
             return mesh.visible ? tr("Visible") : tr("Hidden");
         break;
     default:
@@ -206,15 +205,23 @@ QVariant SceneModel::meshData(std::size_t row, int column, int role) const {
 
 QVariant SceneModel::materialData(std::size_t row, int column, int role) const {
     const Material& material = m_controller.document().materials[row];
-    if (column != NameColumn)
+    if (column != NameColumn) {
+        const QStringList problems =
+            column == MarkColumn ? problemsOf(m_controller.document(), material.id) : QStringList();
+        if (problems.isEmpty())
+            return {};
+        if (role == Qt::DecorationRole)
+            return m_warningIcon;
+        if (role == Qt::ToolTipRole || role == Qt::AccessibleTextRole)
+            return problems.join(QLatin1Char('\n'));
         return {};
+    }
     switch (role) {
     case Qt::DisplayRole:
     case Qt::EditRole:
         return QString::fromStdString(material.name);
     case Qt::DecorationRole:
-        return swatch(colorOf(material), material.metallic > 0.5f && !material.metallicMap.image,
-                      !problemsOf(m_controller.document(), material.id).isEmpty());
+        return swatch(colorOf(material), material.metallic > 0.5f && !material.metallicMap.image);
     case Qt::ToolTipRole:
         return (problemsOf(m_controller.document(), material.id)
                 << tr("%1: double-click or F2 to rename")

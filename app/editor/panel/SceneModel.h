@@ -17,7 +17,8 @@ class SceneModel : public QAbstractItemModel {
     Q_OBJECT
   public:
     enum Branch { Meshes = 0, Materials = 1 };
-    enum Column { NameColumn = 0, MaterialColumn = 1, EyeColumn = 2, ColumnCount = 3 };
+    // Marks: of a mesh its eye, of a material that it lacks files.
+    enum Column { NameColumn = 0, MaterialColumn = 1, MarkColumn = 2, ColumnCount = 3 };
 
     SceneModel(DocumentController& controller, Thumbnails& thumbnails, QObject* parent = nullptr);
 
@@ -43,7 +44,7 @@ class SceneModel : public QAbstractItemModel {
 
     DocumentController& m_controller;
     Thumbnails& m_thumbnails;
-    QIcon m_meshIcon, m_eyeIcon, m_eyeOffIcon;
+    QIcon m_meshIcon, m_eyeIcon, m_eyeOffIcon, m_warningIcon;
     int m_counts[2] = {0, 0};
 };
 

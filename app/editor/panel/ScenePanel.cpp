@@ -34,9 +34,9 @@ ScenePanel::ScenePanel(DocumentController& controller, SelectionModel& selection
     header->setMinimumSectionSize(20);
     header->setSectionResizeMode(SceneModel::NameColumn, QHeaderView::Stretch);
     header->setSectionResizeMode(SceneModel::MaterialColumn, QHeaderView::Interactive);
-    header->setSectionResizeMode(SceneModel::EyeColumn, QHeaderView::Fixed);
+    header->setSectionResizeMode(SceneModel::MarkColumn, QHeaderView::Fixed);
     header->resizeSection(SceneModel::MaterialColumn, 96);
-    header->resizeSection(SceneModel::EyeColumn, 28);
+    header->resizeSection(SceneModel::MarkColumn, 28);
 
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(tokens::kGap, 0, tokens::kGap, tokens::kGap);
@@ -75,7 +75,7 @@ void ScenePanel::takeSelection() {
 
 void ScenePanel::clicked(const QModelIndex& index) {
     const auto target = m_model->targetAt(index);
-    if (!target || target->scope != Scope::Mesh || index.column() != SceneModel::EyeColumn)
+    if (!target || target->scope != Scope::Mesh || index.column() != SceneModel::MarkColumn)
         return;
     if (const MeshInstance* mesh = m_controller.document().mesh(target->id))
         m_controller.setMeshVisible(target->id, !mesh->visible);

@@ -357,6 +357,10 @@ TEST_F(PanelTest, SlotsAndMaterialsSayWhichImagesCouldNotBeRead) {
                                  ::testing::HasSubstr("Normal map is damaged: empty.png")));
     EXPECT_THAT(material.data(Qt::AccessibleDescriptionRole).toString().toStdString(),
                 ::testing::HasSubstr("damaged"));
+    const QModelIndex mark = material.siblingAtColumn(SceneModel::MarkColumn);
+    EXPECT_FALSE(mark.data(Qt::DecorationRole).value<QIcon>().isNull());
+    EXPECT_THAT(mark.data(Qt::ToolTipRole).toString().toStdString(),
+                ::testing::HasSubstr("Base colour map is missing: gone.png"));
     // The next test begins as the first one did: ids are those of the scene.
     controller().newDocument();
     ASSERT_TRUE(settled(*session));
@@ -434,7 +438,7 @@ TEST_F(PanelTest, TheTreeShowsRenamesHidesAndSelects) {
     EXPECT_EQ(session->selection.mesh(), mesh);
     EXPECT_EQ(session->selection.material(), document().mesh(mesh)->material);
 
-    const QRect eye = tree->visualRect(index.siblingAtColumn(SceneModel::EyeColumn));
+    const QRect eye = tree->visualRect(index.siblingAtColumn(SceneModel::MarkColumn));
     QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, eye.center());
     EXPECT_FALSE(document().mesh(mesh)->visible);
     EXPECT_EQ(controller().undoStack().undoText().toStdString(),
