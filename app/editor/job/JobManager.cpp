@@ -199,6 +199,7 @@ void JobManager::stop(quint64 id) {
         cancel(id);
     else if (job)
         job->control.stop();
+    Q_EMIT jobsChanged();
 }
 
 void JobManager::cancel(quint64 id) {
@@ -206,8 +207,10 @@ void JobManager::cancel(quint64 id) {
     if (!job || job->ended())
         return;
     job->control.cancel();
-    if (job->begun)
+    if (job->begun) {
+        Q_EMIT jobsChanged();
         return; // finish() follows
+    }
     end(*job, {});
     schedule();
 }
@@ -260,6 +263,8 @@ JobRecord JobManager::record(const Job& job) const {
         result.progress = job.lastProgress;
         result.secondsLeft = 0.0;
     } else if (job.begun) {
+        result.stopping = job.control.stopping();
+        result.cancelling = job.control.cancelled();
         result.progress = job.control.progress();
         result.workPerSecond = job.rate.workPerSecond();
         result.secondsLeft = job.rate.secondsLeft();

@@ -28,9 +28,11 @@ struct JobRecord {
     quint64 id = 0;
     QString title;
     JobState state = JobState::Running;
-    bool canStop = false; // stopping keeps what has converged
-    bool queued = false;  // takes turns: it can be paused and has a priority
-    bool begun = false;   // a Queued one that has begun rests until it is its turn again
+    bool canStop = false;    // stopping keeps what has converged
+    bool queued = false;     // takes turns: it can be paused and has a priority
+    bool begun = false;      // a Queued one that has begun rests until it is its turn again
+    bool stopping = false;   // it was told to stop or to be cancelled, and ends soon
+    bool cancelling = false; // of the two, the latter
     JobPriority priority = JobPriority::Normal;
     JobProgress progress;     // as of the call of jobs()
     double workPerSecond = 0; // lately; 0: unknown

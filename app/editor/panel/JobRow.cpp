@@ -96,13 +96,13 @@ void JobRow::show(const JobRecord& record) {
     m_bar->setValue(static_cast<int>(record.progress.fraction * 1000.0));
     m_text->setText(stateText(record));
     const bool paused = record.state == JobState::Paused;
-    m_pause->setVisible(live && record.queued);
+    m_pause->setVisible(live && record.queued && !record.stopping);
     m_pause->setText(paused ? tr("Resume") : tr("Pause"));
     m_pause->setToolTip(paused ? tr("Goes on when it is its turn")
                                : tr("Rests where it is; the next in the queue goes on meanwhile"));
-    m_stop->setVisible(live && record.canStop && record.begun);
-    m_cancel->setVisible(live);
-    m_priority->setVisible(live && record.queued);
+    m_stop->setVisible(live && record.canStop && record.begun && !record.stopping);
+    m_cancel->setVisible(live && !record.cancelling);
+    m_priority->setVisible(live && record.queued && !record.stopping);
     m_priority->setCurrentIndex(m_priority->findData(static_cast<int>(record.priority)));
 }
 

@@ -35,6 +35,10 @@ QString progressText(const JobRecord& record) {
 }
 
 QString stateText(const JobRecord& record) {
+    if (!record.ended() && record.cancelling)
+        return JobManager::tr("Cancelling…");
+    if (!record.ended() && record.stopping)
+        return JobManager::tr("Stopping; what has converged is kept…");
     switch (record.state) {
     case JobState::Queued:
         return record.begun ? JobManager::tr("%1 · waits for a job of higher priority")

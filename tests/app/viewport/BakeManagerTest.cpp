@@ -289,6 +289,12 @@ TEST_F(BakeManagerTest, AStoppedBakeSaysAtHowManyRaysAndGoesOn) {
     ASSERT_TRUE(eventually(
         [] { return session->jobs.preview() && session->jobs.preview()->samplesDone() >= 32; }));
     click("bakeStop");
+    // Said at once: keeping takes a moment on large scenes.
+    EXPECT_TRUE(job(0).ended() || job(0).stopping);
+    if (!job(0).ended()) {
+        EXPECT_EQ(visible<QPushButton>("bakeStop"), nullptr);
+        EXPECT_THAT(stateText(job(0)).toStdString(), HasSubstr("Stopping"));
+    }
     ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
     ASSERT_EQ(job(0).state, JobState::Stopped);
     ASSERT_EQ(document().bakes.size(), 1u);
