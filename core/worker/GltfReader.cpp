@@ -213,6 +213,7 @@ class Reader {
     int m_defaultMaterial = -1;
     std::size_t m_linesAndPoints = 0;
     std::size_t m_triangles = 0;
+    std::size_t m_vertices = 0; // that were read, also when no triangle uses them
     bool m_animated = false;
     bool m_holdsTransfer = false; // attributes of core/export/TransferExport.h
 };
@@ -243,6 +244,9 @@ std::optional<Mesh> Reader::primitive(const json& source, const std::string& nam
     mesh.name = name;
     const PrimitiveArrays arrays(source, m_buffers);
     mesh.positions = regroup<glm::vec3>(arrays.floats("POSITION", 3));
+    m_vertices += mesh.positions.size(); // primitives may share an accessor
+    if (m_vertices > 3 * limits::kMaxTriangles)
+        throw Refusal("the model is larger than the supported 50 million triangles");
     const auto optional = [&](const char* key, int components) {
         auto values = arrays.floats(key, components);
         if (!values.empty() &&

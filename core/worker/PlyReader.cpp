@@ -265,13 +265,16 @@ ImportedModel readPly(const ModelFolder& folder) {
     Mesh mesh;
     mesh.name = folder.modelPath().stem().string();
     for (const Element& element : header.elements) {
-        if (element.count > values.bytesLeft() && !element.properties.empty())
+        // Elements without properties take no bytes, however many are announced.
+        if (element.properties.empty())
+            continue;
+        if (element.count > values.bytesLeft())
             refuse("more elements than the file can hold");
         if (element.name == "vertex") {
             readVertices(element, values, mesh);
         } else if (element.name == "face") {
             readFaces(element, values, mesh);
-        } else if (!element.properties.empty()) {
+        } else {
             std::vector<double> scalars(element.properties.size(), 0.0);
             std::vector<double> list;
             for (std::size_t i = 0; i < element.count; ++i)
