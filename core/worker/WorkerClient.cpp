@@ -140,7 +140,7 @@ struct WorkerClient::Impl {
     std::filesystem::path program;
     mutable std::mutex mutex; // guards everything below
     WorkerLimits limits{limits::kWorkerMemoryBytes, limits::kWorkerCpuSeconds,
-                        limits::kWorkerWallSeconds};
+                        limits::kWorkerWallSeconds, limits::kWorkerReplyBytes};
     WorkerProcess process;
     std::vector<int> children;
 };
@@ -321,6 +321,9 @@ WorkerClient::Impl::attempt(const protocol::Request& request, const WorkerLimits
 
         switch (report.event) {
         case protocol::Event::Started: {
+            if (guard.child >= 0)
+                return died(file, "the decoder gave an answer that makes no sense",
+                            "started twice");
             const std::lock_guard lock(mutex);
             guard.child = static_cast<int>(report.value);
             children.push_back(guard.child);
@@ -336,16 +339,24 @@ WorkerClient::Impl::attempt(const protocol::Request& request, const WorkerLimits
                                       readLog(log.get()));
         case protocol::Event::Answered:
         case protocol::Event::Failed: {
-            // Believed only when sealed and as large as announced.
-            if (received->descriptors.size() != 2 || report.headerSize > protocol::kMaxHeaderBytes)
+            // Believed only when sealed, as large as announced, and no larger than an answer may
+            // be: a memory file of gigabytes costs a decoder nothing until we copy it.
+            const bool failed = report.event == protocol::Event::Failed;
+            if (received->descriptors.size() != 2 ||
+                report.headerSize > (failed ? protocol::kMaxErrorBytes : protocol::kMaxHeaderBytes))
                 return died(file, "the decoder gave an answer that makes no sense", "malformed");
+            if (report.payloadSize > (failed ? 0 : used.replyBytes))
+                return died(file,
+                            fmt::format("what the file holds takes more than the supported {} MiB",
+                                        used.replyBytes >> 20),
+                            fmt::format("an answer of {} bytes", report.payloadSize));
             const auto header =
                 MemoryFile::open(std::move(received->descriptors[0]), report.headerSize);
             const auto payload =
                 MemoryFile::open(std::move(received->descriptors[1]), report.payloadSize);
             if (!header || !payload)
                 return died(file, "the decoder gave an answer that makes no sense", "not sealed");
-            if (report.event == protocol::Event::Failed)
+            if (failed)
                 return refusedByDecoder(header->text(), file);
             Reply reply;
             try {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "core/base/AtomicFile.h"
+#include "core/base/Limits.h"
 #include "core/base/Result.h"
 
 #include <filesystem>
@@ -23,6 +24,7 @@ struct WorkerLimits {
     std::size_t memoryBytes; // address space of the child
     double cpuSeconds;
     double wallSeconds;
+    std::size_t replyBytes = limits::kWorkerReplyBytes; // of the payload it may answer with
 };
 
 class WorkerClient {
