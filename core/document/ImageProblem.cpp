@@ -1,8 +1,8 @@
 #include "core/document/ImageProblem.h"
 
+#include "core/base/InputFile.h"
 #include "core/base/Utf8.h"
 #include "core/material/Parameters.h"
-#include "core/worker/InputFile.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,6 +1,7 @@
 #include "core/document/SceneLoader.h"
 
 #include "core/base/Check.h"
+#include "core/base/InputFile.h"
 #include "core/base/Utf8.h"
 #include "core/document/Edit.h"
 #include "core/document/ModelConversion.h"
@@ -8,7 +9,6 @@
 #include "core/light/EnvironmentBlend.h"
 #include "core/light/GeneratedEnvironment.h"
 #include "core/material/Parameters.h"
-#include "core/worker/InputFile.h"
 
 #include <algorithm>
 #include <atomic>

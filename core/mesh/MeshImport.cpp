@@ -1,8 +1,8 @@
 #include "core/mesh/MeshImport.h"
 
+#include "core/base/InputFile.h"
 #include "core/base/Limits.h"
 #include "core/mesh/TexturePaths.h"
-#include "core/worker/InputFile.h"
 #include "core/worker/ModelWire.h"
 #include "core/worker/WorkerClient.h"
 

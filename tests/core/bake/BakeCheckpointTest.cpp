@@ -234,8 +234,8 @@ TEST_F(BakeCheckpoint, MergeTakesEveryPartOnce) {
     EXPECT_THAT(refusal({a, b, c, b}), HasSubstr("1-3.part: it is part 2 of 3, and so is"));
     const fs::path half = part(1, 2);
     EXPECT_THAT(refusal({a, half, c}), HasSubstr("1-2.part: it is one of 2 parts"));
-    EXPECT_THAT(refusal({a, folder / "none"}), HasSubstr("none: the file cannot be read"));
-    EXPECT_THAT(refusal({a, "/dev/null"}), HasSubstr("/dev/null: this is not a file"));
+    EXPECT_THAT(refusal({a, folder / "none"}), HasSubstr("none: the file does not exist"));
+    EXPECT_THAT(refusal({a, "/dev/null"}), HasSubstr("/dev/null: this is a pipe or a device"));
 
     // Parts of other settings, and a checkpoint that is no part yet.
     manifest.settings["samples"] = "64";
