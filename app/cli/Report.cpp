@@ -1,6 +1,7 @@
 #include "app/cli/Report.h"
 
 #include "core/base/PrintableText.h"
+#include "core/document/OutsidePictures.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -119,6 +120,11 @@ void Report::add(const OpenedScene& scene) {
         add(notice);
     if (!scene.missingFiles.empty())
         (*m_json)["missing"] = scene.missingFiles;
+    if (const OutsidePictures outside = outsidePictures(scene.document); !outside.files.empty()) {
+        (*m_json)["outside"] = outside.files;
+        warn("--allow-outside reads what lies outside the model's folder, too: use it for files "
+             "that you trust");
+    }
 }
 
 void Report::output(const std::filesystem::path& file, const std::string& what) {

@@ -143,9 +143,10 @@ void repair(ImportedModel& model) {
     warn(sum.generatedUvs, "Texture coordinates were generated, as the file has none.");
 }
 
-void resolveTextures(ImportedModel& model, const fs::path& folder) {
+void resolveTextures(ImportedModel& model, const fs::path& folder, bool outsideAllowed) {
     TexturePaths paths(folder);
     std::set<std::string> missing;
+    std::set<std::string> outside;
     const auto resolve = [&](std::optional<ImportedTexture>& map) {
         if (!map)
             return;
@@ -159,12 +160,15 @@ void resolveTextures(ImportedModel& model, const fs::path& folder) {
         if (!found)
             missing.insert(name);
         map->file = found ? *found : paths.expected(name);
+        if (found && !outsideAllowed && !paths.isInside(*found))
+            outside.insert(map->file.string());
     };
     for (ImportedMaterial& material : model.materials)
         for (auto* map : {&material.baseColorMap, &material.metallicMap, &material.roughnessMap,
                           &material.normalMap, &material.occlusionMap, &material.emissiveMap})
             resolve(*map);
     model.missingTextures.assign(missing.begin(), missing.end());
+    model.outsideTextures.assign(outside.begin(), outside.end());
 }
 
 } // namespace
@@ -209,7 +213,8 @@ Result<ImportedModel> importModel(WorkerClient& worker, const fs::path& file) {
                          file,
                          {}};
         std::error_code ignored;
-        resolveTextures(model, fs::absolute(file, ignored).parent_path());
+        resolveTextures(model, fs::absolute(file, ignored).parent_path(),
+                        worker.outsideAllowed(file));
     } catch (const std::bad_alloc&) {
         return Error{ErrorKind::Internal, "there is not enough memory for the model", file, {}};
     }

@@ -65,6 +65,9 @@ struct ImportedModel {
     std::vector<ImportedLight> lights;
     std::vector<Bytes> embeddedImages;        // compressed files (PNG, JPEG …) or empty when raw
     std::vector<std::string> missingTextures; // files the model names that are absent or empty
+    // Pictures outside the model's folder, absolute: not to be read, as nobody has agreed to it
+    // (WorkerClient::allowOutside()).
+    std::vector<std::string> outsideTextures;
     std::vector<std::string> warnings; // one sentence each: what was repaired, dropped, generated
     std::string format;                // "gltf2", "obj" …
     std::size_t triangleCount = 0;

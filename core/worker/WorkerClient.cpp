@@ -18,6 +18,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <poll.h>
+#include <set>
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -118,6 +119,13 @@ Error refusedByDecoder(std::string_view header, const std::filesystem::path& fil
     return error;
 }
 
+// One name for a file, however it is spelled.
+std::filesystem::path sameFileName(const std::filesystem::path& file) {
+    std::error_code failed;
+    std::filesystem::path name = std::filesystem::weakly_canonical(file, failed);
+    return failed ? file : name;
+}
+
 Error noMemory(const std::filesystem::path& file) {
     return {ErrorKind::Internal, "there is not enough memory to read the file", file,
             std::strerror(errno)};
@@ -143,6 +151,8 @@ struct WorkerClient::Impl {
                         limits::kWorkerWallSeconds, limits::kWorkerReplyBytes};
     WorkerProcess process;
     std::vector<int> children;
+    std::set<std::filesystem::path> outsideModels; // that may name pictures anywhere
+    bool outsideOfAll = false;
 };
 
 WorkerClient::WorkerClient(std::filesystem::path program)
@@ -172,6 +182,21 @@ void WorkerClient::warmUp() {
 void WorkerClient::setLimits(const WorkerLimits& limits) {
     const std::lock_guard lock(m_impl->mutex);
     m_impl->limits = limits;
+}
+
+void WorkerClient::allowOutside(const std::filesystem::path& model) {
+    const std::lock_guard lock(m_impl->mutex);
+    m_impl->outsideModels.insert(sameFileName(model));
+}
+
+void WorkerClient::allowOutsideOfAll() {
+    const std::lock_guard lock(m_impl->mutex);
+    m_impl->outsideOfAll = true;
+}
+
+bool WorkerClient::outsideAllowed(const std::filesystem::path& model) const {
+    const std::lock_guard lock(m_impl->mutex);
+    return m_impl->outsideOfAll || m_impl->outsideModels.contains(sameFileName(model));
 }
 
 int WorkerClient::workerProcess() const {

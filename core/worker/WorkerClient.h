@@ -41,6 +41,12 @@ class WorkerClient {
     void warmUp(); // starts the process in the background, so that the first file does not wait
     void setLimits(const WorkerLimits& limits);
 
+    // Pictures that a model names outside its own folder are read only where somebody has agreed to
+    // it: for this model (a path), or for all of them. Kept as long as the client lives.
+    void allowOutside(const std::filesystem::path& model);
+    void allowOutsideOfAll();
+    [[nodiscard]] bool outsideAllowed(const std::filesystem::path& model) const;
+
     // One request: `header` (JSON text) and an optional payload go out, `header` (JSON) and a
     // payload come back. The adapters in core/image and core/mesh give them meaning.
     struct Reply {

@@ -114,3 +114,39 @@ TEST(HostileFiles, PipesAreRefusedByEveryCommandThatReads) {
         EXPECT_THAT(outcome.err, HasSubstr("a pipe or a device"));
     }
 }
+
+TEST(HostileFiles, PicturesOutsideTheModelsFolderNeedPermission) {
+    const TemporaryFolder folder;
+    // A 1 × 1 PNG.
+    constexpr unsigned char kPng[] = {
+        137, 80,  78,  71, 13, 10,  26,  10, 0,   0,   0,   13,  73,  72, 68,  82, 0, 0,
+        0,   1,   0,   0,  0,  1,   8,   2,  0,   0,   0,   144, 119, 83, 222, 0,  0, 0,
+        12,  73,  68,  65, 84, 120, 156, 99, 248, 207, 192, 0,   0,   3,  1,   1,  0, 201,
+        254, 146, 239, 0,  0,  0,   0,   73, 69,  78,  68,  174, 66,  96, 130};
+    const std::string png(reinterpret_cast<const char*>(kPng), sizeof kPng);
+    writeBytes(folder / "secret.png", png);
+    std::filesystem::create_directories(folder / "model");
+    nlohmann::json model = evilTriangle();
+    model["images"][0]["uri"] = "../secret.png";
+    writeBytes(folder / "model/a.gltf", model.dump());
+
+    const Outcome closed = runPatina({"info", folder / "model/a.gltf", "--json"});
+    ASSERT_EQ(closed.status, 0) << closed.err;
+    EXPECT_EQ(closed.json()["outside"], nlohmann::json::array({folder / "secret.png"}));
+    EXPECT_TRUE(closed.json()["materials"][0]["maps"]["baseColor"].contains("problem"));
+    EXPECT_THAT(closed.err, HasSubstr("--allow-outside"));
+    const Outcome open = runPatina({"info", folder / "model/a.gltf", "--json", "--allow-outside"});
+    ASSERT_EQ(open.status, 0) << open.err;
+    EXPECT_FALSE(open.json().contains("outside"));
+    EXPECT_EQ(open.json()["materials"][0]["maps"]["baseColor"].value("width", 0), 1)
+        << open.out << open.err;
+
+    // An export takes along what was read, and nothing else.
+    EXPECT_EQ(runPatina({"export", folder / "model/a.gltf", "-o", folder / "out.glb"}).status, 0);
+    EXPECT_THAT(readBytes(folder / "out.glb"), Not(HasSubstr("IHDR")));
+    EXPECT_EQ(
+        runPatina({"export", folder / "model/a.gltf", "-o", folder / "out.glb", "--allow-outside"})
+            .status,
+        0);
+    EXPECT_THAT(readBytes(folder / "out.glb"), HasSubstr("IHDR"));
+}
