@@ -45,6 +45,7 @@ struct ImportedInstance {
     std::string name;
     int mesh = 0;              // index into ImportedModel::meshes
     int material = 0;          // index into ImportedModel::materials
+    int node = -1;             // glTF: index of the node that shows it
     glm::mat4 transform{1.0f}; // mesh to world, in metres and +Y up; never mirrors
 };
 

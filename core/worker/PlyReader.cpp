@@ -1,6 +1,7 @@
 #include "core/worker/PlyReader.h"
 
 #include "core/base/Limits.h"
+#include "core/mesh/MeshSource.h"
 #include "core/worker/Codec.h"
 #include "core/worker/TokenReader.h"
 
@@ -294,7 +295,7 @@ ImportedModel readPly(const ModelFolder& folder) {
     }
     ImportedInstance& instance = model.instances.emplace_back();
     instance.name = mesh.name;
-    model.meshes.push_back(std::make_shared<const Mesh>(std::move(mesh)));
+    model.meshes.push_back(withOwnVertices(std::move(mesh), 0));
     return model;
 }
 
