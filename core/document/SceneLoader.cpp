@@ -112,8 +112,9 @@ std::vector<Notice> SceneLoader::takeNotices(const fs::path& file) {
     if (!m_outside.empty())
         notices.insert(
             notices.begin(),
-            Notice{fmt::format("{} outside the model's folder and left out: {}",
+            Notice{fmt::format("{} outside the model's folder and {} left out: {}",
                                m_outside.size() == 1 ? "a picture lies" : "pictures lie",
+                               m_outside.size() == 1 ? "is" : "are",
                                firstOf(m_outside, [](const std::string& path) { return path; })),
                    file});
     if (m_missing.empty())

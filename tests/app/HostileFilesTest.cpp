@@ -149,4 +149,13 @@ TEST(HostileFiles, PicturesOutsideTheModelsFolderNeedPermission) {
             .status,
         0);
     EXPECT_THAT(readBytes(folder / "out.glb"), HasSubstr("IHDR"));
+
+    // A bake in parts opens its scene again to join them.
+    const std::string part = folder / "1.part";
+    ASSERT_EQ(runPatina({"bake", "prt", folder / "model/a.gltf", "-o", part, "--shard", "1/1",
+                         "--order", "1", "--samples", "8", "--bounces", "1", "--allow-outside"})
+                  .status,
+              0);
+    const Outcome merged = runPatina({"merge", part, "-o", folder / "bake.exr", "--allow-outside"});
+    EXPECT_EQ(merged.status, 0) << merged.err;
 }
