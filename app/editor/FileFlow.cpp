@@ -193,7 +193,7 @@ void FileFlow::saveAs() {
 }
 
 void FileFlow::save(const std::function<void()>& then) {
-    const QString file = m_session.controller.filePath();
+    const QString file = m_session.controller.saveTarget();
     const auto done = [then](bool ok) {
         if (ok && then)
             then();

@@ -13,6 +13,7 @@ class Actions;
 class BusyIndicator;
 class Docks;
 class FileFlow;
+class FreedMemory;
 class MaterialPanel;
 class NoticeArea;
 class ViewActions;
@@ -68,6 +69,7 @@ class MainWindow : public QMainWindow {
     ViewActions* m_looks;
     FileFlow* m_files;
     Docks* m_docks;
+    FreedMemory* m_freed;
     NoticeArea* m_notices;
     ViewportWidget* m_viewport;
     ViewOverlay* m_overlay = nullptr;    // over the viewport

@@ -21,6 +21,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace patina {
@@ -65,6 +66,8 @@ class DocumentController : public QObject {
 
     // The project file, empty when it has not been saved yet.
     [[nodiscard]] QString filePath() const { return m_filePath; }
+    // Where Save goes: the file, or the one that a save on its way gives the document.
+    [[nodiscard]] QString saveTarget() const;
     [[nodiscard]] QString displayName() const; // "helmet.patina", "FlightHelmet", "Untitled"
     // Whether the document differs from what was last saved or opened: what was written is compared
     // with what is there.
@@ -220,9 +223,10 @@ class DocumentController : public QObject {
     quint64 m_mergeMark = 0;           // edits on two sides of a save do not merge
     DocumentState m_saved;
     bool m_shownModified = false;
-    Id m_firstFreeId = 1;                 // ids are never used twice, also after undo
-    quint64 m_documents = 0;              // which one this is, of those that were open
-    std::shared_ptr<FileOnDisk> m_onDisk; // what is known of the file at m_filePath
+    Id m_firstFreeId = 1;                              // ids are never used twice, also after undo
+    quint64 m_documents = 0;                           // which one this is, of those that were open
+    std::shared_ptr<FileOnDisk> m_onDisk;              // what is known of the file at m_filePath
+    std::vector<std::pair<quint64, QString>> m_saving; // on their way: document's number, file
     std::map<QString, std::weak_ptr<FileOnDisk>> m_files; // that, and of saves on their way
     std::vector<std::function<void()>> m_waiting;         // for there being nothing to redo
     std::function<void(const SaveQuestion&)> m_saveQuestion;

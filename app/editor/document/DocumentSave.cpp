@@ -124,6 +124,11 @@ void DocumentController::holdFile(const std::optional<Hash>& version) {
                         {QString::fromStdString(others)}});
 }
 
+QString DocumentController::saveTarget() const {
+    return !m_saving.empty() && m_saving.back().first == m_documents ? m_saving.back().second
+                                                                     : m_filePath;
+}
+
 void DocumentController::saveAs(const QString& file, std::function<void(bool)> done,
                                 const SaveConsent& consent) {
     ++m_mergeMark; // undo leads back to what is saved
@@ -135,6 +140,7 @@ void DocumentController::saveAs(const QString& file, std::function<void(bool)> d
     order->state = state();
     order->documentNumber = m_documents;
     order->onDisk = fileOnDisk(order->file, false);
+    m_saving.emplace_back(m_documents, order->file);
     m_tasks.enqueue(tr("Saving %1").arg(QFileInfo(file).fileName()),
                     [this, order](const JobContext&) -> BackgroundTasks::Apply {
                         auto outcome = std::make_shared<SaveOutcome>();
@@ -150,6 +156,7 @@ void DocumentController::saveAs(const QString& file, std::function<void(bool)> d
 }
 
 void DocumentController::saveEnded(const SaveOutcome& outcome, const SaveOrder& order) {
+    m_saving.erase(m_saving.begin()); // they end in the order of the calls
     const bool stillOpen = order.documentNumber == m_documents; // else it is another document
     if (outcome.error) {
         const std::optional<Obstacle> obstacle = obstacleOf(outcome, order);

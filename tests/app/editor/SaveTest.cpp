@@ -164,6 +164,23 @@ TEST_F(Saving, TheNewestSaveIsWhatTheFileHolds) {
     EXPECT_EQ(QDir(folder.path()).entryList(QDir::Files | QDir::Hidden).size(), 1);
 }
 
+TEST_F(Saving, SaveGoesWhereSaveAsIsOnItsWay) {
+    controller.saveAs(file("a.patina"));
+    settle();
+    EXPECT_EQ(controller.saveTarget(), file("a.patina"));
+    controller.saveAs(file("b.patina"));
+    EXPECT_EQ(controller.saveTarget(), file("b.patina")) << "not over the file that is left";
+    setRoughness(0.7f);
+    controller.saveAs(controller.saveTarget());
+    settle();
+    EXPECT_EQ(controller.filePath(), file("b.patina"));
+    EXPECT_EQ(roughnessIn(file("b.patina")), 0.7f);
+    // One that fails gives no name.
+    controller.saveAs(file("no/such/folder/c.patina"));
+    settle();
+    EXPECT_EQ(controller.saveTarget(), file("b.patina"));
+}
+
 TEST_F(Saving, OpeningAnotherSceneTakesNoSaveBack) {
     setRoughness(0.3f);
     int result = 0;
