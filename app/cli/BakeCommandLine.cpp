@@ -159,6 +159,7 @@ void CommandParser::addMerge() {
         ->type_name("OUT");
     c->add_option("--scene", o.scene, "The baked scene, when it is elsewhere now")
         ->type_name("SCENE");
+    addOutside(c);
     addThreads(c);
 }
 
@@ -170,6 +171,7 @@ void CommandParser::addBakeIbl(CLI::App& bake) {
                   "Environment image, builtin:NAME, or .patina project for its environment")
         ->required()
         ->type_name("");
+    addOutside(c);
     c->add_option("-o,--output", o.output, "Folder to write: new, empty, or an earlier bake")
         ->required()
         ->type_name("DIR");

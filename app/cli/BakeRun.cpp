@@ -11,6 +11,7 @@
 #include "core/base/DiskSpace.h"
 #include "core/base/FileLock.h"
 #include "core/base/Leftovers.h"
+#include "core/base/PrintableText.h"
 #include "core/document/Scene.h"
 #include "core/mesh/UvUnwrap.h"
 
@@ -136,8 +137,8 @@ Result<void> rescueBake(Session& session, const Document& document, const BakeAr
         ::isatty(STDERR_FILENO) == 1) {
         session.endProgress();
         for (std::string place; !session.interrupted();) {
-            fmt::print(stderr,
-                       "patina: {}\nAnother place for the bake (empty: none): ", error.text());
+            fmt::print(stderr, "patina: {}\nAnother place for the bake (empty: none): ",
+                       printableText(error.text()));
             if (!std::getline(std::cin, place) || place.empty())
                 return error;
             Result<void> written = checkBakeOutput(place, artifact.kind);

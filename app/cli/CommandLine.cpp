@@ -104,6 +104,12 @@ void CommandParser::addCommon(CLI::App* command) {
     command->add_flag("--quiet", common.quiet, "No progress and no notices");
 }
 
+void CommandParser::addOutside(CLI::App* command) {
+    command->add_flag("--allow-outside", m_invocation.common.allowOutside,
+                      "Also read pictures that a model names outside its own folder (else they "
+                      "are listed and left out)");
+}
+
 void CommandParser::addThreads(CLI::App* command) {
     command
         ->add_option("--threads", m_invocation.common.threads,

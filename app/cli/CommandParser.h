@@ -47,6 +47,7 @@ class CommandParser {
         command->add_option("SCENE", options.scene, "Model, .patina project or builtin:NAME")
             ->required()
             ->type_name("");
+        addOutside(command);
     }
     template <class Options>
     void addSceneAndOutput(CLI::App* command, Options& options, const char* outputHelp) {
@@ -56,6 +57,7 @@ class CommandParser {
             ->type_name("OUT");
     }
     void addCommon(CLI::App* command);
+    void addOutside(CLI::App* command);
     void addThreads(CLI::App* command);
     void addSets(CLI::App* command);
     CLI::Option* addLayout(CLI::App* command, std::string& layout);

@@ -18,9 +18,10 @@ struct CommonOptions {
     std::vector<std::string> sets; // NAME=VALUE
     bool json = false;
     bool quiet = false;
-    bool keepPartial = false; // bakes: an interrupt writes what has converged
-    bool requeues = false;    // bakes: an interrupt means "for now" (--checkpoint, --resume)
-    int threads = 0;          // 0: all cores
+    bool allowOutside = false; // pictures that models name outside their folders are read
+    bool keepPartial = false;  // bakes: an interrupt writes what has converged
+    bool requeues = false;     // bakes: an interrupt means "for now" (--checkpoint, --resume)
+    int threads = 0;           // 0: all cores
 };
 
 struct InfoOptions {

@@ -1,6 +1,7 @@
 #include "app/cli/Report.h"
 
-#include "core/base/Utf8.h"
+#include "core/base/PrintableText.h"
+#include "core/document/OutsidePictures.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -37,6 +38,11 @@ std::size_t columns(const std::string& text) {
     return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
         return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
     }));
+}
+
+// Everything that people read leaves through here: it may hold names that somebody else chose.
+void say(std::FILE* stream, std::string_view text) {
+    fmt::print(stream, "{}\n", printableText(text));
 }
 
 } // namespace
@@ -80,25 +86,29 @@ nlohmann::ordered_json& Report::json() {
 
 void Report::line(const std::string& text) {
     if (!m_wantsJson)
-        fmt::print("{}\n", text);
+        say(stdout, text);
 }
 
 void Report::table(const std::string& title,
                    const std::vector<std::pair<std::string, std::string>>& rows) {
     if (!title.empty())
         line(title);
+    // A name that spans lines would look like several rows.
     std::size_t widest = 0;
     for (const auto& [label, value] : rows)
-        widest = std::max(widest, columns(label));
-    for (const auto& [label, value] : rows)
+        widest = std::max(widest, columns(printableLine(label)));
+    for (const auto& [name, value] : rows) {
+        const std::string label = printableLine(name);
         line(fmt::format("{}{}{}{}", title.empty() ? "" : "  ", label,
-                         std::string(value.empty() ? 0 : widest - columns(label) + 2, ' '), value));
+                         std::string(value.empty() ? 0 : widest - columns(label) + 2, ' '),
+                         printableLine(value)));
+    }
 }
 
 void Report::warn(const std::string& text) {
     (*m_json)["warnings"].push_back(text);
     if (!m_quiet)
-        fmt::print(stderr, "patina: warning: {}\n", text);
+        say(stderr, "patina: warning: " + printableLine(text));
 }
 
 void Report::add(const Notice& notice) {
@@ -110,13 +120,18 @@ void Report::add(const OpenedScene& scene) {
         add(notice);
     if (!scene.missingFiles.empty())
         (*m_json)["missing"] = scene.missingFiles;
+    if (const OutsidePictures outside = outsidePictures(scene.document); !outside.files.empty()) {
+        (*m_json)["outside"] = outside.files;
+        warn("--allow-outside reads what lies outside the model's folder, too: use it for files "
+             "that you trust");
+    }
 }
 
 void Report::output(const std::filesystem::path& file, const std::string& what) {
     (*m_json)["outputs"].push_back(file.string());
     if (!m_quiet)
-        fmt::print(stderr, "patina: wrote {}{}\n", file.string(),
-                   what.empty() ? "" : " (" + what + ")");
+        say(stderr, fmt::format("patina: wrote {}{}", printableLine(file.string()),
+                                what.empty() ? "" : " (" + what + ")"));
 }
 
 int Report::fail(const Error& error, int status) {
@@ -128,7 +143,7 @@ int Report::fail(const Error& error, int status) {
     if (!error.detail.empty())
         description["detail"] = error.detail;
     (*m_json)["error"] = std::move(description);
-    fmt::print(stderr, "patina: {}\n", error.text());
+    say(stderr, "patina: " + error.text());
     return print(status);
 }
 
@@ -138,8 +153,8 @@ int Report::succeed() {
 
 int Report::print(int status) {
     if (m_wantsJson)
-        fmt::print("{}\n",
-                   m_json->dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+        fmt::print("{}\n", printableJson(m_json->dump(
+                               2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)));
     // A full disk behind a redirection shows only when the last bytes leave.
     if (std::fflush(stdout) != 0 && status == 0) {
         fmt::print(stderr, "patina: standard output cannot be written\n");

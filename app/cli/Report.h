@@ -29,7 +29,7 @@ class Report {
 
     void warn(const std::string& text); // standard error and JSON's "warnings"
     void add(const Notice& notice);
-    void add(const OpenedScene& scene); // its notices and missing files
+    void add(const OpenedScene& scene); // its notices and the files that are not in it
     void output(const std::filesystem::path& file, const std::string& what); // was written
 
     // Prints the JSON object with "error", or the message. Returns the exit status.

@@ -14,6 +14,7 @@ void CommandParser::addInfo() {
     command->add_option("FILE", m_info.file, "File, builtin:NAME or builtin:list")
         ->required()
         ->type_name("");
+    addOutside(command);
 }
 
 void CommandParser::addRender() {
@@ -82,6 +83,7 @@ void CommandParser::addEnvironment() {
                   "surroundings")
         ->required()
         ->type_name("");
+    addOutside(c);
     c->add_option("-o,--output", o.output, ".exr or .hdr; six faces are OUT_px, OUT_nx …")
         ->required()
         ->type_name("OUT");

@@ -33,8 +33,11 @@ Session::Session(const CommonOptions& options)
 Session::~Session() = default;
 
 WorkerClient& Session::worker() {
-    if (!m_worker)
+    if (!m_worker) {
         m_worker = std::make_unique<WorkerClient>();
+        if (m_options.allowOutside)
+            m_worker->allowOutsideOfAll();
+    }
     return *m_worker;
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/cli/Report.h"
 #include "core/base/Check.h"
+#include "core/base/PrintableText.h"
 
 #include <array>
 #include <chrono>
@@ -167,15 +168,16 @@ void Watcher::leave() {
         : m_options.requeues ? "interrupted; nothing was written; run it again"
                              : "interrupted; nothing was written";
     if (m_options.json)
-        fmt::print("{}\n",
-                   nlohmann::ordered_json{{"command", m_options.command},
-                                          {"error",
-                                           {{"kind", "cancelled"},
-                                            {"message", message},
-                                            {"file", kept ? m_checkpoint.string() : ""},
-                                            {"exitStatus", status}}}}
-                       .dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
-    fmt::print(stderr, "patina: {}\n", message);
+        fmt::print("{}\n", printableJson(
+                               nlohmann::ordered_json{{"command", m_options.command},
+                                                      {"error",
+                                                       {{"kind", "cancelled"},
+                                                        {"message", message},
+                                                        {"file", kept ? m_checkpoint.string() : ""},
+                                                        {"exitStatus", status}}}}
+                                   .dump(-1, ' ', false,
+                                         nlohmann::ordered_json::error_handler_t::replace)));
+    fmt::print(stderr, "patina: {}\n", printableLine(message));
     std::fflush(stdout);
     ::_exit(status);
 }
@@ -187,7 +189,7 @@ void Watcher::update() {
     const JobProgress progress = job.progress();
     if (progress.fraction <= 0)
         return;
-    const std::string status = statusText(progress, job.secondsLeft());
+    const std::string status = printableLine(statusText(progress, job.secondsLeft()));
     if (m_terminal) {
         constexpr int kBarWidth = 24;
         const int full = static_cast<int>(progress.fraction * kBarWidth);

@@ -1,5 +1,6 @@
 #include "app/editor/FileFlow.h"
 
+#include "app/editor/OutsideQuestion.h"
 #include "app/editor/Session.h"
 #include "app/editor/document/DropPlan.h"
 #include "app/editor/document/FileKinds.h"
@@ -35,6 +36,7 @@ FileFlow::FileFlow(Session& session, QWidget& window)
     : QObject(&window)
     , m_session(session)
     , m_window(window) {
+    new OutsideQuestion(session, window); // the window's
     const auto remembers = [this](const QString& scene) {
         if (!isBuiltin(scene.toStdString()))
             remember(scene);

@@ -11,6 +11,7 @@
 #include "app/editor/Session.h"
 #include "app/editor/ViewActions.h"
 #include "app/editor/document/Commands.h"
+#include "app/editor/document/PrintableNotice.h"
 #include "app/editor/panel/BakePanel.h"
 #include "app/editor/panel/BrdfLensPanel.h"
 #include "app/editor/panel/EnergyPanel.h"
@@ -476,7 +477,7 @@ void MainWindow::refreshView() {
 }
 
 void MainWindow::notice(const UserNotice& notice) {
-    m_notices->add(notice);
+    m_notices->add(printableNotice(notice));
     const std::string text =
         notice.details.isEmpty()
             ? notice.text.toStdString()

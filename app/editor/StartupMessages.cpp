@@ -1,6 +1,7 @@
 #include "app/editor/StartupMessages.h"
 
 #include "app/editor/OpenGlProbe.h"
+#include "core/base/PrintableText.h"
 
 #include <QString>
 #include <QStringList>
@@ -30,9 +31,9 @@ void take(QtMsgType type, const QMessageLogContext&, const QString& message) {
                        "that it exists and that you may use it; or use 'patina render' and "
                        "'patina bake', which need none.\n")
             .arg(variable("DISPLAY"), variable("WAYLAND_DISPLAY"));
-    std::fputs(qPrintable(text), stderr);
+    std::fputs(printableText(text.toStdString()).c_str(), stderr);
     for (const QString& earlier : heldBack())
-        std::fprintf(stderr, "  %s\n", qPrintable(earlier));
+        std::fprintf(stderr, "  %s\n", printableText(earlier.toStdString()).c_str());
     std::_Exit(kNoOpenGlStatus);
 }
 

@@ -9,6 +9,7 @@
 #include "app/editor/StartupMessages.h"
 #include "app/editor/style/Style.h"
 #include "app/editor/viewport/ViewportWidget.h"
+#include "core/base/PrintableText.h"
 
 #include <QApplication>
 #include <QCommandLineParser>
@@ -60,7 +61,7 @@ bool displayIsMissing() {
 
 // Without OpenGL there is no picture, and without a picture no editor.
 int endWithoutOpenGl(const QString& text, bool dialog) {
-    std::fprintf(stderr, "patina-editor: %s\n", qPrintable(text));
+    std::fprintf(stderr, "patina-editor: %s\n", patina::printableText(text.toStdString()).c_str());
     if (dialog)
         QMessageBox::critical(nullptr, QCoreApplication::translate("main", "Patina"), text);
     return kNoOpenGlStatus;

@@ -1,12 +1,19 @@
 #include "app/worker/SelfTest.h"
 
+#include "core/base/FileDescriptor.h"
+
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
-#include <sys/socket.h>
+#include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <system_error>
 #include <thread>
@@ -23,9 +30,7 @@ int resultOf(long value) {
     return value < 0 ? errno : 0;
 }
 
-int attempt(const std::string& call, const json& request) {
-    if (call == "socket")
-        return resultOf(::socket(AF_INET, SOCK_STREAM, 0));
+int attempt(const std::string& call) {
     if (call == "exec") {
         std::string program = "/bin/true";
         char* const arguments[] = {program.data(), nullptr};
@@ -37,14 +42,6 @@ int attempt(const std::string& call, const json& request) {
             ::_exit(0);
         return resultOf(pid);
     }
-    if (call == "kill")
-        return resultOf(::kill(::getppid(), 0));
-    if (call == "create")
-        return resultOf(::open(request.at("file").get<std::string>().c_str(),
-                               O_RDONLY | O_CREAT | O_CLOEXEC, 0600));
-    if (call == "write")
-        return resultOf(
-            ::open(request.at("file").get<std::string>().c_str(), O_WRONLY | O_CLOEXEC));
     if (call == "thread") {
         try {
             std::thread([] {}).join();
@@ -56,7 +53,60 @@ int attempt(const std::string& call, const json& request) {
     throw codec::Refusal("unknown call", call);
 }
 
-void act(const std::string& what) {
+// Any system call at all: what a decoder would make that was taken over.
+json callSystem(const json& request) {
+    std::array<std::string, 6> blocks;
+    std::array<long, 6> values{};
+    const json& arguments = request.at("arguments");
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        const json& argument = arguments.at(i);
+        if (argument.is_number()) {
+            values.at(i) = argument.get<long>();
+            continue;
+        }
+        blocks.at(i) = argument.is_string()
+                           ? argument.get<std::string>()
+                           : std::string(argument.at("bytes").get<std::size_t>(), '\0');
+        values.at(i) = reinterpret_cast<long>(blocks.at(i).data());
+    }
+    const long result = ::syscall(request.at("number").get<long>(), values[0], values[1], values[2],
+                                  values[3], values[4], values[5]);
+    const int code = resultOf(result);
+    return {{"errno", code}, {"result", result}};
+}
+
+json openManyFiles() {
+    std::vector<FileDescriptor> files; // closed again: the answer needs some
+    constexpr std::size_t kMany = 20000;
+    while (files.size() < kMany) {
+        files.emplace_back(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+        if (!files.back().valid())
+            return {{"errno", errno}};
+    }
+    return {{"errno", 0}};
+}
+
+json describe() {
+    json answer = {{"pid", ::getpid()},
+                   {"parent", ::getppid()},
+                   {"session", ::getsid(0)},
+                   {"dumpable", ::prctl(PR_GET_DUMPABLE, 0, 0, 0, 0)}};
+    json& environment = answer["environment"] = json::array();
+    for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry)
+        environment.push_back(*entry);
+    // What the kernel keeps of the start, where that may be read.
+    std::ifstream start("/proc/self/environ");
+    answer["startedWith"] = std::string(std::istreambuf_iterator<char>(start), {});
+    std::ifstream limits("/proc/self/limits"); // (the filter forbids asking by getrlimit)
+    answer["limits"] = std::string(std::istreambuf_iterator<char>(limits), {});
+    std::size_t open = 0;
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator("/proc/self/fd"))
+        ++open;
+    answer["open"] = open;
+    return answer;
+}
+
+void act(const std::string& what, const json& request) {
     if (what == "crash") {
         ::signal(SIGSEGV, SIG_DFL); // AddressSanitizer would turn it into an exit
         ::raise(SIGSEGV);
@@ -76,10 +126,25 @@ void act(const std::string& what) {
     if (what == "exit")
         ::syscall(SYS_exit_group, 7);
     if (what == "throw")
-        throw codec::Refusal("a message for the user", "a detail for the log");
+        throw codec::Refusal("a message for the user" +
+                                 std::string(request.value("words", std::size_t{0}), '!'),
+                             "a detail for the log");
     while (what == "print")
         if (::write(STDERR_FILENO, "so many words ", 14) < 0)
             ::abort();
+}
+
+json answerTo(const std::string& what, const json& request) {
+    if (what == "try")
+        return {{"errno", attempt(request.at("call"))}};
+    if (what == "call")
+        return callSystem(request);
+    if (what == "files")
+        return openManyFiles();
+    if (what == "describe")
+        return describe();
+    act(what, request);
+    return {{"pid", ::getpid()}};
 }
 
 } // namespace
@@ -87,16 +152,13 @@ void act(const std::string& what) {
 codec::Reply selfTest(const json& request) {
     codec::Reply reply;
     reply.payload = codec::allocate(request.value("size", std::size_t{0}));
-    json answer = {{"pid", ::getpid()}};
-    const auto what = request.at("do").get<std::string>();
-    if (what == "try")
-        answer["errno"] = attempt(request.at("call"), request);
-    else
-        act(what);
+    reply.header = answerTo(request.at("do"), request).dump();
+    reply.header.resize(std::max(reply.header.size(), request.value("words", std::size_t{0})), ' ');
+    if (request.value("hollow", false))
+        return reply;
     auto bytes = reply.payload.writable();
     for (std::size_t i = 0; i < bytes.size(); ++i)
         bytes[i] = static_cast<std::byte>(i % 251);
-    reply.header = answer.dump();
     return reply;
 }
 

@@ -7,8 +7,12 @@
 namespace patina::worker {
 
 // {"do": "crash" | "abort" | "hang" | "spin" | "allocate" | "exit" | "throw" | "echo" | "print"}
-// acts; {"do": "try", "call": "socket" | "exec" | "fork" | "kill" | "create" | "write" | "thread"}
-// answers {"errno": n}, 0 when the call succeeded.
+// acts; {"do": "try", "call": "exec" | "fork" | "thread"} answers {"errno": n}, 0 when the call
+// succeeded. {"do": "call", "number": n, "arguments": [number | text | {"bytes": n}, …]} makes a
+// system call, texts and blocks of zeros being passed by address, and answers {"errno", "result"}.
+// {"do": "files"} opens files until that fails. {"do": "describe"} tells what of its surroundings
+// the process sees. "size" is that of the answer's payload, "hollow" leaves it unwritten, "words"
+// makes a header or a message of that many bytes.
 codec::Reply selfTest(const nlohmann::json& request);
 
 } // namespace patina::worker

@@ -6,7 +6,9 @@
 
 #include <chrono>
 #include <cstdio>
+#include <sys/prctl.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 int main() {
     int type = 0;
@@ -16,6 +18,11 @@ int main() {
         std::fputs("patina-worker reads files for Patina and is started by it.\n", stderr);
         return 2;
     }
+    // What was needed to start is not to be found by a decoder, nor is one worker's memory by
+    // another's.
+    static char* nothing[] = {nullptr}; // no null pointer: libraries look through the list
+    environ = nothing;
+    ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);
     patina::codec::prepareImageCodec();
     if (!patina::worker::settleLibraryThreads(std::chrono::seconds(2)))
         std::fputs("patina-worker: threads of a library stay busy\n", stderr);

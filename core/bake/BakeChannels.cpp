@@ -1,5 +1,6 @@
 #include "core/bake/BakeChannels.h"
 
+#include "core/bake/BakeSource.h"
 #include "core/base/Check.h"
 
 #include <algorithm>
@@ -69,7 +70,10 @@ class ChannelReader {
             read(name, values, 0, 1);
     }
     [[nodiscard]] bool usedAll() const {
-        return m_used == static_cast<std::size_t>(m_image.channels());
+        const std::vector<std::string>& names = m_image.channelNames();
+        return m_used + static_cast<std::size_t>(
+                            std::count_if(names.begin(), names.end(), isSourceChannel)) ==
+               names.size();
     }
 
   private:

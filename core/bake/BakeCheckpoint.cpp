@@ -3,16 +3,16 @@
 #include "core/base/AtomicFile.h"
 #include "core/base/Check.h"
 #include "core/base/FileDescriptor.h"
+#include "core/base/InputFile.h"
 #include "core/base/OwnFile.h"
 
 #include <array>
 #include <bit>
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sys/stat.h>
+#include <unistd.h>
 
 namespace patina {
 namespace {
@@ -156,14 +156,11 @@ class Reader {
     }
 
     Result<BakeManifest> open() {
-        m_descriptor = FileDescriptor(::open(m_file.c_str(), O_RDONLY | O_CLOEXEC));
-        struct stat info {};
-        if (!m_descriptor.valid() || ::fstat(m_descriptor.get(), &info) != 0)
-            return Error{ErrorKind::InputMissing, "the file cannot be read", m_file,
-                         std::strerror(errno)};
-        if (!S_ISREG(info.st_mode))
-            return Error{ErrorKind::InputMissing, "this is not a file", m_file, {}};
-        m_left = static_cast<std::uint64_t>(info.st_size);
+        Result<RegularFile> file = openRegularFile(m_file);
+        if (!file)
+            return file.error();
+        m_descriptor = std::move(file->fd);
+        m_left = file->size;
         Prologue prologue;
         if (!read(&prologue, sizeof prologue) || prologue.magic != kMagic)
             return Error{ErrorKind::InputBroken,
@@ -269,10 +266,10 @@ Result<void> writeBakeCheckpoint(const fs::path& file, const BakeManifest& manif
 }
 
 bool looksLikeCheckpoint(const fs::path& file) {
-    const FileDescriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+    const Result<RegularFile> opened = openRegularFile(file);
     std::array<char, kMagic.size()> magic{};
-    return descriptor.valid() &&
-           ::read(descriptor.get(), magic.data(), magic.size()) ==
+    return opened.ok() &&
+           ::read(opened->fd.get(), magic.data(), magic.size()) ==
                static_cast<ssize_t>(magic.size()) &&
            magic == kMagic;
 }

@@ -1,6 +1,7 @@
 #include "core/bake/BakeFileSize.h"
 
 #include "core/bake/BakeMemory.h"
+#include "core/bake/BakeSource.h"
 #include "core/base/Limits.h"
 
 #include <fmt/format.h>
@@ -15,6 +16,16 @@ std::uint64_t channelsOf(const BakeRequest& request) {
     const auto coefficients = static_cast<std::uint64_t>(request.prt.order * request.prt.order);
     const bool bounces = request.prt.transfer == TransferKind::Interreflected;
     return (bounces ? 4 : 1) * coefficients + 2; // and sky visibility, error
+}
+
+// What leads back to the model's file.
+std::uint64_t sourceNumbers(const BakeRequest& request, const BakeInputs& inputs) {
+    if (isPerTexel(request.kind))
+        return estimateBake(request, inputs).elements; // coverage
+    std::uint64_t numbers = 0;
+    for (const BakeMesh& mesh : inputs.meshes)
+        numbers += mesh.mesh->vertexCount() * sourceChannelCount(mesh.mesh);
+    return numbers;
 }
 
 // Settings that would fit, or nothing.
@@ -42,7 +53,8 @@ std::optional<std::string> advice(const BakeRequest& request, const BakeInputs& 
 
 std::uint64_t bakeFileBytes(const BakeRequest& request, const BakeInputs& inputs,
                             const BakeFileOptions& storage) {
-    const std::uint64_t numbers = estimateBake(request, inputs).elements * channelsOf(request);
+    const std::uint64_t numbers = estimateBake(request, inputs).elements * channelsOf(request) +
+                                  sourceNumbers(request, inputs);
     return numbers * (storage.storage == BakeStorage::Float ? 4 : 2);
 }
 

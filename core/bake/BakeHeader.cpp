@@ -60,7 +60,7 @@ constexpr std::array<const char*, 10> kOfParts = {
     "patina:storageError", "patina:contentHash"};
 
 bool ofPart(const std::string& key) {
-    return key.starts_with("patina:meshHash.") ||
+    return key.starts_with("patina:meshHash.") || key.starts_with("patina:source.") ||
            std::find(kOfParts.begin(), kOfParts.end(), key) != kOfParts.end();
 }
 

@@ -12,7 +12,7 @@
 
 namespace patina {
 
-inline constexpr int kBakeFormatVersion = 2;
+inline constexpr int kBakeFormatVersion = 3;
 
 using BakeAttributes = std::map<std::string, std::string>;
 

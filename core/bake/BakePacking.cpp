@@ -10,6 +10,9 @@
 #include <string>
 
 namespace patina {
+
+static_assert(kPackedBakeVersion > kBakeFormatVersion);
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -114,11 +117,12 @@ Result<std::vector<ImagePart>> unpackParts(std::vector<ImagePart> parts,
     };
     std::vector<ImagePart> result;
     for (ImagePart& part : parts) {
-        if (!isPacked(part)) {
+        const auto version = numberAttribute(part.attributes, kVersion, 1, 1'000'000).value_or(0);
+        if (!isPacked(part) || version > kPackedBakeVersion) {
             result.push_back(std::move(part));
             continue;
         }
-        if (part.attributes[kVersion] != std::to_string(kPackedBakeVersion))
+        if (version < kFirstPackedBakeVersion)
             return damaged();
         BakeAttributes common = part.attributes;
         common.erase(kPackedAttribute);

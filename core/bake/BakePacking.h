@@ -13,8 +13,10 @@ namespace patina {
 
 // Files of more parts than this are packed; smaller ones stay as programs know them.
 inline constexpr std::size_t kMaxPlainParts = 1024;
-// What `patina:version` says in packed parts: older readers refuse them instead of finding nothing.
-inline constexpr int kPackedBakeVersion = 3;
+// What `patina:version` says in packed parts, whatever their members say: one more than plain parts
+// of that time, so that readers which know nothing of packing refuse it instead of finding nothing.
+inline constexpr int kPackedBakeVersion = 4;
+inline constexpr int kFirstPackedBakeVersion = 3; // members of version 2
 inline constexpr const char* kPackedAttribute = "patina:packed";
 
 // The parts as they are where they are few; else parts that hold the pixels of several, those with
@@ -24,7 +26,8 @@ inline constexpr const char* kPackedAttribute = "patina:packed";
                                                std::size_t maxPlain = kMaxPlainParts);
 
 [[nodiscard]] bool isPacked(const ImagePart& part);
-// The members of packed parts, bit for bit as they were; plain parts are handed through. Errors
+// The members of packed parts, bit for bit as they were; plain parts are handed through, and those
+// of a newer version, too. Errors
 // (InputBroken, naming `file`): the description of a packed part is damaged or does not fit it.
 Result<std::vector<ImagePart>> unpackParts(std::vector<ImagePart> parts,
                                            const std::filesystem::path& file);

@@ -1,7 +1,9 @@
 #include "core/bake/BakeParts.h"
 
+#include "core/bake/Bake.h"
 #include "core/bake/BakeChannels.h"
 #include "core/bake/BakeHeader.h"
+#include "core/bake/BakeSource.h"
 #include "core/bake/BakeTarget.h"
 #include "core/base/Check.h"
 #include "core/document/Document.h"
@@ -72,7 +74,8 @@ Hash hashContent(const ImagePart& part) {
 }
 
 void addElements(ImagePart& part, const BakeElementsView& elements, const BakeArtifact& artifact,
-                 std::size_t width, const BakeFileOptions& options) {
+                 std::size_t width, const BakeFileOptions& options,
+                 const std::vector<SourceChannel>& source) {
     const int order = holdsTransfer(artifact.kind) ? artifact.order : 0;
     BakeImage packed = imageFromElements(elements, order, width, options);
     part.image = std::move(packed.image);
@@ -83,6 +86,7 @@ void addElements(ImagePart& part, const BakeElementsView& elements, const BakeAr
     if (options.storage != BakeStorage::Float)
         part.attributes[kStorageError] = storageErrorText(
             storageError(elements.values, elements.bounced, std::max(order, 1), options));
+    addChannels(part.image, source);
     part.attributes[kContentHash] = hashContent(part).hex();
 }
 
@@ -201,9 +205,13 @@ std::vector<ImagePart> bakeToParts(const BakeArtifact& artifact, const Document&
         part.name = meshNames[index];
         part.attributes = header;
         describeMesh(document.meshes[index], part.name, index, part.attributes);
+        describeSource(document.meshes[index], part.attributes);
         addElements(part, viewOf(bake), artifact, std::min<std::size_t>(*count, kMaxBakeRow),
-                    options);
+                    options, sourceChannels(document.meshes[index]));
     }
+    // Only the geometry that was baked can tell which texels are its own.
+    const bool current =
+        !artifact.texels.empty() && artifact.inputs == hashBakeInputs(bakeInputs(document));
     for (const TexelBake& bake : artifact.texels) {
         const auto found = materials.find(bake.material);
         BakeElementsView elements = viewOf(bake);
@@ -218,7 +226,10 @@ std::vector<ImagePart> bakeToParts(const BakeArtifact& artifact, const Document&
         part.name = materialNames[found->second];
         part.attributes = header;
         describeMaterial(part.name, found->second, part.attributes);
-        addElements(part, elements, artifact, side, options);
+        std::vector<SourceChannel> coverage;
+        if (current)
+            coverage.push_back(coverageChannel(document, bake.material, static_cast<int>(side)));
+        addElements(part, elements, artifact, side, options, coverage);
     }
     if (parts.empty()) {
         ImagePart& part = parts.emplace_back();

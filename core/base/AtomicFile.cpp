@@ -1,6 +1,7 @@
 #include "core/base/AtomicFile.h"
 
 #include "core/base/FileDescriptor.h"
+#include "core/base/InputFile.h"
 #include "core/base/OwnFile.h"
 #include "core/base/TemporaryName.h"
 
@@ -182,23 +183,16 @@ Result<void> writeFileAtomically(const fs::path& path, std::string_view text) {
 }
 
 Result<Bytes> readFile(const fs::path& path, std::size_t maxSize) {
-    const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-    if (!file.valid())
-        return systemError(ErrorKind::InputMissing, path,
-                           errno == ENOENT ? "there is no such file" : "the file cannot be read",
-                           errno);
-    struct stat info {};
-    if (::fstat(file.get(), &info) != 0)
-        return systemError(ErrorKind::InputMissing, path, "the file cannot be read", errno);
-    if (S_ISDIR(info.st_mode))
-        return systemError(ErrorKind::InputMissing, path, "this is a folder, not a file", EISDIR);
+    const Result<RegularFile> file = openRegularFile(path);
+    if (!file)
+        return file.error();
 
     Bytes data;
     std::byte buffer[1 << 16];
-    if (S_ISREG(info.st_mode) && static_cast<std::size_t>(info.st_size) <= maxSize)
-        data.reserve(static_cast<std::size_t>(info.st_size));
+    if (file->size <= maxSize)
+        data.reserve(file->size);
     while (true) {
-        const ssize_t count = ::read(file.get(), buffer, sizeof buffer);
+        const ssize_t count = ::read(file->fd.get(), buffer, sizeof buffer);
         if (count < 0) {
             if (errno == EINTR)
                 continue;

@@ -18,6 +18,7 @@ inline constexpr std::size_t kMaxProjectFileBytes = std::size_t{64} << 20; // JS
 inline constexpr int kMaxJsonDepth = 64;
 
 inline constexpr std::size_t kWorkerMemoryBytes = std::size_t{8} << 30; // address space
+inline constexpr std::size_t kWorkerReplyBytes = std::size_t{4} << 30;  // of one answer
 inline constexpr double kWorkerCpuSeconds = 60.0;                       // per file
 inline constexpr double kWorkerWallSeconds = 90.0;                      // per file
 

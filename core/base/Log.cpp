@@ -1,5 +1,7 @@
 #include "core/base/Log.h"
 
+#include "core/base/PrintableText.h"
+
 #include <atomic>
 #include <memory>
 #include <mutex>
@@ -45,10 +47,11 @@ spdlog::level::level_enum spdlogLevel(LogLevel level) {
 
 } // namespace
 
-void logMessage(LogLevel level, std::string_view text) {
+void logMessage(LogLevel level, std::string_view message) {
     LogState& state = logState();
     if (level < state.level.load(std::memory_order_relaxed))
         return;
+    const std::string text = printableText(message);
     state.logger->log(spdlogLevel(level), text);
     std::function<void(LogLevel, const std::string&)> listener;
     {
@@ -56,7 +59,7 @@ void logMessage(LogLevel level, std::string_view text) {
         listener = state.listener;
     }
     if (listener)
-        listener(level, std::string(text));
+        listener(level, text);
 }
 
 void setLogLevel(LogLevel level) {

@@ -1,8 +1,9 @@
 #include "core/document/ImageProblem.h"
 
+#include "core/base/InputFile.h"
 #include "core/base/Utf8.h"
+#include "core/document/OutsidePictures.h"
 #include "core/material/Parameters.h"
-#include "core/worker/InputFile.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -27,6 +28,8 @@ void forEachProblem(const Document& document, Id material, const Visit& visit) {
 std::string problemWord(std::string_view problem) {
     if (problem == kNoSuchFile)
         return "missing";
+    if (problem == kOutsideProblem)
+        return "left out";
     // The other refusals of openInputFile() to read what is there.
     for (const std::string_view begin :
          {"the file cannot be", "this is a folder", "this is a pipe"})
@@ -39,7 +42,8 @@ std::vector<std::string> damagedMaps(const Document& document) {
     std::vector<std::string> sources;
     for (const Material& material : document.materials)
         forEachProblem(document, material.id, [&](const ParameterInfo&, const MapSlot& slot) {
-            if (problemWord(slot.problem) != "missing" &&
+            const std::string word = problemWord(slot.problem);
+            if (word != "missing" && word != "left out" &&
                 std::find(sources.begin(), sources.end(), slot.source) == sources.end())
                 sources.push_back(slot.source);
         });

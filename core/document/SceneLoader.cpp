@@ -1,14 +1,15 @@
 #include "core/document/SceneLoader.h"
 
 #include "core/base/Check.h"
+#include "core/base/InputFile.h"
 #include "core/base/Utf8.h"
 #include "core/document/Edit.h"
 #include "core/document/ModelConversion.h"
+#include "core/document/OutsidePictures.h"
 #include "core/job/Parallel.h"
 #include "core/light/EnvironmentBlend.h"
 #include "core/light/GeneratedEnvironment.h"
 #include "core/material/Parameters.h"
-#include "core/worker/InputFile.h"
 
 #include <algorithm>
 #include <atomic>
@@ -27,6 +28,23 @@ constexpr std::size_t kShownFiles = 5; // in the notice that sums up the missing
 
 std::string fileName(const std::string& file) {
     return makeValidUtf8(fs::path(file).filename().string());
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// "a, b and 7 more", each by what `shown` makes of it.
+template <class Shown>
+std::string firstOf(const std::vector<std::string>& files, const Shown& shown) {
+    std::vector<std::string> names;
+    for (const std::string& file : files)
+        if (names.size() < kShownFiles)
+            names.push_back(shown(file));
+    std::string text = fmt::format("{}", fmt::join(names, ", "));
+    if (files.size() > kShownFiles)
+        text += fmt::format(" and {} more", files.size() - kShownFiles);
+    return text;
 }
 
 // Calls visit(info, slot) for each map of the material; the slot may be changed.
@@ -91,17 +109,19 @@ void SceneLoader::addMissing(const std::string& file) {
 
 std::vector<Notice> SceneLoader::takeNotices(const fs::path& file) {
     std::vector<Notice> notices = std::exchange(m_notices, {});
+    if (!m_outside.empty())
+        notices.insert(
+            notices.begin(),
+            Notice{fmt::format("{} outside the model's folder and {} left out: {}",
+                               m_outside.size() == 1 ? "a picture lies" : "pictures lie",
+                               m_outside.size() == 1 ? "is" : "are",
+                               firstOf(m_outside, [](const std::string& path) { return path; })),
+                   file});
     if (m_missing.empty())
         return notices;
-    std::vector<std::string> names;
-    for (const std::string& missing : m_missing)
-        if (names.size() < kShownFiles)
-            names.push_back(fileName(missing));
     std::string text =
         fmt::format("{} missing: {}", m_missing.size() == 1 ? "a file is" : "files are",
-                    fmt::join(names, ", "));
-    if (m_missing.size() > kShownFiles)
-        text += fmt::format(" and {} more", m_missing.size() - kShownFiles);
+                    firstOf(m_missing, fileName));
     text += ". Put the files back and open it again, or assign others";
     notices.insert(notices.begin(), Notice{std::move(text), file});
     return notices;
@@ -136,6 +156,9 @@ Result<SceneLoader::Model> SceneLoader::readModel(const std::string& source) {
         if (!fs::exists(path, unknown))
             addMissing(path.string());
     }
+    for (const std::string& outside : imported->outsideTextures)
+        if (std::string name = normalizeSource(outside); !contains(m_outside, name))
+            m_outside.push_back(std::move(name));
     return convertModel(*std::move(imported), source);
 }
 
@@ -157,6 +180,9 @@ void SceneLoader::loadMaps(std::span<Material> materials) {
                 requests.push_back({slot.source, info.mapEncoding, nullptr, std::nullopt});
             return false;
         });
+    for (Request& request : requests)
+        if (contains(m_outside, request.source))
+            request.result = Error{ErrorKind::InputMissing, kOutsideProblem, request.source, {}};
     for (Request& request : requests)
         if (const auto embedded = parseEmbeddedSource(request.source)) {
             const Result<Model>& owner = model(embedded->model);
@@ -184,6 +210,8 @@ void SceneLoader::loadMaps(std::span<Material> materials) {
     // Note what went wrong, in the order of the materials.
     for (const Request& request : requests) {
         const Result<MapImage>& result = *request.result;
+        if (contains(m_outside, request.source))
+            continue; // summed up by takeNotices()
         if (!result.ok() && result.error().message == kNoSuchFile) {
             addMissing(request.source);
         } else if (!result.ok()) {

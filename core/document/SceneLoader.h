@@ -64,7 +64,8 @@ class SceneLoader {
     std::map<std::string, Result<Model>> m_models;
     std::vector<Notice> m_notices;
     std::vector<std::string> m_missing;
-    std::set<std::string> m_known; // the same, for looking up
+    std::set<std::string> m_known;      // the same, for looking up
+    std::vector<std::string> m_outside; // left out: core/document/OutsidePictures.h
 };
 
 // Appends the model's parts, the materials they use and its lights. False when it cannot be read:

@@ -1,6 +1,6 @@
 #include "core/image/DisplayTransform.h"
 
-#include "core/worker/InputFile.h"
+#include "core/base/InputFile.h"
 #include "core/worker/WorkerClient.h"
 
 #include <algorithm>

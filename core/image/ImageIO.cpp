@@ -1,7 +1,7 @@
 #include "core/image/ImageIO.h"
 
+#include "core/base/InputFile.h"
 #include "core/base/Limits.h"
-#include "core/worker/InputFile.h"
 #include "core/worker/WorkerClient.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 
 namespace patina {
 
-void boxProjectUvs(Mesh& mesh) {
+void boxProjectUvs(Mesh& mesh, std::vector<std::uint32_t>* origin) {
     // The axis of a triangle: x, y, z and which way it looks.
     std::vector<std::uint32_t> axes(mesh.triangleCount());
     for (std::size_t t = 0; t < axes.size(); ++t) {
@@ -16,7 +16,7 @@ void boxProjectUvs(Mesh& mesh) {
                 axis = candidate;
         axes[t] = static_cast<std::uint32_t>(2 * axis + (n[axis] < 0.0 ? 1 : 0));
     }
-    const std::vector<std::uint32_t> axisOfVertex = splitVertices(mesh, axes);
+    const std::vector<std::uint32_t> axisOfVertex = splitVertices(mesh, axes, origin);
 
     // One scale for all axes, so that the texel density is uniform; a margin around each cell.
     const Bounds bounds = mesh.bounds();

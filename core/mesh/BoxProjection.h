@@ -6,7 +6,8 @@
 
 namespace patina {
 
-// Replaces uvs; vertices between two axes are split. For meshes too large for charts.
-void boxProjectUvs(Mesh& mesh);
+// Replaces uvs; vertices between two axes are split. For meshes too large for charts. `origin`: an
+// entry for each vertex, which copies repeat.
+void boxProjectUvs(Mesh& mesh, std::vector<std::uint32_t>* origin = nullptr);
 
 } // namespace patina

@@ -1,6 +1,7 @@
 #include "core/mesh/Mesh.h"
 
 #include "core/base/Check.h"
+#include "core/mesh/MeshSource.h"
 #include "core/mesh/TriangleGeometry.h"
 #include "core/mesh/UvUnwrap.h"
 #include "core/mesh/Weld.h"
@@ -68,7 +69,7 @@ void dropBadTriangles(Mesh& mesh, MeshRepairs& repairs) {
 
 // Removes the vertices no triangle uses (they may hold anything and would distort the bounds),
 // keeping the order of the others.
-void dropUnusedVertices(Mesh& mesh) {
+void dropUnusedVertices(Mesh& mesh, std::vector<std::uint32_t>* origin) {
     const std::size_t vertexCount = mesh.positions.size();
     std::vector<std::uint32_t> newIndex(vertexCount, 0);
     for (const std::uint32_t index : mesh.indices)
@@ -84,6 +85,8 @@ void dropUnusedVertices(Mesh& mesh) {
             mesh.tangents[used] = mesh.tangents[i];
         if (!mesh.uvs.empty())
             mesh.uvs[used] = mesh.uvs[i];
+        if (origin != nullptr)
+            (*origin)[used] = (*origin)[i];
         newIndex[i] = used++;
     }
     if (used == vertexCount)
@@ -94,6 +97,8 @@ void dropUnusedVertices(Mesh& mesh) {
     mesh.normals.resize(mesh.normals.empty() ? 0 : used);
     mesh.tangents.resize(mesh.tangents.empty() ? 0 : used);
     mesh.uvs.resize(mesh.uvs.empty() ? 0 : used);
+    if (origin != nullptr)
+        origin->resize(used);
 }
 
 void repairNormals(Mesh& mesh, MeshRepairs& repairs) {
@@ -121,12 +126,12 @@ void repairNormals(Mesh& mesh, MeshRepairs& repairs) {
     repairs.repairedNormals += bad.size();
 }
 
-void repairUvs(Mesh& mesh, MeshRepairs& repairs) {
+void repairUvs(Mesh& mesh, MeshRepairs& repairs, std::vector<std::uint32_t>* origin) {
     std::size_t bad = 0;
     for (const glm::vec2& uv : mesh.uvs)
         bad += isFinite(uv) ? 0 : 1;
     if (bad == mesh.uvs.size()) {
-        unwrapUvs(mesh);
+        unwrapUvs(mesh, {}, origin);
         repairs.generatedUvs = true;
     } else if (bad > 0) {
         for (glm::vec2& uv : mesh.uvs)
@@ -165,6 +170,26 @@ void repairTangents(Mesh& mesh, MeshRepairs& repairs) {
     for (const std::size_t i : bad)
         given[i] = mesh.tangents[i];
     mesh.tangents = std::move(given);
+}
+
+MeshRepairs sanitize(Mesh& mesh, std::vector<std::uint32_t>* origin) {
+    MeshRepairs repairs;
+    // An attribute that does not have one value per position is of no use.
+    if (mesh.normals.size() != mesh.positions.size())
+        mesh.normals.clear();
+    if (mesh.tangents.size() != mesh.positions.size())
+        mesh.tangents.clear();
+    if (mesh.uvs.size() != mesh.positions.size())
+        mesh.uvs.clear();
+
+    dropBadTriangles(mesh, repairs);
+    dropUnusedVertices(mesh, origin);
+    if (mesh.positions.empty()) // nothing is left to generate anything for
+        return repairs;
+    repairNormals(mesh, repairs);
+    repairUvs(mesh, repairs, origin);
+    repairTangents(mesh, repairs);
+    return repairs;
 }
 
 } // namespace
@@ -309,23 +334,12 @@ void computeTangents(Mesh& mesh) {
 }
 
 MeshRepairs sanitizeMesh(Mesh& mesh) {
-    MeshRepairs repairs;
-    // An attribute that does not have one value per position is of no use.
-    if (mesh.normals.size() != mesh.positions.size())
-        mesh.normals.clear();
-    if (mesh.tangents.size() != mesh.positions.size())
-        mesh.tangents.clear();
-    if (mesh.uvs.size() != mesh.positions.size())
-        mesh.uvs.clear();
+    return sanitize(mesh, nullptr);
+}
 
-    dropBadTriangles(mesh, repairs);
-    dropUnusedVertices(mesh);
-    if (mesh.positions.empty()) // nothing is left to generate anything for
-        return repairs;
-    repairNormals(mesh, repairs);
-    repairUvs(mesh, repairs);
-    repairTangents(mesh, repairs);
-    return repairs;
+MeshRepairs sanitizeMesh(Mesh& mesh, std::vector<std::uint32_t>& origin) {
+    CHECK_EQ(origin.size(), mesh.vertexCount());
+    return sanitize(mesh, &origin);
 }
 
 } // namespace patina

@@ -1,8 +1,9 @@
 #include "core/mesh/MeshImport.h"
 
+#include "core/base/InputFile.h"
 #include "core/base/Limits.h"
+#include "core/mesh/MeshSource.h"
 #include "core/mesh/TexturePaths.h"
-#include "core/worker/InputFile.h"
 #include "core/worker/ModelWire.h"
 #include "core/worker/WorkerClient.h"
 
@@ -77,6 +78,11 @@ Mesh mirrored(const Mesh& mesh) {
     return result;
 }
 
+MeshSource mirrored(MeshSource source) {
+    source.mirrored = !source.mirrored;
+    return source;
+}
+
 // A transform that mirrors would turn the winding around. The mirror is moved into a copy of the
 // mesh, M = (M S) S with S = diag(-1, 1, 1), so that every transform keeps the handedness.
 void resolveMirrors(ImportedModel& model) {
@@ -87,9 +93,13 @@ void resolveMirrors(ImportedModel& model) {
             continue;
         const auto [copy, isNew] =
             copies.try_emplace(instance.mesh, static_cast<int>(model.meshes.size()));
-        if (isNew)
-            model.meshes.push_back(std::make_shared<const Mesh>(
-                mirrored(*model.meshes[static_cast<std::size_t>(instance.mesh)])));
+        if (isNew) {
+            const MeshPtr mesh = model.meshes[static_cast<std::size_t>(instance.mesh)];
+            const MeshSource* source = meshSource(mesh);
+            model.meshes.push_back(source != nullptr
+                                       ? withSource(mirrored(*mesh), mirrored(*source))
+                                       : std::make_shared<const Mesh>(mirrored(*mesh)));
+        }
         instance.mesh = copy->second;
         instance.transform[0] = -instance.transform[0];
         ++count;
@@ -121,8 +131,15 @@ void repair(ImportedModel& model) {
     MeshRepairs& sum = model.repairs;
     for (MeshPtr& mesh : model.meshes) {
         Mesh repaired = *mesh;
-        const MeshRepairs repairs = sanitizeMesh(repaired);
-        mesh = std::make_shared<const Mesh>(std::move(repaired));
+        MeshRepairs repairs;
+        if (const MeshSource* known = meshSource(mesh)) {
+            MeshSource source = *known;
+            repairs = sanitizeMesh(repaired, source.vertices);
+            mesh = withSource(std::move(repaired), std::move(source));
+        } else {
+            repairs = sanitizeMesh(repaired);
+            mesh = std::make_shared<const Mesh>(std::move(repaired));
+        }
         sum.droppedTriangles += repairs.droppedTriangles;
         sum.invalidTriangles += repairs.invalidTriangles;
         sum.repairedNormals += repairs.repairedNormals;
@@ -143,9 +160,18 @@ void repair(ImportedModel& model) {
     warn(sum.generatedUvs, "Texture coordinates were generated, as the file has none.");
 }
 
-void resolveTextures(ImportedModel& model, const fs::path& folder) {
+// Which nodes show a mesh, now that the list of instances is final.
+void noteUses(const ImportedModel& model) {
+    for (std::size_t i = 0; i < model.instances.size(); ++i)
+        if (const ImportedInstance& instance = model.instances[i]; instance.node >= 0)
+            addUse(model.meshes[static_cast<std::size_t>(instance.mesh)],
+                   {static_cast<int>(i), instance.node});
+}
+
+void resolveTextures(ImportedModel& model, const fs::path& folder, bool outsideAllowed) {
     TexturePaths paths(folder);
     std::set<std::string> missing;
+    std::set<std::string> outside;
     const auto resolve = [&](std::optional<ImportedTexture>& map) {
         if (!map)
             return;
@@ -159,12 +185,15 @@ void resolveTextures(ImportedModel& model, const fs::path& folder) {
         if (!found)
             missing.insert(name);
         map->file = found ? *found : paths.expected(name);
+        if (found && !outsideAllowed && !paths.isInside(*found))
+            outside.insert(map->file.string());
     };
     for (ImportedMaterial& material : model.materials)
         for (auto* map : {&material.baseColorMap, &material.metallicMap, &material.roughnessMap,
                           &material.normalMap, &material.occlusionMap, &material.emissiveMap})
             resolve(*map);
     model.missingTextures.assign(missing.begin(), missing.end());
+    model.outsideTextures.assign(outside.begin(), outside.end());
 }
 
 } // namespace
@@ -195,6 +224,7 @@ Result<ImportedModel> importModel(WorkerClient& worker, const fs::path& file) {
         resolveMirrors(model);
         repair(model);
         dropUnused(model);
+        noteUses(model);
         if (model.instances.empty())
             return Error{ErrorKind::InputBroken,
                          "the model has no faces; export it with geometry",
@@ -209,7 +239,8 @@ Result<ImportedModel> importModel(WorkerClient& worker, const fs::path& file) {
                          file,
                          {}};
         std::error_code ignored;
-        resolveTextures(model, fs::absolute(file, ignored).parent_path());
+        resolveTextures(model, fs::absolute(file, ignored).parent_path(),
+                        worker.outsideAllowed(file));
     } catch (const std::bad_alloc&) {
         return Error{ErrorKind::Internal, "there is not enough memory for the model", file, {}};
     }

@@ -45,6 +45,7 @@ struct ImportedInstance {
     std::string name;
     int mesh = 0;              // index into ImportedModel::meshes
     int material = 0;          // index into ImportedModel::materials
+    int node = -1;             // glTF: index of the node that shows it
     glm::mat4 transform{1.0f}; // mesh to world, in metres and +Y up; never mirrors
 };
 
@@ -65,6 +66,9 @@ struct ImportedModel {
     std::vector<ImportedLight> lights;
     std::vector<Bytes> embeddedImages;        // compressed files (PNG, JPEG …) or empty when raw
     std::vector<std::string> missingTextures; // files the model names that are absent or empty
+    // Pictures outside the model's folder, absolute: not to be read, as nobody has agreed to it
+    // (WorkerClient::allowOutside()).
+    std::vector<std::string> outsideTextures;
     std::vector<std::string> warnings; // one sentence each: what was repaired, dropped, generated
     std::string format;                // "gltf2", "obj" …
     std::size_t triangleCount = 0;

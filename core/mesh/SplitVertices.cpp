@@ -6,8 +6,10 @@
 
 namespace patina {
 
-std::vector<std::uint32_t> splitVertices(Mesh& mesh, std::span<const std::uint32_t> labels) {
+std::vector<std::uint32_t> splitVertices(Mesh& mesh, std::span<const std::uint32_t> labels,
+                                         std::vector<std::uint32_t>* origin) {
     CHECK_EQ(labels.size(), mesh.triangleCount());
+    CHECK(origin == nullptr || origin->size() == mesh.vertexCount());
     constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> label(mesh.vertexCount(), kNone);
     // Copies of one original form a list from copy to copy; few vertices have more than two.
@@ -30,6 +32,8 @@ std::vector<std::uint32_t> splitVertices(Mesh& mesh, std::span<const std::uint32
                 mesh.normals.push_back(glm::vec3(mesh.normals[vertex]));
             if (hasTangents)
                 mesh.tangents.push_back(glm::vec4(mesh.tangents[vertex]));
+            if (origin != nullptr)
+                origin->push_back(std::uint32_t{(*origin)[vertex]});
             label.push_back(wanted);
             nextCopy.push_back(kNone);
             nextCopy[vertex] = copy;

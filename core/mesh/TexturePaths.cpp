@@ -54,11 +54,16 @@ fs::path TexturePaths::expected(const std::string& name) const {
 std::optional<fs::path> TexturePaths::find(const std::string& name) {
     if (name.empty() || name.find("://") != std::string::npos)
         return std::nullopt;
-    if (const fs::path asSpelled = expected(name); usable(asSpelled))
-        return asSpelled;
     // Some file names really hold a backslash.
-    if (const fs::path verbatim = m_folder / name; usable(verbatim))
-        return verbatim;
+    std::optional<fs::path> outside;
+    for (const fs::path& spelled : {expected(name), m_folder / name}) {
+        if (!usable(spelled))
+            continue;
+        if (isInside(spelled))
+            return spelled;
+        if (!outside)
+            outside = spelled;
+    }
 
     const std::string base = lower(fs::path(withSlashes(name)).filename().string());
     const auto inFolder = [&](const fs::path& folder) -> std::optional<fs::path> {
@@ -70,8 +75,17 @@ std::optional<fs::path> TexturePaths::find(const std::string& name) {
         return beside;
     const Listing& around = listing(m_folder);
     if (const auto textures = around.find("textures"); textures != around.end())
-        return inFolder(textures->second);
-    return std::nullopt;
+        if (auto within = inFolder(textures->second))
+            return within;
+    return outside;
+}
+
+bool TexturePaths::isInside(const fs::path& file) const {
+    std::error_code failed;
+    const fs::path folder = fs::weakly_canonical(m_folder, failed);
+    const fs::path full = failed ? fs::path() : fs::weakly_canonical(file, failed);
+    return !failed && std::mismatch(folder.begin(), folder.end(), full.begin(), full.end()).first ==
+                          folder.end();
 }
 
 } // namespace patina

@@ -17,8 +17,10 @@ class TexturePaths {
 
     // The file `name` stands for: as spelled (relative to the model), otherwise by its base name
     // beside the model or in a folder "textures" there, whatever the case. Nothing when no such
-    // file is there or it is empty.
+    // file is there or it is empty. What lies outside the folder comes last.
     [[nodiscard]] std::optional<std::filesystem::path> find(const std::string& name);
+    // Whether the file lies in the model's folder or below, links followed.
+    [[nodiscard]] bool isInside(const std::filesystem::path& file) const;
     // Where the file would be expected, for messages and for trying again later.
     [[nodiscard]] std::filesystem::path expected(const std::string& name) const;
 

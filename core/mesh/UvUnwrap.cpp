@@ -77,14 +77,14 @@ void turnCharts(const Mesh& mesh, std::vector<glm::dvec2>& local,
 
 } // namespace
 
-void unwrapUvs(Mesh& mesh, const UnwrapSettings& settings) {
+void unwrapUvs(Mesh& mesh, const UnwrapSettings& settings, std::vector<std::uint32_t>* origin) {
     CHECK_LT(0, settings.resolution);
     if (mesh.indices.empty()) {
         mesh.uvs.assign(mesh.positions.size(), glm::vec2(0.0f));
         return;
     }
     if (mesh.triangleCount() > kMaxChartedTriangles) {
-        boxProjectUvs(mesh);
+        boxProjectUvs(mesh, origin);
         return;
     }
     UvChartSettings chartSettings;
@@ -93,7 +93,8 @@ void unwrapUvs(Mesh& mesh, const UnwrapSettings& settings) {
     // A hundredth of a texel, if the mesh's box had the image's size: overlap that no texel sees.
     chartSettings.overlapTolerance = 0.01 / settings.resolution;
     const UvCharts charts = cutUvCharts(mesh, points, chartSettings);
-    const std::vector<std::uint32_t> chartOfVertex = splitVertices(mesh, charts.chartOfTriangle);
+    const std::vector<std::uint32_t> chartOfVertex =
+        splitVertices(mesh, charts.chartOfTriangle, origin);
 
     // Project along the charts' axes.
     points = normalizedPoints(mesh);

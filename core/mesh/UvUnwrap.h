@@ -13,8 +13,10 @@ struct UnwrapSettings {
 };
 
 // Replaces uvs; vertices on chart borders are split (positions, normals and tangents are copied).
-// Deterministic. Needs positions, normals and indices that keep Mesh's promises.
-void unwrapUvs(Mesh& mesh, const UnwrapSettings& settings = {});
+// Deterministic. Needs positions, normals and indices that keep Mesh's promises. `origin`: an entry
+// for each vertex, which copies repeat.
+void unwrapUvs(Mesh& mesh, const UnwrapSettings& settings = {},
+               std::vector<std::uint32_t>* origin = nullptr);
 
 // True when two triangles cover the same texel of a `resolution`² image by more than its border:
 // such UVs (tiled or mirrored) cannot carry a bake.

@@ -179,6 +179,16 @@ std::span<const std::byte> GltfBuffers::view(std::size_t index) const {
     return bytes.subspan(offset, length);
 }
 
+// An accessor without a view is all zeros (sparse ones build on that): some words of JSON would
+// stand for gigabytes. Real files have none, or a few small ones.
+void GltfBuffers::takeZeros(std::size_t count) const {
+    constexpr std::size_t kMostZeros = 1'000'000;
+    m_zeros += std::min(count, kMostZeros + 1);
+    if (m_zeros > kMostZeros)
+        throw Refusal("the file announces more geometry than it holds; it is damaged",
+                      fmt::format("more than {} elements without bytes", kMostZeros));
+}
+
 std::size_t GltfBuffers::count(std::size_t accessor) const {
     const auto count = element(m_root, "accessors", accessor).at("count").get<std::size_t>();
     if (count > 3 * limits::kMaxTriangles)
@@ -203,6 +213,8 @@ std::vector<float> GltfBuffers::floats(std::size_t index, int components) const 
             element(m_root, "bufferViews", viewIndex->get<std::size_t>()).value("byteStride", size);
         source = elements(view(viewIndex->get<std::size_t>()),
                           accessor.value("byteOffset", std::size_t{0}), n, size, stride);
+    } else {
+        takeZeros(n);
     }
     std::vector<float> result(n * wanted, 0.0f);
 
@@ -248,8 +260,10 @@ std::vector<std::uint32_t> GltfBuffers::indices(std::size_t index) const {
     const std::size_t size = componentType(code).size;
     const std::size_t n = count(index);
     const auto viewIndex = accessor.find("bufferView");
-    if (viewIndex == accessor.end())
+    if (viewIndex == accessor.end()) {
+        takeZeros(n);
         return std::vector<std::uint32_t>(n, 0);
+    }
     const Elements source = elements(view(viewIndex->get<std::size_t>()),
                                      accessor.value("byteOffset", std::size_t{0}), n, size, size);
     std::vector<std::uint32_t> result(n);

@@ -25,10 +25,13 @@ class GltfBuffers {
     [[nodiscard]] std::size_t count(std::size_t accessor) const;
 
   private:
+    void takeZeros(std::size_t count) const;
+
     const nlohmann::json& m_root;
     std::vector<MemoryFile> m_files;
     std::vector<std::vector<std::byte>> m_inline;
     std::vector<std::span<const std::byte>> m_buffers;
+    mutable std::size_t m_zeros = 0; // elements so far that no bytes of the file stand for
 };
 
 // "data:image/png;base64,…" → its bytes; false when it is no such URI.

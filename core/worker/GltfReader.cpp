@@ -1,6 +1,7 @@
 #include "core/worker/GltfReader.h"
 
 #include "core/base/Limits.h"
+#include "core/mesh/MeshSource.h"
 #include "core/worker/Codec.h"
 #include "core/worker/DracoMesh.h"
 #include "core/worker/GltfBuffers.h"
@@ -117,8 +118,8 @@ std::vector<T> regroup(const std::vector<float>& values) {
 }
 
 // Without normals a mesh is flat-shaded (glTF 2.0, section 3.7.2.1): each triangle gets vertices of
-// its own. Tangents without normals are to be ignored.
-Mesh flatShaded(const Mesh& mesh) {
+// its own. Tangents without normals are to be ignored. `origin` receives the vertices they repeat.
+Mesh flatShaded(const Mesh& mesh, std::vector<std::uint32_t>& origin) {
     Mesh flat;
     flat.name = mesh.name;
     const std::size_t vertices = mesh.positions.size();
@@ -135,6 +136,7 @@ Mesh flatShaded(const Mesh& mesh) {
         for (int k = 0; k < 3; ++k) {
             flat.indices.push_back(static_cast<std::uint32_t>(flat.positions.size()));
             flat.positions.push_back(at(k));
+            origin.push_back(corner[k]);
             flat.normals.push_back(length > 0.0f ? area / length : glm::vec3(0, 1, 0));
             if (!mesh.uvs.empty())
                 flat.uvs.push_back(mesh.uvs[corner[k]]);
@@ -200,7 +202,8 @@ class Reader {
     };
 
     const std::vector<Primitive>& primitives(std::size_t mesh);
-    std::optional<Mesh> primitive(const json& source, const std::string& name);
+    std::optional<Mesh> primitive(const json& source, const std::string& name,
+                                  std::vector<std::uint32_t>& origin);
     void visit(std::size_t index, const glm::mat4& parent);
     void light(const json& node, const glm::mat4& world);
     int defaultMaterial();
@@ -213,6 +216,7 @@ class Reader {
     int m_defaultMaterial = -1;
     std::size_t m_linesAndPoints = 0;
     std::size_t m_triangles = 0;
+    std::size_t m_vertices = 0; // that were read, also when no triangle uses them
     bool m_animated = false;
     bool m_holdsTransfer = false; // attributes of core/export/TransferExport.h
 };
@@ -227,7 +231,9 @@ int Reader::defaultMaterial() {
     return m_defaultMaterial;
 }
 
-std::optional<Mesh> Reader::primitive(const json& source, const std::string& name) {
+// `origin` receives, for each vertex of the mesh, that of the primitive.
+std::optional<Mesh> Reader::primitive(const json& source, const std::string& name,
+                                      std::vector<std::uint32_t>& origin) {
     const int mode = source.value("mode", kTriangles);
     const json& attributes = source.at("attributes");
     if (mode < kTriangles || mode > kFan) {
@@ -243,6 +249,9 @@ std::optional<Mesh> Reader::primitive(const json& source, const std::string& nam
     mesh.name = name;
     const PrimitiveArrays arrays(source, m_buffers);
     mesh.positions = regroup<glm::vec3>(arrays.floats("POSITION", 3));
+    m_vertices += mesh.positions.size(); // primitives may share an accessor
+    if (m_vertices > 3 * limits::kMaxTriangles)
+        throw Refusal("the model is larger than the supported 50 million triangles");
     const auto optional = [&](const char* key, int components) {
         auto values = arrays.floats(key, components);
         if (!values.empty() &&
@@ -262,8 +271,11 @@ std::optional<Mesh> Reader::primitive(const json& source, const std::string& nam
     mesh.indices = triangulate(indices, arrays.compressed() ? kTriangles : mode);
 
     if (mesh.normals.empty()) {
-        mesh = flatShaded(mesh);
+        mesh = flatShaded(mesh, origin);
         m_model.repairs.generatedNormals = true;
+    } else {
+        origin.resize(mesh.positions.size());
+        std::iota(origin.begin(), origin.end(), 0u);
     }
     return mesh;
 }
@@ -276,7 +288,11 @@ const std::vector<Reader::Primitive>& Reader::primitives(std::size_t index) {
     const json& parts = source.at("primitives");
     const std::string name = source.value("name", fmt::format("mesh {}", index + 1));
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        auto mesh = primitive(parts[i], i == 0 ? name : fmt::format("{} {}", name, i + 1));
+        MeshSource from;
+        from.mesh = static_cast<int>(index);
+        from.primitive = static_cast<int>(i);
+        auto mesh =
+            primitive(parts[i], i == 0 ? name : fmt::format("{} {}", name, i + 1), from.vertices);
         if (!mesh || mesh->indices.empty())
             continue;
         m_triangles += mesh->triangleCount();
@@ -287,7 +303,7 @@ const std::vector<Reader::Primitive>& Reader::primitives(std::size_t index) {
             (void)element(m_root, "materials", static_cast<std::size_t>(material));
         result.push_back({static_cast<int>(m_model.meshes.size()),
                           material >= 0 ? material : defaultMaterial()});
-        m_model.meshes.push_back(std::make_shared<const Mesh>(std::move(*mesh)));
+        m_model.meshes.push_back(withSource(std::move(*mesh), std::move(from)));
     }
     return m_primitives[index] = std::move(result);
 }
@@ -370,6 +386,7 @@ void Reader::visit(std::size_t rootIndex, const glm::mat4& parent) {
                 instance.mesh = part.mesh;
                 instance.material = part.material;
                 instance.transform = world;
+                instance.node = static_cast<int>(index);
                 m_model.instances.push_back(std::move(instance));
             }
         m_animated = m_animated || node.contains("skin");

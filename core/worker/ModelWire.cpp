@@ -1,6 +1,7 @@
 #include "core/worker/ModelWire.h"
 
 #include "core/base/Limits.h"
+#include "core/mesh/MeshSource.h"
 
 #include <array>
 #include <cmath>
@@ -170,7 +171,7 @@ void checkIndex(int index, std::size_t size) {
         throw std::runtime_error("an index points nowhere");
 }
 
-Mesh readMesh(const json& value, PayloadReader& payload) {
+MeshPtr readMesh(const json& value, PayloadReader& payload) {
     Mesh mesh;
     mesh.name = value.at("name");
     const std::size_t vertices = value.at("vertices");
@@ -182,7 +183,14 @@ Mesh readMesh(const json& value, PayloadReader& payload) {
     payload.take(mesh.tangents, value.at("tangents").get<bool>() ? vertices : 0);
     payload.take(mesh.uvs, value.at("uvs").get<bool>() ? vertices : 0);
     payload.take(mesh.indices, indices);
-    return mesh;
+    const auto source = value.find("source");
+    if (source == value.end())
+        return std::make_shared<const Mesh>(std::move(mesh));
+    MeshSource known;
+    known.mesh = source->at("mesh");
+    known.primitive = source->at("primitive");
+    payload.take(known.vertices, vertices);
+    return withSource(std::move(mesh), std::move(known));
 }
 
 ImportedModel readUnchecked(const json& header, std::span<const std::byte> bytes) {
@@ -193,7 +201,7 @@ ImportedModel readUnchecked(const json& header, std::span<const std::byte> bytes
     if (meshes.size() > limits::kMaxMeshes)
         throw std::runtime_error("too many meshes");
     for (const json& mesh : meshes)
-        model.meshes.push_back(std::make_shared<const Mesh>(readMesh(mesh, payload)));
+        model.meshes.push_back(readMesh(mesh, payload));
     for (const json& size : header.at("embedded"))
         payload.take(model.embeddedImages.emplace_back(), size.get<std::size_t>());
     if (!payload.atEnd())
@@ -210,6 +218,7 @@ ImportedModel readUnchecked(const json& header, std::span<const std::byte> bytes
         instance.name = value.at("name");
         instance.mesh = value.at("mesh");
         instance.material = value.at("material");
+        instance.node = value.at("node");
         checkIndex(instance.mesh, model.meshes.size());
         checkIndex(instance.material, model.materials.size());
         const json& transform = value.at("transform");
@@ -257,6 +266,10 @@ std::string writeModelHeader(const ImportedModel& model, std::size_t& payloadSiz
         forEachArray(*mesh, [&](const auto& values) {
             payloadSize += aligned(values.size() * sizeof(values[0]));
         });
+        if (const MeshSource* source = meshSource(mesh)) {
+            meshes.back()["source"] = {{"mesh", source->mesh}, {"primitive", source->primitive}};
+            payloadSize += aligned(source->vertices.size() * sizeof(std::uint32_t));
+        }
     }
     json& embedded = header["embedded"] = json::array();
     for (const Bytes& image : model.embeddedImages) {
@@ -274,6 +287,7 @@ std::string writeModelHeader(const ImportedModel& model, std::size_t& payloadSiz
         instances.push_back({{"name", instance.name},
                              {"mesh", instance.mesh},
                              {"material", instance.material},
+                             {"node", instance.node},
                              {"transform", std::move(transform)}});
     }
     json& lights = header["lights"] = json::array();
@@ -298,8 +312,11 @@ void writeModelPayload(const ImportedModel& model, std::span<std::byte> payload)
             std::memcpy(payload.data(), values.data(), size);
         payload = payload.subspan(aligned(size));
     };
-    for (const MeshPtr& mesh : model.meshes)
+    for (const MeshPtr& mesh : model.meshes) {
         forEachArray(*mesh, put);
+        if (const MeshSource* source = meshSource(mesh))
+            put(source->vertices);
+    }
     for (const Bytes& image : model.embeddedImages)
         put(image);
 }

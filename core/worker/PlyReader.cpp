@@ -1,6 +1,7 @@
 #include "core/worker/PlyReader.h"
 
 #include "core/base/Limits.h"
+#include "core/mesh/MeshSource.h"
 #include "core/worker/Codec.h"
 #include "core/worker/TokenReader.h"
 
@@ -265,13 +266,16 @@ ImportedModel readPly(const ModelFolder& folder) {
     Mesh mesh;
     mesh.name = folder.modelPath().stem().string();
     for (const Element& element : header.elements) {
-        if (element.count > values.bytesLeft() && !element.properties.empty())
+        // Elements without properties take no bytes, however many are announced.
+        if (element.properties.empty())
+            continue;
+        if (element.count > values.bytesLeft())
             refuse("more elements than the file can hold");
         if (element.name == "vertex") {
             readVertices(element, values, mesh);
         } else if (element.name == "face") {
             readFaces(element, values, mesh);
-        } else if (!element.properties.empty()) {
+        } else {
             std::vector<double> scalars(element.properties.size(), 0.0);
             std::vector<double> list;
             for (std::size_t i = 0; i < element.count; ++i)
@@ -291,7 +295,7 @@ ImportedModel readPly(const ModelFolder& folder) {
     }
     ImportedInstance& instance = model.instances.emplace_back();
     instance.name = mesh.name;
-    model.meshes.push_back(std::make_shared<const Mesh>(std::move(mesh)));
+    model.meshes.push_back(withOwnVertices(std::move(mesh), 0));
     return model;
 }
 

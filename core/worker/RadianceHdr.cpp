@@ -289,6 +289,9 @@ RadianceHeader readRadianceHeader(std::span<const std::byte> file) {
 
 std::vector<float> readRadiancePixels(std::span<const std::byte> file, const RadianceHeader& header,
                                       int width, int height) {
+    // However runs shorten it, a scanline takes four bytes.
+    if ((file.size() - header.pixels) / 4 < static_cast<std::size_t>(header.scanlines))
+        cutShort("pixels are missing");
     ScanlineReader reader(file.subspan(header.pixels));
     const PixelDecoder decode(header);
     const bool whole = width == header.width && height == header.height;

@@ -1,6 +1,7 @@
 #include "core/worker/StlReader.h"
 
 #include "core/base/Limits.h"
+#include "core/mesh/MeshSource.h"
 #include "core/worker/Codec.h"
 #include "core/worker/TokenReader.h"
 
@@ -122,7 +123,8 @@ ImportedModel readStl(const ModelFolder& folder) {
 
     ImportedModel model;
     model.format = "stl";
-    for (Mesh& mesh : meshes) {
+    for (std::size_t solid = 0; solid < meshes.size(); ++solid) {
+        Mesh& mesh = meshes[solid];
         if (mesh.indices.empty())
             continue;
         if (mesh.name.empty())
@@ -131,7 +133,7 @@ ImportedModel readStl(const ModelFolder& folder) {
         instance.name = mesh.name;
         instance.mesh = static_cast<int>(model.meshes.size());
         model.instances.push_back(instance);
-        model.meshes.push_back(std::make_shared<const Mesh>(std::move(mesh)));
+        model.meshes.push_back(withOwnVertices(std::move(mesh), static_cast<int>(solid)));
     }
     return model;
 }

@@ -18,6 +18,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <poll.h>
+#include <set>
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -118,6 +119,13 @@ Error refusedByDecoder(std::string_view header, const std::filesystem::path& fil
     return error;
 }
 
+// One name for a file, however it is spelled.
+std::filesystem::path sameFileName(const std::filesystem::path& file) {
+    std::error_code failed;
+    std::filesystem::path name = std::filesystem::weakly_canonical(file, failed);
+    return failed ? file : name;
+}
+
 Error noMemory(const std::filesystem::path& file) {
     return {ErrorKind::Internal, "there is not enough memory to read the file", file,
             std::strerror(errno)};
@@ -140,9 +148,11 @@ struct WorkerClient::Impl {
     std::filesystem::path program;
     mutable std::mutex mutex; // guards everything below
     WorkerLimits limits{limits::kWorkerMemoryBytes, limits::kWorkerCpuSeconds,
-                        limits::kWorkerWallSeconds};
+                        limits::kWorkerWallSeconds, limits::kWorkerReplyBytes};
     WorkerProcess process;
     std::vector<int> children;
+    std::set<std::filesystem::path> outsideModels; // that may name pictures anywhere
+    bool outsideOfAll = false;
 };
 
 WorkerClient::WorkerClient(std::filesystem::path program)
@@ -172,6 +182,21 @@ void WorkerClient::warmUp() {
 void WorkerClient::setLimits(const WorkerLimits& limits) {
     const std::lock_guard lock(m_impl->mutex);
     m_impl->limits = limits;
+}
+
+void WorkerClient::allowOutside(const std::filesystem::path& model) {
+    const std::lock_guard lock(m_impl->mutex);
+    m_impl->outsideModels.insert(sameFileName(model));
+}
+
+void WorkerClient::allowOutsideOfAll() {
+    const std::lock_guard lock(m_impl->mutex);
+    m_impl->outsideOfAll = true;
+}
+
+bool WorkerClient::outsideAllowed(const std::filesystem::path& model) const {
+    const std::lock_guard lock(m_impl->mutex);
+    return m_impl->outsideOfAll || m_impl->outsideModels.contains(sameFileName(model));
 }
 
 int WorkerClient::workerProcess() const {
@@ -321,6 +346,9 @@ WorkerClient::Impl::attempt(const protocol::Request& request, const WorkerLimits
 
         switch (report.event) {
         case protocol::Event::Started: {
+            if (guard.child >= 0)
+                return died(file, "the decoder gave an answer that makes no sense",
+                            "started twice");
             const std::lock_guard lock(mutex);
             guard.child = static_cast<int>(report.value);
             children.push_back(guard.child);
@@ -336,16 +364,24 @@ WorkerClient::Impl::attempt(const protocol::Request& request, const WorkerLimits
                                       readLog(log.get()));
         case protocol::Event::Answered:
         case protocol::Event::Failed: {
-            // Believed only when sealed and as large as announced.
-            if (received->descriptors.size() != 2 || report.headerSize > protocol::kMaxHeaderBytes)
+            // Believed only when sealed, as large as announced, and no larger than an answer may
+            // be: a memory file of gigabytes costs a decoder nothing until we copy it.
+            const bool failed = report.event == protocol::Event::Failed;
+            if (received->descriptors.size() != 2 ||
+                report.headerSize > (failed ? protocol::kMaxErrorBytes : protocol::kMaxHeaderBytes))
                 return died(file, "the decoder gave an answer that makes no sense", "malformed");
+            if (report.payloadSize > (failed ? 0 : used.replyBytes))
+                return died(file,
+                            fmt::format("what the file holds takes more than the supported {} MiB",
+                                        used.replyBytes >> 20),
+                            fmt::format("an answer of {} bytes", report.payloadSize));
             const auto header =
                 MemoryFile::open(std::move(received->descriptors[0]), report.headerSize);
             const auto payload =
                 MemoryFile::open(std::move(received->descriptors[1]), report.payloadSize);
             if (!header || !payload)
                 return died(file, "the decoder gave an answer that makes no sense", "not sealed");
-            if (report.event == protocol::Event::Failed)
+            if (failed)
                 return refusedByDecoder(header->text(), file);
             Reply reply;
             try {

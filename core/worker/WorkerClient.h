@@ -7,6 +7,7 @@
 #pragma once
 
 #include "core/base/AtomicFile.h"
+#include "core/base/Limits.h"
 #include "core/base/Result.h"
 
 #include <filesystem>
@@ -23,6 +24,7 @@ struct WorkerLimits {
     std::size_t memoryBytes; // address space of the child
     double cpuSeconds;
     double wallSeconds;
+    std::size_t replyBytes = limits::kWorkerReplyBytes; // of the payload it may answer with
 };
 
 class WorkerClient {
@@ -38,6 +40,12 @@ class WorkerClient {
 
     void warmUp(); // starts the process in the background, so that the first file does not wait
     void setLimits(const WorkerLimits& limits);
+
+    // Pictures that a model names outside its own folder are read only where somebody has agreed to
+    // it: for this model (a path), or for all of them. Kept as long as the client lives.
+    void allowOutside(const std::filesystem::path& model);
+    void allowOutsideOfAll();
+    [[nodiscard]] bool outsideAllowed(const std::filesystem::path& model) const;
 
     // One request: `header` (JSON text) and an optional payload go out, `header` (JSON) and a
     // payload come back. The adapters in core/image and core/mesh give them meaning.

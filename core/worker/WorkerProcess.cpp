@@ -2,6 +2,7 @@
 
 #include "core/worker/WorkerProtocol.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -9,11 +10,33 @@
 #include <fcntl.h>
 #include <spawn.h>
 #include <string>
+#include <string_view>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <vector>
 
 namespace patina {
+
+namespace {
+
+// The worker gets what its loader and a sanitizer need, and nothing of what the user's environment
+// holds beyond that: tokens, paths, addresses of buses and agents.
+std::vector<char*> workerEnvironment() {
+    constexpr std::array<std::string_view, 5> kKept = {
+        "LD_LIBRARY_PATH=", "ASAN_OPTIONS=", "LSAN_OPTIONS=", "TSAN_OPTIONS=", "UBSAN_OPTIONS="};
+    std::vector<char*> kept;
+    for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry)
+        if (std::any_of(kKept.begin(), kKept.end(), [&](std::string_view name) {
+                return std::string_view(*entry).starts_with(name);
+            }))
+            kept.push_back(*entry);
+    kept.push_back(nullptr);
+    return kept;
+}
+
+} // namespace
 
 Result<void> WorkerProcess::ensureRunning(const std::filesystem::path& program) {
     reapIfEnded();
@@ -28,8 +51,8 @@ Result<void> WorkerProcess::ensureRunning(const std::filesystem::path& program) 
     const FileDescriptor theirs(pair[1]);
 
     // Nothing but the control socket and standard error is inherited; signal handling starts from
-    // the defaults; the worker leaves the terminal's process group so that Ctrl+C reaches Patina
-    // first, which may still want to write what has been computed.
+    // the defaults; the worker has a session of its own: no terminal is within its reach, and
+    // Ctrl+C comes to Patina first, which may still want to write what has been computed.
     posix_spawn_file_actions_t files{};
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -44,15 +67,18 @@ Result<void> WorkerProcess::ensureRunning(const std::filesystem::path& program) 
     sigfillset(&all);
     posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawnattr_setsigdefault(&attributes, &all);
-    posix_spawnattr_setpgroup(&attributes, 0);
     posix_spawnattr_setflags(
         &attributes,
-        static_cast<short>(POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP));
+        static_cast<short>(POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSID));
     std::string name = program.string();
     std::array<char*, 2> arguments{name.data(), nullptr};
+    std::vector<char*> environment = workerEnvironment();
+    // From now on files of strangers are near: our memory is not theirs to read. (It also means: no
+    // core dump, and a debugger that comes later needs root.)
+    ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);
     pid_t pid = -1;
-    const int failure =
-        ::posix_spawn(&pid, name.c_str(), &files, &attributes, arguments.data(), environ);
+    const int failure = ::posix_spawn(&pid, name.c_str(), &files, &attributes, arguments.data(),
+                                      environment.data());
     posix_spawn_file_actions_destroy(&files);
     posix_spawnattr_destroy(&attributes);
     if (failure != 0)

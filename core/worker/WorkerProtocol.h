@@ -20,6 +20,7 @@ namespace patina::protocol {
 inline constexpr std::uint32_t kMagic = 0x31415450;                    // "PTA1"
 inline constexpr int kControlFd = 3;                                   // in the worker
 inline constexpr std::size_t kMaxHeaderBytes = std::size_t{256} << 20; // JSON text
+inline constexpr std::size_t kMaxErrorBytes = std::size_t{1} << 20;    // that of an error
 inline constexpr std::size_t kLogBytes = std::size_t{64} << 10;        // what a decoder may print
 inline constexpr std::size_t kMaxDescriptors = 4;
 

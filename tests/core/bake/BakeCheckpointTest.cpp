@@ -3,12 +3,14 @@
 #include "core/bake/ResumableTracer.h"
 #include "core/base/AtomicFile.h"
 #include "tests/core/bake/BakeTestScene.h"
+#include "tests/support/FullDisk.h"
 #include "tests/support/TemporaryFolder.h"
 
 #include <atomic>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 namespace fs = std::filesystem;
 using namespace patina;
@@ -174,6 +176,80 @@ TEST_F(BakeCheckpoint, OneThatCannotBeWrittenIsAWarning) {
     EXPECT_FALSE(tracer.keptCheckpoint());
 }
 
+// What a bake does with a disk that runs full under it and has room again later. Says on standard
+// error what is wrong; returns how much.
+int writeOntoAFullDisk(const fs::path& folder, BakeManifest manifest) {
+    int wrong = 0;
+    const auto expect = [&wrong](bool holds, const std::string& what) {
+        if (!holds)
+            std::fprintf(stderr, "wrong: %s\n", what.c_str());
+        wrong += holds ? 0 : 1;
+    };
+    test::FullDisk disk(folder);
+    std::fprintf(stderr, "a disk of its own: %s\n", disk.isOwn() ? "yes" : "no");
+    constexpr std::size_t kPoints = 5000, kValues = 9; // 190 kB
+    const std::vector<PointRange> ranges = {{0, kPoints}};
+    manifest.points = kPoints;
+    manifest.ranges = ranges.size();
+    PassState state;
+    state.values.assign(kPoints * kValues, 0.25f);
+    state.hiddenSky.assign(kPoints, 0.5f);
+    state.error.assign(kPoints, 0.0f);
+    state.passes.assign(kPoints, 1);
+    state.wanted.assign(kPoints, 1);
+    state.samplesDone = 16;
+    const fs::path file = folder / "a.checkpoint";
+    std::vector<Error> warnings;
+    Checkpointer checkpointer(file, manifest, ranges,
+                              [&](const Error& error) { warnings.push_back(error); });
+    const auto samplesKept = [&] {
+        PassState kept;
+        const Result<void> read = readBakeState(file, ranges, kValues, kept);
+        expect(read.ok(), read.ok() ? "" : read.error().text());
+        return kept == state ? kept.samplesDone : -kept.samplesDone;
+    };
+    expect(checkpointer.write(state, false, 0.1), "the first is written");
+    expect(samplesKept() == 16, "the first is whole");
+
+    constexpr rlim_t kFree = 64 << 10; // a part of the next one fits
+    disk.fill(kFree);
+    state.samplesDone = 32;
+    for (int attempt = 0; attempt < 2; ++attempt)
+        expect(!checkpointer.write(state, false, 0.2), "the disk is full");
+    expect(warnings.size() == 1, "one warning is enough");
+    for (const Error& warning : warnings) {
+        expect(warning.kind == ErrorKind::Io, "an error of writing");
+        expect(warning.text().find(disk.isOwn()
+                                       ? "a.checkpoint: the disk is full"
+                                       : "a.checkpoint: writing failed") != std::string::npos,
+               warning.text());
+    }
+    disk.free();
+    state.samplesDone = 16;
+    expect(samplesKept() == 16, "the first is still there");
+    std::size_t files = 0;
+    for ([[maybe_unused]] const fs::directory_entry& entry : fs::directory_iterator(folder))
+        ++files;
+    expect(files == 1, "nothing half-written lies about");
+
+    state.samplesDone = 48;
+    expect(checkpointer.write(state, false, 0.3), "there is room again");
+    expect(samplesKept() == 48, "the next one is whole");
+    return wrong;
+}
+
+TEST_F(BakeCheckpoint, AFullDiskKeepsTheLastOneAndIsTriedAgain) {
+    fs::create_directory(folder / "disk");
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0)
+        ::_exit(writeOntoAFullDisk(folder / "disk", manifest));
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
 TEST_F(BakeCheckpoint, OtherBakesCheckpointsAreRefused) {
     ResumeSettings resume;
     resume.manifest = manifest;
@@ -234,8 +310,8 @@ TEST_F(BakeCheckpoint, MergeTakesEveryPartOnce) {
     EXPECT_THAT(refusal({a, b, c, b}), HasSubstr("1-3.part: it is part 2 of 3, and so is"));
     const fs::path half = part(1, 2);
     EXPECT_THAT(refusal({a, half, c}), HasSubstr("1-2.part: it is one of 2 parts"));
-    EXPECT_THAT(refusal({a, folder / "none"}), HasSubstr("none: the file cannot be read"));
-    EXPECT_THAT(refusal({a, "/dev/null"}), HasSubstr("/dev/null: this is not a file"));
+    EXPECT_THAT(refusal({a, folder / "none"}), HasSubstr("none: the file does not exist"));
+    EXPECT_THAT(refusal({a, "/dev/null"}), HasSubstr("/dev/null: this is a pipe or a device"));
 
     // Parts of other settings, and a checkpoint that is no part yet.
     manifest.settings["samples"] = "64";

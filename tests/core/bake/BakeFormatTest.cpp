@@ -1,7 +1,8 @@
-// What version 2 of the format added, and that version 1 is still read.
+// What version 2 of the format added, and that versions 1 and 2 are still read.
 #include "core/bake/BakeIO.h"
+#include "core/bake/BakePacking.h"
 #include "core/bake/BakeParts.h"
-#include "core/document/Document.h"
+#include "core/document/Scene.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/core/bake/BakeFileScene.h"
 #include "tests/support/TemporaryFolder.h"
@@ -134,6 +135,39 @@ TEST(BakeFormat, TheFirstVersionIsStillRead) {
     ASSERT_FALSE(refused.ok());
     EXPECT_THAT(refused.error().message,
                 HasSubstr("another mesh \"Body\" with as many vertices; open"));
+}
+
+// Files that a Patina wrote which knew nothing of sources and coverage.
+TEST(BakeFormat, TheSecondVersionIsStillRead) {
+    const std::filesystem::path folder = PATINA_SOURCE_DIR "/tests/core/bake/version-2";
+    WorkerClient worker;
+    const Result<OpenedScene> scene = openScene(worker, (folder / "quad.obj").string());
+    ASSERT_TRUE(scene.ok()) << scene.error().text();
+    const Document& document = scene->document;
+    for (const char* name : {"vertex.exr", "texel.exr"}) {
+        const Result<BakeArtifact> bake = loadBake(worker, folder / name, document);
+        ASSERT_TRUE(bake.ok()) << bake.error().text();
+        EXPECT_EQ(bake->inputs, hashBakeInputs(bakeInputs(document))) << name;
+        EXPECT_EQ(bake->order, 2);
+        EXPECT_EQ(bake->bounces, 1);
+        EXPECT_EQ(bake->vertices.size() + bake->texels.size(), 1u);
+
+        // Packed, as a larger one would have been.
+        ImageLoadOptions asBake;
+        asBake.sanitize = false;
+        asBake.allParts = true;
+        Result<LoadedImage> file = loadImage(worker, folder / name, asBake);
+        ASSERT_TRUE(file.ok()) << file.error().text();
+        EXPECT_EQ(file->parts.front().attributes.at("patina:version"), "2");
+        std::vector<ImagePart> packed = packParts(std::move(file->parts), 0);
+        ASSERT_EQ(packed.size(), 1u);
+        packed[0].attributes["patina:version"] = "3"; // of that time
+        const Result<std::vector<ImagePart>> plain = unpackParts(packed, folder / name);
+        ASSERT_TRUE(plain.ok()) << plain.error().text();
+        const Result<BakeArtifact> again = bakeFromParts(*plain, document, folder / name);
+        ASSERT_TRUE(again.ok()) << again.error().text();
+        expectSame(*again, *bake);
+    }
 }
 
 TEST(BakeFormat, EditedFilesAreRefused) {

@@ -199,11 +199,16 @@ TEST(BakeParts, DamageIsRefusedWithAReason) {
     for (const BakeKind kind :
          {BakeKind::AoTexel, BakeKind::AoVertex, BakeKind::PrtVertex, BakeKind::PrtTexel}) {
         for (const float value : {nan, std::numeric_limits<float>::infinity()})
-            EXPECT_THAT(damaged(kind, [&](auto& parts) { parts[1].image.f32()[5] = value; }),
+            EXPECT_THAT(damaged(kind,
+                                [&](auto& parts) {
+                                    Image& image = parts[1].image;
+                                    image.f32()[5 * static_cast<std::size_t>(image.channels())] =
+                                        value;
+                                }),
                         HasSubstr("out of range"));
         EXPECT_THAT(damaged(kind, [](auto& parts) { parts[0].attributes.erase("patina:format"); }),
                     HasSubstr("no bake"));
-        EXPECT_THAT(damaged(kind, [](auto& parts) { parts[0].attributes["patina:version"] = "3"; }),
+        EXPECT_THAT(damaged(kind, [](auto& parts) { parts[0].attributes["patina:version"] = "4"; }),
                     HasSubstr("newer"));
         EXPECT_THAT(damaged(kind, [](auto& parts) { parts[0].attributes["patina:kind"] = "x"; }),
                     HasSubstr("kind"));

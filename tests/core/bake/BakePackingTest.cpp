@@ -78,6 +78,14 @@ TEST(BakePacking, OlderReadersRefuseItInsteadOfFindingNothing) {
     const Result<BakeArtifact> loaded = bakeFromParts(packed, document, "bake.exr");
     ASSERT_FALSE(loaded);
     EXPECT_THAT(loaded.error().text(), HasSubstr("newer Patina"));
+    // We say the same of what comes after us.
+    std::vector<ImagePart> later = packed;
+    for (ImagePart& part : later)
+        part.attributes["patina:version"] = "5";
+    const Result<std::vector<ImagePart>> kept = unpackParts(later, "bake.exr");
+    ASSERT_TRUE(kept.ok());
+    EXPECT_THAT(bakeFromParts(*kept, document, "bake.exr").error().text(),
+                HasSubstr("newer Patina"));
 }
 
 TEST(BakePacking, DamageIsRefused) {

@@ -10,12 +10,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Counts the includes in `folder` that match `forbidden`, except in files that match `allowedFile`.
-int violations(const std::string& folder, const std::string& forbidden,
-               const std::string& allowedFile = {}) {
+// Counts the lines in `folder` that match `pattern`, except in files that match `allowedFile`.
+int lines(const std::string& folder, const std::regex& pattern, const std::string& allowedFile) {
     const fs::path root = PATINA_SOURCE_DIR;
     const std::regex allowed(allowedFile);
-    const std::regex pattern("^\\s*#\\s*include\\s*[<\"](" + forbidden + ")");
     int found = 0, files = 0;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
         const std::string extension = entry.path().extension().string();
@@ -33,6 +31,12 @@ int violations(const std::string& folder, const std::string& forbidden,
     }
     EXPECT_GT(files, 0) << folder << " holds no sources";
     return found;
+}
+
+// The same for includes of what `forbidden` matches.
+int violations(const std::string& folder, const std::string& forbidden,
+               const std::string& allowedFile = {}) {
+    return lines(folder, std::regex("^\\s*#\\s*include\\s*[<\"](" + forbidden + ")"), allowedFile);
 }
 
 TEST(Borders, CoreSeesNeitherQtNorOpenGlNorTheRoomsAboveIt) {
@@ -56,6 +60,33 @@ TEST(Borders, EachLibraryHasOneAdapter) {
     EXPECT_EQ(violations("core", "embree3/", "core/bake/RayScene.cpp"), 0);
     EXPECT_EQ(violations("core", "(oneapi/)?tbb/", "core/job/Parallel.cpp"), 0);
     EXPECT_EQ(violations("app", "embree3/|assimp/|OpenImageIO/|(oneapi/)?tbb/"), 0);
+}
+
+// Folders are opened to be synchronised, marks of open projects to be locked; what the kernel makes
+// up, and the decoder's own process, need no care.
+TEST(Borders, FilesAreOpenedForReadingInOnePlace) {
+    const std::regex opens(
+        "::open(at)?\\((?!.*O_(DIRECTORY|WRONLY|RDWR|TMPFILE)).*O_RDONLY|ifstream|"
+        "fopen\\(");
+    EXPECT_EQ(lines("core", opens,
+                    "core/base/InputFile.cpp|core/bake/BakeMemory.cpp|core/worker/ModelFolder.cpp"),
+              0);
+    EXPECT_EQ(lines("render", opens, ""), 0);
+    EXPECT_EQ(lines("app/cli", opens, ""), 0);
+    EXPECT_EQ(lines("app/editor", opens, "app/editor/document/OpenProjects.cpp"), 0);
+}
+
+// What reaches a terminal passes core/base/PrintableText.h there.
+TEST(Borders, FewFilesWriteToTheTerminal) {
+    const std::regex writes(
+        "fmt::print\\(|\\bf?printf\\(|\\bf?puts\\(|std::c(out|err|log)\\b|std::clog");
+    EXPECT_EQ(lines("core", writes,
+                    "core/base/Check.cpp|core/worker/WorkerClient.cpp"), // a sanitizer's report
+              0);
+    EXPECT_EQ(lines("render", writes, ""), 0);
+    EXPECT_EQ(lines("app/cli", writes, "app/cli/(BakeRun|Report|Watcher).cpp"), 0);
+    // Before there is a window: what the driver and Qt say, and the option that failed.
+    EXPECT_EQ(lines("app/editor", writes, "app/editor/(main|OpenGlProbe|StartupMessages).cpp"), 0);
 }
 
 TEST(Borders, NothingDependsOnTests) {

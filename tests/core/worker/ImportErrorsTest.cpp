@@ -83,6 +83,62 @@ TEST_F(ImportErrors, CutShort) {
         }
 }
 
+// Some words that announce gigabytes are refused before anything is made of them: the processor
+// time that is granted here would not be enough for that.
+TEST_F(ImportErrors, MoreThanTheBytesThatAreThere) {
+    worker().setLimits({std::size_t{4} << 30, 1.0, 60.0});
+    const auto accessor = [](std::size_t count, const char* type, int componentType) {
+        return nlohmann::json{{"count", count}, {"type", type}, {"componentType", componentType}};
+    };
+    const auto glb = [&](const nlohmann::json& accessors, const nlohmann::json& primitive) {
+        test::GltfBuilder builder;
+        builder.root["accessors"] = accessors;
+        builder.root["meshes"] = {{{"primitives", {primitive}}}};
+        builder.node({{"mesh", 0}});
+        return builder.glb();
+    };
+    constexpr std::size_t kMany = 150'000'000;
+    const nlohmann::json positions = {{"attributes", {{"POSITION", 0}}}};
+    const nlohmann::json indexed = {{"attributes", {{"POSITION", 0}}}, {"indices", 1}};
+    for (const std::string& content :
+         {glb(nlohmann::json::array({accessor(kMany, "VEC3", 5126)}), positions),
+          glb({accessor(3, "VEC3", 5126), accessor(kMany, "SCALAR", 5125)}, indexed),
+          // Many small ones add up.
+          glb({accessor(900'000, "VEC3", 5126), accessor(900'000, "SCALAR", 5125)}, indexed)}) {
+        const Error error = importError("zeros.glb", content);
+        EXPECT_EQ(error.kind, ErrorKind::InputBroken);
+        EXPECT_THAT(error.message, HasSubstr("announces more geometry than it holds"));
+    }
+    const Error ply = importError(
+        "faces.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float "
+                     "y\nproperty float z\nelement face 900000000000\nend_header\n0 0 0\n");
+    EXPECT_THAT(ply.message, HasSubstr("no faces"));
+    worker().setLimits({std::size_t{4} << 30, 20.0, 60.0});
+}
+
+// What is legal stays so: zeros as the base of a sparse accessor.
+TEST_F(ImportErrors, AFewZerosAreFine) {
+    test::GltfBuilder builder;
+    const int mesh = builder.triangle();
+    const int indices = builder.view(std::string("\1\0\2\0", 4));
+    const float moved[6] = {1, 0, 0, 0, 1, 0};
+    const int values =
+        builder.view(std::string(reinterpret_cast<const char*>(moved), sizeof moved));
+    builder.root["accessors"].push_back(
+        {{"count", 3},
+         {"type", "VEC3"},
+         {"componentType", 5126},
+         {"sparse",
+          {{"count", 2},
+           {"indices", {{"bufferView", indices}, {"componentType", 5123}}},
+           {"values", {{"bufferView", values}}}}}});
+    builder
+        .root["meshes"][static_cast<std::size_t>(mesh)]["primitives"][0]["attributes"]["POSITION"] =
+        builder.root["accessors"].size() - 1;
+    builder.node({{"mesh", mesh}});
+    EXPECT_EQ(import("sparse.glb", builder.glb()).triangleCount, 1u);
+}
+
 TEST_F(ImportErrors, AGigabyteOfZeros) {
     for (const char* name : {"zeros.glb", "zeros.stl"}) {
         const auto file = folder.write(name, std::string_view("\0", 1));
