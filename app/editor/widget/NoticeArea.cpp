@@ -5,14 +5,15 @@
 #include "app/editor/widget/EditControl.h"
 
 #include <QEvent>
-#include <QGraphicsOpacityEffect>
 #include <QGridLayout>
 #include <QLabel>
+#include <QPainter>
 #include <QPlainTextEdit>
-#include <QPropertyAnimation>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <QVariantAnimation>
 #include <algorithm>
+#include <utility>
 
 namespace patina::editor {
 namespace {
@@ -105,7 +106,7 @@ void NoticeBar::setFileName(const QString& name) {
 
 void NoticeBar::countOnceMore() {
     ++m_count;
-    setGraphicsEffect(nullptr); // it may be fading
+    stopFading();
     if (m_life.interval() > 0)
         m_life.start();
     refreshText();
@@ -126,14 +127,40 @@ void NoticeBar::fade() {
         m_life.start();
         return;
     }
-    auto* effect = new QGraphicsOpacityEffect(this);
-    setGraphicsEffect(effect);
-    auto* animation = new QPropertyAnimation(effect, "opacity", this);
-    animation->setDuration(kFadeMs);
-    animation->setStartValue(1.0);
-    animation->setEndValue(0.0);
-    connect(animation, &QPropertyAnimation::finished, this, &NoticeBar::dismissed);
-    animation->start();
+    // A picture of itself, for its parts have no opacity.
+    m_fading = grab();
+    setFixedSize(size());
+    for (QWidget* part : findChildren<QWidget*>(Qt::FindDirectChildrenOnly))
+        part->setVisible(false);
+    m_fade = new QVariantAnimation(this);
+    m_fade->setDuration(kFadeMs);
+    m_fade->setStartValue(1.0);
+    m_fade->setEndValue(0.0);
+    connect(m_fade, &QVariantAnimation::valueChanged, this, qOverload<>(&QWidget::update));
+    connect(m_fade, &QVariantAnimation::finished, this, &NoticeBar::dismissed);
+    m_fade->start();
+}
+
+void NoticeBar::stopFading() {
+    if (!m_fade)
+        return;
+    delete std::exchange(m_fade, nullptr);
+    m_fading = QPixmap();
+    setMinimumSize(0, 0);
+    setMaximumSize(QWIDGETSIZE_MAX, QWIDGETSIZE_MAX);
+    for (QWidget* part : findChildren<QWidget*>(Qt::FindDirectChildrenOnly))
+        part->setVisible(!qobject_cast<QPlainTextEdit*>(part)); // details are folded then
+    update();
+}
+
+void NoticeBar::paintEvent(QPaintEvent* event) {
+    if (!m_fade) {
+        QFrame::paintEvent(event);
+        return;
+    }
+    QPainter painter(this);
+    painter.setOpacity(m_fade->currentValue().toDouble());
+    painter.drawPixmap(0, 0, m_fading);
 }
 
 NoticeArea::NoticeArea(QWidget& picture)
@@ -177,6 +204,7 @@ void NoticeArea::add(const UserNotice& notice) {
     m_layout->insertWidget(0, bar);
     if (m_bars.size() > kMaxBars)
         remove(m_bars.last());
+    bar->show();
     show();
     raise();
     place();
@@ -202,9 +230,12 @@ void NoticeArea::remove(NoticeBar* bar) {
 void NoticeArea::place() {
     const int margin = tokens::kMargin;
     const int width = std::min(m_picture.width() - 2 * margin, kMaxWidth);
-    m_layout->activate();
-    const int wanted =
-        m_layout->hasHeightForWidth() ? m_layout->totalHeightForWidth(width) : sizeHint().height();
+    // Asked of the bars themselves: the layout keeps what it knew of them before they were shown.
+    int wanted = m_layout->spacing() * std::max(0, static_cast<int>(m_bars.size()) - 1);
+    for (NoticeBar* bar : std::as_const(m_bars)) {
+        bar->ensurePolished();
+        wanted += bar->hasHeightForWidth() ? bar->heightForWidth(width) : bar->sizeHint().height();
+    }
     const int height = std::min(wanted, m_picture.height() - 2 * margin);
     setGeometry((m_picture.width() - width) / 2, m_picture.height() - height - margin, width,
                 height);

@@ -5,12 +5,14 @@
 #include "app/editor/document/UserNotice.h"
 
 #include <QFrame>
+#include <QPixmap>
 #include <QSet>
 #include <QTimer>
 #include <QWidget>
 
 class QLabel;
 class QToolButton;
+class QVariantAnimation;
 class QVBoxLayout;
 
 namespace patina::editor {
@@ -28,9 +30,13 @@ class NoticeBar : public QFrame {
   Q_SIGNALS:
     void dismissed();
 
+  protected:
+    void paintEvent(QPaintEvent* event) override;
+
   private:
     void refreshText();
     void fade(); // unless somebody is reading it
+    void stopFading();
 
     UserNotice m_notice;
     QString m_fileName;
@@ -38,6 +44,8 @@ class NoticeBar : public QFrame {
     QLabel* m_text;
     QToolButton* m_more = nullptr; // unfolds the details
     QTimer m_life;                 // of good news, which go by themselves
+    QVariantAnimation* m_fade = nullptr;
+    QPixmap m_fading; // as it was when that began
 };
 
 class NoticeArea : public QWidget {
