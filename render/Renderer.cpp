@@ -213,6 +213,32 @@ void Renderer::Impl::endGl(unsigned targetFramebuffer) {
     glFrontFace(GL_CCW);
 }
 
+// Overlays are as fine as what they are shown on, however coarse the picture below them is.
+Result<void> Renderer::Impl::show(const FrameSettings& frame, unsigned targetFramebuffer) {
+    const OverlaySettings settings{frame.selectedMesh, frame.selectedLight, frame.lobe.get(),
+                                   frame.overlayScale};
+    const bool stretched = frame.shownWidth > 0 && (frame.shownWidth != targets.width() ||
+                                                    frame.shownHeight != targets.height());
+    if (!stretched) {
+        Result<void> done;
+        if (frame.showOverlays)
+            done = overlay.draw(Canvas::of(targets), targets, scene, lastBlock, frame.camera,
+                                settings);
+        return done ? screen.present(targets, Canvas::window(targets, targetFramebuffer)) : done;
+    }
+    const Canvas canvas{targetFramebuffer, frame.shownWidth, frame.shownHeight};
+    if (auto done = screen.present(targets, canvas); !done || !frame.showOverlays)
+        return done;
+    FrameSettings fine = frame;
+    fine.width = frame.shownWidth;
+    fine.height = frame.shownHeight;
+    const FrameBlock block = packFrame(fine);
+    useFrame(block);
+    Result<void> done = overlay.draw(canvas, targets, scene, block, frame.camera, settings);
+    useFrame(lastBlock);
+    return done;
+}
+
 Result<void> Renderer::render(const FrameSettings& frame, unsigned targetFramebuffer) {
     Impl& r = *m_impl;
     if (frame.width != r.targets.width() || frame.height != r.targets.height() ||
@@ -242,12 +268,8 @@ Result<void> Renderer::render(const FrameSettings& frame, unsigned targetFramebu
     Result<void> done = r.drawViews(frame, drawsScene);
     if (drawsScene)
         r.sceneIsNew = !done.ok();
-    if (done && frame.showOverlays)
-        done = r.overlay.draw(
-            r.targets, r.scene, r.lastBlock, frame.camera,
-            {frame.selectedMesh, frame.selectedLight, frame.lobe.get(), frame.overlayScale});
     if (done)
-        done = r.screen.present(r.targets, targetFramebuffer);
+        done = r.show(frame, targetFramebuffer);
     r.endGl(targetFramebuffer);
     return done;
 }

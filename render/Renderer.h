@@ -28,6 +28,9 @@ namespace patina::render {
 struct FrameSettings {
     int width = 0, height = 0; // pixels
     int samples = 4;           // MSAA; 1: none
+    // Pixels that the picture is stretched to before the overlays are drawn over it, straight into
+    // the target framebuffer; 0: those of the picture.
+    int shownWidth = 0, shownHeight = 0;
     // Adds the frame to the ones before of the same scene, each a fraction of a pixel beside the
     // others, kSteadyFrames at most: anti-aliasing without MSAA. Where there is MSAA, and for views
     // of numbers, without effect.
@@ -108,7 +111,7 @@ class Renderer {
     void clearBouncedLight();
 
     // Renders to the internal HDR target and tone maps into framebuffer `targetFramebuffer`
-    // (0: the window's), viewport 0,0 … width,height.
+    // (0: the window's), viewport 0,0 … width,height or shownWidth,shownHeight.
     Result<void> render(const FrameSettings& frame, unsigned targetFramebuffer);
 
     // Frames that the last one is the mean of; kSteadyFrames: more will not change it.

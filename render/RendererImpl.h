@@ -74,6 +74,7 @@ struct Renderer::Impl {
     Result<void> drawPicture(const FrameSettings& frame, const FrameBlock& block,
                              const gl::Framebuffer& target, SurfaceOutput output,
                              bool withBackground, ViewKind kind = shading::kViewFinal);
+    Result<void> show(const FrameSettings& frame, unsigned targetFramebuffer);
     Result<void> adapt(const FrameSettings& frame);
     void beginGl();
     void endGl(unsigned targetFramebuffer);

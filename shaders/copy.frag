@@ -1,11 +1,18 @@
 #version 450 core
 // The finished picture into a window; where it is transparent a checkerboard shows.
 layout(binding = 0) uniform sampler2D u_picture; // straight alpha
+#ifdef STRETCHED // over more pixels than it has
+in vec2 v_uv;
+#endif
 layout(location = 0) out vec4 o_color;
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
+#ifdef STRETCHED
+    vec4 c = texture(u_picture, v_uv);
+#else
     vec4 c = texelFetch(u_picture, pixel, 0);
+#endif
     ivec2 field = pixel / 16;
     vec3 checker = ((field.x + field.y) & 1) == 0 ? vec3(0.16) : vec3(0.20);
     o_color = vec4(mix(checker, c.rgb, c.a), 1.0);

@@ -34,7 +34,8 @@ void main() {
 
     vec4 clip = u_worldToClip * vec4(p, 1.0);
     float depth = clip.z / clip.w * 0.5 + 0.5;
-    float sceneDepth = texelFetch(u_depth, ivec2(gl_FragCoord.xy), 0).r;
+    ivec2 texel = ivec2(v_uv * vec2(textureSize(u_depth, 0))); // of a picture that may be coarser
+    float sceneDepth = texelFetch(u_depth, texel, 0).r;
     // A floor at y = 0 keeps its grid.
     if (sceneDepth < 1.0 && depth - 1e-5 > sceneDepth)
         discard;
@@ -42,7 +43,7 @@ void main() {
     float fade = 1.0 - smoothstep(0.25, 1.0, length(p - u_center) / u_fadeRadius);
     float strength = max(0.22 * lines(fine, width), 0.4 * lines(fine * 0.1, width * 0.1));
     // Light lines on a dark picture, dark ones on a bright one.
-    vec3 behind = expose(texelFetch(u_radiance, ivec2(gl_FragCoord.xy), 0).rgb);
+    vec3 behind = expose(texelFetch(u_radiance, texel, 0).rgb);
     vec3 color = vec3(mix(0.85, 0.05, smoothstep(0.05, 0.3, reinhard(luminance(behind)))));
     vec2 axis = 1.0 - clamp(abs(p.xz) / (1.5 * metres), 0.0, 1.0);
     if (axis.y > 0.0) { // z = 0: the x axis

@@ -25,7 +25,9 @@ void main() {
     vec3 tint = mix(u_color, sqrt(v_color), 0.35);
     // Thin where it is seen along its skin, as glass is not, so that its edge is soft.
     float alpha = 0.62 * smoothstep(0.0, 0.35, facing);
-    float scene = texelFetch(u_depth, ivec2(gl_FragCoord.xy), 0).r;
+    // The picture may be coarser than what the lobe is drawn on.
+    vec2 at = gl_FragCoord.xy * u_viewport.zw * vec2(textureSize(u_depth, 0));
+    float scene = texelFetch(u_depth, ivec2(at), 0).r;
     // The foot lies on the surface itself.
     if (scene < 1.0 && gl_FragCoord.z - 2e-5 > scene)
         alpha *= 0.16;

@@ -79,8 +79,8 @@ MainWindow::MainWindow(Session& session)
     , m_files(new FileFlow(session, *this))
     , m_docks(new Docks(*this))
     , m_freed(new FreedMemory(this))
-    , m_notices(new NoticeArea)
-    , m_viewport(new ViewportWidget(session.controller, session.selection)) {
+    , m_viewport(new ViewportWidget(session.controller, session.selection))
+    , m_notices(new NoticeArea(*m_viewport)) {
     setObjectName(QStringLiteral("mainWindow"));
     setAcceptDrops(true);
     m_viewport->setJobs(session.jobs);
@@ -94,7 +94,6 @@ MainWindow::MainWindow(Session& session)
     auto* layout = new QVBoxLayout(centre);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
-    layout->addWidget(m_notices);
     layout->addWidget(m_viewport, 1);
     m_overlay = new ViewOverlay(session.views, session.controller, *m_viewport);
     m_progress = new SceneProgress(session.controller, *m_viewport);
@@ -410,6 +409,10 @@ void MainWindow::connectActions() {
     connect(m_progress, &SceneProgress::sceneShown, this, &MainWindow::refreshTitle);
     connect(m_files, &FileFlow::openingChanged, m_progress, &SceneProgress::setOpening);
     connect(&controller, &DocumentController::noticed, this, &MainWindow::notice);
+    connect(&controller, &DocumentController::changed, m_notices, [this](const Change& change) {
+        if (change.affects == Affects::Everything)
+            m_notices->sceneReplaced(m_session.controller.isPristine());
+    });
     connect(&controller.tasks(), &BackgroundTasks::busyChanged, this,
             [this] { m_busy->setActivity(m_session.controller.tasks().activity()); });
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
@@ -432,11 +435,14 @@ void MainWindow::connectActions() {
             });
     connect(m_viewport, &ViewportWidget::contextFailed, this, [this](const QString& reason) {
         m_gpu->setText(tr("No OpenGL 4.5"));
-        notice({NoticeKind::Error, reason, {}});
+        notice({NoticeKind::Error, reason, {}, {}, NoticeAbout::Program});
     });
     connect(m_viewport, &ViewportWidget::shaderProblems, this, [this](const QStringList& messages) {
-        notice({NoticeKind::Error, tr("A shader does not compile; the last good one stays in use."),
-                messages});
+        notice({NoticeKind::Error,
+                tr("A shader does not compile; the last good one stays in use."),
+                messages,
+                {},
+                NoticeAbout::Program});
     });
     fillRecentMenu();
     refreshTriangles();

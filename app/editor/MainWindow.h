@@ -70,10 +70,10 @@ class MainWindow : public QMainWindow {
     FileFlow* m_files;
     Docks* m_docks;
     FreedMemory* m_freed;
-    NoticeArea* m_notices;
     ViewportWidget* m_viewport;
     ViewOverlay* m_overlay = nullptr;    // over the viewport
     SceneProgress* m_progress = nullptr; // likewise
+    NoticeArea* m_notices;               // over the viewport
     QMenu* m_recentMenu = nullptr;
     BusyIndicator* m_busy = nullptr;
     QLabel *m_gpu = nullptr, *m_frameTime = nullptr, *m_triangles = nullptr;

@@ -261,7 +261,7 @@ void ViewActions::fillLights(QMenu& menu) {
     add(tr("Mirror Direction"), 0, tr("The factors for light from where a mirror would look"));
     for (const Light& light : m_controller.document().lights)
         if (shines(m_controller.document(), light))
-            add(text(light.name), light.id, tr("The factors for the light of this lamp"));
+            add(text(light.name), light.id, tr("The factors of this light"));
 }
 
 // --- Keys that are held ------------------------------------------------------------------------

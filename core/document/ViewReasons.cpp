@@ -87,14 +87,14 @@ BakedShare bakedShare(const Document& document, Holds holds) {
 
 constexpr auto kAnything = [](const BakeArtifact&, const auto&) { return true; };
 
-// Whether transfer lights every mesh, and so holds the diffuse light of the lamps.
-bool transferHoldsLamps(const Document& document) {
+// Whether transfer lights every mesh, and so holds the diffuse light of the lights.
+bool transferHoldsLights(const Document& document) {
     if (!readsBake(document.view.lighting))
         return document.view.lighting == LightingMode::Unshadowed;
     return bakedShare(document, kAnything).all;
 }
 
-// Whether transfer lights some mesh, with the lamps among its light.
+// Whether transfer lights some mesh, with the lights of the scene in it.
 bool transferIsUsed(const Document& document) {
     if (!readsBake(document.view.lighting))
         return document.view.lighting == LightingMode::Unshadowed;
@@ -169,8 +169,8 @@ std::string whyEmpty(ViewKind kind, const Document& document, Id light) {
     switch (kind) {
     case kViewDirectDiffuse:
     case kViewLightDiffuse:
-        if (anyActive(document) && transferHoldsLamps(document))
-            return "Transfer holds the diffuse light of lamps: see Diffuse IBL.";
+        if (anyActive(document) && transferHoldsLights(document))
+            return "Transfer holds the diffuse part of lights: see Diffuse IBL.";
         [[fallthrough]];
     case kViewDirect:
     case kViewDirectSpecular:
@@ -184,7 +184,7 @@ std::string whyEmpty(ViewKind kind, const Document& document, Id light) {
     case kViewDiffuseIbl:
     case kViewAmbient:
         if (anyActive(document) && transferIsUsed(document))
-            return {}; // the lamps' diffuse light
+            return {}; // that of lights, too
         [[fallthrough]];
     case kViewPrefiltered:
     case kViewSpecularIbl:

@@ -204,20 +204,21 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
            "Share of the chosen light, or of all that cast shadows, that arrives",
            "The direct light that shadows take away"),
     irradiance(radiance(kViewLightArriving, "lightArriving", "Arriving Light", "E", kDirect,
-                        "Light of the chosen lamp, or of all lamps but area lights, on a surface "
+                        "Illuminance of the chosen light, or of all but area lights, on a surface "
                         "that faces it, before shadow; shown as a grey card of 50 % would reflect "
                         "it")),
-    radiance(kViewLightDiffuse, "lightDiffuse", "Lamp: Diffuse", "", kDirect,
+    radiance(kViewLightDiffuse, "lightDiffuse", "Light: Diffuse", "", kDirect,
              "Diffuse reflection of the chosen light alone, or of all when none is chosen"),
-    radiance(kViewLightSpecular, "lightSpecular", "Lamp: Specular", "", kDirect,
+    radiance(kViewLightSpecular, "lightSpecular", "Light: Specular", "", kDirect,
              "Specular reflection of the chosen light alone, or of all when none is chosen"),
 
-    irradiance(radiance(kViewIrradiance, "irradiance", "Irradiance", "E(n)", kIbl,
-                        "Light from all the surroundings that falls on the surface, before "
-                        "occlusion; under transfer with it, and with the lamps'; shown as a grey "
-                        "card of 50 % would reflect it")),
+    irradiance(
+        radiance(kViewIrradiance, "irradiance", "Irradiance", "E(n)", kIbl,
+                 "Light from the whole environment that falls on the surface, before "
+                 "occlusion; under transfer with it, and with that of lights; shown as a grey "
+                 "card of 50 % would reflect it")),
     radiance(kViewDiffuseIbl, "diffuseIbl", "Diffuse IBL", "", kIbl,
-             "Diffuse reflection of the surroundings; under transfer of the lamps, too",
+             "Diffuse reflection of the environment; under transfer of lights, too",
              "Diffuse image-based light as it stands in the picture's sum"),
     color(
         kViewDiffuseAlbedo, "diffuseAlbedo", "Diffuse Albedo", "ρ", kIbl,
@@ -272,7 +273,7 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
              "", false),
 
     radiance(kViewLampLight, "cosine", "N·L Light", "", kLighting,
-             "The picture under one lamp that stands for the surroundings"),
+             "The picture under the dominant light of the environment"),
     radiance(kViewShLight, "shIrradiance", "SH Irradiance", "", kLighting,
              "The picture under irradiance from nine coefficients, nothing hidden"),
     radiance(kViewUnshadowedLight, "unshadowed", "Unshadowed", "", kLighting,

@@ -51,7 +51,7 @@ void LobePass::sort(const SurfaceLobe& lobe, const glm::vec3& toCamera) {
             m_sorted.push_back(mesh.triangles[first + corner]);
 }
 
-Result<void> LobePass::draw(const Targets& targets, const SurfaceLobe& lobe,
+Result<void> LobePass::draw(const Canvas& canvas, const Targets& targets, const SurfaceLobe& lobe,
                             const glm::vec3& cameraPosition, float reach) {
     if (!lobe.mesh || lobe.mesh->triangles.empty())
         return {};
@@ -72,7 +72,7 @@ Result<void> LobePass::draw(const Targets& targets, const SurfaceLobe& lobe,
     (*shader)->set("u_reach", reach);
     (*shader)->set("u_color", lobe.color);
     targets.depth().bind(0);
-    targets.display().bind();
+    canvas.bind();
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glEnable(GL_BLEND);

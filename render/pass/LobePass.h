@@ -3,7 +3,7 @@
 
 #include "render/gl/Buffer.h"
 #include "render/gl/VertexArray.h"
-#include "render/pass/Targets.h"
+#include "render/pass/ScreenPasses.h"
 #include "render/scene/SurfaceLobe.h"
 #include "render/shader/ShaderLibrary.h"
 
@@ -15,8 +15,9 @@ class LobePass {
         : m_context(context)
         , m_shaders(shaders) {}
 
-    // `reach`: metres to the lobe's peak. The frame's block is bound.
-    Result<void> draw(const Targets& targets, const SurfaceLobe& lobe,
+    // Onto `canvas`, hidden by the depth of targets, which may have fewer pixels. `reach`: metres
+    // to the lobe's peak. The frame's block is bound.
+    Result<void> draw(const Canvas& canvas, const Targets& targets, const SurfaceLobe& lobe,
                       const glm::vec3& cameraPosition, float reach);
 
   private:

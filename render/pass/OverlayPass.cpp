@@ -38,21 +38,22 @@ const char* markShape(LightType type) {
 
 } // namespace
 
-Result<void> OverlayPass::draw(const Targets& targets, const GpuScene& scene,
+Result<void> OverlayPass::draw(const Canvas& canvas, const Targets& targets, const GpuScene& scene,
                                const FrameBlock& frame, const Camera& camera,
                                const OverlaySettings& settings) {
-    if (auto done = drawGrid(targets, scene.document().view, camera); !done)
+    if (auto done = drawGrid(canvas, targets, scene.document().view, camera); !done)
         return done;
-    if (auto done = drawOutline(targets, scene, settings); !done)
+    if (auto done = drawOutline(canvas, scene, settings); !done)
         return done;
-    Result<void> done = drawLights(targets, scene, frame, settings);
+    Result<void> done = drawLights(canvas, scene, frame, settings);
     if (done && settings.lobe)
-        done = drawLobe(targets, *settings.lobe, frame, settings.scale);
+        done = drawLobe(canvas, targets, *settings.lobe, frame, settings.scale);
     glDisable(GL_BLEND);
     return done;
 }
 
-Result<void> OverlayPass::drawGrid(const Targets& targets, const View& view, const Camera& camera) {
+Result<void> OverlayPass::drawGrid(const Canvas& canvas, const Targets& targets, const View& view,
+                                   const Camera& camera) {
     const auto shader = m_shaders.program({{"screen.vert", "grid.frag"}, {}});
     if (!shader)
         return shader.error();
@@ -65,7 +66,7 @@ Result<void> OverlayPass::drawGrid(const Targets& targets, const View& view, con
     (*shader)->set("u_center", glm::vec3(camera.target.x, 0.0f, camera.target.z));
     targets.depth().bind(0);
     targets.linear().bind(1);
-    targets.display().bind();
+    canvas.bind();
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -73,7 +74,7 @@ Result<void> OverlayPass::drawGrid(const Targets& targets, const View& view, con
     return {};
 }
 
-Result<void> OverlayPass::drawOutline(const Targets& targets, const GpuScene& scene,
+Result<void> OverlayPass::drawOutline(const Canvas& canvas, const GpuScene& scene,
                                       const OverlaySettings& settings) {
     const auto& items = scene.items();
     const auto item = std::find_if(items.begin(), items.end(), [&](const DrawItem& i) {
@@ -81,11 +82,11 @@ Result<void> OverlayPass::drawOutline(const Targets& targets, const GpuScene& sc
     });
     if (item == items.end())
         return {};
-    if (m_mask.width() != targets.width() || m_mask.height() != targets.height()) {
+    if (m_mask.width() != canvas.width || m_mask.height() != canvas.height) {
         m_maskTarget = {};
         m_mask = gl::Texture(
             m_context, "selection",
-            {.format = gl::PixelFormat::R8, .width = targets.width(), .height = targets.height()});
+            {.format = gl::PixelFormat::R8, .width = canvas.width, .height = canvas.height});
         m_mask.setSampling(gl::Filter::Linear, gl::Wrap::Clamp);
         auto made = gl::Framebuffer::create(m_context, "selection", {&m_mask}, nullptr);
         if (!made)
@@ -103,12 +104,12 @@ Result<void> OverlayPass::drawOutline(const Targets& targets, const GpuScene& sc
     (*mask)->use();
     drawItem(*item, false);
 
-    targets.display().bind();
+    canvas.bind();
     glEnable(GL_BLEND);
     (*outline)->use();
     (*outline)->set("u_color", kSelection);
     (*outline)->set("u_radius",
-                    2.5f * markScale(static_cast<float>(targets.height()), settings.scale));
+                    2.5f * markScale(static_cast<float>(canvas.height), settings.scale));
     m_mask.bind(0);
     m_screen.drawTriangle();
     return {};
@@ -145,17 +146,18 @@ Result<void> OverlayPass::drawLine(const GizmoLine& line, float scale) {
 
 // The lobe, the frame it stands in, and what it reflects: where the light comes from, or the viewer
 // looks from, and the mirror direction of that.
-Result<void> OverlayPass::drawLobe(const Targets& targets, const SurfaceLobe& lobe,
-                                   const FrameBlock& frame, float pixels) {
+Result<void> OverlayPass::drawLobe(const Canvas& canvas, const Targets& targets,
+                                   const SurfaceLobe& lobe, const FrameBlock& frame, float pixels) {
     const float scale = markScale(frame.viewport.y, pixels);
     const GizmoView view{frame.worldToClip, glm::vec2(frame.viewport), scale};
     const float perMetre = pixelsPerMetre(view, lobe.position);
     if (!(perMetre > 0.0f)) // behind the camera
         return {};
     const float reach = kSurfaceLobeReach * scale / perMetre;
-    if (auto done = m_lobe.draw(targets, lobe, glm::vec3(frame.cameraPosition), reach); !done)
+    if (auto done = m_lobe.draw(canvas, targets, lobe, glm::vec3(frame.cameraPosition), reach);
+        !done)
         return done;
-    targets.display().bind();
+    canvas.bind();
     const auto ray = [&](const glm::vec3& direction, float length, const glm::vec3& color,
                          bool dashed) -> Result<void> {
         const auto from = project(view, lobe.position);
@@ -185,9 +187,9 @@ Result<void> OverlayPass::drawLobe(const Targets& targets, const SurfaceLobe& lo
     return {};
 }
 
-Result<void> OverlayPass::drawLights(const Targets& targets, const GpuScene& scene,
+Result<void> OverlayPass::drawLights(const Canvas& canvas, const GpuScene& scene,
                                      const FrameBlock& frame, const OverlaySettings& settings) {
-    targets.display().bind();
+    canvas.bind();
     const float scale = markScale(frame.viewport.y, settings.scale);
     const GizmoView view{frame.worldToClip, glm::vec2(frame.viewport), scale};
     const Document& document = scene.document();

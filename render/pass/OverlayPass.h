@@ -26,18 +26,21 @@ class OverlayPass {
         , m_lobe(context, shaders)
         , m_noAttributes(context, "no attributes") {}
 
-    // Into targets.display().
-    Result<void> draw(const Targets& targets, const GpuScene& scene, const FrameBlock& frame,
-                      const Camera& camera, const OverlaySettings& settings);
+    // Onto `canvas`, with the depth of targets, which may have fewer pixels. `frame` is that of the
+    // canvas' size, and bound.
+    Result<void> draw(const Canvas& canvas, const Targets& targets, const GpuScene& scene,
+                      const FrameBlock& frame, const Camera& camera,
+                      const OverlaySettings& settings);
 
   private:
-    Result<void> drawGrid(const Targets& targets, const View& view, const Camera& camera);
-    Result<void> drawOutline(const Targets& targets, const GpuScene& scene,
+    Result<void> drawGrid(const Canvas& canvas, const Targets& targets, const View& view,
+                          const Camera& camera);
+    Result<void> drawOutline(const Canvas& canvas, const GpuScene& scene,
                              const OverlaySettings& settings);
-    Result<void> drawLights(const Targets& targets, const GpuScene& scene, const FrameBlock& frame,
+    Result<void> drawLights(const Canvas& canvas, const GpuScene& scene, const FrameBlock& frame,
                             const OverlaySettings& settings);
-    Result<void> drawLobe(const Targets& targets, const SurfaceLobe& lobe, const FrameBlock& frame,
-                          float pixels);
+    Result<void> drawLobe(const Canvas& canvas, const Targets& targets, const SurfaceLobe& lobe,
+                          const FrameBlock& frame, float pixels);
     Result<void> drawLine(const GizmoLine& line, float scale);
     Result<void> drawMark(const char* shape, const glm::vec2& center, const glm::vec2& axisX,
                           const glm::vec2& axisY, const glm::vec3& color, float scale);

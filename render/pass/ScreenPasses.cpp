@@ -36,6 +36,8 @@ Result<void> ScreenPasses::compile() {
     for (const char* fragment : {"sky.frag", "copy.frag", "texel.frag"})
         if (auto made = program(fragment); !made)
             return made.error();
+    if (auto made = program("copy.frag", {"STRETCHED"}); !made) // not when a drag begins
+        return made.error();
     if (auto made = program("tonemap.frag", toneMapDefines(View().toneMap)); !made)
         return made.error();
     return {};
@@ -142,15 +144,22 @@ Result<void> ScreenPasses::showMean(const Targets& targets, std::size_t side) {
     return copy(targets.mean(side));
 }
 
-Result<void> ScreenPasses::present(const Targets& targets, unsigned framebuffer) {
+void Canvas::bind() const {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, width, height);
+}
+
+Result<void> ScreenPasses::present(const Targets& targets, const Canvas& canvas) {
     // A context without a surface has no window to show anything in.
-    if (glCheckNamedFramebufferStatus(framebuffer, GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_UNDEFINED)
+    if (glCheckNamedFramebufferStatus(canvas.framebuffer, GL_DRAW_FRAMEBUFFER) ==
+        GL_FRAMEBUFFER_UNDEFINED)
         return {};
-    const auto shader = program("copy.frag");
+    const bool stretched = canvas.width != targets.width() || canvas.height != targets.height();
+    const auto shader = program("copy.frag", stretched ? std::vector<std::string>{"STRETCHED"}
+                                                       : std::vector<std::string>{});
     if (!shader)
         return shader.error();
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glViewport(0, 0, targets.width(), targets.height());
+    canvas.bind();
     (*shader)->use();
     targets.displayed().bind(kPictureUnit);
     glDisable(GL_DEPTH_TEST);

@@ -22,6 +22,20 @@ struct ToneMapSettings {
     glm::vec3 side{0.0f};     // shaders/include/side.glsl
 };
 
+// A framebuffer that finished pictures are shown in, or drawn over: targets' own or a window's.
+struct Canvas {
+    unsigned framebuffer = 0;
+    int width = 0, height = 0; // pixels
+
+    [[nodiscard]] static Canvas of(const Targets& targets) {
+        return {targets.display().id(), targets.width(), targets.height()};
+    }
+    [[nodiscard]] static Canvas window(const Targets& targets, unsigned framebuffer) {
+        return {framebuffer, targets.width(), targets.height()};
+    }
+    void bind() const; // for drawing, with the viewport set to the whole of it
+};
+
 class ScreenPasses {
   public:
     ScreenPasses(gl::Context& context, ShaderLibrary& shaders);
@@ -45,8 +59,9 @@ class ScreenPasses {
     // That mean once more, without a new frame.
     Result<void> showMean(const Targets& targets, std::size_t side);
 
-    // displayed() into a framebuffer of the window system, multisampled or not.
-    Result<void> present(const Targets& targets, unsigned framebuffer);
+    // displayed() into a framebuffer of the window system, multisampled or not, stretched to its
+    // size.
+    Result<void> present(const Targets& targets, const Canvas& canvas);
 
     // Compiles the programs, so that a broken one is found when the renderer is made.
     Result<void> compile();

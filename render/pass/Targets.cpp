@@ -33,6 +33,7 @@ Result<void> Targets::resize(gl::Context& context, int width, int height, int sa
     m_linear = texture("linear", color, 1);
     m_depth = texture("depth", gl::PixelFormat::Depth32f, 1);
     m_displayed = texture("displayed", gl::PixelFormat::Rgba8, 1);
+    m_displayed.setSampling(gl::Filter::Linear, gl::Wrap::Clamp); // where it is stretched
     auto resolved = gl::Framebuffer::create(context, "scene", {&m_linear}, &m_depth);
     auto display = gl::Framebuffer::create(context, "display", {&m_displayed}, nullptr);
     if (!resolved || !display)

@@ -52,7 +52,7 @@ void appendScene(Document& document, const Document& part) {
         addLight(document, light);
 }
 
-// A model brings no light but its own lamps: it is lit as the scene before it was.
+// A model brings only the lights of its file; the environment and lights of the scene before stay.
 void keepLight(Document& opened, const Document& before) {
     if (!before.environment.image)
         return; // nothing was open
@@ -146,8 +146,11 @@ void DocumentController::openScene(const QString& scene, std::function<void(bool
                 return;
             }
             if (!result->ok()) {
-                if (result->error().kind != ErrorKind::Cancelled)
-                    Q_EMIT noticed(UserNotice::fromError(result->error()));
+                if (result->error().kind != ErrorKind::Cancelled) {
+                    UserNotice notice = UserNotice::fromError(result->error());
+                    notice.about = NoticeAbout::UnopenedFile;
+                    Q_EMIT noticed(notice);
+                }
                 Q_EMIT openFailed(scene);
                 if (done)
                     done(false);
@@ -165,9 +168,10 @@ void DocumentController::openScene(const QString& scene, std::function<void(bool
 
 void DocumentController::takeOpened(OpenedScene opened, const QString& scene, const QString& name,
                                     const std::optional<Hash>& version) {
-    const UserNotice notice = importNotice(name, opened);
+    UserNotice notice = importNotice(name, opened);
     const QString file =
         isBuiltin(scene.toStdString()) ? scene : QFileInfo(scene).absoluteFilePath();
+    notice.file = file;
     if (!opened.isProject)
         keepLight(opened.document, m_document);
     replaceDocument(std::move(opened.document), opened.isProject ? file : QString(),

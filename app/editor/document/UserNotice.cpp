@@ -21,7 +21,8 @@ UserNotice UserNotice::fromError(const Error& error) {
         // Many messages name the file already; saying it twice would only make them longer.
         if (!notice.text.contains(fileName(error.file)))
             notice.text = tr("%1: %2").arg(fileName(error.file), notice.text);
-        notice.details << QString::fromStdString(error.file.string());
+        notice.file = QString::fromStdString(error.file.string());
+        notice.details << notice.file;
     }
     if (!error.detail.empty())
         notice.details << QString::fromStdString(error.detail);

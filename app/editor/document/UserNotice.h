@@ -1,5 +1,5 @@
-// Something to tell the user without stopping them: shown as a bar above the viewport and kept in
-// the log.
+// Something to tell the user without stopping them: shown as a bar over the picture and kept in the
+// log.
 #pragma once
 
 #include "core/base/Result.h"
@@ -12,11 +12,16 @@
 namespace patina::editor {
 
 enum class NoticeKind { Info, Warning, Error };
+// What a notice is about, and goes with: the scene that is open, a file that was to be opened in
+// its stead, or the program itself.
+enum class NoticeAbout { Scene, UnopenedFile, Program };
 
 struct UserNotice {
     NoticeKind kind = NoticeKind::Info;
-    QString text;        // one sentence: what happened and what to do
-    QStringList details; // what "Details" unfolds: missing files, what a library said
+    QString text;             // one sentence: what happened and what to do
+    QStringList details;      // what "Details" unfolds: missing files, what a library said
+    QString file = QString(); // that the text names, with its path; empty: none
+    NoticeAbout about = NoticeAbout::Scene;
 
     [[nodiscard]] static UserNotice fromError(const Error& error);
     // One notice that sums up what opening `name` reported; `details` lists everything. Empty text

@@ -300,7 +300,7 @@ void BrdfLensPanel::describe() {
     else if (hasMaps(*material))
         note += tr(", mean of its maps");
     if (material->perceptualRoughness < shading::kMinPerceptualRoughness)
-        note += tr(", lamps see roughness %1")
+        note += tr(", lights see roughness %1")
                     .arg(static_cast<double>(shading::kMinPerceptualRoughness), 0, 'f', 3);
     if (!m_onSurface.problem().isEmpty())
         note += QStringLiteral(". ") + m_onSurface.problem();

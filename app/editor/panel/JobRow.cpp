@@ -59,7 +59,7 @@ JobRow::JobRow(JobManager& jobs, const JobRecord& record, const QString& names, 
     m_priority->setObjectName(names + QStringLiteral("Priority"));
     m_priority->setAccessibleName(tr("Priority of %1").arg(record.title));
     m_priority->setToolTip(
-        tr("Priority: the highest goes first; a running one of lower priority rests"));
+        tr("Priority: the highest goes first; a running one of lower priority is paused"));
     auto* head = new QHBoxLayout;
     head->addWidget(title, 1);
     head->addWidget(m_priority, 0, Qt::AlignTop);
@@ -98,8 +98,8 @@ void JobRow::show(const JobRecord& record) {
     const bool paused = record.state == JobState::Paused;
     m_pause->setVisible(live && record.queued && !record.stopping);
     m_pause->setText(paused ? tr("Resume") : tr("Pause"));
-    m_pause->setToolTip(paused ? tr("Goes on when it is its turn")
-                               : tr("Rests where it is; the next in the queue goes on meanwhile"));
+    m_pause->setToolTip(paused ? tr("Queues this job again; it resumes where it was paused")
+                               : tr("Pauses this job and starts the next one"));
     m_stop->setVisible(live && record.canStop && record.begun && !record.stopping);
     m_cancel->setVisible(live && !record.cancelling);
     m_priority->setVisible(live && record.queued && !record.stopping);

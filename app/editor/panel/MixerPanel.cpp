@@ -163,8 +163,7 @@ QWidget* MixerPanel::makeSecondSource() {
     m_add->setPopupMode(QToolButton::InstantPopup);
     m_add->setFocusPolicy(Qt::StrongFocus);
     m_add->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    describe(m_add, tr("Second surroundings"),
-             tr("Choose other surroundings that the light can be faded to"));
+    describe(m_add, tr("Second environment"), tr("Choose a second environment to cross-fade to"));
     auto* menu = new QMenu(m_add);
     m_add->setMenu(menu);
     connect(menu, &QMenu::aboutToShow, this, [this, menu] { fillSources(*menu); });
@@ -191,7 +190,7 @@ void MixerPanel::fillSources(QMenu& menu) {
 void MixerPanel::openSecond() {
     const QString key = QStringLiteral("folders/environments");
     const QString file = QFileDialog::getOpenFileName(
-        this, tr("Second Surroundings"), proposedFolder(m_controller, key), environmentFilter());
+        this, tr("Second Environment"), proposedFolder(m_controller, key), environmentFilter());
     if (file.isEmpty())
         return;
     rememberFolder(m_controller, key, file);
@@ -268,7 +267,7 @@ void MixerPanel::refresh() {
         second ? QFontMetrics(m_add->font())
                      .elidedText(MapSlotWidget::sourceTitle(document.environment.second.source),
                                  Qt::ElideMiddle, 110)
-               : tr("Add Surroundings"));
+               : tr("Add Environment"));
     m_fade->setEnabled(second);
     m_fadeField->setEnabled(second);
     m_fade->setValue(document.environment.fade);

@@ -99,23 +99,29 @@ bool ViewGate::isOpenForInspection() const {
     return isOpen(inspection());
 }
 
-void ViewGate::prepare(const std::vector<FrameKind>& frames) {
-    if (!m_waiting)
+void ViewGate::prepareAwaited() {
+    const auto opened = [this](const FrameKind& frame) { return isOpen(frame); };
+    std::erase_if(m_sheetFrames, opened);
+    m_inspectionAwaited = m_inspectionAwaited && !isOpenForInspection();
+    std::vector<FrameKind> frames = m_sheetFrames;
+    if (m_inspectionAwaited)
+        frames.insert(frames.begin(), inspection());
+    if (!frames.empty() && !m_waiting)
         m_warmer.request(m_controller.document(), frames, ProgramWarmer::Urgency::Awaited);
 }
 
 void ViewGate::prepareSheets(const std::vector<ViewKind>& kinds) {
-    std::vector<FrameKind> frames;
+    m_sheetFrames.clear();
     for (const ViewKind kind : kinds)
         if (const FrameKind frame = render::sheetKind(kind, m_controller.document());
-            !isOpen(frame) && std::ranges::find(frames, frame) == frames.end())
-            frames.push_back(frame);
-    if (!frames.empty())
-        prepare(frames);
+            std::ranges::find(m_sheetFrames, frame) == m_sheetFrames.end())
+            m_sheetFrames.push_back(frame);
+    prepareAwaited();
 }
 
 void ViewGate::prepareInspection() {
-    prepare({inspection()});
+    m_inspectionAwaited = true;
+    prepareAwaited();
 }
 
 void ViewGate::rest() {

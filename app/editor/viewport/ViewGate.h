@@ -41,7 +41,8 @@ class ViewGate : public QObject {
 
   private:
     void setWaiting(bool waiting);
-    void prepare(const std::vector<render::FrameKind>& frames);
+    // For all who wait: the newest request of the warmer takes the place of those before.
+    void prepareAwaited();
     [[nodiscard]] render::FrameKind inspection() const;
     [[nodiscard]] render::ViewSettings lastView() const;
 
@@ -54,6 +55,8 @@ class ViewGate : public QObject {
     std::vector<render::FrameKind> m_drawn;            // what it was drawn as
     mutable std::map<render::FrameKind, bool> m_known; // what the warmer says of this document
     bool m_waiting = false;
+    std::vector<render::FrameKind> m_sheetFrames; // that somebody waits for
+    bool m_inspectionAwaited = false;
 };
 
 } // namespace patina::editor

@@ -235,7 +235,6 @@ void ViewportWidget::releaseGl() {
     m_sheets.setResting(false);
     m_picker.frameDrawn({}, false);
     makeCurrent();
-    m_target.reset();
     m_renderer.reset();
     m_context.reset();
     doneCurrent();
@@ -271,7 +270,7 @@ render::FrameSettings ViewportWidget::nextFrame(const QSize& size) {
                        m_viewFeed.sameAsBefore();
     m_lastCamera = frame.camera;
     frame.selectedLight = m_selection.light();
-    frame.overlayScale = m_pacing.scale() * static_cast<float>(devicePixelRatioF());
+    frame.overlayScale = static_cast<float>(devicePixelRatioF());
     if (m_lobe)
         frame.lobe = m_lobe->lobe();
     return frame;
@@ -298,11 +297,11 @@ void ViewportWidget::paintGL() {
     const QSize size = frameSize();
     const QSize full(std::max(1, static_cast<int>(std::lround(width() * devicePixelRatioF()))),
                      std::max(1, static_cast<int>(std::lround(height() * devicePixelRatioF()))));
-    const unsigned target = m_target.begin(size, full, defaultFramebufferObject());
-    const render::FrameSettings frame = nextFrame(size);
-    if (const Result<void> drawn = m_renderer->render(frame, target); !drawn)
+    render::FrameSettings frame = nextFrame(size);
+    frame.shownWidth = full.width();
+    frame.shownHeight = full.height();
+    if (const Result<void> drawn = m_renderer->render(frame, defaultFramebufferObject()); !drawn)
         logError("the frame could not be drawn: {}", drawn.error().text());
-    m_target.end();
     m_viewFeed.endFrame(*m_renderer);
     m_bounces.endFrame(*m_renderer);
     gl->glFinish(); // so that the time below is the frame's, not that of the call

@@ -7,7 +7,6 @@
 #include "app/editor/viewport/PixelPicker.h"
 #include "app/editor/viewport/PreviewFeed.h"
 #include "app/editor/viewport/ProjectionFeed.h"
-#include "app/editor/viewport/ScaledTarget.h"
 #include "app/editor/viewport/SheetScheduler.h"
 #include "app/editor/viewport/ViewFeed.h"
 #include "app/editor/viewport/ViewGate.h"
@@ -140,7 +139,6 @@ class ViewportWidget : public QOpenGLWidget {
 
     std::unique_ptr<gl::Context> m_context;
     std::unique_ptr<render::Renderer> m_renderer;
-    ScaledTarget m_target;
     bool m_displayPending = true; // m_displays->transform() is not in the renderer yet
     bool m_luminanceWanted = false;
     std::optional<Luminance> m_luminance; // as announced last

@@ -18,8 +18,8 @@ LitSphere::LitSphere(const QString& title, QWidget* parent)
     m_light.lamp = glm::normalize(glm::vec3(-0.75f, 0.75f, 0.6f));
     setCursor(Qt::OpenHandCursor);
     setAccessibleName(title);
-    setAccessibleDescription(tr("The material on a ball, under one lamp of 3 lux and the scene's "
-                                "surroundings. Drag the highlight to move the lamp."));
+    setAccessibleDescription(tr("The material on a ball, under one light of 3 lux and the scene's "
+                                "environment. Drag the highlight to move the light."));
     setStatusTip(accessibleDescription());
 }
 

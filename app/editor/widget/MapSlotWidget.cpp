@@ -66,7 +66,7 @@ MapSlotWidget::MapSlotWidget(Thumbnails& thumbnails, const QString& name, bool w
     setAcceptDrops(true);
     setAccessibleName(name);
     m_facts->setObjectName(QStringLiteral("dim"));
-    m_facts->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred); // the name gives way
+    m_facts->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred); // the name is elided
     for (const QString& channel : {tr("RGB"), tr("Red"), tr("Green"), tr("Blue"), tr("Alpha")})
         m_channel->addItem(channel);
     m_channel->setObjectName(QStringLiteral("small"));

@@ -4,19 +4,24 @@
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/EditControl.h"
 
+#include <QEvent>
 #include <QGridLayout>
 #include <QLabel>
+#include <QPainter>
 #include <QPlainTextEdit>
-#include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <QVariantAnimation>
 #include <algorithm>
+#include <utility>
 
 namespace patina::editor {
 namespace {
 
-constexpr int kMaxBars = 4;      // older ones give way; the log keeps them
-constexpr int kInfoSeconds = 12; // information goes by itself, problems wait for the user
+constexpr int kMaxBars = 2;
+constexpr int kMaxWidth = 720;
+constexpr int kInfoMs = 6000; // information goes by itself, problems wait for the user
+constexpr int kFadeMs = 500;
 constexpr int kDetailLines = 8;
 
 QIcon iconOf(NoticeKind kind) {
@@ -31,14 +36,21 @@ QIcon iconOf(NoticeKind kind) {
     return {};
 }
 
+// The last `parts` names of a path: "bike/scene.gltf" for two.
+QString tail(const QString& file, int parts) {
+    return file.section(QLatin1Char('/'), -parts);
+}
+
 } // namespace
 
-NoticeBar::NoticeBar(const UserNotice& notice, QWidget* parent)
+NoticeBar::NoticeBar(const UserNotice& notice, const QString& name, QWidget* parent)
     : QFrame(parent)
     , m_notice(notice)
-    , m_text(new QLabel(notice.text)) {
+    , m_fileName(name)
+    , m_text(new QLabel) {
     setObjectName(QStringLiteral("notice"));
-    setAccessibleName(notice.text);
+    setAttribute(Qt::WA_NoMousePropagation); // below it is the viewport
+    refreshText();
     auto* sign = new QLabel;
     sign->setPixmap(iconOf(notice.kind).pixmap(QSize(18, 18), devicePixelRatioF()));
     m_text->setWordWrap(true);
@@ -60,10 +72,10 @@ NoticeBar::NoticeBar(const UserNotice& notice, QWidget* parent)
     grid->setColumnStretch(1, 1);
 
     if (!notice.details.isEmpty()) {
-        auto* more = new QToolButton;
-        more->setText(tr("Details…"));
-        more->setCheckable(true);
-        more->setAccessibleName(tr("Show the details of the notice"));
+        m_more = new QToolButton;
+        m_more->setText(tr("Details…"));
+        m_more->setCheckable(true);
+        m_more->setAccessibleName(tr("Show the details of the notice"));
         auto* details = new QPlainTextEdit(notice.details.join(QLatin1Char('\n')));
         details->setReadOnly(true);
         details->setLineWrapMode(QPlainTextEdit::NoWrap);
@@ -71,41 +83,139 @@ NoticeBar::NoticeBar(const UserNotice& notice, QWidget* parent)
         const int lines = std::clamp<int>(static_cast<int>(notice.details.size()), 1, kDetailLines);
         details->setFixedHeight(lines * fontMetrics().lineSpacing() + 22);
         details->hide();
-        connect(more, &QToolButton::toggled, details, &QWidget::setVisible);
-        grid->addWidget(more, 0, 2);
+        connect(m_more, &QToolButton::toggled, details, &QWidget::setVisible);
+        grid->addWidget(m_more, 0, 2);
         grid->addWidget(details, 1, 1, 1, 3);
     }
-    if (notice.kind == NoticeKind::Info)
-        QTimer::singleShot(kInfoSeconds * 1000, this, &NoticeBar::dismissed);
+    if (notice.kind == NoticeKind::Info) {
+        m_life.setSingleShot(true);
+        m_life.setInterval(kInfoMs);
+        connect(&m_life, &QTimer::timeout, this, &NoticeBar::fade);
+        m_life.start();
+    }
+}
+
+QString NoticeBar::text() const {
+    return m_text->text();
+}
+
+void NoticeBar::setFileName(const QString& name) {
+    m_fileName = name;
+    refreshText();
 }
 
 void NoticeBar::countOnceMore() {
     ++m_count;
-    m_text->setText(tr("%1 (%2 times)").arg(m_notice.text).arg(m_count));
+    stopFading();
+    if (m_life.interval() > 0)
+        m_life.start();
+    refreshText();
 }
 
-NoticeArea::NoticeArea(QWidget* parent)
-    : QWidget(parent)
+void NoticeBar::refreshText() {
+    QString text = m_notice.text;
+    const QString plain = tail(m_notice.file, 1);
+    const qsizetype at = text.contains(m_notice.file) ? -1 : text.indexOf(plain);
+    if (!plain.isEmpty() && at >= 0)
+        text.replace(at, plain.size(), m_fileName);
+    m_text->setText(m_count == 1 ? text : tr("%1 (%2 times)").arg(text).arg(m_count));
+    setAccessibleName(m_text->text());
+}
+
+void NoticeBar::fade() {
+    if (underMouse() || (m_more && m_more->isChecked())) {
+        m_life.start();
+        return;
+    }
+    // A picture of itself, for its parts have no opacity.
+    m_fading = grab();
+    setFixedSize(size());
+    for (QWidget* part : findChildren<QWidget*>(Qt::FindDirectChildrenOnly))
+        part->setVisible(false);
+    m_fade = new QVariantAnimation(this);
+    m_fade->setDuration(kFadeMs);
+    m_fade->setStartValue(1.0);
+    m_fade->setEndValue(0.0);
+    connect(m_fade, &QVariantAnimation::valueChanged, this, qOverload<>(&QWidget::update));
+    connect(m_fade, &QVariantAnimation::finished, this, &NoticeBar::dismissed);
+    m_fade->start();
+}
+
+void NoticeBar::stopFading() {
+    if (!m_fade)
+        return;
+    delete std::exchange(m_fade, nullptr);
+    m_fading = QPixmap();
+    setMinimumSize(0, 0);
+    setMaximumSize(QWIDGETSIZE_MAX, QWIDGETSIZE_MAX);
+    for (QWidget* part : findChildren<QWidget*>(Qt::FindDirectChildrenOnly))
+        part->setVisible(!qobject_cast<QPlainTextEdit*>(part)); // details are folded then
+    update();
+}
+
+void NoticeBar::paintEvent(QPaintEvent* event) {
+    if (!m_fade) {
+        QFrame::paintEvent(event);
+        return;
+    }
+    QPainter painter(this);
+    painter.setOpacity(m_fade->currentValue().toDouble());
+    painter.drawPixmap(0, 0, m_fading);
+}
+
+NoticeArea::NoticeArea(QWidget& picture)
+    : QWidget(&picture)
+    , m_picture(picture)
     , m_layout(new QVBoxLayout(this)) {
+    setAttribute(Qt::WA_NoMousePropagation);
     m_layout->setContentsMargins(0, 0, 0, 0);
-    m_layout->setSpacing(1);
+    m_layout->setSpacing(4);
+    picture.installEventFilter(this);
     hide();
 }
 
+// With as many folders as tell it from the other files of its name.
+QString NoticeArea::nameOf(const QString& file) const {
+    int parts = 1;
+    const auto ambiguous = [&](const QString& other) {
+        return other != file && tail(other, parts) == tail(file, parts);
+    };
+    while (tail(file, parts) != file && std::any_of(m_files.begin(), m_files.end(), ambiguous))
+        ++parts;
+    return tail(file, parts);
+}
+
 void NoticeArea::add(const UserNotice& notice) {
+    if (!notice.file.isEmpty())
+        m_files << notice.file;
+    for (NoticeBar* bar : std::as_const(m_bars))
+        bar->setFileName(nameOf(bar->notice().file));
     for (NoticeBar* bar : std::as_const(m_bars)) {
-        if (bar->notice().text == notice.text && bar->notice().details == notice.details) {
+        const UserNotice& shown = bar->notice();
+        if (shown.text == notice.text && shown.details == notice.details &&
+            shown.file == notice.file) {
             bar->countOnceMore();
             return;
         }
     }
-    auto* bar = new NoticeBar(notice);
+    auto* bar = new NoticeBar(notice, nameOf(notice.file));
     connect(bar, &NoticeBar::dismissed, this, [=, this] { remove(bar); });
     m_bars.prepend(bar);
     m_layout->insertWidget(0, bar);
     if (m_bars.size() > kMaxBars)
         remove(m_bars.last());
+    bar->show();
     show();
+    raise();
+    place();
+}
+
+void NoticeArea::sceneReplaced(bool byStartScene) {
+    for (NoticeBar* bar : QList<NoticeBar*>(m_bars)) {
+        const NoticeAbout about = bar->notice().about;
+        if (about == NoticeAbout::Scene || (about == NoticeAbout::UnopenedFile && !byStartScene))
+            remove(bar);
+    }
 }
 
 void NoticeArea::remove(NoticeBar* bar) {
@@ -114,6 +224,33 @@ void NoticeArea::remove(NoticeBar* bar) {
     m_layout->removeWidget(bar);
     retire(bar);
     setVisible(!m_bars.isEmpty());
+    place();
+}
+
+void NoticeArea::place() {
+    const int margin = tokens::kMargin;
+    const int width = std::min(m_picture.width() - 2 * margin, kMaxWidth);
+    // Asked of the bars themselves: the layout keeps what it knew of them before they were shown.
+    int wanted = m_layout->spacing() * std::max(0, static_cast<int>(m_bars.size()) - 1);
+    for (NoticeBar* bar : std::as_const(m_bars)) {
+        bar->ensurePolished();
+        wanted += bar->hasHeightForWidth() ? bar->heightForWidth(width) : bar->sizeHint().height();
+    }
+    const int height = std::min(wanted, m_picture.height() - 2 * margin);
+    setGeometry((m_picture.width() - width) / 2, m_picture.height() - height - margin, width,
+                height);
+}
+
+bool NoticeArea::event(QEvent* event) {
+    if (event->type() == QEvent::LayoutRequest)
+        place(); // a text or the details have grown
+    return QWidget::event(event);
+}
+
+bool NoticeArea::eventFilter(QObject*, QEvent* event) {
+    if (event->type() == QEvent::Resize)
+        place();
+    return false;
 }
 
 } // namespace patina::editor

@@ -1,13 +1,18 @@
-// Notices above the viewport: they tell what happened and wait to be dismissed, without stopping
-// anything.
+// Notices over the lower edge of the picture: they tell what happened without stopping anything or
+// moving the picture. The newest two are shown; the log keeps all.
 #pragma once
 
 #include "app/editor/document/UserNotice.h"
 
 #include <QFrame>
+#include <QPixmap>
+#include <QSet>
+#include <QTimer>
 #include <QWidget>
 
 class QLabel;
+class QToolButton;
+class QVariantAnimation;
 class QVBoxLayout;
 
 namespace patina::editor {
@@ -15,31 +20,57 @@ namespace patina::editor {
 class NoticeBar : public QFrame {
     Q_OBJECT
   public:
-    explicit NoticeBar(const UserNotice& notice, QWidget* parent = nullptr);
+    // `name`: what the notice calls its file, which may be with its folder.
+    NoticeBar(const UserNotice& notice, const QString& name, QWidget* parent = nullptr);
     [[nodiscard]] const UserNotice& notice() const { return m_notice; }
+    [[nodiscard]] QString text() const; // as shown
+    void setFileName(const QString& name);
     void countOnceMore(); // the same notice came again
 
   Q_SIGNALS:
     void dismissed();
 
+  protected:
+    void paintEvent(QPaintEvent* event) override;
+
   private:
+    void refreshText();
+    void fade(); // unless somebody is reading it
+    void stopFading();
+
     UserNotice m_notice;
+    QString m_fileName;
     int m_count = 1;
     QLabel* m_text;
+    QToolButton* m_more = nullptr; // unfolds the details
+    QTimer m_life;                 // of good news, which go by themselves
+    QVariantAnimation* m_fade = nullptr;
+    QPixmap m_fading; // as it was when that began
 };
 
 class NoticeArea : public QWidget {
     Q_OBJECT
   public:
-    explicit NoticeArea(QWidget* parent = nullptr);
+    explicit NoticeArea(QWidget& picture); // a child of it
     void add(const UserNotice& notice);
+    // Another scene is open: its own notices come after this. Those of the one before go; the start
+    // scene leaves what was said about files that could not be opened.
+    void sceneReplaced(bool byStartScene);
     [[nodiscard]] QList<NoticeBar*> bars() const { return m_bars; } // newest first
 
-  private:
-    void remove(NoticeBar* bar);
+  protected:
+    bool event(QEvent* event) override;
+    bool eventFilter(QObject* picture, QEvent* event) override;
 
+  private:
+    [[nodiscard]] QString nameOf(const QString& file) const;
+    void remove(NoticeBar* bar);
+    void place();
+
+    QWidget& m_picture;
     QVBoxLayout* m_layout;
     QList<NoticeBar*> m_bars;
+    QSet<QString> m_files; // that notices of this session have named
 };
 
 } // namespace patina::editor

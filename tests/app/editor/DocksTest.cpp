@@ -284,17 +284,25 @@ double partOnTop(QWidget& widget) {
     return static_cast<double>(equal) / (own.width() * own.height());
 }
 
+// On the start scene, with the layout that the session before left.
+struct BegunSession {
+    BegunSession() {
+        window.restoreLayout();
+        window.show();
+        EXPECT_TRUE(QTest::qWaitForWindowExposed(&window, 60'000));
+        session.controller.newDocument();
+        EXPECT_TRUE(settled(session));
+    }
+    Session session;
+    MainWindow window{session};
+};
+
 TEST(DocksOfTheNextSession, AFloatingDockIsWhereItWasAndInFront) {
     QApplication::setQuitOnLastWindowClosed(false);
     QRect left;
     {
-        Session session;
-        MainWindow window(session);
-        window.restoreLayout();
-        window.show();
-        ASSERT_TRUE(QTest::qWaitForWindowExposed(&window, 60'000));
-        session.controller.newDocument();
-        ASSERT_TRUE(settled(session));
+        BegunSession begun;
+        MainWindow& window = begun.window;
         QDockWidget* scene = dockNamed(window, "scene");
         scene->setFloating(true);
         QTest::qWait(60);
@@ -305,13 +313,8 @@ TEST(DocksOfTheNextSession, AFloatingDockIsWhereItWasAndInFront) {
         ASSERT_TRUE(eventually([&] { return !window.isVisible(); }));
     }
     {
-        Session session;
-        MainWindow window(session);
-        window.restoreLayout();
-        window.show();
-        ASSERT_TRUE(QTest::qWaitForWindowExposed(&window, 60'000));
-        session.controller.newDocument();
-        ASSERT_TRUE(settled(session));
+        BegunSession begun;
+        MainWindow& window = begun.window;
         QDockWidget* scene = dockNamed(window, "scene");
         ASSERT_TRUE(eventually([&] { return scene->isVisible(); }));
         EXPECT_TRUE(scene->isFloating());

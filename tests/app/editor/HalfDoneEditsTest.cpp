@@ -21,6 +21,7 @@
 #include <QHBoxLayout>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QPointer>
 #include <QSignalSpy>
 #include <QToolButton>
 #include <QTreeView>
@@ -230,20 +231,21 @@ TEST_F(HalfDoneEdits, ASceneThatIsOpenedGetsNothing) {
     ASSERT_TRUE(settled(*session));
     int fields = 0;
     for (const char* name : {"material", "lights", "environment", "view", "model", "mixer"}) {
-        NumberField* last = nullptr;
+        NumberField* before = nullptr;
         // Of each dock the first and the last field; the test above has them all.
-        const auto count = shownIn<NumberField>(*dock(name).widget()).size();
-        for (const auto index : {decltype(count){0}, count - 1}) {
+        for (const bool last : {false, true}) {
             const auto shown = shownIn<NumberField>(*dock(name).widget());
-            if (index < 0 || index >= shown.size() || shown[index] == last)
+            if (shown.isEmpty() || (last ? shown.back() : shown.front()) == before)
                 continue;
-            last = shown[index];
-            typeHalf(*last);
+            const QPointer<NumberField> field = last ? shown.back() : shown.front();
+            before = field;
+            typeHalf(*field);
+            const std::string fieldName = field->accessibleName().toStdString();
             controller().newDocument();
             ASSERT_TRUE(settled(*session));
             window->viewport().setFocus();
-            EXPECT_EQ(undoCount(), 0) << name << ": " << last->accessibleName().toStdString();
-            EXPECT_FALSE(last->isEditing()) << last->accessibleName().toStdString();
+            EXPECT_EQ(undoCount(), 0) << name << ": " << fieldName;
+            EXPECT_FALSE(field && field->isEditing()) << name << ": " << fieldName;
             controller().addLight(LightType::Spot);
             session->selection.selectLight(document().lights.back().id);
             ++fields;

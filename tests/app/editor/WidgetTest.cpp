@@ -377,7 +377,10 @@ TEST(ThumbnailsTest, ShowTheChannelThatIsRead) {
 }
 
 TEST(NoticeAreaTest, StacksCountsAndDismisses) {
-    NoticeArea area;
+    QWidget picture;
+    picture.resize(600, 400);
+    NoticeArea area(picture);
+    picture.show();
     const UserNotice missing{NoticeKind::Warning,
                              QStringLiteral("2 files are missing"),
                              {QStringLiteral("Missing: a.png"), QStringLiteral("Missing: b.png")}};
@@ -394,7 +397,64 @@ TEST(NoticeAreaTest, StacksCountsAndDismisses) {
     EXPECT_EQ(area.bars().size(), 1);
     for (int i = 0; i < 20; ++i)
         area.add({NoticeKind::Error, QString::number(i), {}});
-    EXPECT_LE(area.bars().size(), 4);
+    EXPECT_EQ(area.bars().size(), 2);
+    EXPECT_EQ(area.bars()[0]->notice().text, QStringLiteral("19"));
+}
+
+TEST(NoticeAreaTest, LiesInsideThePictureWhateverItsSize) {
+    QWidget picture;
+    picture.resize(600, 400);
+    NoticeArea area(picture);
+    picture.show();
+    const QString sentence = QStringLiteral("A sentence that says what happened and what to do. ");
+    area.add({NoticeKind::Error, sentence.repeated(4), {}});
+    area.add({NoticeKind::Warning, QStringLiteral("Short"), {}});
+    for (const QSize& size : {QSize(600, 400), QSize(320, 240), QSize(1900, 900)}) {
+        picture.resize(size);
+        QTest::qWait(30);
+        EXPECT_TRUE(picture.rect().contains(area.geometry())) << size.width();
+        for (const NoticeBar* bar : area.bars())
+            for (const QLabel* label : bar->findChildren<QLabel*>())
+                EXPECT_GE(label->height(), label->heightForWidth(label->width()))
+                    << label->text().toStdString();
+    }
+}
+
+TEST(NoticeAreaTest, TellsFilesOfOneNameApartByTheirFolders) {
+    QWidget picture;
+    NoticeArea area(picture);
+    const auto empty = [](const QString& file) {
+        return UserNotice{
+            NoticeKind::Error, QStringLiteral("scene.gltf: the file is empty"), {file}, file};
+    };
+    const auto shown = [&] {
+        QStringList texts;
+        for (const NoticeBar* bar : area.bars())
+            texts << bar->text();
+        return texts;
+    };
+    area.add(empty(QStringLiteral("/models/bike/scene.gltf")));
+    EXPECT_EQ(shown(), QStringList{QStringLiteral("scene.gltf: the file is empty")});
+    area.add(empty(QStringLiteral("/models/car/scene.gltf")));
+    EXPECT_EQ(shown(), (QStringList{QStringLiteral("car/scene.gltf: the file is empty"),
+                                    QStringLiteral("bike/scene.gltf: the file is empty")}));
+    area.add(empty(QStringLiteral("/old/car/scene.gltf")));
+    EXPECT_EQ(shown(), (QStringList{QStringLiteral("old/car/scene.gltf: the file is empty"),
+                                    QStringLiteral("models/car/scene.gltf: the file is empty")}));
+    area.add(empty(QStringLiteral("/old/car/scene.gltf"))); // the same file again
+    EXPECT_EQ(shown()[0], QStringLiteral("old/car/scene.gltf: the file is empty (2 times)"));
+}
+
+TEST(NoticeAreaTest, GoodNewsFadesAndProblemsStay) {
+    QWidget picture;
+    picture.resize(600, 400);
+    NoticeArea area(picture);
+    picture.show();
+    area.add({NoticeKind::Info, QStringLiteral("Exported"), {}});
+    area.add({NoticeKind::Error, QStringLiteral("Broken"), {}});
+    ASSERT_EQ(area.bars().size(), 2);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return area.bars().size() == 1; }, 60'000));
+    EXPECT_EQ(area.bars()[0]->notice().text, QStringLiteral("Broken"));
 }
 
 TEST(OutputFileTest, FormatAndExtensionFollowEachOther) {

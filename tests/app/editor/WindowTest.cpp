@@ -307,6 +307,44 @@ TEST_F(WindowTest, ABrokenFileIsANoticeAndNothingIsLost) {
     EXPECT_TRUE(texts.join(QLatin1Char('\n')).contains(QStringLiteral("notes.txt")));
 }
 
+TEST_F(WindowTest, NoticesLeaveThePictureItsSize) {
+    const QSize before = window->viewport().size();
+    for (int i = 0; i < 3; ++i)
+        Q_EMIT controller().noticed({NoticeKind::Error, QString::number(i), {}});
+    QTest::qWait(50);
+    EXPECT_EQ(window->viewport().size(), before);
+    EXPECT_EQ(window->notices().bars().size(), 2);
+}
+
+TEST_F(WindowTest, NoticesGoWithTheirScene) {
+    const auto texts = [] {
+        QStringList all;
+        for (const NoticeBar* bar : window->notices().bars())
+            all << bar->notice().text;
+        return all.join(QLatin1Char('\n'));
+    };
+    controller().newDocument();
+    ASSERT_TRUE(settled(*session));
+    QFile broken(folder.filePath(QStringLiteral("broken.glb")));
+    ASSERT_TRUE(broken.open(QIODevice::WriteOnly));
+    broken.write("this is no GLB");
+    broken.close();
+    controller().openScene(broken.fileName());
+    ASSERT_TRUE(settled(*session));
+    Q_EMIT controller().noticed({NoticeKind::Warning, QStringLiteral("of this scene"), {}});
+    EXPECT_TRUE(texts().contains(QStringLiteral("of this scene")));
+    EXPECT_TRUE(texts().contains(QStringLiteral("broken.glb")));
+    controller().newDocument(); // as at the start, when there is nothing else to show
+    ASSERT_TRUE(settled(*session));
+    EXPECT_FALSE(texts().contains(QStringLiteral("of this scene")));
+    EXPECT_TRUE(texts().contains(QStringLiteral("broken.glb")));
+    Q_EMIT controller().noticed({NoticeKind::Warning, QStringLiteral("of this scene"), {}});
+    controller().openScene(writeObj(QStringLiteral("triangle.obj")));
+    ASSERT_TRUE(settled(*session));
+    EXPECT_FALSE(texts().contains(QStringLiteral("of this scene"))) << texts().toStdString();
+    EXPECT_FALSE(texts().contains(QStringLiteral("broken.glb"))) << texts().toStdString();
+}
+
 TEST_F(WindowTest, RecentFilesForgetWhatIsGone) {
     const QString file = saveProjectFile(QStringLiteral("gone.patina"));
     EXPECT_EQ(window->files().recentFiles().value(0), file);
