@@ -94,7 +94,7 @@ Result<void> run(Session& session, const BakeIblOptions& options) {
     IblSettings settings;
     settings.cubeSize = options.size;
     settings.levels = levelsFor(options);
-    settings.smallestLevel = 1; // levels are mips
+    settings.spacing = LevelSpacing::Even; // levels are mips
     settings.irradianceSize = kIrradianceSize;
     session.report().json()["settings"] = {{"environment", options.environment},
                                            {"size", settings.cubeSize},

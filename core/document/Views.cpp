@@ -231,7 +231,7 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
     radiance(kViewPrefiltered, "prefiltered", "Prefiltered", "Lₚ", kIbl,
              "The surroundings, blurred as the roughness asks, in the direction of reflection"),
     measured(scalar(kViewPrefilteredLevel, "prefilteredLevel", "Prefilter Level", "", kIbl,
-                    ColorMap::Sequential, 0.0f, 5.0f,
+                    ColorMap::Sequential, 0.0f, 21.0f,
                     "Which level of the prefiltered cube is read: 0 mirror, last fully rough"),
              "", false),
     scalar(kViewDfgScale, "dfgScale", "DFG Scale", "A", kIbl, ColorMap::Sequential, 0.0f, 1.0f,

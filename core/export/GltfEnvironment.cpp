@@ -77,7 +77,7 @@ Result<GltfEnvironment> encodeGltfEnvironment(WorkerClient& worker, const Enviro
     IblSettings settings;
     settings.cubeSize = kGltfEnvironmentSize;
     settings.levels = kGltfEnvironmentLevels;
-    settings.smallestLevel = 1; // levels are mips
+    settings.spacing = LevelSpacing::Even; // levels are mips
     Result<IblMaps> maps = computeIbl(*environment.image, settings, job);
     if (!maps)
         return maps.error();

@@ -230,7 +230,7 @@ class Writer {
     }
 
     void writeEnvironment(const GltfEnvironment& environment) {
-        Json irradiance = Json::array(), levels = Json::array();
+        Json irradiance = Json::array(), levels = Json::array(), roughness = Json::array();
         for (const glm::vec3& coefficient : environment.irradiance)
             irradiance.push_back(toJson(coefficient));
         for (const std::array<Bytes, 6>& faces : environment.images) {
@@ -240,6 +240,8 @@ class Writer {
                 m_images.push_back(
                     {{"bufferView", m_geometry.addImage(face)}, {"mimeType", "image/png"}});
             }
+            roughness.push_back(static_cast<double>(levels.size()) /
+                                static_cast<double>(environment.images.size() - 1));
             levels.push_back(std::move(indices));
         }
         const glm::dquat& q = environment.rotation;
@@ -249,7 +251,9 @@ class Writer {
                               {"intensity", environment.intensity},
                               {"irradianceCoefficients", std::move(irradiance)},
                               {"specularImageSize", kGltfEnvironmentSize},
-                              {"specularImages", std::move(levels)}};
+                              {"specularImages", std::move(levels)},
+                              // The extension does not say which roughness an image is for.
+                              {"extras", {{"perceptualRoughness", std::move(roughness)}}}};
         m_extensions.insert("EXT_lights_image_based");
     }
 

@@ -12,6 +12,7 @@
 #include <array>
 #include <atomic>
 #include <fmt/format.h>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -25,6 +26,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kManifest = "manifest.json";
 constexpr const char* kManifestFormat = "patina-ibl";
+constexpr const char* kRoughnessKey = "PatinaPerceptualRoughness"; // of each level, KTX2
 constexpr std::size_t kMaxManifestBytes = std::size_t{1} << 20;
 constexpr std::array<const char*, 6> kFaceNames = {"px", "nx", "py", "ny", "pz", "nz"};
 
@@ -111,6 +113,7 @@ class Packer {
         , m_settings(settings)
         , m_job(job) {
         CHECK(!maps.prefiltered.empty());
+        CHECK(maps.spacing == LevelSpacing::Even); // as mip levels are looked up
         CHECK_LE(1, maps.irradiance.size);
         CHECK(settings.format != IblFileFormat::Exr || settings.texels != TexelFormat::Rgb9E5);
     }
@@ -151,8 +154,9 @@ class Packer {
         m_job.setActivity("packing textures");
         const TexelFormat tableTexels =
             m_settings.texels == TexelFormat::Rgba32F ? TexelFormat::Rgba32F : TexelFormat::Rgba16F;
-        m_prefilteredFiles = Json::array(
-            {addContainer("prefiltered", cubeTexture(m_maps.prefiltered), m_settings.texels)});
+        m_prefilteredFiles =
+            Json::array({addContainer("prefiltered", cubeTexture(m_maps.prefiltered),
+                                      m_settings.texels, {{kRoughnessKey, roughnessText()}})});
         m_job.setProgress(0.7);
         m_irradianceFiles = Json::array({addContainer(
             "irradiance", cubeTexture(std::span(&m_maps.irradiance, 1)), m_settings.texels)});
@@ -160,9 +164,24 @@ class Packer {
         return {};
     }
 
-    std::string addContainer(const char* stem, const FloatTexture& texture, TexelFormat texels) {
+    [[nodiscard]] float roughness(std::size_t level) const {
+        return levelRoughness(m_maps.spacing, static_cast<int>(level),
+                              static_cast<int>(m_maps.prefiltered.size()),
+                              m_maps.prefiltered.front().size);
+    }
+    // "0 0.25 0.5 0.75 1"
+    [[nodiscard]] std::string roughnessText() const {
+        std::string text;
+        for (std::size_t i = 0; i < m_maps.prefiltered.size(); ++i)
+            text += fmt::format("{}{}", i > 0 ? " " : "", roughness(i));
+        return text;
+    }
+
+    // `values`: of a KTX2 file; DDS has no place for them.
+    std::string addContainer(const char* stem, const FloatTexture& texture, TexelFormat texels,
+                             const std::map<std::string, std::string>& values = {}) {
         EncodedTexture encoded = m_settings.format == IblFileFormat::Ktx2
-                                     ? encodeKtx2(texture, texels)
+                                     ? encodeKtx2(texture, texels, values)
                                      : encodeDds(texture, texels);
         m_package.clamped += encoded.clamped;
         m_package.files.push_back({stem + std::string(extension()), std::move(encoded.file)});
@@ -290,7 +309,8 @@ class Packer {
         text["color"] = "linear, Rec. 709 primaries, in the environment's unit of radiance";
         text["prefiltered"] =
             "mean of radiance l with weight D(h) N.L, GGX, N = V = R (Karis 2013); level i of n: "
-            "perceptual roughness i / (n - 1), alpha its square; level 0 is the environment";
+            "perceptual roughness i / (n - 1), alpha its square; level 0 is the environment; "
+            "between levels a linear mix in perceptual roughness is continuous, not exact";
         text["irradiance"] = "E(n): integral of L(l) max(n.l, 0) dl; divide by pi for the "
                              "radiance of a white surface";
         text["dfg"] =

@@ -8,7 +8,7 @@
 
 namespace patina {
 
-// Rows of levels, the largest first: +X -X +Y -Y +Z -Z side by side, from the first row of each.
+// Rows of levels, the largest first; a level is +X -X +Y -Y +Z -Z side by side.
 struct CubeAtlas {
     int side = 0; // of a face of level 0, without its border
     int levels = 0;
@@ -16,8 +16,8 @@ struct CubeAtlas {
     std::vector<glm::vec3> texels; // what no face covers is black
 };
 
-// `levels`: at most 7, the first a power of two; their sides are cubeLevelSide() of
-// shaders/shared/ibl.glsl, as computeIbl() makes them by default.
+// `levels`: the first a power of two; their sides are cubeLevelSide() of shaders/shared/ibl.glsl,
+// as computeIbl() makes them for LevelSpacing::Lobes.
 [[nodiscard]] CubeAtlas makeCubeAtlas(const std::vector<CubeLevel>& levels);
 
 } // namespace patina

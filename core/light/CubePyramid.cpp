@@ -164,7 +164,8 @@ void CubePyramid::separateLamps(const std::vector<float>& solidAngles) {
         glm::vec4& radiance = m_radiance[outlier.texel];
         lamps.push_back(
             {cubeSymmetries()[outlier.texel / face].matrix * glm::vec3(m_levels[0].cells[inFace]),
-             glm::vec3(radiance - outlier.surroundings) * solidAngles[inFace]});
+             glm::vec3(radiance - outlier.surroundings) * solidAngles[inFace],
+             solidAngles[inFace]});
         radiance = outlier.surroundings;
     }
     groupLamps(outliers, std::move(lamps));
@@ -212,11 +213,12 @@ void CubePyramid::groupLamps(const std::vector<Outlier>& outliers, std::vector<L
     for (std::size_t k = 0; k < order.size(); ++k) {
         const Lamp& lamp = lamps[order[k]];
         if (k == 0 || cell(outliers[order[k]].texel) != cell(outliers[order[k - 1]].texel))
-            m_lampGroups.push_back({{glm::vec3(0.0f), glm::vec3(0.0f)}, k, 0});
+            m_lampGroups.push_back({{glm::vec3(0.0f), glm::vec3(0.0f), 0.0f}, k, 0});
         LampGroup& group = m_lampGroups.back();
         const glm::vec3 size = glm::abs(lamp.flux);
         group.all.direction += lamp.direction * (size.x + size.y + size.z);
         group.all.flux += lamp.flux;
+        group.all.solidAngle += lamp.solidAngle;
         ++group.count;
         m_lamps.push_back(lamp);
     }

@@ -54,6 +54,7 @@ class CubePyramid {
     struct Lamp {
         glm::vec3 direction;
         glm::vec3 flux;
+        float solidAngle; // of the texel
     };
     [[nodiscard]] const std::vector<Lamp>& lamps() const { return m_lamps; }
     // The lamps of a cell of the second level, as one: their flux, from their centroid.

@@ -90,6 +90,7 @@ Result<HalfMipmapsPtr> makeBackground(const Image& image, const JobContext& job)
 
 EnvironmentTexels makeEnvironmentTexels(ImagePtr image, const IblMaps& maps,
                                         HalfMipmapsPtr background) {
+    CHECK(maps.spacing == LevelSpacing::Lobes);
     const CubeAtlas atlas = makeCubeAtlas(maps.prefiltered);
     EnvironmentTexels texels;
     texels.image = std::move(image);

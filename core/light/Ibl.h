@@ -20,8 +20,16 @@ struct CubeLevel {
     std::vector<glm::vec3> texels; // 6 * size * size
 };
 
+// Which roughness each prefiltered level holds, and how large its faces are.
+enum class LevelSpacing {
+    Lobes, // by the lobe's width, for lookups: prefilteredRoughness() and cubeLevelSide() of
+           // shaders/shared/ibl.glsl
+    Even   // perceptualRoughness = i / (levels - 1), sides halve: mip levels, for files
+};
+
 struct IblMaps {
-    std::vector<CubeLevel> prefiltered; // level i: perceptualRoughness = i / (levels - 1)
+    LevelSpacing spacing = LevelSpacing::Lobes;
+    std::vector<CubeLevel> prefiltered; // level 0 is the environment
     CubeLevel irradiance;               // E(n) = ∫ L(l) max(n·l, 0) dl; empty unless asked for
     std::array<glm::vec3, 9>
         irradianceSh; // E(n) = Σ irradianceSh[i] Y_i(n), Y as in shaders/shared/sh.glsl
@@ -32,19 +40,28 @@ struct IblMaps {
 
 struct IblSettings {
     int cubeSize = 256;     // of level 0, a power of two
-    int levels = 7;         // at least 2: 256 128 64 32 16 16 16
+    int levels = 22;        // at least 2
     int irradianceSize = 0; // of the irradiance cube, a power of two; 0: none
     // Share of the kernel's scale that a cell of the sum may span; 0.09 errs by some hundredths of
     // a percent (docs/maths/ibl.md), and the time goes with its inverse square.
     float cellSize = 0.09f;
-    // The sides halve down to this power of two and stay: lookups in fewer texels show seams. The
-    // viewport needs 16 (shaders/shared/ibl.glsl), a mip chain 1.
-    int smallestLevel = 16;
+    LevelSpacing spacing = LevelSpacing::Lobes;
 
-    // For a first picture while the full maps are computed: within about one percent.
-    static IblSettings quick() { return {64, 5, 0, 0.3f}; }
+    // For a first picture while the full maps are computed: within some percent.
+    static IblSettings quick() { return {64, 8, 0, 0.3f}; }
     friend bool operator==(const IblSettings&, const IblSettings&) = default;
 };
+
+// Of level `level` of so many.
+[[nodiscard]] float levelRoughness(LevelSpacing spacing, int level, int levels, int cubeSize);
+[[nodiscard]] int levelSide(LevelSpacing spacing, int level, int cubeSize);
+
+// The two levels whose mix is the environment at a roughness, as the viewport's shader takes them.
+struct LevelPair {
+    std::size_t first = 0, second = 0;
+    float share = 0.0f; // of the second
+};
+[[nodiscard]] LevelPair levelsOf(const IblMaps& maps, float perceptualRoughness);
 
 // `environment`: lat-long, F32, 3 channels, conventions of patina::Environment; rotation and
 // exposure are applied by the user of the maps. Deterministic. Cancelled when the job is.

@@ -2,7 +2,7 @@
 
 #include "core/base/Check.h"
 
-#include <algorithm>
+#include <bit>
 #include <cstring>
 #include <utility>
 
@@ -13,17 +13,17 @@ namespace {
 namespace fs = std::filesystem;
 
 // Changes whenever computeIbl() would compute something else.
-constexpr std::uint32_t kAlgorithm = 5;
-constexpr char kMagic[8] = {'P', 'T', 'I', 'B', 'L', '0', '0', '3'};
+constexpr std::uint32_t kAlgorithm = 6;
+constexpr char kMagic[8] = {'P', 'T', 'I', 'B', 'L', '0', '0', '4'};
 constexpr const char* kExtension = ".ibl";
 constexpr std::size_t kMaxFile = std::size_t{1} << 30;
-constexpr std::uint32_t kMaxLevels = 16, kMaxSize = 4096;
+constexpr std::uint32_t kMaxLevels = 32, kMaxSize = 4096;
 
 struct Header {
     char magic[8];
     std::uint32_t levels;
-    std::uint32_t size;     // of level 0; the others halve…
-    std::uint32_t smallest; // …down to this
+    std::uint32_t size;    // of level 0
+    std::uint32_t spacing; // LevelSpacing: gives the sizes of the others
     std::uint32_t irradianceSize;
 };
 
@@ -42,7 +42,7 @@ Bytes encode(const IblMaps& maps) {
     std::memcpy(header.magic, kMagic, sizeof(kMagic));
     header.levels = static_cast<std::uint32_t>(maps.prefiltered.size());
     header.size = static_cast<std::uint32_t>(maps.prefiltered.front().size);
-    header.smallest = static_cast<std::uint32_t>(maps.prefiltered.back().size);
+    header.spacing = static_cast<std::uint32_t>(maps.spacing);
     header.irradianceSize = static_cast<std::uint32_t>(maps.irradiance.size);
     Bytes bytes;
     bytes.reserve(memoryBytes(maps) + sizeof(Header));
@@ -65,10 +65,13 @@ std::optional<IblMaps> decode(const Bytes& bytes) {
     if (std::memcmp(header.magic, kMagic, sizeof(kMagic)) != 0)
         return std::nullopt;
     if (header.levels < 1 || header.levels > kMaxLevels || header.size > kMaxSize ||
-        header.smallest == 0 || header.smallest > header.size || header.irradianceSize > kMaxSize)
+        !std::has_single_bit(header.size) ||
+        header.spacing > static_cast<std::uint32_t>(LevelSpacing::Even) ||
+        header.irradianceSize > kMaxSize)
         return std::nullopt;
 
     IblMaps maps;
+    maps.spacing = static_cast<LevelSpacing>(header.spacing);
     std::size_t at = sizeof(header);
     const auto take = [&](glm::vec3* to, std::size_t count) {
         const std::size_t size = count * sizeof(glm::vec3);
@@ -88,8 +91,9 @@ std::optional<IblMaps> decode(const Bytes& bytes) {
     bool complete = take(maps.irradianceSh.data(), maps.irradianceSh.size()) &&
                     take(maps.radianceSh.data(), maps.radianceSh.size());
     for (std::uint32_t i = 0; i < header.levels && complete; ++i)
-        complete =
-            takeLevel(maps.prefiltered.emplace_back(), std::max(header.size >> i, header.smallest));
+        complete = takeLevel(maps.prefiltered.emplace_back(),
+                             static_cast<std::size_t>(levelSide(maps.spacing, static_cast<int>(i),
+                                                                static_cast<int>(header.size))));
     if (complete && header.irradianceSize > 0)
         complete = takeLevel(maps.irradiance, header.irradianceSize);
     if (!complete || at != content)
@@ -108,7 +112,7 @@ Hash IblCache::key(const Image& environment, const IblSettings& settings) {
         .value(kAlgorithm)
         .value(settings.cubeSize)
         .value(settings.levels)
-        .value(settings.smallestLevel)
+        .value(settings.spacing)
         .value(settings.irradianceSize)
         .value(settings.cellSize)
         .value(environment.width())

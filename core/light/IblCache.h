@@ -15,7 +15,7 @@ namespace patina {
 class IblCache {
   public:
     static constexpr std::uint64_t kDefaultBytes = std::uint64_t{512}
-                                                   << 20; // about 80 environments
+                                                   << 20; // about 20 environments
 
     // The folder is made when something is stored. `maxBytes`: what its files may hold together.
     explicit IblCache(std::filesystem::path folder, std::uint64_t maxBytes = kDefaultBytes);

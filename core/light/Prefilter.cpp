@@ -21,6 +21,8 @@ using namespace detail;
 
 constexpr int kTile = 8; // texels on a tile's side
 constexpr int kFacePlusZ = 4;
+// Of a texel's width: through a narrower lobe a texel is a disc and no point.
+constexpr float kPointLobe = 0.5f;
 constexpr float kLampGroup = 0.08f; // of the distance + 2 alpha: how wide a group may be
 
 // A tile of face +Z: its texels, rows one after another; unused lanes repeat the last texel.
@@ -130,7 +132,8 @@ class TileFilter {
                CubeLevel& out)
         : m_pyramid(pyramid)
         , m_alpha(alpha)
-        , m_alpha2(alpha * alpha)
+        , m_shape{alpha * alpha,
+                  alpha < kPointLobe * 2.0f / static_cast<float>(pyramid.levels()[0].size)}
         , m_out(out)
         , m_arithmetic(prefilterSums().front())
         , m_list(pyramid, alpha, quality) {}
@@ -160,7 +163,7 @@ class TileFilter {
         for (std::size_t first = 0; first < group.cells.size(); first += kChunk) {
             const std::size_t count = std::min<std::size_t>(kChunk, group.cells.size() - first);
             m_arithmetic.weigh(tile.directions, std::span(group.cells).subspan(first, count),
-                               spread, m_alpha2, m_weights, total);
+                               spread, m_shape, m_weights, total);
             CellPlaces places{std::span(group.x).subspan(first, count),
                               std::span(group.y).subspan(first, count)};
             for (int i = 0; i < images; ++i) {
@@ -208,7 +211,7 @@ class TileFilter {
                                  m_pyramid.lamps().begin() +
                                      static_cast<std::ptrdiff_t>(group.first + group.count));
         }
-        m_arithmetic.addLamps(turned, m_visible, m_alpha2, sums);
+        m_arithmetic.addLamps(turned, m_visible, m_shape, sums);
     }
 
     void write(const Tile& tile, const CubeSymmetry& symmetry, const float* total,
@@ -225,7 +228,8 @@ class TileFilter {
     }
 
     const CubePyramid& m_pyramid;
-    float m_alpha, m_alpha2;
+    float m_alpha;
+    LobeShape m_shape;
     CubeLevel& m_out;
     PrefilterSums m_arithmetic;
     CellList m_list;

@@ -1,10 +1,13 @@
 #include "core/light/PrefilterSums.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace patina::detail {
 
 namespace {
+
+constexpr float kInvPi = std::numbers::inv_pi_v<float>;
 
 // `lanes` floats that the compiler keeps in one register.
 template <int lanes>
@@ -26,6 +29,14 @@ struct Simd {
     }
 };
 
+template <class V>
+[[gnu::always_inline]] inline V squareRoot(V value) {
+    constexpr int kLanes = sizeof(V) / sizeof(float);
+    for (int i = 0; i < kLanes; ++i) // one instruction, vectorised
+        value[i] = std::sqrt(value[i]);
+    return value;
+}
+
 // The lobe D(h) N·L, but for a constant, is c / s² with c = N·L and s = (1 + c)/2 (alpha² - 1) + 1.
 // With d = |N - L|² = 2 (1 - c), s is alpha² + (1 - alpha²) d / 4: no cancellation at the peak.
 template <int lanes>
@@ -46,6 +57,15 @@ struct Lobe {
         const V zero = {};
         return (c > zero ? c : zero) * (inverse * inverse);
     }
+    // The mean over a disc, in closed form on the plane: of 1 / (a² + x²)² over a disc of radius ρ
+    // at distance x it is 2 / (R (R + X)), X = a² + x² - ρ², R² = X² + 4 a² ρ²; here
+    // X = s - t, R² = X² + 4 alpha² t with t = (1 - alpha²) ρ² / 4, ρ² = solid angle / pi.
+    [[gnu::always_inline]] V discMean(float solidAngle, float alpha2) const {
+        const V zero = {};
+        const float t = (0.25f - 0.25f * alpha2) * solidAngle * kInvPi;
+        const V x = 1.0f / inverse - t, r = squareRoot(x * x + 4.0f * alpha2 * t);
+        return (c > zero ? c : zero) * (2.0f / (r * (r + x)));
+    }
     // Its Laplacian on the sphere, (1 - c²) f'' - 2c f' with ' = d/dc, times s²; b = 1 - alpha².
     [[gnu::always_inline]] V laplacian(float b) const {
         const V c2 = c * c;
@@ -58,12 +78,13 @@ struct Lobe {
 // angle, times the Laplacian. Cells across the horizon have the mean of max(c, 0), (c + h)² / 4h,
 // where they reach h to either side.
 template <int lanes>
-[[gnu::always_inline]] inline void weigh(const TileDirections& tile,
-                                         std::span<const glm::vec4> cells, float spread,
-                                         float alpha2, CellWeights& weights, float* total) {
+[[gnu::always_inline]] inline void
+weigh(const TileDirections& tile, std::span<const glm::vec4> cells, float spread,
+      const LobeShape& shape, CellWeights& weights, float* total) {
     using V = typename Simd<lanes>::Type;
     constexpr int kGroups = Simd<lanes>::kGroups;
     const V zero = {};
+    const float alpha2 = shape.alpha2;
     V sum[kGroups] = {};
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const glm::vec4& cell = cells[i];
@@ -81,7 +102,7 @@ template <int lanes>
                 weight = (above + inside * inside * overFourH + (lobe.c > zero ? smooth : zero)) *
                          (lobe.inverse * lobe.inverse);
             } else
-                weight = lobe.value();
+                weight = shape.discs ? lobe.discMean(cell.w, alpha2) : lobe.value();
             weight *= cell.w;
             Simd<lanes>::store(weights.of[i] + group * lanes, weight);
             sum[group] += weight;
@@ -129,14 +150,15 @@ template <int lanes>
 
 template <int lanes>
 [[gnu::always_inline]] inline void addLamps(const TileDirections& tile,
-                                            std::span<const CubePyramid::Lamp> lamps, float alpha2,
-                                            TileSums& sums) {
+                                            std::span<const CubePyramid::Lamp> lamps,
+                                            const LobeShape& shape, TileSums& sums) {
     for (int first = 0; first < kTileTexels; first += lanes) {
         typename Simd<lanes>::Type red = {}, green = {}, blue = {};
         for (const CubePyramid::Lamp& lamp : lamps) {
             const Lobe<lanes> lobe(tile, first, lamp.direction.x, lamp.direction.y,
-                                   lamp.direction.z, alpha2);
-            const auto weight = lobe.value();
+                                   lamp.direction.z, shape.alpha2);
+            const auto weight =
+                shape.discs ? lobe.discMean(lamp.solidAngle, shape.alpha2) : lobe.value();
             red += weight * lamp.flux.x;
             green += weight * lamp.flux.y;
             blue += weight * lamp.flux.z;
@@ -152,17 +174,18 @@ template <int lanes>
 
 #define PT_SUMS(name, lanes, ...)                                                                  \
     __VA_ARGS__ void weigh##name(const TileDirections& tile, std::span<const glm::vec4> cells,     \
-                                 float spread, float alpha2, CellWeights& weights, float* total) { \
-        weigh<lanes>(tile, cells, spread, alpha2, weights, total);                                 \
+                                 float spread, const LobeShape& shape, CellWeights& weights,       \
+                                 float* total) {                                                   \
+        weigh<lanes>(tile, cells, spread, shape, weights, total);                                  \
     }                                                                                              \
     __VA_ARGS__ void add##name(const CellWeights& weights, const CellPlaces& places,               \
                                const glm::vec4* radiance, TileSums& sums) {                        \
         add<lanes>(weights, places, radiance, sums);                                               \
     }                                                                                              \
     __VA_ARGS__ void addLamps##name(const TileDirections& tile,                                    \
-                                    std::span<const CubePyramid::Lamp> lamps, float alpha2,        \
-                                    TileSums& sums) {                                              \
-        addLamps<lanes>(tile, lamps, alpha2, sums);                                                \
+                                    std::span<const CubePyramid::Lamp> lamps,                      \
+                                    const LobeShape& shape, TileSums& sums) {                      \
+        addLamps<lanes>(tile, lamps, shape, sums);                                                 \
     }                                                                                              \
     constexpr PrefilterSums k##name = {weigh##name, add##name, addLamps##name};
 

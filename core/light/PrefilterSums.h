@@ -30,18 +30,25 @@ struct CellPlaces {
     int first = 0, alongX = 1, alongY = 0;
 };
 
+struct LobeShape {
+    float alpha2;
+    // What a single texel is: a point (false), or a disc of its solid angle. A lobe narrower than a
+    // texel passes between points.
+    bool discs = false;
+};
+
 struct PrefilterSums {
     // Weights of `cells` (direction, solid angle; at most kChunk): the lobe's mean kernel times the
     // solid angle; adds them up in `total`. `spread`: half the second moment of a cell's light
-    // along an axis over its solid angle: 1/24 for an even square, 0 for a point.
+    // along an axis over its solid angle: 1/24 for an even square, 0 for a single texel.
     void (*weigh)(const TileDirections& tile, std::span<const glm::vec4> cells, float spread,
-                  float alpha2, CellWeights& weights, float* total);
+                  const LobeShape& shape, CellWeights& weights, float* total);
     // Adds weight · radiance of each cell.
     void (*add)(const CellWeights& weights, const CellPlaces& places, const glm::vec4* radiance,
                 TileSums& sums);
     // Adds kernel · flux of each lamp.
     void (*addLamps)(const TileDirections& tile, std::span<const CubePyramid::Lamp> lamps,
-                     float alpha2, TileSums& sums);
+                     const LobeShape& shape, TileSums& sums);
 };
 
 // For the kinds of instructions this machine has, the widest first.

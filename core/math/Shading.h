@@ -34,6 +34,7 @@ using glm::vec4;
 using glm::abs;
 using glm::acos;
 using glm::atan;
+using glm::ceil;
 using glm::clamp;
 using glm::cos;
 using glm::cross;

@@ -47,8 +47,10 @@ std::vector<ExplainedValue> lookups(const Subject& subject) {
     add(ofView(subject, kViewPrefilteredLevel));
     const float level = subject.number(kViewPrefilteredLevel), fine = std::floor(level);
     add(words("levels", "Between Levels",
-              fmt::format("{:.0f} ({:.0f} %) and {:.0f} ({:.0f} %)", fine,
-                          100.0f * (1.0f - level + fine), fine + 1.0f, 100.0f * (level - fine))));
+              level == fine ? fmt::format("{:.0f} (100 %)", fine)
+                            : fmt::format("{:.0f} ({:.0f} %) and {:.0f} ({:.0f} %)", fine,
+                                          100.0f * (1.0f - level + fine), fine + 1.0f,
+                                          100.0f * (level - fine))));
     add(ofView(subject, kViewPrefiltered));
 
     const glm::vec2 at(subject.number(kViewNoV), subject.number(kViewPerceptualRoughness));

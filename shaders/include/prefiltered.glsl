@@ -7,14 +7,15 @@ layout(binding = 7) uniform sampler2D u_prefiltered; // core/light/CubeAtlas.h
 // Radiance around world direction `d`, which need not be unit, filtered for a roughness.
 vec3 prefilteredRadiance(vec3 d, float perceptualRoughness) {
     vec3 at = cubeFacePosition(toEnvironment(d));
-    float level = prefilteredLevel(perceptualRoughness, u_prefilteredLevels);
-    float fine = floor(level);
-    vec2 scale = vec2(1.0) / cubeAtlasSize(u_prefilteredSide);
-    // Beyond the last level the atlas is black, and its share is zero.
+    float level = prefilteredLevel(perceptualRoughness, u_prefilteredLevels, u_prefilteredSide);
+    int fine = int(level);
+    // The last level has no next one: its share is zero.
+    int coarse = min(fine + 1, u_prefilteredLevels - 1);
+    vec2 scale = vec2(1.0) / vec2(textureSize(u_prefiltered, 0));
     vec2 uv0 = cubeAtlasTexel(at, fine, u_prefilteredSide) * scale;
-    vec2 uv1 = cubeAtlasTexel(at, fine + 1.0, u_prefilteredSide) * scale;
+    vec2 uv1 = cubeAtlasTexel(at, coarse, u_prefilteredSide) * scale;
     return u_radianceScale * mix(textureLod(u_prefiltered, uv0, 0.0).rgb,
-                                 textureLod(u_prefiltered, uv1, 0.0).rgb, level - fine);
+                                 textureLod(u_prefiltered, uv1, 0.0).rgb, level - float(fine));
 }
 
 #endif

@@ -160,7 +160,7 @@ void recordIbl(SurfaceTerms s, vec3 dfg, vec3 arriving, vec3 prefiltered, Shaded
                                                   s.diffuseRoughness, s.NoV));
     record(kViewDiffuseOcclusion, diffuseOpen);
     recordRadiance(kViewPrefiltered, prefiltered, 1.0);
-    record(kViewPrefilteredLevel, prefilteredLevel(s.perceptualRoughness, u_prefilteredLevels));
+    record(kViewPrefilteredLevel, prefilteredLevel(s.perceptualRoughness, u_prefilteredLevels, u_prefilteredSide));
     record(kViewDfgScale, dfg.x);
     record(kViewDfgBias, dfg.y);
     record(kViewIblFresnel, meanFresnel);

@@ -33,25 +33,85 @@ PT_FN vec3 rotateY(vec3 d, float angleRad) {
     return vec3(c * d.x + s * d.z, d.y, c * d.z - s * d.x);
 }
 
-// Level of the prefiltered cubemap: level i holds perceptualRoughness i / (levels - 1).
-PT_FN float prefilteredLevel(float perceptualRoughness, int levels) {
-    return clamp(perceptualRoughness, 0.0f, 1.0f) * float(levels - 1);
+// ---- Levels of the prefiltered cubemap ---------------------------------------------------------
+//
+// Level i of n holds alpha = c (q^i - 1) with q^(n - 1) = 1 + 1 / c: evenly spaced where the lobe is
+// narrower than a texel, in equal ratios where it is wider. c goes with the texel of level 0.
+
+// 1 / c; `side`: of a face of level 0. c is 1.22 times the width of its texels, 2 / side.
+PT_FN float levelDensity(float side) {
+    return side * 0.411f;
 }
 
-// The faces of a prefiltered level halve from level to level, but not below this: a bilinear lookup
-// in fewer texels shows its seams on a rough metal, however smooth the filtered light is.
-PT_CONST float kSmallestCubeLevel = 16.0f;
+// log2 of q.
+PT_FN float levelStep(int levels, float side) {
+    return log2(1.0f + levelDensity(side)) / float(levels - 1);
+}
+
+PT_FN float prefilteredRoughness(int level, int levels, float side) { // perceptual
+    if (level <= 0 || levels <= 1)
+        return 0.0f;
+    float alpha = (exp2(float(level) * levelStep(levels, side)) - 1.0f) / levelDensity(side);
+    return level >= levels - 1 ? 1.0f : sqrt(alpha);
+}
+
+// Between whole levels: the fraction is the share of the rougher one. With x = 1 + alpha / c, a to
+// q a between two levels, it is linear in x + 1 / x, which goes with alpha² for alpha < c, as the
+// lobe's tails do, and with alpha beyond, where its peak matters as well.
+PT_FN float prefilteredLevel(float perceptualRoughness, int levels, float side) {
+    if (levels <= 1)
+        return 0.0f;
+    float r = clamp(perceptualRoughness, 0.0f, 1.0f);
+    float x = 1.0f + r * r * levelDensity(side);
+    float steps = levelStep(levels, side);
+    float q = exp2(steps);
+    float first = min(floor(log2(x) / steps), float(levels - 2));
+    float a = exp2(first * steps);
+    float share = q * (x - a) * (a - 1.0f / x) / ((q - 1.0f) * (q * a * a - 1.0f));
+    return first + clamp(share, 0.0f, 1.0f);
+}
+
+// Four levels have the full size, the next four half of it, then a quarter; the others an eighth,
+// but not below 16 texels: a bilinear lookup in fewer shows its seams on a rough metal, however
+// smooth the filtered light is. From level 20 on it is a quarter again: opposite a sun the widest
+// lobes have an edge, where N·L is cut at zero. How often the side of whole level `level` is halved:
+PT_CONST int kFirstWideLevel = 20;
+
+PT_FN int cubeLevelHalvings(int level, float side) {
+    int most = side < 32.0f ? 0 : (side < 64.0f ? 1 : (side < 128.0f || level >= kFirstWideLevel ? 2 : 3));
+    return min(level >> 2, most);
+}
 
 // Side of a face of whole level `level`; `side` is that of level 0, a power of two.
-PT_FN float cubeLevelSide(float level, float side) {
-    return max(side * exp2(-level), min(side, kSmallestCubeLevel));
+PT_FN float cubeLevelSide(int level, float side) {
+    return side / float(1 << cubeLevelHalvings(level, side));
 }
 
-// The prefiltered cubemap lies in one flat texture (core/light/CubeAtlas.h): a row of six faces for
-// each level, +X -X +Y -Y +Z -Z, each with a border of one texel. The size leaves room for 7
-// levels at least.
-PT_FN vec2 cubeAtlasSize(float side) {
-    return vec2(6.0f * (side + 2.0f), 2.0f * side + 6.0f * (kSmallestCubeLevel + 2.0f));
+// The prefiltered cubemap lies in one flat texture (core/light/CubeAtlas.h). Six faces side by side,
+// +X -X +Y -Y +Z -Z, each with a border of one texel, are a level; 1, 2, 4, 8 levels of one size are
+// a row. Above the levels of side `size` lie, in rows of texels, 4 side + 2 side / 2 + … and the
+// borders, 2 for each row. The widest lobes' levels that are larger than those before lie below all.
+PT_FN float cubeAtlasTop(float side, float size) {
+    return (side - size) * (16.0f * (side + size) + 48.0f) / (3.0f * side);
+}
+
+// The row of texels where those begin.
+PT_FN float cubeAtlasWideTop(float side) {
+    float size = side * 0.125f;
+    return cubeAtlasTop(side, size) + (size + 2.0f); // one row of eight levels
+}
+
+PT_FN vec2 cubeAtlasSize(float side, int levels) {
+    int halvings = cubeLevelHalvings(kFirstWideLevel - 1, side);
+    bool wide = levels > kFirstWideLevel && side >= 128.0f;
+    int inGroup = wide ? kFirstWideLevel : levels;
+    float k = float(1 << halvings);
+    float size = side / k;
+    float rows = ceil(float(max(inGroup - 4 * halvings, 1)) / k);
+    float height = floor(cubeAtlasTop(side, size) + 0.5f) + rows * (size + 2.0f);
+    if (wide)
+        height = height + ceil(float(levels - kFirstWideLevel) / 4.0f) * (side * 0.25f + 2.0f);
+    return vec2(6.0f * (side + 2.0f * k), height);
 }
 
 // Face 0…5 and position 0…1 on it of a direction, not necessarily unit: OpenGL 4.6, table 8.19.
@@ -68,14 +128,18 @@ PT_FN vec3 cubeFacePosition(vec3 d) {
     return vec3(face + (major < 0.0f ? 1.0f : 0.0f), sc * scale + 0.5f, tc * scale + 0.5f);
 }
 
-// Where in the atlas, in texels, `at` (cubeFacePosition) lies on whole level `level`: above it lie
-// side (1 + 1/2 + …) = 2 (side - size) rows of texels while the sides halve, then `size` for each
-// level, and 2 of borders for each.
-PT_FN vec2 cubeAtlasTexel(vec3 at, float level, float side) {
-    float size = cubeLevelSide(level, side);
-    float notHalved = max(level - log2(side / min(side, kSmallestCubeLevel)), 0.0f);
-    float top = 2.0f * (side - size) + size * notHalved + 2.0f * level;
-    return vec2(at.x * (size + 2.0f) + 1.0f + at.y * size, top + 1.0f + at.z * size);
+// Where in the atlas, in texels, `at` (cubeFacePosition) lies on whole level `level`.
+PT_FN vec2 cubeAtlasTexel(vec3 at, int level, float side) {
+    int halvings = cubeLevelHalvings(level, side);
+    bool wide = level >= kFirstWideLevel && side >= 128.0f;
+    float size = side / float(1 << halvings);
+    float top = wide ? cubeAtlasWideTop(side) : cubeAtlasTop(side, size);
+    int inGroup = level - (wide ? kFirstWideLevel : 4 * halvings);
+    int row = inGroup >> halvings;
+    float column = float(inGroup - (row << halvings));
+    float pitch = size + 2.0f;
+    return vec2((6.0f * column + at.x) * pitch + 1.0f + at.y * size,
+                top + float(row) * pitch + 1.0f + at.z * size);
 }
 
 // Side of the DFG table (core/light/DfgTable.h). Its outer texels lie on the ends of both ranges:

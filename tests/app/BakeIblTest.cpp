@@ -369,6 +369,13 @@ TEST_F(BakeIbl, LevelsAndSizeAreThoseAskedFor) {
     EXPECT_DOUBLE_EQ(levels[1]["perceptualRoughness"], 0.2);
     EXPECT_DOUBLE_EQ(levels[1]["alpha"], 0.04);
     EXPECT_EQ(levels[5]["perceptualRoughness"], 1.0);
+    // The texture says it as well, wherever it goes without the manifest.
+    const Bytes file = bytesOf("out/prefiltered.ktx2");
+    const std::string entry("PatinaPerceptualRoughness\0"
+                            "0 0.2 0.4 0.6 0.8 1",
+                            45);
+    EXPECT_NE(std::string(reinterpret_cast<const char*>(file.data()), file.size()).find(entry),
+              std::string::npos);
 }
 
 TEST_F(BakeIbl, DoesNotDependOnTheThreadCount) {

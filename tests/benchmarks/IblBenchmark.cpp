@@ -34,13 +34,18 @@ namespace {
 
 using namespace patina;
 
-constexpr int kWidth = 2048, kCube = 256, kLevels = 7, kSmallest = 16, kIrradiance = 32,
+constexpr int kWidth = 2048, kCube = 256, kLevels = IblSettings().levels, kIrradiance = 32,
               kSamples = 1024;
 
-// Of a face of a level: as computeIbl() makes them.
+// Of a face of a level, and its perceptual roughness: as computeIbl() makes them.
 int sideOf(int level) {
-    return std::max(kCube >> level, kSmallest);
+    return levelSide(LevelSpacing::Lobes, level, kCube);
 }
+float roughnessOf(int level) {
+    return levelRoughness(LevelSpacing::Lobes, level, kLevels, kCube);
+}
+// Narrower lobes see texels as more than points: no sum over points is exact.
+constexpr float kExact = 0.1f;
 
 // ---- Environments
 // --------------------------------------------------------------------------------
@@ -207,7 +212,7 @@ IblMaps yardstick(const Image& environment) {
     while (mips.back().size > 1)
         mips.push_back(halveCube(mips.back()));
     for (int i = 1; i < kLevels; ++i) {
-        const float r = static_cast<float>(i) / (kLevels - 1);
+        const float r = roughnessOf(i);
         maps.prefiltered.push_back(importanceSampled(mips, sideOf(i), r * r));
     }
     maps.irradiance = importanceSampled(mips, kIrradiance, 1.0f);
@@ -218,12 +223,8 @@ IblMaps yardstick(const Image& environment) {
 }
 
 IblMaps ours(const Image& environment) {
-    IblMaps maps = *computeIbl(environment,
-                               {.cubeSize = kCube,
-                                .levels = kLevels,
-                                .irradianceSize = kIrradiance,
-                                .smallestLevel = kSmallest},
-                               {});
+    IblMaps maps = *computeIbl(
+        environment, {.cubeSize = kCube, .levels = kLevels, .irradianceSize = kIrradiance}, {});
     benchmark::DoNotOptimize(computeDfgTable(128).width());
     return maps;
 }
@@ -234,6 +235,7 @@ IblMaps ours(const Image& environment) {
 // Exact sums for some texels of every level, made once for an environment.
 struct Truth {
     struct Level {
+        int number = 0;
         std::vector<std::size_t> index;
         std::vector<glm::dvec3> radiance;
     };
@@ -249,10 +251,13 @@ Truth exactSums(const Image& environment) {
     Truth truth;
     for (int i = 1; i < kLevels; ++i) {
         const int size = sideOf(i);
-        const double r = static_cast<double>(i) / (kLevels - 1), a2 = std::pow(r, 4.0);
+        const double r = roughnessOf(i), a2 = std::pow(r, 4.0);
+        if (roughnessOf(i) < kExact)
+            continue;
         const std::size_t count = 6u * size * size,
                           step = std::max<std::size_t>(count / 200, 1) | 1u;
         Truth::Level& level = truth.levels.emplace_back();
+        level.number = i;
         for (std::size_t k = 0; k < count; k += step)
             level.index.push_back(k);
         level.radiance.resize(level.index.size());
@@ -313,9 +318,9 @@ void measure(benchmark::State& state, Environment& environment, IblMaps (*comput
             maps = compute(environment.image);
     }
     const Truth& truth = environment.exact();
-    for (std::size_t i = 0; i < truth.levels.size(); ++i)
-        state.counters["rmse" + std::to_string(i + 1) + "%"] =
-            errorPercent(truth.levels[i], maps.prefiltered[i + 1]);
+    for (const Truth::Level& level : truth.levels)
+        state.counters["rmse" + std::to_string(level.number) + "%"] =
+            errorPercent(level, maps.prefiltered[static_cast<std::size_t>(level.number)]);
 }
 
 void addEnvironment(std::string name, Image image) {
@@ -350,6 +355,9 @@ void addSteps() {
     };
     add("step/harmonics", [sky] { benchmark::DoNotOptimize(projectLatLong(*sky, 5).data()); });
     add("step/cubemap", [sky] { benchmark::DoNotOptimize(cubeFromLatLong(*sky, kCube, {}).size); });
+    add("step/prefilter_256", [pyramid] {
+        benchmark::DoNotOptimize(prefilterGGX(*pyramid, 256, 0.009f, {0.25f, 0.25f}, {}).size);
+    });
     add("step/prefilter_128", [pyramid] {
         benchmark::DoNotOptimize(
             prefilterGGX(*pyramid, 128, 1.0f / 36.0f, {0.09f, 0.063f}, {}).size);

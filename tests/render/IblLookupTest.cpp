@@ -8,6 +8,7 @@
 #include "render/scene/EnvironmentLight.h"
 #include "render/shader/ShaderSources.h"
 #include "tests/core/light/DfgReference.h"
+#include "tests/core/light/EnvironmentSum.h"
 #include "tests/core/light/PrefilterReference.h"
 #include "tests/render/GlTest.h"
 
@@ -96,7 +97,8 @@ class IblLookup : public gl::GlTest {
         for (const Texel& texel : texels)
             inputs.emplace_back(
                 texelDirection(levels[static_cast<std::size_t>(texel.slot)].size, texel.index),
-                static_cast<float>(texel.slot) / static_cast<float>(levels.size() - 1));
+                levelRoughness(maps.spacing, texel.slot, static_cast<int>(levels.size()),
+                               levels.front().size));
         return evaluate("prefilteredRadiance(at.xyz, at.w)", inputs);
     }
 
@@ -196,11 +198,13 @@ TEST_F(IblLookup, PrefilteredLampHasItsKernel) {
     const double flux = 10.0; // keeps all values in the range of normal half floats
     base.texels[lamp] = glm::vec3(static_cast<float>(flux / cubeSolidAngles(kSize)[lamp]));
     const CubePyramid pyramid(base);
-    std::vector<CubeLevel> levels{base};
+    constexpr int kSide = 128; // 128 128 128 128 64 64
+    std::vector<CubeLevel> levels{
+        {kSide, std::vector<glm::vec3>(6u * kSide * kSide, glm::vec3(7.0f))}};
     std::vector<Texel> texels;
     std::vector<double> exact;
     for (int r = 0; r < 5; ++r) {
-        const int size = std::max(kSize >> (r + 1), 16);
+        const int size = levelSide(LevelSpacing::Lobes, r + 1, kSide);
         levels.push_back(
             prefilterGGX(pyramid, size, kFilterRoughness[r] * kFilterRoughness[r], {}, {}));
         for (int k = 0; k < 8; ++k) {
@@ -233,6 +237,41 @@ TEST_F(IblLookup, PrefilteredDiscsLookedAtDirectly) {
         for (std::size_t r = 0; r < 5; ++r)
             EXPECT_NEAR(seen[r].x / (radiance * disc.fraction[r]), 1.0, 1e-3 + kHalf)
                 << disc.halfAngleDeg << " degrees, " << kFilterRoughness[r];
+    }
+}
+
+// Between levels, as PrefilteredLevelsTest.cpp has it for the CPU.
+TEST_F(IblLookup, PrefilteredLevelsAreCloseToTheExactSumAtFortyRoughnesses) {
+    const std::vector<float> roughness = fortyRoughnesses();
+    for (const NamedEnvironment& environment : lookupEnvironments()) {
+        const auto maps = computeIbl(*environment.image, {}, {});
+        ASSERT_TRUE(maps.ok());
+        const EnvironmentSum truth(maps->prefiltered.front());
+        // Half floats end at 65504, below a sun: in the narrowest levels, of which only the rms
+        // over the sphere is bounded.
+        const std::vector<glm::vec3> directions = lookupDirections(truth, lookupCount(16));
+        const auto exact = exactSums(truth, directions, roughness);
+        light().setIbl(*maps);
+        std::vector<glm::vec4> inputs;
+        for (const float r : roughness)
+            for (const glm::vec3& d : directions)
+                inputs.emplace_back(d, r);
+        const std::vector<glm::vec3> all = evaluate("prefilteredRadiance(at.xyz, at.w)", inputs);
+        std::string table;
+        for (std::size_t r = 0; r < roughness.size(); ++r) {
+            const LookupError error = lookupError(
+                std::span(all).subspan(r * directions.size(), directions.size()), exact[r]);
+            const bool narrow = roughness[r] < 0.1f - 1e-6f;
+            EXPECT_LE(error.rms, narrow ? 0.04 : 0.015) << environment.name << " " << roughness[r];
+            if (!narrow) {
+                EXPECT_LE(error.most, 0.1) << environment.name << " " << roughness[r];
+            }
+            table += fmt::format(" {:.3f}:{:.2f}/{:.1f}", roughness[r], 100.0 * error.rms,
+                                 100.0 * error.most);
+        }
+        RecordProperty(environment.name, table); // roughness:rms/most, in percent
+        if (std::getenv("PATINA_PREFILTER_HDR"))
+            fmt::print("{}{}\n", environment.name, table);
     }
 }
 

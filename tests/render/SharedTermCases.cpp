@@ -226,7 +226,10 @@ std::vector<SharedTermCase> makeCases() {
                  OUT3(6, shadeIrradiance(s, vec3(I(16), I(17), I(18))));
                  OUT3(9, shadePrefiltered(s, vec3(I(19), I(20), I(21))));
                  OUT3(12, lobeDirection(s, I(16))); O(15) = specularOcclusion(I(22), I(23), I(24));
-                 O(16) = prefilteredLevel(I(25), 7);),
+                 O(16) = prefilteredLevel(I(25), 22, 256.0f);
+                 O(17) = prefilteredRoughness(int(21.0f * abs(I(24))), 22, 256.0f);
+                 O(18) = levelDensity(100.0f * abs(I(24)));
+                 O(19) = levelStep(22, 256.0f * abs(I(24)));),
             CASE("cones", surface, 1e-2f, SurfaceTerms s = SURFACE;
                  O(0) = sharedCap(I(16), I(17), I(18)); O(2) = angleOf(I(16));
                  O(1) = coneOcclusion(vec4(I(16), I(17), I(18), I(23)), s.n, s.v, I(24));),
@@ -236,10 +239,13 @@ std::vector<SharedTermCase> makeCases() {
                  OUT3(5, rotateY(vec3(I(0), I(1), I(2)), 3.0f * I(3)));
                  vec2 table = dfgTableUv(abs(I(0)), abs(I(1))); O(8) = table.x; O(9) = table.y;),
             CASE("cube atlas", directions, 1.0f, vec3 at = cubeFacePosition(vec3(I(0), I(1), I(2)));
-                 OUT3(0, at); vec2 texel = cubeAtlasTexel(at, floor(3.0f * abs(I(3))), 64.0f);
-                 O(3) = texel.x; O(4) = texel.y; vec2 size = cubeAtlasSize(64.0f * abs(I(4)));
-                 O(5) = size.x; O(6) = size.y;
-                 O(7) = cubeLevelSide(floor(7.0f * abs(I(3))), 64.0f);),
+                 OUT3(0, at); vec2 texel = cubeAtlasTexel(at, int(21.0f * abs(I(3))), 256.0f);
+                 O(3) = texel.x; O(4) = texel.y;
+                 vec2 size = cubeAtlasSize(64.0f, int(22.0f * abs(I(4)))); O(5) = size.x;
+                 O(6) = size.y; O(7) = cubeLevelSide(int(21.0f * abs(I(3))), 64.0f);
+                 O(8) = float(cubeLevelHalvings(int(21.0f * abs(I(3))), 256.0f * abs(I(4))));
+                 O(9) = cubeAtlasTop(256.0f, 256.0f * abs(I(4)));
+                 O(10) = cubeAtlasWideTop(256.0f * abs(I(4)));),
             CASE("spherical harmonics", directions, 1e-1f, float y9[9]; float y25[25];
                  shBasis9(vec3(I(0), I(1), I(2)), y9); shBasis25(vec3(I(0), I(1), I(2)), y25);
                  for (int i = 0; i < 25; ++i) O(i) = y25[i];

@@ -39,11 +39,13 @@ glm::vec3 lookUp(const CubeAtlas& atlas, const glm::vec2& texel) {
 glm::vec3 prefilteredOnCpu(const CubeAtlas& atlas, const glm::vec3& d, float roughness) {
     const float side = static_cast<float>(atlas.side);
     const glm::vec3 at = cubeFacePosition(d);
-    const float level = prefilteredLevel(roughness, atlas.levels), fine = std::floor(level);
+    const float level = prefilteredLevel(roughness, atlas.levels, side);
+    const int fine = static_cast<int>(level);
     const glm::vec3 near = lookUp(atlas, cubeAtlasTexel(at, fine, side));
-    if (level == fine)
+    if (fine + 1 == atlas.levels)
         return near;
-    return glm::mix(near, lookUp(atlas, cubeAtlasTexel(at, fine + 1.0f, side)), level - fine);
+    return glm::mix(near, lookUp(atlas, cubeAtlasTexel(at, fine + 1, side)),
+                    level - static_cast<float>(fine));
 }
 
 void expectNear(const glm::vec3& told, const glm::vec3& expected, const char* what) {

@@ -33,18 +33,9 @@ glm::vec3 lookUp(const Image& latLong, const glm::vec3& direction) {
         .lookup(latLong, direction);
 }
 
-// The two levels beside a roughness, and how much of the second there is.
-struct LevelPair {
-    std::size_t first = 0, second = 0;
-    float share = 0.0f;
-};
-LevelPair levelsOf(LabView view, std::size_t count) {
-    if (view.kind == LabKind::Faces)
-        return {};
-    const float level =
-        shading::prefilteredLevel(labRoughness(view.index), static_cast<int>(count));
-    const auto first = static_cast<std::size_t>(level);
-    return {first, std::min(first + 1, count - 1), level - static_cast<float>(first)};
+LevelPair levelsOf(LabView view, const IblMaps& maps) {
+    return view.kind == LabKind::Faces ? LevelPair()
+                                       : patina::levelsOf(maps, labRoughness(view.index));
 }
 
 glm::vec3 samplePair(const CubeLevel& first, const CubeLevel& second, float share,
@@ -124,7 +115,7 @@ std::optional<glm::vec3> LabLight::value(LabView view, const glm::vec3& world) c
     case LabKind::Prefiltered: {
         if (!maps)
             return std::nullopt;
-        const LevelPair levels = levelsOf(view, maps->prefiltered.size());
+        const LevelPair levels = levelsOf(view, *maps);
         return tint * scale *
                samplePair(maps->prefiltered[levels.first], maps->prefiltered[levels.second],
                           levels.share, d);
@@ -249,7 +240,7 @@ PixelRadiance pixelRadiance(const LabLight& light, LabView view, const QSize& si
     const std::size_t count = light.maps->prefiltered.size();
     const LevelPair levels = view.kind == LabKind::IrradianceExact
                                  ? LevelPair{count - 1, count - 1, 0.0f}
-                                 : levelsOf(view, count);
+                                 : levelsOf(view, *light.maps);
     return
         [share = levels.share, first = fittingLevel(light.maps->prefiltered[levels.first], around),
          second = fittingLevel(light.maps->prefiltered[levels.second], around)](

@@ -21,13 +21,13 @@ enum class LabKind {
     Irradiance,      // from nine coefficients, as surfaces take it
     IrradianceExact, // the last prefiltered level is irradiance / pi
     Harmonics,       // the sum of `index` bands, 1…8
-    Prefiltered,     // level `index` of kLabLevels, from 0
+    Prefiltered,     // roughness `index` of kLabLevels, from 0
     Dfg              // channel `index` of the table: scale, bias, mean direction
 };
 
-// Levels of the full maps. A draft has fewer, and is looked up in between, as by the shader: what
-// is shown of it has the same roughness.
-inline const int kLabLevels = IblSettings().levels;
+// Roughnesses that are shown, in equal steps from 0 to 1: looked up between the levels of the maps,
+// as by the shader.
+inline constexpr int kLabLevels = 7;
 [[nodiscard]] inline float labRoughness(int level) { // perceptual
     return static_cast<float>(level) / static_cast<float>(kLabLevels - 1);
 }

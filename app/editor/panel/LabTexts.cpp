@@ -68,7 +68,8 @@ LabCaption labCaption(LabView view, bool whole, const LabLight& light, double ir
     const auto faces = [&](std::size_t level) {
         return tr("%1 × %1").arg(light.maps->prefiltered[level].size);
     };
-    const bool draft = light.maps && static_cast<int>(light.maps->prefiltered.size()) < kLabLevels;
+    const bool draft =
+        light.maps && static_cast<int>(light.maps->prefiltered.size()) < IblSettings().levels;
     switch (view.kind) {
     case LabKind::Environment: {
         c.title = tr("Environment");
@@ -127,13 +128,24 @@ LabCaption labCaption(LabView view, bool whole, const LabLight& light, double ir
         break;
     }
     case LabKind::Prefiltered: {
-        c.title = tr("Level %1").arg(view.index);
-        c.detail =
-            tr("roughness %1").arg(labFixed(static_cast<double>(labRoughness(view.index)), 2));
-        if (whole && light.maps)
-            c.detail = draft ? tr("perceptual %1, draft").arg(c.detail)
-                             : tr("perceptual %1, %2 texels per face")
-                                   .arg(c.detail, faces(static_cast<std::size_t>(view.index)));
+        const float r = labRoughness(view.index);
+        c.title = tr("Roughness %1").arg(labFixed(static_cast<double>(r), 2));
+        if (!light.maps)
+            break;
+        const LevelPair levels = levelsOf(*light.maps, r);
+        c.detail = faces(levels.first);
+        if (whole)
+            c.detail =
+                levels.share > 0.0f
+                    ? tr("perceptual roughness, between levels %1 and %2, %3 texels per face")
+                          .arg(levels.first)
+                          .arg(levels.second)
+                          .arg(c.detail)
+                    : tr("perceptual roughness, level %1, %2 texels per face")
+                          .arg(levels.first)
+                          .arg(c.detail);
+        if (draft)
+            c.detail = tr("%1, draft").arg(c.detail);
         break;
     }
     case LabKind::Dfg: {

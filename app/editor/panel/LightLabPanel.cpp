@@ -589,9 +589,9 @@ void LightLabPanel::refreshPicked() {
             label = labColor(*value);
         if (view.kind == LabKind::Prefiltered)
             label =
-                tr("picked: level %1")
+                tr("picked: roughness %1")
                     .arg(labFixed(
-                        static_cast<double>(pixel->value(shading::kViewPrefilteredLevel).x), 2));
+                        static_cast<double>(pixel->value(shading::kViewPerceptualRoughness).x), 2));
         widget->setPicked(place, label);
     };
     for (const Cell& cell : m_cells)

@@ -14,13 +14,9 @@ namespace {
 constexpr glm::vec3 kViewer{0.0f, 0.0f, 1.0f};
 
 glm::vec3 prefiltered(const IblMaps& maps, const glm::vec3& direction, float perceptualRoughness) {
-    const int levels = static_cast<int>(maps.prefiltered.size());
-    const float level = shading::prefilteredLevel(perceptualRoughness, levels);
-    const int fine = std::min(static_cast<int>(level), levels - 1);
-    const int coarse = std::min(fine + 1, levels - 1);
-    return glm::mix(sampleCube(maps.prefiltered[static_cast<std::size_t>(fine)], direction),
-                    sampleCube(maps.prefiltered[static_cast<std::size_t>(coarse)], direction),
-                    level - static_cast<float>(fine));
+    const LevelPair levels = levelsOf(maps, perceptualRoughness);
+    return glm::mix(sampleCube(maps.prefiltered[levels.first], direction),
+                    sampleCube(maps.prefiltered[levels.second], direction), levels.share);
 }
 
 QRgb displayed(const glm::vec3& radiance, const View& view, float coverage) {

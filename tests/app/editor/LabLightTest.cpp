@@ -5,6 +5,7 @@
 #include "core/image/ColorMap.h"
 #include "core/light/CubeSampling.h"
 #include "core/math/Shading.h"
+#include "tests/core/light/EnvironmentSum.h"
 
 #include <QTest>
 #include <atomic>
@@ -32,7 +33,7 @@ ImagePtr latLong(int width, int height, Radiance&& radiance) {
     return image;
 }
 
-LabLight makeLight(const ImagePtr& image, int levels = kLabLevels) {
+LabLight makeLight(const ImagePtr& image, int levels = IblSettings().levels) {
     IblSettings settings = IblSettings::quick();
     settings.cubeSize = 32;
     settings.levels = levels;
@@ -153,15 +154,25 @@ TEST(LabLight, DraftsShowTheSameRoughness) {
         latLong(64, 32, [](const glm::vec3& d) { return glm::vec3(d.x > 0.5f ? 4.0f : 0.1f); });
     const LabLight draft = makeLight(image, 5);
     const glm::vec3 d = glm::normalize(glm::vec3(0.7f, 0.4f, 0.2f));
-    // Level 3 of 7 is roughness 1/2, level 2 of 5; level 1 is 1/6, between the first two.
-    EXPECT_EQ(draft.value({LabKind::Prefiltered, 3}, d).value(),
-              sampleCube(draft.maps->prefiltered[2], d));
-    EXPECT_LT(glm::distance(draft.value({LabKind::Prefiltered, 1}, d).value(),
-                            glm::mix(sampleCube(draft.maps->prefiltered[0], d),
-                                     sampleCube(draft.maps->prefiltered[1], d), 4.0f / 6.0f)),
-              1e-4f);
-    EXPECT_EQ(draft.value({LabKind::Prefiltered, 6}, d).value(),
-              sampleCube(draft.maps->prefiltered[4], d));
+    // Both mirrors, and both wholly rough; in between a mix of two levels, whichever they are.
+    EXPECT_EQ(draft.value({LabKind::Prefiltered, 0}, d).value(),
+              sampleCube(draft.maps->prefiltered.front(), d));
+    EXPECT_LT(glm::distance(draft.value({LabKind::Prefiltered, 6}, d).value(),
+                            sampleCube(draft.maps->prefiltered.back(), d)),
+              1e-5f);
+    const float level = shading::prefilteredLevel(0.5f, 5, 32.0f);
+    const auto fine = static_cast<std::size_t>(level);
+    EXPECT_LT(glm::distance(draft.value({LabKind::Prefiltered, 3}, d).value(),
+                            glm::mix(sampleCube(draft.maps->prefiltered[fine], d),
+                                     sampleCube(draft.maps->prefiltered[fine + 1], d),
+                                     level - static_cast<float>(fine))),
+              1e-5f);
+    // What a draft lacks are levels, not light: both are close to the exact sum.
+    const float exact =
+        reference::EnvironmentSum(draft.maps->prefiltered.front()).at(d, std::vector{0.5f})[0].x;
+    const LabLight full = makeLight(image);
+    EXPECT_NEAR(full.value({LabKind::Prefiltered, 3}, d)->x / exact, 1.0f, 0.01f);
+    EXPECT_NEAR(draft.value({LabKind::Prefiltered, 3}, d)->x / exact, 1.0f, 0.03f);
 }
 
 TEST(LabLight, WhatIsNoLightIsReplacedAndCounted) {

@@ -62,7 +62,7 @@ struct LightLabTest : testing::Test {
                    panel().light().analysis->environment == document().environment.image &&
                    panel().light().maps &&
                    panel().light().maps->prefiltered.size() ==
-                       static_cast<std::size_t>(kLabLevels) &&
+                       static_cast<std::size_t>(IblSettings().levels) &&
                    panel().dfg() && !panel().stage()->picture().isNull();
         });
     }
@@ -296,7 +296,7 @@ TEST_F(LightLabTest, ThePickedPixelIsMarkedWhereItsLightComesFrom) {
     EXPECT_LT(glm::distance(picked(LabKind::Irradiance, 0)->direction, {0.0f, 0.6f, -0.8f}), 1e-6f);
     EXPECT_FALSE(picked(LabKind::Harmonics, 3));
     choose({LabKind::Prefiltered, 2});
-    EXPECT_EQ(stage.pickedLabel(), QStringLiteral("picked: level 2.10"));
+    EXPECT_EQ(stage.pickedLabel(), QStringLiteral("picked: roughness 0.35"));
 
     // A new pixel moves it, the background takes it away.
     probe().setPin(pixel(0.1f, 0.9f));

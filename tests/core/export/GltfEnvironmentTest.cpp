@@ -125,6 +125,8 @@ TEST_F(GltfEnvironmentFile, ReconstructsTheFilteredRadiance) {
         EXPECT_EQ(m_light["intensity"], 1.0);
         EXPECT_EQ(m_light["name"], "linear");
         EXPECT_EQ(m_light["specularImageSize"], 256);
+        EXPECT_EQ(m_light["extras"]["perceptualRoughness"],
+                  nlohmann::json({0.0, 0.25, 0.5, 0.75, 1.0}));
         ASSERT_EQ(m_light["specularImages"].size(), 5u);
         // Levels spread evenly over perceptual roughness.
         for (int level = 0; level < 5; ++level) // half a code at 3: 0.9 % of the brightest

@@ -14,12 +14,11 @@ using namespace patina;
 namespace {
 
 // A different picture on every level.
-std::vector<CubeLevel> levels(int size, int count) {
+std::vector<CubeLevel> levels(int side, int count) {
     std::vector<CubeLevel> result;
     for (int k = 0; k < count; ++k) {
         CubeLevel level;
-        if (k > 0 && size > 16)
-            size /= 2;
+        const int size = static_cast<int>(shading::cubeLevelSide(k, static_cast<float>(side)));
         level.size = size;
         for (int i = 0; i < 6 * size * size; ++i) {
             const auto centre = [&](int j) {
@@ -51,11 +50,11 @@ glm::vec3 bilinear(const CubeAtlas& atlas, const glm::vec2& texel) {
 } // namespace
 
 TEST(CubeAtlas, ReadsLikeTheSeamlessCubemapOnEveryLevel) {
-    for (const int count : {1, 3, 7}) { // sides 64 32 16 16 …
-        const std::vector<CubeLevel> cube = levels(64, count);
+    for (const auto& [side, count] : {std::pair{64, 1}, {64, 3}, {64, 22}, {128, 22}, {16, 9}}) {
+        const std::vector<CubeLevel> cube = levels(side, count);
         const CubeAtlas atlas = makeCubeAtlas(cube);
         ASSERT_EQ(atlas.texels.size(), static_cast<std::size_t>(atlas.width * atlas.height));
-        EXPECT_EQ(atlas.side, 64);
+        EXPECT_EQ(atlas.side, side);
         EXPECT_EQ(atlas.levels, count);
         for (std::uint32_t i = 0; i < 20'000; ++i) {
             const glm::vec3 d = 3.0f * uniformSphere(sobolOwen2D(i, 5));
@@ -66,7 +65,7 @@ TEST(CubeAtlas, ReadsLikeTheSeamlessCubemapOnEveryLevel) {
             ASSERT_NEAR(at.z, expected.t, 1e-6f);
             const int level = static_cast<int>(i) % count;
             const glm::vec3 seen =
-                bilinear(atlas, shading::cubeAtlasTexel(at, static_cast<float>(level), 64.0f));
+                bilinear(atlas, shading::cubeAtlasTexel(at, level, static_cast<float>(side)));
             const glm::vec3 cubes = sampleCube(cube[static_cast<std::size_t>(level)], d);
             ASSERT_LT(glm::length(seen - cubes), 2e-4f) << "level " << level << " sample " << i;
         }
@@ -80,8 +79,8 @@ TEST(CubeAtlas, EdgesAndCornersOfTheCubeReadFiniteNeighbours) {
             for (const float z : {-1.0f, 0.0f, 1.0f})
                 for (int level = 0; level < 4; ++level) {
                     const glm::vec3 at = shading::cubeFacePosition({x, y, z});
-                    const glm::vec3 seen = bilinear(
-                        atlas, shading::cubeAtlasTexel(at, static_cast<float>(level), 8.0f));
+                    const glm::vec3 seen =
+                        bilinear(atlas, shading::cubeAtlasTexel(at, level, 8.0f));
                     // Red holds the level and the direction's x.
                     EXPECT_NEAR(seen.x, static_cast<float>(level), 1.0f) << x << y << z;
                 }

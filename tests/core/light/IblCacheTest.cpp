@@ -25,11 +25,13 @@ Image sky(float brightness) {
 }
 
 IblMaps mapsOf(const Image& image) {
-    return *computeIbl(image,
-                       {.cubeSize = 16, .levels = 3, .irradianceSize = 4, .smallestLevel = 4}, {});
+    return *computeIbl(
+        image, {.cubeSize = 16, .levels = 3, .irradianceSize = 4, .spacing = LevelSpacing::Even},
+        {});
 }
 
 void expectSame(const IblMaps& a, const IblMaps& b) {
+    EXPECT_EQ(a.spacing, b.spacing);
     ASSERT_EQ(a.prefiltered.size(), b.prefiltered.size());
     for (std::size_t i = 0; i < a.prefiltered.size(); ++i) {
         EXPECT_EQ(a.prefiltered[i].size, b.prefiltered[i].size);
@@ -69,7 +71,7 @@ TEST(IblCache, KeyIsOfContentAndSettings) {
     EXPECT_NE(IblCache::key(changed, {}), key);
     EXPECT_NE(IblCache::key(image, {.cubeSize = 128}), key);
     EXPECT_NE(IblCache::key(image, {.levels = 6}), key);
-    EXPECT_NE(IblCache::key(image, {.smallestLevel = 8}), key);
+    EXPECT_NE(IblCache::key(image, {.spacing = LevelSpacing::Even}), key);
     EXPECT_NE(IblCache::key(image, {.irradianceSize = 32}), key);
     EXPECT_NE(IblCache::key(image, {.cellSize = 0.2f}), key);
     // The same numbers in another shape
@@ -115,8 +117,8 @@ TEST(IblCache, RefusesSizesThatDoNotFit) {
     const Hash key = IblCache::key(image, {});
     ASSERT_TRUE(cache.store(key, mapsOf(image)).ok());
     const Bytes whole = readFile(cache.file(key), 1 << 20).value();
-    // Returns whether the file is still taken with its counts (levels, size, smallest level,
-    // irradiance) replaced.
+    // Returns whether the file is still taken with its counts (levels, size, spacing, irradiance)
+    // replaced.
     const auto taken = [&](const std::uint32_t(&counts)[4]) {
         Bytes bytes(whole.begin(), whole.end() - sizeof(Hash));
         std::memcpy(bytes.data() + 8, counts, sizeof(counts));
@@ -126,15 +128,16 @@ TEST(IblCache, RefusesSizesThatDoNotFit) {
         EXPECT_TRUE(writeFileAtomically(cache.file(key), bytes).ok());
         return cache.find(key).has_value();
     };
-    EXPECT_TRUE(taken({3, 16, 4, 4})); // as they were
-    for (const auto& counts : {std::array<std::uint32_t, 4>{0, 16, 4, 4},
-                               {3, 4096, 4, 4},
-                               {4'000'000'000u, 16, 4, 4},
-                               {8, 16, 4, 4},
+    EXPECT_TRUE(taken({3, 16, 1, 4})); // as they were
+    for (const auto& counts : {std::array<std::uint32_t, 4>{0, 16, 1, 4},
+                               {3, 4096, 1, 4},
+                               {3, 17, 1, 4},
+                               {4'000'000'000u, 16, 1, 4},
+                               {8, 16, 1, 4},
                                {3, 16, 0, 4},
-                               {3, 16, 32, 4},
-                               {3, 16, 4, 8},
-                               {3, 16, 4, 4'000'000'000u}})
+                               {3, 16, 2, 4},
+                               {3, 16, 1, 8},
+                               {3, 16, 1, 4'000'000'000u}})
         EXPECT_FALSE(taken({counts[0], counts[1], counts[2], counts[3]})) << counts[1];
 }
 

@@ -38,11 +38,12 @@ glm::vec3 lookUp(const CubeLevel& level, const glm::vec3& d) {
 TEST(Ibl, LevelsHalveAndGrowRougher) {
     const Image sky = latLong(
         128, 64, [](glm::vec3 d) { return glm::vec3(d.y > 0.0f ? 1.0f : 0.0f, d.x + 1.0f, 1.0f); });
-    const auto maps = computeIbl(sky, {.cubeSize = 32, .levels = 4, .smallestLevel = 8}, {});
+    const auto maps =
+        computeIbl(sky, {.cubeSize = 32, .levels = 4, .spacing = LevelSpacing::Even}, {});
     ASSERT_TRUE(maps.ok());
     ASSERT_EQ(maps.value().prefiltered.size(), 4u);
     for (int i = 0; i < 4; ++i) {
-        const int side = std::max(32 >> i, 8);
+        const int side = 32 >> i;
         EXPECT_EQ(maps.value().prefiltered[i].size, side);
         EXPECT_EQ(maps.value().prefiltered[i].texels.size(), 6u * side * side);
     }
@@ -97,7 +98,8 @@ TEST(Ibl, IrradianceCubeIsTheRoughestLevelTimesPi) {
         return glm::vec3(1.0f + d.y, d.y * d.y, d.y > 0.0f ? 1.0f : 0.0f);
     });
     const auto maps = computeIbl(
-        image, {.cubeSize = 64, .levels = 4, .irradianceSize = 8, .smallestLevel = 8}, {});
+        image, {.cubeSize = 64, .levels = 4, .irradianceSize = 8, .spacing = LevelSpacing::Even},
+        {});
     ASSERT_TRUE(maps.ok());
     ASSERT_EQ(maps->irradiance.size, 8);
     ASSERT_EQ(maps->irradiance.texels.size(), 6u * 8 * 8);

@@ -204,16 +204,16 @@ TEST(Prefilter, EveryInstructionSetComputesTheSame) {
         radiance.emplace_back(static_cast<float>(i), 1.0f, 0.1f * static_cast<float>(50 - i), 0.0f);
         column.push_back(static_cast<int>((i * 7) % 10));
         row.push_back(static_cast<int>(i % 5));
-        lamps.push_back({uniformSphere(sobolOwen2D(i, 5)), glm::vec3(radiance[i])});
+        lamps.push_back({uniformSphere(sobolOwen2D(i, 5)), glm::vec3(radiance[i]), 1e-3f});
     }
     constexpr float kSpread = 1.0f / 32.0f;
     const auto compute = [&](const detail::PrefilterSums& arithmetic) {
         auto weights = std::make_unique<detail::CellWeights>();
         detail::TileSums sums;
         std::vector<float> result(detail::kTileTexels, 0.0f);
-        arithmetic.weigh(tile, cells, kSpread, 0.04f, *weights, result.data());
+        arithmetic.weigh(tile, cells, kSpread, {0.04f}, *weights, result.data());
         arithmetic.add(*weights, {column, row, 40, 1, -10}, radiance.data(), sums);
-        arithmetic.addLamps(tile, lamps, 0.04f, sums);
+        arithmetic.addLamps(tile, lamps, {0.04f}, sums);
         for (const float* colour : {sums.red, sums.green, sums.blue})
             result.insert(result.end(), colour, colour + detail::kTileTexels);
         return result;
@@ -248,6 +248,47 @@ TEST(Prefilter, EveryInstructionSetComputesTheSame) {
         const std::vector<float> result = compute(arithmetic);
         for (std::size_t i = 0; i < result.size(); ++i)
             EXPECT_NEAR(result[i], expected[i], 2e-6f * std::abs(expected[i])) << i;
+    }
+}
+
+// Through a lobe narrower than a texel, a texel is a disc of its solid angle: the weight of a cell
+// is the lobe's mean over it.
+TEST(Prefilter, NarrowLobesSeeTexelsAsDiscs) {
+    const double alpha = 0.003, alpha2 = alpha * alpha, radius = 0.0044;
+    const double solidAngle = M_PI * radius * radius;
+    detail::TileDirections tile;
+    for (int i = 0; i < detail::kTileTexels; ++i) {
+        const float angle = 0.0005f * static_cast<float>(i); // up to seven radii from its middle
+        tile.x[i] = std::sin(angle);
+        tile.y[i] = 0.0f;
+        tile.z[i] = std::cos(angle);
+    }
+    const glm::vec4 cell(0.0f, 0.0f, 1.0f, solidAngle);
+    const CubePyramid::Lamp lamp{glm::vec3(cell), glm::vec3(2.0f), static_cast<float>(solidAngle)};
+    for (const detail::PrefilterSums& arithmetic : detail::prefilterSums()) {
+        auto weights = std::make_unique<detail::CellWeights>();
+        detail::TileSums sums;
+        std::vector<float> total(detail::kTileTexels, 0.0f);
+        const detail::LobeShape shape{static_cast<float>(alpha2), true};
+        arithmetic.weigh(tile, {&cell, 1}, 0.0f, shape, *weights, total.data());
+        arithmetic.addLamps(tile, {&lamp, 1}, shape, sums);
+        for (int i = 0; i < detail::kTileTexels; ++i) {
+            // By points of the disc that stand for equal areas
+            double mean = 0.0;
+            constexpr int kRings = 60, kAround = 60;
+            for (int k = 0; k < kRings * kAround; ++k) {
+                const double r = radius * std::sqrt((k / kAround + 0.5) / kRings);
+                const double phi = 2.0 * M_PI * (k % kAround + 0.5) / kAround;
+                const glm::dvec3 l =
+                    glm::normalize(glm::dvec3(r * std::cos(phi), r * std::sin(phi), 1.0));
+                mean +=
+                    lobe(glm::dot(glm::normalize(glm::dvec3(tile.x[i], tile.y[i], tile.z[i])), l),
+                         alpha2) /
+                    (kRings * kAround);
+            }
+            EXPECT_NEAR(static_cast<double>(total[i]) / (mean * solidAngle), 1.0, 2e-3) << i;
+            EXPECT_NEAR(static_cast<double>(sums.green[i]) / (mean * 2.0), 1.0, 2e-3) << i;
+        }
     }
 }
 

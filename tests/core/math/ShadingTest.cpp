@@ -315,9 +315,29 @@ TEST(Environment, IrradianceFromNineCoefficients) {
 }
 
 TEST(Environment, PrefilteredLevelSpansTheChain) {
-    EXPECT_EQ(prefilteredLevel(0.0f, 7), 0.0f);
-    EXPECT_EQ(prefilteredLevel(0.5f, 7), 3.0f);
-    EXPECT_EQ(prefilteredLevel(1.0f, 7), 6.0f);
+    for (const float side : {1.0f, 64.0f, 256.0f})
+        for (const int levels : {2, 8, 22}) {
+            EXPECT_EQ(prefilteredRoughness(0, levels, side), 0.0f);
+            EXPECT_EQ(prefilteredRoughness(levels - 1, levels, side), 1.0f);
+            float before = -1.0f;
+            for (int level = 0; level < levels; ++level) {
+                const float r = prefilteredRoughness(level, levels, side);
+                EXPECT_GT(r, before);
+                before = r;
+                EXPECT_NEAR(prefilteredLevel(r, levels, side), static_cast<float>(level), 1e-3f)
+                    << level << " of " << levels << ", side " << side;
+            }
+        }
+    // Continuous and rising, also at whole levels
+    float before = 0.0f;
+    for (int i = 0; i <= 10'000; ++i) {
+        const float level = prefilteredLevel(static_cast<float>(i) / 10'000.0f, 22, 256.0f);
+        EXPECT_GE(level, before - 1e-5f) << i;
+        EXPECT_LT(level, before + 0.02f) << i;
+        before = level;
+    }
+    EXPECT_EQ(before, 21.0f);
+    EXPECT_EQ(prefilteredLevel(0.7f, 1, 1.0f), 0.0f) << "uniform light has one level";
 }
 
 TEST(Environment, SpecularOcclusionHasItsLimits) {
