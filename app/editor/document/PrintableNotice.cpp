@@ -8,9 +8,11 @@ UserNotice printableNotice(const UserNotice& notice) {
     const auto clean = [](const QString& text) {
         return QString::fromStdString(printableText(text.toStdString()));
     };
-    UserNotice result{notice.kind, clean(notice.text), {}};
-    for (const QString& detail : notice.details)
-        result.details << clean(detail);
+    UserNotice result = notice;
+    result.text = clean(notice.text);
+    result.file = clean(notice.file); // compared with the text, and shown in it
+    for (QString& detail : result.details)
+        detail = clean(detail);
     return result;
 }
 

@@ -312,7 +312,9 @@ void ViewportWidget::paintGL() {
         m_sheets.setFrameMs(milliseconds);
     if (!frame.reuseScene) // says nothing about what the scene costs
         m_pacing.frameTook(milliseconds);
-    if (frame.accumulate && m_renderer->accumulatedFrames() < render::Renderer::kSteadyFrames)
+    // As its own time says: after a slow frame the next one may be fast enough again.
+    if (m_pacing.accumulating() &&
+        m_renderer->accumulatedFrames() < render::Renderer::kSteadyFrames)
         m_accumulationTimer.start();
     m_slowestFrameMs = std::max(m_slowestFrameMs, milliseconds);
     Q_EMIT frameRendered(milliseconds, pictureState());
@@ -324,8 +326,7 @@ void ViewportWidget::paintGL() {
 PictureState ViewportWidget::pictureState() const {
     if (m_pacing.moving())
         return PictureState::Moving;
-    const bool adding = m_pacing.accumulating() &&
-                        m_renderer->accumulatedFrames() < render::Renderer::kSteadyFrames;
+    const bool adding = m_accumulationTimer.isActive();
     return m_pacing.refined() && !adding && !m_gate.waiting() ? PictureState::Refined
                                                               : PictureState::Refining;
 }
