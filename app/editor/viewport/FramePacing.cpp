@@ -21,7 +21,7 @@ float FramePacing::scale() const {
 }
 
 bool FramePacing::accumulating() const {
-    return m_accumulates && !moving() && m_fullMs < kAffordableMs;
+    return m_accumulates && !moving() && (m_addsSlowFrames || m_fullMs < kAffordableMs);
 }
 
 int FramePacing::samples() const {

@@ -12,6 +12,9 @@ class FramePacing {
     [[nodiscard]] int samples() const; // MSAA: 1 or 4
     // Frames are anti-aliased by adding them up (FrameSettings::accumulate), not by MSAA.
     void setAccumulates(bool accumulates) { m_accumulates = accumulates; }
+    // They are added up however slow they are: for who needs the very picture that a fast machine
+    // ends with, as tests do.
+    void setAddsSlowFrames(bool adds) { m_addsSlowFrames = adds; }
     // At rest the frames are to be added up.
     [[nodiscard]] bool accumulating() const;
     [[nodiscard]] bool moving() const { return m_stage == Stage::Moving; }
@@ -34,6 +37,7 @@ class FramePacing {
     enum class Stage { Moving, FullResolution, Antialiased };
     Stage m_stage = Stage::FullResolution;
     bool m_accumulates = false;
+    bool m_addsSlowFrames = false;
     int m_level = 0; // index into the scales
     int m_fastFrames = 0;
     double m_fullMs = -1.0;        // last full-resolution frame without anti-aliasing; -1: none yet

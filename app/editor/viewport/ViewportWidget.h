@@ -84,6 +84,7 @@ class ViewportWidget : public QOpenGLWidget {
     // The picture is as fine as it gets, in the light and with the programs it asks for: without
     // an edit, or a background job that ends, the next frame is the same.
     [[nodiscard]] bool isSettled() const;
+    void setAddsSlowFrames(bool adds) { m_pacing.setAddsSlowFrames(adds); } // see FramePacing
 
     // Milliseconds of the slowest frame since the last call (tests and the status bar).
     double takeSlowestFrameMs();
