@@ -10,8 +10,8 @@ namespace patina::worker {
 // acts; {"do": "try", "call": "exec" | "fork" | "thread"} answers {"errno": n}, 0 when the call
 // succeeded. {"do": "call", "number": n, "arguments": [number | text | {"bytes": n}, …]} makes a
 // system call, texts and blocks of zeros being passed by address, and answers {"errno", "result"}.
-// {"do": "files"} opens files until that fails. {"do": "describe"} tells what of its surroundings
-// the process sees. "size" is that of the answer's payload, "hollow" leaves it unwritten, "words"
+// {"do": "files"} opens files until that fails. {"do": "describe"} tells what the process sees
+// of the system. "size" is that of the answer's payload, "hollow" leaves it unwritten, "words"
 // makes a header or a message of that many bytes.
 codec::Reply selfTest(const nlohmann::json& request);
 

@@ -38,14 +38,22 @@ bool reorders(char32_t c) {
     return (c >= 0x2028 && c <= 0x202e) || (c >= 0x2066 && c <= 0x2069);
 }
 
-std::string printable(std::string_view text, bool keepsLines) {
-    std::string result;
-    result.reserve(text.size());
+// Calls visit(bytes, code point) for each character; a byte that is no UTF-8 comes as `otherwise`.
+template <class Visit>
+void forEachCharacter(std::string_view text, char32_t otherwise, const Visit& visit) {
     while (!text.empty()) {
         const std::size_t length = utf8SequenceLength(text);
         const std::string_view sequence = text.substr(0, length == 0 ? 1 : length);
         text.remove_prefix(sequence.size());
-        const char32_t c = length == 0 ? 0x80 : decode(sequence);
+        visit(sequence, length == 0 ? otherwise : decode(sequence));
+    }
+}
+
+std::string printable(std::string_view text, bool keepsLines) {
+    std::string result;
+    result.reserve(text.size());
+    // Replaced like any control character above ASCII.
+    forEachCharacter(text, 0x80, [&](std::string_view sequence, char32_t c) {
         const bool layout = c == '\n' || c == '\t';
         if (layout && keepsLines)
             result += sequence;
@@ -57,7 +65,7 @@ std::string printable(std::string_view text, bool keepsLines) {
             result += kReplacement;
         else
             result += sequence;
-    }
+    });
     return result;
 }
 
@@ -74,16 +82,13 @@ std::string printableText(std::string_view text) {
 std::string printableJson(std::string_view json) {
     std::string result;
     result.reserve(json.size());
-    while (!json.empty()) {
-        const std::size_t length = utf8SequenceLength(json);
-        const std::string_view sequence = json.substr(0, length == 0 ? 1 : length);
-        json.remove_prefix(sequence.size());
-        const char32_t c = length == 0 ? 0xfffd : decode(sequence);
-        if (length == 0 || c == kDelete || isUpperControl(c) || reorders(c))
+    constexpr char32_t kReplacementCharacter = 0xfffd;
+    forEachCharacter(json, kReplacementCharacter, [&](std::string_view sequence, char32_t c) {
+        if (c == kReplacementCharacter || c == kDelete || isUpperControl(c) || reorders(c))
             result += fmt::format("\\u{:04x}", static_cast<std::uint32_t>(c));
         else
             result += sequence;
-    }
+    });
     return result;
 }
 
