@@ -200,9 +200,14 @@ static void bindTransfer(const DrawItem& item, unsigned features, LightingMode l
 Result<const gl::Program*> SurfacePass::program(unsigned features,
                                                 const SurfaceSettings& settings) {
     const SurfaceVariant variant = surfaceVariant(features, settings);
-    const auto known = m_programs.find(variant);
-    if (known != m_programs.end())
+    if (m_drops != m_shaders.drops()) {
+        m_drops = m_shaders.drops();
+        m_programs.clear();
+    }
+    if (const auto known = m_programs.find(variant); known != m_programs.end()) {
+        m_shaders.touch(*known->second);
         return known->second;
+    }
     std::vector<std::string> defines = surfaceDefines(features);
     for (std::string& define : modelDefines(settings.model))
         defines.push_back(std::move(define));

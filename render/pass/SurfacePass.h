@@ -55,7 +55,8 @@ class SurfacePass {
 
     ShaderLibrary& m_shaders;
     std::vector<std::string> m_studyDefines;
-    std::map<SurfaceVariant, const gl::Program*> m_programs; // owned by the library
+    std::map<SurfaceVariant, const gl::Program*> m_programs; // owned by the library …
+    std::size_t m_drops = 0; // … which has dropped so many of them
 };
 
 // Baked values that an item is drawn with.

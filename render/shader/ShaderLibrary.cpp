@@ -25,9 +25,13 @@ std::string labelOf(const ProgramKey& key) {
 
 } // namespace
 
-ShaderLibrary::ShaderLibrary(gl::Context& context, std::filesystem::path folder)
+ShaderLibrary::ShaderLibrary(gl::Context& context, std::filesystem::path folder,
+                             std::size_t mostPrograms)
     : m_context(context)
-    , m_sources(std::move(folder)) {}
+    , m_sources(std::move(folder))
+    , m_mostPrograms(mostPrograms) {
+    CHECK(mostPrograms > 0);
+}
 
 Result<gl::Program> ShaderLibrary::compile(const ShaderSources& sources, const ProgramKey& key,
                                            std::vector<Stamped>& files) {
@@ -56,8 +60,10 @@ Result<gl::Program> ShaderLibrary::compile(const ShaderSources& sources, const P
 }
 
 Result<const gl::Program*> ShaderLibrary::program(const ProgramKey& key) {
-    if (const auto found = m_programs.find(key); found != m_programs.end())
+    if (const auto found = m_programs.find(key); found != m_programs.end()) {
+        found->second.lastUse = ++m_uses;
         return &found->second.program;
+    }
     Entry entry;
     Result<gl::Program> program = compile(m_sources, key, entry.files);
     if (!program && m_sources.onDisk()) {
@@ -70,8 +76,29 @@ Result<const gl::Program*> ShaderLibrary::program(const ProgramKey& key) {
     }
     if (!program)
         return program.error();
+    if (m_programs.size() >= m_mostPrograms)
+        dropOldest();
     entry.program = std::move(*program);
-    return &m_programs.emplace(key, std::move(entry)).first->second.program;
+    entry.lastUse = ++m_uses;
+    Entry& kept = m_programs.emplace(key, std::move(entry)).first->second;
+    m_entries.emplace(&kept.program, &kept);
+    return &kept.program;
+}
+
+void ShaderLibrary::touch(const gl::Program& program) {
+    const auto found = m_entries.find(&program);
+    CHECK(found != m_entries.end());
+    found->second->lastUse = ++m_uses;
+}
+
+void ShaderLibrary::dropOldest() {
+    const auto oldest =
+        std::min_element(m_programs.begin(), m_programs.end(), [](const auto& a, const auto& b) {
+            return a.second.lastUse < b.second.lastUse;
+        });
+    m_entries.erase(&oldest->second.program);
+    m_programs.erase(oldest);
+    ++m_drops;
 }
 
 std::vector<ProgramKey> ShaderLibrary::keys() const {

@@ -129,6 +129,38 @@ TEST_F(Library, ProgramsAreCompiledOncePerVariant) {
     EXPECT_EQ(library.compilations(), 2u);
 }
 
+// An afternoon of trying things must not fill the driver: what was not drawn with for longest goes.
+TEST_F(Library, ProgramsThatWereNotUsedForLongestAreDropped) {
+    ShaderLibrary library(context(), {}, 3);
+    const auto key = [](int choice) {
+        return ProgramKey{{"screen.vert", "sky.frag"}, {"CHOICE " + std::to_string(choice)}};
+    };
+    const auto get = [&](int choice) {
+        const auto program = library.program(key(choice));
+        EXPECT_TRUE(program.ok()) << choice;
+        return program.ok() ? *program : nullptr;
+    };
+    const gl::Program* first = get(0);
+    const unsigned second = get(1)->id(), third = get(2)->id();
+    get(0);
+    library.touch(*first);
+    EXPECT_EQ(library.drops(), 0u);
+    get(3);
+    EXPECT_FALSE(glIsProgram(second)); // the first one was asked for since
+    EXPECT_TRUE(glIsProgram(third));
+    EXPECT_TRUE(glIsProgram(first->id()));
+    EXPECT_EQ(library.programCount(), 3u);
+    EXPECT_EQ(library.drops(), 1u);
+    const std::size_t before = library.compilations();
+    get(0);
+    get(2);
+    get(3);
+    EXPECT_EQ(library.compilations(), before);
+    get(1); // comes back
+    EXPECT_EQ(library.compilations(), before + 1);
+    EXPECT_EQ(library.programCount(), 3u);
+}
+
 TEST_F(Library, ErrorsNameFileAndLineThroughIncludes) {
     ShaderFolder folder;
     folder.write("screen.vert", kVertex);
