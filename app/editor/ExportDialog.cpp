@@ -13,6 +13,7 @@
 #include <QFormLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QScrollArea>
 #include <QTableWidget>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -90,12 +91,21 @@ ExportDialog::ExportDialog(DocumentController& controller, JobManager& jobs, QWi
     m_files->setSelectionBehavior(QAbstractItemView::SelectRows);
     m_files->setShowGrid(false);
     m_files->setAlternatingRowColors(true);
-    layout->addWidget(m_files, 1);
+    // However many warnings there are, some files are in sight.
+    m_files->setMinimumHeight(6 * m_files->verticalHeader()->defaultSectionSize());
+    layout->addWidget(m_files, 3);
     m_warnings = new QLabel;
     m_warnings->setObjectName(QStringLiteral("exportWarnings"));
     m_warnings->setWordWrap(true);
     m_warnings->setStyleSheet(QStringLiteral("color: %1").arg(QColor(tokens::kCopper).name()));
-    layout->addWidget(m_warnings);
+    m_warnings->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+    m_warningsArea = new QScrollArea;
+    m_warningsArea->setObjectName(QStringLiteral("exportWarningsArea"));
+    m_warningsArea->setAccessibleName(tr("Warnings"));
+    m_warningsArea->setFrameShape(QFrame::NoFrame);
+    m_warningsArea->setWidgetResizable(true);
+    m_warningsArea->setWidget(m_warnings);
+    layout->addWidget(m_warningsArea, 1);
 
     m_output->addButtons(*layout, tr("Export"));
     refresh();
@@ -186,7 +196,7 @@ void ExportDialog::refresh() {
     for (const std::string& warning : m_plan.warnings)
         warnings << QString::fromStdString(warning);
     m_warnings->setText(warnings.join(QLatin1Char('\n')));
-    m_warnings->setVisible(!warnings.isEmpty());
+    m_warningsArea->setVisible(!warnings.isEmpty());
     const bool overwrites = std::any_of(m_plan.files.begin(), m_plan.files.end(),
                                         [](const PlannedFile& file) { return file.overwrites; });
     m_output->setRunnable(!m_plan.files.empty() && !m_output->path().isEmpty(),

@@ -8,6 +8,7 @@
 class QCheckBox;
 class QComboBox;
 class QLabel;
+class QScrollArea;
 class QTableWidget;
 
 namespace patina::editor {
@@ -43,6 +44,7 @@ class ExportDialog : public QDialog {
     QCheckBox* m_visible = nullptr;
     QTableWidget* m_files = nullptr;
     QLabel* m_warnings = nullptr;
+    QScrollArea* m_warningsArea = nullptr;
 };
 
 } // namespace patina::editor

@@ -36,6 +36,7 @@
 #include "app/editor/viewport/ViewStrip.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "app/editor/widget/BusyIndicator.h"
+#include "app/editor/widget/MessageBar.h"
 #include "app/editor/widget/NoticeArea.h"
 #include "core/base/Log.h"
 #include "core/library/Library.h"
@@ -49,7 +50,6 @@
 #include <QMimeData>
 #include <QScreen>
 #include <QSettings>
-#include <QStatusBar>
 #include <QToolBar>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -322,6 +322,7 @@ void MainWindow::makeToolBar() {
 }
 
 void MainWindow::makeStatusBar() {
+    auto* bar = new MessageBar;
     m_busy = new BusyIndicator;
     m_triangles = new QLabel;
     m_frameTime = new QLabel;
@@ -336,8 +337,9 @@ void MainWindow::makeStatusBar() {
     m_gpu->setStatusTip(tr("The graphics processor and its version of OpenGL"));
     for (QWidget* widget : {static_cast<QWidget*>(m_busy), static_cast<QWidget*>(m_triangles),
                             static_cast<QWidget*>(m_frameTime), static_cast<QWidget*>(m_gpu)})
-        statusBar()->addPermanentWidget(widget);
-    statusBar()->setSizeGripEnabled(false);
+        bar->addPermanentWidget(widget);
+    bar->setSizeGripEnabled(false);
+    setStatusBar(bar);
 }
 
 void MainWindow::refreshTriangles() {

@@ -154,7 +154,7 @@ void RecoveryKeeper::take() {
     snapshot.document = m_controller.document();
     snapshot.name = m_controller.displayName().toStdString();
     snapshot.file = m_file.isEmpty() ? std::filesystem::path() : toPath(m_file);
-    snapshot.steps = std::abs(undo.index() - std::max(undo.cleanIndex(), 0));
+    snapshot.steps = m_controller.unsavedSteps();
     snapshot.lastStep = undo.undoText().toStdString();
     snapshot.savedBakes = savedBakes();
     m_writer.keep(std::move(snapshot));

@@ -25,10 +25,10 @@ struct ProgramKey {
 
 class ShaderLibrary {
   public:
-    // Each choice of maps, model, lights and output is a program of some megabytes in the driver:
+    // Each choice of maps, model, lights and output is a program of some 4 MiB in the driver:
     // an afternoon of trying things would keep hundreds of them. What one scene is looked at with
     // are some dozens; drivers find those that were dropped on disk.
-    static constexpr std::size_t kMostPrograms = 96;
+    static constexpr std::size_t kMostPrograms = 64;
     // CHECKs that mostPrograms > 0.
     ShaderLibrary(gl::Context& context, std::filesystem::path folder,
                   std::size_t mostPrograms = kMostPrograms);

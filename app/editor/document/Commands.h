@@ -18,6 +18,9 @@ class DocumentCommand : public QUndoCommand {
     void applyOnly();
     // Memory that only this command keeps alive, roughly: images and meshes.
     [[nodiscard]] virtual std::size_t payloadBytes() const { return 0; }
+    // DocumentState::step on its two sides; the second is 0 while it was not done yet.
+    [[nodiscard]] quint64 stepBefore() const { return m_stepBefore; }
+    [[nodiscard]] quint64 stepAfter() const { return m_stepAfter; }
 
   protected:
     virtual Change swap(Document& document, bool forward) = 0;
@@ -32,7 +35,7 @@ class DocumentCommand : public QUndoCommand {
   private:
     DocumentController& m_controller;
     quint64 m_mergeMark;
-    quint64 m_stepBefore = 0, m_stepAfter = 0; // DocumentState::step; 0: not done yet
+    quint64 m_stepBefore = 0, m_stepAfter = 0;
 };
 
 // Parameters of one element: one, or the few that belong together. Merges within a drag; a drag

@@ -79,6 +79,21 @@ DocumentState DocumentController::state() const {
     return {m_history, m_step, m_document.bakes};
 }
 
+int DocumentController::unsavedSteps() const {
+    if (m_saved.history != m_history)
+        return 0;
+    const auto command = [this](int index) {
+        return dynamic_cast<const DocumentCommand*>(m_undo.command(index));
+    };
+    for (int index = m_undo.index() - 1; index >= 0; --index)
+        if (const auto* done = command(index); done && done->stepBefore() == m_saved.step)
+            return m_undo.index() - index;
+    for (int index = m_undo.index(); index < m_undo.count(); ++index)
+        if (const auto* undone = command(index); undone && undone->stepAfter() == m_saved.step)
+            return index + 1 - m_undo.index();
+    return 0;
+}
+
 void DocumentController::push(DocumentCommand* command) {
     // When old images would take too much memory the history ends here; the document itself is
     // never at stake.

@@ -72,6 +72,9 @@ class DocumentController : public QObject {
     // Whether the document differs from what was last saved or opened: what was written is compared
     // with what is there.
     [[nodiscard]] bool isModified() const { return !(m_saved == state()); }
+    // Undo steps between what was last saved or opened and what is there; 0: none, or not known, as
+    // when undo does not lead back there.
+    [[nodiscard]] int unsavedSteps() const;
     // Taken with a copy of the document it tells later whether the copy is still what is there.
     [[nodiscard]] DocumentState state() const;
     // When something was asked for that is read in the background.

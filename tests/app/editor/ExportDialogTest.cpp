@@ -7,17 +7,29 @@
 #include <QCheckBox>
 #include <QDialog>
 #include <QDir>
+#include <QHeaderView>
+#include <QLabel>
 #include <QLineEdit>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QTableWidget>
 
 namespace patina::editor {
 namespace {
 
-struct ExportDialogTest : EditorTest {};
+struct ExportDialogTest : EditorTest {
+    // The one that is shown: one that was closed may still be on its way out.
+    static QDialog* openDialog() {
+        window->actions().exportScene->trigger();
+        for (auto* dialog : window->findChildren<QDialog*>(QStringLiteral("exportDialog")))
+            if (dialog->isVisible())
+                return dialog;
+        return nullptr;
+    }
+};
 
 TEST_F(ExportDialogTest, TheEnvironmentComesAlongWhenTicked) {
-    window->actions().exportScene->trigger();
-    auto* dialog = window->findChild<QDialog*>(QStringLiteral("exportDialog"));
+    QDialog* dialog = openDialog();
     ASSERT_NE(dialog, nullptr);
     dialog->findChild<QLineEdit*>(QStringLiteral("exportPath"))
         ->setText(folder.filePath(QStringLiteral("scene.glb")));
@@ -39,6 +51,30 @@ TEST_F(ExportDialogTest, TheEnvironmentComesAlongWhenTicked) {
 
     QTest::mouseClick(box, Qt::LeftButton, Qt::NoModifier, {8, box->height() / 2});
     EXPECT_EQ(files->rowCount(), before);
+    dialog->reject();
+}
+
+// A scene whose textures are damaged has a warning for each.
+TEST_F(ExportDialogTest, ManyWarningsLeaveTheFilesInSight) {
+    QDialog* dialog = openDialog();
+    ASSERT_NE(dialog, nullptr);
+    auto* files = dialog->findChild<QTableWidget*>(QStringLiteral("exportFiles"));
+    auto* warnings = dialog->findChild<QLabel*>(QStringLiteral("exportWarnings"));
+    auto* area = dialog->findChild<QScrollArea*>(QStringLiteral("exportWarningsArea"));
+    ASSERT_TRUE(files && warnings && area);
+    QStringList texts;
+    for (int i = 0; i < 60; ++i)
+        texts << QStringLiteral("Material %1: its base colour could not be read").arg(i);
+    warnings->setText(texts.join(QLatin1Char('\n')));
+    area->show();
+    QTest::qWait(50);
+    EXPECT_GE(files->viewport()->height(), 4 * files->verticalHeader()->defaultSectionSize());
+    EXPECT_GE(area->height(), 3 * warnings->fontMetrics().height());
+    EXPECT_LE(dialog->height(), 700); // on a screen of 768
+    EXPECT_GT(area->verticalScrollBar()->maximum(), 0);
+    const QString target = qEnvironmentVariable("PATINA_SCREENSHOTS", folder.path());
+    ASSERT_TRUE(QDir().mkpath(target));
+    EXPECT_TRUE(dialog->grab().save(QDir(target).filePath(QStringLiteral("export-warnings.png"))));
     dialog->reject();
 }
 

@@ -9,6 +9,7 @@
 #include "app/editor/document/ProposedFolder.h"
 #include "app/editor/viewport/EquationBar.h"
 #include "app/editor/viewport/SceneProgress.h"
+#include "app/editor/widget/MessageBar.h"
 #include "app/editor/widget/NoticeArea.h"
 #include "app/editor/widget/NumberField.h"
 
@@ -29,6 +30,7 @@
 #include <QMessageBox>
 #include <QMimeData>
 #include <QSettings>
+#include <QStatusTipEvent>
 #include <QToolBar>
 #include <QTreeView>
 #include <map>
@@ -533,6 +535,21 @@ TEST_F(WindowTest, TheStatusBarSaysRefinedAtRest) {
     window->viewport().resetCamera(); // as a key does: the next frames are drawn for speed
     EXPECT_TRUE(eventually([&] { return label->text().contains(QStringLiteral("fps")); }));
     EXPECT_TRUE(eventually([&] { return label->text() == QStringLiteral("Refined"); }));
+}
+
+TEST_F(WindowTest, LongHintsEndInAnEllipsis) {
+    auto* bar = qobject_cast<MessageBar*>(window->statusBar());
+    ASSERT_NE(bar, nullptr);
+    const QString brief = QStringLiteral("Brightness"), word = QStringLiteral("candela ");
+    QStatusTipEvent briefHint(brief);
+    QCoreApplication::sendEvent(window.get(), &briefHint);
+    EXPECT_EQ(bar->shownMessage(), brief);
+    QStatusTipEvent longHint(word.repeated(200));
+    QCoreApplication::sendEvent(window.get(), &longHint);
+    EXPECT_TRUE(bar->shownMessage().startsWith(word));
+    EXPECT_TRUE(bar->shownMessage().endsWith(QChar(0x2026)));
+    const auto* frameTime = bar->findChild<QLabel*>(QStringLiteral("frameTime"));
+    EXPECT_LT(bar->fontMetrics().horizontalAdvance(bar->shownMessage()), frameTime->x());
 }
 
 // --- Layout and pictures -------------------------------------------------------------------------

@@ -114,6 +114,29 @@ TEST_F(RecoveryWindow, TheLastStateOfADragIsKept) {
     EXPECT_EQ(found.works[0].record.steps, 1);
 }
 
+TEST_F(RecoveryWindow, StepsAreCountedFromTheLastSave) {
+    rotate(10.0f);
+    rotate(20.0f);
+    EXPECT_EQ(controller().unsavedSteps(), 2);
+    static_cast<void>(savedScene());
+    EXPECT_EQ(controller().unsavedSteps(), 0);
+    rotate(30.0f);
+    EXPECT_EQ(controller().unsavedSteps(), 1);
+    controller().undoStack().undo();
+    controller().undoStack().undo();
+    EXPECT_EQ(controller().unsavedSteps(), 1) << "one step before what was saved";
+    rotate(40.0f);
+    EXPECT_EQ(controller().unsavedSteps(), 0) << "undo does not lead back to what was saved";
+    ASSERT_TRUE(controller().isModified());
+    static_cast<void>(savedScene());
+    rotate(50.0f);
+    ASSERT_TRUE(recovery->keeper().keepNow());
+    recovery.reset();
+    const AbandonedWorks found = abandonedWorks(root);
+    ASSERT_EQ(found.works.size(), 1u);
+    EXPECT_EQ(found.works[0].record.steps, 1);
+}
+
 TEST_F(RecoveryWindow, WorkThatTheUserGaveUpIsNotOffered) {
     rotate(40.0f);
     ASSERT_TRUE(recovery->keeper().keepNow());
