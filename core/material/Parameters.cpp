@@ -432,9 +432,9 @@ constexpr std::array kParameters{
     flag<&E::second, &E2::solo>("environment.secondSolo", "Second solo", "Mix", kSoloHelp, kSwitch),
     color<&E::second, &E2::tint>("environment.secondTint", "Second tint", "Mix", "Colours the light of the second environment like a filter in front of them."),
     number<&E::fade>("environment.fade", "Cross-fade", "Mix", kUnit, kUnit, 3, "", "Fades from these surroundings at 0 to the second ones at 1, between them to a mix of the light of both; of no effect without a second image."),
-    choice<&E::background>("environment.background", "Background", "Environment", kBackgrounds, kBackgroundLabels, "What is seen behind the model; the light on it stays the same."),
-    number<&E::backgroundBlur>("environment.backgroundBlur", "Background blur", "Environment", kUnit, kUnit, 2, "", "How far the surroundings behind the model are out of focus when they are blurred."),
-    color<&E::backgroundColor>("environment.backgroundColor", "Background colour", "Environment", "Colour behind the model when the background is a colour."),
+    choice<&E::background>("environment.background", "Background", "Background", kBackgrounds, kBackgroundLabels, "What is seen behind the model; the light on it stays the same."),
+    number<&E::backgroundBlur>("environment.backgroundBlur", "Background blur", "Background", kUnit, kUnit, 2, "", "How far the surroundings behind the model are out of focus when they are blurred."),
+    color<&E::backgroundColor>("environment.backgroundColor", "Background colour", "Background", "Colour behind the model when the background is a colour."),
 
     text<&B::name>("softbox.name", "Name", "Softbox", "What the softbox is called in lists and scripts."),
     flag<&B::enabled>("softbox.enabled", "On", "Softbox", "Switches the softbox on or off.", kSurroundings),

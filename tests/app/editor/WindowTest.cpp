@@ -12,6 +12,7 @@
 #include "app/editor/widget/MessageBar.h"
 #include "app/editor/widget/NoticeArea.h"
 #include "app/editor/widget/NumberField.h"
+#include "app/editor/widget/Section.h"
 
 #include <QAbstractButton>
 #include <QCheckBox>
@@ -32,6 +33,7 @@
 #include <QSettings>
 #include <QStatusTipEvent>
 #include <QToolBar>
+#include <QToolButton>
 #include <QTreeView>
 #include <map>
 #include <set>
@@ -429,6 +431,20 @@ TEST_F(WindowTest, EveryControlHasAnAccessibleName) {
                 << ' ' << widget->toolTip().toStdString();
         }
     }
+}
+
+TEST_F(WindowTest, NoHeadingIsThereTwiceInADock) {
+    int headings = 0;
+    for (const QDockWidget* dock : window->findChildren<QDockWidget*>()) {
+        std::set<QString> seen;
+        for (const Section* section : dock->widget()->findChildren<Section*>()) {
+            const QString title = section->findChild<QToolButton*>()->text();
+            EXPECT_TRUE(seen.insert(title).second)
+                << dock->objectName().toStdString() << ": " << title.toStdString();
+            ++headings;
+        }
+    }
+    EXPECT_GT(headings, 10);
 }
 
 TEST_F(WindowTest, LightingFollowsTheDocument) {
