@@ -24,6 +24,16 @@ function(patina_test_options target)
     $<$<CONFIG:Release>:-O1> -pthread -UQT_TESTCASE_BUILDDIR -UQT_TESTCASE_SOURCEDIR)
 endfunction()
 
+# What all tests run with. Software OpenGL takes seconds to compile the editor's programs, so the driver's
+# compiled shaders are kept in one folder for all tests, none of which starts with an editor that counts
+# on them. It is the driver's alone: settings and caches of the editor are each test's own.
+set(PATINA_TEST_ENVIRONMENT
+  "PATINA_BIN_DIR=${CMAKE_BINARY_DIR}/bin"
+  "LP_NUM_THREADS=2"
+  "XDG_RUNTIME_DIR=${CMAKE_BINARY_DIR}/run"
+  "MESA_SHADER_CACHE_DIR=${CMAKE_BINARY_DIR}/tests/shader-cache"
+  ${PATINA_SANITIZER_ENVIRONMENT})
+
 # patina_test_support(NAME): a static library that tests share. Compiled like a program, so that tests
 # can reuse the headers it precompiles.
 function(patina_test_support name)
@@ -57,7 +67,7 @@ function(patina_test name)
   math(EXPR timeout "${T_TIMEOUT} * ${PATINA_TIMEOUT_FACTOR}")
   set_tests_properties(${name} PROPERTIES LABELS "${T_LABEL}" TIMEOUT ${timeout}
     FAIL_REGULAR_EXPRESSION "${PATINA_FAILING_OUTPUT}"
-    ENVIRONMENT "PATINA_BIN_DIR=${CMAKE_BINARY_DIR}/bin;LP_NUM_THREADS=2;XDG_RUNTIME_DIR=${CMAKE_BINARY_DIR}/run;${PATINA_SANITIZER_ENVIRONMENT}")
+    ENVIRONMENT "${PATINA_TEST_ENVIRONMENT}")
 endfunction()
 
 # patina_golden(NAME): the test NAME compares pictures with tests/golden/*.png (through patina-worker)
@@ -90,7 +100,7 @@ function(patina_gui_test name)
   add_test(NAME ${name} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-xvfb $<TARGET_FILE:${name}>)
   set_tests_properties(${name} PROPERTIES LABELS "app" TIMEOUT ${T_TIMEOUT}
     FAIL_REGULAR_EXPRESSION "\\[  SKIPPED \\]"
-    ENVIRONMENT "PATINA_BIN_DIR=${CMAKE_BINARY_DIR}/bin;LP_NUM_THREADS=2;XDG_RUNTIME_DIR=${CMAKE_BINARY_DIR}/run;PATINA_SCREENSHOTS=${CMAKE_BINARY_DIR}/tests/screenshots")
+    ENVIRONMENT "${PATINA_TEST_ENVIRONMENT};PATINA_SCREENSHOTS=${CMAKE_BINARY_DIR}/tests/screenshots")
 endfunction()
 
 # patina_on_demand(TARGET): built by name, or with everything else of its kind by the target `tools`,
@@ -115,5 +125,6 @@ function(patina_benchmark name)
   patina_on_demand(${name})
 endfunction()
 
+file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/tests/shader-cache)
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/run)
 file(CHMOD ${CMAKE_BINARY_DIR}/run PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)

@@ -76,13 +76,9 @@ class EquationWindowTest : public EditorTest {
         const QString pictures = qEnvironmentVariable("PATINA_SCREENSHOTS");
         if (pictures.isEmpty())
             return;
-        const QSize before = window->size();
-        window->resize(1440, 900);
-        ASSERT_TRUE(rested());
         QTest::qWait(qEnvironmentVariableIntValue("PATINA_SCREENSHOT_WAIT_MS"));
         ASSERT_TRUE(QDir().mkpath(pictures));
         EXPECT_TRUE(window->grab().save(QDir(pictures).filePath(QLatin1String(name))));
-        window->resize(before);
     }
     static Id addLight(LightType type) {
         controller().addLight(type);
