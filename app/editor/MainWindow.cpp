@@ -6,7 +6,6 @@
 #include "app/editor/EscapeKey.h"
 #include "app/editor/ExportDialog.h"
 #include "app/editor/FileFlow.h"
-#include "app/editor/FreedMemory.h"
 #include "app/editor/HelpDialogs.h"
 #include "app/editor/Session.h"
 #include "app/editor/ViewActions.h"
@@ -78,7 +77,6 @@ MainWindow::MainWindow(Session& session)
     , m_looks(new ViewActions(session.views, session.controller, this))
     , m_files(new FileFlow(session, *this))
     , m_docks(new Docks(*this))
-    , m_freed(new FreedMemory(this))
     , m_viewport(new ViewportWidget(session.controller, session.selection))
     , m_notices(new NoticeArea(*m_viewport)) {
     setObjectName(QStringLiteral("mainWindow"));
@@ -425,7 +423,6 @@ void MainWindow::connectActions() {
             refreshView();
     });
     connect(m_viewport, &ViewportWidget::frameRendered, this, &MainWindow::showFrame);
-    connect(m_viewport, &ViewportWidget::frameRendered, m_freed, &FreedMemory::frameDrawn);
     connect(m_viewport, &ViewportWidget::displayRefused, &m_session.displays,
             &DisplayLoader::refuse);
     connect(&m_session.displays, &DisplayLoader::noticed, this, &MainWindow::notice);

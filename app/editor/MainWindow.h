@@ -13,7 +13,6 @@ class Actions;
 class BusyIndicator;
 class Docks;
 class FileFlow;
-class FreedMemory;
 class MaterialPanel;
 class NoticeArea;
 class ViewActions;
@@ -69,7 +68,6 @@ class MainWindow : public QMainWindow {
     ViewActions* m_looks;
     FileFlow* m_files;
     Docks* m_docks;
-    FreedMemory* m_freed;
     ViewportWidget* m_viewport;
     ViewOverlay* m_overlay = nullptr;    // over the viewport
     SceneProgress* m_progress = nullptr; // likewise

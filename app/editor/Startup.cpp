@@ -1,6 +1,6 @@
 #include "app/editor/Startup.h"
 
-#include "core/base/HeapGrowth.h"
+#include "app/editor/Allocator.h"
 
 #include <QCoreApplication>
 #include <QFileInfo>
@@ -29,7 +29,7 @@ void avoidFullShaderCache() {
 } // namespace
 
 void prepareApplication() {
-    boundHeapGrowth();
+    prepareAllocator();
     avoidFullShaderCache();
     // Without shared contexts, floating a dock would destroy the viewport's.
     QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);

@@ -1,6 +1,6 @@
 #include "core/bake/RayScene.h"
 
-#include "core/base/HeapGrowth.h"
+#include "core/base/FreedMemory.h"
 #include "core/job/ForkJoin.h"
 #include "core/math/Sampling.h"
 

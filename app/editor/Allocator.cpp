@@ -1,0 +1,35 @@
+#include "app/editor/Allocator.h"
+
+#include "core/base/Log.h"
+
+#ifdef PATINA_JEMALLOC
+#include <jemalloc/jemalloc.h>
+#endif
+
+namespace patina::editor {
+
+#ifdef PATINA_JEMALLOC
+namespace {
+
+template <typename T>
+bool set(const char* name, T value) {
+    return mallctl(name, nullptr, nullptr, &value, sizeof(value)) == 0;
+}
+
+} // namespace
+
+void prepareAllocator() {
+    static_assert(MALLCTL_ARENAS_ALL == 4096);
+    constexpr ssize_t kMs = kFreedMemoryMs;
+    // Of heaps to come, and of those that are there.
+    const bool done = set("arenas.dirty_decay_ms", kMs) && set("arenas.muzzy_decay_ms", kMs) &&
+                      set("arena.4096.dirty_decay_ms", kMs) &&
+                      set("arena.4096.muzzy_decay_ms", kMs) && set("background_thread", true);
+    if (!done)
+        logWarning("The allocator refused its settings; memory may grow with time.");
+}
+#else
+void prepareAllocator() {}
+#endif
+
+} // namespace patina::editor
