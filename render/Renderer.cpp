@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <epoxy/gl.h>
 #include <glm/matrix.hpp>
+#include <utility>
 
 namespace patina::render {
 
@@ -56,7 +57,15 @@ Result<void> Renderer::Impl::drawPicture(const FrameSettings& frame, const Frame
     if (frame.coarse)
         settings.coarseView = block.worldToClip;
     shadows.bind();
-    const DrawList list = makeDrawList(scene.items(), block.worldToClip, frame.camera.position());
+    const DrawList list = visibleItems(block, frame.camera.position());
+    settings.clip = sliceClip(block);
+    const std::uint64_t opaque = triangleCount(list.opaque, settings.clip);
+    const std::uint64_t all = opaque + triangleCount(list.blended, settings.clip);
+    if (slice) {
+        settings.triangles = slice->triangles;
+        slice->shown = all;
+        slice->complete = slice->triangles.end() > all;
+    }
 
     target.bind();
     const std::optional<glm::vec3>& furnace = frame.view.furnace;
@@ -67,31 +76,45 @@ Result<void> Renderer::Impl::drawPicture(const FrameSettings& frame, const Frame
     const glm::vec3 clear = transparent || background != BackgroundMode::Color ? glm::vec3(0.0f)
                             : furnace                                          ? *furnace
                                       : document.environment.backgroundColor;
-    target.clearColor(clear.r, clear.g, clear.b, transparent ? 0.0f : 1.0f);
-    target.clearDepth(1.0f);
+    if (settings.triangles.first == 0) {
+        target.clearColor(clear.r, clear.g, clear.b, transparent ? 0.0f : 1.0f);
+        target.clearDepth(1.0f);
+    }
 
     if (auto done = surface.drawOpaque(scene, list, settings); !done)
         return done;
-    if (!transparent)
+    // The sky comes behind the last opaque triangle.
+    TriangleRange& triangles = settings.triangles;
+    if (triangles.end() <= opaque)
+        return {};
+    if (!transparent && triangles.first <= opaque)
         if (auto done = screen.drawSky(scene.environment(), background,
                                        document.environment.backgroundBlur, settings.floats);
             !done)
             return done;
+    const std::uint64_t first = std::max(triangles.first, opaque);
+    triangles = {first - opaque, triangles.end() - first};
     return surface.drawBlended(scene, list, settings);
+}
+
+bool Renderer::Impl::wantsLuminance(const FrameSettings& frame) const {
+    return needsLuminance(scene.document().view) || frame.measureLuminance;
 }
 
 // What exposure needs to know of the picture, where it or the caller asks for it.
 Result<void> Renderer::Impl::adapt(const FrameSettings& frame) {
-    const View& view = scene.document().view;
-    adaptation.bind();
-    if (!needsLuminance(view) && !frame.measureLuminance)
+    if (!wantsLuminance(frame))
         return {};
     if (luminanceIsNew)
         if (auto done = adaptation.measure(targets); !done)
             return done;
     luminanceIsNew = false;
+    return adaptToMeasured(frame);
+}
+
+Result<void> Renderer::Impl::adaptToMeasured(const FrameSettings& frame) {
     luminanceKnown = true;
-    return adaptation.adapt(view.exposureMode == ExposureMode::Automatic
+    return adaptation.adapt(scene.document().view.exposureMode == ExposureMode::Automatic
                                 ? frame.adaptSeconds
                                 : std::numeric_limits<float>::infinity());
 }
@@ -120,17 +143,17 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context,
 
 void Renderer::setDocument(const Document& document, const Change& change) {
     m_impl->scene.update(document, change);
-    m_impl->sceneIsNew = true;
+    m_impl->setChanged();
 }
 
 void Renderer::setEnvironment(const EnvironmentTexels& texels) {
     m_impl->scene.environment().set(texels);
-    m_impl->sceneIsNew = true;
+    m_impl->setChanged();
 }
 
 void Renderer::setIbl(const IblMaps& maps) {
     m_impl->scene.environment().setIbl(maps);
-    m_impl->sceneIsNew = true;
+    m_impl->setChanged();
 }
 
 void Renderer::beginEnvironment(EnvironmentTexelsPtr texels) {
@@ -139,7 +162,7 @@ void Renderer::beginEnvironment(EnvironmentTexelsPtr texels) {
 
 void Renderer::setProjection(const ImagePtr& image, const ProjectionSh& coefficients) {
     m_impl->scene.environment().setProjection(image, coefficients);
-    m_impl->sceneIsNew = true;
+    m_impl->setChanged();
 }
 
 bool Renderer::knowsProjection(const ImagePtr& image) const {
@@ -152,12 +175,14 @@ std::vector<glm::vec3> Renderer::transferLight(int order) const {
 
 bool Renderer::proceedEnvironment(std::size_t bytes) {
     const bool done = m_impl->scene.environment().proceed(bytes);
-    m_impl->sceneIsNew |= done;
+    if (done)
+        m_impl->setChanged();
     return done;
 }
 
 Result<void> Renderer::setDisplay(const DisplayTransformPtr& display) {
     m_impl->screen.setDisplay(std::nullopt);
+    ++m_impl->revision;
     if (!display)
         return {};
     auto program = DisplayProgram::create(m_impl->context, *display);
@@ -169,27 +194,27 @@ Result<void> Renderer::setDisplay(const DisplayTransformPtr& display) {
 
 void Renderer::previewVertices(BakeKind kind, Id mesh, int stride, std::span<const float> values) {
     m_impl->scene.previewVertices(kind, mesh, stride, values);
-    m_impl->sceneIsNew = true;
+    m_impl->setChanged();
 }
 
 void Renderer::previewTexels(Id material, int size, std::span<const float> values) {
     m_impl->scene.previewTexels(material, size, values);
-    m_impl->sceneIsNew = true;
+    m_impl->setChanged();
 }
 
 void Renderer::setBouncedLight(Id mesh, std::span<const glm::vec3> radiance) {
     m_impl->scene.setBouncedLight(mesh, radiance);
-    m_impl->sceneIsNew = true;
+    m_impl->setChanged();
 }
 
 void Renderer::clearBouncedLight() {
     m_impl->scene.clearBouncedLight();
-    m_impl->sceneIsNew = true;
+    m_impl->setChanged();
 }
 
 void Renderer::clearPreview() {
     m_impl->scene.clearPreview();
-    m_impl->sceneIsNew = true;
+    m_impl->setChanged();
 }
 
 void Renderer::Impl::beginGl() {
@@ -214,16 +239,17 @@ void Renderer::Impl::endGl(unsigned targetFramebuffer) {
 }
 
 // Overlays are as fine as what they are shown on, however coarse the picture below them is.
-Result<void> Renderer::Impl::show(const FrameSettings& frame, unsigned targetFramebuffer) {
-    const OverlaySettings settings{frame.selectedMesh, frame.selectedLight, frame.lobe.get(),
-                                   frame.overlayScale};
-    const bool stretched = frame.shownWidth > 0 && (frame.shownWidth != targets.width() ||
-                                                    frame.shownHeight != targets.height());
-    if (!stretched) {
+Result<void> Renderer::Impl::show(const FrameSettings& frame, bool overlaysDrawn,
+                                  unsigned targetFramebuffer) {
+    const OverlaySettings settings = overlaySettings(frame);
+    adaptation.bind();
+    if (!isStretched(frame)) {
         Result<void> done;
-        if (frame.showOverlays)
+        if (frame.showOverlays && !overlaysDrawn) {
+            next.hasMask = false;
             done = overlay.draw(Canvas::of(targets), targets, scene, lastBlock, frame.camera,
                                 settings);
+        }
         return done ? screen.present(targets, Canvas::window(targets, targetFramebuffer)) : done;
     }
     const Canvas canvas{targetFramebuffer, frame.shownWidth, frame.shownHeight};
@@ -234,42 +260,120 @@ Result<void> Renderer::Impl::show(const FrameSettings& frame, unsigned targetFra
     fine.height = frame.shownHeight;
     const FrameBlock block = packFrame(fine);
     useFrame(block);
+    next.hasMask = false;
     Result<void> done = overlay.draw(canvas, targets, scene, block, frame.camera, settings);
     useFrame(lastBlock);
     return done;
 }
 
-Result<void> Renderer::render(const FrameSettings& frame, unsigned targetFramebuffer) {
+bool isStretched(const FrameSettings& frame) {
+    return frame.shownWidth > 0 &&
+           (frame.shownWidth != frame.width || frame.shownHeight != frame.height);
+}
+
+bool showSameScene(const FrameSettings& a, const FrameSettings& b) {
+    ViewSettings view = a.view;
+    view.flags = b.view.flags; // marks are drawn over the numbers
+    return a.width == b.width && a.height == b.height && a.samples == b.samples &&
+           a.floats == b.floats && a.coarse == b.coarse && a.accumulate == b.accumulate &&
+           a.camera == b.camera && a.transparentBackground == b.transparentBackground &&
+           view == b.view;
+}
+
+bool showSameOverlays(const FrameSettings& a, const FrameSettings& b) {
+    return isStretched(a) == isStretched(b) && a.showOverlays == b.showOverlays &&
+           a.selectedMesh == b.selectedMesh && a.selectedLight == b.selectedLight &&
+           a.lobe == b.lobe && a.overlayScale == b.overlayScale;
+}
+
+FrameSettings withOverlaysOf(const FrameSettings& frame, const FrameSettings& other) {
+    FrameSettings result = frame;
+    result.showOverlays = other.showOverlays;
+    result.selectedMesh = other.selectedMesh;
+    result.selectedLight = other.selectedLight;
+    result.lobe = other.lobe;
+    result.overlayScale = other.overlayScale;
+    return result;
+}
+
+FrameSettings Renderer::Impl::kept(const FrameSettings& wanted) const {
+    FrameSettings frame = wanted;
+    frame.width = lastFrame.width;
+    frame.height = lastFrame.height;
+    frame.samples = lastFrame.samples;
+    frame.accumulate = lastFrame.accumulate;
+    frame.floats = lastFrame.floats;
+    frame.coarse = lastFrame.coarse;
+    frame.dither = lastFrame.dither;
+    frame.transparentBackground = lastFrame.transparentBackground;
+    frame.camera = lastFrame.camera;
+    frame.view = lastFrame.view;
+    if (!lastFrame.view.split)
+        frame.view.flags = wanted.view.flags;
+    else if (!isStretched(frame)) // the overlays are part of what is displayed, too
+        frame = withOverlaysOf(frame, lastFrame);
+    return frame;
+}
+
+bool Renderer::Impl::isDisplayed(const FrameSettings& frame) const {
+    if (frame.view.split)
+        return true; // only one of its sides is there to be displayed anew
+    const bool eyeRests =
+        !needsLuminance(scene.document().view) && !(frame.measureLuminance && luminanceIsNew);
+    return eyeRests && shownRevision == revision && frame.view.flags == lastFrame.view.flags &&
+           showSameOverlays(frame, lastFrame);
+}
+
+Result<void> Renderer::render(const FrameSettings& wanted, unsigned targetFramebuffer) {
     Impl& r = *m_impl;
-    if (frame.width != r.targets.width() || frame.height != r.targets.height() ||
-        frame.samples != r.lastFrame.samples || frame.floats != r.lastFrame.floats ||
-        frame.coarse != r.lastFrame.coarse || frame.accumulate != r.lastFrame.accumulate ||
-        !(frame.view == r.lastFrame.view))
+    FrameSettings frame = wanted;
+    const bool keeps = frame.keepPicture && r.targets.width() > 0;
+    if (keeps)
+        frame = r.kept(wanted);
+    const bool prepared = !keeps && isPrepared(frame);
+    if (prepared) {
+        frame = r.next.frame;
+        frame.shownWidth = wanted.shownWidth;
+        frame.shownHeight = wanted.shownHeight;
+    }
+    // What is displayed is what it would become.
+    const bool displayed = prepared || (keeps && r.isDisplayed(frame));
+    const bool continues = !r.sceneIsNew && showSameScene(frame, r.lastFrame) && !r.next.hasMeans;
+    // Nor does a frame that reuses its scene draw another camera's.
+    FrameSettings moved = frame;
+    moved.camera = r.lastFrame.camera;
+    if (!showSameScene(moved, r.lastFrame))
         r.sceneIsNew = true;
-    const bool continues = !r.sceneIsNew && frame.camera == r.lastFrame.camera;
     r.lastFrame = frame;
+    if (prepared)
+        r.takePrepared();
+    else if (!displayed)
+        r.shownRevision = r.revision;
     if (auto sized =
             r.targets.resize(r.context, frame.width, frame.height, frame.samples, frame.floats);
         !sized)
         return sized;
     r.beginGl();
 
-    const bool drawsScene = r.sceneIsNew || !frame.reuseScene || frame.view.split;
+    const bool drawsScene =
+        !keeps && !prepared && (r.sceneIsNew || !frame.reuseScene || frame.view.split);
     if (drawsScene) {
         if (auto done = r.shadows.update(r.scene); !done)
             return done;
         const bool accumulates = frame.accumulate && r.targets.samples() == 1;
         r.accumulated =
             accumulates ? std::min(continues ? r.accumulated + 1 : 1, kSteadyFrames + 1) : 0;
+        r.next.hasMeans = r.next.hasMeans && r.accumulated != 1;
     }
-    r.lastBlock = r.packFrame(frame);
+    if (!prepared)
+        r.lastBlock = r.packFrame(frame);
     r.useFrame(r.lastBlock);
 
-    Result<void> done = r.drawViews(frame, drawsScene);
+    Result<void> done = displayed ? Result<void>() : r.drawViews(frame, drawsScene);
     if (drawsScene)
         r.sceneIsNew = !done.ok();
     if (done)
-        done = r.show(frame, targetFramebuffer);
+        done = r.show(frame, displayed, targetFramebuffer);
     r.endGl(targetFramebuffer);
     return done;
 }
@@ -345,7 +449,7 @@ Result<void> Renderer::prepareNearLights(LightingMode lighting) {
     Result<void> done = r.relight.update(r.scene, lighting, block);
     r.useFrame(r.lastBlock);
     r.endGl(0);
-    r.sceneIsNew = true;
+    r.setChanged();
     return done;
 }
 
@@ -355,7 +459,7 @@ std::vector<ProgramKey> Renderer::programs() const {
 
 std::vector<std::string> Renderer::reloadShaders() {
     std::vector<std::string> messages = m_impl->shaders.reload();
-    m_impl->sceneIsNew = true;
+    m_impl->setChanged();
     for (const std::string& message : messages)
         logError("{}", message);
     return messages;

@@ -54,6 +54,10 @@ struct FrameSettings {
     // The scene looks as in the last frame: only exposure, tone curve and overlays are done anew.
     // Without effect when size, samples or what the renderer was given have changed since.
     bool reuseScene = false;
+    // Shows the last frame's picture again, whatever has been set since, with overlays, exposure
+    // and tone curve of now: size, camera and view are that frame's, shownWidth and shownHeight
+    // this one's. A split's stays as it was displayed. Without effect before the first frame.
+    bool keepPicture = false;
 
     ViewSettings view; // which terms of the shading equation are shown
 };
@@ -113,6 +117,19 @@ class Renderer {
     // Renders to the internal HDR target and tone maps into framebuffer `targetFramebuffer`
     // (0: the window's), viewport 0,0 … width,height or shownWidth,shownHeight.
     Result<void> render(const FrameSettings& frame, unsigned targetFramebuffer);
+
+    // Draws a slice of a frame's scene beside the one that is shown, and waits for it: of about
+    // `budgetMs`, by the time that slices before took. True: the frame is complete, and render()
+    // shows it as if it had drawn it in one piece. What is set meanwhile, and settings of another
+    // scene, begin it anew. `expectedMs`: what the whole may take; below 0: unknown. Errors:
+    // Internal from the driver.
+    Result<bool> prepare(const FrameSettings& frame, double budgetMs, double expectedMs);
+    [[nodiscard]] bool isPrepared(const FrameSettings& frame) const;
+    // The scene of it is complete, and its picture under way, in the light that the eye is used to:
+    // an eye that adapts now begins that anew.
+    [[nodiscard]] bool preparesPicture(const FrameSettings& frame) const;
+    // Whether the last frame shows the scene as these settings want it, as fine as they do.
+    [[nodiscard]] bool isCurrent(const FrameSettings& frame) const;
 
     // Frames that the last one is the mean of; kSteadyFrames: more will not change it.
     [[nodiscard]] int accumulatedFrames() const;

@@ -51,6 +51,41 @@ bool hasBackground(const ViewChoice& choice) {
     return choice.mode == ViewMode::Raw && recordedFor(choice.kind) == kViewFinal;
 }
 
+// Puts back what one pixel of the targets held: depth, numbers and display value.
+class PixelOfTargets {
+  public:
+    PixelOfTargets(const Targets& targets, int x, int y)
+        : m_targets(targets)
+        , m_x(x)
+        , m_y(y) {
+        const auto read = [&](const gl::Texture& texture, GLenum format, GLenum type, auto& into) {
+            glGetTextureSubImage(texture.id(), 0, x, y, 0, 1, 1, 1, format, type, sizeof(into),
+                                 &into);
+        };
+        read(targets.depth(), GL_DEPTH_COMPONENT, GL_FLOAT, m_depth);
+        read(targets.data(), GL_RGBA, GL_FLOAT, m_numbers);
+        read(targets.displayed(), GL_RGBA, GL_UNSIGNED_BYTE, m_displayed);
+    }
+    ~PixelOfTargets() {
+        const auto write = [&](const gl::Texture& texture, GLenum format, GLenum type,
+                               const auto& from) {
+            glTextureSubImage2D(texture.id(), 0, m_x, m_y, 1, 1, format, type, &from);
+        };
+        write(m_targets.depth(), GL_DEPTH_COMPONENT, GL_FLOAT, m_depth);
+        write(m_targets.data(), GL_RGBA, GL_FLOAT, m_numbers);
+        write(m_targets.displayed(), GL_RGBA, GL_UNSIGNED_BYTE, m_displayed);
+    }
+    PixelOfTargets(const PixelOfTargets&) = delete;
+    PixelOfTargets& operator=(const PixelOfTargets&) = delete;
+
+  private:
+    const Targets& m_targets;
+    int m_x, m_y;
+    float m_depth = 1.0f;
+    glm::vec4 m_numbers{0.0f};
+    std::array<unsigned char, 4> m_displayed{};
+};
+
 } // namespace
 
 bool ViewSettings::isOrdinary(const ViewChoice& choice) const {
@@ -91,18 +126,25 @@ Result<void> Renderer::Impl::drawNumbers(const FrameSettings& frame, const Frame
     if (auto done = relight.update(scene, lighting, block); !done)
         return done;
     shadows.bind();
-    const DrawList list = makeDrawList(scene.items(), block.worldToClip, frame.camera.position());
-    target.bind();
-    constexpr std::array<float, 4> kNothing{};
-    for (int i = 0; i < (output == SurfaceOutput::EightViews ? 8 : 1); ++i)
-        glClearNamedFramebufferfv(target.id(), GL_COLOR, i, kNothing.data());
-    target.clearDepth(1.0f);
+    // Blended surfaces, too, stand for themselves.
+    DrawList list = visibleItems(block, frame.camera.position());
+    list.opaque.insert(list.opaque.end(), list.blended.begin(), list.blended.end());
     SurfaceSettings surfaces = surfaceSettings(block, output, lighting);
     surfaces.floats = output == SurfaceOutput::OneView; // others are never drawn otherwise
-    // Blended surfaces, too, stand for themselves.
-    if (auto done = surface.drawOpaque(scene, list, surfaces); !done)
-        return done;
-    return surface.draw(scene, list.blended, surfaces);
+    if (slice) {
+        surfaces.triangles = slice->triangles;
+        surfaces.clip = sliceClip(block);
+        slice->shown = triangleCount(list.opaque, surfaces.clip);
+        slice->complete = slice->triangles.end() > slice->shown;
+    }
+    target.bind();
+    constexpr std::array<float, 4> kNothing{};
+    if (surfaces.triangles.first == 0) {
+        for (int i = 0; i < (output == SurfaceOutput::EightViews ? 8 : 1); ++i)
+            glClearNamedFramebufferfv(target.id(), GL_COLOR, i, kNothing.data());
+        target.clearDepth(1.0f);
+    }
+    return surface.drawOpaque(scene, list, surfaces);
 }
 
 Result<ViewRange> Renderer::Impl::rangeFor(const ViewChoice& choice, const gl::Texture& values) {
@@ -131,8 +173,11 @@ Result<ViewRange> Renderer::Impl::rangeFor(const ViewChoice& choice, const gl::T
 
 Result<void> Renderer::Impl::drawRadiance(const FrameSettings& frame, const ViewChoice& choice,
                                           std::size_t sideIndex) {
-    if (accumulated > Renderer::kSteadyFrames)
+    if (accumulated > Renderer::kSteadyFrames) {
+        if (slice)
+            slice->complete = true;
         return screen.showMean(targets, sideIndex);
+    }
     views.setBlock(viewsBlock(frame.view, std::span(&choice, 1), !targets.floats()));
     FrameBlock block = lastBlock;
     if (accumulated > 1) {
@@ -146,101 +191,122 @@ Result<void> Renderer::Impl::drawRadiance(const FrameSettings& frame, const View
                                 hasBackground(choice), choice.kind);
         !done)
         return done;
-    targets.resolve();
     if (accumulated > 1)
         useFrame(lastBlock);
+    if (slice && !slice->complete)
+        return {};
+    targets.resolve();
     if (accumulated == 0)
         return {};
     return screen.accumulate(context, targets, sideIndex, accumulated);
 }
 
-Result<void> Renderer::Impl::drawSide(const FrameSettings& frame, const ViewChoice& choice,
-                                      const glm::vec3& side, bool drawsScene) {
-    const ViewInfo& info = viewInfo(choice.kind);
-    const View& look = scene.document().view;
-    const bool ordinary = frame.view.isOrdinary(choice);
-    if (!whyEmpty(choice.kind, scene.document(), frame.view.light).empty()) {
-        const auto target = targets.dataTarget(context);
-        if (!target)
-            return target.error();
-        const ViewChoice shape{kViewNoV, ViewMode::Raw, {}};
-        if (drawsScene)
-            if (auto done = drawNumbers(frame, lastBlock, **target,
-                                        viewsBlock(frame.view, std::span(&shape, 1), false), false,
-                                        SurfaceOutput::OneView);
-                !done)
-                return done;
-        return views.showEmpty(targets.data(), side, targets.display());
-    }
-    if (showsRadiance(choice)) {
-        if (drawsScene) {
-            const bool left = frame.view.split && side.x < 0.0f;
-            if (auto done = drawRadiance(frame, choice, left ? 1 : 0); !done)
-                return done;
-            luminanceIsNew = ordinary;
-        }
-        // The eye is used to the picture, not to one of its terms.
-        if (ordinary)
-            if (auto done = adapt(frame); !done)
-                return done;
-        adaptation.bind();
-        if (auto done =
-                screen.toneMap(targets.linear(), targets.display(), look,
-                               {.dither = frame.dither,
-                                .scale = choice.mode == ViewMode::Raw ? info.displayScale : 1.0f,
-                                .fillEmpty = !hasBackground(choice),
-                                .markClipped = choice.kind == kViewClipped,
-                                .side = side});
-            !done)
-            return done;
-        if (choice.kind != kViewWireframe)
-            return {};
-        return wires.draw(
-            makeDrawList(scene.items(), lastBlock.worldToClip, frame.camera.position()), side,
-            frame.width, frame.height, targets.display());
-    }
+Result<void> Renderer::Impl::drawScene(const FrameSettings& frame, const ViewChoice& choice,
+                                       std::size_t sideIndex) {
+    const bool empty = !whyEmpty(choice.kind, scene.document(), frame.view.light).empty();
+    if (!empty && showsRadiance(choice))
+        return drawRadiance(frame, choice, sideIndex);
     const auto target = targets.dataTarget(context);
     if (!target)
         return target.error();
-    if (drawsScene)
-        if (auto done = drawNumbers(frame, lastBlock, **target,
-                                    viewsBlock(frame.view, std::span(&choice, 1), false),
-                                    blends(choice), SurfaceOutput::OneView, choice.kind);
-            !done)
-            return done;
+    const ViewChoice shape{kViewNoV, ViewMode::Raw, {}};
+    const ViewChoice& drawn = empty ? shape : choice;
+    return drawNumbers(
+        frame, lastBlock, **target, viewsBlock(frame.view, std::span(&drawn, 1), false),
+        !empty && blends(choice), SurfaceOutput::OneView, empty ? kViewFinal : choice.kind);
+}
+
+std::vector<Renderer::Impl::Side> Renderer::Impl::sidesOf(const FrameSettings& frame) {
+    const std::optional<ViewSplit>& split = frame.view.split;
+    if (!split)
+        return {Side{frame.view.shown, glm::vec3(0.0f), 0, false}};
+    const glm::vec3 right = rightOf(*split, frame.width, frame.height);
+    const auto index = [](const glm::vec3& plane) -> std::size_t { return plane.x < 0.0f ? 1 : 0; };
+    return {Side{split->other, right, index(right), true},
+            Side{frame.view.shown, -right, index(-right), false}};
+}
+
+bool Renderer::Impl::hasRadiance(const FrameSettings& frame, const ViewChoice& choice) const {
+    return showsRadiance(choice) &&
+           whyEmpty(choice.kind, scene.document(), frame.view.light).empty();
+}
+
+Result<void> Renderer::Impl::measureSide(const FrameSettings& frame, const Side& side) {
+    const ViewChoice& choice = side.choice;
+    // The eye is used to the picture, not to one of its terms.
+    if (hasRadiance(frame, choice))
+        return frame.view.isOrdinary(choice) ? adapt(frame) : Result<void>();
+    if (const auto target = targets.dataTarget(context); !target)
+        return target.error();
+    if (!whyEmpty(choice.kind, scene.document(), frame.view.light).empty())
+        return {};
     const auto range = rangeFor(choice, targets.data());
     if (!range)
         return range.error();
-    if (info.value == ViewValue::Scalar || choice.kind == kViewLuminance)
-        shownRange = *range;
+    ranges.side = *range;
+    if (viewInfo(choice.kind).value == ViewValue::Scalar || choice.kind == kViewLuminance)
+        (side.isOther ? ranges.other : ranges.shown) = *range;
+    return {};
+}
+
+Result<void> Renderer::Impl::displaySide(const FrameSettings& frame, const Side& side) {
+    const ViewChoice& choice = side.choice;
+    const ViewInfo& info = viewInfo(choice.kind);
+    const View& look = scene.document().view;
     adaptation.bind();
-    return views.show(targets.data(), info, *range, look, side, frame.view.flags,
+    if (hasRadiance(frame, choice))
+        return screen.toneMap(targets.linear(), targets.display(), look,
+                              {.dither = frame.dither,
+                               .scale = choice.mode == ViewMode::Raw ? info.displayScale : 1.0f,
+                               .fillEmpty = !hasBackground(choice),
+                               .markClipped = choice.kind == kViewClipped,
+                               .side = side.plane});
+    if (!whyEmpty(choice.kind, scene.document(), frame.view.light).empty())
+        return views.showEmpty(targets.data(), side.plane, targets.display());
+    return views.show(targets.data(), info, ranges.side, look, side.plane, frame.view.flags,
                       targets.display());
 }
 
+Result<void> Renderer::Impl::drawWires(const FrameSettings& frame, const Side& side) {
+    if (side.choice.kind != kViewWireframe || !hasRadiance(frame, side.choice))
+        return {};
+    return wires.draw(makeDrawList(scene.items(), lastBlock.worldToClip, frame.camera.position()),
+                      side.plane, frame.width, frame.height, targets.display());
+}
+
+// Exposure follows the whole picture, even where only a term of it is shown.
+Result<void> Renderer::Impl::meetLuminance(const FrameSettings& frame) {
+    if (!needsLuminance(scene.document().view) || luminanceKnown ||
+        frame.view.isOrdinary(frame.view.shown))
+        return {};
+    if (auto done = drawPicture(frame, lastBlock, targets.scene(), SurfaceOutput::Picture, true);
+        !done)
+        return done;
+    targets.resolve();
+    luminanceIsNew = true;
+    return adapt(frame);
+}
+
 Result<void> Renderer::Impl::drawViews(const FrameSettings& frame, bool drawsScene) {
-    shownRange.reset();
-    otherRange.reset();
-    // Exposure follows the whole picture, even where only a term of it is shown.
-    if (needsLuminance(scene.document().view) && !luminanceKnown &&
-        !frame.view.isOrdinary(frame.view.shown)) {
-        if (auto done =
-                drawPicture(frame, lastBlock, targets.scene(), SurfaceOutput::Picture, true);
-            !done)
-            return done;
-        targets.resolve();
-        luminanceIsNew = true;
-        if (auto done = adapt(frame); !done)
+    ranges = {};
+    if (auto done = meetLuminance(frame); !done)
+        return done;
+    for (const Side& side : sidesOf(frame)) {
+        if (drawsScene || frame.view.split) {
+            if (auto done = drawScene(frame, side.choice, side.index); !done)
+                return done;
+            if (hasRadiance(frame, side.choice))
+                luminanceIsNew = frame.view.isOrdinary(side.choice);
+        }
+        auto done = measureSide(frame, side);
+        if (done)
+            done = displaySide(frame, side);
+        if (done)
+            done = drawWires(frame, side);
+        if (!done)
             return done;
     }
-    const std::optional<ViewSplit>& split = frame.view.split;
-    if (!split)
-        return drawSide(frame, frame.view.shown, glm::vec3(0.0f), drawsScene);
-    const glm::vec3 right = rightOf(*split, frame.width, frame.height);
-    if (auto done = drawSide(frame, split->other, right, true); !done)
-        return done;
-    otherRange = std::exchange(shownRange, std::nullopt);
-    return drawSide(frame, frame.view.shown, -right, true);
+    return {};
 }
 
 Result<void> Renderer::Impl::showOnSheet(const FrameSettings& frame, const FrameBlock& block,
@@ -270,11 +336,11 @@ Result<void> Renderer::Impl::showOnSheet(const FrameSettings& frame, const Frame
 }
 
 std::optional<ViewRange> Renderer::shownRange() const {
-    return m_impl->shownRange;
+    return m_impl->ranges.shown;
 }
 
 std::optional<ViewRange> Renderer::otherRange() const {
-    return m_impl->otherRange;
+    return m_impl->ranges.other;
 }
 
 Result<Image> Renderer::Impl::readNumbers(const ViewSettings& view, const ViewChoice& choice) {
@@ -300,7 +366,7 @@ Result<Image> Renderer::Impl::readNumbers(const ViewSettings& view, const ViewCh
     }
     endGl(0);
     // The numbers of the last frame's own view are gone.
-    sceneIsNew = true;
+    setChanged();
     if (!done)
         return done.error();
     return image;
@@ -399,6 +465,7 @@ Result<Inspection> Renderer::inspect(int x, int y) {
         if (!target)
             return target.error();
         const ViewChoice final;
+        const PixelOfTargets before(r.targets, x, fromBottom); // the frame stays as it is
         glScissor(x, fromBottom, 1, 1);
         glEnable(GL_SCISSOR_TEST);
         Result<void> done =
@@ -430,7 +497,6 @@ Result<Inspection> Renderer::inspect(int x, int y) {
     result.exposed = glm::vec3(result.radiance) / opacity * exposureScale(view, result.luminance);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
     r.endGl(0);
-    r.sceneIsNew = true; // one pixel of the last frame has changed
     if (!done)
         return done.error();
     return result;

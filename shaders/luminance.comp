@@ -8,9 +8,12 @@ layout(binding = 0) uniform sampler2D u_radiance; // premultiplied
 layout(binding = 1) uniform sampler2D u_depth; // 1: no opaque surface
 layout(std430, binding = 0) writeonly buffer Tiles { LuminanceSum b_tiles[]; }; // two for each
 
+uniform int u_firstRow; // of tiles: a band of the picture is measured at a time
+
 void main() {
     ivec2 size = textureSize(u_radiance, 0);
-    ivec2 corner = ivec2(gl_WorkGroupID.xy) * 64;
+    ivec2 group = ivec2(gl_WorkGroupID.x, int(gl_WorkGroupID.y) + u_firstRow);
+    ivec2 corner = group * 64;
     ivec2 first = corner + ivec2(gl_LocalInvocationIndex % 16u, gl_LocalInvocationIndex / 16u);
     LuminanceSum model = noPixels();
     LuminanceSum all = noPixels();
@@ -32,8 +35,8 @@ void main() {
     model = addGroup(model);
     all = addGroup(all);
     if (gl_LocalInvocationIndex == 0u) {
-        uint tile = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-        b_tiles[2u * tile] = model;
-        b_tiles[2u * tile + 1u] = all;
+        int tile = group.y * int(gl_NumWorkGroups.x) + group.x;
+        b_tiles[2 * tile] = model;
+        b_tiles[2 * tile + 1] = all;
     }
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <epoxy/gl.h>
+#include <utility>
 
 namespace patina::render {
 
@@ -45,21 +46,28 @@ Result<void> AdaptationPass::compile() {
     return {};
 }
 
-Result<void> AdaptationPass::measure(const Targets& targets) {
+Result<void> AdaptationPass::measure(const Targets& targets, int firstRow, int rows) {
     const auto shader = m_shaders.program({{"luminance.comp"}, {}});
     if (!shader)
         return shader.error();
     const int columns = (targets.width() + kTile - 1) / kTile;
-    const int rows = (targets.height() + kTile - 1) / kTile;
-    m_tileCount = columns * rows;
-    const std::size_t bytes = kSumBytes * static_cast<std::size_t>(m_tileCount);
-    if (m_tiles.empty() || m_tiles.size() < bytes)
-        m_tiles = gl::Buffer(m_context, "luminance of tiles", bytes);
+    const int allRows = (targets.height() + kTile - 1) / kTile;
+    const int first = firstRow / kTile, end = (firstRow + rows + kTile - 1) / kTile;
+    const int count = columns * allRows;
+    const std::size_t bytes = kSumBytes * static_cast<std::size_t>(count);
+    if (m_nextTiles.empty() || m_nextTiles.size() < bytes)
+        m_nextTiles = gl::Buffer(m_context, "luminance of tiles", bytes);
     (*shader)->use();
+    (*shader)->set("u_firstRow", first);
     targets.linear().bind(kPictureUnit);
     targets.depth().bind(kDepthUnit);
-    m_tiles.bindStorage(kTilesBinding);
-    glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(rows), 1);
+    m_nextTiles.bindStorage(kTilesBinding);
+    glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(end - first), 1);
+    if (end < allRows)
+        return {};
+    std::swap(m_tiles, m_nextTiles);
+    m_tileCount = count;
+    ++m_revision;
     return {};
 }
 
@@ -67,6 +75,8 @@ Result<void> AdaptationPass::adapt(float seconds) {
     const auto shader = m_shaders.program({{"adapt.comp"}, {}});
     if (!shader)
         return shader.error();
+    if (seconds > 0.0f)
+        ++m_revision;
     (*shader)->use();
     (*shader)->set("u_tileCount", m_tileCount);
     (*shader)->set("u_seconds", std::isfinite(seconds) ? seconds : -1.0f);

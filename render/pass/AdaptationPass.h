@@ -9,6 +9,7 @@
 #include "render/shader/ShaderLibrary.h"
 
 #include <array>
+#include <cstdint>
 #include <optional>
 
 namespace patina::render {
@@ -21,11 +22,16 @@ class AdaptationPass {
     AdaptationPass& operator=(const AdaptationPass&) = delete;
 
     // Sums up targets.linear() where the model is, by targets.depth(); all of it where none is.
-    Result<void> measure(const Targets& targets);
+    // Of a band alone: `firstRow` is a multiple of 64, rows from there; adapt() knows of the
+    // picture once its last row has been measured.
+    Result<void> measure(const Targets& targets, int firstRow, int rows);
+    Result<void> measure(const Targets& targets) { return measure(targets, 0, targets.height()); }
     // The eye looks at what was measured for `seconds` more; infinite: until it is used to it.
     Result<void> adapt(float seconds);
     // For the uniform block `Adaptation`.
     void bind() const { m_state.bindUniform(kBinding); }
+    // Counts the times that it may have become used to something else.
+    [[nodiscard]] std::uint64_t revision() const { return m_revision; }
 
     // The newest result that the GPU has finished; nothing before the first.
     [[nodiscard]] std::optional<Luminance> poll();
@@ -44,8 +50,9 @@ class AdaptationPass {
 
     gl::Context& m_context;
     ShaderLibrary& m_shaders;
-    gl::Buffer m_tiles, m_state;
+    gl::Buffer m_tiles, m_nextTiles, m_state; // next: of a picture that is measured in bands
     int m_tileCount = 0;
+    std::uint64_t m_revision = 0;
     gl::Handle<gl::deleteBuffer> m_readback; // kSlots results
     const Luminance* m_results = nullptr;    // mapped for as long as the buffer lives
     std::array<Slot, kSlots> m_slots;

@@ -41,9 +41,17 @@ const char* markShape(LightType type) {
 Result<void> OverlayPass::draw(const Canvas& canvas, const Targets& targets, const GpuScene& scene,
                                const FrameBlock& frame, const Camera& camera,
                                const OverlaySettings& settings) {
+    if (auto done = drawMask(canvas, scene, settings); !done)
+        return done;
+    return drawLines(canvas, targets, scene, frame, camera, settings);
+}
+
+Result<void> OverlayPass::drawLines(const Canvas& canvas, const Targets& targets,
+                                    const GpuScene& scene, const FrameBlock& frame,
+                                    const Camera& camera, const OverlaySettings& settings) {
     if (auto done = drawGrid(canvas, targets, scene.document().view, camera); !done)
         return done;
-    if (auto done = drawOutline(canvas, scene, settings); !done)
+    if (auto done = drawOutline(canvas, settings); !done)
         return done;
     Result<void> done = drawLights(canvas, scene, frame, settings);
     if (done && settings.lobe)
@@ -74,8 +82,9 @@ Result<void> OverlayPass::drawGrid(const Canvas& canvas, const Targets& targets,
     return {};
 }
 
-Result<void> OverlayPass::drawOutline(const Canvas& canvas, const GpuScene& scene,
-                                      const OverlaySettings& settings) {
+Result<void> OverlayPass::drawMask(const Canvas& canvas, const GpuScene& scene,
+                                   const OverlaySettings& settings) {
+    m_hasMask = false;
     const auto& items = scene.items();
     const auto item = std::find_if(items.begin(), items.end(), [&](const DrawItem& i) {
         return i.id == settings.selectedMesh;
@@ -94,16 +103,24 @@ Result<void> OverlayPass::drawOutline(const Canvas& canvas, const GpuScene& scen
         m_maskTarget = std::move(*made);
     }
     const auto mask = m_shaders.program({{"surface.vert", "mask.frag"}, {}});
-    const auto outline = m_shaders.program({{"screen.vert", "outline.frag"}, {}});
-    if (!mask || !outline)
-        return mask ? outline.error() : mask.error();
-
+    if (!mask)
+        return mask.error();
     m_maskTarget.bind();
     m_maskTarget.clearColor(0, 0, 0, 0);
+    glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     (*mask)->use();
     drawItem(*item, false);
+    m_hasMask = true;
+    return {};
+}
 
+Result<void> OverlayPass::drawOutline(const Canvas& canvas, const OverlaySettings& settings) {
+    if (!m_hasMask)
+        return {};
+    const auto outline = m_shaders.program({{"screen.vert", "outline.frag"}, {}});
+    if (!outline)
+        return outline.error();
     canvas.bind();
     glEnable(GL_BLEND);
     (*outline)->use();

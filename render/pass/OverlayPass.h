@@ -31,12 +31,18 @@ class OverlayPass {
     Result<void> draw(const Canvas& canvas, const Targets& targets, const GpuScene& scene,
                       const FrameBlock& frame, const Camera& camera,
                       const OverlaySettings& settings);
+    // The two parts of that. Which pixels the selection covers is kept from the first to the
+    // second, which may be drawn in bands (glScissor).
+    Result<void> drawMask(const Canvas& canvas, const GpuScene& scene,
+                          const OverlaySettings& settings);
+    Result<void> drawLines(const Canvas& canvas, const Targets& targets, const GpuScene& scene,
+                           const FrameBlock& frame, const Camera& camera,
+                           const OverlaySettings& settings);
 
   private:
     Result<void> drawGrid(const Canvas& canvas, const Targets& targets, const View& view,
                           const Camera& camera);
-    Result<void> drawOutline(const Canvas& canvas, const GpuScene& scene,
-                             const OverlaySettings& settings);
+    Result<void> drawOutline(const Canvas& canvas, const OverlaySettings& settings);
     Result<void> drawLights(const Canvas& canvas, const GpuScene& scene, const FrameBlock& frame,
                             const OverlaySettings& settings);
     Result<void> drawLobe(const Canvas& canvas, const Targets& targets, const SurfaceLobe& lobe,
@@ -50,6 +56,7 @@ class OverlayPass {
     ScreenPasses& m_screen;
     LobePass m_lobe;
     gl::VertexArray m_noAttributes;
+    bool m_hasMask = false; // something is selected
     gl::Texture m_mask;
     gl::Framebuffer m_maskTarget;
 };

@@ -2,6 +2,7 @@
 
 #include "core/document/Lighting.h"
 
+#include <algorithm>
 #include <array>
 #include <epoxy/gl.h>
 #include <fmt/format.h>
@@ -154,19 +155,40 @@ std::vector<std::string> modelDefines(const ShadingModel& model) {
     return defines;
 }
 
-void drawItem(const DrawItem& item, bool cull, bool coarse) {
+void drawItem(const DrawItem& item, bool cull, bool coarse, std::span<const TriangleRange> ranges) {
     (cull ? glEnable : glDisable)(GL_CULL_FACE);
     glFrontFace(item.mirrored ? GL_CW : GL_CCW);
     item.instanceBlock->bindUniform(kInstanceBinding);
     item.material->block.bindUniform(kMaterialBinding);
     item.mesh->array.bind();
     const GpuMesh& mesh = *item.mesh;
+    const auto draw = [](std::uint64_t firstIndex, std::uint64_t count) {
+        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+                       reinterpret_cast<const void*>(
+                           static_cast<std::uintptr_t>(firstIndex * sizeof(std::uint32_t))));
+    };
+    const auto all = static_cast<std::uint64_t>(mesh.indexCount);
     if (coarse && mesh.coarseCount > 0)
-        glDrawElements(GL_TRIANGLES, mesh.coarseCount, GL_UNSIGNED_INT,
-                       reinterpret_cast<const void*>(static_cast<std::uintptr_t>(mesh.indexCount) *
-                                                     sizeof(std::uint32_t)));
-    else
-        glDrawElements(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_INT, nullptr);
+        return draw(all, static_cast<std::uint64_t>(mesh.coarseCount));
+    if (ranges.empty())
+        return draw(0, all);
+    for (const TriangleRange& range : ranges)
+        draw(3 * range.first, 3 * range.count);
+}
+
+// `wanted` of the triangles in `ranges`, counted from the first of them.
+static std::vector<TriangleRange> part(const std::vector<TriangleRange>& ranges,
+                                       const TriangleRange& wanted) {
+    std::vector<TriangleRange> result;
+    std::uint64_t before = 0;
+    for (const TriangleRange& range : ranges) {
+        const std::uint64_t first = std::max(before, wanted.first);
+        const std::uint64_t end = std::min(before + range.count, wanted.end());
+        if (first < end)
+            result.push_back({range.first + first - before, end - first});
+        before += range.count;
+    }
+    return result;
 }
 
 // What the variant reads of a bake: textures, or attributes of the mesh's vertices.
@@ -231,7 +253,18 @@ Result<void> SurfacePass::draw(const GpuScene& scene, const std::vector<const Dr
     scene.environment().dfg().bind(kDfgUnit);
     scene.modelBlock().bindUniform(kModelBinding);
     scene.lobes().bind(kLobesUnit);
+    TriangleRange rest = settings.triangles; // of this item and those after it
     for (const DrawItem* item : items) {
+        const std::vector<TriangleRange> visible = visibleTriangles(*item, settings.clip);
+        const std::vector<TriangleRange> ranges = part(visible, rest);
+        std::uint64_t count = 0;
+        for (const TriangleRange& range : visible)
+            count += range.count;
+        const std::uint64_t end = rest.end() > count ? rest.end() - count : 0;
+        const std::uint64_t first = rest.first > count ? rest.first - count : 0;
+        rest = {first, end - first};
+        if (ranges.empty())
+            continue;
         const unsigned features = surfaceFeatures(*item, settings);
         const auto shader = program(features, settings);
         if (!shader)
@@ -246,7 +279,7 @@ Result<void> SurfacePass::draw(const GpuScene& scene, const std::vector<const Dr
             item->visibility->bindStorage(kVisibilityBinding);
         bindTransfer(*item, features, settings.lighting);
         drawItem(*item, !item->material->doubleSided,
-                 settings.coarseView && coarseSuffices(*item, *settings.coarseView));
+                 settings.coarseView && coarseSuffices(*item, *settings.coarseView), ranges);
     }
     return {};
 }

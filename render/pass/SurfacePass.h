@@ -3,11 +3,13 @@
 
 #include "render/pass/SurfaceOutput.h"
 #include "render/scene/DrawList.h"
+#include "render/scene/SceneSlice.h"
 #include "render/shader/ShaderLibrary.h"
 
 #include <array>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,9 @@ struct SurfaceSettings {
     bool floats = false;
     // Set: meshes may be drawn with fewer triangles where this view (worldToClip) hides it.
     std::optional<glm::mat4> coarseView = std::nullopt;
+    TriangleRange triangles = {}; // of the items that are drawn; not with coarseView
+    // Set: only triangles that lie in this clip space are drawn, and counted.
+    std::optional<glm::mat4> clip = std::nullopt;
 };
 
 // What tells two variants apart: features, the choices of the model, the unrolled lights, the
@@ -75,7 +80,8 @@ struct SurfaceBakes {
 [[nodiscard]] std::vector<std::string> modelDefines(const ShadingModel& model);
 
 // Binds blocks and buffers of an item and issues the draw call; front faces and culling included.
-// `coarse`: with fewer triangles, if its mesh has any.
-void drawItem(const DrawItem& item, bool cull, bool coarse = false);
+// `coarse`: with fewer triangles, if its mesh has any; else those of `ranges`, empty: all.
+void drawItem(const DrawItem& item, bool cull, bool coarse = false,
+              std::span<const TriangleRange> ranges = {});
 
 } // namespace patina::render

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace patina::render {
 
@@ -106,6 +107,11 @@ Result<const gl::Framebuffer*> Targets::meanTarget(gl::Context& context, std::si
         target = std::move(*made);
     }
     return &target;
+}
+
+void Targets::takeMeans(Targets& other) {
+    std::swap(m_means, other.m_means);
+    std::swap(m_meanTargets, other.m_meanTargets);
 }
 
 void Targets::resolve() const {

@@ -38,6 +38,8 @@ class Targets {
     Result<const gl::Framebuffer*> meanTarget(gl::Context& context, std::size_t side);
     [[nodiscard]] const gl::Texture& mean(std::size_t side) const { return m_means[side]; }
     [[nodiscard]] const gl::Framebuffer& resolved() const { return m_resolved; } // linear()
+    // Takes over what `other`, of the same size, keeps of that.
+    void takeMeans(Targets& other);
 
     // Numbers of a view instead of radiance: RGBA32F with the depth of the resolved scene. Made
     // when first asked for. Error Internal from the driver.

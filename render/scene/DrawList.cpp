@@ -45,6 +45,35 @@ bool coarseSuffices(const DrawItem& item, const glm::mat4& worldToClip) {
     return nearest > 0.0f && 0.5f * glm::length(up) * cell < kShare * nearest;
 }
 
+std::vector<TriangleRange> visibleTriangles(const DrawItem& item,
+                                            const std::optional<glm::mat4>& worldToClip) {
+    const auto all = static_cast<std::uint64_t>(item.mesh->indexCount) / 3;
+    if (!worldToClip)
+        return {{0, all}};
+    const glm::mat4 clip = *worldToClip * item.transform;
+    constexpr std::uint64_t kLot = GpuMesh::kLot;
+    std::vector<TriangleRange> ranges;
+    for (std::uint64_t first = 0; first < all; first += kLot) {
+        if (!insideFrustum(item.mesh->lots[first / kLot], clip))
+            continue;
+        const std::uint64_t count = std::min(kLot, all - first);
+        if (!ranges.empty() && ranges.back().end() == first)
+            ranges.back().count += count;
+        else
+            ranges.push_back({first, count});
+    }
+    return ranges;
+}
+
+std::uint64_t triangleCount(const std::vector<const DrawItem*>& items,
+                            const std::optional<glm::mat4>& worldToClip) {
+    std::uint64_t count = 0;
+    for (const DrawItem* item : items)
+        for (const TriangleRange& range : visibleTriangles(*item, worldToClip))
+            count += range.count;
+    return count;
+}
+
 DrawList makeDrawList(const std::vector<DrawItem>& items, const glm::mat4& worldToClip,
                       const glm::vec3& eye) {
     DrawList list;

@@ -2,9 +2,11 @@
 #pragma once
 
 #include "render/scene/GpuScene.h"
+#include "render/scene/SceneSlice.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 namespace patina::render {
@@ -15,6 +17,12 @@ namespace patina::render {
 // Whether the cells to which the mesh's coarse triangles are rounded stay below a 45th of the
 // picture's height: 16 pixels of 720, 4 when a frame is drawn at a quarter.
 [[nodiscard]] bool coarseSuffices(const DrawItem& item, const glm::mat4& worldToClip);
+
+// The triangles of an item that lie in clip space, by lots; without a matrix all of them.
+[[nodiscard]] std::vector<TriangleRange>
+visibleTriangles(const DrawItem& item, const std::optional<glm::mat4>& worldToClip);
+[[nodiscard]] std::uint64_t triangleCount(const std::vector<const DrawItem*>& items,
+                                          const std::optional<glm::mat4>& worldToClip);
 
 struct DrawList {
     std::vector<const DrawItem*> opaque;  // front to back: hidden fragments are not shaded

@@ -37,6 +37,9 @@ GpuMesh makeGpuMesh(gl::Context& context, const Mesh& mesh) {
         vertices[i] = {mesh.positions[i], mesh.normals[i], mesh.tangents[i], mesh.uvs[i]};
         result.bounds.add(mesh.positions[i]);
     }
+    result.lots.resize((mesh.triangleCount() + GpuMesh::kLot - 1) / GpuMesh::kLot);
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i)
+        result.lots[i / (3 * std::size_t{GpuMesh::kLot})].add(mesh.positions[mesh.indices[i]]);
     result.vertices = gl::Buffer::of<Vertex>(context, "vertices", vertices);
     std::vector<std::uint32_t> indices = mesh.indices;
     const glm::vec3 size = result.bounds.size();

@@ -5,6 +5,8 @@
 #include "render/gl/Buffer.h"
 #include "render/gl/VertexArray.h"
 
+#include <vector>
+
 namespace patina::render {
 
 struct GpuMesh {
@@ -16,6 +18,9 @@ struct GpuMesh {
     float coarseCell = 0.0f; // no vertex of them is farther away than this cube's diagonal
     std::size_t vertexCount = 0;
     Bounds bounds;
+    // Of each lot of so many triangles, in the order of the buffer.
+    static constexpr int kLot = 1024;
+    std::vector<Bounds> lots;
 };
 
 // Attributes as in shaders/surface.vert: 0 position, 1 normal, 2 tangent, 3 uv.

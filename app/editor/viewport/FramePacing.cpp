@@ -13,6 +13,11 @@ constexpr double kFastMs = 13.0; // room for the next finer scale (at most 1.8 t
 constexpr int kFastFramesBeforeFiner = 12; // so that the resolution does not flicker
 constexpr double kAlwaysMs = 12.0;         // anti-aliased frames this fast need no pacing at all
 constexpr double kAffordableMs = 170.0;    // slower ones would triple to a hitch of half a second
+// Frames that are added up are drawn in slices: above kAffordableMs they are no hitch either. Eight
+// slower ones than this would keep the processors busy for longer than 2 s.
+constexpr double kAddedMs = 250.0;
+constexpr double kPieceMs = 20.0;     // frames at rest this fast are drawn in one piece
+constexpr double kAntialiasing = 3.0; // what it multiplies the cost of a frame by, about
 
 } // namespace
 
@@ -21,7 +26,17 @@ float FramePacing::scale() const {
 }
 
 bool FramePacing::accumulating() const {
-    return m_accumulates && !moving() && (m_addsSlowFrames || m_fullMs < kAffordableMs);
+    return m_accumulates && !moving() && (m_addsSlowFrames || m_fullMs < kAddedMs);
+}
+
+double FramePacing::expectedMs() const {
+    if (samples() == 1)
+        return m_expectedMs;
+    return m_antialiasedMs >= 0.0 ? m_antialiasedMs : kAntialiasing * m_expectedMs;
+}
+
+bool FramePacing::slices() const {
+    return !moving() && expectedMs() > kPieceMs;
 }
 
 int FramePacing::samples() const {
@@ -72,6 +87,9 @@ void FramePacing::frameTook(double milliseconds) {
         m_antialiasedMs = milliseconds;
     else if (m_stage == Stage::FullResolution)
         m_fullMs = milliseconds;
+    const auto side = static_cast<double>(scale());
+    if (samples() == 1)
+        m_expectedMs = milliseconds / (side * side);
     if (!moving())
         return;
     const int coarsest = static_cast<int>(kScales.size()) - 1;

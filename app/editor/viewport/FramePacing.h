@@ -1,6 +1,7 @@
 // Keeps the viewport fluid on a slow GPU: while the hand moves, frames are drawn at a reduced
 // resolution chosen from the measured frame time; when it rests, first at full resolution, then
-// once with anti-aliasing. A fast GPU draws everything at full quality all the time.
+// once with anti-aliasing, in slices where that takes long. A fast GPU draws everything at full
+// quality all the time.
 #pragma once
 
 namespace patina::editor {
@@ -18,6 +19,11 @@ class FramePacing {
     // At rest the frames are to be added up.
     [[nodiscard]] bool accumulating() const;
     [[nodiscard]] bool moving() const { return m_stage == Stage::Moving; }
+
+    // Whether frames at rest are drawn in slices, between which input is handled.
+    [[nodiscard]] bool slices() const;
+    // Milliseconds that the next frame at rest is expected to take; below 0: unknown.
+    [[nodiscard]] double expectedMs() const;
 
     // The first scale of a movement is estimated from the last frame at full resolution, so that
     // not even the first frame is slow.
@@ -42,6 +48,7 @@ class FramePacing {
     int m_fastFrames = 0;
     double m_fullMs = -1.0;        // last full-resolution frame without anti-aliasing; -1: none yet
     double m_antialiasedMs = -1.0; // last one with; -1: none yet
+    double m_expectedMs = -1.0;    // of one without, by the last frame of any size; -1: none yet
 };
 
 } // namespace patina::editor

@@ -11,7 +11,8 @@ namespace patina::editor {
 namespace {
 
 // A pass holds up the hand that begins to move: fewer views when it takes longer than this.
-constexpr double kLongMs = 50.0;
+// Qt puts the window together anew after it, which takes as long again.
+constexpr double kLongMs = 20.0;
 constexpr double kShortMs = 4.0; // and never because of this
 
 QImage toQImage(const Image& image) {

@@ -27,10 +27,11 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kRestMs = 250;                        // without movement until the picture is refined
-constexpr int kPanelsMs = 10;                       // for lists to show what was added
-constexpr int kAdaptationMs = 16;                   // between the frames of an eye that adapts
-constexpr int kAccumulationMs = 16;                 // between frames that are added up
+constexpr int kRestMs = 250;        // without movement until the picture is refined
+constexpr double kSliceMs = 25.0;   // of a frame at rest: with Qt's part input waits no 50 ms
+constexpr int kPanelsMs = 10;       // for lists to show what was added
+constexpr int kAdaptationMs = 16;   // between the frames of an eye that adapts
+constexpr int kAccumulationMs = 16; // between frames that are added up
 constexpr std::size_t kEnvironmentBytes = 16 << 20; // of textures between frames: some 10 ms
 constexpr int kShaderPollMs = 500;                  // hot reload in developers' builds
 
@@ -69,8 +70,17 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
             return;
         }
         m_preview.setHandMoves(false);
-        if (m_pacing.refine()) {
-            update();
+        if (m_slicing && !m_pacing.refined()) {
+            m_restTimer.start(); // one step after the other
+        } else if (m_pacing.refine()) {
+            if (m_renderer && drawsInSlices(m_viewFeed.drawn())) {
+                // What is shown stays: painting it again would take long, too.
+                wantFrame(nextFrame());
+                startSlices();
+                letOthersDraw();
+            } else {
+                update();
+            }
             m_restTimer.start(); // the next step
         } else {
             m_gate.rest();
@@ -85,6 +95,8 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     m_adaptationTimer.setSingleShot(true);
     m_adaptationTimer.setInterval(kAdaptationMs);
     connect(&m_adaptationTimer, &QTimer::timeout, this, [this] {
+        if (m_slicing && m_renderer && m_renderer->preparesPicture(m_sliced))
+            return; // for an eye like this; it goes on when that is shown
         m_onlyDisplay = true;
         update();
     });
@@ -94,9 +106,23 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     m_accumulationTimer.setSingleShot(true);
     m_accumulationTimer.setInterval(kAccumulationMs);
     connect(&m_accumulationTimer, &QTimer::timeout, this, [this] {
-        if (m_pacing.accumulating())
+        if (!m_renderer || m_slicing || !m_pacing.accumulating())
+            return;
+        if (!drawsInSlices(m_viewFeed.drawn())) {
             update();
+            return;
+        }
+        makeCurrent();
+        bringIn();
+        doneCurrent();
+        startSlices();
     });
+    m_sliceTimer.setSingleShot(true);
+    m_sliceTimer.setInterval(0); // after the events that wait
+    connect(&m_sliceTimer, &QTimer::timeout, this, &ViewportWidget::drawSlice);
+    m_completeTimer.setSingleShot(true);
+    m_completeTimer.setInterval(0);
+    connect(&m_completeTimer, &QTimer::timeout, this, qOverload<>(&QWidget::update));
     m_shaderTimer.setInterval(kShaderPollMs);
     connect(&m_shaderTimer, &QTimer::timeout, this, [this] {
         if (!m_renderer)
@@ -234,26 +260,35 @@ void ViewportWidget::releaseGl() {
         return;
     m_sheets.setResting(false);
     m_picker.frameDrawn({}, false);
+    stopSlices();
+    m_lastFrameSize = {};
     makeCurrent();
     m_renderer.reset();
     m_context.reset();
     doneCurrent();
 }
 
-QSize ViewportWidget::frameSize() const {
-    const double ratio = devicePixelRatioF() * static_cast<double>(m_pacing.scale());
+QSize ViewportWidget::sizeAt(float scale) const {
+    const double ratio = devicePixelRatioF() * static_cast<double>(scale);
     return {std::max(1, static_cast<int>(std::lround(width() * ratio))),
             std::max(1, static_cast<int>(std::lround(height() * ratio)))};
+}
+
+QSize ViewportWidget::frameSize() const {
+    return m_slicing ? m_lastFrameSize : sizeAt(m_pacing.scale());
 }
 
 float ViewportWidget::viewAspect() const {
     return static_cast<float>(width()) / static_cast<float>(std::max(height(), 1));
 }
 
-render::FrameSettings ViewportWidget::nextFrame(const QSize& size) {
+render::FrameSettings ViewportWidget::nextFrame() {
+    const QSize size = sizeAt(m_pacing.scale()), shown = sizeAt(1.0f);
     render::FrameSettings frame;
     frame.width = size.width();
     frame.height = size.height();
+    frame.shownWidth = shown.width();
+    frame.shownHeight = shown.height();
     frame.samples = std::min(m_pacing.samples(), m_context->info().maxSamples);
     frame.accumulate = m_pacing.accumulating();
     frame.camera = m_controller.document().view.camera;
@@ -263,8 +298,8 @@ render::FrameSettings ViewportWidget::nextFrame(const QSize& size) {
     frame.coarse = m_pacing.scale() < 1.0f;
     // The eye does not wait for what nobody looks at; while the hand moves there is no time for it.
     frame.measureLuminance = m_luminanceWanted && !m_pacing.moving();
-    frame.adaptSeconds =
-        m_adaptation.beginFrame(static_cast<double>(m_clock.nsecsElapsed()) * 1e-9);
+    m_eyeSeconds += m_adaptation.beginFrame(static_cast<double>(m_clock.nsecsElapsed()) * 1e-9);
+    frame.adaptSeconds = m_eyeSeconds;
     frame.view = m_viewFeed.beginFrame(m_gate);
     frame.reuseScene = std::exchange(m_onlyDisplay, false) && frame.camera == m_lastCamera &&
                        m_viewFeed.sameAsBefore();
@@ -288,47 +323,126 @@ void ViewportWidget::paintGL() {
     if (m_pacing.moving())
         holdJobs();
 
-    // Bring in what the background has prepared since the last frame.
-    m_preview.upload(*m_renderer);
-    m_bounces.upload(*m_renderer);
-    m_projections.upload(*m_renderer, m_controller.document());
+    render::FrameSettings frame = nextFrame();
     takeDisplay();
-
-    const QSize size = frameSize();
-    const QSize full(std::max(1, static_cast<int>(std::lround(width() * devicePixelRatioF()))),
-                     std::max(1, static_cast<int>(std::lround(height() * devicePixelRatioF()))));
-    render::FrameSettings frame = nextFrame(size);
-    frame.shownWidth = full.width();
-    frame.shownHeight = full.height();
+    // The picture that is shown stays until the next one is complete.
+    const bool sliced = drawsInSlices(frame.view);
+    const bool complete = sliced && m_renderer->isPrepared(frame);
+    frame.keepPicture = sliced && !complete;
+    // Nor does what is new begin it again before it is complete.
+    if (!complete && !m_sliceTimer.isActive())
+        bringIn();
     if (const Result<void> drawn = m_renderer->render(frame, defaultFramebufferObject()); !drawn)
         logError("the frame could not be drawn: {}", drawn.error().text());
     m_viewFeed.endFrame(*m_renderer);
     m_bounces.endFrame(*m_renderer);
     gl->glFinish(); // so that the time below is the frame's, not that of the call
-    m_lastFrameSize = size;
 
-    const double milliseconds = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
-    if (frame.accumulate && !frame.reuseScene)
-        m_sheets.setFrameMs(milliseconds);
-    if (!frame.reuseScene) // says nothing about what the scene costs
-        m_pacing.frameTook(milliseconds);
-    // As its own time says: after a slow frame the next one may be fast enough again.
-    if (m_pacing.accumulating() &&
-        m_renderer->accumulatedFrames() < render::Renderer::kSteadyFrames)
-        m_accumulationTimer.start();
+    const bool drawsScene = complete || (!frame.keepPicture && !frame.reuseScene);
+    double milliseconds = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
     m_slowestFrameMs = std::max(m_slowestFrameMs, milliseconds);
+    if (complete)
+        milliseconds += m_slicesMs;
+    if (complete)
+        bringIn();
+    if (frame.accumulate && drawsScene)
+        m_sheets.setFrameMs(milliseconds);
+    if (drawsScene) // else it says nothing about what the scene costs
+        m_pacing.frameTook(milliseconds);
+    m_sliceWaits = true;                                 // Qt puts the window together now
+    m_eyeSeconds = complete ? frame.adaptSeconds : 0.0f; // a prepared frame was not looked at
+    wantFrame(frame);
+    if (!frame.keepPicture) {
+        m_lastFrameSize = {frame.width, frame.height};
+        stopSlices();
+        // As its own time says: after a slow frame the next one may be fast enough again.
+        if (m_pacing.accumulating() &&
+            m_renderer->accumulatedFrames() < render::Renderer::kSteadyFrames)
+            m_accumulationTimer.start();
+        else if (complete && !m_renderer->isCurrent(m_sliced))
+            startSlices();
+    } else if (m_renderer->isCurrent(m_sliced)) {
+        stopSlices();
+    } else if (!m_sliceTimer.isActive()) {
+        startSlices();
+    }
     Q_EMIT frameRendered(milliseconds, pictureState());
     followLuminance();
     letOthersDraw();
-    m_picker.frameDrawn(size, m_pacing.moving());
+    m_picker.frameDrawn(m_lastFrameSize, m_pacing.moving());
+}
+
+// --- Slices --------------------------------------------------------------------------------------
+
+// The sides of a split are drawn one after the other, and none is there to be displayed anew for an
+// eye that adapts: such frames are drawn in one piece.
+bool ViewportWidget::drawsInSlices(const render::ViewSettings& view) const {
+    return m_pacing.slices() && !m_lastFrameSize.isEmpty() &&
+           !(view.split && needsLuminance(m_controller.document().view));
+}
+
+void ViewportWidget::bringIn() {
+    m_preview.upload(*m_renderer);
+    m_bounces.upload(*m_renderer);
+    m_projections.upload(*m_renderer, m_controller.document());
+}
+
+void ViewportWidget::wantFrame(const render::FrameSettings& frame) {
+    m_sliced = frame;
+    m_sliced.adaptSeconds = 0.0f; // the eye looks at what is shown
+    m_sliced.accumulate = m_pacing.accumulating();
+}
+
+void ViewportWidget::startSlices() {
+    m_slicing = true;
+    m_slicesMs = 0.0;
+    m_sliceTimer.start();
+}
+
+void ViewportWidget::stopSlices() {
+    m_slicing = false;
+    m_sliceTimer.stop();
+    m_completeTimer.stop();
+}
+
+void ViewportWidget::drawSlice() {
+    if (!m_renderer || !m_slicing)
+        return;
+    if (std::exchange(m_sliceWaits, false)) {
+        m_sliceTimer.start(); // something else has just taken its time
+        return;
+    }
+    QElapsedTimer clock;
+    clock.start();
+    makeCurrent();
+    const Result<bool> complete = m_renderer->prepare(m_sliced, kSliceMs, m_pacing.expectedMs());
+    doneCurrent();
+    const double milliseconds = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
+    m_slicesMs += milliseconds;
+    m_slowestFrameMs = std::max(m_slowestFrameMs, milliseconds);
+    if (!complete) {
+        logError("the frame could not be drawn: {}", complete.error().text());
+        stopSlices();
+    } else if (*complete) {
+        m_completeTimer.start(); // shown after the events that have come meanwhile
+    } else {
+        m_sliceTimer.start();
+    }
+}
+
+// A picture of another size would be distorted until the next one is complete.
+void ViewportWidget::resizeGL(int, int) {
+    if (m_pacing.slices())
+        hurry();
 }
 
 PictureState ViewportWidget::pictureState() const {
     if (m_pacing.moving())
         return PictureState::Moving;
     const bool adding = m_accumulationTimer.isActive();
-    return m_pacing.refined() && !adding && !m_gate.waiting() ? PictureState::Refined
-                                                              : PictureState::Refining;
+    return m_pacing.refined() && !adding && !m_slicing && !m_gate.waiting()
+               ? PictureState::Refined
+               : PictureState::Refining;
 }
 
 void ViewportWidget::letOthersDraw() {
@@ -392,6 +506,7 @@ Result<std::vector<Image>> ViewportWidget::drawSheet(const render::ViewSheet& sh
             2.0f * std::atan(part * std::tan(0.5f * glm::radians(frame.camera.fovDeg))));
     frame.view = m_viewFeed.drawn();
     Result<std::vector<Image>> drawn = m_renderer->drawSheet(frame, sheet);
+    m_sliceWaits = true;
     doneCurrent();
     return drawn;
 }
@@ -420,7 +535,7 @@ void ViewportWidget::followLuminance() {
 bool ViewportWidget::isSettled() const {
     return m_renderer && !m_gate.waiting() && m_ibl->finished() && !m_environmentTimer.isActive() &&
            !m_pacing.moving() && !m_restTimer.isActive() && !m_adaptationTimer.isActive() &&
-           !m_accumulationTimer.isActive();
+           !m_accumulationTimer.isActive() && !m_slicing;
 }
 
 double ViewportWidget::takeSlowestFrameMs() {
@@ -460,6 +575,7 @@ void ViewportWidget::touch() {
 
 void ViewportWidget::hurry() {
     m_pacing.beginMoving();
+    stopSlices();
     m_preview.setHandMoves(true);
     holdJobs();
     m_restTimer.start();
@@ -502,8 +618,7 @@ void ViewportWidget::setOverlaysVisible(bool visible) {
 QImage ViewportWidget::smallPicture(const QSize& largest) {
     if (!m_renderer || m_lastFrameSize.isEmpty())
         return {};
-    const QSize full(std::max(1, static_cast<int>(std::lround(width() * devicePixelRatioF()))),
-                     std::max(1, static_cast<int>(std::lround(height() * devicePixelRatioF()))));
+    const QSize full = sizeAt(1.0f);
     const QSize size = full.scaled(largest, Qt::KeepAspectRatio).expandedTo({1, 1});
     makeCurrent();
     QImage picture;

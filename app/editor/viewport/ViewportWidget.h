@@ -74,7 +74,8 @@ class ViewportWidget : public QOpenGLWidget {
     // What it shows, reduced to fit; null while nothing was drawn. Draws nothing.
     [[nodiscard]] QImage smallPicture(const QSize& largest);
 
-    // Of the next frame in device pixels: the widget's, or less while the hand moves.
+    // Of the next frame in device pixels: the widget's, or less while the hand moves; until a frame
+    // that is drawn in slices is complete, of the one that is shown.
     [[nodiscard]] QSize frameSize() const;
 
     // Whether the view asked for is not drawn yet, because what draws it is being compiled.
@@ -99,6 +100,7 @@ class ViewportWidget : public QOpenGLWidget {
 
   protected:
     void initializeGL() override;
+    void resizeGL(int width, int height) override;
     void paintGL() override;
 
   private:
@@ -115,7 +117,15 @@ class ViewportWidget : public QOpenGLWidget {
     void holdJobs();    // until the frame is shown
     [[nodiscard]] Result<render::Inspection> inspect(const QPoint& pixel);
     [[nodiscard]] Result<std::vector<Image>> drawSheet(const render::ViewSheet& sheet);
-    [[nodiscard]] render::FrameSettings nextFrame(const QSize& size);
+    [[nodiscard]] render::FrameSettings nextFrame();
+    [[nodiscard]] QSize sizeAt(float scale) const; // in device pixels
+    void bringIn(); // what the background has prepared since the last frame
+    // The rest of the frame that is shown next, in slices that input does not wait for.
+    [[nodiscard]] bool drawsInSlices(const render::ViewSettings& view) const;
+    void wantFrame(const render::FrameSettings& frame); // in slices
+    void startSlices();
+    void stopSlices();
+    void drawSlice();
     void feedEnvironment();
     void takeDisplay();
     void followLuminance();
@@ -144,13 +154,19 @@ class ViewportWidget : public QOpenGLWidget {
     bool m_luminanceWanted = false;
     std::optional<Luminance> m_luminance; // as announced last
     AdaptationClock m_adaptation;
+    float m_eyeSeconds = 0.0f;  // that no frame has given the eye yet
     QElapsedTimer m_clock;      // since the viewport was made
     bool m_onlyDisplay = false; // the next frame is drawn for adaptation or marks alone
     Camera m_lastCamera;        // of the last frame
 
     FramePacing m_pacing;
     QTimer m_restTimer, m_environmentTimer, m_shaderTimer, m_adaptationTimer, m_accumulationTimer;
-    QTimer m_panelsTimer; // while it runs, panels show a change before the viewport does
+    QTimer m_sliceTimer, m_completeTimer;
+    bool m_sliceWaits = false;      // for the next turn of the event loop
+    bool m_slicing = false;         // the next picture is drawn in slices, or waits to be shown
+    render::FrameSettings m_sliced; // that picture
+    double m_slicesMs = 0.0;        // what it has taken so far
+    QTimer m_panelsTimer;           // while it runs, panels show a change before the viewport does
     double m_slowestFrameMs = 0.0;
     QSize m_lastFrameSize;
 

@@ -1,6 +1,7 @@
 #include "app/editor/viewport/FramePacing.h"
 
 #include <gtest/gtest.h>
+#include <utility>
 
 using patina::editor::FramePacing;
 
@@ -87,4 +88,44 @@ TEST(FramePacing, TheFirstMovingFrameIsAsFastAsTheOthers) {
     fast.frameTook(20.0);
     fast.beginMoving();
     EXPECT_EQ(fast.scale(), 1.0f);
+}
+
+TEST(FramePacing, OnlyFramesAtRestThatTakeLongAreDrawnInSlices) {
+    FramePacing pacing;
+    EXPECT_FALSE(pacing.slices()) << "nothing is known of them";
+    pacing.frameTook(90.0);
+    EXPECT_TRUE(pacing.slices());
+    EXPECT_EQ(pacing.expectedMs(), 90.0);
+    pacing.beginMoving();
+    EXPECT_FALSE(pacing.slices());
+    // A reduced frame says what all pixels will take.
+    const double pixels = static_cast<double>(pacing.scale()) * static_cast<double>(pacing.scale());
+    pacing.frameTook(40.0 * pixels);
+    pacing.refine();
+    EXPECT_NEAR(pacing.expectedMs(), 40.0, 1e-6);
+    EXPECT_TRUE(pacing.slices());
+    pacing.frameTook(6.0);
+    EXPECT_FALSE(pacing.slices());
+    // Four samples take some three times as long, until one such frame has been measured.
+    pacing.frameTook(15.0);
+    pacing.refine();
+    ASSERT_EQ(pacing.samples(), 4);
+    EXPECT_TRUE(pacing.slices());
+    pacing.frameTook(11.0);
+    EXPECT_FALSE(pacing.slices());
+}
+
+// Eight frames are added up for a smooth picture where that does not keep the processors busy for
+// long.
+TEST(FramePacing, FramesAreAddedUnlessTheyAreVerySlow) {
+    FramePacing pacing;
+    pacing.setAccumulates(true);
+    for (const auto& [ms, adds] : {std::pair(120.0, true), {240.0, true}, {260.0, false}}) {
+        pacing.frameTook(ms);
+        EXPECT_EQ(pacing.accumulating(), adds) << ms;
+    }
+    pacing.setAddsSlowFrames(true);
+    EXPECT_TRUE(pacing.accumulating());
+    pacing.beginMoving();
+    EXPECT_FALSE(pacing.accumulating());
 }

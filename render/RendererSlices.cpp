@@ -1,0 +1,331 @@
+// A frame in slices: it is drawn piece by piece into targets of its own, between other work, up to
+// the finished picture with its overlays. Showing it is one copy.
+#include "render/RendererImpl.h"
+
+#include "core/base/Check.h"
+
+#include <algorithm>
+#include <chrono>
+#include <epoxy/gl.h>
+#include <glm/ext/matrix_transform.hpp>
+#include <utility>
+
+namespace patina::render {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Stage = FrameStage;
+
+// What a tile costs that shows nothing but sky, of what one costs that surfaces fill.
+constexpr float kSkyCost = 0.1f;
+
+// Clip space of the rectangle, and a pixel around it, out of that of the picture.
+glm::mat4 clipOf(const glm::ivec4& rect, int width, int height) {
+    const glm::vec2 size(static_cast<float>(width), static_cast<float>(height));
+    const glm::vec2 low = glm::vec2(rect.x - 1, rect.y - 1) / size;
+    const glm::vec2 extent = glm::vec2(rect.z + 2, rect.w + 2) / size;
+    const glm::vec2 center = 2.0f * low + extent - 1.0f;
+    const glm::mat4 scaled = glm::scale(glm::mat4(1.0f), glm::vec3(1.0f / extent, 1.0f));
+    return glm::translate(scaled, glm::vec3(-center, 0.0f));
+}
+
+} // namespace
+
+std::optional<glm::mat4> Renderer::Impl::sliceClip(const FrameBlock& block) const {
+    if (!slice)
+        return std::nullopt;
+    return clipOf(slice->rect, targets.width(), targets.height()) * block.worldToClip;
+}
+
+DrawList Renderer::Impl::visibleItems(const FrameBlock& block, const glm::vec3& eye) const {
+    return makeDrawList(scene.items(), sliceClip(block).value_or(block.worldToClip), eye);
+}
+
+bool Renderer::Impl::isBegun(const FrameSettings& frame) const {
+    return next.begun && next.revision == revision && showSameScene(next.frame, frame);
+}
+
+bool Renderer::isPrepared(const FrameSettings& frame) const {
+    const Impl& r = *m_impl;
+    if (!r.isBegun(frame) || r.next.stage != Stage::Done)
+        return false;
+    // The sides of a split cannot be displayed anew: the next frame follows.
+    return r.next.sides.size() > 1 || !r.displaysAnew(frame);
+}
+
+bool Renderer::preparesPicture(const FrameSettings& frame) const {
+    return m_impl->isBegun(frame) && m_impl->next.stage > Stage::Measure;
+}
+
+bool Renderer::isCurrent(const FrameSettings& frame) const {
+    const Impl& r = *m_impl;
+    if (r.targets.width() == 0 || r.sceneIsNew)
+        return false;
+    FrameSettings last = r.lastFrame;
+    if (!frame.accumulate || accumulatedFrames() == kSteadyFrames)
+        last.accumulate = frame.accumulate;
+    if (frame.view.split && (!showSameOverlays(frame, last) || frame.view.flags != last.view.flags))
+        return false;
+    return showSameScene(frame, last) &&
+           (!frame.accumulate || r.targets.samples() > 1 || accumulatedFrames() == kSteadyFrames);
+}
+
+void Renderer::Impl::swapWithNext() {
+    std::swap(targets, next.targets);
+    std::swap(accumulated, next.accumulated);
+    std::swap(lastBlock, next.block);
+    std::swap(ranges, next.ranges);
+}
+
+void Renderer::Impl::takePrepared() {
+    std::swap(targets, next.targets);
+    accumulated = next.accumulated;
+    lastBlock = next.block;
+    ranges = next.ranges;
+    luminanceIsNew = next.luminanceIsNew;
+    shownRevision = revision;
+    sceneIsNew = false;
+    next.begun = false;
+    next.hasMeans = false;
+    if (accumulated == 0 || accumulated >= kSteadyFrames)
+        next.targets = {}; // at rest the memory is others'
+}
+
+// Tiles where the last frame, which may have other pixels, shows surfaces, and others.
+std::vector<float> Renderer::Impl::costsOfTiles(const FrameSettings& frame) {
+    const int columns = FrameSlicer::tiles(frame.width), rows = FrameSlicer::tiles(frame.height);
+    const auto count = static_cast<std::size_t>(columns * rows);
+    if (tileCosts.size() == count && tileCamera == frame.camera)
+        return tileCosts;
+    tileCamera = frame.camera;
+    tileCosts.assign(count, 1.0f);
+    if (targets.width() == 0 || lastFrame.camera != frame.camera)
+        return tileCosts; // nothing is known of it
+    const std::vector<float> depth = targets.depth().readFloats(1);
+    const int width = targets.width(), height = targets.height();
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column) {
+            const auto along = [](int tile, int pixels, int from) {
+                const int at = static_cast<int>(static_cast<std::int64_t>(tile) *
+                                                FrameSlicer::kTile * from / pixels);
+                return std::min(at, from);
+            };
+            int surfaces = 0, all = 0;
+            for (int y = along(row, frame.height, height); y < along(row + 1, frame.height, height);
+                 ++y)
+                for (int x = along(column, frame.width, width);
+                     x < along(column + 1, frame.width, width); ++x) {
+                    const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                    static_cast<std::size_t>(x);
+                    surfaces += depth[at] < 1.0f ? 1 : 0;
+                    ++all;
+                }
+            const float covered =
+                all > 0 ? static_cast<float>(surfaces) / static_cast<float>(all) : 1.0f;
+            tileCosts[static_cast<std::size_t>(row * columns + column)] =
+                kSkyCost + (1.0f - kSkyCost) * covered;
+        }
+    return tileCosts;
+}
+
+Result<void> Renderer::Impl::beginPreparing(const FrameSettings& frame, double budgetMs,
+                                            double expectedMs) {
+    const bool continues = !sceneIsNew && !next.hasMeans && showSameScene(frame, lastFrame);
+    if (auto sized =
+            next.targets.resize(context, frame.width, frame.height, frame.samples, frame.floats);
+        !sized)
+        return sized;
+    if (auto done = shadows.update(scene); !done)
+        return done;
+    const bool accumulates = frame.accumulate && next.targets.samples() == 1;
+    next.accumulated =
+        accumulates ? std::min(continues ? accumulated + 1 : 1, kSteadyFrames + 1) : 0;
+    if (next.accumulated > 1) {
+        next.targets.takeMeans(targets);
+        next.hasMeans = true;
+    }
+    next.frame = frame;
+    next.block = packFrame(frame);
+    next.revision = revision;
+    next.ranges = {};
+    next.luminanceIsNew = luminanceIsNew;
+    next.hasMask = false;
+    next.sides = sidesOf(frame);
+    next.side = 0;
+    next.budgetMs = budgetMs;
+    next.expectedMs = expectedMs / static_cast<double>(next.sides.size());
+    swapWithNext();
+    useFrame(lastBlock);
+    Result<void> done = meetLuminance(frame);
+    swapWithNext();
+    useFrame(lastBlock);
+    beginStage(Stage::Scene);
+    next.begun = true;
+    return done;
+}
+
+// --- Stages --------------------------------------------------------------------------------------
+
+void Renderer::Impl::beginStage(Stage stage) {
+    next.stage = stage;
+    if (stage == Stage::Picture)
+        next.eye = adaptation.revision();
+    if (stage == Stage::Scene)
+        next.slicer.begin(next.frame.width, next.frame.height, costsOfTiles(next.frame),
+                          next.expectedMs, next.budgetMs);
+    else if (stage != Stage::Done)
+        next.band().begin(next.frame.height);
+}
+
+bool Renderer::Impl::needsStage() const {
+    const ViewChoice& choice = next.sides[next.side].choice;
+    const FrameSettings& frame = next.frame;
+    const bool radiance = hasRadiance(frame, choice);
+    const bool overlays = frame.showOverlays && !isStretched(frame);
+    switch (next.stage) {
+    case Stage::Measure:
+        return !radiance || (frame.view.isOrdinary(choice) && wantsLuminance(frame));
+    case Stage::Wires:
+        return radiance && choice.kind == shading::kViewWireframe;
+    case Stage::Mask:
+        return overlays && frame.selectedMesh != 0;
+    case Stage::Overlays:
+        return overlays;
+    case Stage::Scene:
+    case Stage::Picture:
+    case Stage::Done:
+        break;
+    }
+    return true;
+}
+
+// The range of numbers is found, and the outline's mask drawn, in one piece.
+bool Renderer::Impl::hasBands() const {
+    if (next.stage == Stage::Measure)
+        return hasRadiance(next.frame, next.sides[next.side].choice);
+    return next.stage != Stage::Mask;
+}
+
+void Renderer::Impl::advanceStage() {
+    do {
+        if (next.stage == Stage::Wires && next.side + 1 < next.sides.size()) {
+            ++next.side;
+            beginStage(Stage::Scene);
+        } else {
+            beginStage(static_cast<Stage>(static_cast<int>(next.stage) + 1));
+        }
+    } while (!needsStage());
+}
+
+bool Renderer::Impl::displaysAnew(const FrameSettings& frame) const {
+    return !showSameOverlays(frame, next.frame) ||
+           (needsLuminance(scene.document().view) && next.eye != adaptation.revision());
+}
+
+void Renderer::Impl::followDisplay(const FrameSettings& frame) {
+    if (next.stage < Stage::Picture || !displaysAnew(frame)) {
+        next.frame = withOverlaysOf(next.frame, frame);
+    } else if (next.sides.size() == 1) {
+        next.frame = withOverlaysOf(next.frame, frame);
+        beginStage(Stage::Picture);
+    }
+}
+
+// Into what is shown: the targets are those of the frame that is prepared.
+Result<void> Renderer::Impl::drawStage(SceneSlice& drawn) {
+    const FrameSettings& frame = next.frame;
+    const Side& side = next.sides[next.side];
+    switch (next.stage) {
+    case Stage::Scene: {
+        slice = &drawn;
+        Result<void> done = drawScene(frame, side.choice, side.index);
+        slice = nullptr;
+        return done;
+    }
+    case Stage::Measure:
+        if (!hasBands())
+            return measureSide(frame, side);
+        if (auto done = adaptation.measure(targets, drawn.rect.y, drawn.rect.w); !done)
+            return done;
+        if (drawn.rect.y + drawn.rect.w < frame.height)
+            return {};
+        next.luminanceIsNew = false;
+        return adaptToMeasured(frame);
+    case Stage::Picture:
+        return displaySide(frame, side);
+    case Stage::Wires:
+        return drawWires(frame, side);
+    case Stage::Mask:
+        next.hasMask = true;
+        return overlay.drawMask(Canvas::of(targets), scene, overlaySettings(frame));
+    case Stage::Overlays:
+        adaptation.bind();
+        if (!next.hasMask) { // the frame that is shown has drawn its own since
+            glDisable(GL_SCISSOR_TEST);
+            next.hasMask = true;
+            if (auto done = overlay.drawMask(Canvas::of(targets), scene, overlaySettings(frame));
+                !done)
+                return done;
+            glEnable(GL_SCISSOR_TEST);
+        }
+        return overlay.drawLines(Canvas::of(targets), targets, scene, lastBlock, frame.camera,
+                                 overlaySettings(frame));
+    case Stage::Done:
+        break;
+    }
+    return {};
+}
+
+Result<void> Renderer::Impl::prepareSlice() {
+    const Clock::time_point begun = Clock::now();
+    const bool ofScene = next.stage == Stage::Scene;
+    SceneSlice drawn;
+    if (ofScene)
+        drawn = next.slicer.slice();
+    else
+        drawn.rect = {0, next.band().first(), next.frame.width, next.band().rows()};
+    swapWithNext();
+    useFrame(lastBlock);
+    if (ofScene || hasBands()) {
+        glScissor(drawn.rect.x, drawn.rect.y, drawn.rect.z, drawn.rect.w);
+        glEnable(GL_SCISSOR_TEST);
+    }
+    Result<void> done = drawStage(drawn);
+    glDisable(GL_SCISSOR_TEST);
+    swapWithNext();
+    useFrame(lastBlock);
+    glFinish(); // so that the time is the slice's, not that of the calls
+    if (!done)
+        return done;
+    const double milliseconds =
+        std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
+    if (ofScene)
+        next.slicer.took(milliseconds, drawn);
+    else if (hasBands())
+        next.band().took(milliseconds, next.budgetMs);
+    const Side& side = next.sides[next.side];
+    if (ofScene && next.slicer.done() && hasRadiance(next.frame, side.choice))
+        next.luminanceIsNew = next.frame.view.isOrdinary(side.choice);
+    if (ofScene ? next.slicer.done() : !hasBands() || next.band().done())
+        advanceStage();
+    return {};
+}
+
+Result<bool> Renderer::prepare(const FrameSettings& frame, double budgetMs, double expectedMs) {
+    Impl& r = *m_impl;
+    if (isPrepared(frame))
+        return true;
+    const bool begun = r.isBegun(frame);
+    if (begun)
+        r.followDisplay(frame);
+    r.beginGl();
+    Result<void> done = begun ? r.prepareSlice() : r.beginPreparing(frame, budgetMs, expectedMs);
+    r.endGl(0);
+    if (!done) {
+        r.next.begun = false;
+        return done.error();
+    }
+    return isPrepared(frame);
+}
+
+} // namespace patina::render
