@@ -182,6 +182,15 @@ void Renderer::setBouncedLight(Id mesh, std::span<const glm::vec3> radiance) {
     m_impl->sceneIsNew = true;
 }
 
+void Renderer::setNearShadows(const NearShadowsPtr& shadows) {
+    m_impl->scene.setNearShadows(shadows);
+    m_impl->sceneIsNew = true;
+}
+
+bool Renderer::takeNearShadowUse() {
+    return m_impl->relight.takeNearUse();
+}
+
 void Renderer::clearBouncedLight() {
     m_impl->scene.clearBouncedLight();
     m_impl->sceneIsNew = true;
