@@ -207,6 +207,15 @@ void Renderer::setBouncedLight(Id mesh, std::span<const glm::vec3> radiance) {
     m_impl->setChanged();
 }
 
+void Renderer::setNearShadows(const NearShadowsPtr& shadows) {
+    m_impl->scene.setNearShadows(shadows);
+    m_impl->setChanged();
+}
+
+bool Renderer::takeNearShadowUse() {
+    return m_impl->relight.takeNearUse();
+}
+
 void Renderer::clearBouncedLight() {
     m_impl->scene.clearBouncedLight();
     m_impl->setChanged();

@@ -2,6 +2,7 @@
 // one. All calls need the context it was created with to be current, on one thread.
 #pragma once
 
+#include "core/bake/NearShadows.h"
 #include "core/base/Result.h"
 #include "core/document/Change.h"
 #include "core/document/Document.h"
@@ -113,6 +114,13 @@ class Renderer {
     // cleared or another bake is attached. Lights near by are added to it, through the bake.
     void setBouncedLight(Id mesh, std::span<const glm::vec3> radiance);
     void clearBouncedLight();
+    // Shadows of the document's local lights under transfer (core/bake/NearShadows.h), sharp and
+    // complete, instead of what the bake's bands know of them; null: none. They hold until they are
+    // set again: those of a light that has moved, or of other geometry, are still shown. What has
+    // none (another bake, a light that was added) shows what the bands know.
+    void setNearShadows(const NearShadowsPtr& shadows);
+    // Whether a picture or view showed local lights by way of a bake since the last call.
+    [[nodiscard]] bool takeNearShadowUse();
 
     // Renders to the internal HDR target and tone maps into framebuffer `targetFramebuffer`
     // (0: the window's), viewport 0,0 … width,height or shownWidth,shownHeight.

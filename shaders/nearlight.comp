@@ -1,7 +1,9 @@
 #version 450 core
 // What lights near by add to the radiance that surfaces of albedo 1 send out, for each vertex or
 // texel: each place sees them differently, so their harmonics are made there, in closed form, and
-// multiplied with its transfer. Run when one of them, the transfer or a place has changed.
+// multiplied with its transfer. Run when one of them, the transfer or a place has changed. Where the
+// share of a light that arrives was traced, that part is its closed form times the share, and the
+// transfer is asked for nothing but what bounces.
 // NEAR_POINTS, NEAR_SPHERES: the lights u_lightBegin … u_lightEnd - 1; NEAR_RECTANGLE: one light.
 // ORDER: bands; known to the compiler, so that harmonics stay in registers.
 // COLORED, OPEN_SKY: as in relight.comp. The C++ side is render/pass/NearLightPass.h.
@@ -16,6 +18,10 @@ layout(local_size_x = 64) in;
 
 layout(std430, binding = 4) buffer NearRadiance {
     vec4 b_near[];
+};
+// Of one light, a share for each element: 0…1, or negative where there is none.
+layout(std430, binding = 6) readonly buffer NearShares {
+    float b_shares[];
 };
 layout(std140, binding = 8) uniform NearLight {
     vec4 u_window[2]; // of the bands
@@ -38,21 +44,28 @@ layout(binding = 2) uniform samplerBuffer u_places;
 uniform int u_first;        // element of b_near that the chunk begins with
 uniform int u_count;        // elements in the chunk
 uniform int u_adds;         // to what is there
-uniform int u_placeVectors; // of u_places, the first holds the position
+uniform int u_placeVectors; // of u_places: 3: a vertex; 2: a texel's position and its normal
 uniform mat4 u_placeToWorld;
 uniform int u_lightBegin;
 uniform int u_lightEnd;
-#ifdef OPEN_SKY
+uniform int u_hasShares; // of the light u_lightBegin
 uniform mat4 u_normalToWorld;
-#endif
 
 float[8] window() {
     return float[8](u_window[0].x, u_window[0].y, u_window[0].z, u_window[0].w, u_window[1].x,
                     u_window[1].y, u_window[1].z, u_window[1].w);
 }
 
-// The transfer of an element, times light.
-vec3 transferred(int element, float light[64]) {
+vec3 normalOf(int element) {
+    int at = element * u_placeVectors;
+    vec4 a = texelFetch(u_places, at);
+    vec4 b = texelFetch(u_places, at + 1);
+    vec3 n = mat3(u_normalToWorld) * (u_placeVectors == 3 ? vec3(a.w, b.x, b.y) : b.xyz);
+    return n * inversesqrt(max(dot(n, n), 1e-30));
+}
+
+// The transfer of an element, times light; `direct` 0: of what bounces alone.
+vec3 transferred(int element, float light[64], float direct) {
     vec3 sum = vec3(0.0);
 #ifdef OPEN_SKY
     // Position, normal, tangent, uv: 12 floats.
@@ -72,7 +85,7 @@ vec3 transferred(int element, float light[64]) {
         vec4 part;
         for (int c = 0; c < 4; ++c) // the last vector may hold more than there is
             part[c] = 4 * k + c < COUNT ? light[4 * k + c] : 0.0;
-        sum += vec3(dot(texelFetch(u_elements, element * VECTORS + k), part));
+        sum += vec3(direct * dot(texelFetch(u_elements, element * VECTORS + k), part));
 #ifdef COLORED
         int at = 3 * element * VECTORS + k;
         sum += vec3(dot(texelFetch(u_bounced, at), part),
@@ -99,7 +112,7 @@ void turnBand(int l, int begin, float first[64], float second[64], inout float y
     }
 }
 
-vec3 rectangleLight(int element, vec3 place) {
+vec3 rectangleLight(int element, vec3 place, float direct) {
     vec3 toCenter = u_center.xyz - place;
     float first[64];
     float second[64];
@@ -134,7 +147,41 @@ vec3 rectangleLight(int element, vec3 place) {
     float factor[8];
     rectangleFactors(abs(seen), ORDER, window(), factor);
     scaleBands(ORDER, factor, y);
-    return u_lights[u_lightBegin].color.rgb * transferred(element, y);
+    return u_lights[u_lightBegin].color.rgb * transferred(element, y, direct);
+}
+
+// What a surface of albedo 1 at `place` sends out of the whole rectangle.
+vec3 openLight(int k, vec3 place, vec3 n) {
+    vec3 x;
+    vec3 y;
+    orthonormalBasis(n, x, y);
+    vec3 toCenter = u_lights[k].place.xyz - place;
+    vec3 center = vec3(dot(x, toCenter), dot(y, toCenter), dot(n, toCenter));
+    vec3 axis = u_lights[k].axis.xyz;
+    vec3 side = u_lights[k].side.xyz;
+    vec3 hx = vec3(dot(x, axis), dot(y, axis), dot(n, axis));
+    vec3 hy = vec3(dot(x, side), dot(y, side), dot(n, side));
+    return u_lights[k].color.rgb * quadFormFactor(center - hx - hy, center + hx - hy,
+                                                  center + hx + hy, center - hx + hy);
+}
+#elif defined(NEAR_POINTS)
+float reaches(int k, vec3 toLight, vec3 l) {
+    return pointFalloff(dot(toLight, toLight), u_lights[k].color.w) *
+           spotFalloff(dot(u_lights[k].axis.xyz, l), 1.0, u_lights[k].axis.w);
+}
+
+vec3 openLight(int k, vec3 place, vec3 n) {
+    vec3 toLight = u_lights[k].place.xyz - place;
+    vec3 l = toLight * inversesqrt(max(dot(toLight, toLight), 1e-12));
+    return u_lights[k].color.rgb * reaches(k, toLight, l) * max(dot(n, l), 0.0) * kInvPi;
+}
+#else
+vec3 openLight(int k, vec3 place, vec3 n) {
+    vec3 toCenter = u_lights[k].place.xyz - place;
+    float distance2 = max(dot(toCenter, toCenter), 1e-12);
+    float sin2 = u_lights[k].axis.x * u_lights[k].axis.x / distance2;
+    float cosBeta = dot(n, toCenter) * inversesqrt(distance2);
+    return u_lights[k].color.rgb * (sin2 >= 1.0 ? 1.0 : sphereFormFactor(cosBeta, sin2));
 }
 #endif
 
@@ -144,8 +191,16 @@ void main() {
         return;
     vec3 place = (u_placeToWorld * vec4(texelFetch(u_places, i * u_placeVectors).xyz, 1.0)).xyz;
     vec3 sum = u_adds != 0 ? b_near[u_first + i].rgb : vec3(0.0);
+    float direct = 1.0; // of the transfer
+    if (u_hasShares != 0) {
+        float share = b_shares[u_first + i];
+        if (share >= 0.0) {
+            direct = 0.0;
+            sum += share * openLight(u_lightBegin, place, normalOf(i));
+        }
+    }
 #ifdef NEAR_RECTANGLE
-    sum += rectangleLight(i, place);
+    sum += rectangleLight(i, place, direct);
 #else
     for (int k = u_lightBegin; k < u_lightEnd; ++k) {
         vec3 toLight = u_lights[k].place.xyz - place;
@@ -153,14 +208,13 @@ void main() {
 #ifdef NEAR_POINTS
         float distance2 = dot(toLight, toLight);
         vec3 l = toLight * inversesqrt(max(distance2, 1e-12));
-        float reaches = pointFalloff(distance2, u_lights[k].color.w) *
-                        spotFalloff(dot(u_lights[k].axis.xyz, l), 1.0, u_lights[k].axis.w);
+        float arrives = reaches(k, toLight, l);
         nearPointSh(l, ORDER, window(), y);
 #else
-        const float reaches = 1.0;
+        const float arrives = 1.0;
         nearSphereSh(toLight, u_lights[k].axis.x, ORDER, window(), y);
 #endif
-        sum += u_lights[k].color.rgb * reaches * transferred(i, y);
+        sum += u_lights[k].color.rgb * arrives * transferred(i, y, direct);
     }
 #endif
     b_near[u_first + i] = vec4(sum, 0.0);

@@ -39,6 +39,7 @@ struct RenderOptions {
     std::string inspect;                          // X,Y of a pixel to explain
     std::string viewMode = "raw", viewRange, viewLight;
     std::vector<std::string> bakes;
+    std::string maxMemory; // a size; empty: what the machine has to give
     int samples = 4;
 };
 

@@ -1,5 +1,6 @@
 #include "app/cli/Commands.h"
 #include "app/cli/InspectPixel.h"
+#include "app/cli/LocalShadows.h"
 #include "app/cli/RenderViews.h"
 #include "app/cli/SceneSetup.h"
 #include "core/bake/BakeStaleness.h"
@@ -379,6 +380,10 @@ Result<void> run(Session& session, const RenderOptions& options) {
     if (!prepared)
         return prepared.error();
     render::Renderer& renderer = *prepared->renderer;
+    const Result<NearShadowsPtr> shadows = traceLocalShadows(session, options, *document, *shown);
+    if (!shadows)
+        return shadows.error();
+    renderer.setNearShadows(*shadows);
     if (Result<void> drawn = renderer.render(*frame, 0); !drawn)
         return drawn;
     if (const std::optional<Luminance> luminance = renderer.readLuminance())

@@ -50,6 +50,11 @@ void CommandParser::addRender() {
                   "ibl, cosine, shIrradiance, unshadowed; with a transfer bake shadowed, prt")
         ->type_name("NAME");
     addBakeFiles(c, "--bake", o.bakes, "Bake file to light with (repeatable)");
+    c->add_option(
+         "--max-memory", o.maxMemory,
+         "Of shadows of local lights with a transfer bake, e.g. 2GiB; where they would take "
+         "more they stay soft (default: what is free)")
+        ->type_name("SIZE");
     c->add_option("--view", o.view,
                   "A term of the shading equation instead of the picture (see --list-views); "
                   "all: a part each of an .exr, else a contact sheet of pictures of this size")

@@ -83,6 +83,7 @@ MainWindow::MainWindow(Session& session)
     setAcceptDrops(true);
     m_viewport->setJobs(session.jobs);
     m_viewport->setBounces(session.bounces);
+    m_viewport->setNearShadows(session.nearShadows);
     m_viewport->setDisplays(session.displays);
     m_viewport->setLobe(session.lobe);
     m_viewport->setViews(session.views);
@@ -202,7 +203,8 @@ void MainWindow::makeDocks() {
     m_docks->addInstrument(a.energy, QStringLiteral("energy"),
                            new EnergyPanel(controller, m_session.selection, m_session.views));
     m_docks->addInstrument(a.mixer, QStringLiteral("mixer"), new MixerPanel(controller));
-    auto* transfer = new TransferPanel(controller, m_session.probe, m_session.lobe);
+    auto* transfer =
+        new TransferPanel(controller, m_session.probe, m_session.lobe, m_session.nearShadows);
     connect(transfer, &TransferPanel::bakeWanted, bake, [bake] { bake->bakeTransfer(false); });
     m_docks->addInstrument(a.transfer, QStringLiteral("transfer"), transfer);
     m_docks->reset();
@@ -413,8 +415,12 @@ void MainWindow::connectActions() {
         if (change.affects == Affects::Everything)
             m_notices->sceneReplaced(m_session.controller.isPristine());
     });
-    connect(&controller.tasks(), &BackgroundTasks::busyChanged, this,
-            [this] { m_busy->setActivity(m_session.controller.tasks().activity()); });
+    const auto showActivity = [this] {
+        const QString task = m_session.controller.tasks().activity();
+        m_busy->setActivity(task.isEmpty() ? m_session.nearShadows.activity() : task);
+    };
+    connect(&controller.tasks(), &BackgroundTasks::busyChanged, this, showActivity);
+    connect(&m_session.nearShadows, &NearShadowUpdater::activityChanged, this, showActivity);
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
         if (touches(change.affects, Affects::Geometry | Affects::Structure))
             refreshTriangles();

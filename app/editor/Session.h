@@ -6,6 +6,7 @@
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/job/BounceUpdater.h"
 #include "app/editor/job/JobManager.h"
+#include "app/editor/job/NearShadowUpdater.h"
 #include "app/editor/viewport/LobeOnSurface.h"
 #include "app/editor/viewport/PixelProbe.h"
 #include "app/editor/viewport/ViewState.h"
@@ -25,6 +26,7 @@ struct Session {
     LobeOnSurface lobe{controller, probe};
     JobManager jobs{controller};
     BounceUpdater bounces{controller, jobs};
+    NearShadowUpdater nearShadows{controller};
 };
 
 } // namespace patina::editor

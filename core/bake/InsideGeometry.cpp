@@ -130,6 +130,22 @@ std::vector<std::size_t> countVerticesInside(const BakeGeometry& geometry, const
     return inside;
 }
 
+std::vector<std::uint8_t> verticesInside(const BakeGeometry& geometry, const RayScene& scene,
+                                         std::uint32_t mesh, std::span<const BakePoint> points,
+                                         std::span<const std::uint32_t> which,
+                                         const JobContext& job) {
+    constexpr std::size_t kGrain = 64;
+    const HemisphereSamples samples(0, 0, kPairs);
+    std::vector<std::uint8_t> inside(which.size(), 0);
+    parallelFor(job, which.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+        const FlushDenormals flush;
+        InsideTest test(geometry, scene, samples);
+        for (std::size_t i = begin; i < end; ++i)
+            inside[i] = test.isInside(points[which[i]], which[i], mesh) ? 1 : 0;
+    });
+    return inside;
+}
+
 std::string insideNote(const BakeGeometry& geometry, std::span<const std::size_t> inside) {
     constexpr std::size_t kMostMeshes = 8;
     std::string note;

@@ -27,6 +27,14 @@ namespace patina {
                                                            std::span<const float> visibility,
                                                            const JobContext& job);
 
+// Whether some vertices of one mesh lie within a solid, whatever they see: a number for each of
+// `which`, 1 or 0. `points` of all vertices of that mesh. After a cancel the rest is 0.
+[[nodiscard]] std::vector<std::uint8_t> verticesInside(const BakeGeometry& geometry,
+                                                       const RayScene& scene, std::uint32_t mesh,
+                                                       std::span<const BakePoint> points,
+                                                       std::span<const std::uint32_t> which,
+                                                       const JobContext& job);
+
 // "“Ball”: 38 of 482 vertices lie inside …" for the user; empty where none does.
 [[nodiscard]] std::string insideNote(const BakeGeometry& geometry,
                                      std::span<const std::size_t> inside);

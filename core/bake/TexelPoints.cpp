@@ -170,8 +170,8 @@ TexelPoints texelPoints(const BakeGeometry& geometry, Id material, int size,
     TexelCollector collector(geometry, size);
     for (std::uint32_t m = 0; m < geometry.meshes.size(); ++m) {
         const BakeGeometryMesh& mesh = geometry.meshes[m];
-        if (mesh.material != material)
-            continue;
+        if (mesh.material != material || mesh.mesh->uvs.size() != mesh.mesh->positions.size())
+            continue; // without texture coordinates it has no texels
         for (std::uint32_t t = 0; t < mesh.mesh->triangleCount(); ++t) {
             if (t % 4096 == 0 && job.cancelled())
                 return result;

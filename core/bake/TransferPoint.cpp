@@ -112,9 +112,28 @@ std::optional<MeshPoint> nearestMeshPoint(const Document& document, Id id,
     return best;
 }
 
+std::size_t texelOf(const Mesh& mesh, const MeshPoint& point, int side) {
+    const auto [a, b, c] = corners(mesh, point.triangle);
+    const glm::vec2 uv = point.weights.x * mesh.uvs[a] + point.weights.y * mesh.uvs[b] +
+                         point.weights.z * mesh.uvs[c];
+    const auto texel = [side](float at) {
+        const float wrapped = (at - std::floor(at)) * static_cast<float>(side);
+        return static_cast<std::size_t>(std::min(static_cast<int>(wrapped), side - 1));
+    };
+    return texel(uv.y) * static_cast<std::size_t>(side) + texel(uv.x);
+}
+
 glm::vec3 PointTransfer::radiance(const std::vector<glm::vec3>& light, unsigned bands) const {
     glm::vec3 sum(0.0f);
     forEachOf(order, bands, [&](std::size_t i) { sum += light[i] * coefficient(i); });
+    return sum;
+}
+
+glm::vec3 PointTransfer::bouncedRadiance(const std::vector<glm::vec3>& light,
+                                         unsigned bands) const {
+    glm::vec3 sum(0.0f);
+    if (!bounced.empty())
+        forEachOf(order, bands, [&](std::size_t i) { sum += light[i] * bounced[i]; });
     return sum;
 }
 
@@ -143,14 +162,7 @@ std::optional<PointTransfer> pointTransfer(const Document& document, const BakeA
     for (const TexelBake& texels : bake.texels) {
         if (texels.material != instance->material || texels.side < 1 || texels.values.empty())
             continue;
-        const glm::vec2 uv = point.weights.x * mesh.uvs[of[0]] + point.weights.y * mesh.uvs[of[1]] +
-                             point.weights.z * mesh.uvs[of[2]];
-        const auto texel = [&](float at) {
-            const float wrapped = (at - std::floor(at)) * static_cast<float>(texels.side);
-            return static_cast<std::size_t>(std::min(static_cast<int>(wrapped), texels.side - 1));
-        };
-        const std::size_t element =
-            texel(uv.y) * static_cast<std::size_t>(texels.side) + texel(uv.x);
+        const std::size_t element = texelOf(mesh, point, texels.side);
         return gather(texels, bake.order, {element, element, element}, point.weights);
     }
     return std::nullopt;

@@ -24,6 +24,10 @@ struct MeshPoint {
 [[nodiscard]] std::optional<MeshPoint> nearestMeshPoint(const Document& document, Id mesh,
                                                         const glm::vec3& position);
 
+// The texel of a side × side texture at the point, in rows from the top. The mesh must have texture
+// coordinates.
+[[nodiscard]] std::size_t texelOf(const Mesh& mesh, const MeshPoint& point, int side);
+
 // The transfer that is shown at a point: between vertices as triangles interpolate, between texels
 // the nearest one's.
 struct PointTransfer {
@@ -36,6 +40,9 @@ struct PointTransfer {
     }
     // Σ over the bands whose bit is set of light_i (T_i + B_i): exit radiance of albedo 1.
     [[nodiscard]] glm::vec3 radiance(const std::vector<glm::vec3>& light, unsigned bands) const;
+    // Of B_i alone, by way of other surfaces.
+    [[nodiscard]] glm::vec3 bouncedRadiance(const std::vector<glm::vec3>& light,
+                                            unsigned bands) const;
     // T_i and the mean of B_i as a function of the direction: Σ (T_i + B_i) Y_i(direction).
     [[nodiscard]] float towards(const glm::vec3& direction, unsigned bands) const;
 };

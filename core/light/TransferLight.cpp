@@ -109,45 +109,46 @@ void addDistantLights(const Document& document, int order, std::span<glm::vec3> 
 
 void addNearLights(const Document& document, const glm::vec3& place, int order,
                    std::span<glm::vec3> sum) {
+    for (const Light& light : document.lights)
+        if (light.type != LightType::Directional && shines(document, light))
+            addNearLight(light, place, order, sum);
+}
+
+void addNearLight(const Light& light, const glm::vec3& place, int order, std::span<glm::vec3> sum) {
     CHECK(order >= 1 && order <= kMaxShOrder);
     const std::array<float, kMaxShOrder> window = nearLightWindow(order);
     std::array<float, kMaxShOrder * kMaxShOrder> y{};
-    for (const Light& light : document.lights) {
-        if (light.type == LightType::Directional || !shines(document, light))
-            continue;
-        const glm::vec3 toLight = light.position - place;
-        float reaches = 1.0f;
-        switch (light.type) {
-        case LightType::Directional:
-            break;
-        case LightType::Point:
-        case LightType::Spot: {
-            const float distance2 = glm::dot(toLight, toLight);
-            const glm::vec3 l = toLight / std::sqrt(std::max(distance2, 1e-12f));
-            const float range2 = light.range * light.range;
-            reaches = shading::pointFalloff(distance2, range2 > 0.0f ? 1.0f / range2 : 0.0f);
-            if (light.type == LightType::Spot) {
-                const auto [scale, offset] = coneScaleOffset(light);
-                reaches *=
-                    shading::spotFalloff(glm::dot(light.directionToLight(), l), scale, offset);
-            }
-            shading::nearPointSh(l, order, window.data(), y.data());
-            break;
+    const glm::vec3 toLight = light.position - place;
+    float reaches = 1.0f;
+    switch (light.type) {
+    case LightType::Directional:
+        break;
+    case LightType::Point:
+    case LightType::Spot: {
+        const float distance2 = glm::dot(toLight, toLight);
+        const glm::vec3 l = toLight / std::sqrt(std::max(distance2, 1e-12f));
+        const float range2 = light.range * light.range;
+        reaches = shading::pointFalloff(distance2, range2 > 0.0f ? 1.0f / range2 : 0.0f);
+        if (light.type == LightType::Spot) {
+            const auto [scale, offset] = coneScaleOffset(light);
+            reaches *= shading::spotFalloff(glm::dot(light.directionToLight(), l), scale, offset);
         }
-        case LightType::Sphere:
-            shading::nearSphereSh(toLight, light.radius, order, window.data(), y.data());
-            break;
-        case LightType::Rectangle: {
-            const RectangleAxes axes = rectangleAxes(light);
-            projectRectangle(nearRectangle(light.position, 0.5f * light.width * axes.x,
-                                           0.5f * light.height * axes.y),
-                             place, order, window, y);
-            break;
-        }
-        }
-        for (std::size_t i = 0; i < static_cast<std::size_t>(shCount(order)); ++i)
-            sum[i] += lightPower(light) * (reaches * y[i]);
+        shading::nearPointSh(l, order, window.data(), y.data());
+        break;
     }
+    case LightType::Sphere:
+        shading::nearSphereSh(toLight, light.radius, order, window.data(), y.data());
+        break;
+    case LightType::Rectangle: {
+        const RectangleAxes axes = rectangleAxes(light);
+        projectRectangle(nearRectangle(light.position, 0.5f * light.width * axes.x,
+                                       0.5f * light.height * axes.y),
+                         place, order, window, y);
+        break;
+    }
+    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(shCount(order)); ++i)
+        sum[i] += lightPower(light) * (reaches * y[i]);
 }
 
 std::vector<glm::vec3> transferLight(const Document& document, int order,

@@ -38,6 +38,8 @@ void addDistantLights(const Document& document, int order, std::span<glm::vec3> 
 // relight.comp does for each vertex.
 void addNearLights(const Document& document, const glm::vec3& place, int order,
                    std::span<glm::vec3> sum);
+// The same of one light, which is not directional, whether it is on or not.
+void addNearLight(const Light& light, const glm::vec3& place, int order, std::span<glm::vec3> sum);
 
 // A distant disc of light about +z, of irradiance 1 on a surface that faces it: damped so that no
 // surface gets less than nothing of it (deringFactor()), and scaled so that the bands that are left

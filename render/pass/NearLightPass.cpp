@@ -3,6 +3,7 @@
 #include "core/light/NearRectangle.h"
 #include "core/light/TransferLight.h"
 
+#include <algorithm>
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
@@ -36,10 +37,14 @@ NearLightPass::NearLightPass(gl::Context& context, ShaderLibrary& shaders)
     , m_shaders(shaders)
     , m_parts(context) {}
 
-void NearLightPass::setLights(const FrameBlock& frame) {
+void NearLightPass::setLights(const FrameBlock& frame, std::span<const Id> ids) {
     Lights lights{
         frame.lightEnds,
-        {frame.lights.begin() + frame.lightEnds.x, frame.lights.begin() + frame.lightEnds.w}};
+        {frame.lights.begin() + frame.lightEnds.x, frame.lights.begin() + frame.lightEnds.w},
+        std::vector<Id>(static_cast<std::size_t>(frame.lightEnds.w - frame.lightEnds.x), 0)};
+    if (ids.size() == static_cast<std::size_t>(frame.lightEnds.w))
+        std::ranges::copy(ids.subspan(static_cast<std::size_t>(frame.lightEnds.x)),
+                          lights.ids.begin());
     for (LightBlock& light : lights.lights)
         light.place.w = 0.0f; // the slot of its shadow map says nothing here
     if (lights == m_lights)
@@ -71,15 +76,32 @@ Result<void> NearLightPass::light(const TransferWork& work, const gl::Buffer& ta
     const std::vector<gl::Buffer>& own = blocks(work.order);
     const glm::ivec4 ends = m_lights.ends;
     bool adds = false;
+    const auto sharesOf = [&](int light) -> const gl::Buffer* {
+        if (work.nearShares == nullptr)
+            return nullptr;
+        const auto found =
+            work.nearShares->find(m_lights.ids[static_cast<std::size_t>(light - ends.x)]);
+        return found != work.nearShares->end() &&
+                       found->second.values.size() == work.count * sizeof(float)
+                   ? &found->second.values
+                   : nullptr;
+    };
+    // Those without shares together, those with them one by one.
     const auto run = [&](const char* kind, const gl::Buffer& block, int begin,
                          int end) -> Result<void> {
-        if (begin == end)
-            return {};
-        if (adds)
-            glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-        auto done = dispatch(work, kind, block, begin, end, adds);
-        adds = true;
-        return done;
+        while (begin < end) {
+            const gl::Buffer* shares = sharesOf(begin);
+            int next = begin + 1;
+            while (shares == nullptr && next < end && sharesOf(next) == nullptr)
+                ++next;
+            if (adds)
+                glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+            if (auto done = dispatch(work, kind, block, begin, next, adds, shares); !done)
+                return done;
+            adds = true;
+            begin = next;
+        }
+        return {};
     };
     if (auto done = run("NEAR_POINTS", own.front(), ends.x, ends.y); !done)
         return done;
@@ -94,7 +116,8 @@ Result<void> NearLightPass::light(const TransferWork& work, const gl::Buffer& ta
 }
 
 Result<void> NearLightPass::dispatch(const TransferWork& work, const char* kind,
-                                     const gl::Buffer& block, int begin, int end, bool adds) {
+                                     const gl::Buffer& block, int begin, int end, bool adds,
+                                     const gl::Buffer* shares) {
     ProgramKey key{{"nearlight.comp"}, {kind, fmt::format("ORDER {}", work.order)}};
     if (work.bounced)
         key.defines.emplace_back("COLORED");
@@ -111,8 +134,10 @@ Result<void> NearLightPass::dispatch(const TransferWork& work, const char* kind,
     program.set("u_lightEnd", end);
     program.set("u_placeVectors", work.placeVectors);
     program.set("u_placeToWorld", work.placeToWorld);
-    if (work.openSky)
-        program.set("u_normalToWorld", glm::mat4(work.normalToWorld));
+    program.set("u_hasShares", shares != nullptr ? 1 : 0);
+    if (shares != nullptr)
+        shares->bindStorage(kNearSharesBinding);
+    program.set("u_normalToWorld", glm::mat4(work.normalToWorld));
     m_parts.run(work, [&](int first, int count) {
         program.set("u_first", first);
         program.set("u_count", count);

@@ -7,6 +7,7 @@
 #include "render/shader/ShaderLibrary.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace patina::render {
@@ -15,22 +16,24 @@ class NearLightPass {
   public:
     NearLightPass(gl::Context& context, ShaderLibrary& shaders);
 
-    // Those of the frame, whose buffer is bound.
-    void setLights(const FrameBlock& frame);
+    // Those of the frame, whose buffer is bound; `ids` of all its lights, or of none.
+    void setLights(const FrameBlock& frame, std::span<const Id> ids);
     [[nodiscard]] bool any() const { return !m_lights.lights.empty(); }
     [[nodiscard]] std::uint64_t revision() const { return m_revision; } // grows with each change
 
-    // The light of all of them into `target`, a vec4 for each element.
+    // The light of all of them into `target`, a vec4 for each element. Where the work has shares of
+    // a light, what arrives directly is its closed form times these.
     Result<void> light(const TransferWork& work, const gl::Buffer& target);
 
   private:
     struct Lights {
         glm::ivec4 ends{0};
         std::vector<LightBlock> lights;
+        std::vector<Id> ids; // of the lights; 0: unknown
         friend bool operator==(const Lights&, const Lights&) = default;
     };
     Result<void> dispatch(const TransferWork& work, const char* kind, const gl::Buffer& block,
-                          int begin, int end, bool adds);
+                          int begin, int end, bool adds, const gl::Buffer* shares);
     [[nodiscard]] const std::vector<gl::Buffer>& blocks(int order);
 
     gl::Context& m_context;

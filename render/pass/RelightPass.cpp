@@ -1,6 +1,7 @@
 #include "render/pass/RelightPass.h"
 
 #include "core/base/Check.h"
+#include "render/scene/LightBlocks.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -54,7 +55,7 @@ Result<void> RelightPass::update(GpuScene& scene, LightingMode mode, const Frame
         return {};
     for (FarLight& light : m_far)
         light.current = false;
-    m_near.setLights(frame);
+    m_near.setLights(frame, lightOrder(scene.document()));
     bool any = false;
     for (const DrawItem& item : scene.items()) {
         const Result<bool> done = relight(scene, item, mode);
@@ -93,15 +94,22 @@ Result<bool> RelightPass::relight(GpuScene& scene, const DrawItem& item, Lightin
     if (openSky)
         sources.transform = item.transform;
     if (m_near.any()) {
+        m_nearUsed |= !openSky;
         ExitRadiance::Sources nearSources = sources;
         nearSources.nearLights = m_near.revision();
         if (perTexel)
             nearSources.places = scene.placeRevision();
         else
             nearSources.transform = item.transform;
-        work.places = perTexel ? &scene.texelPositions(item.materialId, transfer->side)
-                               : &item.mesh->vertices;
-        work.placeVectors = perTexel ? 1 : kVertexVectors;
+        work.places =
+            perTexel ? &scene.texelPlaces(item.materialId, transfer->side) : &item.mesh->vertices;
+        work.placeVectors = perTexel ? kTexelPlaceVectors : kVertexVectors;
+        if (!openSky && !item.lit->nearShares.empty()) {
+            work.nearShares = &item.lit->nearShares;
+            nearSources.shares = item.lit->nearSharesRevision;
+            if (perTexel) // in the world already
+                work.normalToWorld = glm::mat3(1.0f);
+        }
         if (!perTexel)
             work.placeToWorld = item.transform;
         if (auto done = relightNear(exit, work, nearSources); !done)

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <utility>
 #include <vector>
 
 namespace patina::render {
@@ -26,6 +27,9 @@ class RelightPass {
     // Elements that have been computed since the beginning, to see that nothing is done in vain.
     [[nodiscard]] std::uint64_t elementsDone() const { return m_elementsDone; }
     [[nodiscard]] std::uint64_t nearElementsDone() const { return m_nearElementsDone; } // near by
+
+    // Whether lights near by came by way of a bake since the last call.
+    [[nodiscard]] bool takeNearUse() { return std::exchange(m_nearUsed, false); }
 
   private:
     // Light from far away in so many bands: of how many depends what a point of light becomes.
@@ -50,6 +54,7 @@ class RelightPass {
     std::array<FarLight, kMaxShOrder + 1> m_far; // by order
     std::uint64_t m_farRevision = 0;
     std::uint64_t m_elementsDone = 0, m_nearElementsDone = 0;
+    bool m_nearUsed = false;
 };
 
 } // namespace patina::render

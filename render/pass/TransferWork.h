@@ -4,6 +4,7 @@
 
 #include "core/math/SphericalHarmonics.h"
 #include "render/gl/BufferView.h"
+#include "render/scene/TransferValues.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -16,6 +17,7 @@ namespace patina::render {
 
 inline constexpr std::size_t kTransferGroup = 64; // local_size_x of relight.comp, nearlight.comp
 inline constexpr int kVertexVectors = 3;          // of GpuMesh::vertices
+inline constexpr int kTexelPlaceVectors = 2;      // of GpuScene::texelPlaces()
 
 struct TransferWork {
     const gl::Buffer& elements; // coefficients; openSky: vertices
@@ -25,9 +27,11 @@ struct TransferWork {
     int order = 0;
     bool openSky = false;
     glm::mat3 normalToWorld{1.0f};
-    const gl::Buffer* places = nullptr; // the first vector of each holds the position
+    // Positions and normals, as in the mesh's vertices or TexelPlace.
+    const gl::Buffer* places = nullptr;
     int placeVectors = 1;
     glm::mat4 placeToWorld{1.0f};
+    const std::map<Id, NearShareBuffer>* nearShares = nullptr; // by light; null: none
 
     [[nodiscard]] int vectors() const { return (shCount(order) + 3) / 4; }
 };

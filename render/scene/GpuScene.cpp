@@ -1,6 +1,6 @@
 #include "render/scene/GpuScene.h"
 
-#include "core/bake/TexelPositions.h"
+#include "core/bake/TexelPlaces.h"
 #include "core/base/Check.h"
 #include "core/base/Log.h"
 #include "core/document/Lighting.h"
@@ -99,7 +99,7 @@ void GpuScene::update(const Document& document, const Change& change) {
     if (m_transfer.update(m_document))
         clearBouncedLight(); // it rests on what was there before
     updateTexelBakes();
-    m_texelPositions.clear();
+    m_texelPlaces.clear();
     ++m_placeRevision;
     rebuildItems();
 }
@@ -191,6 +191,7 @@ void GpuScene::rebuildItems() {
     std::erase_if(m_lit, [&](const auto& entry) { return !ids.contains(entry.first); });
     std::erase_if(m_litTexels,
                   [&](const auto& entry) { return m_transfer.ofMaterial(entry.first) == nullptr; });
+    applyNearShadows();
 }
 
 void GpuScene::previewVertices(BakeKind kind, Id mesh, int stride, std::span<const float> values) {
@@ -245,18 +246,54 @@ void GpuScene::clearBouncedLight() {
         }
 }
 
+void GpuScene::setNearShadows(const NearShadowsPtr& shadows) {
+    m_nearShadows = shadows;
+    applyNearShadows();
+}
+
+void GpuScene::applyNearShadows() {
+    for (auto& [mesh, lit] : m_lit)
+        applyNearShadows(lit, {mesh, 0});
+    for (auto& [material, lit] : m_litTexels)
+        applyNearShadows(lit, {material, 1});
+}
+
+// `part`: its side says only whether it has texels.
+void GpuScene::applyNearShadows(LitElements& lit, const NearPart& part) {
+    std::map<Id, NearShareBuffer> now;
+    bool changed = false;
+    for (std::size_t l = 0; m_nearShadows && l < m_nearShadows->shares.size(); ++l)
+        for (std::size_t p = 0; p < m_nearShadows->shares[l].size(); ++p) {
+            const NearPart& other = m_nearShadows->request.parts[p];
+            const NearShares& shares = m_nearShadows->shares[l][p];
+            if (other.id != part.id || (other.side > 0) != (part.side > 0) || shares->empty())
+                continue;
+            const Id light = m_nearShadows->request.lights[l].id;
+            if (const auto known = lit.nearShares.find(light);
+                known != lit.nearShares.end() && known->second.source == shares) {
+                now[light] = std::move(known->second);
+                continue;
+            }
+            now[light] = {shares, gl::Buffer::of<float>(m_context, "shares of a light", *shares)};
+            changed = true;
+        }
+    if (changed || now.size() != lit.nearShares.size())
+        ++lit.nearSharesRevision;
+    lit.nearShares = std::move(now);
+}
+
 std::vector<glm::vec3> GpuScene::transferLight(int order) const {
     std::vector<glm::vec3> light = m_environment.transferLight(environmentParts(m_document), order);
     addDistantLights(m_document, order, light);
     return light;
 }
 
-const gl::Buffer& GpuScene::texelPositions(Id material, int side) {
+const gl::Buffer& GpuScene::texelPlaces(Id material, int side) {
     const auto count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-    gl::Buffer& buffer = m_texelPositions[material];
-    if (buffer.size() != count * sizeof(glm::vec4))
-        buffer = gl::Buffer::of<glm::vec4>(m_context, "positions of texels",
-                                           patina::texelPositions(m_document, material, side));
+    gl::Buffer& buffer = m_texelPlaces[material];
+    if (buffer.size() != count * sizeof(TexelPlace))
+        buffer = gl::Buffer::of<TexelPlace>(m_context, "places of texels",
+                                            patina::texelPlaces(m_document, material, side));
     return buffer;
 }
 

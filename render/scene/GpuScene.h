@@ -51,6 +51,9 @@ class GpuScene {
     // Nothing where the mesh has no transfer of as many vertices.
     void setBouncedLight(Id mesh, std::span<const glm::vec3> radiance);
     void clearBouncedLight();
+    // Shadows of local lights, of vertices and texels, instead of those that transfer knows; null:
+    // none. What has not changed is not uploaded again.
+    void setNearShadows(const NearShadowsPtr& shadows);
 
     [[nodiscard]] const Document& document() const { return m_document; }
     [[nodiscard]] const EnvironmentLight& environment() const { return m_environment; }
@@ -71,10 +74,10 @@ class GpuScene {
     // What lights transfer from far away, order² radiance coefficients: the environments of the mix
     // and the directional lights.
     [[nodiscard]] std::vector<glm::vec3> transferLight(int order) const;
-    // World position of each texel of a material's bake, for lights near by; made when it is first
-    // asked for.
-    [[nodiscard]] const gl::Buffer& texelPositions(Id material, int side);
-    // Grows when what texelPositions() answers may have changed.
+    // World position and normal (TexelPlace) of each texel of a material's bake, for lights near
+    // by; made when it is first asked for.
+    [[nodiscard]] const gl::Buffer& texelPlaces(Id material, int side);
+    // Grows when what texelPlaces() answers may have changed.
     [[nodiscard]] std::uint64_t placeRevision() const { return m_placeRevision; }
 
   private:
@@ -82,6 +85,8 @@ class GpuScene {
     void updateMaterials();
     void updateTexelBakes();
     void rebuildItems();
+    void applyNearShadows();
+    void applyNearShadows(LitElements& lit, const NearPart& part);
 
     gl::Context& m_context;
     Document m_document;
@@ -94,8 +99,9 @@ class GpuScene {
     std::map<Id, gl::Buffer> m_instanceBlocks;
     VertexValues m_visibility;
     TransferValues m_transfer;
+    NearShadowsPtr m_nearShadows;
     std::map<Id, LitElements> m_lit, m_litTexels; // by mesh, by material
-    std::map<Id, gl::Buffer> m_texelPositions;    // by material, of the present geometry
+    std::map<Id, gl::Buffer> m_texelPlaces;       // by material, of the present geometry
     std::map<Id, gl::Texture> m_texelPreviews;    // by material
     std::map<Id, const gl::Texture*> m_texelBakes;
     std::vector<DrawItem> m_items;

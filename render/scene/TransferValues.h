@@ -2,6 +2,7 @@
 // GPU; and the light that it lets arrive, as RelightPass keeps it up to date.
 #pragma once
 
+#include "core/bake/NearShadows.h"
 #include "core/document/Document.h"
 #include "render/gl/Buffer.h"
 #include "render/gl/Texture.h"
@@ -35,9 +36,10 @@ struct Transfer {
 struct ExitRadiance {
     gl::Buffer values;  // vec4 for each element
     gl::Texture texels; // the same, of texel bakes
-    // What they were made of; the last two only where it differs from place to place.
+    // What they were made of; what follows `bounced` only where it differs from place to place.
     struct Sources {
-        std::uint64_t transfer = 0, light = 0, bounced = 0, nearLights = 0, places = 0; // revisions
+        std::uint64_t transfer = 0, light = 0, bounced = 0, nearLights = 0, places = 0,
+                      shares = 0; // revisions
         glm::mat4 transform{0.0f};
         friend bool operator==(const Sources&, const Sources&) = default;
     } sources;
@@ -47,6 +49,12 @@ struct ExitRadiance {
     std::uint64_t nearRevision = 0;
 };
 
+// How much of one local light arrives at the elements, on the GPU.
+struct NearShareBuffer {
+    NearShares source; // what was uploaded
+    gl::Buffer values; // a float for each element; negative: none
+};
+
 // One for each of Unshadowed, Shadowed and Prt, so that two can be seen side by side.
 struct LitElements {
     std::array<ExitRadiance, 3> stages;
@@ -54,6 +62,8 @@ struct LitElements {
     // the coefficients: vec4 for each element, replaces Transfer::bounced. Empty: none.
     gl::Buffer bouncedLight;
     std::uint64_t bouncedRevision = 0;
+    std::map<Id, NearShareBuffer> nearShares; // by light
+    std::uint64_t nearSharesRevision = 0;
 
     [[nodiscard]] ExitRadiance& stage(LightingMode mode) {
         return stages[static_cast<std::size_t>(mode) -

@@ -100,7 +100,7 @@ void addAngles(ExplainedSection& section, const RebuiltLight& light, const Surfa
 void sayWhereDiffuseIs(ExplainedSection& section) {
     section.values.push_back(
         words("diffuseInTransfer", "Diffuse",
-              "In Diffuse IBL: the transfer lets it arrive, with soft shadows."));
+              "In Diffuse IBL: the transfer lets it arrive, with its shadows."));
 }
 
 ExplainedStep diffuseOf(const Subject& subject, const RebuiltLight& light,

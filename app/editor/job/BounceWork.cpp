@@ -9,17 +9,6 @@
 namespace patina::editor {
 namespace {
 
-// Rays end at the same places.
-bool sameMesh(const BakeMesh& a, const BakeMesh& b) {
-    if (a.id != b.id || a.mesh != b.mesh || a.transform != b.transform ||
-        a.doubleSided != b.doubleSided || a.surface.alphaMode != b.surface.alphaMode)
-        return false;
-    return a.surface.alphaMode == AlphaMode::Opaque ||
-           (a.surface.opacity == b.surface.opacity &&
-            a.surface.alphaCutoff == b.surface.alphaCutoff &&
-            a.surface.baseColorMap == b.surface.baseColorMap);
-}
-
 // The hits are of these meshes; where those stand, the bake's hash has told.
 bool fits(const HitSource& hits, const HitSettings& settings, const BakeInputs& inputs) {
     return hits.settings() == settings &&
@@ -35,11 +24,6 @@ bool fits(const HitSource& hits, const HitSettings& settings, const BakeInputs& 
 }
 
 } // namespace
-
-bool sameTransport(const BakeInputs& a, const BakeInputs& b) {
-    return std::equal(a.meshes.begin(), a.meshes.end(), b.meshes.begin(), b.meshes.end(),
-                      [](const BakeMesh& x, const BakeMesh& y) { return sameMesh(x, y); });
-}
 
 std::vector<BakeSurface> surfacesOf(const BakeInputs& inputs) {
     std::vector<BakeSurface> surfaces;

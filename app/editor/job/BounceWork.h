@@ -3,6 +3,7 @@
 
 #include "core/bake/Bake.h"
 #include "core/bake/BounceSolver.h"
+#include "core/bake/SameTransport.h"
 
 #include <glm/vec3.hpp>
 #include <map>
@@ -18,8 +19,6 @@ using BounceSolverPtr = std::shared_ptr<const BounceSolver>;
 using BouncedLight = std::map<Id, std::vector<glm::vec3>>;
 using BouncedLightPtr = std::shared_ptr<const BouncedLight>;
 
-// Rays end at the same places.
-[[nodiscard]] bool sameTransport(const BakeInputs& a, const BakeInputs& b);
 [[nodiscard]] std::vector<BakeSurface> surfacesOf(const BakeInputs& inputs); // mesh by mesh
 
 // The hits of an interreflected bake's rays: `ofBake` if it is they, else traced. Null when there

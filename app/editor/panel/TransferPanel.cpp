@@ -1,6 +1,7 @@
 #include "app/editor/panel/TransferPanel.h"
 
 #include "app/editor/document/DocumentController.h"
+#include "app/editor/job/NearShadowUpdater.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/viewport/LobeOnSurface.h"
 #include "app/editor/viewport/PixelProbe.h"
@@ -28,11 +29,13 @@ QString numbers(const glm::vec3& v) {
 } // namespace
 
 TransferPanel::TransferPanel(DocumentController& controller, PixelProbe& probe,
-                             LobeOnSurface& onSurface, QWidget* parent)
+                             LobeOnSurface& onSurface, const NearShadowUpdater& shadows,
+                             QWidget* parent)
     : QWidget(parent)
     , m_controller(controller)
     , m_probe(probe)
     , m_onSurface(onSurface)
+    , m_shadows(shadows)
     , m_memory(std::make_shared<TransferMemory>()) {
     setObjectName(QStringLiteral("transferPanel"));
     m_message = new QLabel;
@@ -96,6 +99,7 @@ TransferPanel::TransferPanel(DocumentController& controller, PixelProbe& probe,
     connect(&m_probe, &PixelProbe::hoverChanged, this, &TransferPanel::refresh);
     connect(&m_probe, &PixelProbe::pinChanged, this, &TransferPanel::refresh);
     connect(&m_controller, &DocumentController::changed, this, &TransferPanel::refresh);
+    connect(&m_shadows, &NearShadowUpdater::shownChanged, this, &TransferPanel::refresh);
 }
 
 TransferPanel::~TransferPanel() {
@@ -147,6 +151,7 @@ std::optional<TransferAsk> TransferPanel::ask(QString& problem) const {
     for (const Light& light : document.lights)
         if (shines(document, light))
             ask.lights.push_back(light);
+    ask.shadows = m_shadows.shown();
     ask.mesh = at->mesh;
     ask.position = glm::vec3(at->value(shading::kRecordPosition));
     ask.traced = m_probe.pin().has_value();
@@ -197,12 +202,17 @@ void TransferPanel::show(std::shared_ptr<const TransferStudy> study, const QStri
         coefficients.push_back((c.x + c.y + c.z) / 3.0f);
     }
     m_bars->setCoefficients(std::move(coefficients), shares);
-    const bool negative = std::min({s.radiance.x, s.radiance.y, s.radiance.z}) < 0.0f;
+    const glm::vec3 whole = s.radiance + s.local;
+    const bool negative = std::min({whole.x, whole.y, whole.z}) < 0.0f;
     m_numbers->setText(
         tr("Light of a white surface: %1%2   ·   open to %3 % of even light   ·   %4")
-            .arg(numbers(s.radiance), negative ? tr(" (below zero: shown as dark)") : QString(),
+            .arg(numbers(whole), negative ? tr(" (below zero: shown as dark)") : QString(),
                  plotNumber(100.0 * double{s.visibility}),
-                 s.transfer.bounced.empty() ? tr("direct light") : tr("with bounces")));
+                 s.transfer.bounced.empty() ? tr("direct light") : tr("with bounces")) +
+        (s.tracedLights == 0
+             ? QString()
+             : tr("   ·   %1 of it directly from local lights, by rays instead of bands")
+                   .arg(numbers(s.local))));
     m_function->setPicture(s.function,
                            s.negativeShare > 0.0
                                ? tr("rings below zero (magenta) on %1 % of the sphere, to %2")

@@ -17,6 +17,7 @@ namespace patina::editor {
 class BandBars;
 class DocumentController;
 class LobeOnSurface;
+class NearShadowUpdater;
 class PictureTile;
 class PixelProbe;
 
@@ -24,7 +25,7 @@ class TransferPanel : public QWidget {
     Q_OBJECT
   public:
     TransferPanel(DocumentController& controller, PixelProbe& probe, LobeOnSurface& onSurface,
-                  QWidget* parent = nullptr);
+                  const NearShadowUpdater& shadows, QWidget* parent = nullptr);
     ~TransferPanel() override;
 
     // Null: nothing to show, message() says why.
@@ -49,6 +50,7 @@ class TransferPanel : public QWidget {
     DocumentController& m_controller;
     PixelProbe& m_probe;
     LobeOnSurface& m_onSurface;
+    const NearShadowUpdater& m_shadows;
     std::optional<TransferAsk> m_asked;
     std::shared_ptr<const TransferStudy> m_study;
     std::shared_ptr<TransferMemory> m_memory; // the pool's thread alone uses it

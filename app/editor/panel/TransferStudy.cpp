@@ -1,5 +1,6 @@
 #include "app/editor/panel/TransferStudy.h"
 
+#include "core/bake/NearLightAt.h"
 #include "core/bake/TransferMeaning.h"
 #include "core/light/TransferLight.h"
 #include "core/math/Shading.h"
@@ -152,10 +153,21 @@ std::shared_ptr<const TransferStudy> studyTransfer(const Document& document, con
                                          return {};
                                      return known->second;
                                  });
-    addNearLights(document, ask.position, order, study->light);
+    // Of local lights whose shadows are traced, transfer is asked for what bounces alone.
+    const NearLightAt traced = nearLightAt(document, ask.shadows, *point);
+    std::vector<glm::vec3> bouncing(study->light.size(), glm::vec3(0.0f));
+    for (const Light& light : ask.lights)
+        if (light.type != LightType::Directional)
+            addNearLight(light, ask.position, order,
+                         std::ranges::count(traced.lights, light.id) > 0 ? bouncing : study->light);
+    const auto radiance = [&](unsigned bands) {
+        return transfer->radiance(study->light, bands) + transfer->bouncedRadiance(bouncing, bands);
+    };
     for (int l = 0; l < order; ++l)
-        study->byBand.push_back(transfer->radiance(study->light, 1u << static_cast<unsigned>(l)));
-    study->radiance = transfer->radiance(study->light, ask.bands);
+        study->byBand.push_back(radiance(1u << static_cast<unsigned>(l)));
+    study->radiance = radiance(ask.bands);
+    study->local = traced.radiance;
+    study->tracedLights = traced.lights.size();
     study->visibility = std::clamp(ambientVisibility(transfer->direct), 0.0f, 1.0f);
 
     const LabTone tone(document.view, luminance, 0.0f);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/editor/panel/LabLight.h"
+#include "core/bake/NearShadows.h"
 #include "core/bake/TransferPoint.h"
 #include "core/document/Document.h"
 #include "core/document/LightMix.h"
@@ -22,6 +23,7 @@ struct TransferAsk {
     EnvironmentPart surroundings;       // as they are seen: of the pictures
     std::vector<EnvironmentPart> parts; // of the mix
     std::vector<Light> lights;          // that shine
+    NearShadowsPtr shadows;             // of local ones, as they are shown; null: none
     Id mesh = 0;
     glm::vec3 position{0.0f}; // world
     bool traced = false;      // rays say what the point sees; else the transfer does
@@ -34,10 +36,12 @@ struct TransferStudy {
     QString problem; // why there is nothing; then the rest is empty
     PointTransfer transfer;
     std::vector<glm::vec3> light;  // that meets the point: surroundings and lights, as many as the
-                                   // transfer has
+                                   // transfer has; without local lights whose shadows are traced
     std::vector<glm::vec3> byBand; // exit radiance of albedo 1 that each band adds
     glm::vec3 radiance{0.0f};      // of the bands that are on
-    float visibility = 1.0f;       // ambient, 0…1
+    glm::vec3 local{0.0f};         // besides, of local lights whose shadows are traced
+    std::size_t tracedLights = 0;
+    float visibility = 1.0f;             // ambient, 0…1
     float lowest = 0.0f, highest = 0.0f; // of the transfer as a function of the direction
     double negativeShare = 0.0;          // of the sphere, where it is below zero
     int rays = 0;                        // that were traced; 0: the transfer said what is seen

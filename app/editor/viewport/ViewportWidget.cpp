@@ -157,6 +157,7 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     m_sheets.setDraw([this](const render::ViewSheet& sheet) { return drawSheet(sheet); });
     connect(&m_preview, &PreviewFeed::changed, this, &ViewportWidget::lookChanged);
     connect(&m_bounces, &BounceFeed::changed, this, &ViewportWidget::lookChanged);
+    connect(&m_nearShadows, &NearShadowFeed::changed, this, &ViewportWidget::lookChanged);
     connect(&m_projections, &ProjectionFeed::changed, this, &ViewportWidget::lookChanged);
     // Between frames and input, so that neither waits for an environment.
     m_environmentTimer.setSingleShot(true);
@@ -178,6 +179,10 @@ void ViewportWidget::setJobs(JobManager& jobs) {
 
 void ViewportWidget::setBounces(BounceUpdater& bounces) {
     m_bounces.setBounces(bounces);
+}
+
+void ViewportWidget::setNearShadows(NearShadowUpdater& shadows) {
+    m_nearShadows.setShadows(shadows);
 }
 
 void ViewportWidget::setDisplays(DisplayLoader& displays) {
@@ -249,6 +254,7 @@ void ViewportWidget::initializeGL() {
     m_displayPending = true;
     m_preview.restart();
     m_bounces.restart();
+    m_nearShadows.restart();
     if (!shaderFolder.isEmpty())
         m_shaderTimer.start();
     Q_EMIT contextReady(QString::fromStdString(m_context->info().renderer),
@@ -336,6 +342,7 @@ void ViewportWidget::paintGL() {
         logError("the frame could not be drawn: {}", drawn.error().text());
     m_viewFeed.endFrame(*m_renderer);
     m_bounces.endFrame(*m_renderer);
+    m_nearShadows.endFrame(*m_renderer);
     gl->glFinish(); // so that the time below is the frame's, not that of the call
 
     const bool drawsScene = complete || (!frame.keepPicture && !frame.reuseScene);
@@ -384,6 +391,7 @@ bool ViewportWidget::drawsInSlices(const render::ViewSettings& view) const {
 void ViewportWidget::bringIn() {
     m_preview.upload(*m_renderer);
     m_bounces.upload(*m_renderer);
+    m_nearShadows.upload(*m_renderer);
     m_projections.upload(*m_renderer, m_controller.document());
 }
 

@@ -4,6 +4,7 @@
 #include "app/editor/viewport/AdaptationClock.h"
 #include "app/editor/viewport/BounceFeed.h"
 #include "app/editor/viewport/FramePacing.h"
+#include "app/editor/viewport/NearShadowFeed.h"
 #include "app/editor/viewport/PixelPicker.h"
 #include "app/editor/viewport/PreviewFeed.h"
 #include "app/editor/viewport/ProjectionFeed.h"
@@ -52,7 +53,8 @@ class ViewportWidget : public QOpenGLWidget {
     ~ViewportWidget() override;
 
     void setJobs(JobManager& jobs); // whose live preview is shown, and who gives way to frames
-    void setBounces(BounceUpdater& bounces);   // whose light is shown
+    void setBounces(BounceUpdater& bounces); // whose light is shown
+    void setNearShadows(NearShadowUpdater& shadows);
     void setDisplays(DisplayLoader& displays); // whose view of OpenColorIO is shown
     void setViews(ViewState& views);           // what of the scene is shown
     void setLobe(LobeOnSurface& lobe);         // which is drawn with the overlays
@@ -141,6 +143,7 @@ class ViewportWidget : public QOpenGLWidget {
     ViewportHand m_hand;
     PreviewFeed m_preview;
     BounceFeed m_bounces;
+    NearShadowFeed m_nearShadows;
     ProjectionFeed m_projections;
     WorkGate* m_workGate = nullptr; // closed from an edit until its frame is shown
     ViewFeed m_viewFeed;

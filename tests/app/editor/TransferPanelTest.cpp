@@ -1,14 +1,17 @@
 // The Transfer dock in its window: a known transfer, looked at from a pinned point.
 #include "tests/app/editor/EditorFixture.h"
 
+#include "app/editor/document/Commands.h"
 #include "app/editor/panel/TransferPanel.h"
 #include "app/editor/widget/BandBars.h"
 #include "app/editor/widget/PictureTile.h"
 #include "core/bake/Bake.h"
+#include "core/bake/NearLightAt.h"
 #include "core/math/SphericalHarmonics.h"
 
 #include <QComboBox>
 #include <QDockWidget>
+#include <QLabel>
 #include <numbers>
 
 namespace patina::editor {
@@ -163,6 +166,36 @@ TEST_F(TransferPanelTest, ShowsTheSurroundingsInAnyNumberOfBands) {
         last = panel().study()->sum;
     }
     EXPECT_EQ(choice->count(), 8);
+}
+
+// What local lights send directly comes by rays in the picture: it is in no band, and said besides.
+TEST_F(TransferPanelTest, AddsLocalLightsAsThePictureHasThem) {
+    controller().attachBake(openBake());
+    controller().setParameter(parameter("view.lighting"), {Scope::View, 0},
+                              static_cast<int>(LightingMode::Shadowed));
+    pin();
+    ASSERT_TRUE(eventually([] { return studied() && panel().study()->rays > 0; }));
+    const glm::vec3 before = panel().study()->radiance;
+    EXPECT_EQ(panel().study()->tracedLights, 0u);
+    controller().addLight(LightType::Point);
+    Light light = document().lights.back();
+    light.position = document().view.camera.position();
+    controller().changeLight(light, 0, QStringLiteral("move"));
+    ASSERT_TRUE(eventually([] {
+        return session->nearShadows.upToDate() && studied() && panel().study()->tracedLights == 1;
+    }));
+    const TransferStudy& study = *panel().study();
+    EXPECT_LT(glm::distance(study.radiance, before), 1e-5f * glm::length(before));
+    const glm::vec3 place(session->probe.pin()->value(shading::kRecordPosition));
+    const NearLightAt at =
+        nearLightAt(document(), session->nearShadows.shown(),
+                    *nearestMeshPoint(document(), session->probe.pin()->mesh, place));
+    EXPECT_GT(study.local.x, 0.0f);
+    EXPECT_EQ(study.local, at.radiance);
+    EXPECT_TRUE(panel()
+                    .findChild<QLabel*>(QStringLiteral("transferNumbers"))
+                    ->text()
+                    .contains(QStringLiteral("by rays instead of bands")));
 }
 
 } // namespace

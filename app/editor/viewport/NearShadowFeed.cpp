@@ -1,0 +1,28 @@
+#include "app/editor/viewport/NearShadowFeed.h"
+
+#include "app/editor/job/NearShadowUpdater.h"
+#include "render/Renderer.h"
+
+namespace patina::editor {
+
+NearShadowFeed::NearShadowFeed(QObject* parent)
+    : QObject(parent) {}
+
+void NearShadowFeed::setShadows(NearShadowUpdater& shadows) {
+    m_shadows = &shadows;
+    connect(&shadows, &NearShadowUpdater::shownChanged, this, &NearShadowFeed::changed);
+}
+
+void NearShadowFeed::upload(render::Renderer& renderer) {
+    if (!m_shadows || m_shadows->shown() == m_uploaded)
+        return;
+    m_uploaded = m_shadows->shown();
+    renderer.setNearShadows(m_uploaded);
+}
+
+void NearShadowFeed::endFrame(render::Renderer& renderer) {
+    if (m_shadows)
+        m_shadows->setWanted(renderer.takeNearShadowUse());
+}
+
+} // namespace patina::editor

@@ -1,0 +1,35 @@
+// Brings traced shadows of local lights into the renderer, and says whether it has use for them.
+#pragma once
+
+#include "core/bake/NearShadows.h"
+
+#include <QObject>
+
+namespace patina::render {
+class Renderer;
+}
+
+namespace patina::editor {
+
+class NearShadowUpdater;
+
+class NearShadowFeed : public QObject {
+    Q_OBJECT
+  public:
+    explicit NearShadowFeed(QObject* parent = nullptr);
+
+    void setShadows(NearShadowUpdater& shadows);
+    void restart() { m_uploaded = nullptr; } // the renderer is a new one
+    // With the renderer's context current, before a frame: what has come since the last one.
+    void upload(render::Renderer& renderer);
+    void endFrame(render::Renderer& renderer);
+
+  Q_SIGNALS:
+    void changed(); // there is something to upload
+
+  private:
+    NearShadowUpdater* m_shadows = nullptr;
+    NearShadowsPtr m_uploaded;
+};
+
+} // namespace patina::editor
