@@ -19,12 +19,11 @@ bool set(const char* name, T value) {
 } // namespace
 
 void prepareAllocator() {
-    static_assert(MALLCTL_ARENAS_ALL == 4096);
     constexpr ssize_t kMs = kFreedMemoryMs;
-    // Of heaps to come, and of those that are there.
+    // Of heaps to come, and of the one that is there before there are threads.
     const bool done = set("arenas.dirty_decay_ms", kMs) && set("arenas.muzzy_decay_ms", kMs) &&
-                      set("arena.4096.dirty_decay_ms", kMs) &&
-                      set("arena.4096.muzzy_decay_ms", kMs) && set("background_thread", true);
+                      set("arena.0.dirty_decay_ms", kMs) && set("arena.0.muzzy_decay_ms", kMs) &&
+                      set("background_thread", true);
     if (!done)
         logWarning("The allocator refused its settings; memory may grow with time.");
 }

@@ -9,8 +9,9 @@ namespace patina::editor {
 // How long freed memory is kept for reuse.
 inline constexpr int kFreedMemoryMs = 1000;
 
-// To be called first thing in main(): freed memory goes back to the system after kFreedMemoryMs, by
-// a thread of the allocator's. A warning in the log where the allocator refuses.
+// To be called first thing in main(), before there are threads: freed memory goes back to the
+// system after kFreedMemoryMs, by a thread of the allocator's. A warning in the log where the
+// allocator refuses.
 void prepareAllocator();
 
 } // namespace patina::editor
