@@ -60,10 +60,8 @@ struct LightLabTest : testing::Test {
         return eventually([] {
             return panel().idle() && panel().light().analysis &&
                    panel().light().analysis->environment == document().environment.image &&
-                   panel().light().maps &&
-                   panel().light().maps->prefiltered.size() ==
-                       static_cast<std::size_t>(IblSettings().levels) &&
-                   panel().dfg() && !panel().stage()->picture().isNull();
+                   s_ibl->finished() && panel().light().maps == s_ibl->maps() && panel().dfg() &&
+                   !panel().stage()->picture().isNull();
         });
     }
     static void showSection(const char* name) {
@@ -256,7 +254,8 @@ TEST_F(LightLabTest, ExposureIsOfThePicturesOnly) {
     QTest::mouseRelease(slider, Qt::LeftButton, {}, {slider->handleX(), 12});
     auto* field = find<NumberField>(panel(), QStringLiteral("Light lab exposure"));
     EXPECT_LT(field->value(), -0.5);
-    ASSERT_TRUE(eventually([&] { return panel().idle() && brightness() < normal - 10; }));
+    ASSERT_TRUE(eventually([&] { return panel().idle() && brightness() < normal - 10; }))
+        << normal << " before, " << brightness() << " at " << field->value() << " EV";
     EXPECT_EQ(undoCount(), 0);
     EXPECT_FALSE(controller().isModified());
     // The viewport's exposure is followed.
