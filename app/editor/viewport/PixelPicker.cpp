@@ -34,6 +34,7 @@ PixelPicker::PixelPicker(DocumentController& controller, QWidget& viewport)
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
         if (change.affects == Affects::Everything) { // another document
             m_pointer.reset();
+            m_pinLater.reset();
             unpin();
             if (m_probe)
                 m_probe->setHover(std::nullopt);
@@ -71,15 +72,13 @@ void PixelPicker::setReady(bool ready) {
     if (ready == m_ready)
         return;
     m_ready = ready;
-    if (const auto at = std::exchange(m_pinLater, std::nullopt); ready && at)
-        pinAt(*at);
     lookSoon();
 }
 
 // Never at once: this is also called while a frame is drawn. While something is dragged, frames
 // have the larger part of the time.
 void PixelPicker::lookSoon() {
-    if (!m_probe || !m_probe->wanted() || m_timer.isActive())
+    if (!m_probe || !(m_probe->wanted() || m_pinLater) || m_timer.isActive())
         return;
     if (!m_ready) {
         Q_EMIT notReady();
@@ -92,6 +91,8 @@ void PixelPicker::lookSoon() {
 }
 
 void PixelPicker::look() {
+    if (m_ready && m_pinLater && !m_frame.isEmpty())
+        pinAt(*std::exchange(m_pinLater, std::nullopt));
     if (!m_probe || !m_probe->wanted() || m_frame.isEmpty() || !m_ready)
         return;
     // The numbers belong to the picture that is shown. A newer one is on its way, and then its
