@@ -323,7 +323,7 @@ Result<void> WarmUp::drawSheet(LightingMode lighting, const JobContext& job) {
     sheet.height = m_frame.height;
     if (auto drawn = m_renderer->drawSheet(m_frame, sheet); !drawn)
         return drawn.error();
-    // A lamp that is set up later finds its programs, too.
+    // A light that is set up later finds its programs, too.
     return m_renderer->prepareNearLights(lighting);
 }
 

@@ -22,7 +22,7 @@ float shape(vec2 p) {
 #elif defined(BULB)
     return min(r - 4.5, abs(r - 8.5) - 0.8);
 #elif defined(SPOT)
-    // A lamp at the top that widens downwards: a triangle with its tip cut off, and three rays.
+    // A lamp shade at the top that widens downwards: a triangle with its tip cut off, and three rays.
     vec2 q = vec2(abs(p.x), p.y);
     float side = dot(q - vec2(2.2, 8.0), normalize(vec2(9.0, 4.0)));
     float lamp = max(max(side, q.y - 8.0), -q.y);

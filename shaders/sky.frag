@@ -1,5 +1,5 @@
 #version 450 core
-// The surroundings behind the scene: BLURRED reads the prefiltered cubemap, else the lat-long map.
+// The environment behind the scene: BLURRED reads the prefiltered cubemap, else the lat-long map.
 #include "include/frame.glsl"
 #include "shared/ibl.glsl"
 #include "include/prefiltered.glsl"

@@ -129,8 +129,8 @@ ShadedLight mixed(ShadedLight light) {
     return light;
 }
 
-// Of a lamp: transfer has its diffuse light, with soft shadows, among what arrives.
-ShadedLight mixedLamp(ShadedLight light) {
+// Of a light: transfer has its diffuse light, with soft shadows, among what arrives.
+ShadedLight withoutTransferredDiffuse(ShadedLight light) {
 #ifdef HAS_TRANSFER
     light.diffuse = vec3(0.0);
 #endif
@@ -220,7 +220,7 @@ void main() {
                     perceptualRoughness, u_diffuseRoughness, n, v, dfg.xy);
     s = fadeSpecularLayer(s, u_mix.y); // reflections that are not shown take nothing
 
-    // Light from the surroundings. Transfer coefficients know the shadows already.
+    // Light from the environment. Transfer coefficients know the shadows already.
 #ifdef CONSTANT_REFLECTION
     vec3 prefiltered = vec3(0.5);
 #else
@@ -234,8 +234,8 @@ void main() {
     vec3 arriving = vec3(0.5);
 #elif defined(HAS_TRANSFER)
     vec3 arriving = kPi * max(exitRadiance(), vec3(0.0));
-#elif defined(HAS_LAMP)
-    vec3 arriving = u_lampIrradiance.rgb * max(dot(n, u_lamp.xyz), 0.0);
+#elif defined(HAS_DOMINANT_LIGHT)
+    vec3 arriving = u_dominantIrradiance.rgb * max(dot(n, u_dominantLight.xyz), 0.0);
 #else
     vec3 arriving = irradianceAt(n);
 #endif
@@ -244,7 +244,7 @@ void main() {
     if (u_furnace.w > 0.0) {
         arriving = kPi * u_furnace.rgb;
         prefiltered = u_furnace.rgb;
-        unoccluded = 1.0; // what hides the surroundings is as bright as they are
+        unoccluded = 1.0; // what hides the environment is as bright as it is
     }
 #endif
 #ifdef HAS_TRANSFER
@@ -294,7 +294,7 @@ void main() {
         shadow = u_lights[i].place.w < 0.0 ? 1.0 : visibility[int(u_lights[i].place.w)];
         E *= shadow;
 #endif
-        ShadedLight light = mixedLamp(shadeDirect(s, u_lights[i].place.xyz, E));
+        ShadedLight light = withoutTransferredDiffuse(shadeDirect(s, u_lights[i].place.xyz, E));
         directDiffuse += light.diffuse;
         directSpecular += light.specular;
 #ifdef VIEWS
@@ -312,7 +312,7 @@ void main() {
         shadow = u_lights[i].place.w < 0.0 ? 1.0 : visibility[int(u_lights[i].place.w)];
 #endif
         ShadedLight light =
-            mixedLamp(shadeDirect(s, l, u_lights[i].color.rgb * (reaches * shadow)));
+            withoutTransferredDiffuse(shadeDirect(s, l, u_lights[i].color.rgb * (reaches * shadow)));
         directDiffuse += light.diffuse;
         directSpecular += light.specular;
 #ifdef VIEWS
@@ -326,7 +326,7 @@ void main() {
     float lobeTexels = float(textureSize(u_lobes, 0).x);
     vec4 fit = textureLod(u_lobes, (lobe * (lobeTexels - 1.0) + 0.5) / lobeTexels, 0.0);
     for (int i = LIGHT_ENDS.y; i < LIGHT_ENDS.z; ++i) {
-        ShadedLight light = mixedLamp(shadeSphere(s, fit, u_lights[i].place.xyz - v_position,
+        ShadedLight light = withoutTransferredDiffuse(shadeSphere(s, fit, u_lights[i].place.xyz - v_position,
                                                   u_lights[i].axis.x, u_lights[i].color.rgb));
         directDiffuse += light.diffuse;
         directSpecular += light.specular;
@@ -336,7 +336,7 @@ void main() {
     }
     for (int i = LIGHT_ENDS.z; i < LIGHT_ENDS.w; ++i) {
         ShadedLight light =
-            mixedLamp(shadeRectangle(s, fit, u_lights[i].place.xyz - v_position,
+            withoutTransferredDiffuse(shadeRectangle(s, fit, u_lights[i].place.xyz - v_position,
                                      u_lights[i].axis.xyz, u_lights[i].side.xyz,
                                      u_lights[i].color.rgb));
         directDiffuse += light.diffuse;

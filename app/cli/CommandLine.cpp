@@ -131,7 +131,7 @@ void CommandParser::addSets(CLI::App* command) {
 CLI::Option* CommandParser::addLayout(CLI::App* command, std::string& layout) {
     return command
         ->add_option("--environment-layout", layout,
-                     "How the HDR shows the surroundings (default: guessed): " +
+                     "How the HDR shows the environment (default: guessed): " +
                          std::string(kLayoutNames))
         ->type_name("NAME");
 }

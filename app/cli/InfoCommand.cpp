@@ -179,9 +179,9 @@ void describeScene(Report& report, const OpenedScene& scene) {
         report.table(fmt::format("Missing files ({})", missing.size()), missing);
 }
 
-// How a floating-point picture shows its surroundings; nothing when it looks like none.
-std::optional<EnvironmentPicture> surroundingsOf(Session& session, const std::string& file,
-                                                 const ImageInfo& info) {
+// How a floating-point picture shows its environment; nothing when it looks like none.
+std::optional<EnvironmentPicture> environmentOf(Session& session, const std::string& file,
+                                                const ImageInfo& info) {
     if (info.pixelType != "float" && info.pixelType != "half")
         return std::nullopt;
     std::vector<Notice> notices; // doubts are for those who light with it
@@ -198,17 +198,17 @@ Result<void> describeImage(Session& session, const std::string& file) {
     if (!info)
         return info.error();
     const bool bake = isBakeFile(info->attributes);
-    const std::optional<EnvironmentPicture> surroundings =
-        bake ? std::nullopt : surroundingsOf(session, file, *info);
-    const char* kind = bake ? "bake" : surroundings ? "environment" : "image";
+    const std::optional<EnvironmentPicture> environment =
+        bake ? std::nullopt : environmentOf(session, file, *info);
+    const char* kind = bake ? "bake" : environment ? "environment" : "image";
     Report& report = session.report();
     Json& json = report.json();
     json["kind"] = kind;
     json["format"] = info->format;
-    if (surroundings) {
+    if (environment) {
         const auto choices = findParameter("environment.layout")->choices;
-        json["layout"] = choices[static_cast<std::size_t>(surroundings->layout)];
-        json["openExrConvention"] = surroundings->convention == EnvironmentConvention::OpenExr;
+        json["layout"] = choices[static_cast<std::size_t>(environment->layout)];
+        json["openExrConvention"] = environment->convention == EnvironmentConvention::OpenExr;
     }
     json["width"] = info->width;
     json["height"] = info->height;
@@ -221,20 +221,19 @@ Result<void> describeImage(Session& session, const std::string& file) {
     if (!info->attributes.empty())
         json["attributes"] = info->attributes;
 
-    Rows rows = {{"kind", bake           ? "Patina bake"
-                          : surroundings ? "environment"
-                                         : "image"},
+    Rows rows = {{"kind", bake          ? "Patina bake"
+                          : environment ? "environment"
+                                        : "image"},
                  {"format", info->format},
                  {"size", fmt::format("{} × {} pixels", info->width, info->height)},
                  {"channels", fmt::format("{} ({}), {}", info->channels,
                                           fmt::join(info->channelNames, " "), info->pixelType)}};
-    if (surroundings)
-        rows.insert(
-            rows.begin() + 1,
-            {"layout", fmt::format("{}{}", layoutLabel(surroundings->layout),
-                                   surroundings->convention == EnvironmentConvention::OpenExr
-                                       ? ", in OpenEXR's own convention"
-                                       : "")});
+    if (environment)
+        rows.insert(rows.begin() + 1,
+                    {"layout", fmt::format("{}{}", layoutLabel(environment->layout),
+                                           environment->convention == EnvironmentConvention::OpenExr
+                                               ? ", in OpenEXR's own convention"
+                                               : "")});
     if (info->partNames.size() > 1)
         rows.emplace_back("parts", fmt::format("{}", fmt::join(info->partNames, ", ")));
     for (const auto& [key, value] : info->attributes)

@@ -1,4 +1,4 @@
-// What is done with models, pictures and surroundings without baking.
+// What is done with models, pictures and environments without baking.
 #include "app/cli/CommandParser.h"
 #include "app/cli/RenderViews.h"
 #include "core/material/Parameters.h"
@@ -25,7 +25,7 @@ void CommandParser::addRender() {
     c->add_option("-o,--output", o.output,
                   "Picture: .png, .jpg, .tif, .tga as displayed, .exr or .hdr linear")
         ->type_name("OUT");
-    c->add_option("--environment", o.environment, "Surroundings that light the scene")
+    c->add_option("--environment", o.environment, "Environment that lights the scene")
         ->type_name("HDR");
     addLayout(c, o.environmentLayout);
     c->add_option("--size", o.size, "Pixels")->capture_default_str()->type_name("WxH");
@@ -85,7 +85,7 @@ void CommandParser::addEnvironment() {
     CLI::App* c = addCommand(m_app, "environment", "An environment in another layout", o);
     c->add_option("HDR", o.environment,
                   "Image, one of six faces, builtin:NAME, or a .patina project for its "
-                  "surroundings")
+                  "environment")
         ->required()
         ->type_name("");
     addOutside(c);
@@ -158,7 +158,7 @@ void CommandParser::addExport() {
                 "Take the environment's light along (EXT_lights_image_based)");
     CLI::Option* environment =
         c->add_option("--environment", o.environment,
-                      "Surroundings in place of the scene's; implies --environment-light")
+                      "Environment in place of the scene's; implies --environment-light")
             ->type_name("HDR");
     addLayout(c, o.environmentLayout)->needs(environment);
     c->add_flag("--no-lights", o.noLights, "Leave the lights out");

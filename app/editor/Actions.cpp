@@ -19,7 +19,7 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
     , saveAs(make(tr("Save &As…"), QStringLiteral("save-as"), {tr("Ctrl+Shift+S")},
                   tr("Save the project under another name")))
     , saveEnvironment(make(tr("Save En&vironment As…"), QStringLiteral("environment"), {},
-                           tr("Write the surroundings as an HDR or EXR file of any layout")))
+                           tr("Write the environment as an HDR or EXR file of any layout")))
     , exportScene(make(tr("&Export…"), QStringLiteral("export"), {tr("Ctrl+E")},
                        tr("Write the scene as glTF or GLB for other programs")))
     , quit(make(tr("&Quit"), QStringLiteral("quit"), {tr("Ctrl+Q")}, tr("Leave Patina")))
@@ -70,16 +70,16 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
                   tr("Show what the material loses and makes of the light, and what compensation "
                      "gives back")))
     , mixer(make(tr("Light &Mixer"), QStringLiteral("mixer"), {tr("Ctrl+5")},
-                 tr("Mix the lights and surroundings as on a mixing desk: gain, tint, mute, solo, "
+                 tr("Mix the lights and environments as on a mixing desk: gain, tint, mute, solo, "
                     "cross-fade")))
     , transfer(make(tr("&Transfer"), QStringLiteral("transfer"), {tr("Ctrl+6")},
                     tr("Show how light comes to a point by the baked transfer: its lobe, its "
-                       "coefficients, what it sees of the surroundings")))
+                       "coefficients, what it sees of the environment")))
     , pinPixel(make(tr("Pin Pixel"), QStringLiteral("pin"), {tr("P")},
                     tr("Keep looking at the point of the surface under the pointer; once more: "
                        "take the pin away")))
     , furnace(make(tr("&White Furnace"), QStringLiteral("furnace"), {tr("Shift+F")},
-                   tr("Look at the scene in even white surroundings without lights, where a "
+                   tr("Look at the scene in a uniform white environment without lights, where a "
                       "material that loses nothing cannot be seen")))
     , fullScreen(make(tr("F&ull Screen"), QStringLiteral("full-screen"), {tr("F11")},
                       tr("Fill the screen with the window")))

@@ -71,7 +71,7 @@ QWidget* EnvironmentSaveDialog::makeSettings() {
     form->setVerticalSpacing(tokens::kGap);
     form->setFieldGrowthPolicy(QFormLayout::ExpandingFieldsGrow);
 
-    m_layout = withHelp(new QComboBox, tr("How the picture shows the surroundings"));
+    m_layout = withHelp(new QComboBox, tr("How the picture shows the environment"));
     m_layout->setObjectName(QStringLiteral("environmentSaveLayout"));
     for (int i = static_cast<int>(EnvironmentLayout::LatLong);
          i <= static_cast<int>(EnvironmentLayout::SixFaces); ++i) {

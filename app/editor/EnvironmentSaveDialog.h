@@ -1,4 +1,4 @@
-// Asks how the surroundings are to be written to a file, and writes them as a job.
+// Asks how the environment is to be written to a file, and writes them as a job.
 #pragma once
 
 #include "core/document/EnvironmentSave.h"

@@ -142,7 +142,7 @@ QWidget* ExportDialog::makeSettings() {
     m_visible = withHelp(new QCheckBox(tr("Visible meshes only")), tr("Leaves hidden meshes out"));
     m_environment = withHelp(
         new QCheckBox(tr("Environment's light (EXT_lights_image_based)")),
-        tr("Writes the surroundings' light into the file; few programs read it, Babylon.js does"));
+        tr("Writes the environment's light into the file; few programs read it, Babylon.js does"));
     m_environment->setObjectName(QStringLiteral("exportEnvironment"));
     for (QCheckBox* box : {m_bakedAo, m_transfer, m_lights, m_environment, m_visible}) {
         box->setChecked(box != m_environment);

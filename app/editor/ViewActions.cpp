@@ -67,7 +67,7 @@ QString ViewActions::keyOf(ViewKind kind) {
         if (entry.kind == kind)
             return QString(QLatin1Char(entry.key));
     if (viewInfo(kind).group == ViewGroup::Lighting)
-        return QStringLiteral("F%1").arg(kind - kViewLampLight + 5);
+        return QStringLiteral("F%1").arg(kind - kViewCosineLight + 5);
     return {};
 }
 

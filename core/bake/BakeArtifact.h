@@ -24,13 +24,13 @@ enum class BakeKind { AoTexel, AoVertex, PrtVertex, PrtTexel };
 // Which transport a transfer bake holds; each includes the ones before it.
 enum class TransferKind {
     Unshadowed,    // the clamped cosine alone, in closed form
-    Shadowed,      // and what the scene hides of the surroundings
+    Shadowed,      // and what the scene hides of the environment
     Interreflected // and what arrives by way of other surfaces
 };
 
 // Numbers per vertex of one mesh instance. Vectors are empty when the bake does not hold them.
 //
-// Transfer: with order² coefficients of the surroundings' radiance L_i per colour channel c, a
+// Transfer: with order² coefficients of the environment's radiance L_i per colour channel c, a
 // surface of albedo ρ shows the radiance
 //     ρ_c Σ_i L_ic (values_i + bounced_ic).
 // Real SH with Condon-Shortley phase (shaders/shared/sh.glsl), index l(l+1)+m, world space. The
@@ -43,7 +43,7 @@ struct VertexBake {
                                      // transfer: T_i = ∫ V(ω) max(0, n·ω) Y_i(ω) dω / π
     std::vector<float> bounced = {}; // 3 · stride each: red, green, blue of coefficient 0, of 1 …
     std::vector<float> sky = {}; // 1 each, 0…1: share of the light of a uniform upper half (+Y) of
-                                 // the surroundings that arrives, against an open surface of the
+                                 // the environment that arrives, against an open surface of the
                                  // same normal; 1 where such a surface sees none of it
     std::vector<float> error =
         {}; // 1 each: estimated error of a coefficient (RMS over them), of rays and of the fit

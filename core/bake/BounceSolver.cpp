@@ -161,7 +161,7 @@ bool BounceSolver::forEachElement(std::size_t elements, const Gather& gather,
 }
 
 Result<std::vector<glm::vec3>> BounceSolver::solveLight(std::span<const glm::vec3> direct,
-                                                        std::span<const glm::vec3> surroundings,
+                                                        std::span<const glm::vec3> environment,
                                                         int bounces, const JobContext& job) const {
     const BounceElements& elements = m_hits->elements();
     CHECK_EQ(direct.size(), elements.fronts());
@@ -173,12 +173,12 @@ Result<std::vector<glm::vec3>> BounceSolver::solveLight(std::span<const glm::vec
             straight[e * row + static_cast<std::size_t>(c)] = direct[e][c];
     const std::size_t backStride =
         static_cast<std::size_t>(m_hits->settings().order * m_hits->settings().order);
-    const std::size_t stride = std::min(surroundings.size(), backStride);
+    const std::size_t stride = std::min(environment.size(), backStride);
     for (std::size_t e = elements.fronts(); e < elements.count(); ++e) {
         glm::vec3 sum(0.0f);
         for (std::size_t i = 0; i < stride; ++i)
             sum +=
-                m_hits->backTransfer()[(e - elements.fronts()) * backStride + i] * surroundings[i];
+                m_hits->backTransfer()[(e - elements.fronts()) * backStride + i] * environment[i];
         for (int c = 0; c < 3; ++c)
             straight[e * row + static_cast<std::size_t>(c)] = sum[c];
     }
@@ -235,7 +235,7 @@ bool BounceSolver::solveGroup(std::span<const float> direct, int bounces, std::s
         static_cast<std::size_t>(m_hits->settings().order * m_hits->settings().order);
     const float scale = 1.0f / static_cast<float>(m_hits->settings().samples);
 
-    // What comes straight from the surroundings has no colour yet: the first bounce reads one
+    // What comes straight from the environment has no colour yet: the first bounce reads one
     // number for each coefficient, not three.
     const std::size_t greyRow = detail::gatherRow(count);
     auto& straight = rows.straight;

@@ -1,11 +1,11 @@
 // Follows light from surface to surface over the hits of a scene (core/bake/HitCache.h), without
 // tracing a ray.
 //
-// With transfer T of light that comes straight from the surroundings, and albedo ρ, light that has
+// With transfer T of light that comes straight from the environment, and albedo ρ, light that has
 // been on k other surfaces and less adds
 //     B_0 = 0,    B_k+1(p) = mean over the rays of p of ρ(q) (T(q) + B_k(q)),
 // q being where a ray ends, T and B between vertices interpolated; rays that end nowhere count as
-// zero. (docs/maths/baking.md.) Each coefficient of the surroundings is a problem of its own, and
+// zero. (docs/maths/baking.md.) Each coefficient of the environment is a problem of its own, and
 // so is any mixture of them: the light shown.
 #pragma once
 
@@ -37,11 +37,11 @@ class BounceSolver {
     [[nodiscard]] Result<std::vector<float>> solve(std::span<const float> direct, int bounces,
                                                    const JobContext& job) const;
 
-    // For one light: `direct` is what it lends each front element, Σ L_i T_i; `surroundings` L_i
+    // For one light: `direct` is what it lends each front element, Σ L_i T_i; `environment` L_i
     // are needed for the backs of two-sided surfaces only. Answers Σ L_i B_i. A fraction of the
     // cost of solve(). Errors: Cancelled.
     [[nodiscard]] Result<std::vector<glm::vec3>> solveLight(std::span<const glm::vec3> direct,
-                                                            std::span<const glm::vec3> surroundings,
+                                                            std::span<const glm::vec3> environment,
                                                             int bounces,
                                                             const JobContext& job) const;
 

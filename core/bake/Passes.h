@@ -73,8 +73,8 @@ struct PassState {
     friend bool operator==(const PassState&, const PassState&) = default;
 };
 
-// The share of light that arrives of surroundings that are uniform above the horizon (+Y) and black
-// below; they light an open surface of normal n by (1 + n.y) / 2 of what uniform ones would.
+// The share of light that arrives of an environment that is uniform above the horizon (+Y) and
+// black below; they light an open surface of normal n by (1 + n.y) / 2 of what uniform ones would.
 [[nodiscard]] inline float skyShare(float hiddenSky, const glm::vec3& normal) {
     const float open = 0.5f * (1.0f + normal.y);
     return open > 1e-6f ? std::clamp(1.0f - hiddenSky / open, 0.0f, 1.0f) : 1.0f;

@@ -278,7 +278,7 @@ std::optional<std::vector<float>> follow(const TexelRows& rows, const TexelHits&
         const std::size_t first = stride * group / groups,
                           count = stride * (group + 1) / groups - first, width = 3 * count;
 
-        // What comes straight from the surroundings, and leaves again.
+        // What comes straight from the environment, and leaves again.
         straight.resize(rows.count() * count);
         leaving.resize(rows.count() * width);
         next.resize(leaving.size());

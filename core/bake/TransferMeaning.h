@@ -10,13 +10,13 @@
 
 namespace patina {
 
-// Share of the light of uniform surroundings that arrives, 1 = open: T_00 / Y_00 (Y_00 =
+// Share of the light of a uniform environment that arrives, 1 = open: T_00 / Y_00 (Y_00 =
 // 1 / (2 sqrt(pi)), and T_00 = Y_00 ∫ V cos / pi).
 [[nodiscard]] inline float ambientVisibility(std::span<const float> transfer) {
     return transfer[0] * 3.5449077018f;
 }
 
-// The mean direction that light of uniform surroundings comes from, cosine-weighted; unit, or
+// The mean direction that light of a uniform environment comes from, cosine-weighted; unit, or
 // `normal` where nothing is open. Band 1 of the transfer is the mean of Y_1m = sqrt(3 / 4 pi) ·
 // (-y, z, -x). Needs order 2.
 [[nodiscard]] inline glm::vec3 bentNormal(std::span<const float> transfer,

@@ -105,7 +105,7 @@ struct Softbox {
     friend bool operator==(const Softbox&, const Softbox&) = default;
 };
 
-// Another picture of surroundings, to fade to. Conventions of Environment, where it is a part.
+// Another picture of an environment, to fade to. Conventions of Environment, where it is a part.
 struct SecondEnvironment {
     std::string source;  // absolute path or builtin:NAME; empty: there is none
     ImagePtr image;      // of the file; null where there is none
@@ -132,7 +132,7 @@ struct Environment {
     Sky sky;
     glm::vec3 softboxAmbient{0.02f}; // radiance between the softboxes
     std::vector<Softbox> softboxes;
-    float rotationDeg = 0.0f; // turns the surroundings about +Y, counter-clockwise from above
+    float rotationDeg = 0.0f; // rotates the environment about +Y, counter-clockwise from above
     float exposureEv = 0.0f;  // scales radiance by 2^EV
     bool enabled = true;      // off: its light is not in the scene, nor is it seen
     bool solo = false;        // as of a light
@@ -189,10 +189,10 @@ enum class ToneMap {
 };
 enum class ExposureMode { Fixed, Automatic };
 enum class DisplayTransfer { Srgb, Gamma };
-// How the surroundings light the scene, from the classical lamp to everything that a bake knows.
+// How the environment lights the scene, from one directional light to everything that a bake knows.
 enum class LightingMode {
     Ibl,          // split-sum image-based light, with ambient occlusion
-    Cosine,       // N·L: the one lamp that comes closest to the surroundings
+    Cosine,       // N·L: the dominant light of the environment
     ShIrradiance, // irradiance from nine coefficients, nothing hidden
     Unshadowed,   // transfer of an open sky, per vertex, in as many bands as the bake
     Shadowed,     // baked transfer: what the scene hides

@@ -164,9 +164,10 @@ void addNotices(const ReadImage& read, const fs::path& file, std::vector<Notice>
     if (read.repaired > 0)
         notices.push_back({repairedText(read.repaired), file});
     if (read.integers)
-        notices.push_back({"this picture has no high dynamic range, so that its lamps and windows "
-                           "light the scene too weakly; use an .hdr or .exr file for real light",
-                           file});
+        notices.push_back(
+            {"this picture has no high dynamic range, so that its light sources and windows "
+             "light the scene too weakly; use an .hdr or .exr file for real light",
+             file});
 }
 
 // Six square pictures of one size, stacked.

@@ -13,7 +13,7 @@
 
 namespace patina {
 
-// A picture of the surroundings as it is in its file (six files: on top of each other).
+// A picture of the environment as it is in its file (six files: on top of each other).
 struct EnvironmentPicture {
     Image image;                                           // F32 RGB, linear Rec.709
     EnvironmentLayout layout = EnvironmentLayout::LatLong; // never Automatic

@@ -1,4 +1,4 @@
-// Writing the surroundings of a scene as files of any layout.
+// Writing the environment of a scene as files of any layout.
 #pragma once
 
 #include "core/base/Result.h"
@@ -31,7 +31,7 @@ struct EnvironmentSaveSettings {
 Result<std::vector<std::filesystem::path>>
 environmentOutputs(const EnvironmentSaveSettings& settings);
 
-// Writes the surroundings as the scene shows them, turned by rotationDeg and brightened by
+// Writes the environment as the scene shows it, turned by rotationDeg and brightened by
 // exposureEv. Every file is written atomically; after an error or a cancel none of the new ones is
 // left. Errors: those of environmentOutputs(), CannotCreate, Io, Cancelled.
 Result<std::vector<std::filesystem::path>> saveEnvironment(WorkerClient& worker,

@@ -19,8 +19,8 @@ bool shines(const Document& document, const Light& light) {
 namespace {
 
 // What its radiance is multiplied by; zero: it takes no part.
-template <class Surroundings>
-glm::vec3 scaleOf(const Document& document, const Surroundings& environment, float share) {
+template <class Part>
+glm::vec3 scaleOf(const Document& document, const Part& environment, float share) {
     if (!environment.enabled || (!environment.solo && anySolo(document)))
         return glm::vec3(0.0f);
     return environment.tint * (share * std::exp2(environment.exposureEv));

@@ -1,4 +1,4 @@
-// The light mix of a document, as on a mixing desk: which lights and surroundings take part (on,
+// The light mix of a document, as on a mixing desk: which lights and environments take part (on,
 // solo), and what the environments' faders (gain, tint, cross-fade) make of their light.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace patina {
 // Switched on, and solo if anything is.
 [[nodiscard]] bool shines(const Document& document, const Light& light);
 
-// Surroundings that light the scene: radiance scale · image, turned about +Y.
+// Environment that lights the scene: radiance scale · image, turned about +Y.
 struct EnvironmentPart {
     enum class Role { First, Second, Both };
     Role role = Role::First; // whose picture it is

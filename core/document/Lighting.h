@@ -1,4 +1,4 @@
-// What the ways to light a scene (LightingMode) have in common.
+// What the lighting modes have in common.
 #pragma once
 
 #include "core/document/Document.h"
@@ -22,10 +22,10 @@ namespace patina {
 
 // How a view is lit: some stand for a way of their own.
 [[nodiscard]] constexpr LightingMode lightingOf(ViewKind kind, LightingMode ofDocument) {
-    if (kind < shading::kViewLampLight || kind > shading::kViewInterreflectedLight)
+    if (kind < shading::kViewCosineLight || kind > shading::kViewInterreflectedLight)
         return ofDocument;
     return static_cast<LightingMode>(static_cast<int>(LightingMode::Cosine) + kind -
-                                     shading::kViewLampLight);
+                                     shading::kViewCosineLight);
 }
 
 // Weights of diffuse light (x) and of reflections (y) for View::reflectionMix: both 1 in the

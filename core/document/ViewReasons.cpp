@@ -188,7 +188,7 @@ std::string whyEmpty(ViewKind kind, const Document& document, Id light) {
         [[fallthrough]];
     case kViewPrefiltered:
     case kViewSpecularIbl:
-    case kViewLampLight:
+    case kViewCosineLight:
     case kViewShLight:
         return environmentIsActive(document) ? "" : kNoEnvironment;
     case kViewEmissive:

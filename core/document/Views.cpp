@@ -114,7 +114,7 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
     judged(kViewOutOfGamut, "outOfGamut", "Out of Gamut",
            "Marks colours outside of the sRGB gamut: a channel below zero before the display"),
     scalar(kViewFurnace, "furnace", "Energy", "ρ", kPicture, ColorMap::Diverging, 0.0f, 2.0f,
-           "What the surface returns of an even surrounding of radiance 1: below 1 it absorbs, "
+           "What the surface returns of a uniform environment of radiance 1: below 1 it absorbs, "
            "above 1 it makes energy"),
 
     color(kViewBaseColor, "baseColor", "Base Colour", "", kMaterial,
@@ -128,7 +128,7 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
     color(kViewF0, "f0", "F0", "F0", kMaterial,
           "Share of the light that the surface reflects when it comes straight from above"),
     scalar(kViewAo, "ao", "Ambient Occlusion", "", kMaterial, ColorMap::Grey, 0.0f, 1.0f,
-           "Share of the surroundings that is not hidden: map or bake, with its strength",
+           "Share of the environment that is not hidden: map or bake, with its strength",
            "The image-based light that it takes away"),
     inMaterials(
         direction(kViewNormalMap, "normalMap", "Normal Map", "",
@@ -229,7 +229,7 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
            "What ambient occlusion leaves of the irradiance: 1 under radiance transfer, which "
            "knows the shadows"),
     radiance(kViewPrefiltered, "prefiltered", "Prefiltered", "Lₚ", kIbl,
-             "The surroundings, blurred as the roughness asks, in the direction of reflection"),
+             "The environment, blurred as the roughness asks, in the direction of reflection"),
     measured(scalar(kViewPrefilteredLevel, "prefilteredLevel", "Prefilter Level", "", kIbl,
                     ColorMap::Sequential, 0.0f, 21.0f,
                     "Which level of the prefiltered cube is read: 0 mirror, last fully rough"),
@@ -247,7 +247,7 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
         "mix fades reflections it takes less",
         "The diffuse light that the specular layer takes away"),
     radiance(kViewSpecularIbl, "specularIbl", "Specular IBL", "", kIbl,
-             "Specular reflection of the surroundings",
+             "Specular reflection of the environment",
              "Specular image-based light as it stands in the picture's sum"),
     color(kViewSingleScatterAlbedo, "singleScatterAlbedo", "Specular Albedo", "F0·A + B", kIbl,
           "What the specular lobe returns of even light, reflected once: F0·A + B"),
@@ -256,15 +256,15 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
                      "is 1, which adds nothing",
                      "The reflection that multiple scattering adds")),
     scalar(kViewSpecularOcclusion, "specularOcclusion", "Specular AO", "AOₛ", kIbl, ColorMap::Grey,
-           0.0f, 1.0f, "What ambient occlusion leaves of the reflected surroundings"),
+           0.0f, 1.0f, "What ambient occlusion leaves of the reflected environment"),
     radiance(kViewAmbient, "ambient", "All IBL", "", kIbl,
-             "Diffuse and specular reflection of the surroundings together"),
+             "Diffuse and specular reflection of the environment together"),
     inTransfer(direction(kViewBentNormal, "bentNormal", "Bent Normal", "b",
-                         "Mean direction that light of even surroundings comes from, as the "
+                         "Mean direction that light of a uniform environment comes from, as the "
                          "transfer bake knows it, in world space")),
     scalar(kViewSkyVisibility, "skyVisibility", "Sky Visibility", "", kIbl, ColorMap::Grey, 0.0f,
            1.0f,
-           "Share of the light of an even upper half of the surroundings that arrives, by the "
+           "Share of the light of a uniform upper half of the environment that arrives, by the "
            "rays of the transfer bake"),
     measured(scalar(kViewBakeError, "bakeError", "Bake Error", "σ", kIbl, ColorMap::Sequential,
                     0.0f, 0.01f,
@@ -272,14 +272,14 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
                     "want more rays"),
              "", false),
 
-    radiance(kViewLampLight, "cosine", "N·L Light", "", kLighting,
+    radiance(kViewCosineLight, "cosine", "N·L Light", "", kLighting,
              "The picture under the dominant light of the environment"),
     radiance(kViewShLight, "shIrradiance", "SH Irradiance", "", kLighting,
              "The picture under irradiance from nine coefficients, nothing hidden"),
     radiance(kViewUnshadowedLight, "unshadowed", "Unshadowed", "", kLighting,
              "The picture under transfer of an open sky, per vertex and in eight bands"),
     radiance(kViewShadowedLight, "shadowed", "Shadowed", "", kLighting,
-             "The picture under baked transfer: what the scene hides of the surroundings"),
+             "The picture under baked transfer: what the scene hides of the environment"),
     radiance(kViewInterreflectedLight, "interreflected", "Interreflected", "", kLighting,
              "The picture under baked transfer with light by way of other surfaces"),
 }};

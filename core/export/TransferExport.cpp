@@ -73,16 +73,16 @@ std::string transferShader(const TransferLayout& layout, const std::string& glb,
                            const std::string& lightFile) {
     const int vectors = layout.vectors(), count = layout.bands * layout.bands;
     std::string text = fmt::format(
-        R"(// Radiance transfer of {0}: shadows{1} of any surroundings, per vertex.
+        R"(// Radiance transfer of {0}: shadows{1} of any environment, per vertex.
 //
 // _PRT_n are the vertex attributes of that name in the file: {2} transfer coefficients of {3} bands,
 // four to a vec4{4}.
-// prtLight: "coefficients" of {5}, or those of your own surroundings, L_i = integral of
+// prtLight: "coefficients" of {5}, or those of your own environment, L_i = integral of
 // L(d) Y_i(d) over the sphere, packed the same way: prtLight[k] holds L_4k … L_4k+3 of a colour{6}.
 // Y: real spherical harmonics with Condon-Shortley phase, index l(l+1)+m; world axes, +Y up.
 // That file holds the directional lights of the scene, too, as soft discs: only their highlights are
 // left to be added. Lights near by are not in it.
-// To turn the surroundings rotate L; to turn the object rotate L the other way.
+// To rotate the environment rotate L; to rotate the object, rotate L the other way.
 )",
         glb, layout.colored ? " and bounces" : "", count, layout.bands,
         layout.colored ? ": first those for red, then green, then blue" : "", lightFile,

@@ -40,7 +40,7 @@ struct ImageLoadOptions {
     // files, whose coefficients are signed.
     bool sanitize = true;
     bool allParts = false; // read every EXR part, not only the first
-    // Surroundings: of an EXR file the first part with colour (R, G, B or Y), of every file only
+    // Environment: of an EXR file the first part with colour (R, G, B or Y), of every file only
     // these channels.
     bool colorOnly = false;
     // Floating-point images with longer sides are averaged down to it while they are read, keeping

@@ -199,7 +199,7 @@ std::span<const ModelRecipe> modelRecipes() {
          }},
         {"sphere-grid", "Sphere Grid",
          "Twenty-five balls: rougher to the right, more metallic upwards; for comparing shading "
-         "models and surroundings.",
+         "models and environments.",
          sphereGrid},
     }};
     return kRecipes;

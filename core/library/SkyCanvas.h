@@ -1,4 +1,4 @@
-// A lat-long picture of the surroundings under construction, with the conventions of
+// A lat-long picture of the environment under construction, with the conventions of
 // patina::Environment. Texels are radiance.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The procedural surroundings, one function each, and the table that names them.
+// The procedural environments, one function each, and the table that names them.
 #pragma once
 
 #include "core/image/Image.h"
@@ -11,7 +11,7 @@ struct SkyRecipe {
     const char* name;
     const char* title;
     const char* help;
-    // Radiance of a perfectly white surface facing up: how bright the surroundings are at EV 0.
+    // Radiance of a perfectly white surface facing up: how bright the environment is at EV 0.
     double whiteFacingUp;
     ImagePtr (*make)(double whiteFacingUp);
 };

@@ -31,7 +31,7 @@ class BrdfLens {
     BrdfLens(const ShadingModel& model, const SurfacePoint& point, ImagePtr dfgTable);
 
     [[nodiscard]] const SurfacePoint& point() const { return m_point; }
-    // Of lamps: the square of the perceptual roughness, not below kMinPerceptualRoughness².
+    // Of lights: the square of the perceptual roughness, not below kMinPerceptualRoughness².
     [[nodiscard]] float alpha() const;
 
     // The surface as the shader makes it, with any normal n, and what the table holds for it:

@@ -17,9 +17,9 @@ namespace patina {
 namespace {
 
 constexpr int kFacePlusZ = 4;
-constexpr std::size_t kMostLamps = 1024;
-constexpr float kLampContrast = 1.0f; // times the mean
-constexpr int kBlock = 8;             // texels on a side
+constexpr std::size_t kMostBrightTexels = 1024;
+constexpr float kBrightContrast = 1.0f; // times the mean
+constexpr int kBlock = 8;               // texels on a side
 
 // The matrix that takes cubeDirection(+Z, s, t) to cubeDirection(face, s, t).
 glm::mat3 faceMatrix(int face) {
@@ -117,7 +117,7 @@ CubePyramid::CubePyramid(const CubeLevel& base) {
     // Radiance
     for (std::size_t i = 0; i < base.texels.size(); ++i)
         m_radiance[i] = glm::vec4(base.texels[i], 0.0f);
-    separateLamps(cubeSolidAngles(base.size));
+    separateBrightTexels(cubeSolidAngles(base.size));
     for (std::size_t i = 1; i < m_levels.size(); ++i) {
         const Level &fine = m_levels[i - 1], &coarse = m_levels[i];
         const int n = coarse.size;
@@ -141,34 +141,34 @@ CubePyramid::CubePyramid(const CubeLevel& base) {
 }
 
 // Bright and dark in one cell far from the lobe's peak would be smeared over it: a sun, a lamp, the
-// edge of a window. What stands out of its surroundings, a block of texels, is taken apart and
+// edge of a window. What stands out of its neighbourhood, a block of texels, is taken apart and
 // summed where it is; what is left is nearly even, which is what cells are weighed for.
-void CubePyramid::separateLamps(const std::vector<float>& solidAngles) {
+void CubePyramid::separateBrightTexels(const std::vector<float>& solidAngles) {
     const std::size_t face = solidAngles.size(), count = 6 * face;
     double sum = 0.0;
     for (std::size_t i = 0; i < count; ++i)
         sum += static_cast<double>(brightest(m_radiance[i])) * solidAngles[i % face];
-    const float limit = kLampContrast * static_cast<float>(sum / (4.0 * std::numbers::pi));
+    const float limit = kBrightContrast * static_cast<float>(sum / (4.0 * std::numbers::pi));
     if (!std::isfinite(limit))
         return;
 
     std::vector<Outlier> outliers = findOutliers(limit);
-    if (outliers.size() > kMostLamps) {
+    if (outliers.size() > kMostBrightTexels) {
         std::ranges::stable_sort(outliers, std::greater(), &Outlier::contrast);
-        outliers.resize(kMostLamps);
+        outliers.resize(kMostBrightTexels);
         std::ranges::sort(outliers, {}, &Outlier::texel);
     }
-    std::vector<Lamp> lamps;
+    std::vector<BrightTexel> bright;
     for (const Outlier& outlier : outliers) {
         const std::size_t inFace = outlier.texel % face;
         glm::vec4& radiance = m_radiance[outlier.texel];
-        lamps.push_back(
+        bright.push_back(
             {cubeSymmetries()[outlier.texel / face].matrix * glm::vec3(m_levels[0].cells[inFace]),
-             glm::vec3(radiance - outlier.surroundings) * solidAngles[inFace],
+             glm::vec3(radiance - outlier.neighbourhood) * solidAngles[inFace],
              solidAngles[inFace]});
-        radiance = outlier.surroundings;
+        radiance = outlier.neighbourhood;
     }
-    groupLamps(outliers, std::move(lamps));
+    groupBrightTexels(outliers, std::move(bright));
 }
 
 // By texel.
@@ -202,27 +202,28 @@ std::vector<CubePyramid::Outlier> CubePyramid::findOutliers(float limit) const {
     return outliers;
 }
 
-void CubePyramid::groupLamps(const std::vector<Outlier>& outliers, std::vector<Lamp> lamps) {
+void CubePyramid::groupBrightTexels(const std::vector<Outlier>& outliers,
+                                    std::vector<BrightTexel> bright) {
     const auto n = static_cast<std::size_t>(m_levels[0].size);
     const auto cell = [&](std::size_t texel) { // two by two texels
         return (texel / (n * n) * n + texel / n % n / 2) * n + texel % n / 2;
     };
-    std::vector<std::size_t> order(lamps.size());
+    std::vector<std::size_t> order(bright.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return cell(outliers[i].texel); });
     for (std::size_t k = 0; k < order.size(); ++k) {
-        const Lamp& lamp = lamps[order[k]];
+        const BrightTexel& texel = bright[order[k]];
         if (k == 0 || cell(outliers[order[k]].texel) != cell(outliers[order[k - 1]].texel))
-            m_lampGroups.push_back({{glm::vec3(0.0f), glm::vec3(0.0f), 0.0f}, k, 0});
-        LampGroup& group = m_lampGroups.back();
-        const glm::vec3 size = glm::abs(lamp.flux);
-        group.all.direction += lamp.direction * (size.x + size.y + size.z);
-        group.all.flux += lamp.flux;
-        group.all.solidAngle += lamp.solidAngle;
+            m_brightGroups.push_back({{glm::vec3(0.0f), glm::vec3(0.0f), 0.0f}, k, 0});
+        BrightGroup& group = m_brightGroups.back();
+        const glm::vec3 size = glm::abs(texel.flux);
+        group.all.direction += texel.direction * (size.x + size.y + size.z);
+        group.all.flux += texel.flux;
+        group.all.solidAngle += texel.solidAngle;
         ++group.count;
-        m_lamps.push_back(lamp);
+        m_brightTexels.push_back(texel);
     }
-    for (LampGroup& group : m_lampGroups)
+    for (BrightGroup& group : m_brightGroups)
         group.all.direction = glm::normalize(group.all.direction);
 }
 

@@ -45,39 +45,40 @@ class CubePyramid {
             nullptr; // of face +Z, size²: unit vector to the centroid, solid angle
     };
     [[nodiscard]] const std::vector<Level>& levels() const { return m_levels; } // finest first
-    // Mean radiance of every cell but for the lamps, all levels one after another; w is unused.
+    // Mean radiance of every cell but for the bright texels, all levels one after another; w is
+    // unused.
     [[nodiscard]] const std::vector<glm::vec4>& radiance() const { return m_radiance; }
 
     // How much a texel of the base differs from the median of its 8 × 8 neighbours, times its solid
     // angle, where that is more than the mean brightness; at most 1024 of them. Negative where it
     // is darker.
-    struct Lamp {
+    struct BrightTexel {
         glm::vec3 direction;
         glm::vec3 flux;
         float solidAngle; // of the texel
     };
-    [[nodiscard]] const std::vector<Lamp>& lamps() const { return m_lamps; }
-    // The lamps of a cell of the second level, as one: their flux, from their centroid.
-    struct LampGroup {
-        Lamp all;
-        std::size_t first = 0, count = 0; // in lamps()
+    [[nodiscard]] const std::vector<BrightTexel>& brightTexels() const { return m_brightTexels; }
+    // The bright texels of a cell of the second level, as one: their flux, from their centroid.
+    struct BrightGroup {
+        BrightTexel all;
+        std::size_t first = 0, count = 0; // in brightTexels()
     };
-    [[nodiscard]] const std::vector<LampGroup>& lampGroups() const { return m_lampGroups; }
+    [[nodiscard]] const std::vector<BrightGroup>& brightGroups() const { return m_brightGroups; }
 
   private:
     struct Outlier {
         std::size_t texel;
-        glm::vec4 surroundings;
+        glm::vec4 neighbourhood;
         float contrast;
     };
-    void separateLamps(const std::vector<float>& solidAngles);
+    void separateBrightTexels(const std::vector<float>& solidAngles);
     [[nodiscard]] std::vector<Outlier> findOutliers(float limit) const;
-    void groupLamps(const std::vector<Outlier>& outliers, std::vector<Lamp> lamps);
+    void groupBrightTexels(const std::vector<Outlier>& outliers, std::vector<BrightTexel> bright);
 
     std::vector<Level> m_levels;
     std::vector<glm::vec4> m_radiance, m_cells;
-    std::vector<Lamp> m_lamps; // by group
-    std::vector<LampGroup> m_lampGroups;
+    std::vector<BrightTexel> m_brightTexels; // by group
+    std::vector<BrightGroup> m_brightGroups;
 };
 
 } // namespace patina

@@ -122,8 +122,8 @@ LatLong halve(const LatLong& from) {
     return to;
 }
 
-// What is this many times brighter than the mean of the image counts as a lamp.
-constexpr float kLamp = 16.0f;
+// What is this many times brighter than the mean of the image is moved by area.
+constexpr float kBrightContrast = 16.0f;
 
 // Over the sphere.
 float meanBrightness(const LatLong& image) {
@@ -142,12 +142,12 @@ float sampleWeight(float squaredDistance) {
     return inverse * std::sqrt(inverse);
 }
 
-// Takes what exceeds the lamp's brightness out of the image and adds it to the cubemap patch by
+// Takes what exceeds that brightness out of the image and adds it to the cubemap patch by
 // patch: each deposits its flux where it lies. Sampling would find a small sun or miss it; this way
 // its energy is exact, however small it is and wherever it stands.
-void moveLamps(LatLong& image, CubeLevel& cube, const JobContext& job) {
+void moveBrightTexels(LatLong& image, CubeLevel& cube, const JobContext& job) {
     const int size = cube.size;
-    const float limit = kLamp * meanBrightness(image);
+    const float limit = kBrightContrast * meanBrightness(image);
     const std::vector<float> omega = cubeSolidAngles(size);
     // Eight patches across a cube texel
     const int n = std::clamp((32 * size + image.width - 1) / image.width, 4, 64);
@@ -327,7 +327,7 @@ CubeLevel cubeFromLatLong(const Image& environment, int size, const JobContext& 
     CubeLevel level;
     level.size = size;
     level.texels.resize(6 * static_cast<std::size_t>(size) * size, glm::vec3(0.0f));
-    moveLamps(image, level, job);
+    moveBrightTexels(image, level, job);
 
     // A sample per image texel, on average: at the equator 4 · size texels go around. Small cubes
     // need more, to weigh what their curved texels cover.

@@ -26,8 +26,8 @@ struct CubePosition {
 [[nodiscard]] std::vector<float> cubeSolidAngles(int size);
 
 // Radiance averaged over each texel of a cubemap: about two bilinear samples per texel of the image
-// and direction; lamps and suns are moved by area, so that their energy is exact. Images much
-// larger than the cubemap are averaged down first. Meaningless after a cancel.
+// and direction; suns and other bright texels are moved by area, so that their energy is exact.
+// Images much larger than the cubemap are averaged down first. Meaningless after a cancel.
 [[nodiscard]] CubeLevel cubeFromLatLong(const Image& environment, int size, const JobContext& job);
 
 // The next level: each texel the mean of four, weighted by their solid angles, so that the

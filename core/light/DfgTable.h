@@ -45,7 +45,7 @@ enum class DfgTexels {
                                     DfgTexels texels = DfgTexels::Inside);
 
 // The visibility whose table image-based light uses: the chosen one, but for the k = (r + 1)² / 8
-// that Karis 2013 made for lamps only; light from all sides takes his k = alpha / 2.
+// that Karis 2013 made for lights only; light from all sides takes his k = alpha / 2.
 [[nodiscard]] Visibility iblVisibility(Visibility visibility);
 
 } // namespace patina

@@ -89,7 +89,7 @@ glm::dvec3 integrateDiffuse(const shading::SurfaceTerms& s) {
 
 } // namespace
 
-Returned returnedFromSurroundings(const ShadingModel& model, const SurfacePoint& point, float NoV) {
+Returned returnedFromEnvironment(const ShadingModel& model, const SurfacePoint& point, float NoV) {
     const shading::SurfaceTerms s = surfaceTerms(model, point, NoV);
     return {glm::dvec3(s.specularAlbedo), glm::dvec3(s.diffuseAlbedo)};
 }

@@ -26,8 +26,8 @@ struct Returned {
 
 // Of light from all sides, as image-based light is shaded: makeSurface() with the model's DFG
 // entries by estimateDfg(). NoV: 0…1, cosine of the view angle. Some microseconds.
-[[nodiscard]] Returned returnedFromSurroundings(const ShadingModel& model,
-                                                const SurfacePoint& point, float NoV);
+[[nodiscard]] Returned returnedFromEnvironment(const ShadingModel& model, const SurfacePoint& point,
+                                               float NoV);
 
 // Of analytic lights from all sides: the reflection itself, shadeDirect(), integrated over the
 // hemisphere; within 1e-3. It differs from the above by the approximations of either: the

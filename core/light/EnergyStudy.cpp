@@ -38,14 +38,14 @@ SurfacePoint limited(SurfacePoint point) {
 }
 
 EnergyPoint energyPoint(const ShadingModel& model, const SurfacePoint& point, float NoV) {
-    return {returnedFromSurroundings(withCompensation(model, false), point, NoV),
-            returnedFromSurroundings(withCompensation(model, true), point, NoV),
+    return {returnedFromEnvironment(withCompensation(model, false), point, NoV),
+            returnedFromEnvironment(withCompensation(model, true), point, NoV),
             returnedFromLights(model, point, NoV)};
 }
 
 EnergyPoint averageEnergy(const ShadingModel& model, const SurfacePoint& point) {
     const auto average = [&](const ShadingModel& of) {
-        return averageReturned([&](float NoV) { return returnedFromSurroundings(of, point, NoV); });
+        return averageReturned([&](float NoV) { return returnedFromEnvironment(of, point, NoV); });
     };
     return {average(withCompensation(model, false)), average(withCompensation(model, true)),
             averageReturned([&](float NoV) { return returnedFromLights(model, point, NoV); })};
@@ -89,7 +89,7 @@ void findFaults(EnergyStudy& study, const JobContext& job) {
                 point.metallic = m == 0 ? low.metallic : high.metallic;
                 const glm::dvec3 lights = returnedFromLights(study.model, point, NoV).total();
                 const glm::dvec3 difference =
-                    lights - returnedFromSurroundings(study.model, point, NoV).total();
+                    lights - returnedFromEnvironment(study.model, point, NoV).total();
                 const Worst made = worstChannel(lights);
                 if (made.value > most.value)
                     most = {most.kind, made.channel, made.value, NoV, point.perceptualRoughness};
@@ -174,7 +174,7 @@ std::optional<EnergyStudy> studyEnergy(const ShadingModel& model, const SurfaceR
         for (int x = 0; x < n; ++x) {
             SurfacePoint point = mean;
             point.perceptualRoughness = (static_cast<float>(x) + 0.5f) / n;
-            study.map.emplace_back(returnedFromSurroundings(model, point, cosine).total());
+            study.map.emplace_back(returnedFromEnvironment(model, point, cosine).total());
         }
     }
     findFaults(study, job);

@@ -25,7 +25,7 @@ struct SurfaceRange {
                                         const std::function<TexelRange(const ImagePtr&)>& rangeOf);
 
 struct EnergyPoint {
-    Returned single, compensated; // of surroundings, without and with energy compensation
+    Returned single, compensated; // of a uniform environment, without and with energy compensation
     Returned lights;              // of lights, by the model as it is: the exact integral
 };
 
@@ -33,7 +33,7 @@ struct EnergyPoint {
 struct EnergyFault {
     enum class Kind {
         MakesLight,   // lights return more than arrives; value: how much of it
-        LightsDiffer, // lights and surroundings disagree; value: lights minus surroundings
+        LightsDiffer, // lights and the environment disagree; value: lights minus environment
         ColorAboveOne // texels of the base colour; value: the brightest
     };
     Kind kind = Kind::MakesLight;
@@ -52,7 +52,7 @@ struct EnergyStudy {
     std::vector<EnergyPoint> byAngle;     // at the mean roughness, from 0° to 90° in even steps
     EnergyPoint average;                  // at the mean roughness, seen from all sides
     EnergyPoint roughest;                 // the same at the highest roughness
-    // What returns of surroundings as the model is; roughness (x + 0.5) / size, angle
+    // What returns of a uniform environment as the model is; roughness (x + 0.5) / size, angle
     // (y + 0.5) / size · 90°, row by row.
     std::vector<glm::vec3> map;
     std::vector<EnergyFault> faults;

@@ -1,4 +1,4 @@
-// One picture of two surroundings that light the scene together, for image-based light, which is
+// One picture of two environments that light the scene together, for image-based light, which is
 // prepared from one picture.
 #pragma once
 
@@ -23,7 +23,7 @@ struct EnvironmentBlend {
 // after a cancel.
 [[nodiscard]] ImagePtr blendEnvironments(const EnvironmentBlend& blend, const JobContext& job = {});
 
-// The surroundings that light the scene as a single environment with neither tint nor fade, for
+// The environments that light the scene as a single environment with neither tint nor fade, for
 // files that know of no mix; nothing where none shine.
 [[nodiscard]] std::optional<Environment> mixedEnvironment(const Document& document,
                                                           const JobContext& job = {});

@@ -13,8 +13,8 @@ namespace patina {
 
 namespace {
 
-// What is this many times brighter than the mean of the picture counts as a lamp.
-constexpr float kLamp = 16.0f;
+// What is this many times brighter than the mean of the picture is moved by area.
+constexpr float kBrightContrast = 16.0f;
 constexpr int kMaxSamples = 32; // along one side of a pixel
 
 glm::vec3 pixelAt(const Image& picture, int x, int y) {
@@ -216,10 +216,10 @@ Image resampleEnvironment(const Image& picture, const EnvironmentMapping& from,
                picture.height() >= to.size().height) {
         result = shrinkLatLong(picture, to.size().width);
     } else {
-        // Lamps leave the picture first.
+        // Bright texels leave the picture first.
         result = Image(to.size().width, to.size().height, 3, PixelType::F32, ColorEncoding::Linear);
         Image smooth = picture;
-        const float limit = kLamp * meanBrightness(picture, from);
+        const float limit = kBrightContrast * meanBrightness(picture, from);
         for (int y = 0; y < picture.height() && !job.cancelled(); ++y)
             for (int x = 0; x < picture.width(); ++x) {
                 const glm::vec3 radiance = pixelAt(picture, x, y);

@@ -7,15 +7,15 @@
 namespace patina {
 
 struct EnvironmentView {
-    float rotationDeg = 0.0f; // turns the surroundings, as environment.rotationDeg does
+    float rotationDeg = 0.0f; // turns the environment, as environment.rotationDeg does
     float scale = 1.0f;       // multiplies radiance
 };
 
 // `picture` is a float RGB image of the mapping `from`; the result one of `to`, black where `to`
 // covers no direction. Radiance is averaged over each pixel of the result with at least two samples
-// per pixel of the source; what is 16 times brighter than the mean (suns, lamps) is moved by area
-// instead, so that its flux arrives however small it is. Lat-longs are reduced by exact areas.
-// Meaningless after a cancel. Progress goes from 0 to 1.
+// per pixel of the source; what is 16 times brighter than the mean (suns, light sources) is moved
+// by area instead, so that its flux arrives however small it is. Lat-longs are reduced by exact
+// areas. Meaningless after a cancel. Progress goes from 0 to 1.
 [[nodiscard]] Image resampleEnvironment(const Image& picture, const EnvironmentMapping& from,
                                         const EnvironmentMapping& to,
                                         const EnvironmentView& view = {},

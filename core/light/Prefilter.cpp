@@ -23,7 +23,7 @@ constexpr int kTile = 8; // texels on a tile's side
 constexpr int kFacePlusZ = 4;
 // Of a texel's width: through a narrower lobe a texel is a disc and no point.
 constexpr float kPointLobe = 0.5f;
-constexpr float kLampGroup = 0.08f; // of the distance + 2 alpha: how wide a group may be
+constexpr float kBrightGroup = 0.08f; // of the distance + 2 alpha: how wide a group may be
 
 // A tile of face +Z: its texels, rows one after another; unused lanes repeat the last texel.
 struct Tile {
@@ -148,7 +148,7 @@ class TileFilter {
                 addGroup(tile, m_list.group(level, face), level, face, images, total, sums);
         for (int i = 0; i < images; ++i) {
             const CubeSymmetry& symmetry = cubeSymmetries()[i];
-            addLamps(tile, symmetry, sums[i]);
+            addBrightTexels(tile, symmetry, sums[i]);
             write(tile, symmetry, total, sums[i]);
         }
     }
@@ -180,8 +180,8 @@ class TileFilter {
         }
     }
 
-    void addLamps(const Tile& tile, const CubeSymmetry& symmetry, TileSums& sums) {
-        if (m_pyramid.lamps().empty())
+    void addBrightTexels(const Tile& tile, const CubeSymmetry& symmetry, TileSums& sums) {
+        if (m_pyramid.brightTexels().empty())
             return;
         TileDirections turned;
         for (int i = 0; i < kTileTexels; ++i) {
@@ -192,26 +192,26 @@ class TileFilter {
         }
         const glm::vec3 centre = symmetry.matrix * tile.centre;
         const float horizon = -std::sin(tile.radius) - 1e-4f;
-        // A group counts as one lamp where it spans little of the kernel's scale.
+        // A group counts as one texel where it spans little of the kernel's scale.
         const float width = 4.0f / static_cast<float>(m_pyramid.levels()[0].size);
         m_visible.clear();
-        for (const CubePyramid::LampGroup& group : m_pyramid.lampGroups()) {
+        for (const CubePyramid::BrightGroup& group : m_pyramid.brightGroups()) {
             const float cosine = glm::dot(centre, group.all.direction);
             if (cosine < horizon - width)
                 continue;
-            // A group that may be half behind a texel's horizon is not one lamp, however far.
+            // A group that may be half behind a texel's horizon is not one texel, however far.
             const float distance = glm::length(centre - group.all.direction) - tile.radius;
             if (cosine > -horizon + width &&
-                width <= kLampGroup * (std::max(distance, 0.0f) + 2.0f * m_alpha))
+                width <= kBrightGroup * (std::max(distance, 0.0f) + 2.0f * m_alpha))
                 m_visible.push_back(group.all);
             else
                 m_visible.insert(m_visible.end(),
-                                 m_pyramid.lamps().begin() +
+                                 m_pyramid.brightTexels().begin() +
                                      static_cast<std::ptrdiff_t>(group.first),
-                                 m_pyramid.lamps().begin() +
+                                 m_pyramid.brightTexels().begin() +
                                      static_cast<std::ptrdiff_t>(group.first + group.count));
         }
-        m_arithmetic.addLamps(turned, m_visible, m_shape, sums);
+        m_arithmetic.addBrightTexels(turned, m_visible, m_shape, sums);
     }
 
     void write(const Tile& tile, const CubeSymmetry& symmetry, const float* total,
@@ -234,7 +234,7 @@ class TileFilter {
     PrefilterSums m_arithmetic;
     CellList m_list;
     CellWeights m_weights;
-    std::vector<CubePyramid::Lamp> m_visible;
+    std::vector<CubePyramid::BrightTexel> m_visible;
 };
 
 } // namespace

@@ -2,7 +2,7 @@
 // mip pyramid is walked once and gives a list of cells, small near the lobe's peak and larger far
 // from it; the lobe's mean over each cell, in closed form, is the cell's weight. The list and the
 // weights depend on geometry only, so 48 tiles share them that a symmetry of the cube carries into
-// each other. Texels that stand out of their surroundings are summed one by one. No noise, no
+// each other. Texels that stand out of their neighbourhood are summed one by one. No noise, no
 // fireflies, the same result on any number of threads.
 #pragma once
 

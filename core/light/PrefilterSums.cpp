@@ -149,19 +149,19 @@ template <int lanes>
 }
 
 template <int lanes>
-[[gnu::always_inline]] inline void addLamps(const TileDirections& tile,
-                                            std::span<const CubePyramid::Lamp> lamps,
-                                            const LobeShape& shape, TileSums& sums) {
+[[gnu::always_inline]] inline void addBrightTexels(const TileDirections& tile,
+                                                   std::span<const CubePyramid::BrightTexel> bright,
+                                                   const LobeShape& shape, TileSums& sums) {
     for (int first = 0; first < kTileTexels; first += lanes) {
         typename Simd<lanes>::Type red = {}, green = {}, blue = {};
-        for (const CubePyramid::Lamp& lamp : lamps) {
-            const Lobe<lanes> lobe(tile, first, lamp.direction.x, lamp.direction.y,
-                                   lamp.direction.z, shape.alpha2);
+        for (const CubePyramid::BrightTexel& texel : bright) {
+            const Lobe<lanes> lobe(tile, first, texel.direction.x, texel.direction.y,
+                                   texel.direction.z, shape.alpha2);
             const auto weight =
-                shape.discs ? lobe.discMean(lamp.solidAngle, shape.alpha2) : lobe.value();
-            red += weight * lamp.flux.x;
-            green += weight * lamp.flux.y;
-            blue += weight * lamp.flux.z;
+                shape.discs ? lobe.discMean(texel.solidAngle, shape.alpha2) : lobe.value();
+            red += weight * texel.flux.x;
+            green += weight * texel.flux.y;
+            blue += weight * texel.flux.z;
         }
         Simd<lanes>::add(sums.red + first, red);
         Simd<lanes>::add(sums.green + first, green);
@@ -182,12 +182,12 @@ template <int lanes>
                                const glm::vec4* radiance, TileSums& sums) {                        \
         add<lanes>(weights, places, radiance, sums);                                               \
     }                                                                                              \
-    __VA_ARGS__ void addLamps##name(const TileDirections& tile,                                    \
-                                    std::span<const CubePyramid::Lamp> lamps,                      \
-                                    const LobeShape& shape, TileSums& sums) {                      \
-        addLamps<lanes>(tile, lamps, shape, sums);                                                 \
+    __VA_ARGS__ void addBrightTexels##name(const TileDirections& tile,                             \
+                                           std::span<const CubePyramid::BrightTexel> bright,       \
+                                           const LobeShape& shape, TileSums& sums) {               \
+        addBrightTexels<lanes>(tile, bright, shape, sums);                                         \
     }                                                                                              \
-    constexpr PrefilterSums k##name = {weigh##name, add##name, addLamps##name};
+    constexpr PrefilterSums k##name = {weigh##name, add##name, addBrightTexels##name};
 
 PT_SUMS(Baseline, 4)
 #if defined(__x86_64__)

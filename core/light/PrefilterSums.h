@@ -46,9 +46,10 @@ struct PrefilterSums {
     // Adds weight · radiance of each cell.
     void (*add)(const CellWeights& weights, const CellPlaces& places, const glm::vec4* radiance,
                 TileSums& sums);
-    // Adds kernel · flux of each lamp.
-    void (*addLamps)(const TileDirections& tile, std::span<const CubePyramid::Lamp> lamps,
-                     const LobeShape& shape, TileSums& sums);
+    // Adds kernel · flux of each bright texel.
+    void (*addBrightTexels)(const TileDirections& tile,
+                            std::span<const CubePyramid::BrightTexel> bright,
+                            const LobeShape& shape, TileSums& sums);
 };
 
 // For the kinds of instructions this machine has, the widest first.

@@ -1,5 +1,5 @@
 // The light of a document as spherical harmonics, which is what precomputed transfer is multiplied
-// with: surroundings and what shines from far away in one sum; lights near by are seen differently
+// with: the environment and distant lights in one sum; lights near by are seen differently
 // from each point and are evaluated there (shaders/shared/nearlight.glsl).
 #pragma once
 

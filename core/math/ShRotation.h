@@ -16,7 +16,7 @@ class ShRotation {
     // precision; 2 µs at order 6, applying included.
     ShRotation(const glm::dmat3& rotation, int order);
     static ShRotation aboutAxis(const glm::dvec3& axis, double angleRad, int order);
-    // Counter-clockwise as seen from above: what environment.rotationDeg does to the surroundings.
+    // Counter-clockwise as seen from above: what environment.rotationDeg does to the environment.
     static ShRotation aboutY(double angleRad, int order) {
         return aboutAxis({0.0, 1.0, 0.0}, angleRad, order);
     }

@@ -1,5 +1,5 @@
 // What lights near by add under transfer, for each vertex or texel: made anew when a light, the
-// transfer or a place has changed, and kept while the surroundings turn.
+// transfer or a place has changed, and kept while the environment rotates.
 #pragma once
 
 #include "render/pass/TransferWork.h"

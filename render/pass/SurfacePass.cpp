@@ -13,12 +13,12 @@ namespace {
 
 // Bit i of SurfaceFeature.
 constexpr std::array<const char*, kSurfaceFeatureCount> kDefines{
-    "HAS_BASE_COLOR_MAP", "HAS_METALLIC_MAP", "HAS_ROUGHNESS_MAP",   "HAS_NORMAL_MAP",
-    "HAS_OCCLUSION_MAP",  "HAS_EMISSIVE_MAP", "ROUGHNESS_IS_PACKED", "OCCLUSION_IS_PACKED",
-    "ALPHA_MASK",         "ALPHA_BLEND",      "DOUBLE_SIDED",        "HAS_PLACEHOLDER",
-    "HAS_TEXEL_AO",       "HAS_VERTEX_AO",    "HAS_TRANSFER",        "HAS_PUNCTUAL_LIGHTS",
-    "HAS_AREA_LIGHTS",    "HAS_SHADOWS",      "HAS_SHADOWS_2",       "HAS_SHADOWS_3",
-    "HAS_SHADOWS_4",      "HAS_LAMP",         "HAS_TEXEL_TRANSFER",  "HAS_TRANSFER_CONE"};
+    "HAS_BASE_COLOR_MAP", "HAS_METALLIC_MAP",   "HAS_ROUGHNESS_MAP",   "HAS_NORMAL_MAP",
+    "HAS_OCCLUSION_MAP",  "HAS_EMISSIVE_MAP",   "ROUGHNESS_IS_PACKED", "OCCLUSION_IS_PACKED",
+    "ALPHA_MASK",         "ALPHA_BLEND",        "DOUBLE_SIDED",        "HAS_PLACEHOLDER",
+    "HAS_TEXEL_AO",       "HAS_VERTEX_AO",      "HAS_TRANSFER",        "HAS_PUNCTUAL_LIGHTS",
+    "HAS_AREA_LIGHTS",    "HAS_SHADOWS",        "HAS_SHADOWS_2",       "HAS_SHADOWS_3",
+    "HAS_SHADOWS_4",      "HAS_DOMINANT_LIGHT", "HAS_TEXEL_TRANSFER",  "HAS_TRANSFER_CONE"};
 
 // The choices of the model: name of the define, value, default.
 struct ModelChoice {
@@ -102,7 +102,7 @@ unsigned surfaceFeatures(unsigned material, const SurfaceBakes& bakes,
             features |= HasTexelTransfer;
     }
     if (settings.lighting == LightingMode::Cosine)
-        features |= HasLamp;
+        features |= HasDominantLight;
     // One source of ambient visibility is used; the others would only cost fetches.
     if (bakes.texelAo)
         features |= HasTexelAo;

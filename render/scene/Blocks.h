@@ -35,7 +35,7 @@ struct FrameBlock {
     float prefilteredSide = 1.0f;
     glm::vec2 unused{0.0f};
     std::array<glm::uvec4, 4> irradianceSh{}; // see packIrradiance()
-    glm::vec4 lamp{0.0f}, lampIrradiance{0.0f};
+    glm::vec4 dominantLight{0.0f}, dominantIrradiance{0.0f};
     glm::vec2 mix{1.0f};
     glm::vec2 reserved{0.0f};
     glm::ivec4 lightEnds{0};

@@ -2,8 +2,8 @@
 
 #include "core/base/Check.h"
 #include "core/base/Log.h"
-#include "core/light/ClosestLamp.h"
 #include "core/light/DfgTable.h"
+#include "core/light/DominantLight.h"
 #include "core/light/TransferLight.h"
 #include "core/math/ShRotation.h"
 #include "core/math/Shading.h"
@@ -210,16 +210,16 @@ void EnvironmentLight::fill(FrameBlock& frame) const {
     frame.radianceScale = scale();
     frame.prefilteredLevels = m_prefilteredLevels;
     frame.prefilteredSide = static_cast<float>(m_prefilteredSide);
-    // The surroundings turn by `angle`, so a world direction is looked up turned back.
+    // The environment rotates by `angle`, so a world direction is looked up turned back.
     frame.worldToEnvironment = glm::rotate(glm::mat4(1.0f), -angle, glm::vec3(0, 1, 0));
 
     std::array<glm::vec3, 9> irradiance{};
     ShRotation::aboutY(angle, 3).apply(std::span<const glm::vec3>(m_irradianceSh),
                                        std::span<glm::vec3>(irradiance));
     packIrradiance(irradiance, frame);
-    const Lamp lamp = closestLamp(irradiance);
-    frame.lamp = glm::vec4(lamp.toLight, 0.0f);
-    frame.lampIrradiance = glm::vec4(frame.radianceScale * lamp.irradiance, 0.0f);
+    const DominantLight light = dominantLight(irradiance);
+    frame.dominantLight = glm::vec4(light.toLight, 0.0f);
+    frame.dominantIrradiance = glm::vec4(frame.radianceScale * light.irradiance, 0.0f);
 }
 
 glm::vec3 EnvironmentLight::scale() const {

@@ -1,4 +1,4 @@
-// The surroundings on the GPU: prefiltered radiance, DFG table, lat-long background, and the SH
+// The environment on the GPU: prefiltered radiance, DFG table, lat-long background, and the SH
 // coefficients turned and scaled for the frame.
 #pragma once
 

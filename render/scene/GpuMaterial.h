@@ -41,7 +41,7 @@ enum SurfaceFeature : unsigned {
     HasShadows2 = 1u << 18,       // … of a second one …
     HasShadows3 = 1u << 19,
     HasShadows4 = 1u << 20,
-    HasLamp = 1u << 21,          // that stands for the surroundings
+    HasDominantLight = 1u << 21, // that stands for the environment
     HasTexelTransfer = 1u << 22, // transfer is looked up in texels
     HasTransferCone = 1u << 23,  // a bake says what is visible
 };

@@ -32,7 +32,7 @@ std::vector<glm::vec4> inVectors(std::span<const float> values, int stride, int 
     return result;
 }
 
-// Band 1 is the mean of sqrt(3 / 4 pi) (-y, z, -x) over the light of uniform surroundings.
+// Band 1 is the mean of sqrt(3 / 4 pi) (-y, z, -x) over the light of a uniform environment.
 std::vector<glm::vec4> cones(std::span<const float> values, int stride) {
     const auto step = static_cast<std::size_t>(stride);
     std::vector<glm::vec4> result(values.size() / step);

@@ -158,7 +158,7 @@ ExplainedStep diffuseStep(const Subject& subject) {
         step.note = subject.pixel.lights.empty()
                         ? "E(n) comes from the transfer, which knows the shadows; AO is left out."
                         : "E(n) comes from the transfer, which knows the shadows and holds the "
-                          "diffuse light of lamps; AO is left out.";
+                          "diffuse light of lights; AO is left out.";
     weigh(step, subject.rebuilt.mix.x);
     compare(step, subject.rebuilt.mix.x * albedo * kd * (ao / glm::pi<float>()) * irradiance);
     return step;

@@ -50,7 +50,7 @@ void weigh(ExplainedStep& step, float weight);
 [[nodiscard]] ExplainedSection explainBackground(const Inspection& pixel, const Document& document);
 [[nodiscard]] ExplainedSection explainDisplay(const Inspection& pixel, const Document& document,
                                               const RebuiltPixel& rebuilt);
-// Where a direction looks in the surroundings.
+// Where a direction looks in the environment.
 void addEnvironmentPosition(std::vector<ExplainedValue>& values, const EnvironmentPart& environment,
                             const glm::vec3& direction);
 

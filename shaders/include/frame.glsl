@@ -25,8 +25,8 @@ layout(std140, binding = 0) uniform Frame {
     // World space, exposure included: 27 numbers r g b r g b …, two to a word, the first in the upper
     // half, as signed integers.
     uvec4 u_irradianceSh[4];
-    vec4 u_lamp;            // unit vector to the one lamp that stands for the surroundings
-    vec4 u_lampIrradiance;  // of a surface that faces it
+    vec4 u_dominantLight;            // unit vector to the dominant light of the environment
+    vec4 u_dominantIrradiance;  // of a surface that faces it
     vec2 u_mix;             // weights of diffuse light and of reflections
     ivec4 u_lightEnds;
     Light u_lights[64];

@@ -1,4 +1,4 @@
-// The prefiltered surroundings. Includer has frame.glsl and shared/ibl.glsl.
+// The prefiltered environment. Includer has frame.glsl and shared/ibl.glsl.
 #ifndef PT_PREFILTERED_GLSL
 #define PT_PREFILTERED_GLSL
 

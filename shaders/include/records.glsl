@@ -26,7 +26,7 @@ void recordShare(int i, vec3 l, float lit, vec3 arriving, ShadedLight light) {
 // `E`: irradiance of a surface that faces the light, without shadow; `light`: with it.
 void recordLight(inout LightSums sums, SurfaceTerms s, int i, vec3 l, vec3 E, float lit,
                  ShadedLight light) {
-    ShadedLight all = mixedLamp(shadeDirect(s, l, E));
+    ShadedLight all = withoutTransferredDiffuse(shadeDirect(s, l, E));
     sums.shadowed += (1.0 - lit) * (all.diffuse + all.specular);
     float casts = u_lights[i].place.w < 0.0 ? 0.0 : 1.0;
     sums.casting += casts;
@@ -178,7 +178,7 @@ void recordIbl(SurfaceTerms s, vec3 dfg, vec3 arriving, vec3 prefiltered, Shaded
     recordPart(kViewMultiScatterGain,
                specular * (vec3(1.0) - vec3(1.0) / max(s.energyCompensation, vec3(1e-4))), alpha);
 
-    // An even surrounding of radiance 1.
+    // A uniform environment of radiance 1.
     ShadedLight even = mixed(shadeEnvironment(s, vec3(kPi), vec3(1.0)));
     vec3 returned = even.diffuse + even.specular;
     record(kViewFurnace, max(returned.r, max(returned.g, returned.b)));

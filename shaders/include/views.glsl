@@ -14,7 +14,7 @@ layout(std140, binding = 6) uniform Views {
     int u_viewLight;    // in u_lights; -1: the mirror direction stands for a light
     int u_flat;         // shading with the triangles' normals
     int u_halfFloats;   // the target takes no more
-    vec4 u_furnace;     // rgb: radiance of even surroundings; w: whether it is on
+    vec4 u_furnace;     // rgb: radiance of a uniform environment; w: whether it is on
 };
 
 #ifdef INSPECT

@@ -25,7 +25,7 @@ PT_FN vec3 directionFromLatLong(vec2 uv) {
     return vec3(s * sin(phi), cos(theta), -s * cos(phi));
 }
 
-// Turns d about +Y, counter-clockwise as seen from above. Surroundings rotated by `a` are looked up
+// Turns d about +Y, counter-clockwise as seen from above. An environment rotated by `a` is looked up
 // in the direction rotateY(d, -a).
 PT_FN vec3 rotateY(vec3 d, float angleRad) {
     float c = cos(angleRad);

@@ -23,7 +23,7 @@ PT_FN float spotFalloff(float cosAngle, float scale, float offset) {
 }
 
 // What becomes of a candela on the way to a surface that faces the light: 1 / d², windowed. Closer
-// than a tenth of a millimetre a point is no model of a lamp any more; the floor keeps 1 / 0 out.
+// than a tenth of a millimetre a point is no model of a light any more; the floor keeps 1 / 0 out.
 PT_FN float pointFalloff(float distance2, float inverseRange2) {
     return rangeWindow(distance2, inverseRange2) / max(distance2, 1e-8f);
 }

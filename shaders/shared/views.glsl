@@ -78,8 +78,8 @@ PT_CONST int kViewBentNormal = 56;
 PT_CONST int kViewSkyVisibility = 57;
 PT_CONST int kViewBakeError = 58;
 
-// The picture under the ways to light a scene (LightingMode), whatever the document's is.
-PT_CONST int kViewLampLight = 59;
+// The picture in each lighting mode, whatever the document's is.
+PT_CONST int kViewCosineLight = 59;
 PT_CONST int kViewShLight = 60;
 PT_CONST int kViewUnshadowedLight = 61;
 PT_CONST int kViewShadowedLight = 62;
@@ -97,7 +97,7 @@ PT_CONST int kRecordDfgMean = 69;
 PT_CONST int kRecordLobeDirection = 70;
 PT_CONST int kRecordToLight = 71;
 PT_CONST int kRecordVisibleCone = 72;
-PT_CONST int kRecordTransfer = 73; // 1: transfer has the diffuse light of lamps, too
+PT_CONST int kRecordTransfer = 73; // 1: transfer has the diffuse light of lights, too
 
 PT_CONST int kRecordCount = 74;
 

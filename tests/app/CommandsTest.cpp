@@ -458,7 +458,7 @@ TEST_F(Commands, RenderToneMapsByName) {
     EXPECT_EQ(pictures.size(), 4u);
 }
 
-// The eye is used to the picture: brighter surroundings come out the same.
+// The eye is used to the picture: a brighter environment comes out the same.
 TEST_F(Commands, RenderExposesAutomatically) {
     const auto mean = [&](const char* ev, const char* exposure) {
         const std::string file = m_folder / "exposed.png";

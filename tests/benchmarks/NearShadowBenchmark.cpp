@@ -30,7 +30,7 @@ Document knotOnFloor() {
     return document;
 }
 
-Light lampOf(Document& document, LightType type) {
+Light lightOf(Document& document, LightType type) {
     Light light;
     light.id = document.takeId();
     light.type = type;
@@ -43,7 +43,7 @@ Light lampOf(Document& document, LightType type) {
 
 void moveALight(benchmark::State& state, LightType type) {
     Document document = knotOnFloor();
-    document.lights = {lampOf(document, type)};
+    document.lights = {lightOf(document, type)};
     NearShadowsPtr shadows = *traceNearShadows(nearShadowRequest(document), nullptr, 0, {});
     std::size_t vertices = 0, penumbra = 0;
     for (const NearShares& shares : shadows->shares[0]) {
@@ -64,7 +64,7 @@ void moveALight(benchmark::State& state, LightType type) {
 
 void firstShadows(benchmark::State& state) {
     Document document = knotOnFloor();
-    document.lights = {lampOf(document, LightType::Point)};
+    document.lights = {lightOf(document, LightType::Point)};
     for (auto _ : state)
         benchmark::DoNotOptimize(
             traceNearShadows(nearShadowRequest(document), nullptr, 0, {}).ok());

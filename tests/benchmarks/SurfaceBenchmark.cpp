@@ -285,7 +285,7 @@ void relightVertices(benchmark::State& state) {
     }
     double shadowed = 1e9, bounced = 1e9, still = 1e9;
     std::array<double, 3> near{1e9, 1e9, 1e9};
-    double kept = 1e9; // a rectangle stands still while the surroundings turn
+    double kept = 1e9; // a rectangle stands still while the environment rotates
     const std::array<std::vector<Light>, 3> oneLight{{{point}, {sphere}, {rectangle}}};
     milliseconds(LightingMode::Shadowed); // compiles
     for (const std::vector<Light>& lights : oneLight)
@@ -310,7 +310,7 @@ void relightVertices(benchmark::State& state) {
                 "  relit with a point           %7.1f\n"
                 "  relit with a sphere          %7.1f\n"
                 "  relit with a rectangle       %7.1f\n"
-                "  the surroundings turn by it  %7.1f\n",
+                "  the environment rotates by it   %7.1f\n",
                 kOrder, cost, shadowed, bounced, still, near[0], near[1], near[2], kept);
     state.counters["ibl_ms"] = cost;
     state.counters["relit_ms"] = shadowed;

@@ -1,5 +1,5 @@
 // The Cornell box without its blocks, lit by its lamp. A lamp in the scene is not light of the
-// surroundings, but bounces are followed from whatever direct light the walls get: here the
+// environment, but bounces are followed from whatever direct light the walls get: here the
 // lamp's, in closed form. The truth: 30 million random walks per point, which a deterministic
 // radiosity solution of 28 × 28 patches a wall agrees with to 0.07 %.
 #include "core/bake/Interreflection.h"

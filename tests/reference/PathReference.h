@@ -1,5 +1,5 @@
 // Diffuse light by brute force: from every pixel's place paths go on from surface to surface until
-// they leave the scene, and bring back what the surroundings send from there.
+// they leave the scene, and bring back what the environment sends from there.
 #pragma once
 
 #include "tests/reference/ReferenceLight.h"

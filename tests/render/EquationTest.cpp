@@ -160,7 +160,7 @@ class Equations : public RenderTest {
     std::map<ViewKind, Image> m_views;
 };
 
-TEST_F(Equations, TermsAddUpToThePictureForFiveMaterialsInThreeSurroundings) {
+TEST_F(Equations, TermsAddUpToThePictureForFiveMaterialsInThreeEnvironments) {
     const Equation sum = *equationOf(kViewFinal, {});
     Deviation worst, worstShown;
     for (const char* sky : {"studio", "clear-sky", "night"}) {
@@ -192,7 +192,7 @@ TEST_F(Equations, TermsAddUpToThePictureForFiveMaterialsInThreeSurroundings) {
         double(worst.largest), double(worstShown.largest));
 }
 
-// Transfer holds the diffuse light of the lamps, whose own term is then nothing; their highlights
+// Transfer holds the diffuse light of the lights, whose own term is then nothing; their highlights
 // stay. The big sphere is baked, the small one only where every mesh is.
 TEST_F(Equations, TermsAndFactorsAddUpUnderTransfer) {
     const Equation sum = *equationOf(kViewFinal, {});
@@ -229,7 +229,7 @@ TEST_F(Equations, TermsAndFactorsAddUpUnderTransfer) {
             }
             if (mode == LightingMode::Unshadowed)
                 continue;
-            // A mesh that no bake lights has its lamps' diffuse light as ever.
+            // A mesh that no bake lights has its lights' diffuse light as ever.
             auto half = std::make_shared<BakeArtifact>(*document.bakes[0]);
             half->vertices.pop_back();
             document.bakes = {half};

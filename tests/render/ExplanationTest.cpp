@@ -209,7 +209,7 @@ TEST_F(Explanations, RecombineToThePictureAtAThousandPixels) {
     printf("%d pixels, largest difference %.3f of 255\n", surfaces, double(largest));
 }
 
-TEST_F(Explanations, RecombineUnderTransferWithLamps) {
+TEST_F(Explanations, RecombineUnderTransferWithLights) {
     float largest = 0.0f;
     for (const int material : {0, 2, 3})
         for (const LightingMode mode :
@@ -387,7 +387,7 @@ TEST_F(Explanations, ExplainTheBackground) {
                 return glm::vec3(v.numbers[0], v.numbers[1], v.numbers[2]);
         return glm::vec3(-1.0f);
     };
-    // The direction looks down on the surroundings turned by a quarter.
+    // The direction looks down on the environment turned by a quarter.
     const glm::vec3 d = value("direction"), turned(-d.z, d.y, d.x), texel = value("texel");
     EXPECT_LT(d.z, 0.0f);
     EXPECT_LT(d.x, 0.0f);

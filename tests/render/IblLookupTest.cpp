@@ -1,4 +1,4 @@
-// Image-based light as the shaders find it: the DFG table and the prefiltered surroundings,
+// Image-based light as the shaders find it: the DFG table and the prefiltered environment,
 // uploaded as they are for the viewport, looked up by the viewport's own functions, read back and
 // compared with exact values.
 #include "core/light/Prefilter.h"
@@ -107,7 +107,7 @@ class IblLookup : public gl::GlTest {
 };
 
 TEST_F(IblLookup, DfgTableHoldsTheExactIntegrals) {
-    // The viewport has no table for Schlick's k of lamps: iblVisibility().
+    // The viewport has no table for Schlick's k of lights: iblVisibility().
     for (const Table& table : kTables) {
         if (table.visibility == Visibility::SchlickDirect)
             continue;
@@ -191,7 +191,7 @@ TEST_F(IblLookup, PrefilteredBandsHaveTheirFactors) {
     }
 }
 
-TEST_F(IblLookup, PrefilteredLampHasItsKernel) {
+TEST_F(IblLookup, APrefilteredLightHasItsKernel) {
     constexpr int kSize = 256;
     CubeLevel base = cubeOf(kSize, [](glm::vec3) { return glm::vec3(0.0f); });
     const std::size_t lamp = kSize / 2 * kSize + kSize / 2;

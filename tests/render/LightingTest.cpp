@@ -1,5 +1,5 @@
-// The ways to light a scene, from one lamp to baked transfer, and the mix of diffuse light and
-// reflections.
+// The lighting modes, from one directional light to baked transfer, and the mix of diffuse
+// light and reflections.
 #include "core/document/Lighting.h"
 #include "core/math/Shading.h"
 #include "core/math/SphericalHarmonics.h"
@@ -21,7 +21,7 @@ namespace {
 using Lighting = RenderTest;
 
 // Light of one direction: the irradiance of a directional light of E lux, and no reflections.
-IblMaps lampOnly(const glm::vec3& toLight, const glm::vec3& E) {
+IblMaps dominantLightOnly(const glm::vec3& toLight, const glm::vec3& E) {
     IblMaps maps = uniformIbl(glm::vec3(0.0f));
     std::array<float, 9> y{};
     evaluateSh(3, toLight, std::span<float>(y));
@@ -72,19 +72,19 @@ TEST_F(Lighting, MixWeighsDiffuseLightAgainstReflections) {
     EXPECT_NEAR(at(0.75f), 0.5f * (reflections + both), 2e-3f * both);
 }
 
-TEST_F(Lighting, OneLampFollowsTheCosine) {
+TEST_F(Lighting, TheDominantLightFollowsTheCosine) {
     Document document = matte();
     document.view.lighting = LightingMode::Cosine;
     document.view.reflectionMix = 0.0f;
     const auto lit = [&](const glm::vec3& toLight) {
-        renderer().setIbl(lampOnly(toLight, glm::vec3(4.0f)));
+        renderer().setIbl(dominantLightOnly(toLight, glm::vec3(4.0f)));
         return centerPixel(draw(document)).x;
     };
     const float above = lit({0, 1, 0});
     EXPECT_GT(above, 0.1f);
     EXPECT_NEAR(lit({0.8f, 0.6f, 0}), 0.6f * above, 1e-3f * above);
     EXPECT_EQ(lit({0.8f, -0.6f, 0}), 0.0f);
-    // Irradiance of nine coefficients knows the lamp less sharply: E9(-0.6) > 0 is possible, and
+    // Irradiance of nine coefficients knows the light less sharply: E9(-0.6) > 0 is possible, and
     // its peak is 15/16 of 1 at most.
     document.view.lighting = LightingMode::ShIrradiance;
     EXPECT_NEAR(lit({0, 1, 0}), above * (0.09375f + 0.5f + 0.46875f) / 0.9921875f, 1e-2f * above);
@@ -305,7 +305,7 @@ TEST_F(Lighting, StillLightCostsNothing) {
     document.lights[0].type = LightType::Point;
     EXPECT_EQ(edited(lights), count);
     EXPECT_EQ(done(LightingMode::Shadowed), 0u);
-    // What is near is kept while the surroundings change.
+    // What is near is kept while the environment changes.
     EXPECT_EQ(relight.nearElementsDone(), count);
     document.environment.exposureEv = 2.0f;
     EXPECT_EQ(edited({Affects::Uniform, Target{Scope::Environment, 0}}), count);

@@ -16,44 +16,13 @@ using namespace shading;
 
 // A white, matte floor from -1 to 1, and a wall on it at x = -0.225 that is half a metre high.
 // Seen from above, where the wall is a line.
-class NearShadowsTest : public RenderTest {
+class NearShadowsTest : public LocalLightsTest {
   protected:
     static constexpr int kSize = 64;
     static constexpr float kWall = -0.225f;
 
-    void SetUp() override {
-        RenderTest::SetUp();
-        if (IsSkipped())
-            return;
-        IblMaps dark;
-        dark.prefiltered.push_back({1, std::vector<glm::vec3>(6, glm::vec3(0.0f))});
-        dark.irradianceSh.fill(glm::vec3(0.0f));
-        dark.radianceSh.fill(glm::vec3(0.0f));
-        renderer().setIbl(dark);
-    }
-
-    static MeshPtr grid(int cells) {
-        Mesh mesh;
-        for (int z = 0; z <= cells; ++z)
-            for (int x = 0; x <= cells; ++x) {
-                const glm::vec2 uv(float(x) / float(cells), float(z) / float(cells));
-                mesh.positions.push_back({2.0f * uv.x - 1.0f, 0.0f, 2.0f * uv.y - 1.0f});
-                mesh.uvs.push_back(uv);
-            }
-        mesh.normals.assign(mesh.positions.size(), {0, 1, 0});
-        mesh.tangents.assign(mesh.positions.size(), {1, 0, 0, 1});
-        const auto row = static_cast<std::uint32_t>(cells + 1);
-        for (std::uint32_t z = 0; z + 1 < row; ++z)
-            for (std::uint32_t x = 0; x + 1 < row; ++x) {
-                const std::uint32_t i = z * row + x;
-                mesh.indices.insert(mesh.indices.end(),
-                                    {i, i + row, i + 1, i + 1, i + row, i + row + 1});
-            }
-        return std::make_shared<const Mesh>(std::move(mesh));
-    }
-
     static Document wallOnFloor(int cells = 40) {
-        Document document = makeScene(grid(cells));
+        Document document = makeScene(gridPlane(cells));
         document.view.camera = cameraAbove();
         document.view.reflectionMix = 0.0f; // diffuse light alone
         document.environment.background = BackgroundMode::Off;
@@ -72,7 +41,7 @@ class NearShadowsTest : public RenderTest {
         return document;
     }
 
-    static Light lamp(Document& document, LightType type) {
+    static Light lightAbove(Document& document, LightType type) {
         Light light;
         light.id = document.takeId();
         light.type = type;
@@ -174,7 +143,7 @@ class NearShadowsTest : public RenderTest {
         return q;
     }
     void expectMended(Document document, LightType type, const char* what) {
-        document.lights = {lamp(document, type)};
+        document.lights = {lightAbove(document, type)};
         document.view.lighting = LightingMode::Ibl;
         const Image open = picture(document); // closed forms; nothing casts a shadow
         document.view.lighting = LightingMode::Shadowed;
@@ -212,7 +181,8 @@ TEST_F(NearShadowsTest, NothingIsLeftInTheUmbra) {
 TEST_F(NearShadowsTest, LightByWayOfOtherSurfacesStays) {
     Document document = wallOnFloor();
     document.bakes = {openBake(document, 3, 0.5f)};
-    document.lights = {lamp(document, LightType::Sphere), lamp(document, LightType::Rectangle)};
+    document.lights = {lightAbove(document, LightType::Sphere),
+                       lightAbove(document, LightType::Rectangle)};
     const Image direct = picture(document);
     document.view.lighting = LightingMode::Prt;
     const Image both = picture(document);
@@ -232,7 +202,8 @@ TEST_F(NearShadowsTest, LightByWayOfOtherSurfacesStays) {
 TEST_F(NearShadowsTest, SharesScaleTheOpenLightAndHarmonicsStandIn) {
     Document document = wallOnFloor();
     document.bakes = {openBake(document, 3)};
-    document.lights = {lamp(document, LightType::Point), lamp(document, LightType::Sphere)};
+    document.lights = {lightAbove(document, LightType::Point),
+                       lightAbove(document, LightType::Sphere)};
     const Image before = picture(document);
     document.view.lighting = LightingMode::Ibl;
     const Image open = picture(document);
@@ -265,7 +236,7 @@ TEST_F(NearShadowsTest, SharesScaleTheOpenLightAndHarmonicsStandIn) {
 TEST_F(NearShadowsTest, NewSharesLightAnewAndEqualOnesDoNot) {
     Document document = wallOnFloor();
     document.bakes = {openBake(document, 3)};
-    document.lights = {lamp(document, LightType::Point)};
+    document.lights = {lightAbove(document, LightType::Point)};
     const NearShadowsPtr shadows = everywhere(document, 1.0f);
     renderer().setNearShadows(nullptr);
     const Image without = picture(document);
@@ -286,7 +257,8 @@ TEST_F(NearShadowsTest, TermsStillAddUpToThePicture) {
     other.transform[3] = {1.0f, 0.25f, 0.0f, 1.0f};
     document.meshes.push_back(other);
     document.bakes = {baked(document, BakeKind::PrtVertex, TransferKind::Interreflected, 3)};
-    document.lights = {lamp(document, LightType::Point), lamp(document, LightType::Rectangle)};
+    document.lights = {lightAbove(document, LightType::Point),
+                       lightAbove(document, LightType::Rectangle)};
     document.view.lighting = LightingMode::Prt;
     document.view.reflectionMix = 0.5f;
     renderer().setNearShadows(nullptr);

@@ -17,7 +17,7 @@ namespace patina::render {
 [[nodiscard]] MeshPtr makeSphere(int rings = 48);
 [[nodiscard]] MeshPtr makePlane();
 
-// One mesh with one material (ids 1 and 2), black surroundings, camera in front.
+// One mesh with one material (ids 1 and 2), a black environment, camera in front.
 [[nodiscard]] Document makeScene(const MeshPtr& mesh);
 // Straight above the plane, its upper image edge towards -Z: the plane's texture appears upright.
 [[nodiscard]] Camera cameraAbove();

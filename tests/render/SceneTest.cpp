@@ -1,4 +1,4 @@
-// What the renderer does with the rest of a document: surroundings, bakes, picking, changes.
+// What the renderer does with the rest of a document: environments, bakes, picking, changes.
 #include "core/math/Shading.h"
 #include "core/math/SphericalHarmonics.h"
 #include "render/scene/EnvironmentLight.h"
@@ -26,7 +26,7 @@ float yawTowards(const glm::vec3& position) {
     return glm::degrees(std::atan2(position.x, position.z));
 }
 
-TEST_F(Scene, SurroundingsTurnCounterClockwiseSeenFromAbove) {
+TEST_F(Scene, EnvironmentRotatesCounterClockwiseSeenFromAbove) {
     // The spot lies at -Z. Turned by 90° it comes to -X, by -90° to +X.
     const struct {
         float rotationDeg;

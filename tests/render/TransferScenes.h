@@ -54,4 +54,42 @@ namespace patina::render {
     return bake;
 }
 
+// From -1 to 1 in X and Z, facing up, in `cells` × `cells` squares.
+[[nodiscard]] inline MeshPtr gridPlane(int cells) {
+    Mesh mesh;
+    for (int z = 0; z <= cells; ++z)
+        for (int x = 0; x <= cells; ++x) {
+            const glm::vec2 uv(float(x) / float(cells), float(z) / float(cells));
+            mesh.positions.push_back({2.0f * uv.x - 1.0f, 0.0f, 2.0f * uv.y - 1.0f});
+            mesh.uvs.push_back(uv);
+        }
+    mesh.normals.assign(mesh.positions.size(), {0, 1, 0});
+    mesh.tangents.assign(mesh.positions.size(), {1, 0, 0, 1});
+    const auto row = static_cast<std::uint32_t>(cells + 1);
+    for (std::uint32_t z = 0; z + 1 < row; ++z)
+        for (std::uint32_t x = 0; x + 1 < row; ++x) {
+            const std::uint32_t i = z * row + x;
+            mesh.indices.insert(mesh.indices.end(),
+                                {i, i + row, i + 1, i + 1, i + row, i + row + 1});
+        }
+    return std::make_shared<const Mesh>(std::move(mesh));
+}
+
+// A scene that only its own lights light: the environment is black.
+class LocalLightsTest : public RenderTest {
+  protected:
+    void SetUp() override {
+        RenderTest::SetUp();
+        if (!IsSkipped())
+            renderer().setIbl(blackEnvironment());
+    }
+    static IblMaps blackEnvironment() {
+        IblMaps maps;
+        maps.prefiltered.push_back({1, std::vector<glm::vec3>(6, glm::vec3(0.0f))});
+        maps.irradianceSh.fill(glm::vec3(0.0f));
+        maps.radianceSh.fill(glm::vec3(0.0f));
+        return maps;
+    }
+};
+
 } // namespace patina::render

@@ -214,7 +214,7 @@ TEST_F(Views, AWhiteMetalVanishesInTheFurnace) {
             ASSERT_NEAR(pixel(picture, x, y).g, 0.5f, 0.5f * 0.006f) << x << ' ' << y;
 }
 
-// What hides the surroundings is as bright as they are: occlusion darkens nothing.
+// What hides the environment is as bright as it is: occlusion darkens nothing.
 TEST_F(Views, AWhiteBodyWithOcclusionVanishesInTheFurnace) {
     Document document = makeScene(makeSphere());
     document.materials[0].baseColor = glm::vec3(1.0f);

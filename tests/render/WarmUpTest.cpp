@@ -208,7 +208,7 @@ TEST_F(WarmUpTest, CoversEveryWayToLight) {
     }
     EXPECT_GE(lit, 3u) << "transfer was lit";
 
-    // Nor does the light of lamps that were not there yet.
+    // Nor does the light of lights that were not there yet.
     document.lights = {bulb(document, LightType::Sphere), bulb(document, LightType::Rectangle)};
     for (const ViewKind kind : {shading::kViewUnshadowedLight, shading::kViewShadowedLight,
                                 shading::kViewInterreflectedLight}) {

@@ -101,14 +101,14 @@ class DocumentController : public QObject {
     void setParameters(Target target, const std::vector<ParameterEdit>& edits, const QString& text,
                        DragSession session = 0);
 
-    // --- Maps and surroundings, read in the background -------------------------------------------
+    // --- Maps and environments, read in the background -------------------------------------------
     // `map` is a parameter of type Map. An image that cannot be read leaves the slot as it was.
     void setMap(const ParameterInfo& map, Target target, const QString& source);
     void clearMap(const ParameterInfo& map, Target target);
     void setEnvironment(const QString& source); // a file or "builtin:NAME"; its layout is guessed
     void setSecondEnvironment(const QString& source); // to fade to; the same
 
-    // --- Generated surroundings: their image follows each edit, a draft first --------------------
+    // --- Generated environments: the image follows each edit, a draft first --------------------
     void setEnvironmentKind(EnvironmentKind kind);       // Softboxes without one get the first rig
     void setSoftboxRig(const library::SoftboxRig& rig);  // in place of what is there
     Id addSoftbox(float azimuthDeg, float elevationDeg); // 0: there are too many

@@ -1,4 +1,4 @@
-// The part of DocumentController that edits generated surroundings.
+// The part of DocumentController that edits generated environments.
 
 #include "app/editor/document/Commands.h"
 #include "app/editor/document/DocumentController.h"

@@ -123,7 +123,7 @@ BrdfLensPanel::BrdfLensPanel(DocumentController& controller, SelectionModel& sel
             fillOnSurface();
         if (!target || target->scope == Scope::Environment || target->scope == Scope::Softbox ||
             target->scope == Scope::View)
-            refreshSurroundings();
+            refreshEnvironment();
     });
     connect(&selection, &SelectionModel::selectionChanged, this, &BrdfLensPanel::refresh);
     connect(&probe, &PixelProbe::pinChanged, this, &BrdfLensPanel::refresh);
@@ -243,7 +243,7 @@ void BrdfLensPanel::showOnSurface() {
 void BrdfLensPanel::showEvent(QShowEvent*) {
     if (m_stale)
         refresh();
-    refreshSurroundings();
+    refreshEnvironment();
     showOnSurface();
 }
 
@@ -307,23 +307,23 @@ void BrdfLensPanel::describe() {
     m_note->setText(note);
 }
 
-void BrdfLensPanel::refreshSurroundings() {
+void BrdfLensPanel::refreshEnvironment() {
     if (!isVisible())
         return;
     const Document& document = m_controller.document();
-    m_ball->setSurroundings(m_maps, document.environment, document.view);
+    m_ball->setEnvironment(m_maps, document.environment, document.view);
     const ImagePtr image = document.environment.image;
     if (!image || image == m_environment)
         return;
     m_environment = image;
-    m_surroundings.request([this, image](const JobContext& job) -> LatestJob::Apply {
+    m_ballLight.request([this, image](const JobContext& job) -> LatestJob::Apply {
         auto maps = computeIbl(*image, IblSettings::quick(), job);
         if (!maps)
             return {};
         return [this, made = std::make_shared<const IblMaps>(std::move(*maps))] {
             m_maps = made;
             const Document& now = m_controller.document();
-            m_ball->setSurroundings(m_maps, now.environment, now.view);
+            m_ball->setEnvironment(m_maps, now.environment, now.view);
         };
     });
 }

@@ -57,7 +57,7 @@ class BrdfLensPanel : public QWidget {
     void showPage();
 
     void refresh(); // asks for new curves, when someone sees them
-    void refreshSurroundings();
+    void refreshEnvironment();
     [[nodiscard]] std::optional<SurfacePoint> pinnedPoint(const Material& material) const;
     void describe();
     void showResult(const LensResult& result, const Looks& looks);
@@ -87,7 +87,7 @@ class BrdfLensPanel : public QWidget {
     CurvePlot *m_cartesian, *m_distribution, *m_masking, *m_fresnel, *m_albedo;
     LobeView* m_space;
     LitSphere* m_ball;
-    LatestJob m_job{"BRDF lens"}, m_surroundings{"light of the ball"}; // last: they end first
+    LatestJob m_job{"BRDF lens"}, m_ballLight{"light of the ball"}; // last: they end first
 };
 
 } // namespace patina::editor

@@ -291,7 +291,7 @@ void EnergyPanel::refreshFaults() {
         faults.emplace_back(faultText(fault, m_study->model), fixOf(fault, m_study->model));
     if (shown && shown->emissiveStrength > 0.0f && shown->emissive != glm::vec3(0.0f))
         faults.emplace_back(tr("It also gives light of its own: in the furnace that is brighter "
-                               "than the surroundings."),
+                               "than the environment."),
                             EnergyFix::None);
     for (const auto& [text, help] : faults) {
         auto* row = new QWidget;
@@ -309,7 +309,7 @@ void EnergyPanel::refreshFaults() {
         if (help != EnergyFix::UseSmith)
             continue;
         auto* button = new QPushButton(tr("Use Smith's Visibility"));
-        button->setToolTip(tr("Take the same, derived visibility for lights and surroundings"));
+        button->setToolTip(tr("Take the same, derived visibility for lights and environment"));
         button->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
         connect(button, &QPushButton::clicked, this, [this, help = help] { fix(help); });
         m_faults->addWidget(button);

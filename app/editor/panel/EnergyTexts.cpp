@@ -143,8 +143,8 @@ QString faultText(const EnergyFault& fault, const ShadingModel& model) {
     }
     case EnergyFault::Kind::LightsDiffer: {
         const QString differ =
-            (fault.value < 0.0 ? tr("Lights return %1 less than surroundings do%2, %3.")
-                               : tr("Lights return %1 more than surroundings do%2, %3."))
+            (fault.value < 0.0 ? tr("Lights return %1 less than the environment does%2, %3.")
+                               : tr("Lights return %1 more than the environment does%2, %3."))
                 .arg(percent(std::abs(fault.value)), channel, where);
         if (model.visibility == Visibility::SchlickDirect)
             return differ + QLatin1Char(' ') +

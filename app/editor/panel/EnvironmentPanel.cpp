@@ -105,7 +105,7 @@ QWidget* EnvironmentPanel::makeKinds() {
     row->setSpacing(2);
     auto* group = new QButtonGroup(kinds);
     const ParameterInfo& info = parameter("environment.kind");
-    const QString tips[] = {tr("Light the scene with an image of real surroundings"),
+    const QString tips[] = {tr("Light the scene with a photographed environment"),
                             tr("Light the scene with a clear sky and its sun"),
                             tr("Light the scene with softboxes in a dark room")};
     for (std::size_t i = 0; i < m_kinds.size(); ++i) {
@@ -129,7 +129,7 @@ QWidget* EnvironmentPanel::makeKinds() {
     }
     auto* save = new QToolButton;
     save->setIcon(icon(QStringLiteral("save-as")));
-    save->setToolTip(tr("Write the surroundings as an HDR or EXR file of any layout"));
+    save->setToolTip(tr("Write the environment as an HDR or EXR file of any layout"));
     save->setStatusTip(save->toolTip());
     save->setAccessibleName(tr("Save the environment"));
     save->setFocusPolicy(Qt::TabFocus);
@@ -170,7 +170,7 @@ void EnvironmentPanel::connectView() {
     connect(m_view, &LatLongView::dragCancelled, this, &EnvironmentPanel::cancelDrag);
     connect(m_view, &LatLongView::turned, this, [this](double degrees) {
         edit(kEnvironment, {{&parameter("environment.rotationDeg"), static_cast<float>(degrees)}},
-             tr("Turn Surroundings"));
+             tr("Rotate Environment"));
     });
     connect(m_view, &LatLongView::sunMoved, this, [this](double azimuth, double elevation) {
         edit(kEnvironment,

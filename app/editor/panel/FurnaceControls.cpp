@@ -20,9 +20,9 @@ FurnaceControls::FurnaceControls(ViewState& views, QWidget* parent)
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(tokens::kGap / 2);
-    m_furnace = addButton(tr("Furnace"),
-                          tr("Look at the scene in even surroundings without lights: a material "
-                             "that loses and makes nothing cannot be seen in white ones"));
+    m_furnace = addButton(
+        tr("Furnace"), tr("Look at the scene in a uniform environment without lights: a material "
+                          "that loses and makes nothing cannot be seen in white ones"));
     m_energy = addButton(tr("Energy View"),
                          tr("Show in colours how much of the light each pixel returns; more than "
                             "all of it is marked"));

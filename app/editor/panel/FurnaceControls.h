@@ -1,4 +1,4 @@
-// The furnace for the viewport: even surroundings of a colour in place of the scene's, without
+// The furnace for the viewport: a uniform environment of a colour in place of the scene's, without
 // lights, and the view that marks what is lost and what is made. It changes how the scene is looked
 // at, never the document.
 #pragma once

@@ -68,7 +68,7 @@ using LabAnalysisPtr = std::shared_ptr<const LabAnalysis>;
 struct LabLight {
     LabAnalysisPtr analysis;             // null: not there yet
     std::shared_ptr<const IblMaps> maps; // null: not there yet
-    float rotationDeg = 0.0f;            // of the surroundings
+    float rotationDeg = 0.0f;            // of the environment
     float scale = 1.0f;                  // of all radiance: the environment's exposure
     glm::vec3 tint{1.0f};                // and its colour in the mix
 

@@ -38,14 +38,14 @@ QString labColor(const glm::vec3& c) {
 
 std::vector<LabSection> labSections() {
     std::vector<LabSection> sections{
-        {tr("Light"), tr("The surroundings, the cube and the irradiance"), {}},
+        {tr("Light"), tr("The environment, the cube and the irradiance"), {}},
         {tr("Harmonics"),
-         tr("The surroundings from their first 1 to 8 bands of spherical harmonics; magenta is "
+         tr("The environment from its first 1 to 8 bands of spherical harmonics; magenta is "
             "below "
             "zero"),
          {}},
         {tr("Prefilter"),
-         tr("What reflections are looked up in: the surroundings blurred with the lobe of each "
+         tr("What reflections are looked up in: the environment blurred with the lobe of each "
             "roughness"),
          {}},
         {tr("DFG"),

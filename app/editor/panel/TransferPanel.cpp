@@ -61,8 +61,8 @@ TransferPanel::TransferPanel(DocumentController& controller, PixelProbe& probe,
     m_numbers->setObjectName(QStringLiteral("transferNumbers"));
     m_lightBands = new QComboBox;
     m_lightBands->setObjectName(QStringLiteral("transferLightBands"));
-    m_lightBands->setAccessibleName(tr("Bands of the surroundings"));
-    m_lightBands->setToolTip(tr("In how many bands the surroundings are shown"));
+    m_lightBands->setAccessibleName(tr("Bands of the environment"));
+    m_lightBands->setToolTip(tr("In how many bands the environment is shown"));
     m_lightBands->setStatusTip(m_lightBands->toolTip());
     for (int bands = 1; bands <= kMaxShOrder; ++bands)
         m_lightBands->addItem(bands == 1 ? tr("1 band") : tr("%1 bands").arg(bands), bands);
@@ -73,7 +73,7 @@ TransferPanel::TransferPanel(DocumentController& controller, PixelProbe& probe,
 
     m_bars = new BandBars;
     m_function = new PictureTile(tr("Transfer of every direction"));
-    m_seen = new PictureTile(tr("Surroundings"));
+    m_seen = new PictureTile(tr("Environment"));
     m_sum = new PictureTile({});
     auto* tiles = new TileArea({168, 124});
     const QList<QWidget*> all = {m_bars, m_function, m_seen, m_sum};
@@ -142,9 +142,9 @@ std::optional<TransferAsk> TransferPanel::ask(QString& problem) const {
                      "pins a point.");
         return std::nullopt;
     }
-    ask.surroundings = shownEnvironment(document);
-    if (!ask.surroundings.image) {
-        problem = tr("The surroundings have no picture.");
+    ask.environment = shownEnvironment(document);
+    if (!ask.environment.image) {
+        problem = tr("The environment has no picture.");
         return std::nullopt;
     }
     ask.parts = environmentParts(document);
@@ -221,7 +221,7 @@ void TransferPanel::show(std::shared_ptr<const TransferStudy> study, const QStri
     m_seen->setPicture(s.seen, s.rays > 0
                                    ? tr("dark: hidden from the point, by %1 rays").arg(s.rays)
                                    : tr("darkened by the transfer; pin the point to trace rays"));
-    m_sum->setTitle(tr("Surroundings in %1").arg(m_lightBands->currentText()));
+    m_sum->setTitle(tr("Environment in %1").arg(m_lightBands->currentText()));
     m_sum->setPicture(s.sum,
                       s.lightLowest < 0.0f
                           ? tr("lowest %1, below zero magenta").arg(plotNumber(s.lightLowest))

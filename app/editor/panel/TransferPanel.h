@@ -1,5 +1,5 @@
 // The Transfer dock: how light comes to the pinned point, or the one under the pointer, by the
-// attached bake: as a lobe on the surface, as coefficients, and against the surroundings.
+// attached bake: as a lobe on the surface, as coefficients, and against the environment.
 #pragma once
 
 #include "app/editor/job/LatestJob.h"

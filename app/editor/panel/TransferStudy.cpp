@@ -101,8 +101,8 @@ QImage functionPicture(const PointTransfer& transfer, unsigned bands, TransferSt
 
 // How much of the direction's light arrives: 0 or 1 by rays; by the transfer, over the cosine.
 template <class Open>
-QImage seenPicture(const QImage& surroundings, const Open& open) {
-    QImage picture = surroundings.convertToFormat(QImage::Format_RGB32);
+QImage seenPicture(const QImage& environment, const Open& open) {
+    QImage picture = environment.convertToFormat(QImage::Format_RGB32);
     for (int y = 0; y < picture.height(); ++y)
         for (int x = 0; x < picture.width(); ++x)
             picture.setPixel(x, y, blend(picture.pixel(x, y), 0.18 + 0.82 * open(x, y)));
@@ -123,7 +123,7 @@ std::shared_ptr<const TransferStudy> studyTransfer(const Document& document, con
         return study;
     }
     study->transfer = *transfer;
-    const EnvironmentPart& mix = ask.surroundings;
+    const EnvironmentPart& mix = ask.environment;
     if (memory.environment != mix.image) {
         memory.analysis = analyseLight(mix.image, job);
         memory.environment = memory.analysis ? mix.image : nullptr;
@@ -133,7 +133,7 @@ std::shared_ptr<const TransferStudy> studyTransfer(const Document& document, con
     LabLight lab{memory.analysis, nullptr, mix.rotationDeg};
     lab.setScale(mix.scale);
 
-    // Surroundings and lights as coefficients, and what each band of them adds.
+    // Environment and lights as coefficients, and what each band of them adds.
     const int order = transfer->order;
     std::map<ImagePtr, std::vector<glm::vec3>> projections;
     for (const EnvironmentPart& part : ask.parts) {
@@ -172,7 +172,7 @@ std::shared_ptr<const TransferStudy> studyTransfer(const Document& document, con
 
     const LabTone tone(document.view, luminance, 0.0f);
     const QSize size(2 * kHeight, kHeight);
-    const QImage surroundings = labPicture(lab, {LabKind::Environment, 0}, size, tone, job);
+    const QImage environment = labPicture(lab, {LabKind::Environment, 0}, size, tone, job);
     study->sum = labPicture(lab, {LabKind::Harmonics, ask.lightBands}, size, tone, job);
     study->lightLowest =
         lab.scale *
@@ -185,7 +185,7 @@ std::shared_ptr<const TransferStudy> studyTransfer(const Document& document, con
             visibleDirections(bakeInputs(document), *point, kRayHeight, job);
         if (visible) {
             study->rays = 2 * kRayHeight * kRayHeight;
-            study->seen = seenPicture(surroundings, [&](int x, int y) {
+            study->seen = seenPicture(environment, [&](int x, int y) {
                 const int from =
                     y * kRayHeight / kHeight * 2 * kRayHeight + x * kRayHeight / kHeight;
                 return (*visible)[static_cast<std::size_t>(from)] ? 1.0 : 0.0;
@@ -194,7 +194,7 @@ std::shared_ptr<const TransferStudy> studyTransfer(const Document& document, con
     }
     if (study->seen.isNull()) {
         const float peak = std::max(study->highest, 1e-6f);
-        study->seen = seenPicture(surroundings, [&](int x, int y) {
+        study->seen = seenPicture(environment, [&](int x, int y) {
             const float value =
                 transfer->towards(latLongDirection(x, y, 2 * kHeight, kHeight), ~0u);
             return static_cast<double>(std::clamp(value / peak, 0.0f, 1.0f));

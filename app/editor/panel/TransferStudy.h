@@ -20,7 +20,7 @@ namespace patina::editor {
 // All that a study is made of; equal asks have equal answers.
 struct TransferAsk {
     BakeArtifactPtr bake;
-    EnvironmentPart surroundings;       // as they are seen: of the pictures
+    EnvironmentPart environment;        // as it is seen: of the pictures
     std::vector<EnvironmentPart> parts; // of the mix
     std::vector<Light> lights;          // that shine
     NearShadowsPtr shadows;             // of local ones, as they are shown; null: none
@@ -28,14 +28,14 @@ struct TransferAsk {
     glm::vec3 position{0.0f}; // world
     bool traced = false;      // rays say what the point sees; else the transfer does
     unsigned bands = ~0u;     // of the transfer that are on
-    int lightBands = 3;       // of the surroundings that are shown
+    int lightBands = 3;       // of the environment that is shown
     friend bool operator==(const TransferAsk&, const TransferAsk&) = default;
 };
 
 struct TransferStudy {
     QString problem; // why there is nothing; then the rest is empty
     PointTransfer transfer;
-    std::vector<glm::vec3> light;  // that meets the point: surroundings and lights, as many as the
+    std::vector<glm::vec3> light;  // that meets the point: environment and lights, as many as the
                                    // transfer has; without local lights whose shadows are traced
     std::vector<glm::vec3> byBand; // exit radiance of albedo 1 that each band adds
     glm::vec3 radiance{0.0f};      // of the bands that are on
@@ -45,9 +45,9 @@ struct TransferStudy {
     float lowest = 0.0f, highest = 0.0f; // of the transfer as a function of the direction
     double negativeShare = 0.0;          // of the sphere, where it is below zero
     int rays = 0;                        // that were traced; 0: the transfer said what is seen
-    QImage seen;                         // surroundings, what is hidden is dark
+    QImage seen;                         // environment, what is hidden is dark
     QImage function;                     // the transfer, below zero magenta
-    QImage sum;                          // surroundings in lightBands bands, below zero magenta
+    QImage sum;                          // environment in lightBands bands, below zero magenta
     float lightLowest = 0.0f;            // of that sum
     std::shared_ptr<const render::SurfaceLobe> lobe;
 };

@@ -8,7 +8,7 @@
 
 namespace patina::editor {
 
-// Of the surroundings, or of a light about the scene, per widget pixel.
+// Of the environment, or of a light about the scene, per widget pixel.
 inline constexpr float kTurnDegrees = 0.4f;
 
 // `pixels`: the drag since the last call, y down, in widget pixels; `height`: of the widget.

@@ -131,7 +131,7 @@ Result<void> ProgramWarmer::warm(quint64 id, const Task& task, const JobContext&
         const auto ms = warmUp(task.document, frame, job);
         if (!ms)
             return ms.error();
-        // The one that took longest: ways to light share programs, and one that finds most of its
+        // The one that took longest: lighting modes share programs, and one that finds most of its
         // own compiled would tell nothing.
         if (frame.output == SurfaceOutput::EightViews && *ms > sheetMs) {
             sheet = frame;

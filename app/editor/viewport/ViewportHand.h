@@ -1,4 +1,5 @@
-// The hand in the viewport: mouse and keys become camera moves, turned surroundings and lights.
+// The hand in the viewport: mouse and keys become camera moves, a rotated environment and rotated
+// lights.
 //
 //  left drag            orbit            wheel          zoom
 //  middle / Shift+left  pan              click          select

@@ -15,7 +15,7 @@ std::vector<QPointF> averageReturn(const ShadingModel& model) {
         const double roughness = static_cast<double>(i) / kSteps;
         white.perceptualRoughness = static_cast<float>(roughness);
         const Returned average =
-            averageReturned([&](float NoV) { return returnedFromSurroundings(model, white, NoV); });
+            averageReturned([&](float NoV) { return returnedFromEnvironment(model, white, NoV); });
         points.emplace_back(roughness, 100.0 * average.total().y);
     }
     return points;

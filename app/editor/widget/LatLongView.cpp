@@ -63,8 +63,8 @@ QImage rolled(const QImage& picture, double share) {
 
 LatLongView::LatLongView(QWidget* parent)
     : QWidget(parent) {
-    setObjectName(QStringLiteral("surroundings"));
-    setAccessibleName(tr("Surroundings"));
+    setObjectName(QStringLiteral("environment"));
+    setAccessibleName(tr("Environment"));
     setFocusPolicy(Qt::StrongFocus);
     setMouseTracking(true);
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
@@ -98,7 +98,7 @@ void LatLongView::updateHelp() {
     QString help;
     switch (m_environment.kind) {
     case EnvironmentKind::Image:
-        help = tr("Drag to turn the surroundings. Shift is fine, Esc cancels, arrow keys turn.");
+        help = tr("Drag to rotate the environment. Shift is fine, Esc cancels, arrow keys rotate.");
         break;
     case EnvironmentKind::Sky:
         help = tr("Drag the sun, or click to set it. Shift is fine, Esc cancels, arrow keys move.");

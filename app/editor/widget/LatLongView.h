@@ -1,4 +1,4 @@
-// The surroundings as a lat-long picture to light with: the sun and softboxes are dragged in it, an
+// The environment as a lat-long picture to light with: the sun and softboxes are dragged in it, an
 // image is turned. It changes nothing itself: it says what is wanted and shows what it is given.
 #pragma once
 

@@ -15,7 +15,7 @@ constexpr double kGap = 6.0;
 LitSphere::LitSphere(const QString& title, QWidget* parent)
     : QWidget(parent)
     , m_title(title) {
-    m_light.lamp = glm::normalize(glm::vec3(-0.75f, 0.75f, 0.6f));
+    m_light.toLight = glm::normalize(glm::vec3(-0.75f, 0.75f, 0.6f));
     setCursor(Qt::OpenHandCursor);
     setAccessibleName(title);
     setAccessibleDescription(tr("The material on a ball, under one light of 3 lux and the scene's "
@@ -35,8 +35,8 @@ void LitSphere::setBalls(std::vector<Ball> balls) {
     draw();
 }
 
-void LitSphere::setSurroundings(std::shared_ptr<const IblMaps> maps, const Environment& environment,
-                                const View& view) {
+void LitSphere::setEnvironment(std::shared_ptr<const IblMaps> maps, const Environment& environment,
+                               const View& view) {
     m_light.maps = std::move(maps);
     m_light.rotationDeg = environment.rotationDeg;
     m_light.exposureEv = environment.exposureEv;
@@ -130,7 +130,7 @@ void LitSphere::mouseMoveEvent(QMouseEvent* event) {
         dragTo(event->position());
 }
 
-// The highlight stands where the normal halves the angle between lamp and viewer.
+// The highlight stands where the normal halves the angle between light and viewer.
 void LitSphere::dragTo(const QPointF& point) {
     const std::vector<QRectF> places = squares(area(), 1.0);
     if (places.empty())
@@ -144,7 +144,7 @@ void LitSphere::dragTo(const QPointF& point) {
     glm::vec2 at(static_cast<float>(way.x()), static_cast<float>(-way.y()));
     at *= std::min(1.0f, 0.95f / std::max(glm::length(at), 1e-6f));
     const glm::vec3 h(at, std::sqrt(1.0f - glm::dot(at, at)));
-    m_light.lamp = 2.0f * h.z * h - glm::vec3(0.0f, 0.0f, 1.0f);
+    m_light.toLight = 2.0f * h.z * h - glm::vec3(0.0f, 0.0f, 1.0f);
     draw();
 }
 

@@ -1,4 +1,4 @@
-// Balls of the compared looks under one lamp and the scene's surroundings; the lamp is dragged by
+// Balls of the compared looks under one light and the scene's environment; the light is dragged by
 // its highlight.
 #pragma once
 
@@ -23,8 +23,8 @@ class LitSphere : public QWidget {
     explicit LitSphere(const QString& title, QWidget* parent = nullptr);
 
     void setBalls(std::vector<Ball> balls);
-    void setSurroundings(std::shared_ptr<const IblMaps> maps, const Environment& environment,
-                         const View& view);
+    void setEnvironment(std::shared_ptr<const IblMaps> maps, const Environment& environment,
+                        const View& view);
     void setMessage(const QString& message);
 
     [[nodiscard]] const SphereLight& light() const { return m_light; }

@@ -46,12 +46,12 @@ struct Projection {
     }
 };
 
-// A lamp from the upper left of the camera, a little of it from everywhere, and a gleam.
+// A light from the upper left of the camera, a little of it from everywhere, and a gleam.
 glm::vec3 shade(const glm::vec3& color, const glm::vec3& normal, float radius,
                 const Projection& view) {
-    const glm::vec3 lamp = glm::normalize(view.toCamera + 0.6f * view.up - 0.7f * view.right);
-    const glm::vec3 half = glm::normalize(lamp + view.toCamera);
-    const float lit = std::max(glm::dot(normal, lamp), 0.0f);
+    const glm::vec3 toLight = glm::normalize(view.toCamera + 0.6f * view.up - 0.7f * view.right);
+    const glm::vec3 half = glm::normalize(toLight + view.toCamera);
+    const float lit = std::max(glm::dot(normal, toLight), 0.0f);
     const float gleam = std::pow(std::max(glm::dot(normal, half), 0.0f), 24.0f);
     // Lines of equal value at every quarter of the radius.
     const float ring = std::abs(radius * 4.0f - std::round(radius * 4.0f)) / 4.0f;

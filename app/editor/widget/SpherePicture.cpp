@@ -37,9 +37,9 @@ QRgb displayed(const glm::vec3& radiance, const View& view, float coverage) {
 
 glm::vec3 sphereRadiance(const BrdfLens& lens, const SphereLight& light, const glm::vec3& n) {
     const shading::SurfaceTerms s = lens.surface(n, kViewer);
-    const shading::ShadedLight lamp =
-        shading::shadeDirect(s, light.lamp, glm::vec3(light.illuminance));
-    glm::vec3 radiance = lamp.diffuse + lamp.specular;
+    const shading::ShadedLight direct =
+        shading::shadeDirect(s, light.toLight, glm::vec3(light.illuminance));
+    glm::vec3 radiance = direct.diffuse + direct.specular;
     if (!light.maps)
         return radiance;
     const float rotation = glm::radians(-light.rotationDeg);

@@ -1,4 +1,4 @@
-// A ball of the looked-at material under one lamp and its surroundings, shaded on any thread by the
+// A ball of the looked-at material under one light and its environment, shaded on any thread by the
 // functions that shade the viewport.
 #pragma once
 
@@ -12,12 +12,12 @@
 namespace patina::editor {
 
 struct SphereLight {
-    // World: the viewer looks along -Z, +Y is up. Unit vector to the lamp.
-    glm::vec3 lamp{0.0f, 0.0f, 1.0f};
-    float illuminance = 3.0f;            // of the lamp, lux
-    std::shared_ptr<const IblMaps> maps; // of the surroundings; null: the lamp alone
-    float rotationDeg = 0.0f;            // of the surroundings about +Y
-    float exposureEv = 0.0f;             // of the surroundings
+    // World: the viewer looks along -Z, +Y is up. Unit vector to the light.
+    glm::vec3 toLight{0.0f, 0.0f, 1.0f};
+    float illuminance = 3.0f;            // of the light, lux
+    std::shared_ptr<const IblMaps> maps; // of the environment; null: the light alone
+    float rotationDeg = 0.0f;            // of the environment about +Y
+    float exposureEv = 0.0f;             // of the environment
     View view; // exposure and tone curve; what needs the picture's luminance is shown by default
 };
 

@@ -288,7 +288,7 @@ TEST_F(PlainMetal, ThePointerReadsValuesOut) {
     EXPECT_EQ(plot("D  facing h").readout(0.0).front(), QStringLiteral("5.09 sr⁻¹"));
 }
 
-TEST_F(PlainMetal, LobesOrbitAndTheLampMoves) {
+TEST_F(PlainMetal, LobesOrbitAndTheLightMoves) {
     const LobeCamera before = space().camera();
     const QImage picture = space().picture();
     const QPoint middle = space().rect().center();
@@ -306,12 +306,12 @@ TEST_F(PlainMetal, LobesOrbitAndTheLampMoves) {
     QTest::mouseDClick(&space(), Qt::LeftButton, {}, middle);
     EXPECT_EQ(space().camera(), before);
 
-    const glm::vec3 lamp = ball().light().lamp;
+    const glm::vec3 toLight = ball().light().toLight;
     const QImage lit = ball().picture();
     QTest::mousePress(&ball(), Qt::LeftButton, {}, ball().rect().center() + QPoint(25, 0));
-    EXPECT_GT(ball().light().lamp.x, 0.1f) << "the highlight comes to the pointer";
-    EXPECT_NE(ball().light().lamp, lamp);
-    EXPECT_NEAR(glm::length(ball().light().lamp), 1.0f, 1e-5f);
+    EXPECT_GT(ball().light().toLight.x, 0.1f) << "the highlight comes to the pointer";
+    EXPECT_NE(ball().light().toLight, toLight);
+    EXPECT_NEAR(glm::length(ball().light().toLight), 1.0f, 1e-5f);
     ASSERT_TRUE(settled());
     EXPECT_NE(ball().picture(), lit);
 }
@@ -336,7 +336,7 @@ TEST_F(PlainMetal, NothingToShowIsSaid) {
     EXPECT_TRUE(polar().message().isEmpty());
     EXPECT_GT(panel->result().peak, 0.0f);
 
-    // Roughness 0: a mirror, which lamps see a little wider.
+    // Roughness 0: a mirror, which lights see a little wider.
     set("material.perceptualRoughness", 0.0f);
     ASSERT_TRUE(settled());
     EXPECT_TRUE(std::isfinite(panel->result().peak));
@@ -562,7 +562,7 @@ TEST(SpherePicture, IsShadedAsTheViewportShades) {
     DfgTables tables;
     const BrdfLens lens(model, {glm::vec3(0.5f), 0.0f, 0.4f, 0.0f}, tables.of(model));
     SphereLight light;
-    light.lamp = glm::normalize(glm::vec3(0.3f, 0.4f, 0.8f));
+    light.toLight = glm::normalize(glm::vec3(0.3f, 0.4f, 0.8f));
     const glm::vec3 n = glm::normalize(glm::vec3(-0.2f, 0.5f, 0.8f)), v(0.0f, 0.0f, 1.0f);
     // E N·L f_r, in the frame of the surface.
     glm::vec3 t, b;
@@ -570,11 +570,11 @@ TEST(SpherePicture, IsShadedAsTheViewportShades) {
     const auto local = [&](const glm::vec3& d) {
         return glm::vec3(glm::dot(d, t), glm::dot(d, b), glm::dot(d, n));
     };
-    const glm::vec3 expected =
-        3.0f * glm::dot(n, light.lamp) * lens.brdf(local(light.lamp), local(v), LensLobe::Both);
+    const glm::vec3 expected = 3.0f * glm::dot(n, light.toLight) *
+                               lens.brdf(local(light.toLight), local(v), LensLobe::Both);
     EXPECT_NEAR(sphereRadiance(lens, light, n).g, expected.g, 1e-5f);
 
-    // Even surroundings of radiance 2 and no lamp: 2 times the albedo of both lobes.
+    // A uniform environment of radiance 2 and no light: 2 times the albedo of both lobes.
     light.illuminance = 0.0f;
     IblMaps maps{};
     for (int level = 0; level < 3; ++level)

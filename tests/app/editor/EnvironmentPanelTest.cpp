@@ -184,7 +184,7 @@ TEST_F(EnvironmentPanelTest, DraggingASoftboxMovesItsLight) {
     EXPECT_LT(radiance(180, 0), 0.1f);
 }
 
-TEST_F(EnvironmentPanelTest, TheSurroundingsKeepTheirShapeInADockOfAnyWidth) {
+TEST_F(EnvironmentPanelTest, TheEnvironmentKeepsItsShapeInADockOfAnyWidth) {
     choose("Softboxes"); // longer than the dock is high
     for (const int width : {311, 520, 400}) {
         alone->resize(width, 700);

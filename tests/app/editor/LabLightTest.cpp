@@ -66,7 +66,7 @@ View clampedView() {
     return view;
 }
 
-TEST(LabLight, ConstantSurroundingsAreConstantEverywhere) {
+TEST(LabLight, AConstantEnvironmentIsConstantEverywhere) {
     const glm::vec3 radiance(0.5f, 0.25f, 0.125f);
     for (const glm::ivec2 size : {glm::ivec2(1, 1), {2, 1}, {64, 32}}) {
         LabLight light =
@@ -91,7 +91,7 @@ TEST(LabLight, ConstantSurroundingsAreConstantEverywhere) {
     }
 }
 
-TEST(LabLight, TurnsAndBrightensWithTheSurroundings) {
+TEST(LabLight, RotatesAndBrightensWithTheEnvironment) {
     const auto radiance = [](const glm::vec3& d) {
         return glm::vec3(1.0f) + glm::vec3(0.9f * d.x, 0.5f * d.y, 0.8f * d.z);
     };

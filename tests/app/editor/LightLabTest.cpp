@@ -197,7 +197,7 @@ TEST_F(LightLabTest, AFaceOfTheCrossOpensAndCloses) {
     keep(QStringLiteral("light-lab-faces.png"), panel());
 }
 
-TEST_F(LightLabTest, FollowsWhileTheSurroundingsAreDragged) {
+TEST_F(LightLabTest, FollowsWhileTheEnvironmentIsDragged) {
     LabPicture& picture = *panel().picture({LabKind::Environment, 0});
     QImage last = picture.picture();
     const QString error = panel().picture({LabKind::Harmonics, 8})->detail();

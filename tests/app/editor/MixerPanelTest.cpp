@@ -125,7 +125,7 @@ TEST_F(MixerPanelTest, MuteAndSoloAreOfOneDesk) {
     EXPECT_FALSE(named<QToolButton>(tr("Mute Sun")).isChecked());
     press(tr("Solo Sun"));
     EXPECT_TRUE(sun().solo);
-    EXPECT_TRUE(environmentParts(document()).empty()); // the surroundings are silent
+    EXPECT_TRUE(environmentParts(document()).empty()); // the environment is silent
     EXPECT_EQ(named<QLabel>(tr("Level of %1").arg(sky)).text(), tr("dark"));
     press(tr("Solo %1").arg(sky));
     EXPECT_EQ(environmentParts(document()).size(), 1u);
@@ -135,7 +135,7 @@ TEST_F(MixerPanelTest, MuteAndSoloAreOfOneDesk) {
     keep(QStringLiteral("mixer-solo.png"));
 }
 
-TEST_F(MixerPanelTest, SurroundingsAreFadedAndTheLightFollows) {
+TEST_F(MixerPanelTest, EnvironmentsAreFadedAndTheLightFollows) {
     EXPECT_FALSE(named<NumberField>(tr("Cross-fade")).isEnabled());
     addSecond();
     ASSERT_TRUE(named<NumberField>(tr("Cross-fade")).isEnabled());

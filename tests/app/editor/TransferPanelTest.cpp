@@ -154,7 +154,7 @@ TEST_F(TransferPanelTest, FollowsTheMixOfTwoEnvironments) {
                 << i << ' ' << c;
 }
 
-TEST_F(TransferPanelTest, ShowsTheSurroundingsInAnyNumberOfBands) {
+TEST_F(TransferPanelTest, ShowsTheEnvironmentInAnyNumberOfBands) {
     controller().attachBake(openBake());
     pin();
     ASSERT_TRUE(eventually([] { return studied(); }));

@@ -286,7 +286,7 @@ TEST(Interreflection, FacingSquaresExchangeTheirFormFactor) {
     EXPECT_NEAR(up.g, down.g, 0.002);
 }
 
-// Nothing is brighter than the surroundings: in the open, T + B under a uniform sky is at most 1
+// Nothing is brighter than the environment: in the open, T + B under a uniform sky is at most 1
 // with white surfaces, and light that is lost is lost.
 TEST(Interreflection, EnergyNeverGrows) {
     const BakeInputs inputs =

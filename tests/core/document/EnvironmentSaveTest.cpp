@@ -1,4 +1,4 @@
-// Surroundings written to files come back, in every layout and both formats.
+// Environments written to files come back, in every layout and both formats.
 #include "core/document/EnvironmentSave.h"
 #include "core/document/EnvironmentFile.h"
 #include "core/library/Library.h"

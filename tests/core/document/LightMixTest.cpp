@@ -71,7 +71,7 @@ TEST_F(LightMix, TheFadeSharesTheLightOut) {
               (EnvironmentPart{Role::First, e.image, 30.0f, {2.0f, 1.0f, 0.5f}}));
 }
 
-TEST_F(LightMix, SoloAndMuteAreOfOneDeskForLightsAndSurroundings) {
+TEST_F(LightMix, SoloAndMuteAreOfOneDeskForLightsAndEnvironments) {
     Environment& e = document.environment;
     e.fade = 0.5f;
     document.lights[1].solo = true;
@@ -234,7 +234,7 @@ TEST_F(LightMix, BecomesASingleEnvironment) {
         EXPECT_GT(texel(both, 10, 9, c), 40.0f * 0.75f * first[c]);
     }
 
-    // What is plain already stays the picture that it is; without surroundings there is none.
+    // What is plain already stays the picture that it is; without an environment there is none.
     e.tint = glm::vec3(1.0f);
     const Environment plain = single(0.0f);
     EXPECT_EQ(plain.image, e.image);

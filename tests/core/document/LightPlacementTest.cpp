@@ -79,7 +79,7 @@ TEST(LightPlacement, ANewLightStandsBesideTheLastOne) {
 
 TEST(LightPlacement, TheDefaultPlaceIsKeptWhereItIsSeenAndFree) {
     Document document = cube();
-    document.view.camera.distance *= 10.0f; // sees the surroundings, too
+    document.view.camera.distance *= 10.0f; // sees the environment, too
     const Light plain = defaultLight(LightType::Point, document.bounds());
     ASSERT_TRUE(isSeen(document, plain.position));
     EXPECT_EQ(placedInView(plain, document), plain);

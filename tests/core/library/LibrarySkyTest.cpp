@@ -1,4 +1,4 @@
-// The built-in surroundings: finite, seamless, exposed as stated, true to their formulas.
+// The built-in environments: finite, seamless, exposed as stated, true to their formulas.
 #include "core/library/Library.h"
 #include "core/library/SkyCanvas.h"
 #include "core/library/SkyRecipes.h"

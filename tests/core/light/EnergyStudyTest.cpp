@@ -35,20 +35,18 @@ TEST(EnergyStudy, CutsMapAndAverageAreTakenFromOneFunction) {
     ASSERT_EQ(s.map.size(), std::size_t{EnergyStudy::kMapSize} * EnergyStudy::kMapSize);
 
     // Roughness 0.75 is the 30th of 40 steps; 60° the 30th of 45.
-    EXPECT_EQ(s.byRoughness[30].single.total(),
-              returnedFromSurroundings(model, gold, 0.6f).total());
+    EXPECT_EQ(s.byRoughness[30].single.total(), returnedFromEnvironment(model, gold, 0.6f).total());
     EXPECT_EQ(s.byRoughness[30].lights.total(), returnedFromLights(model, gold, 0.6f).total());
     EXPECT_NEAR(s.byAngle[30].single.total().y,
-                returnedFromSurroundings(model, gold, 0.5f).total().y, 1e-5);
+                returnedFromEnvironment(model, gold, 0.5f).total().y, 1e-5);
     EXPECT_NEAR(s.byAngle[30].compensated.total().y,
-                returnedFromSurroundings(withCompensation(model, true), gold, 0.5f).total().y,
-                1e-5);
+                returnedFromEnvironment(withCompensation(model, true), gold, 0.5f).total().y, 1e-5);
     // Rows are angles: 0.5 + 26 of 40 is 59.6°.
     SurfacePoint there = gold;
     there.perceptualRoughness = 10.5f / 40.0f;
     EXPECT_NEAR(
         s.map[26 * EnergyStudy::kMapSize + 10].z,
-        returnedFromSurroundings(model, there, cosineOfAngle(90.0f * 26.5f / 40.0f)).total().z,
+        returnedFromEnvironment(model, there, cosineOfAngle(90.0f * 26.5f / 40.0f)).total().z,
         1e-5);
     EXPECT_LT(s.average.single.total().x, 0.7);
     EXPECT_NEAR(s.average.compensated.total().x, 1.0, 1e-4);
@@ -106,7 +104,7 @@ TEST(EnergyStudy, LooksAtTheWholeRangeOfMaps) {
     EXPECT_NE(faultOf(study(model, range), EnergyFault::Kind::MakesLight), nullptr);
 }
 
-// Karis' k = (r + 1)² / 8 is for lights only: what they return differs from the surroundings.
+// Karis' k = (r + 1)² / 8 is for lights only: what they return differs from the environment.
 TEST(EnergyStudy, TheTwoKOfSchlickDisagree) {
     ShadingModel model;
     model.visibility = Visibility::SchlickDirect;
@@ -119,7 +117,7 @@ TEST(EnergyStudy, TheTwoKOfSchlickDisagree) {
     EXPECT_TRUE(study(model, steel).faults.empty());
 }
 
-// Its albedo under surroundings is taken at one angle, which costs up to a percent at grazing
+// Its albedo under an environment is taken at one angle, which costs up to a percent at grazing
 // views.
 TEST(EnergyStudy, ExactWaterOnWhiteMakesLessThanAPercent) {
     ShadingModel model;

@@ -49,9 +49,9 @@ TEST(Energy, AWhiteMetalLosesWhatIsTabulated) {
         for (int i = 0; i < 5; ++i) {
             const SurfacePoint white = metal(1.0f, row.r);
             const Returned single =
-                returnedFromSurroundings(modelOf(row.visibility), white, kNoV[i]);
+                returnedFromEnvironment(modelOf(row.visibility), white, kNoV[i]);
             const Returned whole =
-                returnedFromSurroundings(modelOf(row.visibility, true), white, kNoV[i]);
+                returnedFromEnvironment(modelOf(row.visibility, true), white, kNoV[i]);
             const std::string where =
                 "r " + std::to_string(row.r) + ", N·V " + std::to_string(kNoV[i]);
             EXPECT_NEAR(1.0 - single.total().y, row.loss[i], 5e-4) << where;
@@ -104,7 +104,7 @@ TEST(Energy, AveragesAreThoseOfKullaAndConty) {
         const ShadingModel model = modelOf(row.visibility);
         const SurfacePoint white = metal(1.0f, row.r);
         const Returned even =
-            averageReturned([&](float NoV) { return returnedFromSurroundings(model, white, NoV); });
+            averageReturned([&](float NoV) { return returnedFromEnvironment(model, white, NoV); });
         EXPECT_NEAR(even.total().y, row.average, 3e-4) << int(row.visibility) << " " << row.r;
         EXPECT_EQ(even.diffuse, glm::dvec3(0.0));
         const Returned lights =
@@ -129,7 +129,7 @@ TEST(Energy, ColouredMetalsLoseLessAndGetItBackTinted) {
         const ShadingModel off = modelOf(Visibility::SmithCorrelated);
         const ShadingModel on = withCompensation(off, true);
         const SurfacePoint point = metal(row.f0, row.r);
-        for (const auto returned : {returnedFromSurroundings, returnedFromLights}) {
+        for (const auto returned : {returnedFromEnvironment, returnedFromLights}) {
             EXPECT_NEAR(returned(off, point, row.NoV).total().y, row.single, 6e-4) << row.f0;
             EXPECT_NEAR(returned(on, point, row.NoV).total().y, row.compensated, 1.2e-3) << row.f0;
         }
@@ -139,8 +139,8 @@ TEST(Energy, ColouredMetalsLoseLessAndGetItBackTinted) {
 TEST(Energy, EachChannelHasItsOwnBalance) {
     const SurfacePoint gold{{1.0f, 0.77f, 0.34f}, 1.0f, 0.9f, 0.0f};
     const ShadingModel off = modelOf(Visibility::SmithCorrelated);
-    const Returned single = returnedFromSurroundings(off, gold, 0.7f);
-    const Returned whole = returnedFromSurroundings(withCompensation(off, true), gold, 0.7f);
+    const Returned single = returnedFromEnvironment(off, gold, 0.7f);
+    const Returned whole = returnedFromEnvironment(withCompensation(off, true), gold, 0.7f);
     const glm::dvec3 loss = specularLoss(single, whole);
     EXPECT_GT(loss.x, loss.y);
     EXPECT_GT(loss.y, loss.z);
@@ -162,8 +162,8 @@ TEST(Energy, ANonMetalPassesItsLossOnToTheBody) {
     const ShadingModel off = modelOf(Visibility::SmithCorrelated);
     for (const float rho : {1.0f, 0.4f}) {
         const SurfacePoint point{glm::vec3(rho), 0.0f, 0.8f, 0.0f};
-        const Returned single = returnedFromSurroundings(off, point, 0.5f);
-        const Returned whole = returnedFromSurroundings(withCompensation(off, true), point, 0.5f);
+        const Returned single = returnedFromEnvironment(off, point, 0.5f);
+        const Returned whole = returnedFromEnvironment(withCompensation(off, true), point, 0.5f);
         const double moved = whole.specular.y - single.specular.y;
         EXPECT_GT(moved, 1e-4);
         EXPECT_NEAR(single.diffuse.y - whole.diffuse.y, moved * rho, 1e-6);
@@ -172,7 +172,7 @@ TEST(Energy, ANonMetalPassesItsLossOnToTheBody) {
 }
 
 // Every diffuse lobe has its closed-form albedo under lights, too.
-TEST(Energy, LightsAndSurroundingsAgreeOnTheBody) {
+TEST(Energy, LightsAndEnvironmentAgreeOnTheBody) {
     for (const Diffuse diffuse :
          {Diffuse::Lambert, Diffuse::Burley, Diffuse::OrenNayar, Diffuse::Eon})
         for (const float r : {0.1f, 0.9f})
@@ -180,7 +180,7 @@ TEST(Energy, LightsAndSurroundingsAgreeOnTheBody) {
                 ShadingModel model;
                 model.diffuse = diffuse;
                 const SurfacePoint point{{0.9f, 0.5f, 0.1f}, 0.3f, r, r};
-                const Returned even = returnedFromSurroundings(model, point, NoV);
+                const Returned even = returnedFromEnvironment(model, point, NoV);
                 const Returned lights = returnedFromLights(model, point, NoV);
                 for (int c = 0; c < 3; ++c) {
                     EXPECT_NEAR(lights.diffuse[c], even.diffuse[c], 1e-3)

@@ -74,18 +74,18 @@ TEST(Prefilter, MultipliesBandsByTheirFactors) {
 }
 
 TEST(Prefilter, RespondsToAPointOfLightWithItsKernel) {
-    // A lamp of one texel next to the middle of +X.
+    // A light of one texel next to the middle of +X.
     constexpr int kSize = 256, kOut = 128;
     CubeLevel base = cubeOf(kSize, [](glm::vec3) { return glm::vec3(0.0f); });
-    const std::size_t lamp = kSize / 2 * kSize + kSize / 2;
-    base.texels[lamp] = glm::vec3(1e5f);
-    const double flux = 1e5 * cubeSolidAngles(kSize)[lamp];
+    const std::size_t light = kSize / 2 * kSize + kSize / 2;
+    base.texels[light] = glm::vec3(1e5f);
+    const double flux = 1e5 * cubeSolidAngles(kSize)[light];
     const CubePyramid pyramid(base);
     for (int r = 0; r < 5; ++r) {
         const float alpha = kFilterRoughness[r] * kFilterRoughness[r];
         const CubeLevel out = prefilterGGX(pyramid, kOut, alpha, {}, {});
         for (int k = 0; k < 8; ++k) {
-            const KernelSample at = kernelSample(kOut, texelDirection(kSize, lamp), r, k);
+            const KernelSample at = kernelSample(kOut, texelDirection(kSize, light), r, k);
             EXPECT_NEAR(out.texels[at.texel].x / (flux * at.exact), 1.0, 1e-4)
                 << "roughness " << kFilterRoughness[r] << " at " << kKernelAngleDeg[k]
                 << " degrees";
@@ -163,8 +163,8 @@ TEST_P(PrefilterOf, IsTheTexelSumAtEveryLevel) {
 INSTANTIATE_TEST_SUITE_P(Scenes, PrefilterOf, testing::Values(sunnySky, studio));
 
 TEST(Prefilter, EveryFaceIsFilteredTheSameWay) {
-    // The same sky turned by the cube's symmetries gives the same maps, turned: a lamp and its
-    // surroundings in each of 48 places. 32² texels have tiles off the diagonal, too.
+    // The same sky turned by the cube's symmetries gives the same maps, turned: a light and its
+    // environment in each of 48 places. 32² texels have tiles off the diagonal, too.
     constexpr int kOut = 32;
     const auto sky = [](const glm::vec3& d) {
         return glm::vec3(2.0f + d.x + 0.5f * d.y * d.z,
@@ -198,13 +198,13 @@ TEST(Prefilter, EveryInstructionSetComputesTheSame) {
     }
     std::vector<glm::vec4> cells, radiance;
     std::vector<int> column, row;
-    std::vector<CubePyramid::Lamp> lamps;
+    std::vector<CubePyramid::BrightTexel> bright;
     for (std::uint32_t i = 0; i < 50; ++i) {
         cells.emplace_back(uniformSphere(sobolOwen2D(i, 4)), 1e-3f * static_cast<float>(i + 1));
         radiance.emplace_back(static_cast<float>(i), 1.0f, 0.1f * static_cast<float>(50 - i), 0.0f);
         column.push_back(static_cast<int>((i * 7) % 10));
         row.push_back(static_cast<int>(i % 5));
-        lamps.push_back({uniformSphere(sobolOwen2D(i, 5)), glm::vec3(radiance[i]), 1e-3f});
+        bright.push_back({uniformSphere(sobolOwen2D(i, 5)), glm::vec3(radiance[i]), 1e-3f});
     }
     constexpr float kSpread = 1.0f / 32.0f;
     const auto compute = [&](const detail::PrefilterSums& arithmetic) {
@@ -213,7 +213,7 @@ TEST(Prefilter, EveryInstructionSetComputesTheSame) {
         std::vector<float> result(detail::kTileTexels, 0.0f);
         arithmetic.weigh(tile, cells, kSpread, {0.04f}, *weights, result.data());
         arithmetic.add(*weights, {column, row, 40, 1, -10}, radiance.data(), sums);
-        arithmetic.addLamps(tile, lamps, {0.04f}, sums);
+        arithmetic.addBrightTexels(tile, bright, {0.04f}, sums);
         for (const float* colour : {sums.red, sums.green, sums.blue})
             result.insert(result.end(), colour, colour + detail::kTileTexels);
         return result;
@@ -237,8 +237,8 @@ TEST(Prefilter, EveryInstructionSetComputesTheSame) {
             total += weight * cells[k].w;
             const int at = 40 + column[k] - 10 * row[k];
             light += weight * cells[k].w * glm::dvec3(radiance[static_cast<std::size_t>(at)]);
-            light +=
-                lobe(glm::dot(n, glm::dvec3(lamps[k].direction)), 0.04) * glm::dvec3(lamps[k].flux);
+            light += lobe(glm::dot(n, glm::dvec3(bright[k].direction)), 0.04) *
+                     glm::dvec3(bright[k].flux);
         }
         EXPECT_NEAR(expected[i] / total, 1.0, 1e-5);
         for (int c = 0; c < 3; ++c)
@@ -264,14 +264,15 @@ TEST(Prefilter, NarrowLobesSeeTexelsAsDiscs) {
         tile.z[i] = std::cos(angle);
     }
     const glm::vec4 cell(0.0f, 0.0f, 1.0f, solidAngle);
-    const CubePyramid::Lamp lamp{glm::vec3(cell), glm::vec3(2.0f), static_cast<float>(solidAngle)};
+    const CubePyramid::BrightTexel bright{glm::vec3(cell), glm::vec3(2.0f),
+                                          static_cast<float>(solidAngle)};
     for (const detail::PrefilterSums& arithmetic : detail::prefilterSums()) {
         auto weights = std::make_unique<detail::CellWeights>();
         detail::TileSums sums;
         std::vector<float> total(detail::kTileTexels, 0.0f);
         const detail::LobeShape shape{static_cast<float>(alpha2), true};
         arithmetic.weigh(tile, {&cell, 1}, 0.0f, shape, *weights, total.data());
-        arithmetic.addLamps(tile, {&lamp, 1}, shape, sums);
+        arithmetic.addBrightTexels(tile, {&bright, 1}, shape, sums);
         for (int i = 0; i < detail::kTileTexels; ++i) {
             // By points of the disc that stand for equal areas
             double mean = 0.0;
@@ -292,14 +293,14 @@ TEST(Prefilter, NarrowLobesSeeTexelsAsDiscs) {
     }
 }
 
-TEST(Prefilter, ManyLampsAreLeftInThePyramid) {
+TEST(Prefilter, ManyBrightTexelsAreLeftInThePyramid) {
     // More bright texels than can be summed one by one: a white half of a face, half of it
     // brighter.
     const CubeLevel base = cubeOf(64, [](glm::vec3 d) {
         return d.x > 0.9f ? glm::vec3(d.y > 0.0f ? 900.0f : 800.0f) : glm::vec3(0.1f);
     });
     const CubePyramid pyramid(base);
-    EXPECT_LE(pyramid.lamps().size(), 1024u);
+    EXPECT_LE(pyramid.brightTexels().size(), 1024u);
     const CubeLevel out = prefilterGGX(pyramid, 8, 0.3f, {}, {});
     for (std::size_t i = 0; i < out.texels.size(); i += 11) {
         const double exact = exactSum(base, glm::dvec3(texelDirection(8, i)), 0.3).x;

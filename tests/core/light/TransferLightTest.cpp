@@ -146,7 +146,7 @@ TEST_F(TransferLight, EnvironmentsAreTurnedScaledAndFadedExactly) {
     e.second.rotationDeg = -120.0f;
     e.second.exposureEv = 2.0f;
     const std::vector<glm::vec3> first = light(6);
-    // Turning the surroundings turns what arrives with them.
+    // Rotating the environment rotates what arrives with them.
     const auto still = projectLatLong(*e.image, 6);
     const glm::vec3 n = glm::normalize(glm::vec3(0.3f, 0.5f, -0.8f));
     const float back = glm::radians(-33.3f);

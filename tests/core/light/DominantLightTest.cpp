@@ -1,5 +1,5 @@
-// Surroundings as one lamp: direction, strength, and the limits.
-#include "core/light/ClosestLamp.h"
+// An environment as one light: direction, strength, and the limits.
+#include "core/light/DominantLight.h"
 #include "core/math/SphericalHarmonics.h"
 
 #include <array>
@@ -25,35 +25,35 @@ Coefficients directional(const glm::vec3& toLight, const glm::vec3& irradiance) 
 }
 
 // Three bands hold 1 - 1/128 of the clamped cosine's energy (Ramamoorthi & Hanrahan 2001: 99.22 %).
-TEST(ClosestLamp, FindsTheLampItWasMadeOf) {
+TEST(DominantLight, IsTheLightThatTheCoefficientsWereMadeOf) {
     for (const glm::vec3& d : {glm::vec3(0, 0, 1), glm::vec3(1, 0, 0), glm::vec3(0, -1, 0),
                                glm::normalize(glm::vec3(-2, 1, -2))}) {
         const glm::vec3 E(3.0f, 2.0f, 0.5f);
-        const Lamp lamp = closestLamp(directional(d, E));
-        EXPECT_LT(glm::length(lamp.toLight - d), 1e-5f);
-        EXPECT_LT(glm::length(lamp.irradiance - 0.9921875f * E), 1e-4f);
+        const DominantLight light = dominantLight(directional(d, E));
+        EXPECT_LT(glm::length(light.toLight - d), 1e-5f);
+        EXPECT_LT(glm::length(light.irradiance - 0.9921875f * E), 1e-4f);
     }
 }
 
 // <pi L, max(0, z)> / <max(0, z), max(0, z)> = pi · pi / (2 pi / 3).
-TEST(ClosestLamp, EvenSurroundingsShineFromAbove) {
+TEST(DominantLight, AUniformEnvironmentLightsFromAbove) {
     Coefficients even{};
     even[0] = glm::vec3(std::numbers::pi_v<float> * std::sqrt(4.0f * std::numbers::pi_v<float>));
-    const Lamp lamp = closestLamp(even);
-    EXPECT_EQ(lamp.toLight, glm::vec3(0.0f, 1.0f, 0.0f));
-    EXPECT_NEAR(lamp.irradiance.y, 1.5f * std::numbers::pi_v<float>, 1e-4f);
+    const DominantLight light = dominantLight(even);
+    EXPECT_EQ(light.toLight, glm::vec3(0.0f, 1.0f, 0.0f));
+    EXPECT_NEAR(light.irradiance.y, 1.5f * std::numbers::pi_v<float>, 1e-4f);
 }
 
-TEST(ClosestLamp, BrighterLightWinsAndNothingIsNegative) {
+TEST(DominantLight, BrighterLightWinsAndNothingIsNegative) {
     Coefficients both = directional({1, 0, 0}, {5.0f, 0.0f, 0.0f}); // L = 1.06
     const Coefficients green = directional({-1, 0, 0}, {0.0f, 5.0f, 0.0f});
     for (std::size_t i = 0; i < 9; ++i)
         both[i] += green[i];
-    const Lamp lamp = closestLamp(both);
-    EXPECT_LT(glm::length(lamp.toLight - glm::vec3(-1, 0, 0)), 1e-5f);
-    EXPECT_GT(lamp.irradiance.g, 4.9f);
-    EXPECT_GE(lamp.irradiance.r, 0.0f);
-    const Lamp none = closestLamp(Coefficients{});
+    const DominantLight light = dominantLight(both);
+    EXPECT_LT(glm::length(light.toLight - glm::vec3(-1, 0, 0)), 1e-5f);
+    EXPECT_GT(light.irradiance.g, 4.9f);
+    EXPECT_GE(light.irradiance.r, 0.0f);
+    const DominantLight none = dominantLight(Coefficients{});
     EXPECT_EQ(none.irradiance, glm::vec3(0.0f));
     EXPECT_EQ(none.toLight, glm::vec3(0.0f, 1.0f, 0.0f));
 }

@@ -1,4 +1,4 @@
-// Light of lamps and of two environments under radiance transfer, against what it should be.
+// Light of lights and of two environments under radiance transfer, against what it should be.
 #include "core/bake/Bake.h"
 #include "core/document/LightMix.h"
 #include "core/light/EnvironmentBlend.h"
@@ -17,11 +17,11 @@ namespace {
 
 using namespace shading;
 
-class TransferLamps : public RenderTest {
+class TransferLights : public LocalLightsTest {
   protected:
-    // A white, matte square seen from above, or more of them to a side, without surroundings.
+    // A white, matte square seen from above, or more of them to a side, without an environment.
     static Document ground(int cells = 1) {
-        Document document = makeScene(cells == 1 ? makePlane() : grid(cells));
+        Document document = makeScene(cells == 1 ? makePlane() : gridPlane(cells));
         document.view.camera = cameraAbove();
         document.environment.background = BackgroundMode::Off;
         document.materials[0].metallic = 0.0f;
@@ -29,26 +29,7 @@ class TransferLamps : public RenderTest {
         document.view.lighting = LightingMode::Shadowed;
         return document;
     }
-    static MeshPtr grid(int cells) {
-        Mesh mesh;
-        for (int z = 0; z <= cells; ++z)
-            for (int x = 0; x <= cells; ++x) {
-                const glm::vec2 uv(float(x) / float(cells), float(z) / float(cells));
-                mesh.positions.push_back({2.0f * uv.x - 1.0f, 0.0f, 2.0f * uv.y - 1.0f});
-                mesh.uvs.push_back(uv);
-            }
-        mesh.normals.assign(mesh.positions.size(), {0, 1, 0});
-        mesh.tangents.assign(mesh.positions.size(), {1, 0, 0, 1});
-        const auto row = static_cast<std::uint32_t>(cells + 1);
-        for (std::uint32_t z = 0; z + 1 < row; ++z)
-            for (std::uint32_t x = 0; x + 1 < row; ++x) {
-                const std::uint32_t i = z * row + x;
-                mesh.indices.insert(mesh.indices.end(),
-                                    {i, i + row, i + 1, i + 1, i + row, i + row + 1});
-            }
-        return std::make_shared<const Mesh>(std::move(mesh));
-    }
-    static Light lamp(Document& document, LightType type) {
+    static Light lightAbove(Document& document, LightType type) {
         Light light;
         light.id = document.takeId();
         light.type = type;
@@ -79,27 +60,14 @@ class TransferLamps : public RenderTest {
             largest = std::max(largest, std::abs(a.f32()[i] - b.f32()[i]));
         return largest;
     }
-    void SetUp() override {
-        RenderTest::SetUp();
-        if (!IsSkipped())
-            renderer().setIbl(dark());
-    }
-    static IblMaps dark() {
-        IblMaps maps;
-        maps.prefiltered.push_back({1, std::vector<glm::vec3>(6, glm::vec3(0.0f))});
-        maps.irradianceSh.fill(glm::vec3(0.0f));
-        maps.radianceSh.fill(glm::vec3(0.0f));
-        return maps;
-    }
 };
 
-// --- Distant lights
-// --------------------------------------------------------------------------------
+// --- Distant lights ---
 
 // E = E0 cos: exactly where the surface faces the disc, and as close as the bands allow elsewhere.
-TEST_F(TransferLamps, ADiscGivesTheCosineWithinItsBands) {
+TEST_F(TransferLights, ADiscGivesTheCosineWithinItsBands) {
     Document document = ground();
-    document.lights = {lamp(document, LightType::Directional)};
+    document.lights = {lightAbove(document, LightType::Directional)};
     Light& sun = document.lights[0];
     sun.intensity = 4.0f;
     struct Case {
@@ -136,12 +104,12 @@ TEST_F(TransferLamps, ADiscGivesTheCosineWithinItsBands) {
 // --------------------------------------------------------------------------------
 
 // Over an open plane each gives what its closed form says: a form factor of the cosine.
-TEST_F(TransferLamps, LightsNearByAgreeWithTheirClosedForms) {
+TEST_F(TransferLights, LightsNearByAgreeWithTheirClosedForms) {
     Document document = ground(24);
     document.bakes = {openBake(document, 8)};
     for (const LightType type :
          {LightType::Point, LightType::Spot, LightType::Sphere, LightType::Rectangle}) {
-        Light light = lamp(document, type);
+        Light light = lightAbove(document, type);
         light.elevationDeg = 90.0f; // shines down
         light.outerConeDeg = 80.0f;
         light.innerConeDeg = 10.0f;
@@ -170,9 +138,9 @@ TEST_F(TransferLamps, LightsNearByAgreeWithTheirClosedForms) {
 }
 
 // A texel's place is that of its surface: the same light as per vertex.
-TEST_F(TransferLamps, TexelsSeeLightsNearByFromTheirOwnPlaces) {
+TEST_F(TransferLights, TexelsSeeLightsNearByFromTheirOwnPlaces) {
     Document document = ground(24);
-    document.lights = {lamp(document, LightType::Point)};
+    document.lights = {lightAbove(document, LightType::Point)};
     document.meshes[0].transform =
         glm::translate(glm::mat4(1.0f), glm::vec3(0.2f, 0.0f, 0.0f)); // not the bake's own space
     document.bakes = {openBake(document, 3)};
@@ -202,9 +170,9 @@ TEST_F(TransferLamps, TexelsSeeLightsNearByFromTheirOwnPlaces) {
 }
 
 // What came by way of other surfaces is multiplied by the same light.
-TEST_F(TransferLamps, LightsNearByBounce) {
+TEST_F(TransferLights, LightsNearByBounce) {
     Document document = ground(8);
-    document.lights = {lamp(document, LightType::Sphere)};
+    document.lights = {lightAbove(document, LightType::Sphere)};
     document.bakes = {openBake(document, 4, 0.5f)};
     document.view.lighting = LightingMode::Shadowed;
     const glm::vec4 direct = centerPixel(diffuse(document));
@@ -234,7 +202,7 @@ glm::vec2 shadowCentre(const Image& with, const Image& without) {
     return weight > 0.0f ? sum / weight : glm::vec2(-1.0f);
 }
 
-TEST_F(TransferLamps, ASpheresShadowFallsWhereTheShadowMapSays) {
+TEST_F(TransferLights, ASpheresShadowFallsWhereTheShadowMapSays) {
     Document document = ground(48);
     MeshInstance ball;
     ball.id = document.takeId();
@@ -251,7 +219,7 @@ TEST_F(TransferLamps, ASpheresShadowFallsWhereTheShadowMapSays) {
     TileSink nobody;
     auto bake = bakePrtVertex(bakeInputs(document), settings, nobody, {});
     ASSERT_TRUE(bake.ok());
-    document.lights = {lamp(document, LightType::Directional)};
+    document.lights = {lightAbove(document, LightType::Directional)};
     Light& sun = document.lights[0];
     sun.azimuthDeg = 60.0f;
     sun.elevationDeg = 45.0f;
@@ -308,11 +276,12 @@ Document ballUnderTransfer() {
     return document;
 }
 
-TEST_F(TransferLamps, TheMixerActsLinearly) {
+TEST_F(TransferLights, TheMixerActsLinearly) {
     Document document = ballUnderTransfer();
     setIblOf(document);
-    document.lights = {lamp(document, LightType::Directional), lamp(document, LightType::Point),
-                       lamp(document, LightType::Sphere)};
+    document.lights = {lightAbove(document, LightType::Directional),
+                       lightAbove(document, LightType::Point),
+                       lightAbove(document, LightType::Sphere)};
     document.lights[0].azimuthDeg = 20.0f;
     document.lights[1].position = {1.0f, 1.5f, 1.5f};
     document.lights[2].position = {-0.5f, 1.0f, 2.0f};
@@ -323,9 +292,9 @@ TEST_F(TransferLamps, TheMixerActsLinearly) {
     };
     const glm::vec3 all = E();
     document.environment.solo = true;
-    const glm::vec3 surroundings = E();
+    const glm::vec3 environment = E();
     document.environment.solo = false;
-    glm::vec3 sum = surroundings;
+    glm::vec3 sum = environment;
     std::vector<glm::vec3> alone;
     for (Light& light : document.lights) {
         light.solo = true;
@@ -347,14 +316,14 @@ TEST_F(TransferLamps, TheMixerActsLinearly) {
         document.lights[i].enabled = true;
     }
     document.environment.enabled = false;
-    close(E(), all - surroundings);
+    close(E(), all - environment);
     document.environment.enabled = true;
     document.environment.tint = {0.0f, 0.5f, 1.0f};
     document.environment.exposureEv = -1.0f;
-    close(E(), all - surroundings + 0.5f * document.environment.tint * surroundings);
+    close(E(), all - environment + 0.5f * document.environment.tint * environment);
 }
 
-TEST_F(TransferLamps, CrossFadeIsTheMixOfBothPictures) {
+TEST_F(TransferLights, CrossFadeIsTheMixOfBothPictures) {
     Document document = ballUnderTransfer();
     Environment& first = document.environment;
     first.second.source = "second";
@@ -397,7 +366,7 @@ TEST_F(TransferLamps, CrossFadeIsTheMixOfBothPictures) {
 }
 
 // A picture that has never been shown: by the coefficients that were handed over for it.
-TEST_F(TransferLamps, TheOtherPicturesLightComesAhead) {
+TEST_F(TransferLights, TheOtherPicturesLightComesAhead) {
     Document document = ballUnderTransfer();
     setIblOf(document);
     document.view.reflectionMix = 0.0f;

@@ -1,4 +1,4 @@
-// Surroundings reduced to one directional light: what lighting by N·L alone can know of them.
+// The one directional light that stands for an environment where lighting is N·L alone.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -6,7 +6,7 @@
 
 namespace patina {
 
-struct Lamp {
+struct DominantLight {
     glm::vec3 toLight{0.0f, 1.0f, 0.0f}; // unit
     glm::vec3 irradiance{0.0f};          // of a surface that faces it
 };
@@ -16,6 +16,6 @@ struct Lamp {
 // "Extracting a dominant light"); straight up where there is none. The irradiance E of each channel
 // is the one for which E max(0, n·l) comes closest to E(n) over all normals, by least squares:
 //     E = <E(n), max(0, n·l)> / <max(0, n·l), max(0, n·l)> = 3 / 2π Σ A_l E_lm Y_lm(l).
-[[nodiscard]] Lamp closestLamp(std::span<const glm::vec3, 9> irradianceSh);
+[[nodiscard]] DominantLight dominantLight(std::span<const glm::vec3, 9> irradianceSh);
 
 } // namespace patina
