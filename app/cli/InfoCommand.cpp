@@ -150,10 +150,10 @@ void describeScene(Report& report, const OpenedScene& scene) {
                                   {"type", type},
                                   {"intensity", lightIntensity(light)},
                                   {"unit", std::string(intensityUnit(light.type))},
-                                  {"shines", shines(document, light)}});
+                                  {"active", isActive(document, light)}});
         lights.emplace_back(light.name, fmt::format("{}, {:.4g} {}{}", type, lightIntensity(light),
                                                     intensityUnit(light.type),
-                                                    shines(document, light) ? "" : ", off"));
+                                                    isActive(document, light) ? "" : ", off"));
     }
     if (!lights.empty())
         report.table(fmt::format("Lights ({})", lights.size()), lights);

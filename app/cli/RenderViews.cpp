@@ -214,17 +214,17 @@ Result<render::ViewSettings> viewSettings(const RenderOptions& options, const Do
     if (!options.viewLight.empty()) {
         const auto light =
             std::find_if(document.lights.begin(), document.lights.end(), [&](const Light& l) {
-                return l.name == options.viewLight && shines(document, l);
+                return l.name == options.viewLight && isActive(document, l);
             });
         if (light == document.lights.end()) {
             std::string names;
             for (const Light& l : document.lights)
-                if (shines(document, l))
+                if (isActive(document, l))
                     names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", l.name);
             return usage(
                 names.empty()
-                    ? "--view-light: no light of this scene shines"
-                    : fmt::format("--view-light: no light named \"{}\" shines; these do: {}",
+                    ? "--view-light: no light of this scene is on"
+                    : fmt::format("--view-light: no light named \"{}\" is on; these are: {}",
                                   options.viewLight, names));
         }
         settings.light = light->id;

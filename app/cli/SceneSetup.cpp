@@ -241,7 +241,7 @@ Result<Document> openEnvironmentFor(Session& session, const std::string& source,
     if (extensionOf(source) == ".patina") {
         if (!layoutName.empty())
             return Error{ErrorKind::Usage,
-                         "a project knows the layout of its environment; --environment-layout is "
+                         "a project stores the layout of its environment; --environment-layout is "
                          "for images",
                          source,
                          {}};

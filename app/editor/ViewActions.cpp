@@ -111,7 +111,7 @@ ViewActions::ViewActions(ViewState& views, DocumentController& controller, QObje
     connect(&m_controller, &DocumentController::changed, this, [this] {
         const Id chosen = m_state.settings().light;
         const Light* light = m_controller.document().light(chosen);
-        if (chosen != 0 && (light == nullptr || !shines(m_controller.document(), *light)))
+        if (chosen != 0 && (light == nullptr || !isActive(m_controller.document(), *light)))
             m_state.edit([](ViewSettings& settings) { settings.light = 0; });
     });
     refresh();
@@ -260,7 +260,7 @@ void ViewActions::fillLights(QMenu& menu) {
     };
     add(tr("Mirror Direction"), 0, tr("The factors for light from where a mirror would look"));
     for (const Light& light : m_controller.document().lights)
-        if (shines(m_controller.document(), light))
+        if (isActive(m_controller.document(), light))
             add(text(light.name), light.id, tr("The factors of this light"));
 }
 

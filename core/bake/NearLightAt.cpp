@@ -130,7 +130,8 @@ NearLightAt nearLightAt(const Document& document, const NearShadowsPtr& shadows,
         return result;
     for (std::size_t l = 0; l < shadows->shares.size(); ++l) {
         const Light* light = document.light(shadows->request.lights[l].id);
-        if (light == nullptr || light->type == LightType::Directional || !shines(document, *light))
+        if (light == nullptr || light->type == LightType::Directional ||
+            !isActive(document, *light))
             continue;
         const std::optional<glm::vec3> radiance = arriving(
             *light, shadows->request.parts[*part], *shadows->shares[l][*part], *instance, point);

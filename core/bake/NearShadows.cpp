@@ -51,7 +51,7 @@ std::size_t elementCount(const NearPart& part, const BakeInputs& inputs) {
 std::vector<NearLight> nearLights(const Document& document) {
     std::vector<NearLight> lights;
     for (const Light& light : document.lights)
-        if (shines(document, light))
+        if (isActive(document, light))
             if (const std::optional<NearEmitter> emitter = nearEmitter(light))
                 lights.push_back({light.id, *emitter});
     return lights;

@@ -31,14 +31,14 @@ struct MeshInstance {
 
 enum class LightType { Point, Directional, Spot, Sphere, Rectangle };
 
-// Every light shines along -directionToLight() where it has a direction (directional, spot,
+// Every light emits along -directionToLight() where it has a direction (directional, spot,
 // rectangle).
 struct Light {
     Id id = 0;
     std::string name = "Light";
     LightType type = LightType::Directional;
     bool enabled = true;
-    bool solo = false; // while anything is solo, only what is solo shines: LightMix.h
+    bool solo = false; // while anything is solo, everything else is off: LightMix.h
     bool usesTemperature = false;
     glm::vec3 color{1.0f};        // linear sRGB
     float temperatureK = 6500.0f; // of a black body; replaces `color` when usesTemperature

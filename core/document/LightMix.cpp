@@ -12,7 +12,7 @@ bool anySolo(const Document& document) {
                        [](const Light& light) { return light.solo; });
 }
 
-bool shines(const Document& document, const Light& light) {
+bool isActive(const Document& document, const Light& light) {
     return light.enabled && (light.solo || !anySolo(document));
 }
 

@@ -8,11 +8,11 @@
 
 namespace patina {
 
-// While anything is solo, a light or an environment, only what is solo shines.
+// While anything is solo, a light or an environment, everything else is off.
 [[nodiscard]] bool anySolo(const Document& document);
 
 // Switched on, and solo if anything is.
-[[nodiscard]] bool shines(const Document& document, const Light& light);
+[[nodiscard]] bool isActive(const Document& document, const Light& light);
 
 // Environment that lights the scene: radiance scale · image, turned about +Y.
 struct EnvironmentPart {

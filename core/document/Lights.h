@@ -55,7 +55,7 @@ struct RectangleAxes {
 // light's centre, unshadowed. Zero outside of its cone, range and lit side.
 [[nodiscard]] float illuminanceAt(const Light& light, const glm::vec3& point);
 
-// The same light as another type. It shines from the same side: a directional light gets a place at
+// The same light as another type. It emits from the same side: a directional light gets a place at
 // 2.5 times the scene's radius from its centre, a light with a place gets the direction it has seen
 // from there, and a cone or rectangle that had no direction of its own aims at the centre. The
 // intensity is converted so that illuminanceAt() the centre stays what it was; where the old or the

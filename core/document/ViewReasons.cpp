@@ -19,7 +19,7 @@ using namespace shading;
 template <class Has>
 bool anyActive(const Document& document, Has has) {
     return std::any_of(document.lights.begin(), document.lights.end(),
-                       [&](const Light& light) { return shines(document, light) && has(light); });
+                       [&](const Light& light) { return isActive(document, light) && has(light); });
 }
 
 bool anyActive(const Document& document) {
@@ -164,7 +164,7 @@ std::string whyEmpty(ViewKind kind, const Document& document) {
 
 std::string whyEmpty(ViewKind kind, const Document& document, Id light) {
     const Light* chosen = document.light(light);
-    if (chosen && !shines(document, *chosen))
+    if (chosen && !isActive(document, *chosen))
         chosen = nullptr; // as without a choice
     switch (kind) {
     case kViewDirectDiffuse:

@@ -109,8 +109,8 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
     judged(kViewInvalid, "invalid", "Invalid",
            "Marks pixels that are not a number (magenta), infinite (yellow) or negative (cyan)"),
     judged(kViewClipped, "clipped", "Clipped",
-           "Marks what the display cannot show: a channel at its end (red), all at their end "
-           "(white), black (blue)"),
+           "Marks what the display cannot show: one channel clipped (red), all clipped (white), "
+           "black (blue)"),
     judged(kViewOutOfGamut, "outOfGamut", "Out of Gamut",
            "Marks colours outside of the sRGB gamut: a channel below zero before the display"),
     scalar(kViewFurnace, "furnace", "Energy", "ρ", kPicture, ColorMap::Diverging, 0.0f, 2.0f,
@@ -220,14 +220,14 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
     radiance(kViewDiffuseIbl, "diffuseIbl", "Diffuse IBL", "", kIbl,
              "Diffuse reflection of the environment; under transfer of lights, too",
              "Diffuse image-based light as it stands in the picture's sum"),
-    color(
-        kViewDiffuseAlbedo, "diffuseAlbedo", "Diffuse Albedo", "ρ", kIbl,
-        "What the diffuse lobe returns of even light, before kD: base colour × (1 - metallic) for "
-        "Lambert, and what the other diffuse models make of it"),
+    color(kViewDiffuseAlbedo, "diffuseAlbedo", "Diffuse Albedo", "ρ", kIbl,
+          "What the diffuse lobe returns of uniform light, before kD: base colour × (1 - metallic) "
+          "for "
+          "Lambert, and what the other diffuse models make of it"),
     scalar(kViewDiffuseOcclusion, "diffuseOcclusion", "Diffuse AO", "AO", kIbl, ColorMap::Grey,
            0.0f, 1.0f,
            "What ambient occlusion leaves of the irradiance: 1 under radiance transfer, which "
-           "knows the shadows"),
+           "includes the shadows"),
     radiance(kViewPrefiltered, "prefiltered", "Prefiltered", "Lₚ", kIbl,
              "The environment, blurred as the roughness asks, in the direction of reflection"),
     measured(scalar(kViewPrefilteredLevel, "prefilteredLevel", "Prefilter Level", "", kIbl,
@@ -250,7 +250,7 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
              "Specular reflection of the environment",
              "Specular image-based light as it stands in the picture's sum"),
     color(kViewSingleScatterAlbedo, "singleScatterAlbedo", "Specular Albedo", "F0·A + B", kIbl,
-          "What the specular lobe returns of even light, reflected once: F0·A + B"),
+          "What the specular lobe returns of uniform light, reflected once: F0·A + B"),
     upTo(2.0f, color(kViewMultiScatterGain, "multiScatterGain", "Multi-Scatter", "gain", kIbl,
                      "Factor for light that is reflected more than once between facets; grey "
                      "is 1, which adds nothing",
@@ -261,7 +261,7 @@ constexpr std::array<ViewInfo, kViewCount> kViews{{
              "Diffuse and specular reflection of the environment together"),
     inTransfer(direction(kViewBentNormal, "bentNormal", "Bent Normal", "b",
                          "Mean direction that light of a uniform environment comes from, as the "
-                         "transfer bake knows it, in world space")),
+                         "transfer bake recorded it, in world space")),
     scalar(kViewSkyVisibility, "skyVisibility", "Sky Visibility", "", kIbl, ColorMap::Grey, 0.0f,
            1.0f,
            "Share of the light of a uniform upper half of the environment that arrives, by the "

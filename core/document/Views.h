@@ -67,7 +67,7 @@ inline constexpr ViewKind kTermViews[kTermCount] = {
     shading::kViewDiffuseIbl, shading::kViewSpecularIbl, shading::kViewDirectDiffuse,
     shading::kViewDirectSpecular, shading::kViewEmissive};
 
-// Why a view shows nothing in this document ("No light shines: add one or switch one on."), as a
+// Why a view shows nothing in this document ("The scene has no light that is on"), as a
 // sentence for the legend; empty when it applies.
 [[nodiscard]] std::string whyEmpty(ViewKind kind, const Document& document);
 

@@ -109,7 +109,7 @@ void addEnvironment(const Document& document, ExportContents& contents) {
     }
     std::optional<Environment> mixed = mixedEnvironment(document);
     if (!mixed) {
-        contents.warnings.emplace_back("no environment shines, so that none is written");
+        contents.warnings.emplace_back("the environment is off, so none is written");
         return;
     }
     contents.environment = std::make_shared<const Environment>(std::move(*mixed));

@@ -10,7 +10,7 @@
 namespace patina {
 
 float lightLevel(const Document& document, const Light& light) {
-    if (!shines(document, light))
+    if (!isActive(document, light))
         return 0.0f;
     return shading::luminance(lightColor(light) * light.tint) *
            illuminanceAt(light, document.bounds().center());

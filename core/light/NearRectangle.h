@@ -28,7 +28,7 @@ struct NearRectangle {
 };
 
 // `halfX` and `halfY` are half of its sides, perpendicular; the side that cross(halfY, halfX)
-// points to shines.
+// points to emits.
 [[nodiscard]] NearRectangle nearRectangle(const glm::vec3& center, const glm::vec3& halfX,
                                           const glm::vec3& halfY);
 

@@ -102,7 +102,7 @@ std::optional<std::vector<glm::vec3>> environmentLight(std::span<const Environme
 
 void addDistantLights(const Document& document, int order, std::span<glm::vec3> sum) {
     for (const Light& light : document.lights)
-        if (light.type == LightType::Directional && shines(document, light))
+        if (light.type == LightType::Directional && isActive(document, light))
             addZonal(discLight(light.shadowSoftness, order), light.directionToLight(),
                      lightPower(light), sum);
 }
@@ -110,7 +110,7 @@ void addDistantLights(const Document& document, int order, std::span<glm::vec3> 
 void addNearLights(const Document& document, const glm::vec3& place, int order,
                    std::span<glm::vec3> sum) {
     for (const Light& light : document.lights)
-        if (light.type != LightType::Directional && shines(document, light))
+        if (light.type != LightType::Directional && isActive(document, light))
             addNearLight(light, place, order, sum);
 }
 

@@ -21,7 +21,7 @@ namespace patina {
 using EnvironmentProjection = std::function<std::span<const glm::vec3>(const EnvironmentPart&)>;
 
 // order² radiance coefficients in world space: the environments of the mix, turned and scaled, and
-// every directional light that shines, as a disc of its softness (see discLight()). Where a part's
+// every directional light that is on, as a disc of its softness (see discLight()). Where a part's
 // projection is not known the picture of the whole mix stands in, and where that is not known there
 // is no environment. order: 1 … kMaxShOrder.
 [[nodiscard]] std::vector<glm::vec3> transferLight(const Document& document, int order,

@@ -376,9 +376,9 @@ constexpr auto kRed = MapChannel::R;
 constexpr auto kUniform = Affects::Uniform;
 constexpr auto kGeometry = Affects::Geometry | Affects::Bakes;
 constexpr auto kEnvironment = Affects::EnvironmentMap;
-constexpr auto kSwitch = Affects::Uniform | Affects::Structure; // lists show what shines
-constexpr Text kSoloHelp = "While anything is solo, a light or the environment, only what is solo "
-                           "shines, as on a mixing desk.";
+constexpr auto kSwitch = Affects::Uniform | Affects::Structure; // lists show what is on
+constexpr Text kSoloHelp = "While any light or environment is solo, everything else is off, as on "
+                           "a mixing desk.";
 
 using M = Material;
 using E = Environment;
@@ -406,7 +406,7 @@ constexpr std::array kParameters{
     map<&M::emissiveMap>("material.emissive.map", "Emission map", "Emission", kSrgb, kRgb, "Image that multiplies the emission colour."),
     number<&M::emissiveStrength>("material.emissiveStrength", "Emission strength", "Emission", {0.0f, 20.0f}, {0.0f, 1e5f}, 2, "", "Multiplies the emission colour, for screens and lights brighter than white paper."),
     number<&M::opacity>("material.opacity", "Opacity", "Transparency", kUnit, kUnit, 3, "", "1 is solid and 0 invisible; used when the alpha mode is cut-out or blend."),
-    choice<&M::alphaMode>("material.alphaMode", "Alpha mode", "Transparency", kAlphaModes, kAlphaModeLabels, "Whether opacity is ignored, cuts holes with a hard edge, or lets the background shine through."),
+    choice<&M::alphaMode>("material.alphaMode", "Alpha mode", "Transparency", kAlphaModes, kAlphaModeLabels, "Whether opacity is ignored, cuts holes with a hard edge, or lets the background show through."),
     number<&M::alphaCutoff>("material.alphaCutoff", "Alpha cutoff", "Transparency", kUnit, kUnit, 3, "", "In cut-out mode, points of lower opacity than this are left out."),
     flag<&M::doubleSided>("material.doubleSided", "Double-sided", "Transparency", "Shows the back of thin surfaces such as leaves and cloth, with their normal turned to the viewer.", kUniform | Affects::Bakes),
 
@@ -476,7 +476,7 @@ constexpr std::array kParameters{
     number<&View::reflectionMix>("view.reflectionMix", "Diffuse / reflection", "Camera and lighting", kUnit, kUnit, 2, "", "Fades between diffuse light alone (0) and reflections alone (1); in the middle both show in full. Reflections that are left out take nothing from the diffuse light."),
 
     text<&L::name>("light.name", "Name", "Light", "What the light is called in lists, exports and scripts."),
-    choice<&L::type>("light.type", "Type", "Light", kLightTypes, kLightTypeLabels, "A point shines from one place in all directions, a directional light like the sun from far away, a spot in a cone; spheres and rectangles shine from an area and make soft highlights.", kUniform | Affects::Structure),
+    choice<&L::type>("light.type", "Type", "Light", kLightTypes, kLightTypeLabels, "A point emits from one position in all directions, a directional light from far away like the sun, a spot in a cone; spheres and rectangles emit from an area and make soft highlights.", kUniform | Affects::Structure),
     flag<&L::enabled>("light.enabled", "On", "Light", "Switches the light on or off.", kUniform | Affects::Structure),
     flag<&L::solo>("light.solo", "Solo", "Light", kSoloHelp, kUniform | Affects::Structure),
     color<&L::color>("light.color", "Colour", "Light", "Colour of the light; its brightness is set by the intensity."),
@@ -488,7 +488,7 @@ constexpr std::array kParameters{
     vector<&L::position>("light.position", "Position", "Place", {-10.0f, 10.0f}, {-1e6f, 1e6f}, "m", "Where the light stands: right, up and towards the viewer; not of a directional light."),
     angle<&L::azimuthDeg>("light.azimuthDeg", "Azimuth", "Place", "The compass direction that light of a directional light, spot or rectangle comes from; 0 is the model's front, positive values turn towards +X."),
     number<&L::elevationDeg>("light.elevationDeg", "Elevation", "Place", {-90.0f, 90.0f}, {-90.0f, 90.0f}, 1, "°", "How far from above the light of a directional light, spot or rectangle comes: 90 is straight down, 0 level."),
-    angle<&L::rollDeg>("light.rollDeg", "Roll", "Place", "Turns a rectangle about the direction it shines in."),
+    angle<&L::rollDeg>("light.rollDeg", "Roll", "Place", "Turns a rectangle about the direction it emits in."),
     number<&L::range>("light.range", "Range", "Shape", {0.0f, 50.0f}, {0.0f, 1e6f}, 2, "m", "Where light of a point or spot ends, fading smoothly; 0 lets it go on for ever, as real light does."),
     number<&L::innerConeDeg>("light.innerConeDeg", "Inner cone", "Shape", {0.0f, 90.0f}, {0.0f, 90.0f}, 1, "°", "Half angle of the cone within which a spot has its full intensity."),
     number<&L::outerConeDeg>("light.outerConeDeg", "Outer cone", "Shape", {0.1f, 90.0f}, {0.1f, 90.0f}, 1, "°", "Half angle of the cone outside of which a spot is dark."),

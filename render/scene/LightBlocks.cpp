@@ -58,7 +58,7 @@ LightBlock packLight(const Light& light, int shadowSlot) {
 std::vector<const Light*> shiningLights(const Document& document) {
     std::vector<const Light*> lights;
     for (const Light& light : document.lights)
-        if (shines(document, light))
+        if (isActive(document, light))
             lights.push_back(&light);
     return lights;
 }

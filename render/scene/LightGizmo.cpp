@@ -139,7 +139,7 @@ LightGizmo lightGizmo(const Document& document, const Light& light, const Bounds
     gizmo.light = light.id;
     gizmo.type = light.type;
     gizmo.selected = selected;
-    gizmo.shining = shines(document, light);
+    gizmo.shining = isActive(document, light);
     gizmo.color = markColor(light);
     if (!gizmo.shining)
         gizmo.color *= 0.45f;

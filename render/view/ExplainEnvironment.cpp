@@ -155,10 +155,11 @@ ExplainedStep diffuseStep(const Subject& subject) {
         true,
         occlusionNote(subject)};
     if (subject.rebuilt.transfer)
-        step.note = subject.pixel.lights.empty()
-                        ? "E(n) comes from the transfer, which knows the shadows; AO is left out."
-                        : "E(n) comes from the transfer, which knows the shadows and holds the "
-                          "diffuse light of lights; AO is left out.";
+        step.note =
+            subject.pixel.lights.empty()
+                ? "E(n) comes from the transfer, which includes the shadows; AO is left out."
+                : "E(n) comes from the transfer, which includes the shadows and the "
+                  "diffuse light of all lights; AO is left out.";
     weigh(step, subject.rebuilt.mix.x);
     compare(step, subject.rebuilt.mix.x * albedo * kd * (ao / glm::pi<float>()) * irradiance);
     return step;

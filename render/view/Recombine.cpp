@@ -79,7 +79,7 @@ void shadeArea(RebuiltLight& light, const SurfaceTerms& s, const Light& source,
     light.specular = s.specularAlbedo * radiance * light.lobeShare;
 }
 
-// The part of the picture that shines through the surface.
+// The part of the picture that is seen through the surface.
 glm::vec3 restOf(const Inspection& pixel) {
     glm::vec3 parts(0.0f);
     for (std::size_t i = 0; i < kTermCount; ++i)

@@ -239,7 +239,7 @@ PT_FN ShadedLight shadeSphere(SurfaceTerms s, vec4 fit, vec3 toCenter, float rad
 }
 
 // `toCenter`: from the surface to the centre; `halfX`, `halfY`: half the sides. The side that
-// cross(halfY, halfX) points to shines.
+// cross(halfY, halfX) points to emits.
 PT_FN ShadedLight shadeRectangle(SurfaceTerms s, vec4 fit, vec3 toCenter, vec3 halfX, vec3 halfY,
                                  vec3 radiance) {
     vec3 x;

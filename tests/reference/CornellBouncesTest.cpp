@@ -22,7 +22,7 @@ glm::dvec3 toWorld(const glm::dvec3& mm) {
 }
 
 // Irradiance of the lamp, of radiance 1: Lambert's formula for polygons, wholly in front of all
-// that it shines on.
+// that it emits on.
 double lampIrradiance(const glm::dvec3& position, const glm::dvec3& normal) {
     const std::array<glm::dvec3, 4> corners = {
         toWorld({343, 548.8, 227}), toWorld({343, 548.8, 332}), toWorld({213, 548.8, 332}),

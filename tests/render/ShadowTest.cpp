@@ -239,7 +239,7 @@ TEST_F(Shadow, OnlyFourLightsHaveOneAndTheyAreTheFirst) {
                 return pixel(image, column, kPixels / 2).g;
         return -1.0f;
     };
-    const float one = dark(); // the fifth light shines through
+    const float one = dark(); // the fifth light passes through
     EXPECT_GT(one, 0.2f);
     document.lights[2].enabled = false; // so that the fifth gets its map
     EXPECT_EQ(dark(), 0.0f);

@@ -110,7 +110,7 @@ TEST_F(TransferLights, LightsNearByAgreeWithTheirClosedForms) {
     for (const LightType type :
          {LightType::Point, LightType::Spot, LightType::Sphere, LightType::Rectangle}) {
         Light light = lightAbove(document, type);
-        light.elevationDeg = 90.0f; // shines down
+        light.elevationDeg = 90.0f; // emits down
         light.outerConeDeg = 80.0f;
         light.innerConeDeg = 10.0f;
         light.width = 0.8f;

@@ -128,7 +128,7 @@ LightsPanel::LightsPanel(DocumentController& controller, SelectionModel& selecti
     m_list->setColumnCount(2);
     m_list->setHeaderLabels({tr("Light"), tr("Solo")});
     m_list->headerItem()->setToolTip(kSoloColumn,
-                                     tr("While any light is solo, only solo lights shine"));
+                                     tr("While any light is solo, only solo lights are on"));
     m_list->header()->setStretchLastSection(false);
     m_list->header()->setSectionResizeMode(kNameColumn, QHeaderView::Stretch);
     m_list->header()->setSectionResizeMode(kSoloColumn, QHeaderView::ResizeToContents);
@@ -240,7 +240,7 @@ void LightsPanel::refreshList() {
         item->setCheckState(kNameColumn, light.enabled ? Qt::Checked : Qt::Unchecked);
         item->setCheckState(kSoloColumn, light.solo ? Qt::Checked : Qt::Unchecked);
         // What does not shine is dimmed, whoever silences it.
-        item->setForeground(kNameColumn, shines(m_controller.document(), light)
+        item->setForeground(kNameColumn, isActive(m_controller.document(), light)
                                              ? QBrush()
                                              : QBrush(QColor(tokens::kTextOff)));
         if (light.id == m_selection.light())

@@ -280,7 +280,7 @@ void MixerPanel::refreshStrip(MixerStrip& strip) {
     if (strip.channel().target.scope == Scope::Light) {
         const Light& light = *document.light(strip.channel().target.id);
         strip.setName(QString::fromStdString(light.name), lightIcon(light.type));
-        strip.refresh(lightLevel(document, light), shines(document, light));
+        strip.refresh(lightLevel(document, light), isActive(document, light));
         return;
     }
     const bool first = strip.channel() == firstEnvironment();

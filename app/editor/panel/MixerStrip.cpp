@@ -106,14 +106,14 @@ void MixerStrip::setName(const QString& name, const QString& iconName) {
     describe(m_tint, tr("Tint of %1").arg(name), toQString(m_channel.tint->help));
     describe(m_mute, tr("Mute %1").arg(name), tr("Mute: take %1 out of the mix").arg(name));
     describe(m_solo, tr("Solo %1").arg(name),
-             tr("Solo: only what is solo shines while anything is"));
+             tr("Solo: while anything is solo, everything else is off"));
     describe(m_level, tr("Level of %1").arg(name),
              m_channel.target.scope == Scope::Light
                  ? tr("Light at the scene's centre on a surface that faces %1").arg(name)
                  : tr("Light of %1 on a surface that faces up").arg(name));
 }
 
-void MixerStrip::refresh(float lux, bool shines) {
+void MixerStrip::refresh(float lux, bool active) {
     const Document& document = m_controller.document();
     const Id id = m_channel.target.id;
     const float ev = std::get<float>(m_channel.gain->get(document, id));
@@ -124,7 +124,7 @@ void MixerStrip::refresh(float lux, bool shines) {
     m_mute->setChecked(!std::get<bool>(m_channel.enabled->get(document, id)));
     m_solo->setChecked(std::get<bool>(m_channel.solo->get(document, id)));
     m_level->setText(luxText(lux));
-    m_name->setEnabled(shines); // what does not shine is dimmed, whoever silences it
+    m_name->setEnabled(active); // muted or silenced by another solo: dimmed
 }
 
 void MixerStrip::set(const ParameterInfo& info, const ParameterValue& value, DragSession session) {

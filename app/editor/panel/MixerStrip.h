@@ -39,7 +39,7 @@ class MixerStrip : public QFrame {
     // What it says above the fader, for readers of the screen, too.
     void setName(const QString& name, const QString& iconName);
     // Takes the channel's values from the document; `lux`: what comes out.
-    void refresh(float lux, bool shines);
+    void refresh(float lux, bool active);
 
   private:
     void connectGain();

@@ -149,7 +149,7 @@ std::optional<TransferAsk> TransferPanel::ask(QString& problem) const {
     }
     ask.parts = environmentParts(document);
     for (const Light& light : document.lights)
-        if (shines(document, light))
+        if (isActive(document, light))
             ask.lights.push_back(light);
     ask.shadows = m_shadows.shown();
     ask.mesh = at->mesh;
@@ -205,7 +205,7 @@ void TransferPanel::show(std::shared_ptr<const TransferStudy> study, const QStri
     const glm::vec3 whole = s.radiance + s.local;
     const bool negative = std::min({whole.x, whole.y, whole.z}) < 0.0f;
     m_numbers->setText(
-        tr("Light of a white surface: %1%2   ·   open to %3 % of even light   ·   %4")
+        tr("Light of a white surface: %1%2   ·   sky visibility %3 %   ·   %4")
             .arg(numbers(whole), negative ? tr(" (below zero: shown as dark)") : QString(),
                  plotNumber(100.0 * double{s.visibility}),
                  s.transfer.bounced.empty() ? tr("direct light") : tr("with bounces")) +

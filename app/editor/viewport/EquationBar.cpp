@@ -249,7 +249,7 @@ void EquationBar::refreshLights() {
     const QSignalBlocker quiet(m_lights);
     m_lights->clear();
     for (const Light& light : document.lights)
-        if (shines(document, light))
+        if (isActive(document, light))
             m_lights->addItem(QString::fromStdString(light.name), light.id);
     m_lights->setCurrentIndex(m_lights->findData(m_views.settings().light));
 }
@@ -258,10 +258,10 @@ void EquationBar::refreshLights() {
 bool EquationBar::chooseLight() {
     const Document& document = m_controller.document();
     const auto usable = [&](const Light& light, bool withFactors) {
-        return shines(document, light) && (hasFactors(light.type) || !withFactors);
+        return isActive(document, light) && (hasFactors(light.type) || !withFactors);
     };
     const Light* chosen = document.light(m_views.settings().light);
-    if (!isOfOneLight(opened()) || (chosen && shines(document, *chosen)))
+    if (!isOfOneLight(opened()) || (chosen && isActive(document, *chosen)))
         return false;
     for (const bool withFactors : {true, false})
         for (const Light& light : document.lights)

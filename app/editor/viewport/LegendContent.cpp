@@ -70,8 +70,8 @@ void addMarks(LegendContent& content) {
                             {QColor::fromRgbF(0.0f, 0.9f, 0.9f), tr("Negative")}};
         break;
     case kViewClipped:
-        content.swatches = {{QColor::fromRgbF(1.0f, 0.15f, 0.1f), tr("One channel at its end")},
-                            {Qt::white, tr("All channels at their end")},
+        content.swatches = {{QColor::fromRgbF(1.0f, 0.15f, 0.1f), tr("One channel clipped")},
+                            {Qt::white, tr("All channels clipped")},
                             {QColor::fromRgbF(0.1f, 0.25f, 1.0f), tr("Black")}};
         break;
     case kViewOutOfGamut:
@@ -123,7 +123,7 @@ void addLights(LegendContent& content, const render::ViewSettings& settings,
     content.lights.push_back(
         {0, content.kind == kViewShadow ? tr("All lights") : tr("Mirror direction")});
     for (const Light& light : document.lights)
-        if (shines(document, light))
+        if (isActive(document, light))
             content.lights.push_back({light.id, QString::fromStdString(light.name)});
 }
 

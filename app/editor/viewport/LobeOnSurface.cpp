@@ -88,7 +88,7 @@ std::optional<LobeOnSurface::Ask> LobeOnSurface::ask(QString& problem) const {
             std::find_if(at->lights.begin(), at->lights.end(),
                          [&](const render::LightShare& share) { return share.light == *m_light; });
         if (light == at->lights.end()) {
-            problem = tr("The light does not shine.");
+            problem = tr("The light is off.");
             return std::nullopt;
         }
         ask.end = LobeEnd::Light;

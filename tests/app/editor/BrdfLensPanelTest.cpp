@@ -549,7 +549,7 @@ TEST_F(OnSurface, WhatCannotBeShownIsSaid) {
     EXPECT_TRUE(note().contains(QStringLiteral("behind the surface")));
     m_pin.lights.clear();
     session->probe.setPin(m_pin);
-    EXPECT_TRUE(note().contains(QStringLiteral("does not shine")));
+    EXPECT_TRUE(note().contains(QStringLiteral("The light is off")));
     session->controller.removeLight(m_light);
     EXPECT_EQ(box.currentIndex(), 0) << "a light that is gone is no choice";
     EXPECT_TRUE(session->lobe.problem().isEmpty());

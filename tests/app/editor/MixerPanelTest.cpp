@@ -130,7 +130,7 @@ TEST_F(MixerPanelTest, MuteAndSoloAreOfOneDesk) {
     press(tr("Solo %1").arg(sky));
     EXPECT_EQ(environmentParts(document()).size(), 1u);
     press(tr("Solo Sun"));
-    EXPECT_FALSE(shines(document(), sun()));
+    EXPECT_FALSE(isActive(document(), sun()));
     EXPECT_EQ(level("Sun"), tr("dark"));
     keep(QStringLiteral("mixer-solo.png"));
 }

@@ -209,7 +209,7 @@ TEST_F(LightGizmoWindowTest, TheAimHandleTurnsASpotWhereItStands) {
     const Light after = *document().light(id);
     EXPECT_EQ(after.position, before.position);
     EXPECT_LT(glm::dot(after.directionToLight(), before.directionToLight()), 0.999f);
-    // It shines more to the right than before.
+    // It is brighter to the right than before.
     EXPECT_LT(glm::dot(after.directionToLight(), camera().right()),
               glm::dot(before.directionToLight(), camera().right()));
 }

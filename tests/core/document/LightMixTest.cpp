@@ -76,15 +76,15 @@ TEST_F(LightMix, SoloAndMuteAreOfOneDeskForLightsAndEnvironments) {
     e.fade = 0.5f;
     document.lights[1].solo = true;
     EXPECT_TRUE(anySolo(document));
-    EXPECT_FALSE(shines(document, document.lights[0]));
-    EXPECT_TRUE(shines(document, document.lights[1]));
+    EXPECT_FALSE(isActive(document, document.lights[0]));
+    EXPECT_TRUE(isActive(document, document.lights[1]));
     EXPECT_TRUE(environmentParts(document).empty());
     EXPECT_EQ(shownEnvironment(document).scale, glm::vec3(0.0f));
     EXPECT_EQ(shownEnvironment(document).image, e.image); // no picture is prepared for nothing
 
     document.lights[1].solo = false;
     e.second.solo = true;
-    EXPECT_FALSE(shines(document, document.lights[0]));
+    EXPECT_FALSE(isActive(document, document.lights[0]));
     ASSERT_EQ(environmentParts(document).size(), 1u);
     EXPECT_EQ(environmentParts(document)[0].role, Role::Second);
     e.solo = true;
@@ -119,7 +119,7 @@ TEST_F(LightMix, SoloAndMuteAreOfOneDeskForLightsAndEnvironments) {
     e = Environment();
     e.second.solo = true;
     EXPECT_FALSE(anySolo(document));
-    EXPECT_TRUE(shines(document, document.lights[0]));
+    EXPECT_TRUE(isActive(document, document.lights[0]));
 }
 
 TEST_F(LightMix, GainAndTintMultiplyTheLightOnTopOfItsOwnColour) {
@@ -242,8 +242,7 @@ TEST_F(LightMix, BecomesASingleEnvironment) {
     e.enabled = false;
     EXPECT_EQ(mixedEnvironment(document), std::nullopt);
     e.fade = 0.5f;
-    EXPECT_EQ(mixedEnvironment(document)->source, "/tmp/second.hdr")
-        << "the other one still shines";
+    EXPECT_EQ(mixedEnvironment(document)->source, "/tmp/second.hdr") << "the other one is still on";
     e.enabled = true;
     JobControl control;
     control.cancel();

@@ -39,13 +39,13 @@ TEST(Lights, SoloSilencesTheOthersAsOnAMixingDesk) {
     Document document;
     document.lights.resize(3);
     for (const Light& light : document.lights)
-        EXPECT_TRUE(shines(document, light));
+        EXPECT_TRUE(isActive(document, light));
     document.lights[1].solo = true;
-    EXPECT_FALSE(shines(document, document.lights[0]));
-    EXPECT_TRUE(shines(document, document.lights[1]));
+    EXPECT_FALSE(isActive(document, document.lights[0]));
+    EXPECT_TRUE(isActive(document, document.lights[1]));
     document.lights[1].enabled = false; // muted and solo: silent, and so are the others
     for (const Light& light : document.lights)
-        EXPECT_FALSE(shines(document, light));
+        EXPECT_FALSE(isActive(document, light));
 }
 
 TEST(Lights, IntensityHasTheUnitOfItsType) {
@@ -78,7 +78,7 @@ TEST(Lights, DirectionsGoThereAndBack) {
 
 TEST(Lights, RectangleAxesMakeARightHandedFrameThatRollsAboutTheLight) {
     Light light = lightOf(LightType::Rectangle);
-    light.azimuthDeg = light.elevationDeg = light.rollDeg = 0.0f; // shines along -Z
+    light.azimuthDeg = light.elevationDeg = light.rollDeg = 0.0f; // emits along -Z
     RectangleAxes axes = rectangleAxes(light);
     expectNear(axes.x, {1, 0, 0});
     expectNear(axes.y, {0, 1, 0});
@@ -110,7 +110,7 @@ TEST(Lights, IlluminanceFollowsTheUnits) {
     light.range = 2.0f;
     EXPECT_EQ(illuminanceAt(light, {0, 0, 0}), 0.0f);
 
-    light = lightOf(LightType::Spot); // shines along -Z
+    light = lightOf(LightType::Spot); // emits along -Z
     light.position = {0, 0, 2};
     light.azimuthDeg = light.elevationDeg = 0.0f;
     light.intensity = 8.0f;

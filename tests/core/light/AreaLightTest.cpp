@@ -83,7 +83,7 @@ TEST(FormFactor, OfPolygonsIsClippedAtTheHorizon) {
         EXPECT_NEAR(quadFormFactor(p, p + across, p + across + along, p + along), sum, 1e-4f);
         EXPECT_GT(sum, 0.005f) << height;
     }
-    // Only the lit side shines, and nothing comes from below.
+    // Only the lit side emits, and nothing comes from below.
     EXPECT_EQ(quadFormFactor(d, c, b, a), 0.0f);
     EXPECT_EQ(quadFormFactor({0, 0, -1}, {1, 0, -1}, {1, 1, -1}, {0, 1, -1}), 0.0f);
 }

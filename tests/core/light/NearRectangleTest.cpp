@@ -20,7 +20,7 @@ constexpr std::array<float, 8> kOpen{1, 1, 1, 1, 1, 1, 1, 1};
 std::vector<double> polygon(const NearRectangle& r, const glm::vec3& place, int order) {
     const glm::dvec3 center(glm::dvec3(r.center) - glm::dvec3(place));
     const glm::dvec3 x = double(r.halfX) * glm::dvec3(r.x), y = double(r.halfY) * glm::dvec3(r.y);
-    // Clockwise as seen from the side that shines.
+    // Clockwise as seen from the side that emits.
     const std::array<glm::dvec3, 4> corners{center - x - y, center + x - y, center + x + y,
                                             center - x + y};
     std::vector<double> out(static_cast<std::size_t>(shCount(order)));

@@ -254,7 +254,7 @@ TEST_F(TransferLight, AddsTheNearLightsThatShineAsAPlaceSeesThem) {
     off.enabled = false;
     sun.type = LightType::Directional;
     spot.type = LightType::Spot;
-    setDirectionToLight(spot, -up); // shines upwards
+    setDirectionToLight(spot, -up); // emits upwards
     for (const Light& light : {far, off, sun, spot})
         EXPECT_TRUE(dark(seen({light}))) << static_cast<int>(light.type);
     setDirectionToLight(spot, up);
@@ -269,7 +269,7 @@ TEST_F(TransferLight, AddsTheNearLightsThatShineAsAPlaceSeesThem) {
     panel.type = LightType::Rectangle;
     panel.width = 1.0f;
     panel.height = 0.5f;
-    setDirectionToLight(panel, up); // shines downwards
+    setDirectionToLight(panel, up); // emits downwards
     // Of radiance 8: pi sin² of the ball.
     const std::vector<glm::vec3> ballLight = seen({ball}), panelLight = seen({panel});
     EXPECT_NEAR(irradiance(ballLight, up).x, 8.0 * kPi / 16.0, 1e-4);

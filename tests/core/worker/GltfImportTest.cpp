@@ -332,7 +332,7 @@ TEST_F(GltfImport, Lights) {
     builder.node({{"translation", {1, 2, 3}},
                   {"name", "bulb"},
                   {"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});
-    // Half a turn about Y, scaled: it shines along +Z, and the scale does not touch its range.
+    // Half a turn about Y, scaled: it emits along +Z, and the scale does not touch its range.
     builder.node({{"rotation", {0, 1, 0, 0}},
                   {"scale", {2, 2, 2}},
                   {"translation", {0, 0, -5}},
