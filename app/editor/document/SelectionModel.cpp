@@ -31,9 +31,11 @@ void SelectionModel::repair(const Change& change) {
     if (!touches(change.affects, Affects::Structure))
         return;
     const Document& document = m_controller.document();
-    const MeshInstance* mesh = document.mesh(m_mesh);
+    // In another document ids mean others.
+    const bool another = change.affects == Affects::Everything;
+    const MeshInstance* mesh = another ? nullptr : document.mesh(m_mesh);
     Id material = mesh ? mesh->material : m_material;
-    if (!document.material(material)) {
+    if (another || !document.material(material)) {
         // There is always something to edit: the material of the largest mesh comes first to the
         // eye.
         material = document.materials.empty() ? 0 : document.materials.front().id;
@@ -46,10 +48,8 @@ void SelectionModel::repair(const Change& change) {
             }
         }
     }
-    const bool deselected = m_light == 0 && change.affects != Affects::Everything;
-    const Id light = document.light(m_light) || deselected ? m_light
-                     : document.lights.empty()             ? 0
-                                                           : document.lights.front().id;
+    const bool kept = !another && (m_light == 0 || document.light(m_light));
+    const Id light = kept ? m_light : document.lights.empty() ? 0 : document.lights.front().id;
     set(mesh ? m_mesh : 0, material, light);
 }
 

@@ -8,6 +8,7 @@
 #include <QFile>
 #include <QTemporaryDir>
 #include <QTest>
+#include <algorithm>
 #include <gmock/gmock.h>
 #include <random>
 
@@ -388,6 +389,23 @@ TEST_F(Controller, SelectionFollowsTheDocument) {
     EXPECT_EQ(selection.light(), light);
     undo().undo();
     EXPECT_NE(selection.light(), light);
+}
+
+// Another document may use the same ids for other things: nothing of the selection is carried over.
+TEST_F(Controller, AnotherDocumentIsSelectedFromAnew) {
+    SelectionModel& selection = session.selection;
+    const Id chosenFirst = selection.material(), light = selection.light();
+    const auto other =
+        std::find_if(document().materials.begin(), document().materials.end(),
+                     [&](const Material& material) { return material.id != chosenFirst; });
+    ASSERT_NE(other, document().materials.end());
+    selection.selectMaterial(other->id);
+    selection.selectMesh(document().meshes.back().id);
+    controller.newDocument();
+    settle();
+    EXPECT_EQ(selection.material(), chosenFirst);
+    EXPECT_EQ(selection.mesh(), 0u);
+    EXPECT_EQ(selection.light(), light);
 }
 
 } // namespace
