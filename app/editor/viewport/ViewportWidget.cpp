@@ -27,11 +27,10 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kRestMs = 250;        // without movement until the picture is refined
-constexpr double kSliceMs = 25.0;   // of a frame at rest: with Qt's part input waits no 50 ms
-constexpr int kPanelsMs = 10;       // for lists to show what was added
-constexpr int kAdaptationMs = 16;   // between the frames of an eye that adapts
-constexpr int kAccumulationMs = 16; // between frames that are added up
+constexpr int kRestMs = 250;                        // without movement until the picture is refined
+constexpr int kPanelsMs = 10;                       // for lists to show what was added
+constexpr int kAdaptationMs = 16;                   // between the frames of an eye that adapts
+constexpr int kAccumulationMs = 16;                 // between frames that are added up
 constexpr std::size_t kEnvironmentBytes = 16 << 20; // of textures between frames: some 10 ms
 constexpr int kShaderPollMs = 500;                  // hot reload in developers' builds
 
@@ -379,78 +378,11 @@ void ViewportWidget::paintGL() {
     m_picker.frameDrawn(m_lastFrameSize, m_pacing.moving());
 }
 
-// --- Slices --------------------------------------------------------------------------------------
-
-// The sides of a split are drawn one after the other, and none is there to be displayed anew for an
-// eye that adapts: such frames are drawn in one piece.
-bool ViewportWidget::drawsInSlices(const render::ViewSettings& view) const {
-    return m_pacing.slices() && !m_lastFrameSize.isEmpty() &&
-           !(view.split && needsLuminance(m_controller.document().view));
-}
-
 void ViewportWidget::bringIn() {
     m_preview.upload(*m_renderer);
     m_bounces.upload(*m_renderer);
     m_nearShadows.upload(*m_renderer);
     m_projections.upload(*m_renderer, m_controller.document());
-}
-
-void ViewportWidget::wantFrame(const render::FrameSettings& frame) {
-    m_sliced = frame;
-    m_sliced.adaptSeconds = 0.0f; // the eye looks at what is shown
-    m_sliced.accumulate = m_pacing.accumulating();
-}
-
-void ViewportWidget::startSlices() {
-    m_slicing = true;
-    m_slicesMs = 0.0;
-    m_sliceTimer.start();
-}
-
-void ViewportWidget::stopSlices() {
-    m_slicing = false;
-    m_sliceTimer.stop();
-    m_completeTimer.stop();
-}
-
-void ViewportWidget::drawSlice() {
-    if (!m_renderer || !m_slicing)
-        return;
-    if (std::exchange(m_sliceWaits, false)) {
-        m_sliceTimer.start(); // something else has just taken its time
-        return;
-    }
-    QElapsedTimer clock;
-    clock.start();
-    makeCurrent();
-    const Result<bool> complete = m_renderer->prepare(m_sliced, kSliceMs, m_pacing.expectedMs());
-    doneCurrent();
-    const double milliseconds = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
-    m_slicesMs += milliseconds;
-    m_slowestFrameMs = std::max(m_slowestFrameMs, milliseconds);
-    if (!complete) {
-        logError("the frame could not be drawn: {}", complete.error().text());
-        stopSlices();
-    } else if (*complete) {
-        m_completeTimer.start(); // shown after the events that have come meanwhile
-    } else {
-        m_sliceTimer.start();
-    }
-}
-
-// A picture of another size would be distorted until the next one is complete.
-void ViewportWidget::resizeGL(int, int) {
-    if (m_pacing.slices())
-        hurry();
-}
-
-PictureState ViewportWidget::pictureState() const {
-    if (m_pacing.moving())
-        return PictureState::Moving;
-    const bool adding = m_accumulationTimer.isActive();
-    return m_pacing.refined() && !adding && !m_slicing && !m_gate.waiting()
-               ? PictureState::Refined
-               : PictureState::Refining;
 }
 
 void ViewportWidget::letOthersDraw() {

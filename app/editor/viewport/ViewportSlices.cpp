@@ -1,0 +1,83 @@
+// The part of ViewportWidget that refines the picture in slices between events.
+#include "app/editor/document/DocumentController.h"
+#include "app/editor/viewport/ViewportWidget.h"
+#include "core/base/Log.h"
+#include "core/document/ToneResponse.h"
+#include "render/Renderer.h"
+
+#include <QElapsedTimer>
+#include <utility>
+
+namespace patina::editor {
+namespace {
+
+constexpr double kSliceMs = 25.0; // with Qt's part of a frame at rest input waits no 50 ms
+
+} // namespace
+
+// The sides of a split are drawn one after the other, and none is there to be displayed anew for an
+// eye that adapts: such frames are drawn in one piece.
+bool ViewportWidget::drawsInSlices(const render::ViewSettings& view) const {
+    return m_pacing.slices() && !m_lastFrameSize.isEmpty() &&
+           !(view.split && needsLuminance(m_controller.document().view));
+}
+
+void ViewportWidget::wantFrame(const render::FrameSettings& frame) {
+    m_sliced = frame;
+    m_sliced.adaptSeconds = 0.0f; // the eye looks at what is shown
+    m_sliced.accumulate = m_pacing.accumulating();
+}
+
+void ViewportWidget::startSlices() {
+    m_slicing = true;
+    m_slicesMs = 0.0;
+    m_sliceTimer.start();
+}
+
+void ViewportWidget::stopSlices() {
+    m_slicing = false;
+    m_sliceTimer.stop();
+    m_completeTimer.stop();
+}
+
+void ViewportWidget::drawSlice() {
+    if (!m_renderer || !m_slicing)
+        return;
+    if (std::exchange(m_sliceWaits, false)) {
+        m_sliceTimer.start(); // something else has just taken its time
+        return;
+    }
+    QElapsedTimer clock;
+    clock.start();
+    makeCurrent();
+    const Result<bool> complete = m_renderer->prepare(m_sliced, kSliceMs, m_pacing.expectedMs());
+    doneCurrent();
+    const double milliseconds = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
+    m_slicesMs += milliseconds;
+    m_slowestFrameMs = std::max(m_slowestFrameMs, milliseconds);
+    if (!complete) {
+        logError("the frame could not be drawn: {}", complete.error().text());
+        stopSlices();
+    } else if (*complete) {
+        m_completeTimer.start(); // shown after the events that have come meanwhile
+    } else {
+        m_sliceTimer.start();
+    }
+}
+
+// A picture of another size would be distorted until the next one is complete.
+void ViewportWidget::resizeGL(int, int) {
+    if (m_pacing.slices())
+        hurry();
+}
+
+PictureState ViewportWidget::pictureState() const {
+    if (m_pacing.moving())
+        return PictureState::Moving;
+    const bool adding = m_accumulationTimer.isActive();
+    return m_pacing.refined() && !adding && !m_slicing && !m_gate.waiting()
+               ? PictureState::Refined
+               : PictureState::Refining;
+}
+
+} // namespace patina::editor
