@@ -62,6 +62,16 @@ class EditorTest : public ::testing::Test {
     static const Material& selectedMaterial() {
         return *document().material(session->selection.material());
     }
+    static void selectMaterialWithoutMaps() {
+        for (const Material& material : document().materials)
+            if (!material.baseColorMap.assigned() && !material.metallicMap.assigned() &&
+                !material.perceptualRoughnessMap.assigned() && !material.normalMap.assigned() &&
+                !material.occlusionMap.assigned() && !material.emissiveMap.assigned()) {
+                session->selection.selectMaterial(material.id);
+                return;
+            }
+        FAIL() << "every material has maps";
+    }
 
     static std::unique_ptr<Session> session;
     static std::unique_ptr<MainWindow> window;

@@ -246,6 +246,7 @@ TEST_F(PanelTest, AnImageDroppedElsewhereBecomesTheBaseColour) {
 
 // Five maps of a model in one go: each to its slot, shown before they are let go, one undo step.
 TEST_F(PanelTest, ImagesDroppedTogetherGoByTheirNames) {
+    selectMaterialWithoutMaps();
     QList<QUrl> urls;
     for (const char* name : {"monkey_color.png", "monkey_metallic.png", "monkey_roughness.png",
                              "monkey_normal.png", "monkey_ao.png", "notes.png"})
@@ -296,6 +297,7 @@ TEST_F(PanelTest, ImagesDroppedTogetherGoByTheirNames) {
 
 // A slot takes one image; several are none of its business, and the window has them.
 TEST_F(PanelTest, SeveralImagesOverASlotGoByTheirNames) {
+    selectMaterialWithoutMaps();
     QMimeData data;
     data.setUrls({QUrl::fromLocalFile(writeImage(QStringLiteral("a_normal.png"))),
                   QUrl::fromLocalFile(writeImage(QStringLiteral("a_rough.png")))});
@@ -409,6 +411,7 @@ TEST_F(PanelTest, ANewLightIsInTheListBeforeItIsInThePicture) {
 }
 
 TEST_F(PanelTest, TilingIsEditedPerMap) {
+    selectMaterialWithoutMaps();
     const Target target{Scope::Material, selectedMaterial().id};
     controller().setMap(parameter("material.baseColor.map"), target,
                         QStringLiteral("builtin:wood/baseColor"));
