@@ -7,10 +7,6 @@ endif()
 add_library(patina_compiler INTERFACE)
 target_compile_options(patina_compiler INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-qual)
-# GCC frees memory again and again while it compiles; what a source here needs is half a GiB at most, and
-# keeping it saves a twentieth of the time.
-target_compile_options(patina_compiler INTERFACE
-  $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1000000>)
 if(PATINA_WARNINGS_AS_ERRORS)
   target_compile_options(patina_compiler INTERFACE -Werror)
 endif()
