@@ -129,8 +129,8 @@ ShadedLight mixed(ShadedLight light) {
     return light;
 }
 
-// Of a light: transfer has its diffuse light, with soft shadows, among what arrives.
-ShadedLight withoutTransferredDiffuse(ShadedLight light) {
+// Direct light, mixed. Transfer has its diffuse part already, with soft shadows.
+ShadedLight mixedDirect(ShadedLight light) {
 #ifdef HAS_TRANSFER
     light.diffuse = vec3(0.0);
 #endif
@@ -294,7 +294,7 @@ void main() {
         shadow = u_lights[i].place.w < 0.0 ? 1.0 : visibility[int(u_lights[i].place.w)];
         E *= shadow;
 #endif
-        ShadedLight light = withoutTransferredDiffuse(shadeDirect(s, u_lights[i].place.xyz, E));
+        ShadedLight light = mixedDirect(shadeDirect(s, u_lights[i].place.xyz, E));
         directDiffuse += light.diffuse;
         directSpecular += light.specular;
 #ifdef VIEWS
@@ -312,7 +312,7 @@ void main() {
         shadow = u_lights[i].place.w < 0.0 ? 1.0 : visibility[int(u_lights[i].place.w)];
 #endif
         ShadedLight light =
-            withoutTransferredDiffuse(shadeDirect(s, l, u_lights[i].color.rgb * (reaches * shadow)));
+            mixedDirect(shadeDirect(s, l, u_lights[i].color.rgb * (reaches * shadow)));
         directDiffuse += light.diffuse;
         directSpecular += light.specular;
 #ifdef VIEWS
@@ -326,7 +326,7 @@ void main() {
     float lobeTexels = float(textureSize(u_lobes, 0).x);
     vec4 fit = textureLod(u_lobes, (lobe * (lobeTexels - 1.0) + 0.5) / lobeTexels, 0.0);
     for (int i = LIGHT_ENDS.y; i < LIGHT_ENDS.z; ++i) {
-        ShadedLight light = withoutTransferredDiffuse(shadeSphere(s, fit, u_lights[i].place.xyz - v_position,
+        ShadedLight light = mixedDirect(shadeSphere(s, fit, u_lights[i].place.xyz - v_position,
                                                   u_lights[i].axis.x, u_lights[i].color.rgb));
         directDiffuse += light.diffuse;
         directSpecular += light.specular;
@@ -336,7 +336,7 @@ void main() {
     }
     for (int i = LIGHT_ENDS.z; i < LIGHT_ENDS.w; ++i) {
         ShadedLight light =
-            withoutTransferredDiffuse(shadeRectangle(s, fit, u_lights[i].place.xyz - v_position,
+            mixedDirect(shadeRectangle(s, fit, u_lights[i].place.xyz - v_position,
                                      u_lights[i].axis.xyz, u_lights[i].side.xyz,
                                      u_lights[i].color.rgb));
         directDiffuse += light.diffuse;

@@ -1,4 +1,4 @@
-// Asks how the environment is to be written to a file, and writes them as a job.
+// Asks how the environment is to be written to a file, and writes it as a job.
 #pragma once
 
 #include "core/document/EnvironmentSave.h"

@@ -96,7 +96,7 @@ void addAngles(ExplainedSection& section, const RebuiltLight& light, const Surfa
                                    std::string(fresnel.symbol), light.F));
 }
 
-// Where transfer holds the diffuse light of lights, a light has no share of its own.
+// Where transfer holds the diffuse part of lights, a light has no share of its own.
 void sayWhereDiffuseIs(ExplainedSection& section) {
     section.values.push_back(
         words("diffuseInTransfer", "Diffuse",

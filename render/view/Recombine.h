@@ -27,7 +27,7 @@ struct RebuiltLight {
 
 struct RebuiltPixel {
     shading::SurfaceTerms surface;
-    bool transfer = false; // the irradiance is baked transfer's, light of lights included
+    bool transfer = false; // the irradiance is baked transfer's, that of lights included
     float ao = 1.0f;       // factor on the irradiance: 1 where baked transfer knows the shadows
     float open = 1.0f;     // of the specular lobe
     glm::vec2 mix{1.0f};   // weights of diffuse light and of reflections

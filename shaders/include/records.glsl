@@ -26,7 +26,7 @@ void recordShare(int i, vec3 l, float lit, vec3 arriving, ShadedLight light) {
 // `E`: irradiance of a surface that faces the light, without shadow; `light`: with it.
 void recordLight(inout LightSums sums, SurfaceTerms s, int i, vec3 l, vec3 E, float lit,
                  ShadedLight light) {
-    ShadedLight all = withoutTransferredDiffuse(shadeDirect(s, l, E));
+    ShadedLight all = mixedDirect(shadeDirect(s, l, E));
     sums.shadowed += (1.0 - lit) * (all.diffuse + all.specular);
     float casts = u_lights[i].place.w < 0.0 ? 0.0 : 1.0;
     sums.casting += casts;

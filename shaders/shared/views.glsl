@@ -97,7 +97,7 @@ PT_CONST int kRecordDfgMean = 69;
 PT_CONST int kRecordLobeDirection = 70;
 PT_CONST int kRecordToLight = 71;
 PT_CONST int kRecordVisibleCone = 72;
-PT_CONST int kRecordTransfer = 73; // 1: transfer has the diffuse light of lights, too
+PT_CONST int kRecordTransfer = 73; // 1: transfer has the diffuse part of lights, too
 
 PT_CONST int kRecordCount = 74;
 
