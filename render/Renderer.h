@@ -169,8 +169,9 @@ class Renderer {
     // frame; up to eight are drawn in one pass.
     [[nodiscard]] Result<std::vector<Image>> drawSheet(const FrameSettings& frame,
                                                        const ViewSheet& sheet);
-    // Everything the shader computes at a pixel of the last frame (top-left origin): one pass over
-    // one pixel. CHECKs that the pixel lies inside the frame.
+    // Everything the shader computes at a pixel of the last frame (top-left origin), with all of
+    // its triangles if that frame was coarse: one pass over one pixel. CHECKs that the pixel lies
+    // inside the frame.
     [[nodiscard]] Result<Inspection> inspect(int x, int y);
     // The range that the last frame's view was shown over: the locked one, the table's, or the
     // picture's own; nothing for views without one. The other: that right of the split.

@@ -465,13 +465,14 @@ Result<Inspection> Renderer::inspect(int x, int y) {
         if (!target)
             return target.error();
         const ViewChoice final;
+        FrameSettings frame = r.lastFrame;
+        frame.coarse = false; // of the same triangles as the surface's numbers
         const PixelOfTargets before(r.targets, x, fromBottom); // the frame stays as it is
         glScissor(x, fromBottom, 1, 1);
         glEnable(GL_SCISSOR_TEST);
-        Result<void> done =
-            r.drawNumbers(r.lastFrame, r.lastBlock, **target,
-                          r.viewsBlock(r.lastFrame.view, std::span(&final, 1), false), true,
-                          SurfaceOutput::OneView);
+        Result<void> done = r.drawNumbers(frame, r.lastBlock, **target,
+                                          r.viewsBlock(frame.view, std::span(&final, 1), false),
+                                          true, SurfaceOutput::OneView);
         if (done) {
             r.adaptation.bind();
             done = r.screen.toneMap(r.targets.data(), r.targets.display(), r.scene.document().view,

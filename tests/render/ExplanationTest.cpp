@@ -209,6 +209,22 @@ TEST_F(Explanations, RecombineToThePictureAtAThousandPixels) {
     printf("%d pixels, largest difference %.3f of 255\n", surfaces, double(largest));
 }
 
+// The frames of a drag have fewer triangles, whose texture coordinates and normals are others.
+TEST_F(Explanations, RecombineAtPixelsOfACoarseFrame) {
+    Document document = litScene();
+    document.meshes[0].mesh = makeSphere(128);
+    applyMaterial(document, 0);
+    setIblOf(document);
+    FrameSettings frame = oneSample();
+    const Image fine = draw(document, kSize, frame);
+    frame.coarse = true;
+    ASSERT_NE(draw(document, kSize, frame), fine);
+    for (const glm::ivec2 at : {glm::ivec2(32, 32), {20, 24}, {44, 36}, {30, 50}, {41, 45}}) {
+        const Explanation explanation = explain(inspect(at.x, at.y), document);
+        EXPECT_EQ(disagreements(explanation), "") << toText(explanation);
+    }
+}
+
 TEST_F(Explanations, RecombineUnderTransferWithLights) {
     float largest = 0.0f;
     for (const int material : {0, 2, 3})

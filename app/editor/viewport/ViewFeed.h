@@ -26,8 +26,11 @@ class ViewFeed : public QObject {
 
     // Of the frame that is drawn next, as the gate lets it.
     [[nodiscard]] render::ViewSettings beginFrame(ViewGate& gate);
-    // Without marks that fade; for thumbnails.
+    // Of the frame that was drawn last, with marks at full strength.
     [[nodiscard]] const render::ViewSettings& drawn() const { return m_drawn; }
+    // As chosen: for thumbnails, which must not keep what the frame shows while it waits for its
+    // programs.
+    [[nodiscard]] const render::ViewSettings& chosen() const { return m_followed; }
     // Whether that frame shows the scene of the frame before, apart from how strong marks are.
     [[nodiscard]] bool sameAsBefore() const { return m_same; }
     void endFrame(const render::Renderer& renderer);
@@ -45,7 +48,7 @@ class ViewFeed : public QObject {
 
     DocumentController& m_controller;
     ViewState* m_views = nullptr;
-    render::ViewSettings m_followed; // as announced last
+    render::ViewSettings m_followed; // as chosen, and announced last
     render::ViewSettings m_drawn;    // as drawn last, with marks at full strength
     bool m_same = false;
     Blink m_blink;

@@ -438,13 +438,13 @@ Result<std::vector<Image>> ViewportWidget::drawSheet(const render::ViewSheet& sh
         return Error{ErrorKind::NoOpenGl, "there is no OpenGL to draw with", {}, {}};
     makeCurrent();
     render::FrameSettings frame;
-    frame.camera = m_lastCamera;
+    frame.camera = m_controller.document().view.camera;
     // The middle of what the viewport shows: a narrow one shows less to the sides.
     const float aspect = static_cast<float>(sheet.width) / static_cast<float>(sheet.height);
     if (const float part = viewAspect() / aspect; part < 1.0f)
         frame.camera.fovDeg = glm::degrees(
             2.0f * std::atan(part * std::tan(0.5f * glm::radians(frame.camera.fovDeg))));
-    frame.view = m_viewFeed.drawn();
+    frame.view = m_viewFeed.chosen();
     Result<std::vector<Image>> drawn = m_renderer->drawSheet(frame, sheet);
     m_sliceWaits = true;
     doneCurrent();

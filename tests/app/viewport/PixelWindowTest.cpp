@@ -116,10 +116,13 @@ TEST_F(PixelWindowTest, HoveringExplainsWhatIsUnderThePointer) {
     EXPECT_TRUE(
         text("pixelTitle").startsWith(QString::fromStdString(render::hexText(model.displayed))));
 
-    // The frame that is shown there has that colour (dithered).
+    // The frame that is shown there has that colour (dithered), at rest: pixels of coarser frames
+    // cover more of a texture.
+    ASSERT_TRUE(eventually([] { return viewport().isSettled(); }));
     const QImage frame = viewport().grabFramebuffer();
     const QColor shown = frame.pixelColor(frame.width() / 2, frame.height() / 2);
     hover(center());
+    ASSERT_EQ(probe().hover()->width, frame.width());
     EXPECT_NEAR(shown.redF(), probe().hover()->displayed.r, 3.0 / 255.0);
     EXPECT_NEAR(shown.greenF(), probe().hover()->displayed.g, 3.0 / 255.0);
 
@@ -257,7 +260,7 @@ TEST_F(PixelWindowTest, ThePanelCopiesOpensFormulasAndShowsChannels) {
     button("Copy as JSON").click();
     const QJsonObject json =
         QJsonDocument::fromJson(QGuiApplication::clipboard()->text().toUtf8()).object();
-    EXPECT_TRUE(json.value(QStringLiteral("agrees")).toBool());
+    EXPECT_TRUE(json.value(QStringLiteral("agrees")).toBool()) << toText(*panel().explanation());
     EXPECT_TRUE(json.value(QStringLiteral("sections")).toObject().contains("environment"));
 
     // A click on a bar opens its formula.

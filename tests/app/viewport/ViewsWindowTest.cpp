@@ -3,6 +3,8 @@
 
 #include "app/editor/ViewActions.h"
 #include "app/editor/viewport/SplitHandle.h"
+#include "app/editor/viewport/ViewFeed.h"
+#include "app/editor/viewport/ViewGate.h"
 #include "app/editor/viewport/ViewLegend.h"
 #include "app/editor/viewport/ViewState.h"
 #include "app/editor/viewport/ViewStrip.h"
@@ -413,6 +415,24 @@ TEST_F(ViewsWindowTest, ThumbnailsFollowTheMaterial) {
                               {Scope::Material, selectedMaterial().id},
                               glm::vec3(0.9f, 0.1f, 0.1f));
     EXPECT_TRUE(eventually([&] { return picture() != before; }));
+}
+
+// A picture without a term is drawn by other programs. Thumbnails that kept the last picture's
+// terms until those are compiled would keep them for good: nothing is edited when the picture
+// comes.
+TEST_F(ViewsWindowTest, ThumbnailsHaveTheChosenTermsWhileThePictureWaits) {
+    ViewState chosen;
+    ViewFeed feed(controller());
+    ViewGate gate(controller()); // it knows no programs yet
+    feed.setViews(chosen);
+    EXPECT_EQ(feed.beginFrame(gate), chosen.settings());
+    ASSERT_FALSE(gate.waiting()) << "the first frame is drawn in any case";
+    chosen.edit([](render::ViewSettings& settings) { settings.terms[0] = false; });
+    EXPECT_TRUE(feed.beginFrame(gate).terms[0]);
+    ASSERT_TRUE(gate.waiting());
+    EXPECT_FALSE(feed.chosen().terms[0]);
+    // When they are there, the picture is as chosen, too.
+    ASSERT_TRUE(eventually([&] { return feed.beginFrame(gate) == chosen.settings(); }));
 }
 
 TEST_F(ViewsWindowTest, AFoldedStripDrawsNothing) {
