@@ -141,9 +141,9 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gl::Context& context,
     return std::unique_ptr<Renderer>(new Renderer(std::move(impl)));
 }
 
-void Renderer::setDocument(const Document& document, const Change& change) {
-    m_impl->scene.update(document, change);
-    m_impl->setChanged();
+void Renderer::setDocument(const Document& document) {
+    if (m_impl->scene.update(document).any())
+        m_impl->setChanged();
 }
 
 void Renderer::setEnvironment(const EnvironmentTexels& texels) {
@@ -226,24 +226,28 @@ void Renderer::clearPreview() {
     m_impl->setChanged();
 }
 
-void Renderer::Impl::beginGl() {
-    // The context may be shared with Qt, which leaves its own state behind.
+Renderer::Impl::GlScope::GlScope(const Impl& renderer, unsigned targetFramebuffer)
+    : m_renderer(renderer)
+    , m_targetFramebuffer(targetFramebuffer) {
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_STENCIL_TEST);
     glDisable(GL_FRAMEBUFFER_SRGB);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glCullFace(GL_BACK);
     glEnable(GL_MULTISAMPLE);
-    glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
 }
 
-void Renderer::Impl::endGl(unsigned targetFramebuffer) {
-    glBindFramebuffer(GL_FRAMEBUFFER, targetFramebuffer);
+Renderer::Impl::GlScope::~GlScope() {
+    glBindFramebuffer(GL_FRAMEBUFFER, m_targetFramebuffer);
     glBindVertexArray(0);
     glUseProgram(0);
-    shadows.unbind();
+    m_renderer.shadows.unbind();
     glDisable(GL_CULL_FACE);
     glDisable(GL_DEPTH_TEST);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_BLEND);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
     glFrontFace(GL_CCW);
 }
 
@@ -362,7 +366,7 @@ Result<void> Renderer::render(const FrameSettings& wanted, unsigned targetFrameb
             r.targets.resize(r.context, frame.width, frame.height, frame.samples, frame.floats);
         !sized)
         return sized;
-    r.beginGl();
+    const Impl::GlScope scope(r, targetFramebuffer);
 
     const bool drawsScene =
         !keeps && !prepared && (r.sceneIsNew || !frame.reuseScene || frame.view.split);
@@ -383,7 +387,6 @@ Result<void> Renderer::render(const FrameSettings& wanted, unsigned targetFrameb
         r.sceneIsNew = !done.ok();
     if (done)
         done = r.show(frame, displayed, targetFramebuffer);
-    r.endGl(targetFramebuffer);
     return done;
 }
 
@@ -453,11 +456,10 @@ Result<void> Renderer::prepareNearLights(LightingMode lighting) {
     block.lights[0] = point;
     block.lights[1] = sphere;
     block.lights[2] = rectangle;
-    r.beginGl();
+    const Impl::GlScope scope(r);
     r.useFrame(block);
     Result<void> done = r.relight.update(r.scene, lighting, block);
     r.useFrame(r.lastBlock);
-    r.endGl(0);
     r.setChanged();
     return done;
 }

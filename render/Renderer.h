@@ -4,7 +4,6 @@
 
 #include "core/bake/NearShadows.h"
 #include "core/base/Result.h"
-#include "core/document/Change.h"
 #include "core/document/Document.h"
 #include "core/document/ToneResponse.h"
 #include "core/image/DisplayTransform.h"
@@ -78,8 +77,9 @@ class Renderer {
                                                     const std::filesystem::path& shaderFolder = {});
     ~Renderer();
 
-    // Takes over what `change` touched; the renderer keeps the snapshot.
-    void setDocument(const Document& document, const Change& change);
+    // Takes over what differs from the document before, and keeps the snapshot. The camera travels
+    // with each frame instead.
+    void setDocument(const Document& document);
 
     // Light and background of document.environment.image; prepared elsewhere (a job in the editor,
     // directly in the command line). Until set, a grey sky lights the scene.

@@ -168,8 +168,19 @@ struct Renderer::Impl {
     [[nodiscard]] static OverlaySettings overlaySettings(const FrameSettings& frame) {
         return {frame.selectedMesh, frame.selectedLight, frame.lobe.get(), frame.overlayScale};
     }
-    void beginGl();
-    void endGl(unsigned targetFramebuffer);
+    // While it lives, OpenGL's state is the renderer's: Qt shares the context and leaves its own
+    // behind. Afterwards it is what Qt expects, errors included.
+    class GlScope {
+      public:
+        explicit GlScope(const Impl& renderer, unsigned targetFramebuffer = 0);
+        ~GlScope();
+        GlScope(const GlScope&) = delete;
+        GlScope& operator=(const GlScope&) = delete;
+
+      private:
+        const Impl& m_renderer;
+        unsigned m_targetFramebuffer;
+    };
 
     // --- RendererViews.cpp
     // What the frame shows, both sides of its limit, into targets.display(). `drawsScene`: else the

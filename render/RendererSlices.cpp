@@ -318,9 +318,8 @@ Result<bool> Renderer::prepare(const FrameSettings& frame, double budgetMs, doub
     const bool begun = r.isBegun(frame);
     if (begun)
         r.followDisplay(frame);
-    r.beginGl();
+    const Impl::GlScope scope(r);
     Result<void> done = begun ? r.prepareSlice() : r.beginPreparing(frame, budgetMs, expectedMs);
-    r.endGl(0);
     if (!done) {
         r.next.begun = false;
         return done.error();

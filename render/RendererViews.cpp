@@ -350,7 +350,7 @@ Result<Image> Renderer::Impl::readNumbers(const ViewSettings& view, const ViewCh
         asPicture ? targets.dataSamplesTarget(context) : targets.dataTarget(context);
     if (!target)
         return target.error();
-    beginGl();
+    const GlScope scope(*this);
     useFrame(lastBlock);
     Result<void> done =
         drawNumbers(lastFrame, lastBlock, **target, viewsBlock(view, std::span(&choice, 1), false),
@@ -364,7 +364,6 @@ Result<Image> Renderer::Impl::readNumbers(const ViewSettings& view, const ViewCh
         std::copy(values.begin(), values.end(), image.f32().begin());
         flipRows(image);
     }
-    endGl(0);
     // The numbers of the last frame's own view are gone.
     setChanged();
     if (!done)
@@ -390,7 +389,7 @@ Result<std::vector<Image>> Renderer::drawSheet(const FrameSettings& frame, const
     small.width = sheet.width;
     small.height = sheet.height;
     small.samples = 1;
-    r.beginGl();
+    const Impl::GlScope scope(r);
     Result<void> done = r.shadows.update(r.scene);
     const FrameBlock block = r.packFrame(small);
     r.useFrame(block);
@@ -420,7 +419,6 @@ Result<std::vector<Image>> Renderer::drawSheet(const FrameSettings& frame, const
         }
     }
     r.useFrame(r.lastBlock);
-    r.endGl(0);
     if (!done)
         return done.error();
     return pictures;
@@ -436,7 +434,7 @@ Result<Inspection> Renderer::inspect(int x, int y) {
     result.view = r.lastFrame.view;
     CHECK(x >= 0 && y >= 0 && x < result.width && y < result.height);
     const int fromBottom = result.height - 1 - y;
-    r.beginGl();
+    const Impl::GlScope scope(r);
     r.useFrame(r.lastBlock);
     const auto inspectSurface = [&]() -> Result<void> {
         const Result<Id> id = r.picking.pick(r.scene, r.lastBlock.worldToClip, result.width,
@@ -496,8 +494,6 @@ Result<Inspection> Renderer::inspect(int x, int y) {
         result.luminance = r.adaptation.read().value_or(Luminance());
     const float opacity = result.radiance.a > 0.0f ? result.radiance.a : 1.0f;
     result.exposed = glm::vec3(result.radiance) / opacity * exposureScale(view, result.luminance);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
-    r.endGl(0);
     if (!done)
         return done.error();
     return result;

@@ -277,7 +277,7 @@ Result<WarmUp> WarmUp::create(gl::Context& context, const Document& document) {
         return renderer.error();
     WarmUp result(context, std::move(*renderer), document);
     result.m_renderer->setEnvironment(someSky());
-    result.m_renderer->setDocument(result.m_scene, Change::everything());
+    result.m_renderer->setDocument(result.m_scene);
     return result;
 }
 

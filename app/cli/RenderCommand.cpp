@@ -241,7 +241,7 @@ Result<Prepared> prepare(Session& session, const Document& document,
     if (Result<void> set = (*renderer)->setDisplay(*display); !set)
         return set.error();
     session.job().setActivity("drawing");
-    (*renderer)->setDocument(document, Change::everything());
+    (*renderer)->setDocument(document);
     return Prepared{std::move(*context), std::move(*renderer)};
 }
 

@@ -49,7 +49,7 @@ Actions::Actions(QUndoStack& undoStack, QObject* parent)
                     tr("Show or hide exposure, tone mapping, display and field of view")))
     , bakeDock(make(tr("Ba&ke"), QStringLiteral("bake"), {tr("Ctrl+Shift+6")},
                     tr("Show or hide the baking of light")))
-    , modelDock(make(tr("Mo&del"), QStringLiteral("model"), {tr("Ctrl+Shift+7")},
+    , modelDock(make(tr("S&hading"), QStringLiteral("model"), {tr("Ctrl+Shift+7")},
                      tr("Show or hide which shading model is used")))
     , jobsDock(make(tr("&Jobs"), QStringLiteral("jobs"), {tr("Ctrl+Shift+8")},
                     tr("Show or hide what runs in the background")))

@@ -412,7 +412,7 @@ void MainWindow::connectActions() {
     connect(m_files, &FileFlow::openingChanged, m_progress, &SceneProgress::setOpening);
     connect(&controller, &DocumentController::noticed, this, &MainWindow::notice);
     connect(&controller, &DocumentController::changed, m_notices, [this](const Change& change) {
-        if (change.affects == Affects::Everything)
+        if (change.isAnotherDocument())
             m_notices->sceneReplaced(m_session.controller.isPristine());
     });
     const auto showActivity = [this] {

@@ -35,8 +35,8 @@ Change RecoverCommand::swap(Document& document, bool forward) {
     // with it.
     (forward ? m_before : m_after) = document;
     document = forward ? m_after : m_before;
-    return {Affects::Structure | Affects::Geometry | Affects::Texture | Affects::Uniform |
-                Affects::EnvironmentMap | Affects::Bakes,
+    return {Affects::Structure | Affects::Geometry | Affects::Picture | Affects::EnvironmentMap |
+                Affects::Bakes,
             std::nullopt};
 }
 

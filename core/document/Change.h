@@ -12,6 +12,9 @@ struct Change {
     std::optional<Target> target; // set when one element changed
 
     [[nodiscard]] static Change everything() { return {}; }
+    [[nodiscard]] bool isAnotherDocument() const {
+        return touches(affects, Affects::AnotherDocument);
+    }
 };
 
 } // namespace patina

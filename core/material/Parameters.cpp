@@ -6,6 +6,7 @@
 #include "core/document/Lights.h"
 #include "core/image/DisplayTransform.h"
 #include "core/light/Blackbody.h"
+#include "core/material/Choices.h"
 
 #include <algorithm>
 #include <array>
@@ -196,7 +197,7 @@ constexpr ParameterInfo row(ParameterType type, Text id, Text label, Text group,
 template <auto... Members>
 constexpr ParameterInfo number(Text id, Text label, Text group, Range soft, Range hard,
                                int decimals, Text unit, Text help,
-                               Affects affects = Affects::Uniform) {
+                               Affects affects = Affects::Picture) {
     auto info = row<Path<Members...>>(ParameterType::Float, id, label, group, help, affects);
     info.softMin = soft.min, info.softMax = soft.max;
     info.hardMin = hard.min, info.hardMax = hard.max;
@@ -208,7 +209,7 @@ constexpr ParameterInfo number(Text id, Text label, Text group, Range soft, Rang
 // A full turn, -180…180.
 template <auto... Members>
 constexpr ParameterInfo angle(Text id, Text label, Text group, Text help,
-                              Affects affects = Affects::Uniform) {
+                              Affects affects = Affects::Picture) {
     constexpr Range kTurn{-180.0f, 180.0f};
     auto info = number<Members...>(id, label, group, kTurn, kTurn, 1, "°", help, affects);
     info.wraps = true;
@@ -217,13 +218,13 @@ constexpr ParameterInfo angle(Text id, Text label, Text group, Text help,
 
 template <auto... Members>
 constexpr ParameterInfo color(Text id, Text label, Text group, Text help,
-                              Affects affects = Affects::Uniform) {
+                              Affects affects = Affects::Picture) {
     return row<Path<Members...>>(ParameterType::Color, id, label, group, help, affects);
 }
 
 template <auto... Members>
 constexpr ParameterInfo vector(Text id, Text label, Text group, Range soft, Range hard, Text unit,
-                               Text help, Affects affects = Affects::Uniform) {
+                               Text help, Affects affects = Affects::Picture) {
     auto info = number<Members...>(id, label, group, soft, hard, 3, unit, help, affects);
     info.type = ParameterType::Vector;
     return info;
@@ -231,18 +232,17 @@ constexpr ParameterInfo vector(Text id, Text label, Text group, Range soft, Rang
 
 template <auto... Members>
 constexpr ParameterInfo flag(Text id, Text label, Text group, Text help,
-                             Affects affects = Affects::Uniform) {
+                             Affects affects = Affects::Picture) {
     return row<Path<Members...>>(ParameterType::Bool, id, label, group, help, affects);
 }
 
-template <auto... Members>
-constexpr ParameterInfo choice(Text id, Text label, Text group, std::span<const Text> names,
-                               std::span<const Text> labels, Text help,
-                               Affects affects = Affects::Uniform) {
+template <auto... Members, class E, std::size_t N>
+constexpr ParameterInfo choice(Text id, Text label, Text group, const Choices<E, N>& choices,
+                               Text help, Affects affects = Affects::Picture) {
     auto info = row<Path<Members...>>(ParameterType::Choice, id, label, group, help, affects);
-    info.choices = names;
-    info.choiceLabels = labels;
-    info.hardMax = info.softMax = static_cast<float>(names.size() - 1);
+    info.choices = choices.names();
+    info.choiceLabels = choices.labels();
+    info.hardMax = info.softMax = static_cast<float>(N - 1);
     info.decimals = 0;
     return info;
 }
@@ -256,8 +256,7 @@ constexpr ParameterInfo text(Text id, Text label, Text group, Text help,
 template <auto... Members>
 constexpr ParameterInfo map(Text id, Text label, Text group, ColorEncoding encoding,
                             MapChannel channel, Text help) {
-    auto info = row<Path<Members...>>(ParameterType::Map, id, label, group, help,
-                                      Affects::Texture | Affects::Uniform);
+    auto info = row<Path<Members...>>(ParameterType::Map, id, label, group, help, Affects::Picture);
     info.mapEncoding = encoding;
     info.mapChannel = channel;
     return info;
@@ -266,7 +265,7 @@ constexpr ParameterInfo map(Text id, Text label, Text group, ColorEncoding encod
 template <auto Get, auto Set>
 constexpr ParameterInfo environmentImage(Text id, Text label, Text group, Text help) {
     auto info = row<Path<&Environment::source>>(ParameterType::Map, id, label, group, help,
-                                                Affects::Texture | Affects::EnvironmentMap);
+                                                Affects::Picture | Affects::EnvironmentMap);
     info.mapEncoding = ColorEncoding::Srgb;
     info.get = Get;
     info.set = Set;
@@ -311,61 +310,101 @@ constexpr ParameterInfo alias(Text name, ParameterInfo info) {
     return info;
 }
 
-// --- Choices, in the order of their enums ---
+// --- Choices ---
 
-constexpr std::array<Text, 2> kNormalConventions{"openGl", "directX"};
-constexpr std::array<Text, 2> kNormalConventionLabels{"OpenGL (green up)", "DirectX (green down)"};
-constexpr std::array<Text, 3> kAlphaModes{"opaque", "mask", "blend"};
-constexpr std::array<Text, 3> kAlphaModeLabels{"Opaque", "Cut-out", "Blend"};
-constexpr std::array<Text, 5> kLightTypes{"point", "directional", "spot", "sphere", "rectangle"};
-constexpr std::array<Text, 5> kLightTypeLabels{"Point", "Directional", "Spot", "Sphere (area)",
-                                               "Rectangle (area)"};
-constexpr std::array<Text, 9> kEnvironmentLayouts{
-    "automatic",     "latLong",         "angularMap",    "mirrorBall", "horizontalCross",
-    "verticalCross", "horizontalStrip", "verticalStrip", "sixFaces"};
-constexpr std::array<Text, 9> kEnvironmentLayoutLabels{
-    "Automatic",      "Lat-long",         "Angular map",    "Mirror ball", "Horizontal cross",
-    "Vertical cross", "Horizontal strip", "Vertical strip", "Six faces"};
-constexpr std::array<Text, 8> kToneMaps{"clamp",       "reinhard",   "reinhardPhotographic",
-                                        "exponential", "pbrNeutral", "aces",
-                                        "agx",         "openColorIo"};
-constexpr std::array<Text, 8> kToneMapLabels{"None (clamp)",
-                                             "Reinhard",
-                                             "Reinhard, photographic",
-                                             "Exponential",
-                                             "PBR Neutral (Khronos)",
-                                             "ACES (fitted)",
-                                             "AgX",
-                                             "OpenColorIO"};
-constexpr std::array<Text, 2> kExposureModes{"fixed", "automatic"};
-constexpr std::array<Text, 2> kExposureModeLabels{"Fixed", "Automatic"};
-constexpr std::array<Text, 2> kDisplayTransfers{"srgb", "gamma"};
-constexpr std::array<Text, 2> kDisplayTransferLabels{"sRGB", "Gamma"};
-constexpr std::array<Text, 3> kEnvironmentKinds{"image", "sky", "softboxes"};
-constexpr std::array<Text, 3> kEnvironmentKindLabels{"Image", "Sky", "Softboxes"};
-constexpr std::array<Text, 4> kBackgrounds{"environment", "blurred", "color", "off"};
-constexpr std::array<Text, 4> kBackgroundLabels{"Environment", "Blurred environment", "Colour",
-                                                "Off (transparent)"};
-constexpr std::array<Text, 6> kLightings{"ibl",        "cosine",   "shIrradiance",
-                                         "unshadowed", "shadowed", "prt"};
-constexpr std::array<Text, 6> kLightingLabels{"Image-based light", "N·L",
-                                              "SH irradiance",     "Unshadowed transfer",
-                                              "Shadowed transfer", "Interreflected transfer"};
-
-constexpr std::array<Text, 3> kDistributions{"ggx", "beckmann", "blinnPhong"};
-constexpr std::array<Text, 3> kDistributionLabels{"GGX", "Beckmann", "Blinn-Phong"};
-constexpr std::array<Text, 6> kVisibilities{"smithCorrelated", "smithSeparable", "schlickDirect",
-                                            "schlickIbl",      "kelemen",        "implicit"};
-constexpr std::array<Text, 6> kVisibilityLabels{
-    "Smith, correlated", "Smith, separable", "Schlick-GGX, lights",
-    "Schlick-GGX, IBL",  "Kelemen",          "Implicit"};
-constexpr std::array<Text, 4> kFresnels{"schlick", "schlickF90", "dielectric", "conductor"};
-constexpr std::array<Text, 4> kFresnelLabels{"Schlick", "Schlick with f90", "Exact dielectric",
-                                             "Exact conductor"};
-constexpr std::array<Text, 4> kDiffuses{"lambert", "burley", "orenNayar", "eon"};
-constexpr std::array<Text, 4> kDiffuseLabels{"Lambert", "Burley", "Oren-Nayar", "EON"};
-constexpr std::array<Text, 2> kLobeDirections{"mean", "mirror"};
-constexpr std::array<Text, 2> kLobeDirectionLabels{"The lobe's mean", "Mirror direction"};
+constexpr Choices<NormalConvention, 2> kNormalConventions({
+    {NormalConvention::OpenGl, "openGl", "OpenGL (Y+)"},
+    {NormalConvention::DirectX, "directX", "DirectX (Y−)"},
+});
+constexpr Choices<AlphaMode, 3> kAlphaModes({
+    {AlphaMode::Opaque, "opaque", "Opaque"},
+    {AlphaMode::Mask, "mask", "Cut-out"},
+    {AlphaMode::Blend, "blend", "Blend"},
+});
+constexpr Choices<LightType, 5> kLightTypes({
+    {LightType::Point, "point", "Point"},
+    {LightType::Directional, "directional", "Directional"},
+    {LightType::Spot, "spot", "Spot"},
+    {LightType::Sphere, "sphere", "Sphere (area)"},
+    {LightType::Rectangle, "rectangle", "Rectangle (area)"},
+});
+constexpr Choices<EnvironmentLayout, 9> kEnvironmentLayouts({
+    {EnvironmentLayout::Automatic, "automatic", "Automatic"},
+    {EnvironmentLayout::LatLong, "latLong", "Lat-long"},
+    {EnvironmentLayout::AngularMap, "angularMap", "Angular map"},
+    {EnvironmentLayout::MirrorBall, "mirrorBall", "Mirror ball"},
+    {EnvironmentLayout::HorizontalCross, "horizontalCross", "Horizontal cross"},
+    {EnvironmentLayout::VerticalCross, "verticalCross", "Vertical cross"},
+    {EnvironmentLayout::HorizontalStrip, "horizontalStrip", "Horizontal strip"},
+    {EnvironmentLayout::VerticalStrip, "verticalStrip", "Vertical strip"},
+    {EnvironmentLayout::SixFaces, "sixFaces", "Six faces"},
+});
+constexpr Choices<ToneMap, 8> kToneMaps({
+    {ToneMap::Clamp, "clamp", "None (clamp)"},
+    {ToneMap::Reinhard, "reinhard", "Reinhard"},
+    {ToneMap::ReinhardPhotographic, "reinhardPhotographic", "Reinhard, photographic"},
+    {ToneMap::Exponential, "exponential", "Exponential"},
+    {ToneMap::PbrNeutral, "pbrNeutral", "PBR Neutral (Khronos)"},
+    {ToneMap::Aces, "aces", "ACES (fitted)"},
+    {ToneMap::AgX, "agx", "AgX"},
+    {ToneMap::OpenColorIo, "openColorIo", "OpenColorIO"},
+});
+constexpr Choices<ExposureMode, 2> kExposureModes({
+    {ExposureMode::Fixed, "fixed", "Fixed"},
+    {ExposureMode::Automatic, "automatic", "Automatic"},
+});
+constexpr Choices<DisplayTransfer, 2> kDisplayTransfers({
+    {DisplayTransfer::Srgb, "srgb", "sRGB"},
+    {DisplayTransfer::Gamma, "gamma", "Gamma"},
+});
+constexpr Choices<EnvironmentKind, 3> kEnvironmentKinds({
+    {EnvironmentKind::Image, "image", "Image"},
+    {EnvironmentKind::Sky, "sky", "Sky"},
+    {EnvironmentKind::Softboxes, "softboxes", "Softboxes"},
+});
+constexpr Choices<BackgroundMode, 4> kBackgrounds({
+    {BackgroundMode::Environment, "environment", "Environment"},
+    {BackgroundMode::Blurred, "blurred", "Blurred environment"},
+    {BackgroundMode::Color, "color", "Colour"},
+    {BackgroundMode::Off, "off", "Off (transparent)"},
+});
+constexpr Choices<LightingMode, 6> kLightings({
+    {LightingMode::Ibl, "ibl", "Image-based light"},
+    {LightingMode::Cosine, "cosine", "N·L"},
+    {LightingMode::ShIrradiance, "shIrradiance", "SH irradiance"},
+    {LightingMode::Unshadowed, "unshadowed", "Unshadowed transfer"},
+    {LightingMode::Shadowed, "shadowed", "Shadowed transfer"},
+    {LightingMode::Prt, "prt", "Interreflected transfer"},
+});
+constexpr Choices<Distribution, 3> kDistributions({
+    {Distribution::GGX, "ggx", "GGX"},
+    {Distribution::Beckmann, "beckmann", "Beckmann"},
+    {Distribution::BlinnPhong, "blinnPhong", "Blinn-Phong"},
+});
+constexpr Choices<Visibility, 6> kVisibilities({
+    {Visibility::SmithCorrelated, "smithCorrelated", "Smith, correlated"},
+    {Visibility::SmithSeparable, "smithSeparable", "Smith, separable"},
+    {Visibility::SchlickDirect, "schlickDirect", "Schlick-GGX, lights"},
+    {Visibility::SchlickIbl, "schlickIbl", "Schlick-GGX, IBL"},
+    {Visibility::Kelemen, "kelemen", "Kelemen"},
+    {Visibility::Implicit, "implicit", "Implicit"},
+});
+constexpr Choices<Fresnel, 4> kFresnels({
+    {Fresnel::Schlick, "schlick", "Schlick"},
+    {Fresnel::SchlickF90, "schlickF90", "Schlick with f90"},
+    {Fresnel::Dielectric, "dielectric", "Exact dielectric"},
+    {Fresnel::Conductor, "conductor", "Exact conductor"},
+});
+constexpr Choices<Diffuse, 4> kDiffuses({
+    {Diffuse::Lambert, "lambert", "Lambert"},
+    {Diffuse::Burley, "burley", "Burley"},
+    {Diffuse::OrenNayar, "orenNayar", "Oren-Nayar"},
+    {Diffuse::Eon, "eon", "EON"},
+});
+constexpr Choices<LobeDirection, 2> kLobeDirections({
+    {LobeDirection::Mean, "mean", "The lobe's mean"},
+    {LobeDirection::Mirror, "mirror", "Mirror direction"},
+});
 
 // --- The table ---
 
@@ -373,10 +412,10 @@ constexpr auto kSrgb = ColorEncoding::Srgb;
 constexpr auto kData = ColorEncoding::Data;
 constexpr auto kRgb = MapChannel::Rgb;
 constexpr auto kRed = MapChannel::R;
-constexpr auto kUniform = Affects::Uniform;
+constexpr auto kPicture = Affects::Picture;
 constexpr auto kGeometry = Affects::Geometry | Affects::Bakes;
 constexpr auto kEnvironment = Affects::EnvironmentMap;
-constexpr auto kSwitch = Affects::Uniform | Affects::Structure; // lists show what is on
+constexpr auto kSwitch = Affects::Picture | Affects::Structure; // lists show what is on
 constexpr Text kSoloHelp = "While any light or environment is solo, everything else is off, as on "
                            "a mixing desk.";
 
@@ -397,22 +436,22 @@ constexpr std::array kParameters{
     alias("material.roughness", number<&M::perceptualRoughness>("material.perceptualRoughness", "Roughness", "Surface", kUnit, kUnit, 3, "", "How blurred reflections are: 0 is a mirror, 1 is chalk; the shading uses its square.")),
     alias("material.roughness.map", map<&M::perceptualRoughnessMap>("material.perceptualRoughness.map", "Roughness map", "Surface", kData, kRed, "Image that multiplies the roughness.")),
     number<&M::diffuseRoughness>("material.diffuseRoughness", "Diffuse roughness", "Surface", kUnit, kUnit, 3, "", "How powdery the body is: 0 is smooth and 1 dust; used by the diffuse models Oren-Nayar and EON."),
-    number<&M::normalStrength>("material.normalStrength", "Normal strength", "Relief", {0.0f, 2.0f}, {-10.0f, 10.0f}, 3, "", "How strongly the normal map tilts the surface; negative values turn bumps into dents."),
-    alias("material.normal.map", map<&M::normalMap>("material.normalStrength.map", "Normal map", "Relief", kData, kRgb, "Tangent-space normal map that adds fine relief.")),
-    choice<&M::normalConvention>("material.normalConvention", "Green channel", "Relief", kNormalConventions, kNormalConventionLabels, "Which way the normal map's green channel points; choose the other one when bumps look like dents."),
-    number<&M::occlusionStrength>("material.occlusionStrength", "Occlusion strength", "Relief", kUnit, kUnit, 3, "", "How much the occlusion map darkens the light that arrives from the environment."),
-    alias("material.occlusion.map", map<&M::occlusionMap>("material.occlusionStrength.map", "Occlusion map", "Relief", kData, kRed, "Image of how open each point is to the environment: white is open, black is hidden.")),
+    number<&M::normalStrength>("material.normalStrength", "Normal strength", "Normal & occlusion", {0.0f, 2.0f}, {-10.0f, 10.0f}, 3, "", "How strongly the normal map tilts the surface; negative values turn bumps into dents."),
+    alias("material.normal.map", map<&M::normalMap>("material.normalStrength.map", "Normal map", "Normal & occlusion", kData, kRgb, "Tangent-space normal map that adds fine relief.")),
+    choice<&M::normalConvention>("material.normalConvention", "Normal map format", "Normal & occlusion", kNormalConventions, "Which way the normal map's green channel points; choose the other one when bumps look like dents."),
+    number<&M::occlusionStrength>("material.occlusionStrength", "Occlusion strength", "Normal & occlusion", kUnit, kUnit, 3, "", "How much the occlusion map darkens the light that arrives from the environment."),
+    alias("material.occlusion.map", map<&M::occlusionMap>("material.occlusionStrength.map", "Occlusion map", "Normal & occlusion", kData, kRed, "Image of how open each point is to the environment: white is open, black is hidden.")),
     color<&M::emissive>("material.emissive", "Emission colour", "Emission", "Colour of the light that the surface gives off by itself; black gives none."),
     map<&M::emissiveMap>("material.emissive.map", "Emission map", "Emission", kSrgb, kRgb, "Image that multiplies the emission colour."),
     number<&M::emissiveStrength>("material.emissiveStrength", "Emission strength", "Emission", {0.0f, 20.0f}, {0.0f, 1e5f}, 2, "", "Multiplies the emission colour, for screens and lights brighter than white paper."),
     number<&M::opacity>("material.opacity", "Opacity", "Transparency", kUnit, kUnit, 3, "", "1 is solid and 0 invisible; used when the alpha mode is cut-out or blend."),
-    choice<&M::alphaMode>("material.alphaMode", "Alpha mode", "Transparency", kAlphaModes, kAlphaModeLabels, "Whether opacity is ignored, cuts holes with a hard edge, or lets the background show through."),
+    choice<&M::alphaMode>("material.alphaMode", "Alpha mode", "Transparency", kAlphaModes, "Whether opacity is ignored, cuts holes with a hard edge, or lets the background show through."),
     number<&M::alphaCutoff>("material.alphaCutoff", "Alpha cutoff", "Transparency", kUnit, kUnit, 3, "", "In cut-out mode, points of lower opacity than this are left out."),
-    flag<&M::doubleSided>("material.doubleSided", "Double-sided", "Transparency", "Shows the back of thin surfaces such as leaves and cloth, with their normal turned to the viewer.", kUniform | Affects::Bakes),
+    flag<&M::doubleSided>("material.doubleSided", "Double-sided", "Transparency", "Shows the back of thin surfaces such as leaves and cloth, with their normal turned to the viewer.", kPicture | Affects::Bakes),
 
-    choice<&E::kind>("environment.kind", "Kind", "Environment", kEnvironmentKinds, kEnvironmentKindLabels, "What surrounds and lights the model: an image, a computed clear sky, or softboxes in a dark room.", kEnvironment),
+    choice<&E::kind>("environment.kind", "Kind", "Environment", kEnvironmentKinds, "What surrounds and lights the model: an image, a computed clear sky, or softboxes in a dark room.", kEnvironment),
     environmentImage<getEnvironmentImage, setEnvironmentImage>("environment.image", "Image", "Environment", "Image of the environment that lights the scene."),
-    choice<&E::layout>("environment.layout", "Layout", "Environment", kEnvironmentLayouts, kEnvironmentLayoutLabels, "How the file shows the environment; automatic guesses it from the file, choose another one when the guess is wrong.", Affects::Texture | Affects::EnvironmentMap),
+    choice<&E::layout>("environment.layout", "Layout", "Environment", kEnvironmentLayouts, "How the file shows the environment; automatic guesses it from the file, choose another one when the guess is wrong.", Affects::Picture | Affects::EnvironmentMap),
     angle<&E::sky, &Sky::sunAzimuthDeg>("environment.skySunAzimuthDeg", "Sun azimuth", "Environment", "The compass direction of the sun; 0 is the model's front, positive values turn towards +X.", kEnvironment),
     number<&E::sky, &Sky::sunElevationDeg>("environment.skySunElevationDeg", "Sun elevation", "Environment", {0.0f, 90.0f}, {0.0f, 90.0f}, 1, "°", "How high the sun stands: 0 is sunset, 90 is overhead.", kEnvironment),
     number<&E::sky, &Sky::turbidity>("environment.skyTurbidity", "Haze", "Environment", {2.0f, 10.0f}, {2.0f, 10.0f}, 2, "", "How much haze is in the air (turbidity): 2 is a clear mountain day, 10 a milky one with a weak sun.", kEnvironment),
@@ -432,7 +471,7 @@ constexpr std::array kParameters{
     flag<&E::second, &E2::solo>("environment.secondSolo", "Second solo", "Mix", kSoloHelp, kSwitch),
     color<&E::second, &E2::tint>("environment.secondTint", "Second tint", "Mix", "Colours the light of the second environment like a filter in front of it."),
     number<&E::fade>("environment.fade", "Cross-fade", "Mix", kUnit, kUnit, 3, "", "Fades from this environment at 0 to the second one at 1, between them to a mix of the light of both; of no effect without a second image."),
-    choice<&E::background>("environment.background", "Background", "Background", kBackgrounds, kBackgroundLabels, "What is seen behind the model; the light on it stays the same."),
+    choice<&E::background>("environment.background", "Background", "Background", kBackgrounds, "What is seen behind the model; the light on it stays the same."),
     number<&E::backgroundBlur>("environment.backgroundBlur", "Background blur", "Background", kUnit, kUnit, 2, "", "How far out of focus the environment behind the model is."),
     color<&E::backgroundColor>("environment.backgroundColor", "Background colour", "Background", "Colour behind the model when the background is a colour."),
 
@@ -447,38 +486,38 @@ constexpr std::array kParameters{
     angle<&B::rollDeg>("softbox.rollDeg", "Roll", "Softbox", "Turns it about its centre, counter-clockwise seen from the model.", kEnvironment),
     number<&B::softness>("softbox.softness", "Edge softness", "Softbox", kUnit, kUnit, 2, "", "How much of it fades out towards its edges: 0 is a sharp rectangle.", kEnvironment),
 
-    choice<&S::distribution>("model.distribution", "Distribution", "Highlight", kDistributions, kDistributionLabels, "How the tiny facets of a rough surface are tilted: GGX has the long tails that real materials show."),
-    choice<&S::visibility>("model.visibility", "Visibility", "Highlight", kVisibilities, kVisibilityLabels, "How facets hide each other: Smith's models are derived (correlated: with their heights), Schlick's fits are those of the Unreal Engine 4 for lights, k = (r + 1)² / 8, and for image-based light, k = α / 2; the last two are shortcuts of old."),
+    choice<&S::distribution>("model.distribution", "Distribution", "Highlight", kDistributions, "How the tiny facets of a rough surface are tilted: GGX has the long tails that real materials show."),
+    choice<&S::visibility>("model.visibility", "Visibility", "Highlight", kVisibilities, "How facets hide each other: Smith's models are derived (correlated: with their heights), Schlick's fits are those of the Unreal Engine 4 for lights, k = (r + 1)² / 8, and for image-based light, k = α / 2; the last two are shortcuts of old."),
     flag<&S::multiScatter>("model.multiScatter", "Energy compensation", "Highlight", "Gives back the light that bounces more than once between facets; without it rough metals are too dark."),
-    choice<&S::fresnel>("model.fresnel", "Fresnel", "Fresnel", kFresnels, kFresnelLabels, "How reflection grows towards grazing angles: by Schlick's approximation, or by Fresnel's exact equations for non-metals or for metals."),
+    choice<&S::fresnel>("model.fresnel", "Fresnel", "Fresnel", kFresnels, "How reflection grows towards grazing angles: by Schlick's approximation, or by Fresnel's exact equations for non-metals or for metals."),
     number<&S::f90>("model.f90", "Grazing reflectance", "Fresnel", kUnit, kUnit, 3, "", "Reflectance at grazing angles for Schlick with f90; real surfaces reach 1."),
     number<&S::ior>("model.ior", "Refractive index", "Fresnel", {1.0f, 2.5f}, {1.0f, 10.0f}, 3, "", "Refractive index of all non-metals for the exact dielectric: water 1.33, glass and plastic 1.5, diamond 2.42."),
     vector<&S::conductorN>("model.conductorN", "Index n", "Fresnel", {0.05f, 5.0f}, {0.01f, 50.0f}, "", "Real part of the metals' refractive index at red, green and blue for the exact conductor; it replaces their base colour."),
     vector<&S::conductorK>("model.conductorK", "Extinction k", "Fresnel", {0.0f, 10.0f}, {0.0f, 50.0f}, "", "Imaginary part of the metals' refractive index at red, green and blue for the exact conductor."),
-    choice<&S::diffuse>("model.diffuse", "Diffuse", "Body", kDiffuses, kDiffuseLabels, "How light that enters the body leaves it: evenly (Lambert), or flatter and brighter at the edges as from powder, cloth and clay."),
-    choice<&S::lobeDirection>("model.lobeDirection", "Reflections from", "Image-based light", kLobeDirections, kLobeDirectionLabels, "Where rough reflections of the environment are looked up: around the lobe's mean direction, or around the mirror direction as is usual but off by several degrees."),
+    choice<&S::diffuse>("model.diffuse", "Diffuse", "Body", kDiffuses, "How light that enters the body leaves it: evenly (Lambert), or flatter and brighter at the edges as from powder, cloth and clay."),
+    choice<&S::lobeDirection>("model.lobeDirection", "Reflections from", "Image-based light", kLobeDirections, "Where rough reflections of the environment are looked up: around the lobe's mean direction, or around the mirror direction as is usual but off by several degrees."),
 
-    choice<&View::exposureMode>("view.exposureMode", "Exposure mode", "Exposure", kExposureModes, kExposureModeLabels, "Fixed, or automatic like an eye that gets used to how bright the picture is."),
+    choice<&View::exposureMode>("view.exposureMode", "Exposure mode", "Exposure", kExposureModes, "Fixed, or automatic like an eye that gets used to how bright the picture is."),
     number<&View::exposureEv>("view.exposureEv", "Exposure", "Exposure", {-6.0f, 6.0f}, {-24.0f, 24.0f}, 2, "EV", "Brightens the whole picture like a camera's exposure, each step doubles it; it corrects automatic exposure."),
-    offered(toneMapUnavailable, choice<&View::toneMap>("view.toneMap", "Tone mapping", "Tone curve", kToneMaps, kToneMapLabels, "How light that is brighter than the screen is brought into its range; PBR Neutral keeps base colours as they are.")),
+    offered(toneMapUnavailable, choice<&View::toneMap>("view.toneMap", "Tone mapping", "Tone curve", kToneMaps, "How light that is brighter than the screen is brought into its range; PBR Neutral keeps base colours as they are.")),
     flag<&View::reinhardAutoKey>("view.reinhardAutoKey", "Automatic key", "Tone curve", "Lets the photographic operator find its key from the darkest, average and brightest light of the picture."),
     number<&View::reinhardKey>("view.reinhardKey", "Key", "Tone curve", {0.045f, 0.72f}, {0.045f, 0.72f}, 3, "", "Brightness that the picture's average gets: 0.045 for a night, 0.18 for an ordinary scene, 0.72 for snow."),
     number<&View::reinhardWhite>("view.reinhardWhite", "White point", "Tone curve", {0.0f, 16.0f}, {0.0f, 10000.0f}, 2, "", "Smallest scaled luminance that becomes white; 0 is none, and nothing is ever quite white."),
     number<&View::exponentialK>("view.exponentialK", "Rate k", "Tone curve", {0.1f, 8.0f}, {0.01f, 100.0f}, 2, "", "The k of 1 - exp(-k L): how quickly light comes near white."),
-    choice<&View::displayTransfer>("view.displayTransfer", "Transfer curve", "Display", kDisplayTransfers, kDisplayTransferLabels, "What the display expects: the sRGB curve, or a pure power; OpenColorIO brings its own."),
+    choice<&View::displayTransfer>("view.displayTransfer", "Transfer curve", "Display", kDisplayTransfers, "What the display expects: the sRGB curve, or a pure power; OpenColorIO brings its own."),
     number<&View::displayGamma>("view.displayGamma", "Display gamma", "Display", {1.0f, 3.0f}, {1.0f, 4.0f}, 2, "", "Exponent of a display that is a pure power."),
-    text<&View::ocioConfig>("view.ocioConfig", "OpenColorIO configuration", "Display", "File with OpenColorIO's displays and views; empty means the one that the environment variable OCIO names.", kUniform),
-    text<&View::ocioDisplay>("view.ocioDisplay", "OpenColorIO display", "Display", "Display of the OpenColorIO configuration; empty means its default.", kUniform),
-    text<&View::ocioView>("view.ocioView", "OpenColorIO view", "Display", "View of the OpenColorIO display; empty means the display's default.", kUniform),
+    text<&View::ocioConfig>("view.ocioConfig", "OpenColorIO configuration", "Display", "File with OpenColorIO's displays and views; empty means the one that the environment variable OCIO names.", kPicture),
+    text<&View::ocioDisplay>("view.ocioDisplay", "OpenColorIO display", "Display", "Display of the OpenColorIO configuration; empty means its default.", kPicture),
+    text<&View::ocioView>("view.ocioView", "OpenColorIO view", "Display", "View of the OpenColorIO display; empty means the display's default.", kPicture),
     number<&View::camera, &Camera::fovDeg>("view.fovDeg", "Field of view", "Camera and lighting", {10.0f, 90.0f}, {1.0f, 170.0f}, 1, "°", "Vertical angle that the camera sees: small like a telephoto lens, large like a wide-angle lens."),
-    offered(lightingUnavailable, choice<&View::lighting>("view.lighting", "Lighting", "Camera and lighting", kLightings, kLightingLabels, "How the environment lights the scene: image-based light; one dominant light (N·L); SH irradiance; transfer of an open sky; baked transfer with its soft shadows; and with interreflection.")),
+    offered(lightingUnavailable, choice<&View::lighting>("view.lighting", "Lighting", "Camera and lighting", kLightings, "How the environment lights the scene: image-based light; one dominant light (N·L); SH irradiance; transfer of an open sky; baked transfer with its soft shadows; and with interreflection.")),
     number<&View::bounces>("view.bounces", "Bounces", "Camera and lighting", {0.0f, 8.0f}, {-1.0f, 64.0f}, 0, "", "How often light may bounce between surfaces under interreflected transfer; -1 is never, 0 as often as the bake was made for."),
     number<&View::reflectionMix>("view.reflectionMix", "Diffuse / reflection", "Camera and lighting", kUnit, kUnit, 2, "", "Fades between diffuse light alone (0) and reflections alone (1); in the middle both show in full. Reflections that are left out take nothing from the diffuse light."),
 
     text<&L::name>("light.name", "Name", "Light", "What the light is called in lists, exports and scripts."),
-    choice<&L::type>("light.type", "Type", "Light", kLightTypes, kLightTypeLabels, "A point emits from one position in all directions, a directional light from far away like the sun, a spot in a cone; spheres and rectangles emit from an area and make soft highlights.", kUniform | Affects::Structure),
-    flag<&L::enabled>("light.enabled", "On", "Light", "Switches the light on or off.", kUniform | Affects::Structure),
-    flag<&L::solo>("light.solo", "Solo", "Light", kSoloHelp, kUniform | Affects::Structure),
+    choice<&L::type>("light.type", "Type", "Light", kLightTypes, "A point emits from one position in all directions, a directional light from far away like the sun, a spot in a cone; spheres and rectangles emit from an area and make soft highlights.", kPicture | Affects::Structure),
+    flag<&L::enabled>("light.enabled", "On", "Light", "Switches the light on or off.", kPicture | Affects::Structure),
+    flag<&L::solo>("light.solo", "Solo", "Light", kSoloHelp, kPicture | Affects::Structure),
     color<&L::color>("light.color", "Colour", "Light", "Colour of the light; its brightness is set by the intensity."),
     flag<&L::usesTemperature>("light.usesTemperature", "Use temperature", "Light", "Takes the colour of a glowing body of the temperature below instead of the colour above."),
     number<&L::temperatureK>("light.temperatureK", "Temperature", "Light", {1000.0f, 12000.0f}, {kMinTemperatureK, kMaxTemperatureK}, 0, "K", "Colour temperature: a candle has 1900 K, a light bulb 2700 K, the midday sun 5500 K, a clear sky 10000 K and more."),

@@ -21,12 +21,12 @@ struct Document;
 // What a change of a parameter makes necessary.
 enum class Affects : std::uint32_t {
     Nothing = 0,
-    Uniform = 1,        // a number in a uniform block
-    Texture = 2,        // a texture is exchanged
-    Geometry = 4,       // meshes, transforms, visibility
-    EnvironmentMap = 8, // image-based light is to be prepared anew
-    Bakes = 16,         // attached bakes may become stale
-    Structure = 32,     // elements were added, removed, renamed
+    Picture = 1,          // what is drawn, in some way: Dirty.h says in which
+    Geometry = 2,         // meshes, transforms, visibility
+    EnvironmentMap = 4,   // image-based light is to be prepared anew
+    Bakes = 8,            // attached bakes may become stale
+    Structure = 16,       // elements were added, removed, renamed
+    AnotherDocument = 32, // ids mean other elements than before
     Everything = 0xffffffffu
 };
 constexpr Affects operator|(Affects a, Affects b) {
@@ -65,7 +65,7 @@ struct ParameterInfo {
     std::span<const std::string_view> choices;      // names of a Choice, as in files: "openGl"
     std::span<const std::string_view> choiceLabels; // as shown: "OpenGL (green up)"
     std::string_view help;                          // one sentence
-    Affects affects = Affects::Uniform;
+    Affects affects = Affects::Picture;
     ColorEncoding mapEncoding = ColorEncoding::Data; // Map: how integer files are read
     MapChannel mapChannel = MapChannel::Rgb;         // Map: what is read when nothing else is said
     bool wraps = false; // an angle: values beyond the hard range come in at its other end

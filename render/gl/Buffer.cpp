@@ -1,6 +1,7 @@
 #include "render/gl/Buffer.h"
 
 #include "core/base/Check.h"
+#include "render/gl/Uploads.h"
 
 #include <epoxy/gl.h>
 
@@ -31,10 +32,13 @@ Buffer::Buffer(Context&, std::string_view label, std::size_t size)
 
 Buffer::Buffer(Context&, std::string_view label, std::span<const std::byte> data)
     : m_handle(makeBuffer(label, data.size(), data.data()))
-    , m_size(data.size()) {}
+    , m_size(data.size()) {
+    countUpload(data.size());
+}
 
 void Buffer::write(std::size_t offset, std::span<const std::byte> data) {
     CHECK_LE(offset + data.size(), m_size);
+    countUpload(data.size());
     glNamedBufferSubData(id(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size()),
                          data.data());
 }

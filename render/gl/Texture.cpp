@@ -1,6 +1,7 @@
 #include "render/gl/Texture.h"
 
 #include "core/base/Check.h"
+#include "render/gl/Uploads.h"
 
 #include <algorithm>
 #include <epoxy/gl.h>
@@ -13,8 +14,6 @@ GLenum target(TextureKind kind) {
     switch (kind) {
     case TextureKind::Flat:
         return GL_TEXTURE_2D;
-    case TextureKind::Cube:
-        return GL_TEXTURE_CUBE_MAP;
     case TextureKind::Multisample:
         return GL_TEXTURE_2D_MULTISAMPLE;
     case TextureKind::Line:
@@ -55,6 +54,26 @@ GLenum internalFormat(PixelFormat format) {
         return GL_DEPTH_COMPONENT32F;
     }
     return GL_RGBA8;
+}
+
+std::size_t sampleBytes(SampleType type) {
+    switch (type) {
+    case SampleType::U8:
+        return 1;
+    case SampleType::U16:
+    case SampleType::F16:
+        return 2;
+    case SampleType::F32:
+    case SampleType::U32:
+        return 4;
+    }
+    return 4;
+}
+
+void countTexels(int width, int height, int depth, int channels, SampleType type) {
+    countUpload(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                static_cast<std::size_t>(depth) * static_cast<std::size_t>(channels) *
+                sampleBytes(type));
 }
 
 GLenum pixelLayout(PixelFormat format, int channels) {
@@ -148,8 +167,7 @@ Texture::Texture(Context&, std::string_view label, const TextureSettings& settin
 std::size_t Texture::memoryBytes() const {
     if (empty())
         return 0;
-    const std::size_t copies = m_settings.kind == TextureKind::Cube ? 6
-                               : m_settings.kind == TextureKind::Multisample
+    const std::size_t copies = m_settings.kind == TextureKind::Multisample
                                    ? static_cast<std::size_t>(m_settings.samples)
                                    : 1;
     std::size_t texels = 0;
@@ -166,11 +184,13 @@ void Texture::upload(int level, int channels, SampleType type, const void* data)
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     const GLenum layout = pixelLayout(m_settings.format, channels), sample = componentType(type);
     const int w = std::max(1, width() >> level), h = std::max(1, height() >> level);
+    const bool volume = m_settings.kind == TextureKind::Volume;
+    const int d = volume ? std::max(1, m_settings.depth >> level) : 1;
+    countTexels(w, h, d, channels, type);
     if (m_settings.kind == TextureKind::Line) {
         glTextureSubImage1D(id(), level, 0, w, layout, sample, data);
-    } else if (m_settings.kind == TextureKind::Volume) {
-        glTextureSubImage3D(id(), level, 0, 0, 0, w, h, std::max(1, m_settings.depth >> level),
-                            layout, sample, data);
+    } else if (volume) {
+        glTextureSubImage3D(id(), level, 0, 0, 0, w, h, d, layout, sample, data);
     } else {
         CHECK(m_settings.kind == TextureKind::Flat);
         glTextureSubImage2D(id(), level, 0, 0, w, h, layout, sample, data);
@@ -182,6 +202,7 @@ void Texture::uploadRows(int level, int firstRow, int rows, int channels, Sample
     CHECK(m_settings.kind == TextureKind::Flat);
     CHECK(firstRow >= 0 && firstRow + rows <= std::max(1, height() >> level));
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    countTexels(std::max(1, width() >> level), rows, 1, channels, type);
     glTextureSubImage2D(id(), level, 0, firstRow, std::max(1, width() >> level), rows,
                         pixelLayout(m_settings.format, channels), componentType(type), data);
 }
@@ -194,14 +215,6 @@ void Texture::copyFrom(const Buffer& rgba) {
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, rgba.id());
     glTextureSubImage2D(id(), 0, 0, 0, width(), height(), GL_RGBA, GL_FLOAT, nullptr);
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
-}
-
-void Texture::uploadFace(int face, int level, int channels, SampleType type, const void* data) {
-    CHECK(m_settings.kind == TextureKind::Cube);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    const int side = std::max(1, width() >> level);
-    glTextureSubImage3D(id(), level, 0, 0, face, side, side, 1,
-                        pixelLayout(m_settings.format, channels), componentType(type), data);
 }
 
 void Texture::generateMipmaps() {

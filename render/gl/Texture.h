@@ -30,7 +30,7 @@ enum class PixelFormat {
     Depth32f
 };
 
-enum class TextureKind { Flat, Cube, Multisample, Line, Volume };
+enum class TextureKind { Flat, Multisample, Line, Volume };
 
 // How the numbers handed to upload() are laid out: interleaved, rows without padding.
 enum class SampleType { U8, U16, F16, F32, U32 };
@@ -38,7 +38,7 @@ enum class SampleType { U8, U16, F16, F32, U32 };
 struct TextureSettings {
     TextureKind kind = TextureKind::Flat;
     PixelFormat format = PixelFormat::Rgba8;
-    int width = 0, height = 0; // Cube: both the side of a face; Line: the height is 1
+    int width = 0, height = 0; // Line: the height is 1
     int depth = 1;             // Volume
     int levels = 1;            // 0: a full mipmap chain
     int samples = 1;           // Multisample
@@ -65,8 +65,7 @@ class Texture {
     [[nodiscard]] const TextureSettings& settings() const { return m_settings; }
     [[nodiscard]] std::size_t memoryBytes() const; // of all texels; drivers may round up
 
-    // Fills a level; `data` holds width × height × channels samples. Cube: one face 0…5 in the
-    // order +X -X +Y -Y +Z -Z. Volume: slice by slice.
+    // Fills a level; `data` holds width × height × channels samples. Volume: slice by slice.
     void upload(int level, int channels, SampleType type, const void* data);
     // Rows of a level, `data` as above. Flat only.
     void uploadRows(int level, int firstRow, int rows, int channels, SampleType type,
@@ -74,7 +73,6 @@ class Texture {
     // All of level 0 from a buffer of RGBA floats, rows as above; nothing leaves the GPU. Flat
     // only.
     void copyFrom(const Buffer& rgba);
-    void uploadFace(int face, int level, int channels, SampleType type, const void* data);
     void generateMipmaps();
 
     void setSampling(Filter filter, Wrap wrap);

@@ -9,6 +9,7 @@
 #include "render/scene/LightBlocks.h"
 
 #include <algorithm>
+#include <cstring>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
 
@@ -55,53 +56,46 @@ GpuScene::GpuScene(gl::Context& context)
     , m_lobes(makeLobes(context))
     , m_textures(context)
     , m_visibility(context, BakeKind::AoVertex)
-    , m_transfer(context) {}
+    , m_transfer(context) {
+    // What an empty document shows.
+    m_modelBlock.writeValue(packModel(m_document.model));
+    updateGpuMaterial(m_context, m_textures, Material{}, m_materials[kFallbackMaterial]);
+}
 
-void GpuScene::update(const Document& document, const Change& change) {
+Dirty GpuScene::update(const Document& document) {
+    const Dirty dirty = dirtyBetween(m_document, document);
+    if (dirty.lights && tooManyLights(document) && !tooManyLights(m_document))
+        logWarning("Only the first {} lights that shine are drawn; switch some off.", kMaxLights);
+    if (dirty.lights && tooManyShadows(document) && !tooManyShadows(m_document))
+        logWarning("Only the first {} lights that cast shadows do so; the others shine through.",
+                   kMaxShadows);
     m_document = document;
+
+    // Numbers of the view, the lights and the environment are read anew for each frame.
     m_environment.show(shownEnvironment(m_document));
-    if (!change.target || change.target->scope == Scope::Model) {
+    if (dirty.model) {
         m_modelBlock.writeValue(packModel(m_document.model));
         m_environment.setModel(m_document.model);
     }
-    const auto touched = [&](Affects part) { return touches(change.affects, part); };
-
-    // One number is the change of a dragged slider: nothing else is looked at. Those of the view,
-    // the lights and the environment are read anew for each frame.
-    if (change.affects == Affects::Uniform && change.target) {
-        const Scope scope = change.target->scope;
-        if (scope == Scope::View || scope == Scope::Light || scope == Scope::Environment ||
-            scope == Scope::Model)
-            return;
-        const Material* material = m_document.material(change.target->id);
-        const auto known = m_materials.find(change.target->id);
-        if (scope == Scope::Material && material && known != m_materials.end()) {
-            updateGpuMaterial(m_context, m_textures, *material, known->second);
-            if (material->alphaMode != AlphaMode::Opaque)
-                ++m_shapeRevision;
-            return;
-        }
-    }
-
-    if (touched(Affects::Structure) && tooManyLights(m_document))
-        logWarning("Only the first {} lights that shine are drawn; switch some off.", kMaxLights);
-    if (touched(Affects::Structure) && tooManyShadows(m_document))
-        logWarning("Only the first {} lights that cast shadows do so; the others shine through.",
-                   kMaxShadows);
-
-    // Whoever prepares its light hands it over.
-    if (change.affects == Affects::EnvironmentMap)
-        return;
-    if (touched(Affects::Geometry) || touched(Affects::Structure))
+    if (dirty.instances)
         updateMeshes();
-    updateMaterials();
-    m_visibility.update(m_document);
-    if (m_transfer.update(m_document))
-        clearBouncedLight(); // it rests on what was there before
-    updateTexelBakes();
-    m_texelPlaces.clear();
-    ++m_placeRevision;
-    rebuildItems();
+    updateMaterials(dirty);
+    if (dirty.bakes) {
+        m_visibility.update(m_document);
+        if (m_transfer.update(m_document))
+            clearBouncedLight(); // it rests on what was there before
+    }
+    if (dirty.bakes || dirty.images)
+        updateTexelBakes();
+    if (dirty.casters)
+        ++m_shapeRevision;
+    if (dirty.places) {
+        m_texelPlaces.clear();
+        ++m_placeRevision;
+    }
+    if (dirty.instances || dirty.materialSet || dirty.bakes)
+        rebuildItems();
+    return dirty;
 }
 
 void GpuScene::updateMeshes() {
@@ -115,13 +109,14 @@ void GpuScene::updateMeshes() {
             m_meshes.emplace(mesh, makeGpuMesh(m_context, *mesh));
 }
 
-void GpuScene::updateMaterials() {
+void GpuScene::updateMaterials(const Dirty& dirty) {
+    for (const Id id : dirty.materials)
+        updateGpuMaterial(m_context, m_textures, *m_document.material(id), m_materials[id]);
+    if (!dirty.materialSet)
+        return;
     std::set<Id> ids{kFallbackMaterial};
-    for (const Material& material : m_document.materials) {
+    for (const Material& material : m_document.materials)
         ids.insert(material.id);
-        updateGpuMaterial(m_context, m_textures, material, m_materials[material.id]);
-    }
-    updateGpuMaterial(m_context, m_textures, Material{}, m_materials[kFallbackMaterial]);
     std::erase_if(m_materials, [&](const auto& entry) { return !ids.contains(entry.first); });
 }
 
@@ -141,7 +136,7 @@ void GpuScene::updateTexelBakes() {
 }
 
 void GpuScene::rebuildItems() {
-    ++m_shapeRevision;
+    ++m_rebuilds;
     m_items.clear();
     m_bounds = {};
     std::set<Id> ids;
@@ -159,39 +154,49 @@ void GpuScene::rebuildItems() {
         item.material =
             material != m_materials.end() ? &material->second : &m_materials.at(kFallbackMaterial);
 
-        const auto count = item.mesh->vertexCount;
-        if (const auto* ao = m_visibility.find(instance.id, count); ao && ao->stride == 1)
-            item.visibility = &ao->buffer;
-        item.transfer = m_transfer.ofMaterial(instance.material);
-        if (item.transfer == nullptr)
-            item.transfer = m_transfer.ofMesh(instance.id, count);
-        const bool perTexel = item.transfer != nullptr && item.transfer->side > 0;
-        item.litVertices = &m_lit[instance.id];
-        item.lit = perTexel ? &m_litTexels[instance.material] : item.litVertices;
-        if (const auto live = m_texelPreviews.find(instance.material);
-            live != m_texelPreviews.end())
-            item.texelAo = &live->second;
-        else if (const auto baked = m_texelBakes.find(instance.material);
-                 baked != m_texelBakes.end())
-            item.texelAo = baked->second;
-
-        const InstanceBlock block = packInstance(instance);
-        item.normalToWorld = glm::mat3(block.normalToWorld);
-        gl::Buffer& buffer = m_instanceBlocks[instance.id];
-        if (buffer.empty())
-            buffer = gl::Buffer(m_context, "instance", sizeof(InstanceBlock));
-        buffer.writeValue(block);
-        item.instanceBlock = &buffer;
-        item.mirrored = block.handedness < 0.0f;
+        attachBakes(item);
+        const InstanceOnGpu& placed = onGpu(instance);
+        item.instanceBlock = &placed.buffer;
+        item.normalToWorld = glm::mat3(placed.block.normalToWorld);
+        item.mirrored = placed.block.handedness < 0.0f;
         item.bounds = item.mesh->bounds.transformed(instance.transform);
         m_bounds.add(item.bounds);
         m_items.push_back(item);
     }
-    std::erase_if(m_instanceBlocks, [&](const auto& entry) { return !ids.contains(entry.first); });
+    std::erase_if(m_instances, [&](const auto& entry) { return !ids.contains(entry.first); });
     std::erase_if(m_lit, [&](const auto& entry) { return !ids.contains(entry.first); });
     std::erase_if(m_litTexels,
                   [&](const auto& entry) { return m_transfer.ofMaterial(entry.first) == nullptr; });
     applyNearShadows();
+}
+
+const GpuScene::InstanceOnGpu& GpuScene::onGpu(const MeshInstance& mesh) {
+    const InstanceBlock block = packInstance(mesh);
+    InstanceOnGpu& known = m_instances[mesh.id];
+    if (known.buffer.empty())
+        known.buffer = gl::Buffer(m_context, "instance", sizeof(InstanceBlock));
+    else if (std::memcmp(&known.block, &block, sizeof(block)) == 0)
+        return known;
+    known.buffer.writeValue(block);
+    known.block = block;
+    return known;
+}
+
+void GpuScene::attachBakes(DrawItem& item) {
+    const auto count = item.mesh->vertexCount;
+    const auto* ao = m_visibility.find(item.id, count);
+    item.visibility = ao && ao->stride == 1 ? &ao->buffer : nullptr;
+    item.transfer = m_transfer.ofMaterial(item.materialId);
+    if (item.transfer == nullptr)
+        item.transfer = m_transfer.ofMesh(item.id, count);
+    const bool perTexel = item.transfer != nullptr && item.transfer->side > 0;
+    item.litVertices = &m_lit[item.id];
+    item.lit = perTexel ? &m_litTexels[item.materialId] : item.litVertices;
+    item.texelAo = nullptr;
+    if (const auto live = m_texelPreviews.find(item.materialId); live != m_texelPreviews.end())
+        item.texelAo = &live->second;
+    else if (const auto baked = m_texelBakes.find(item.materialId); baked != m_texelBakes.end())
+        item.texelAo = baked->second;
 }
 
 void GpuScene::previewVertices(BakeKind kind, Id mesh, int stride, std::span<const float> values) {
@@ -200,7 +205,9 @@ void GpuScene::previewVertices(BakeKind kind, Id mesh, int stride, std::span<con
         m_visibility.preview(mesh, stride, values);
     else
         m_transfer.preview(mesh, stride, values);
-    rebuildItems();
+    for (DrawItem& item : m_items)
+        if (item.id == mesh)
+            attachBakes(item);
 }
 
 void GpuScene::previewTexels(Id material, int size, std::span<const float> values) {
@@ -213,14 +220,17 @@ void GpuScene::previewTexels(Id material, int size, std::span<const float> value
         texture.setSampling(gl::Filter::Linear, gl::Wrap::Repeat);
     }
     texture.upload(0, 1, gl::SampleType::F32, values.data());
-    rebuildItems();
+    for (DrawItem& item : m_items)
+        if (item.materialId == material)
+            attachBakes(item);
 }
 
 void GpuScene::clearPreview() {
     m_visibility.clearPreview();
     m_transfer.clearPreview();
     m_texelPreviews.clear();
-    rebuildItems();
+    for (DrawItem& item : m_items)
+        attachBakes(item);
 }
 
 void GpuScene::setBouncedLight(Id mesh, std::span<const glm::vec3> radiance) {

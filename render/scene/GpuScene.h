@@ -1,8 +1,8 @@
-// The document on the GPU. This is the only way data gets there: a snapshot and what changed go in,
-// things to draw come out.
+// The document on the GPU. This is the only way data gets there: snapshots go in, things to draw
+// come out. What a snapshot has in common with the one before stays as it is.
 #pragma once
 
-#include "core/document/Change.h"
+#include "core/document/Dirty.h"
 #include "core/document/Document.h"
 #include "render/scene/EnvironmentLight.h"
 #include "render/scene/GpuMaterial.h"
@@ -39,7 +39,8 @@ class GpuScene {
   public:
     explicit GpuScene(gl::Context& context);
 
-    void update(const Document& document, const Change& change);
+    // Renews what differs from the document that was shown; returns what that was.
+    Dirty update(const Document& document);
     // Light and the picture behind the scene come with it, not with the document.
     [[nodiscard]] EnvironmentLight& environment() { return m_environment; }
 
@@ -64,6 +65,8 @@ class GpuScene {
     [[nodiscard]] const Bounds& bounds() const { return m_bounds; } // of the items
     [[nodiscard]] std::size_t meshCount() const { return m_meshes.size(); }
     [[nodiscard]] std::size_t textureCount() const { return m_textures.size(); }
+    // How often items() has been made anew.
+    [[nodiscard]] std::uint64_t rebuilds() const { return m_rebuilds; }
 
     // Grows when geometry, or what is cut out of it, changes: shadow maps are drawn anew.
     [[nodiscard]] std::uint64_t shapeRevision() const { return m_shapeRevision; }
@@ -82,9 +85,16 @@ class GpuScene {
 
   private:
     void updateMeshes();
-    void updateMaterials();
+    void updateMaterials(const Dirty& dirty);
     void updateTexelBakes();
     void rebuildItems();
+    struct InstanceOnGpu {
+        gl::Buffer buffer;
+        InstanceBlock block; // that it holds
+    };
+    [[nodiscard]] const InstanceOnGpu& onGpu(const MeshInstance& mesh);
+    // What bakes, or their live preview, know of an item.
+    void attachBakes(DrawItem& item);
     void applyNearShadows();
     void applyNearShadows(LitElements& lit, const NearPart& part);
 
@@ -96,7 +106,7 @@ class GpuScene {
     TextureCache m_textures;
     std::map<MeshPtr, GpuMesh> m_meshes; // holds the mesh: an address is never reused
     std::map<Id, GpuMaterial> m_materials;
-    std::map<Id, gl::Buffer> m_instanceBlocks;
+    std::map<Id, InstanceOnGpu> m_instances;
     VertexValues m_visibility;
     TransferValues m_transfer;
     NearShadowsPtr m_nearShadows;
@@ -105,7 +115,7 @@ class GpuScene {
     std::map<Id, gl::Texture> m_texelPreviews;    // by material
     std::map<Id, const gl::Texture*> m_texelBakes;
     std::vector<DrawItem> m_items;
-    std::uint64_t m_shapeRevision = 0, m_placeRevision = 0;
+    std::uint64_t m_shapeRevision = 0, m_placeRevision = 0, m_rebuilds = 0;
     Bounds m_bounds;
 };
 

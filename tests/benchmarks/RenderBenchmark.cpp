@@ -30,7 +30,7 @@ std::unique_ptr<Stage> makeStage(bool withIbl) {
         return nullptr;
     stage->renderer = std::move(*renderer);
     stage->document = startDocument();
-    stage->renderer->setDocument(stage->document, Change::everything());
+    stage->renderer->setDocument(stage->document);
     if (withIbl && stage->document.environment.image) {
         const auto maps = computeIbl(*stage->document.environment.image, {}, JobContext());
         if (!maps)

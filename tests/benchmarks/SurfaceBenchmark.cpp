@@ -131,7 +131,7 @@ struct Study {
         , frameBlock(context, "frame", sizeof(FrameBlock)) {
         if (variant.edit)
             variant.edit(document);
-        scene.update(document, Change::everything());
+        scene.update(document);
         scene.environment().setIbl(ibl);
     }
 
@@ -250,7 +250,7 @@ void relightVertices(benchmark::State& state) {
     }
     document.bakes = {bake};
     GpuScene scene(**context);
-    scene.update(document, Change::everything());
+    scene.update(document);
     scene.environment().setIbl(*ibl);
     RelightPass relight(**context, shaders);
     gl::Buffer block(**context, "frame", sizeof(FrameBlock));
@@ -258,7 +258,7 @@ void relightVertices(benchmark::State& state) {
     const auto turn = [&](const std::vector<Light>& lights) {
         document.environment.rotationDeg += 1.0f;
         document.lights = lights;
-        scene.update(document, {Affects::Uniform, Target{Scope::Environment, 0}});
+        scene.update(document);
         frame = FrameBlock();
         scene.fill(frame);
         block.writeValue(frame);

@@ -54,7 +54,7 @@ double coverageError(const Image& picture, const Image& fine) {
 
 TEST_F(AccumulationTest, FramesAddUpToTheShareOfAPixelThatIsCovered) {
     const Document document = glowingSphere();
-    renderer().setDocument(document, Change::everything());
+    renderer().setDocument(document);
     const Image fine = drawOnce(document, 16 * kSize, false);
     const Image single = drawOnce(document, kSize, false);
     EXPECT_EQ(renderer().accumulatedFrames(), 0);
@@ -73,12 +73,12 @@ TEST_F(AccumulationTest, FramesAddUpToTheShareOfAPixelThatIsCovered) {
 
 TEST_F(AccumulationTest, WhatChangesBeginsAnew) {
     Document document = glowingSphere();
-    renderer().setDocument(document, Change::everything());
+    renderer().setDocument(document);
     for (int i = 0; i < 3; ++i)
         (void)drawOnce(document, kSize, true);
     ASSERT_EQ(renderer().accumulatedFrames(), 3);
     document.materials[0].emissive = glm::vec3(0.25f);
-    renderer().setDocument(document, Change::everything());
+    renderer().setDocument(document);
     const Image changed = drawOnce(document, kSize, true);
     EXPECT_EQ(renderer().accumulatedFrames(), 1);
     EXPECT_FLOAT_EQ(centerPixel(changed).r, 0.25f) << "nothing is left of what was";
@@ -93,7 +93,7 @@ TEST_F(AccumulationTest, WhatChangesBeginsAnew) {
 
 TEST_F(AccumulationTest, BothSidesOfASplitHaveTheirOwn) {
     const Document document = glowingSphere();
-    renderer().setDocument(document, Change::everything());
+    renderer().setDocument(document);
     FrameSettings frame;
     frame.width = frame.height = kSize;
     frame.samples = 1;

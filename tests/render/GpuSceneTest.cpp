@@ -1,11 +1,14 @@
 // What reaches the GPU, and how it reads there.
 #include "render/scene/GpuScene.h"
+#include "render/gl/Uploads.h"
 #include "render/scene/DrawList.h"
 #include "tests/render/RenderTest.h"
 
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <glm/gtc/matrix_transform.hpp>
+#include <tuple>
 
 namespace patina::render {
 namespace {
@@ -84,7 +87,7 @@ TEST_F(GpuSceneTest, UploadsEachPayloadOnceAndDropsWhatIsUnused) {
     Material& m = document.materials[0];
     m.baseColorMap.image = m.emissiveMap.image =
         makeImage(4, 4, 3, PixelType::U8, ColorEncoding::Srgb, [](int, int, int) { return 0.5f; });
-    scene.update(document, Change::everything());
+    scene.update(document);
     EXPECT_EQ(scene.items().size(), 2u);
     EXPECT_EQ(scene.meshCount(), 1u);
     EXPECT_EQ(scene.textureCount(), 1u);
@@ -92,26 +95,75 @@ TEST_F(GpuSceneTest, UploadsEachPayloadOnceAndDropsWhatIsUnused) {
 
     m.normalMap.image =
         makeImage(4, 4, 3, PixelType::U8, ColorEncoding::Data, [](int, int, int) { return 0.5f; });
-    scene.update(document, {Affects::Texture, Target{Scope::Material, 2}});
+    scene.update(document);
     EXPECT_EQ(scene.textureCount(), 2u);
     EXPECT_EQ(scene.items()[0].mesh->vertices.id(), buffer) << "the mesh was not touched";
 
     m = Material{};
     m.id = 2;
-    scene.update(document, {Affects::Texture, Target{Scope::Material, 2}});
+    scene.update(document);
     EXPECT_EQ(scene.textureCount(), 0u);
 
     // A material that is not there, a mesh that was not resolved: shown, and left out.
     document.meshes[0].material = 77;
     document.meshes[1].mesh = nullptr;
-    scene.update(document, Change::everything());
+    scene.update(document);
     ASSERT_EQ(scene.items().size(), 1u);
     EXPECT_EQ(scene.items()[0].material->values.baseColor, glm::vec4(Material{}.baseColor, 1.0f));
 
     document.meshes.clear();
-    scene.update(document, Change::everything());
+    scene.update(document);
     EXPECT_EQ(scene.meshCount(), 0u);
     EXPECT_TRUE(scene.bounds().empty());
+}
+
+// What a hand that drags something costs, whatever the machine: bytes and rebuilt lists.
+TEST_F(GpuSceneTest, ADragUploadsNoMoreThanWhatItChanges) {
+    GpuScene scene(context());
+    Document document = makeScene(makeSphere(8));
+    document.nextId = 10;
+    for (int i = 0; i < 20; ++i) {
+        document.meshes.push_back(document.meshes[0]);
+        document.meshes.back().id = document.takeId();
+        Material material = document.materials[0];
+        material.id = document.takeId();
+        document.materials.push_back(material);
+    }
+    document.materials[0].baseColorMap.image = makeImage(
+        64, 64, 3, PixelType::U8, ColorEncoding::Srgb, [](int, int, int) { return 0.5f; });
+    document.lights.emplace_back().id = document.takeId();
+    scene.update(document);
+    const auto cost = [&](const std::function<void()>& edit) {
+        const std::uint64_t bytes = gl::uploadedBytes(), rebuilds = scene.rebuilds(),
+                            shapes = scene.shapeRevision();
+        edit();
+        scene.update(document);
+        return std::tuple(gl::uploadedBytes() - bytes, scene.rebuilds() - rebuilds,
+                          scene.shapeRevision() - shapes);
+    };
+    const auto free = std::tuple(0u, 0u, 0u);
+    EXPECT_EQ(cost([] {}), free);
+    const auto number = std::tuple(sizeof(MaterialBlock), 0u, 0u);
+    static_assert(sizeof(MaterialBlock) < 1024);
+    EXPECT_EQ(cost([&] { document.materials[0].metallic = 0.7f; }), number);
+    EXPECT_EQ(cost([&] { document.materials[5].alphaCutoff = 0.7f; }), number);
+    EXPECT_EQ(cost([&] { document.materials[0].name = "Another"; }), free);
+    // Numbers that are read for each frame.
+    EXPECT_EQ(cost([&] { document.lights[0].intensity = 7.0f; }), free);
+    EXPECT_EQ(cost([&] { document.environment.fade = 0.3f; }), free);
+    EXPECT_EQ(cost([&] { document.view.exposureEv = 1.0f; }), free);
+    EXPECT_EQ(cost([&] { document.model.f90 = 0.5f; }), std::tuple(sizeof(ModelBlock), 0u, 0u));
+    EXPECT_EQ(cost([&] { document.meshes[3].transform[3].x = 1.0f; }),
+              std::tuple(sizeof(InstanceBlock), 1u, 1u))
+        << "the other twenty stay where they are";
+    // Live preview of a bake: its values, again and again.
+    const std::vector<float> values(document.meshes[0].mesh->vertexCount(), 0.5f);
+    EXPECT_EQ(cost([&] { scene.previewVertices(BakeKind::AoVertex, 1, 1, values); }),
+              std::tuple(values.size() * sizeof(float), 0u, 0u));
+    EXPECT_NE(scene.items()[0].visibility, nullptr);
+    EXPECT_EQ(scene.items()[1].visibility, nullptr);
+    EXPECT_EQ(cost([&] { scene.clearPreview(); }), free);
+    EXPECT_EQ(scene.items()[0].visibility, nullptr);
 }
 
 TEST_F(GpuSceneTest, HalfFloatsAreLimitedAndCounted) {

@@ -141,7 +141,7 @@ Image RenderTest::draw(const Document& document, int size, const FrameSettings& 
     FrameSettings frame = settings;
     frame.width = frame.height = size;
     frame.camera = document.view.camera;
-    m_renderer->setDocument(document, Change::everything());
+    m_renderer->setDocument(document);
     const auto done = m_renderer->render(frame, 0);
     EXPECT_TRUE(done.ok()) << (done.ok() ? std::string() : done.error().text());
     return m_renderer->readLinear();

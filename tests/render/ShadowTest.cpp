@@ -258,28 +258,38 @@ TEST_F(ShadowMaps, AreDrawnAgainOnlyWhenLightOrGeometryChanges) {
     document.lights[1].id = 90;
     document.lights[1].azimuthDeg = 10.0f;
     document.lights[1].elevationDeg = 60.0f;
-    scene.update(document, Change::everything());
-    const auto update = [&](const Change& change) {
-        scene.update(document, change);
+    const auto update = [&] {
+        scene.update(document);
         const std::size_t before = pass.mapsDrawn();
         EXPECT_TRUE(pass.update(scene).ok());
         return pass.mapsDrawn() - before;
     };
-    const Change light{Affects::Uniform, Target{Scope::Light, 90}};
-    EXPECT_EQ(update(light), 2u);
-    EXPECT_EQ(update(light), 0u); // nothing new
+    EXPECT_EQ(update(), 2u);
+    EXPECT_EQ(update(), 0u); // nothing new
     document.lights[1].intensity = 9.0f;
     document.lights[1].shadowSoftness = 3.0f;
     document.view.exposureEv = 1.0f;
-    EXPECT_EQ(update(light), 0u); // not of the map
+    EXPECT_EQ(update(), 0u); // not of the map
     document.lights[1].elevationDeg = 50.0f;
-    EXPECT_EQ(update(light), 1u);
+    EXPECT_EQ(update(), 1u);
     document.meshes[1].transform[3].y = 1.2f;
-    EXPECT_EQ(update({Affects::Geometry, std::nullopt}), 2u);
-    document.materials[0].baseColor = glm::vec3(0.1f);
-    EXPECT_EQ(update({Affects::Uniform, Target{Scope::Material, document.materials[0].id}}), 0u);
+    EXPECT_EQ(update(), 2u);
+    Material& material = document.materials[0];
+    material.baseColor = glm::vec3(0.1f);
+    material.opacity = 0.9f;
+    EXPECT_EQ(update(), 0u); // an opaque one has no holes
+    material.alphaMode = AlphaMode::Mask;
+    EXPECT_EQ(update(), 2u);
+    material.opacity = 0.2f;
+    EXPECT_EQ(update(), 2u);
+    material.emissive = glm::vec3(1.0f);
+    EXPECT_EQ(update(), 0u);
+    material.alphaMode = AlphaMode::Opaque;
+    EXPECT_EQ(update(), 2u) << "its holes are closed again";
+    scene.previewVertices(BakeKind::AoVertex, document.meshes[0].id, 1, std::vector(4, 0.5f));
+    EXPECT_EQ(update(), 0u) << "a preview has no shape";
     document.lights[0].enabled = false;
-    EXPECT_EQ(update({Affects::Uniform | Affects::Structure, Target{Scope::Light, 1}}), 1u);
+    EXPECT_EQ(update(), 1u);
     EXPECT_EQ(pass.lights().size(), 1u);
     EXPECT_EQ(pass.lights()[0], 90u);
 }

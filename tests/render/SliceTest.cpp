@@ -49,7 +49,13 @@ class Slices : public RenderTest {
         begin();
     }
 
-    void begin() { renderer().setDocument(m_document, Change::everything()); }
+    // As after an edit: no frame of the scene is there.
+    void begin() {
+        Document other = m_document;
+        other.lights[0].intensity += 1.0f;
+        renderer().setDocument(other);
+        renderer().setDocument(m_document);
+    }
 
     FrameSettings settings() const {
         FrameSettings frame;

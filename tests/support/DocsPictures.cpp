@@ -375,7 +375,7 @@ int main(int argc, char* argv[]) {
     equation->close(0);
     equation->setFolded(true);
 
-    // Gold by its refractive index: what the Model dock offers beyond its presets.
+    // Gold by its refractive index: what the Shading dock offers beyond its presets.
     raiseDock(window, QStringLiteral("model"));
     session.controller.setParameter(*patina::findParameter("model.fresnel"),
                                     {patina::Scope::Model, 0},

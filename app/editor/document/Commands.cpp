@@ -134,8 +134,7 @@ Change ReplaceElementsCommand::swap(Document& document, bool forward) {
     document.lights = elements.lights;
     document.environment.softboxes = elements.softboxes;
     document.nextId = elements.nextId;
-    return {Affects::Structure | Affects::Geometry | Affects::Texture | Affects::Uniform |
-                Affects::Bakes,
+    return {Affects::Structure | Affects::Geometry | Affects::Picture | Affects::Bakes,
             std::nullopt};
 }
 

@@ -32,7 +32,7 @@ void SelectionModel::repair(const Change& change) {
         return;
     const Document& document = m_controller.document();
     // In another document ids mean others.
-    const bool another = change.affects == Affects::Everything;
+    const bool another = change.isAnotherDocument();
     const MeshInstance* mesh = another ? nullptr : document.mesh(m_mesh);
     Id material = mesh ? mesh->material : m_material;
     if (another || !document.material(material)) {

@@ -254,7 +254,7 @@ void BakeRunner::discard(const InterruptedBake& bake) {
 
 void BakeRunner::documentChanged(const Change& change) {
     // Another document: what bakes of the last one would come to belongs to nothing here.
-    if (change.affects == Affects::Everything && m_controller.undoStack().count() == 0)
+    if (change.isAnotherDocument() && m_controller.undoStack().count() == 0)
         interrupt();
 
     const bool bakes =

@@ -59,7 +59,7 @@ void NearShadowUpdater::follow(const Change& change) {
         return;
     const Document& document = m_controller.document();
     // Another scene, in which nothing is known, or one where nobody asks for shadows.
-    if (change.affects == Affects::Everything || !hasTransfer(document))
+    if (change.isAnotherDocument() || !hasTransfer(document))
         forget();
     // A drag: the scene is as it was. An environment alone may be heard, which turns lights off.
     if (change.target && (scope == Scope::Light || scope == Scope::Environment)) {

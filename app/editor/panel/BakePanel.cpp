@@ -120,7 +120,7 @@ BakePanel::BakePanel(DocumentController& controller, JobManager& jobs, QWidget* 
     connect(m_start, &QPushButton::clicked, this, [this] { m_runner.start(m_form->request()); });
     connect(&m_runner, &BakeRunner::stateChanged, this, &BakePanel::refreshState);
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
-        if (change.affects == Affects::Everything)
+        if (change.isAnotherDocument())
             takeSettings();
         else if (touches(change.affects, Affects::Bakes))
             followBakes();

@@ -86,7 +86,7 @@ EnvironmentPanel::EnvironmentPanel(DocumentController& controller, Thumbnails& t
             [this] { m_view->setSelected(m_softboxes->selected()); });
     connectView();
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
-        if (change.affects == Affects::Everything) { // another document
+        if (change.isAnotherDocument()) { // another document
             abandonEdits(*m_view);
             m_session = 0;
             m_before.clear();

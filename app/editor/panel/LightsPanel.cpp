@@ -189,7 +189,7 @@ LightsPanel::LightsPanel(DocumentController& controller, SelectionModel& selecti
         m_controller.rename(target, name);
     });
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
-        if (change.affects == Affects::Everything) { // another document, in which ids mean others
+        if (change.isAnotherDocument()) { // another document, in which ids mean others
             const QSignalBlocker silent(m_list);
             m_list->clear();
         }

@@ -98,7 +98,7 @@ MixerPanel::MixerPanel(DocumentController& controller, QWidget* parent)
     layout->addWidget(scroll);
 
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
-        if (change.affects == Affects::Everything) // another document
+        if (change.isAnotherDocument()) // another document
             abandonEdits(*this);
         if (isVisible())
             refresh();

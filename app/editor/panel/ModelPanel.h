@@ -1,4 +1,4 @@
-// The Model dock: which terms make up the reflection, with presets and a white-furnace plot.
+// The Shading dock: which terms make up the reflection, with presets and a white-furnace plot.
 #pragma once
 
 #include "core/document/Document.h"

@@ -75,7 +75,7 @@ void ParameterList::addBelow(std::string_view id, QWidget* widget) {
 }
 
 void ParameterList::documentChanged(const Change& change) {
-    if (change.affects == Affects::Everything) // another document, in which ids mean others
+    if (change.isAnotherDocument()) // another document, in which ids mean others
         abandonEdits(*this);
     // An edit of another element concerns no row here; one of the shading model may make rows of
     // materials useful or useless.

@@ -85,7 +85,7 @@ SoftboxList::SoftboxList(DocumentController& controller, Thumbnails& thumbnails,
         m_controller.rename(target, item->text());
     });
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
-        if (change.affects == Affects::Everything) { // another document, in which ids mean others
+        if (change.isAnotherDocument()) { // another document, in which ids mean others
             const QSignalBlocker silent(m_list);
             m_list->clear();
         }

@@ -32,7 +32,7 @@ PixelPicker::PixelPicker(DocumentController& controller, QWidget& viewport)
     m_timer.setSingleShot(true);
     connect(&m_timer, &QTimer::timeout, this, &PixelPicker::look);
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
-        if (change.affects == Affects::Everything) { // another document
+        if (change.isAnotherDocument()) { // another document
             m_pointer.reset();
             m_pinLater.reset();
             unpin();

@@ -25,7 +25,7 @@ SceneProgress::SceneProgress(DocumentController& controller, QOpenGLWidget& view
 
     connect(&controller, &DocumentController::changed, this,
             [this, &controller](const Change& change) {
-                if (change.affects != Affects::Everything)
+                if (!change.isAnotherDocument())
                     return;
                 // A window that nobody sees draws nothing.
                 if (m_viewport.isVisible())

@@ -25,7 +25,7 @@ ViewGate::ViewGate(DocumentController& controller, QObject* parent)
     });
     connect(&m_warmer, &ProgramWarmer::finished, this, &ViewGate::opened);
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
-        m_passes |= change.affects == Affects::Everything;
+        m_passes |= change.isAnotherDocument();
         if (change.affects != Affects::Nothing)
             m_known.clear();
     });

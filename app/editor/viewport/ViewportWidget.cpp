@@ -247,7 +247,7 @@ void ViewportWidget::initializeGL() {
         return;
     }
     m_renderer = std::move(created).value();
-    m_renderer->setDocument(m_controller.document(), Change::everything());
+    m_renderer->setDocument(m_controller.document());
     m_ibl->renew();
     m_environmentTimer.start();
     m_displayPending = true;
@@ -485,10 +485,10 @@ double ViewportWidget::takeSlowestFrameMs() {
 void ViewportWidget::applyChange(const Change& change) {
     // What is new may take a second until the driver has compiled for it: its row in a list, which
     // is drawn in the same pass of the window, must not wait for that.
-    if (touches(change.affects, Affects::Structure) && change.affects != Affects::Everything)
+    if (touches(change.affects, Affects::Structure) && !change.isAnotherDocument())
         m_panelsTimer.start();
     // Another document: a project brings its own view, anything else is framed for this widget.
-    if (change.affects == Affects::Everything && m_controller.filePath().isEmpty()) {
+    if (change.isAnotherDocument() && m_controller.filePath().isEmpty()) {
         const Document& document = m_controller.document();
         m_controller.setCamera(frameBounds(document.view.camera, document.bounds(), viewAspect()));
     }
@@ -497,7 +497,7 @@ void ViewportWidget::applyChange(const Change& change) {
     // Camera moves affect nothing: the camera travels with each frame.
     if (m_renderer && change.affects != Affects::Nothing) {
         makeCurrent();
-        m_renderer->setDocument(m_controller.document(), change);
+        m_renderer->setDocument(m_controller.document());
         doneCurrent();
         if (touches(change.affects, Affects::Bakes))
             m_bounces.restart();

@@ -13,7 +13,7 @@ Section::Section(const QString& title, QWidget* parent)
     , m_header(new QToolButton)
     , m_body(new QWidget) {
     m_header->setObjectName(QStringLiteral("sectionHeader"));
-    m_header->setText(title);
+    m_header->setText(QString(title).replace(QLatin1Char('&'), QStringLiteral("&&")));
     m_header->setAccessibleName(title);
     m_header->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     m_header->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);

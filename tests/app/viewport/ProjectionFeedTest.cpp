@@ -32,7 +32,7 @@ struct ProjectionFeedTest : ::testing::Test {
         document.environment.second.image = sky(3.0f);
     }
     void upload() {
-        renderer->setDocument(document, Change::everything());
+        renderer->setDocument(document);
         feed.upload(*renderer, document);
     }
     // Of light that is the same from everywhere.

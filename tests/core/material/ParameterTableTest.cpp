@@ -301,7 +301,7 @@ TEST(ParameterTable, MapsBelongToTheirNumbersAndCarryTheColourPolicy) {
                              info.id == "material.emissive.map" || info.id == "environment.image" ||
                              info.id == "environment.secondImage";
         EXPECT_EQ(info.mapEncoding, isColor ? ColorEncoding::Srgb : ColorEncoding::Data) << info.id;
-        EXPECT_TRUE(touches(info.affects, Affects::Texture)) << info.id;
+        EXPECT_TRUE(touches(info.affects, Affects::Picture)) << info.id;
     }
     EXPECT_EQ(mapFor("material.metallic")->mapChannel, MapChannel::R);
     EXPECT_EQ(mapFor("material.normalStrength")->mapChannel, MapChannel::Rgb);
