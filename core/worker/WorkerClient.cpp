@@ -164,13 +164,14 @@ std::filesystem::path WorkerClient::defaultProgram() {
     constexpr const char* kName = "patina-worker";
     std::error_code ignored;
     const auto self = std::filesystem::read_symlink("/proc/self/exe", ignored);
-    for (const auto& candidate :
-         {self.parent_path() / kName, self.parent_path().parent_path() / "bin" / kName})
+    const std::filesystem::path folder = self.parent_path();
+    for (const auto& candidate : {folder / kName, folder.parent_path() / "bin" / kName,
+                                  folder.parent_path() / PATINA_LIBEXEC / "patina" / kName})
         if (std::filesystem::exists(candidate, ignored))
             return candidate;
-    if (const char* folder = std::getenv("PATINA_BIN_DIR"))
-        return std::filesystem::path(folder) / kName;
-    return self.parent_path() / kName; // named in the message when it is missing
+    if (const char* programs = std::getenv("PATINA_BIN_DIR"))
+        return std::filesystem::path(programs) / kName;
+    return folder / kName; // named in the message when it is missing
 }
 
 void WorkerClient::warmUp() {

@@ -30,7 +30,8 @@ struct WorkerLimits {
 class WorkerClient {
   public:
     // `program` is patina-worker; defaultProgram() finds it beside the running executable, in
-    // ../bin beside it, or in $PATINA_BIN_DIR. Nothing starts before the first request or warmUp().
+    // ../bin beside it, where it is installed (../libexec/patina), or in $PATINA_BIN_DIR. Nothing
+    // starts before the first request or warmUp().
     explicit WorkerClient(std::filesystem::path program = defaultProgram());
     ~WorkerClient();
     WorkerClient(const WorkerClient&) = delete;
