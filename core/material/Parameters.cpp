@@ -6,7 +6,7 @@
 #include "core/document/Lights.h"
 #include "core/image/DisplayTransform.h"
 #include "core/light/Blackbody.h"
-#include "core/material/Choices.h"
+#include "core/material/ParameterChoices.h"
 
 #include <algorithm>
 #include <array>
@@ -310,102 +310,6 @@ constexpr ParameterInfo alias(Text name, ParameterInfo info) {
     return info;
 }
 
-// --- Choices ---
-
-constexpr Choices<NormalConvention, 2> kNormalConventions({
-    {NormalConvention::OpenGl, "openGl", "OpenGL (Y+)"},
-    {NormalConvention::DirectX, "directX", "DirectX (Y−)"},
-});
-constexpr Choices<AlphaMode, 3> kAlphaModes({
-    {AlphaMode::Opaque, "opaque", "Opaque"},
-    {AlphaMode::Mask, "mask", "Cut-out"},
-    {AlphaMode::Blend, "blend", "Blend"},
-});
-constexpr Choices<LightType, 5> kLightTypes({
-    {LightType::Point, "point", "Point"},
-    {LightType::Directional, "directional", "Directional"},
-    {LightType::Spot, "spot", "Spot"},
-    {LightType::Sphere, "sphere", "Sphere (area)"},
-    {LightType::Rectangle, "rectangle", "Rectangle (area)"},
-});
-constexpr Choices<EnvironmentLayout, 9> kEnvironmentLayouts({
-    {EnvironmentLayout::Automatic, "automatic", "Automatic"},
-    {EnvironmentLayout::LatLong, "latLong", "Lat-long"},
-    {EnvironmentLayout::AngularMap, "angularMap", "Angular map"},
-    {EnvironmentLayout::MirrorBall, "mirrorBall", "Mirror ball"},
-    {EnvironmentLayout::HorizontalCross, "horizontalCross", "Horizontal cross"},
-    {EnvironmentLayout::VerticalCross, "verticalCross", "Vertical cross"},
-    {EnvironmentLayout::HorizontalStrip, "horizontalStrip", "Horizontal strip"},
-    {EnvironmentLayout::VerticalStrip, "verticalStrip", "Vertical strip"},
-    {EnvironmentLayout::SixFaces, "sixFaces", "Six faces"},
-});
-constexpr Choices<ToneMap, 8> kToneMaps({
-    {ToneMap::Clamp, "clamp", "None (clamp)"},
-    {ToneMap::Reinhard, "reinhard", "Reinhard"},
-    {ToneMap::ReinhardPhotographic, "reinhardPhotographic", "Reinhard, photographic"},
-    {ToneMap::Exponential, "exponential", "Exponential"},
-    {ToneMap::PbrNeutral, "pbrNeutral", "PBR Neutral (Khronos)"},
-    {ToneMap::Aces, "aces", "ACES (fitted)"},
-    {ToneMap::AgX, "agx", "AgX"},
-    {ToneMap::OpenColorIo, "openColorIo", "OpenColorIO"},
-});
-constexpr Choices<ExposureMode, 2> kExposureModes({
-    {ExposureMode::Fixed, "fixed", "Fixed"},
-    {ExposureMode::Automatic, "automatic", "Automatic"},
-});
-constexpr Choices<DisplayTransfer, 2> kDisplayTransfers({
-    {DisplayTransfer::Srgb, "srgb", "sRGB"},
-    {DisplayTransfer::Gamma, "gamma", "Gamma"},
-});
-constexpr Choices<EnvironmentKind, 3> kEnvironmentKinds({
-    {EnvironmentKind::Image, "image", "Image"},
-    {EnvironmentKind::Sky, "sky", "Sky"},
-    {EnvironmentKind::Softboxes, "softboxes", "Softboxes"},
-});
-constexpr Choices<BackgroundMode, 4> kBackgrounds({
-    {BackgroundMode::Environment, "environment", "Environment"},
-    {BackgroundMode::Blurred, "blurred", "Blurred environment"},
-    {BackgroundMode::Color, "color", "Colour"},
-    {BackgroundMode::Off, "off", "Off (transparent)"},
-});
-constexpr Choices<LightingMode, 6> kLightings({
-    {LightingMode::Ibl, "ibl", "Image-based light"},
-    {LightingMode::Cosine, "cosine", "N·L"},
-    {LightingMode::ShIrradiance, "shIrradiance", "SH irradiance"},
-    {LightingMode::Unshadowed, "unshadowed", "Unshadowed transfer"},
-    {LightingMode::Shadowed, "shadowed", "Shadowed transfer"},
-    {LightingMode::Prt, "prt", "Interreflected transfer"},
-});
-constexpr Choices<Distribution, 3> kDistributions({
-    {Distribution::GGX, "ggx", "GGX"},
-    {Distribution::Beckmann, "beckmann", "Beckmann"},
-    {Distribution::BlinnPhong, "blinnPhong", "Blinn-Phong"},
-});
-constexpr Choices<Visibility, 6> kVisibilities({
-    {Visibility::SmithCorrelated, "smithCorrelated", "Smith, correlated"},
-    {Visibility::SmithSeparable, "smithSeparable", "Smith, separable"},
-    {Visibility::SchlickDirect, "schlickDirect", "Schlick-GGX, lights"},
-    {Visibility::SchlickIbl, "schlickIbl", "Schlick-GGX, IBL"},
-    {Visibility::Kelemen, "kelemen", "Kelemen"},
-    {Visibility::Implicit, "implicit", "Implicit"},
-});
-constexpr Choices<Fresnel, 4> kFresnels({
-    {Fresnel::Schlick, "schlick", "Schlick"},
-    {Fresnel::SchlickF90, "schlickF90", "Schlick with f90"},
-    {Fresnel::Dielectric, "dielectric", "Exact dielectric"},
-    {Fresnel::Conductor, "conductor", "Exact conductor"},
-});
-constexpr Choices<Diffuse, 4> kDiffuses({
-    {Diffuse::Lambert, "lambert", "Lambert"},
-    {Diffuse::Burley, "burley", "Burley"},
-    {Diffuse::OrenNayar, "orenNayar", "Oren-Nayar"},
-    {Diffuse::Eon, "eon", "EON"},
-});
-constexpr Choices<LobeDirection, 2> kLobeDirections({
-    {LobeDirection::Mean, "mean", "The lobe's mean"},
-    {LobeDirection::Mirror, "mirror", "Mirror direction"},
-});
-
 // --- The table ---
 
 constexpr auto kSrgb = ColorEncoding::Srgb;
@@ -449,18 +353,18 @@ constexpr std::array kParameters{
     number<&M::alphaCutoff>("material.alphaCutoff", "Alpha cutoff", "Transparency", kUnit, kUnit, 3, "", "In cut-out mode, points of lower opacity than this are left out."),
     flag<&M::doubleSided>("material.doubleSided", "Double-sided", "Transparency", "Shows the back of thin surfaces such as leaves and cloth, with their normal turned to the viewer.", kPicture | Affects::Bakes),
 
-    choice<&E::kind>("environment.kind", "Kind", "Environment", kEnvironmentKinds, "What surrounds and lights the model: an image, a computed clear sky, or softboxes in a dark room.", kEnvironment),
-    environmentImage<getEnvironmentImage, setEnvironmentImage>("environment.image", "Image", "Environment", "Image of the environment that lights the scene."),
-    choice<&E::layout>("environment.layout", "Layout", "Environment", kEnvironmentLayouts, "How the file shows the environment; automatic guesses it from the file, choose another one when the guess is wrong.", Affects::Picture | Affects::EnvironmentMap),
-    angle<&E::sky, &Sky::sunAzimuthDeg>("environment.skySunAzimuthDeg", "Sun azimuth", "Environment", "The compass direction of the sun; 0 is the model's front, positive values turn towards +X.", kEnvironment),
-    number<&E::sky, &Sky::sunElevationDeg>("environment.skySunElevationDeg", "Sun elevation", "Environment", {0.0f, 90.0f}, {0.0f, 90.0f}, 1, "°", "How high the sun stands: 0 is sunset, 90 is overhead.", kEnvironment),
-    number<&E::sky, &Sky::turbidity>("environment.skyTurbidity", "Haze", "Environment", {2.0f, 10.0f}, {2.0f, 10.0f}, 2, "", "How much haze is in the air (turbidity): 2 is a clear mountain day, 10 a milky one with a weak sun.", kEnvironment),
-    number<&E::sky, &Sky::sunScale>("environment.skySunScale", "Sun strength", "Environment", {0.0f, 2.0f}, {0.0f, 100.0f}, 2, "", "Multiplies the light of the sun's disc; 0 leaves only the sky.", kEnvironment),
-    number<&E::sky, &Sky::sunDiameterDeg>("environment.skySunDiameterDeg", "Sun size", "Environment", {0.5f, 20.0f}, {0.1f, 90.0f}, 2, "°", "Diameter of the sun's disc, 0.53° in nature; a larger sun gives softer shadows and as much light.", kEnvironment),
-    number<&E::sky, &Sky::groundAlbedo>("environment.skyGroundAlbedo", "Ground", "Environment", kUnit, kUnit, 2, "", "How much light the ground reflects: 0.1 is wet soil, 0.3 sand, 0.8 snow.", kEnvironment),
-    color<&E::softboxAmbient>("environment.softboxAmbient", "Ambient", "Environment", "Light of the room between the softboxes.", kEnvironment),
-    angle<&E::rotationDeg>("environment.rotationDeg", "Rotation", "Environment", "Rotates the environment about the vertical axis, counter-clockwise seen from above."),
-    number<&E::exposureEv>("environment.exposureEv", "Brightness", "Environment", {-6.0f, 6.0f}, {-24.0f, 24.0f}, 2, "EV", "Brightens the environment; each step doubles its light."),
+    choice<&E::kind>("environment.kind", "Kind", "Image", kEnvironmentKinds, "What surrounds and lights the model: an image, a computed clear sky, or softboxes in a dark room.", kEnvironment),
+    environmentImage<getEnvironmentImage, setEnvironmentImage>("environment.image", "Image", "Image", "Image of the environment that lights the scene."),
+    choice<&E::layout>("environment.layout", "Layout", "Image", kEnvironmentLayouts, "How the file shows the environment; automatic guesses it from the file, choose another one when the guess is wrong.", Affects::Picture | Affects::EnvironmentMap),
+    angle<&E::sky, &Sky::sunAzimuthDeg>("environment.skySunAzimuthDeg", "Sun azimuth", "Sky", "The compass direction of the sun; 0 is the model's front, positive values turn towards +X.", kEnvironment),
+    number<&E::sky, &Sky::sunElevationDeg>("environment.skySunElevationDeg", "Sun elevation", "Sky", {0.0f, 90.0f}, {0.0f, 90.0f}, 1, "°", "How high the sun stands: 0 is sunset, 90 is overhead.", kEnvironment),
+    number<&E::sky, &Sky::turbidity>("environment.skyTurbidity", "Haze", "Sky", {2.0f, 10.0f}, {2.0f, 10.0f}, 2, "", "How much haze is in the air (turbidity): 2 is a clear mountain day, 10 a milky one with a weak sun.", kEnvironment),
+    number<&E::sky, &Sky::sunScale>("environment.skySunScale", "Sun strength", "Sky", {0.0f, 2.0f}, {0.0f, 100.0f}, 2, "", "Multiplies the light of the sun's disc; 0 leaves only the sky.", kEnvironment),
+    number<&E::sky, &Sky::sunDiameterDeg>("environment.skySunDiameterDeg", "Sun size", "Sky", {0.5f, 20.0f}, {0.1f, 90.0f}, 2, "°", "Diameter of the sun's disc, 0.53° in nature; a larger sun gives softer shadows and as much light.", kEnvironment),
+    number<&E::sky, &Sky::groundAlbedo>("environment.skyGroundAlbedo", "Ground", "Sky", kUnit, kUnit, 2, "", "How much light the ground reflects: 0.1 is wet soil, 0.3 sand, 0.8 snow.", kEnvironment),
+    color<&E::softboxAmbient>("environment.softboxAmbient", "Ambient", "Softboxes", "Light of the room between the softboxes.", kEnvironment),
+    angle<&E::rotationDeg>("environment.rotationDeg", "Rotation", "Adjustments", "Rotates the environment about the vertical axis, counter-clockwise seen from above."),
+    number<&E::exposureEv>("environment.exposureEv", "Brightness", "Adjustments", {-6.0f, 6.0f}, {-24.0f, 24.0f}, 2, "EV", "Brightens the environment; each step doubles its light."),
     flag<&E::enabled>("environment.enabled", "On", "Mix", "Switches the light of the environment, and its picture, on or off.", kSwitch),
     flag<&E::solo>("environment.solo", "Solo", "Mix", kSoloHelp, kSwitch),
     color<&E::tint>("environment.tint", "Tint", "Mix", "Colours the light of the environment like a filter in front of it."),
@@ -494,7 +398,7 @@ constexpr std::array kParameters{
     number<&S::ior>("model.ior", "Refractive index", "Fresnel", {1.0f, 2.5f}, {1.0f, 10.0f}, 3, "", "Refractive index of all non-metals for the exact dielectric: water 1.33, glass and plastic 1.5, diamond 2.42."),
     vector<&S::conductorN>("model.conductorN", "Index n", "Fresnel", {0.05f, 5.0f}, {0.01f, 50.0f}, "", "Real part of the metals' refractive index at red, green and blue for the exact conductor; it replaces their base colour."),
     vector<&S::conductorK>("model.conductorK", "Extinction k", "Fresnel", {0.0f, 10.0f}, {0.0f, 50.0f}, "", "Imaginary part of the metals' refractive index at red, green and blue for the exact conductor."),
-    choice<&S::diffuse>("model.diffuse", "Diffuse", "Body", kDiffuses, "How light that enters the body leaves it: evenly (Lambert), or flatter and brighter at the edges as from powder, cloth and clay."),
+    choice<&S::diffuse>("model.diffuse", "Diffuse", "Diffuse", kDiffuses, "How light that enters the body leaves it: evenly (Lambert), or flatter and brighter at the edges as from powder, cloth and clay."),
     choice<&S::lobeDirection>("model.lobeDirection", "Reflections from", "Image-based light", kLobeDirections, "Where rough reflections of the environment are looked up: around the lobe's mean direction, or around the mirror direction as is usual but off by several degrees."),
 
     choice<&View::exposureMode>("view.exposureMode", "Exposure mode", "Exposure", kExposureModes, "Fixed, or automatic like an eye that gets used to how bright the picture is."),

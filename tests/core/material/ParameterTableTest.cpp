@@ -216,30 +216,6 @@ TEST(ParameterTable, RowsReachTheMembersTheyName) {
     EXPECT_EQ(document.environment.source, "/sky.hdr");
 }
 
-// The names of choices stand in files: their order must be the order of the enum.
-TEST(ParameterTable, ChoiceNamesFollowTheirEnums) {
-    const auto nameOf = [](const char* id, int index) {
-        return findParameter(id)->choices[static_cast<std::size_t>(index)];
-    };
-    EXPECT_EQ(nameOf("material.normalConvention", static_cast<int>(NormalConvention::DirectX)),
-              "directX");
-    EXPECT_EQ(nameOf("material.alphaMode", static_cast<int>(AlphaMode::Opaque)), "opaque");
-    EXPECT_EQ(nameOf("material.alphaMode", static_cast<int>(AlphaMode::Mask)), "mask");
-    EXPECT_EQ(nameOf("material.alphaMode", static_cast<int>(AlphaMode::Blend)), "blend");
-    EXPECT_EQ(nameOf("light.type", static_cast<int>(LightType::Point)), "point");
-    EXPECT_EQ(nameOf("light.type", static_cast<int>(LightType::Directional)), "directional");
-    EXPECT_EQ(nameOf("environment.background", static_cast<int>(BackgroundMode::Blurred)),
-              "blurred");
-    EXPECT_EQ(nameOf("view.toneMap", static_cast<int>(ToneMap::Clamp)), "clamp");
-    EXPECT_EQ(nameOf("view.toneMap", static_cast<int>(ToneMap::Reinhard)), "reinhard");
-    EXPECT_EQ(nameOf("view.lighting", static_cast<int>(LightingMode::Cosine)), "cosine");
-    EXPECT_EQ(nameOf("view.lighting", static_cast<int>(LightingMode::ShIrradiance)),
-              "shIrradiance");
-    EXPECT_EQ(nameOf("view.lighting", static_cast<int>(LightingMode::Unshadowed)), "unshadowed");
-    EXPECT_EQ(nameOf("view.lighting", static_cast<int>(LightingMode::Shadowed)), "shadowed");
-    EXPECT_EQ(nameOf("view.lighting", static_cast<int>(LightingMode::Prt)), "prt");
-}
-
 // OpenColorIO's views are offered where there is a configuration, by file or by environment.
 TEST(ParameterTable, ChoicesCanBeUnavailable) {
     const ParameterInfo& toneMap = *findParameter("view.toneMap");
