@@ -76,6 +76,17 @@ Result<void> setSecondEnvironment(Session& session, Document& document, const Pa
     return {};
 }
 
+// As the editor's panels would.
+Result<void> setAll(Document& document, const ParameterSelection& selection,
+                    const ParameterValue& value) {
+    for (const Target& target : selection.targets)
+        for (const ParameterEdit& edit : editsFor(document, *selection.info, target, value))
+            if (Result<Change> change = applyParameter(document, *edit.info, target, edit.value);
+                !change)
+                return change.error();
+    return {};
+}
+
 Result<void> setMap(Session& session, Document& document, const ParameterSelection& selection,
                     MapSlot slot) {
     if (slot.assigned()) {
@@ -86,12 +97,7 @@ Result<void> setMap(Session& session, Document& document, const ParameterSelecti
             return image.error();
         slot.image = *image;
     }
-    for (const Target& target : selection.targets)
-        for (const ParameterEdit& edit : editsForMap(document, *selection.info, target, slot))
-            if (Result<Change> change = applyParameter(document, *edit.info, target, edit.value);
-                !change)
-                return change.error();
-    return {};
+    return setAll(document, selection, slot);
 }
 
 } // namespace
@@ -129,11 +135,7 @@ Result<void> setParameter(Session& session, Document& document, const std::strin
         }
         return set;
     }
-    for (const Target& target : selection->targets)
-        if (Result<Change> change = applyParameter(document, *selection->info, target, *parsed);
-            !change)
-            return change.error();
-    return {};
+    return setAll(document, *selection, *parsed);
 }
 
 Result<void> checkOffered(const Document& document, const std::string& name) {

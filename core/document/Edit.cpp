@@ -102,6 +102,17 @@ Result<Change> applyParameter(Document& document, const ParameterInfo& info, con
     return changeFor(info, target);
 }
 
+std::vector<ParameterEdit> editsFor(const Document& document, const ParameterInfo& info,
+                                    const Target& target, const ParameterValue& value) {
+    CHECK(target.scope == info.scope && targetExists(document, target));
+    const ParameterValue clamped = clampToRange(info, value);
+    if (info.onSet)
+        return info.onSet(document, target.id, clamped);
+    if (const MapSlot* slot = std::get_if<MapSlot>(&clamped))
+        return editsForMap(document, info, target, *slot);
+    return {{&info, clamped}};
+}
+
 std::vector<ParameterEdit> editsForMap(const Document& document, const ParameterInfo& map,
                                        const Target& target, const MapSlot& slot) {
     CHECK(map.type == ParameterType::Map && targetExists(document, target));

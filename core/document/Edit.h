@@ -22,10 +22,14 @@ namespace patina {
 Result<Change> applyParameter(Document& document, const ParameterInfo& info, const Target& target,
                               const ParameterValue& value);
 
-struct ParameterEdit {
-    const ParameterInfo* info = nullptr;
-    ParameterValue value;
-};
+// What a user's edit of a parameter sets, itself included, in order and for one undo step: what the
+// panels do and --set does. A light that becomes another type is converted, a first map sets its
+// number (editsForMap()). The element must exist. What is read from files (a layout, an image) is
+// up to the caller.
+[[nodiscard]] std::vector<ParameterEdit> editsFor(const Document& document,
+                                                  const ParameterInfo& info, const Target& target,
+                                                  const ParameterValue& value);
+
 // Putting a map on a material: a map multiplies its parameter's number, so where there was none
 // before, the number first goes to 1 (white) and the map is seen as it was painted. Without this a
 // metallic map on a non-metal would change nothing. The edits are for one undo step, in order.

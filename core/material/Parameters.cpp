@@ -299,6 +299,26 @@ std::string lightingUnavailable(const Document& document, int choice) {
     return "Shadows and interreflection need a radiance transfer bake";
 }
 
+// A light that becomes another type keeps what it does to the scene.
+std::vector<ParameterEdit> lightTypeEdits(const Document& document, Id id,
+                                          const ParameterValue& type) {
+    Document converted;
+    converted.lights = {convertedLight(
+        *document.light(id), static_cast<LightType>(std::get<int>(type)), document.bounds())};
+    std::vector<ParameterEdit> edits;
+    for (const ParameterInfo& info : parameters())
+        if (info.scope == Scope::Light && info.type != ParameterType::Text)
+            edits.push_back({&info, info.get(converted, id)});
+    return edits;
+}
+
+constexpr ParameterInfo withEdits(std::vector<ParameterEdit> (*onSet)(const Document&, Id,
+                                                                      const ParameterValue&),
+                                  ParameterInfo info) {
+    info.onSet = onSet;
+    return info;
+}
+
 constexpr ParameterInfo unitOfElement(std::string_view (*unitOf)(const Document&, Id),
                                       ParameterInfo info) {
     info.unitOf = unitOf;
@@ -419,7 +439,7 @@ constexpr std::array kParameters{
     number<&View::reflectionMix>("view.reflectionMix", "Diffuse / reflection", "Camera and lighting", kUnit, kUnit, 2, "", "Fades between diffuse light alone (0) and reflections alone (1); in the middle both show in full. Reflections that are left out take nothing from the diffuse light."),
 
     text<&L::name>("light.name", "Name", "Light", "What the light is called in lists, exports and scripts."),
-    choice<&L::type>("light.type", "Type", "Light", kLightTypes, "A point emits from one position in all directions, a directional light from far away like the sun, a spot in a cone; spheres and rectangles emit from an area and make soft highlights.", kPicture | Affects::Structure),
+    withEdits(lightTypeEdits, choice<&L::type>("light.type", "Type", "Light", kLightTypes, "A point emits from one position in all directions, a directional light from far away like the sun, a spot in a cone; spheres and rectangles emit from an area and make soft highlights.", kPicture | Affects::Structure)),
     flag<&L::enabled>("light.enabled", "On", "Light", "Switches the light on or off.", kPicture | Affects::Structure),
     flag<&L::solo>("light.solo", "Solo", "Light", kSoloHelp, kPicture | Affects::Structure),
     color<&L::color>("light.color", "Colour", "Light", "Colour of the light; its brightness is set by the intensity."),

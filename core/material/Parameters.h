@@ -51,6 +51,13 @@ struct Target {
     friend bool operator==(const Target&, const Target&) = default;
 };
 
+struct ParameterInfo;
+
+struct ParameterEdit {
+    const ParameterInfo* info = nullptr;
+    ParameterValue value;
+};
+
 struct ParameterInfo {
     std::string_view id;    // "material.perceptualRoughness": stable, in files and scripts
     std::string_view alias; // another accepted spelling, or empty
@@ -63,7 +70,7 @@ struct ParameterInfo {
     int decimals = 3;
     std::string_view unit;                          // "°", "EV", "m" or empty; see unitFor()
     std::span<const std::string_view> choices;      // names of a Choice, as in files: "openGl"
-    std::span<const std::string_view> choiceLabels; // as shown: "OpenGL (green up)"
+    std::span<const std::string_view> choiceLabels; // as shown: "OpenGL (Y+)"
     std::string_view help;                          // one sentence
     Affects affects = Affects::Picture;
     ColorEncoding mapEncoding = ColorEncoding::Data; // Map: how integer files are read
@@ -84,6 +91,10 @@ struct ParameterInfo {
     // Choice: why it cannot be made in this document at the moment, as a sentence that says what to
     // do; empty when it can. Null: every choice can be made.
     std::string (*unavailable)(const Document&, int choice) = nullptr;
+
+    // What else follows when a user sets this value in this element, all of it in order; null: the
+    // value alone. Ask editsFor() of core/document/Edit.h.
+    std::vector<ParameterEdit> (*onSet)(const Document&, Id, const ParameterValue&) = nullptr;
 
     [[nodiscard]] ParameterValue defaultValue() const; // of a default-constructed element
 };

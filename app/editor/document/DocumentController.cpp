@@ -164,17 +164,11 @@ void DocumentController::setParameter(const ParameterInfo& info, Target target,
                             tr("Change %1").arg(fromText(info.label)));
         return;
     }
-    // A light that becomes another type keeps what it does to the scene.
-    const Light* light = info.id == "light.type" ? m_document.light(target.id) : nullptr;
-    const int* type = std::get_if<int>(&value);
-    if (light && type && *type >= 0 && *type < static_cast<int>(info.choices.size())) {
-        changeLight(convertedLight(*light, static_cast<LightType>(*type), m_document.bounds()),
-                    session, tr("Change Type of %1").arg(nameText(target)));
+    if (!targetExists(m_document, target))
         return;
-    }
     const QString label = fromText(info.label);
     const std::string name = nameOf(m_document, target);
-    pushParameters(target, {{&info, value}}, session,
+    pushParameters(target, editsFor(m_document, info, target, value), session,
                    name.empty() ? tr("Change %1").arg(label)
                                 : tr("Change %1 of %2").arg(label, QString::fromStdString(name)));
 }

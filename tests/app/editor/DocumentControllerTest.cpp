@@ -3,7 +3,9 @@
 #include "app/editor/Session.h"
 #include "app/editor/document/Commands.h"
 #include "core/document/DocumentIO.h"
+#include "core/document/Edit.h"
 #include "core/image/Image.h"
+#include "tests/core/document/RandomDocument.h"
 
 #include <QFile>
 #include <QTemporaryDir>
@@ -233,6 +235,37 @@ TEST_F(Controller, RandomEditsThenUndoAllIsTheInitialDocument) {
         while (undo().canRedo())
             undo().redo();
         ASSERT_EQ(document(), after) << history;
+    }
+}
+
+// --set edits by editsFor() and applyParameter(); the panels by the controller.
+TEST_F(Controller, EveryEditIsThatOfTheCommandLine) {
+    RandomDocument random(7);
+    for (const LightType type : {LightType::Directional, LightType::Spot})
+        controller.addLight(type);
+    for (const ParameterInfo& info : parameters()) {
+        if (info.type == ParameterType::Map || info.id == "environment.layout")
+            continue; // which read files
+        SCOPED_TRACE(std::string(info.id));
+        const Id id = info.scope == Scope::Material ? document().materials.back().id
+                      : info.scope == Scope::Mesh   ? document().meshes.back().id
+                      : info.scope == Scope::Light  ? document().lights.back().id
+                                                    : 0;
+        if (info.scope == Scope::Softbox)
+            continue; // the start scene has none
+        for (int i = 0; i < 8; ++i) {
+            Document expected = document();
+            const Target target{info.scope, id};
+            const ParameterValue value = random.value(info, expected);
+            for (const ParameterEdit& edit : editsFor(expected, info, target, value))
+                ASSERT_TRUE(applyParameter(expected, *edit.info, target, edit.value));
+            controller.setParameter(info, target, value);
+            Document edited = document();
+            // Pictures that are derived come by themselves.
+            edited.environment.image = expected.environment.image;
+            edited.environment.blended = expected.environment.blended;
+            ASSERT_EQ(edited, expected) << "value " << i;
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 #include "core/document/Edit.h"
 #include "RandomDocument.h"
+#include "core/document/Lights.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -169,6 +170,24 @@ TEST(Edit, MeshesOfARemovedMaterialTakeAnother) {
     EXPECT_EQ(document.meshes[0].material, document.materials[0].id);
     EXPECT_GT(document.materials[0].id, b);
     EXPECT_FALSE(removeMaterial(document, a));
+}
+
+// Set by a panel or by --set: what the light does to the middle of the scene stays.
+TEST(Edit, ALightThatBecomesAnotherTypeIsConverted) {
+    Document document;
+    const Id id = addLight(document, {});
+    const ParameterInfo& type = *findParameter("light.type");
+    const Target target{Scope::Light, id};
+    const Light before = *document.light(id);
+    for (const ParameterEdit& edit :
+         editsFor(document, type, target, static_cast<int>(LightType::Point)))
+        ASSERT_TRUE(applyParameter(document, *edit.info, target, edit.value));
+    EXPECT_EQ(*document.light(id), convertedLight(before, LightType::Point, document.bounds()));
+    EXPECT_NE(document.light(id)->intensity, before.intensity);
+    // Any other number comes alone, in its range.
+    const auto edits = editsFor(document, *findParameter("light.elevationDeg"), target, 1e6f);
+    ASSERT_EQ(edits.size(), 1u);
+    EXPECT_EQ(edits[0].value, ParameterValue(90.0f));
 }
 
 TEST(Edit, TheFirstMapSetsItsNumberToNeutral) {
