@@ -68,6 +68,8 @@ class PixelWindowTest : public EditorTest {
     // Until the picture of the present layout is there.
     static void settleFrames() {
         QTest::qWait(400);
+        // Pixels of the coarser frames of a drag are several of the window's.
+        ASSERT_TRUE(eventually([] { return viewport().isSettled(); }));
         viewport().grabFramebuffer();
     }
     // Rests there until that very place has been looked at.
