@@ -113,6 +113,16 @@ std::vector<ParameterEdit> editsFor(const Document& document, const ParameterInf
     return {{&info, clamped}};
 }
 
+std::vector<ParameterEdit> editsTo(const Light& light) {
+    Document scratch;
+    scratch.lights.push_back(light);
+    std::vector<ParameterEdit> edits;
+    for (const ParameterInfo& info : parameters())
+        if (info.scope == Scope::Light && info.type != ParameterType::Text)
+            edits.push_back({&info, info.get(scratch, light.id)});
+    return edits;
+}
+
 std::vector<ParameterEdit> editsForMap(const Document& document, const ParameterInfo& map,
                                        const Target& target, const MapSlot& slot) {
     CHECK(map.type == ParameterType::Map && targetExists(document, target));

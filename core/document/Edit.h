@@ -30,6 +30,9 @@ Result<Change> applyParameter(Document& document, const ParameterInfo& info, con
                                                   const ParameterInfo& info, const Target& target,
                                                   const ParameterValue& value);
 
+// Everything of a light but its name, as edits of the light with its id.
+[[nodiscard]] std::vector<ParameterEdit> editsTo(const Light& light);
+
 // Putting a map on a material: a map multiplies its parameter's number, so where there was none
 // before, the number first goes to 1 (white) and the map is seen as it was painted. Without this a
 // metallic map on a non-metal would change nothing. The edits are for one undo step, in order.

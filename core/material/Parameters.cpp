@@ -302,14 +302,8 @@ std::string lightingUnavailable(const Document& document, int choice) {
 // A light that becomes another type keeps what it does to the scene.
 std::vector<ParameterEdit> lightTypeEdits(const Document& document, Id id,
                                           const ParameterValue& type) {
-    Document converted;
-    converted.lights = {convertedLight(
-        *document.light(id), static_cast<LightType>(std::get<int>(type)), document.bounds())};
-    std::vector<ParameterEdit> edits;
-    for (const ParameterInfo& info : parameters())
-        if (info.scope == Scope::Light && info.type != ParameterType::Text)
-            edits.push_back({&info, info.get(converted, id)});
-    return edits;
+    return editsTo(convertedLight(*document.light(id), static_cast<LightType>(std::get<int>(type)),
+                                  document.bounds()));
 }
 
 constexpr ParameterInfo withEdits(std::vector<ParameterEdit> (*onSet)(const Document&, Id,

@@ -154,33 +154,6 @@ class Incremental : public RenderTest {
     std::unique_ptr<Renderer> m_other;
 };
 
-std::vector<Id> idsOf(const Document& document, Scope scope) {
-    std::vector<Id> ids;
-    const auto collect = [&](const auto& elements) {
-        for (const auto& element : elements)
-            ids.push_back(element.id);
-    };
-    switch (scope) {
-    case Scope::Material:
-        collect(document.materials);
-        break;
-    case Scope::Light:
-        collect(document.lights);
-        break;
-    case Scope::Mesh:
-        collect(document.meshes);
-        break;
-    case Scope::Softbox:
-        collect(document.environment.softboxes);
-        break;
-    case Scope::Environment:
-    case Scope::Model:
-    case Scope::View:
-        ids.push_back(0);
-    }
-    return ids;
-}
-
 TEST_F(Incremental, AnyValueOfAnyParameterDrawsLikeAFreshScene) {
     const int values = setting("PATINA_INCREMENTAL_VALUES", 1);
     RandomDocument random(11);
@@ -191,7 +164,7 @@ TEST_F(Incremental, AnyValueOfAnyParameterDrawsLikeAFreshScene) {
     for (const ParameterInfo& info : parameters()) {
         SCOPED_TRACE(std::string(info.id));
         Document document = start;
-        const std::vector<Id> ids = idsOf(document, info.scope);
+        const std::vector<Id> ids = RandomDocument::idsOf(document, info.scope);
         // Every choice there is, and then whatever comes.
         const int count = std::max(values, static_cast<int>(info.choices.size()));
         for (int i = 0; i < count; ++i) {

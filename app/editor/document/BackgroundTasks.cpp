@@ -67,9 +67,9 @@ void BackgroundTasks::finish(quint64 id, const Apply& apply) {
     Q_EMIT busyChanged();
 }
 
-void BackgroundTasks::cancelAll() {
+void BackgroundTasks::cancelAll(const QStringList& but) {
     for (auto& [id, task] : m_running) {
-        if (task.mustBeDone)
+        if (task.mustBeDone || but.contains(task.key))
             continue;
         task.superseded = true;
         task.control.cancel();

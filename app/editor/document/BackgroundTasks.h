@@ -6,6 +6,7 @@
 
 #include <QObject>
 #include <QString>
+#include <QStringList>
 #include <QThreadPool>
 #include <functional>
 #include <map>
@@ -29,7 +30,8 @@ class BackgroundTasks : public QObject {
     // the other tasks. No newer one and no cancelAll() takes it back: it runs, and its result is
     // applied. `work` throws nothing.
     void enqueue(const QString& activity, Work work);
-    void cancelAll(); // but those that must be done
+    // But those that must be done, and those of the keys in `but`.
+    void cancelAll(const QStringList& but = {});
     // False when something still runs after `milliseconds`. Applies nothing.
     bool waitForDone(int milliseconds);
 

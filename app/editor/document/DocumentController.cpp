@@ -168,9 +168,14 @@ void DocumentController::setParameter(const ParameterInfo& info, Target target,
         return;
     const QString label = fromText(info.label);
     const std::string name = nameOf(m_document, target);
-    pushParameters(target, editsFor(m_document, info, target, value), session,
-                   name.empty() ? tr("Change %1").arg(label)
-                                : tr("Change %1 of %2").arg(label, QString::fromStdString(name)));
+    const QString text = name.empty()
+                             ? tr("Change %1").arg(label)
+                             : tr("Change %1 of %2").arg(label, QString::fromStdString(name));
+    const std::vector<ParameterEdit> edits = editsFor(m_document, info, target, value);
+    if (info.onSet) // always the same parameters, so that edits of one session merge
+        setParameters(target, edits, text, session);
+    else
+        pushParameters(target, edits, session, text);
 }
 
 void DocumentController::pushParameters(Target target, const std::vector<ParameterEdit>& edits,
@@ -272,13 +277,7 @@ Id DocumentController::duplicateLight(Id original) {
 }
 
 void DocumentController::changeLight(const Light& light, DragSession session, const QString& text) {
-    Document scratch;
-    scratch.lights.push_back(light);
-    std::vector<ParameterEdit> edits;
-    for (const ParameterInfo& info : parameters())
-        if (info.scope == Scope::Light && info.type != ParameterType::Text)
-            edits.push_back({&info, info.get(scratch, light.id)});
-    setParameters({Scope::Light, light.id}, edits, text, session);
+    setParameters({Scope::Light, light.id}, editsTo(light), text, session);
 }
 
 void DocumentController::removeLight(Id id) {

@@ -19,6 +19,9 @@
 namespace patina::editor {
 namespace {
 
+const QString environmentTask = QStringLiteral("environment");
+const QString secondEnvironmentTask = QStringLiteral("second environment");
+
 // How a source is called in messages: "teapot.obj", "Shader Ball".
 QString shortName(const QString& source) {
     const std::string name = source.toStdString();
@@ -69,8 +72,10 @@ void keepLight(Document& opened, const Document& before) {
 
 void DocumentController::replaceDocument(Document document, const QString& filePath,
                                          const QString& name, bool pristine) {
-    // Results that were on their way belong to elements of the document that goes.
-    m_tasks.cancelAll();
+    // Results that were on their way belong to elements of the document that goes; only the light
+    // stays with a model that is opened in it.
+    const bool model = filePath.isEmpty() && !pristine;
+    m_tasks.cancelAll(model ? QStringList{environmentTask, secondEnvironmentTask} : QStringList());
     m_waiting.clear();
     m_document = std::move(document);
     m_environment->reset(m_document);
@@ -249,7 +254,7 @@ void DocumentController::setEnvironment(const QString& source) {
 void DocumentController::setSecondEnvironment(const QString& source) {
     const QString title = shortName(source);
     m_tasks.start(
-        QStringLiteral("second environment"), tr("Reading %1").arg(title),
+        secondEnvironmentTask, tr("Reading %1").arg(title),
         [this, source, title, begun = begun()](const JobContext& job) -> BackgroundTasks::Apply {
             const std::string name = normalizeSource(source.toStdString());
             auto notices = std::make_shared<std::vector<Notice>>();
@@ -281,7 +286,7 @@ void DocumentController::readEnvironment(const QString& source, EnvironmentLayou
                                          const QString& undoText) {
     const QString title = shortName(source);
     m_tasks.start(
-        QStringLiteral("environment"), tr("Reading %1").arg(title),
+        environmentTask, tr("Reading %1").arg(title),
         [this, source, layout, title, undoText,
          begun = begun()](const JobContext& job) -> BackgroundTasks::Apply {
             const std::string name = normalizeSource(source.toStdString());

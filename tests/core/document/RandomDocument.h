@@ -94,7 +94,7 @@ class RandomDocument {
         return false;
     }
 
-  private:
+    // Of all elements of a scope.
     static std::vector<Id> idsOf(const Document& document, Scope scope) {
         std::vector<Id> ids;
         const auto collect = [&](const auto& elements) {
@@ -122,6 +122,7 @@ class RandomDocument {
         return ids;
     }
 
+  private:
     void skipIds(Document& document) { document.nextId += static_cast<Id>(below(3)); }
 
     std::string name() {
