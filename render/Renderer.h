@@ -2,11 +2,11 @@
 // one. All calls need the context it was created with to be current, on one thread.
 #pragma once
 
-#include "core/bake/NearShadows.h"
+#include "core/bake/local/NearShadows.h"
 #include "core/base/Result.h"
 #include "core/document/Document.h"
 #include "core/document/ToneResponse.h"
-#include "core/image/DisplayTransform.h"
+#include "core/io/DisplayTransform.h"
 #include "core/light/EnvironmentTexels.h"
 #include "render/gl/Context.h"
 #include "render/scene/SurfaceLobe.h"
@@ -114,10 +114,10 @@ class Renderer {
     // cleared or another bake is attached. Lights near by are added to it, through the bake.
     void setBouncedLight(Id mesh, std::span<const glm::vec3> radiance);
     void clearBouncedLight();
-    // Shadows of the document's local lights under transfer (core/bake/NearShadows.h), sharp and
-    // complete, instead of what the bake's bands know of them; null: none. They hold until they are
-    // set again: those of a light that has moved, or of other geometry, are still shown. What has
-    // none (another bake, a light that was added) shows what the bands know.
+    // Shadows of the document's local lights under transfer (core/bake/local/NearShadows.h), sharp
+    // and complete, instead of what the bake's bands know of them; null: none. They hold until they
+    // are set again: those of a light that has moved, or of other geometry, are still shown. What
+    // has none (another bake, a light that was added) shows what the bands know.
     void setNearShadows(const NearShadowsPtr& shadows);
     // Whether a picture or view showed local lights by way of a bake since the last call.
     [[nodiscard]] bool takeNearShadowUse();

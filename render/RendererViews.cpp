@@ -2,7 +2,7 @@
 #include "render/RendererImpl.h"
 
 #include "core/base/Check.h"
-#include "core/document/ViewReasons.h"
+#include "core/edit/ViewReasons.h"
 #include "render/scene/LightBlocks.h"
 
 #include <algorithm>

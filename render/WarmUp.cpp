@@ -1,8 +1,8 @@
 #include "render/WarmUp.h"
 
 #include "core/base/Hash.h"
-#include "core/document/Edit.h"
 #include "core/document/Lighting.h"
+#include "core/edit/Edit.h"
 #include "render/pass/SurfacePass.h"
 #include "render/scene/LightBlocks.h"
 

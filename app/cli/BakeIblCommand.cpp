@@ -1,9 +1,9 @@
 #include "app/cli/Commands.h"
 #include "app/cli/SceneSetup.h"
 #include "core/base/Check.h"
-#include "core/light/EnvironmentBlend.h"
+#include "core/edit/Parameters.h"
 #include "core/light/OrientedEnvironment.h"
-#include "core/material/Parameters.h"
+#include "core/mix/EnvironmentBlend.h"
 
 #include <bit>
 #include <fmt/format.h>

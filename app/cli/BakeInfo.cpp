@@ -1,9 +1,9 @@
 #include "app/cli/BakeInfo.h"
 
-#include "core/bake/BakeCheckpoint.h"
-#include "core/bake/BakeHeader.h"
-#include "core/bake/BakeStaleness.h"
-#include "core/bake/BakeTarget.h"
+#include "core/bake/document/BakeStaleness.h"
+#include "core/bake/file/BakeHeader.h"
+#include "core/bake/file/BakeTarget.h"
+#include "core/bake/transfer/BakeCheckpoint.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/cli/Report.h"
-#include "core/bake/BakeArtifact.h"
-#include "core/image/ImageIO.h"
+#include "core/bake/domain/BakeArtifact.h"
+#include "core/io/ImageIO.h"
 
 namespace patina::cli {
 

@@ -1,8 +1,8 @@
 #include "app/cli/BakeOutput.h"
 
 #include "app/cli/SceneSetup.h"
-#include "core/bake/BakeIO.h"
-#include "core/image/ImageIO.h"
+#include "core/bake/file/BakeIO.h"
+#include "core/io/ImageIO.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/cli/Session.h"
-#include "core/bake/BakeArtifact.h"
-#include "core/bake/BakeStorage.h"
+#include "core/bake/domain/BakeArtifact.h"
+#include "core/bake/domain/BakeStorage.h"
 #include "core/base/AtomicFile.h"
 #include "core/document/Document.h"
 #include "core/export/Names.h"

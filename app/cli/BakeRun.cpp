@@ -4,16 +4,18 @@
 #include "app/cli/LongBake.h"
 #include "app/cli/OcclusionRun.h"
 #include "app/cli/SceneSetup.h"
-#include "core/bake/BakeFileSize.h"
+#include "core/bake/Bake.h"
 #include "core/bake/BakeMemory.h"
-#include "core/bake/BakeOptions.h"
-#include "core/bake/ResumableTracer.h"
+#include "core/bake/document/DocumentBakeInputs.h"
+#include "core/bake/domain/BakeOptions.h"
+#include "core/bake/file/BakeFileSize.h"
+#include "core/bake/transfer/ResumableTracer.h"
 #include "core/base/DiskSpace.h"
 #include "core/base/FileLock.h"
 #include "core/base/Leftovers.h"
 #include "core/base/PrintableText.h"
-#include "core/document/Scene.h"
 #include "core/mesh/UvUnwrap.h"
+#include "core/scene/Scene.h"
 
 #include <filesystem>
 #include <fmt/format.h>

@@ -4,8 +4,8 @@
 
 #include "app/cli/Options.h"
 #include "app/cli/Session.h"
-#include "core/bake/BakeRequest.h"
-#include "core/bake/BakeStorage.h"
+#include "core/bake/domain/BakeRequest.h"
+#include "core/bake/domain/BakeStorage.h"
 #include "core/document/Document.h"
 
 #include <string>

@@ -1,7 +1,7 @@
 #include "app/cli/Commands.h"
 #include "app/cli/SceneSetup.h"
 #include "core/image/Compare.h"
-#include "core/image/ImageIO.h"
+#include "core/io/ImageIO.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 #include "app/cli/Commands.h"
 #include "app/cli/SceneSetup.h"
-#include "core/document/EnvironmentFile.h"
-#include "core/document/EnvironmentSave.h"
 #include "core/light/EnvironmentProjection.h"
 #include "core/light/ShBands.h"
+#include "core/scene/EnvironmentFile.h"
+#include "core/scene/EnvironmentSave.h"
 
 #include <nlohmann/json.hpp>
 

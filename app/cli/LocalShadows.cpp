@@ -3,8 +3,8 @@
 #include "app/cli/LongBake.h"
 #include "app/cli/RenderViews.h"
 #include "core/bake/BakeMemory.h"
-#include "core/document/Edit.h"
 #include "core/document/Lighting.h"
+#include "core/edit/Edit.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/cli/Session.h"
-#include "core/bake/NearShadows.h"
+#include "core/bake/local/NearShadows.h"
 #include "core/document/Document.h"
 #include "render/view/ViewSettings.h"
 

@@ -2,7 +2,7 @@
 // keeps a checkpoint.
 #pragma once
 
-#include "core/bake/Passes.h"
+#include "core/bake/transfer/Passes.h"
 #include "core/base/Result.h"
 
 #include <cstdint>

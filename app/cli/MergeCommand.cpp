@@ -2,8 +2,10 @@
 #include "app/cli/BakeRun.h"
 #include "app/cli/Commands.h"
 #include "app/cli/SceneSetup.h"
-#include "core/bake/BakeMerge.h"
-#include "core/bake/BakeOptions.h"
+#include "core/bake/Bake.h"
+#include "core/bake/document/DocumentBakeInputs.h"
+#include "core/bake/domain/BakeOptions.h"
+#include "core/bake/transfer/BakeMerge.h"
 #include "core/base/FileLock.h"
 
 #include <filesystem>

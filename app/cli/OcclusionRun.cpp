@@ -2,9 +2,9 @@
 
 #include "app/cli/BakeOutput.h"
 #include "app/cli/BakeRun.h"
-#include "core/bake/BakeFileSize.h"
 #include "core/bake/BakeMemory.h"
-#include "core/bake/OcclusionTextures.h"
+#include "core/bake/file/BakeFileSize.h"
+#include "core/bake/transfer/OcclusionTextures.h"
 
 #include <algorithm>
 #include <fmt/format.h>

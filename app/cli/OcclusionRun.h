@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/cli/Session.h"
-#include "core/bake/BakeRequest.h"
+#include "core/bake/domain/BakeRequest.h"
 #include "core/document/Document.h"
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/bake/Bake.h"
-#include "core/bake/BakeStorage.h"
+#include "core/bake/domain/BakeStorage.h"
 #include "core/export/IblPackage.h"
 #include "core/light/EnvironmentProjection.h"
 

@@ -1,6 +1,6 @@
 #include "app/cli/Commands.h"
-#include "core/material/ParameterReference.h"
-#include "core/material/Parameters.h"
+#include "core/edit/ParameterReference.h"
+#include "core/edit/Parameters.h"
 
 #include <nlohmann/json.hpp>
 

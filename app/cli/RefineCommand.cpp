@@ -2,6 +2,7 @@
 #include "app/cli/Commands.h"
 #include "app/cli/SceneSetup.h"
 #include "core/bake/TransferRefinement.h"
+#include "core/bake/document/DocumentBakeInputs.h"
 #include "core/export/Export.h"
 
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
 #include "app/cli/RenderViews.h"
 
-#include "core/document/Edit.h"
-#include "core/document/LightMix.h"
-#include "core/document/Lights.h"
-#include "core/document/ViewReasons.h"
+#include "core/edit/Edit.h"
+#include "core/edit/ViewReasons.h"
 #include "core/image/TextRaster.h"
+#include "core/light/Lights.h"
+#include "core/mix/LightMix.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 
 #include "app/cli/Session.h"
 #include "core/document/Document.h"
-#include "core/image/ImageIO.h"
+#include "core/io/ImageIO.h"
 #include "render/Renderer.h"
 
 #include <string>

@@ -1,7 +1,7 @@
 #include "app/cli/Report.h"
 
 #include "core/base/PrintableText.h"
-#include "core/document/OutsidePictures.h"
+#include "core/scene/OutsidePictures.h"
 
 #include <algorithm>
 #include <cstdio>

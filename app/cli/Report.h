@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/Result.h"
-#include "core/document/Scene.h"
+#include "core/scene/Scene.h"
 
 #include <filesystem>
 #include <memory>

@@ -1,7 +1,7 @@
 // What is done with models, pictures and environments without baking.
 #include "app/cli/CommandParser.h"
 #include "app/cli/RenderViews.h"
-#include "core/material/Parameters.h"
+#include "core/edit/Parameters.h"
 #include "core/math/SphericalHarmonics.h"
 
 #include <fmt/format.h>

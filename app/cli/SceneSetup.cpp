@@ -1,14 +1,14 @@
 #include "app/cli/SceneSetup.h"
 
-#include "core/bake/BakeIO.h"
+#include "core/bake/file/BakeIO.h"
 #include "core/base/AtomicFile.h"
-#include "core/document/Edit.h"
-#include "core/document/EnvironmentFile.h"
-#include "core/document/Scene.h"
 #include "core/document/Source.h"
-#include "core/light/EnvironmentBlend.h"
+#include "core/edit/Edit.h"
+#include "core/edit/Parameters.h"
 #include "core/light/GeneratedEnvironment.h"
-#include "core/material/Parameters.h"
+#include "core/mix/EnvironmentBlend.h"
+#include "core/scene/EnvironmentFile.h"
+#include "core/scene/Scene.h"
 
 #include <algorithm>
 #include <cctype>

@@ -5,7 +5,7 @@
 #include "app/editor/job/JobManager.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/OutputFile.h"
-#include "core/document/EnvironmentFile.h"
+#include "core/scene/EnvironmentFile.h"
 
 #include <QCheckBox>
 #include <QComboBox>

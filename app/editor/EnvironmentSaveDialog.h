@@ -1,7 +1,7 @@
 // Asks how the environment is to be written to a file, and writes it as a job.
 #pragma once
 
-#include "core/document/EnvironmentSave.h"
+#include "core/scene/EnvironmentSave.h"
 
 #include <QDialog>
 

@@ -9,7 +9,7 @@
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/MapSlotWidget.h"
-#include "core/document/Scene.h"
+#include "core/scene/Scene.h"
 
 #include <QFileDialog>
 #include <QFileInfo>

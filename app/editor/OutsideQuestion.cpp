@@ -4,9 +4,9 @@
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
 #include "core/base/PrintableText.h"
-#include "core/document/Change.h"
-#include "core/document/Scene.h"
-#include "core/material/Parameters.h"
+#include "core/edit/Change.h"
+#include "core/edit/Parameters.h"
+#include "core/scene/Scene.h"
 
 #include <QFile>
 #include <QFileInfo>

@@ -1,8 +1,8 @@
 // Asks once for each model file whether pictures that it names outside its own folder may be read
-// (core/document/OutsidePictures.h), and reads them when the user agrees.
+// (core/scene/OutsidePictures.h), and reads them when the user agrees.
 #pragma once
 
-#include "core/document/OutsidePictures.h"
+#include "core/scene/OutsidePictures.h"
 
 #include <QObject>
 #include <QPointer>

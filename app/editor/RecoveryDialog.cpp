@@ -4,8 +4,8 @@
 #include "app/editor/style/Tokens.h"
 #include "core/base/AtomicFile.h"
 #include "core/base/Limits.h"
-#include "core/document/DocumentDifference.h"
-#include "core/document/DocumentIO.h"
+#include "core/edit/DocumentDifference.h"
+#include "core/scene/DocumentIO.h"
 
 #include <QDateTime>
 #include <QFile>

@@ -3,8 +3,8 @@
 #include "app/editor/Actions.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/viewport/ViewState.h"
-#include "core/document/LightMix.h"
-#include "core/document/Lights.h"
+#include "core/light/Lights.h"
+#include "core/mix/LightMix.h"
 
 #include <QActionGroup>
 #include <QCoreApplication>

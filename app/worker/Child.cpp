@@ -2,7 +2,8 @@
 
 #include "app/worker/Sandbox.h"
 #include "app/worker/SelfTest.h"
-#include "core/worker/Codec.h"
+#include "core/codec/Codec.h"
+#include "core/io/MeshImport.h"
 
 #include <array>
 #include <csignal>

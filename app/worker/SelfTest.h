@@ -2,7 +2,7 @@
 // what the client and the kernel make of them.
 #pragma once
 
-#include "core/worker/Codec.h"
+#include "core/codec/Codec.h"
 
 namespace patina::worker {
 

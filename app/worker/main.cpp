@@ -1,7 +1,7 @@
 // patina-worker: started by Patina itself (core/worker/WorkerClient.h), never by hand.
 #include "app/worker/LibraryThreads.h"
 #include "app/worker/Zygote.h"
-#include "core/worker/Codec.h"
+#include "core/codec/Codec.h"
 #include "core/worker/WorkerProtocol.h"
 
 #include <chrono>

@@ -1,6 +1,6 @@
 #include "core/bake/BakeMemory.h"
 
-#include "core/bake/VertexSamples.h"
+#include "core/bake/domain/VertexSamples.h"
 #include "core/base/Check.h"
 #include "core/job/Parallel.h"
 

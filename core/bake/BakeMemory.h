@@ -1,7 +1,9 @@
 // How much memory a bake will take, and what to do when there is less.
 #pragma once
 
-#include "core/bake/BakeRequest.h"
+#include "core/bake/domain/BakeRequest.h"
+#include "core/base/Result.h"
+#include "core/trace/BakeInputs.h"
 
 #include <cstdint>
 #include <string>
@@ -25,7 +27,8 @@ struct BakeEstimate {
 Result<void> checkBakeMemory(const BakeRequest& request, const BakeInputs& inputs,
                              std::uint64_t available);
 
-// How many textures of an AoTexel bake fit at a time (core/bake/OcclusionTextures.h); 0: none does.
+// How many textures of an AoTexel bake fit at a time (core/bake/transfer/OcclusionTextures.h); 0:
+// none does.
 [[nodiscard]] std::size_t texturesAtOnce(const BakeRequest& request, const BakeInputs& inputs,
                                          std::uint64_t available);
 

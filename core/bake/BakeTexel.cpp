@@ -1,13 +1,13 @@
 // Ambient occlusion and radiance transfer per texel, one texture per material.
 
-#include "core/bake/AoSettingsCheck.h"
 #include "core/bake/Bake.h"
-#include "core/bake/BakeTracer.h"
 #include "core/bake/PrtSettingsCheck.h"
-#include "core/bake/RayScene.h"
-#include "core/bake/TexelBounces.h"
-#include "core/bake/TexelTransfer.h"
-#include "core/bake/WorkOrder.h"
+#include "core/bake/bounce/TexelBounces.h"
+#include "core/bake/transfer/AoSettingsCheck.h"
+#include "core/bake/transfer/BakeTracer.h"
+#include "core/bake/transfer/TexelTransfer.h"
+#include "core/bake/transfer/WorkOrder.h"
+#include "core/trace/RayScene.h"
 
 #include <optional>
 

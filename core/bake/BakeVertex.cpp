@@ -1,16 +1,16 @@
 // Ambient occlusion and radiance transfer per vertex.
 
-#include "core/bake/AoSettingsCheck.h"
 #include "core/bake/Bake.h"
-#include "core/bake/BakeTracer.h"
-#include "core/bake/InsideGeometry.h"
-#include "core/bake/Interreflection.h"
 #include "core/bake/PrtSettingsCheck.h"
-#include "core/bake/RayScene.h"
-#include "core/bake/TransferMeaning.h"
 #include "core/bake/TransferRefinement.h"
-#include "core/bake/VertexFit.h"
-#include "core/bake/WorkOrder.h"
+#include "core/bake/bounce/Interreflection.h"
+#include "core/bake/transfer/AoSettingsCheck.h"
+#include "core/bake/transfer/BakeTracer.h"
+#include "core/bake/transfer/InsideGeometry.h"
+#include "core/bake/transfer/TransferMeaning.h"
+#include "core/bake/transfer/VertexFit.h"
+#include "core/bake/transfer/WorkOrder.h"
+#include "core/trace/RayScene.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "core/bake/PrtSettingsCheck.h"
 
-#include "core/bake/BakeOptions.h"
-#include "core/bake/Interreflection.h"
+#include "core/bake/bounce/Interreflection.h"
+#include "core/bake/domain/BakeOptions.h"
 #include "core/math/SphericalHarmonics.h"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // Checking and describing the settings that all transfer bakes share.
 #pragma once
 
-#include "core/bake/Bake.h"
-#include "core/bake/Passes.h"
+#include "core/bake/domain/BakeRequest.h"
+#include "core/bake/transfer/Passes.h"
 
 #include <map>
 #include <string>

@@ -1,5 +1,6 @@
 #include "core/bake/TransferRefinement.h"
 
+#include "core/bake/Bake.h"
 #include "core/mesh/RefineMesh.h"
 
 #include <algorithm>

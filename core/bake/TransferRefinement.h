@@ -2,7 +2,11 @@
 // where the fit misses what the surface saw, and again.
 #pragma once
 
-#include "core/bake/Bake.h"
+#include "core/bake/domain/BakeArtifact.h"
+#include "core/bake/domain/BakeRequest.h"
+#include "core/base/Result.h"
+#include "core/job/JobContext.h"
+#include "core/trace/BakeInputs.h"
 
 #include <cstddef>
 #include <span>

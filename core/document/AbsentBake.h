@@ -4,7 +4,7 @@
 // hasTransfer() do not see it.
 #pragma once
 
-#include "core/bake/BakeArtifact.h"
+#include "core/bake/domain/BakeArtifact.h"
 
 #include <string>
 

@@ -1,8 +1,6 @@
 #include "core/document/Document.h"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/trigonometric.hpp>
 
 namespace patina {
 namespace {
@@ -15,12 +13,6 @@ auto* findById(Elements& elements, Id id) {
 }
 
 } // namespace
-
-glm::vec3 Light::directionToLight() const {
-    const float azimuth = glm::radians(azimuthDeg), elevation = glm::radians(elevationDeg);
-    return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
-            std::cos(azimuth) * std::cos(elevation)};
-}
 
 const Material* Document::material(Id id) const {
     return findById(materials, id);

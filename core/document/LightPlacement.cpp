@@ -1,6 +1,6 @@
 #include "core/document/LightPlacement.h"
 
-#include "core/document/Lights.h"
+#include "core/light/Lights.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // What the lighting modes have in common.
 #pragma once
 
-#include "core/document/Document.h"
+#include "core/document/View.h"
 #include "core/document/Views.h"
 
 #include <algorithm>

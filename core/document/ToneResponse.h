@@ -2,7 +2,7 @@
 // (shaders/shared/tonemap.glsl) with a view's settings, for plots and tests.
 #pragma once
 
-#include "core/document/Document.h"
+#include "core/document/View.h"
 
 namespace patina {
 

@@ -1,12 +1,13 @@
 #include "core/export/ExportContents.h"
 
 #include "core/bake/Bake.h"
+#include "core/bake/document/DocumentBakeInputs.h"
 #include "core/document/AbsentBake.h"
-#include "core/document/Edit.h"
-#include "core/document/ModelPresets.h"
+#include "core/edit/Edit.h"
 #include "core/export/GltfEnvironment.h"
 #include "core/export/Names.h"
-#include "core/light/EnvironmentBlend.h"
+#include "core/material/ModelPresets.h"
+#include "core/mix/EnvironmentBlend.h"
 
 #include <algorithm>
 #include <fmt/format.h>

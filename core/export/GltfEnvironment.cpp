@@ -2,8 +2,8 @@
 
 #include "core/base/Check.h"
 #include "core/document/Source.h"
-#include "core/image/ImageIO.h"
 #include "core/image/Rgbd.h"
+#include "core/io/ImageIO.h"
 #include "core/job/Parallel.h"
 #include "core/light/Ibl.h"
 

@@ -1,10 +1,10 @@
 #include "core/export/GltfWriter.h"
 
-#include "core/document/Lights.h"
 #include "core/export/GltfEnvironment.h"
 #include "core/export/GltfGeometry.h"
 #include "core/export/Names.h"
 #include "core/export/ShFile.h"
+#include "core/light/Lights.h"
 
 #include <algorithm>
 #include <cmath>

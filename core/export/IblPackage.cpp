@@ -3,8 +3,8 @@
 #include "core/base/Check.h"
 #include "core/export/ShFile.h"
 #include "core/image/Dds.h"
-#include "core/image/ImageIO.h"
 #include "core/image/Ktx2.h"
+#include "core/io/ImageIO.h"
 #include "core/job/Parallel.h"
 #include "core/light/CubeSampling.h"
 

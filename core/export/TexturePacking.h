@@ -4,7 +4,7 @@
 
 #include "core/document/Document.h"
 #include "core/export/Export.h"
-#include "core/image/ImageIO.h"
+#include "core/io/ImageIO.h"
 
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "core/document/Edit.h"
+#include "core/edit/Edit.h"
 #include "core/export/Names.h"
 #include "core/export/TexturePacking.h"
 

@@ -1,10 +1,10 @@
 #include "core/export/TransferExport.h"
 
 #include "core/base/Check.h"
-#include "core/document/LightMix.h"
 #include "core/export/ShFile.h"
-#include "core/light/TransferLight.h"
 #include "core/math/SphericalHarmonics.h"
+#include "core/mix/LightMix.h"
+#include "core/mix/TransferLight.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // meet as JSON, and the few lines of GLSL that multiply the two.
 #pragma once
 
-#include "core/bake/BakeArtifact.h"
+#include "core/bake/domain/BakeArtifact.h"
 #include "core/document/Document.h"
 #include "core/job/JobContext.h"
 

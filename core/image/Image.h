@@ -18,7 +18,7 @@ enum class PixelType { U8, U16, F32 }; // half floats are widened to F32 when re
 
 // Policy: base colour and emissive maps stored in 8 or 16 bits are Srgb (Rec.709 primaries, sRGB
 // curve on RGB, alpha linear); all other maps are Data; floating-point files are Linear. The user
-// of a map decides (core/material/Parameters.h), never the file's name or embedded profile.
+// of a map decides (core/edit/Parameters.h), never the file's name or embedded profile.
 enum class ColorEncoding { Linear, Srgb, Data };
 
 class Image {

@@ -1,7 +1,7 @@
 // Directions by azimuth and elevation.
 #pragma once
 
-#include "core/library/PortableMath.h"
+#include "core/math/PortableMath.h"
 
 #include <glm/vec3.hpp>
 

@@ -1,7 +1,7 @@
 #include "core/library/Lathe.h"
 
 #include "core/base/Check.h"
-#include "core/library/PortableMath.h"
+#include "core/math/PortableMath.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "core/library/MaterialRecipes.h"
 #include "core/library/Noise.h"
-#include "core/library/PortableMath.h"
+#include "core/math/PortableMath.h"
 
 #include <algorithm>
 #include <cmath>

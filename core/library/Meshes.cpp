@@ -2,7 +2,7 @@
 
 #include "core/base/Check.h"
 #include "core/library/Lathe.h"
-#include "core/library/PortableMath.h"
+#include "core/math/PortableMath.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include "core/library/Directions.h"
 #include "core/library/Lathe.h"
 #include "core/library/Meshes.h"
-#include "core/library/PortableMath.h"
+#include "core/math/PortableMath.h"
 
 #include <algorithm>
 #include <array>

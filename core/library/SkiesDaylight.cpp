@@ -1,9 +1,9 @@
 // White, clear and overcast: skies with a published formula.
-#include "core/library/DaylightModel.h"
 #include "core/library/Directions.h"
-#include "core/library/PortableMath.h"
 #include "core/library/SkyCanvas.h"
 #include "core/library/SkyRecipes.h"
+#include "core/light/DaylightModel.h"
+#include "core/math/PortableMath.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include "core/library/SkyCanvas.h"
 
 #include "core/library/Noise.h"
-#include "core/library/PortableMath.h"
+#include "core/math/PortableMath.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 // several colours. Small bright lights show what a material's lobe looks like.
 #include "core/library/Directions.h"
 #include "core/library/Noise.h"
-#include "core/library/PortableMath.h"
 #include "core/library/SkyCanvas.h"
 #include "core/library/SkyRecipes.h"
+#include "core/math/PortableMath.h"
 
 #include <algorithm>
 #include <array>

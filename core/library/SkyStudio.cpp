@@ -1,9 +1,9 @@
 // A photographer's studio: a dark room with soft boxes placed around the default camera (azimuth
 // 30°), so that glossy materials get a key, two rim strips, a fill and a bright top.
 #include "core/library/Directions.h"
-#include "core/library/PortableMath.h"
 #include "core/library/SkyCanvas.h"
 #include "core/library/SkyRecipes.h"
+#include "core/math/PortableMath.h"
 
 #include <algorithm>
 #include <array>

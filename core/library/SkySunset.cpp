@@ -2,9 +2,9 @@
 // "Display of The Earth Taking into Account Atmospheric Scattering", SIGGRAPH 1993, with ozone.
 #include "core/library/Directions.h"
 #include "core/library/Noise.h"
-#include "core/library/PortableMath.h"
 #include "core/library/SkyCanvas.h"
 #include "core/library/SkyRecipes.h"
+#include "core/math/PortableMath.h"
 
 #include <algorithm>
 #include <array>

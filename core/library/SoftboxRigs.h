@@ -2,7 +2,7 @@
 // view has it.
 #pragma once
 
-#include "core/document/Document.h"
+#include "core/light/Environment.h"
 
 #include <span>
 #include <string>

@@ -1,6 +1,6 @@
 #include "core/library/Surface.h"
 
-#include "core/library/PortableMath.h"
+#include "core/math/PortableMath.h"
 
 #include <algorithm>
 #include <array>

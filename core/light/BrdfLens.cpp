@@ -1,7 +1,7 @@
 #include "core/light/BrdfLens.h"
 
 #include "core/base/Check.h"
-#include "core/document/BrdfModel.h"
+#include "core/material/BrdfModel.h"
 
 #include <algorithm>
 #include <cmath>

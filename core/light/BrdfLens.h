@@ -6,8 +6,9 @@
 // direction at positive ones.
 #pragma once
 
-#include "core/document/Document.h"
+#include "core/image/Image.h"
 #include "core/light/Energy.h"
+#include "core/material/ShadingModel.h"
 #include "core/math/Shading.h"
 
 #include <vector>

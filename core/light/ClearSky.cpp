@@ -2,7 +2,7 @@
 
 #include "core/base/Check.h"
 #include "core/job/Parallel.h"
-#include "core/library/DaylightModel.h"
+#include "core/light/DaylightModel.h"
 #include "core/light/LatLongGrid.h"
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 // Analytic Model for Daylight" (docs/maths/ibl.md).
 #pragma once
 
-#include "core/document/Document.h"
 #include "core/image/Image.h"
 #include "core/job/JobContext.h"
+#include "core/light/Environment.h"
 
 #include <glm/vec3.hpp>
 

@@ -2,9 +2,10 @@
 // view angle and the roughness for a choice of terms (docs/maths/ibl.md).
 #pragma once
 
-#include "core/document/Document.h"
 #include "core/image/Image.h"
+#include "core/material/ShadingModel.h"
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace patina {

@@ -1,7 +1,7 @@
 #include "core/light/Energy.h"
 
-#include "core/document/BrdfModel.h"
 #include "core/light/DfgTable.h"
+#include "core/material/BrdfModel.h"
 #include "core/math/Quadrature.h"
 
 #include <algorithm>

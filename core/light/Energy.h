@@ -2,7 +2,7 @@
 // sides, as in a white furnace, where a material that neither loses nor makes light cannot be seen.
 #pragma once
 
-#include "core/document/Document.h"
+#include "core/material/ShadingModel.h"
 
 #include <functional>
 #include <glm/vec3.hpp>

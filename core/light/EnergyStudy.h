@@ -5,6 +5,7 @@
 #include "core/image/TexelRange.h"
 #include "core/job/JobContext.h"
 #include "core/light/Energy.h"
+#include "core/material/Material.h"
 
 #include <functional>
 #include <optional>

@@ -2,7 +2,7 @@
 
 #include "core/base/Check.h"
 #include "core/base/Limits.h"
-#include "core/document/Document.h"
+#include "core/light/Environment.h"
 #include "core/math/Quadrature.h"
 #include "core/math/Shading.h"
 

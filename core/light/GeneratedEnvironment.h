@@ -1,9 +1,9 @@
 // The picture of an environment that is made, not photographed: from its sky or its softboxes.
 #pragma once
 
-#include "core/document/Document.h"
 #include "core/image/Image.h"
 #include "core/job/JobContext.h"
+#include "core/light/Environment.h"
 
 #include <vector>
 

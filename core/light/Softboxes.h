@@ -1,9 +1,9 @@
 // Luminous rectangles on the sphere of directions: a photographer's softboxes seen from the model.
 #pragma once
 
-#include "core/document/Document.h"
 #include "core/image/Image.h"
 #include "core/job/JobContext.h"
+#include "core/light/Environment.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

@@ -1,17 +1,15 @@
 // A metallic-roughness material as plain values. Its editable numbers are described once, in the
-// parameter table (core/material/Parameters.h).
+// parameter table (core/edit/Parameters.h).
 #pragma once
 
+#include "core/base/Id.h"
 #include "core/image/Image.h"
 
-#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <string>
 
 namespace patina {
-
-using Id = std::uint32_t; // unique within a document, never reused; 0 is "none"
 
 enum class MapChannel { Rgb, R, G, B, A };
 

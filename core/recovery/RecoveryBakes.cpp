@@ -1,6 +1,6 @@
 #include "core/recovery/RecoveryBakes.h"
 
-#include "core/bake/BakeCache.h"
+#include "core/bake/document/BakeCache.h"
 #include "core/document/Document.h"
 
 #include <algorithm>

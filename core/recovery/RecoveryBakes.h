@@ -2,7 +2,7 @@
 // their content: a bake is written once, however often the record is.
 #pragma once
 
-#include "core/bake/BakeArtifact.h"
+#include "core/bake/domain/BakeArtifact.h"
 #include "core/base/Result.h"
 
 #include <cstdint>

@@ -1,11 +1,11 @@
 #include "core/recovery/RecoveryLoader.h"
 
-#include "core/bake/BakeIO.h"
+#include "core/bake/file/BakeIO.h"
 #include "core/base/AtomicFile.h"
 #include "core/base/Limits.h"
-#include "core/document/DocumentIO.h"
-#include "core/document/ProjectJson.h"
 #include "core/recovery/RecoveryBakes.h"
+#include "core/scene/DocumentIO.h"
+#include "core/scene/ProjectJson.h"
 
 #include <algorithm>
 #include <optional>

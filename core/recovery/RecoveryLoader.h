@@ -1,8 +1,8 @@
 // Makes a document of unsaved work. Reads the user's files and writes none.
 #pragma once
 
-#include "core/document/Scene.h"
 #include "core/recovery/RecoveryRecord.h"
+#include "core/scene/Scene.h"
 
 namespace patina {
 

@@ -3,8 +3,8 @@
 #include "core/base/AtomicFile.h"
 #include "core/base/Limits.h"
 #include "core/base/Utf8.h"
-#include "core/document/ProjectJson.h"
-#include "core/document/ProjectPath.h"
+#include "core/scene/ProjectJson.h"
+#include "core/scene/ProjectPath.h"
 
 #include <charconv>
 #include <nlohmann/json.hpp>

@@ -3,7 +3,7 @@
 // that is damaged is an error, never a document with other values.
 #pragma once
 
-#include "core/bake/BakeArtifact.h"
+#include "core/bake/domain/BakeArtifact.h"
 #include "core/base/Result.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "core/recovery/RecoveryWriter.h"
 
-#include "core/document/DocumentIO.h"
 #include "core/recovery/RecoveryBakes.h"
+#include "core/scene/DocumentIO.h"
 
 #include <algorithm>
 #include <exception>

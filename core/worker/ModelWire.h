@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/base/Result.h"
-#include "core/mesh/MeshImport.h"
+#include "core/mesh/ImportedModel.h"
 
 #include <cstddef>
 #include <span>

@@ -1,7 +1,7 @@
 // The tone mapping program of one OpenColorIO view, with its tables.
 #pragma once
 
-#include "core/image/DisplayTransform.h"
+#include "core/io/DisplayTransform.h"
 #include "render/gl/Program.h"
 #include "render/gl/Texture.h"
 

@@ -1,7 +1,7 @@
 #include "render/pass/NearLightPass.h"
 
 #include "core/light/NearRectangle.h"
-#include "core/light/TransferLight.h"
+#include "core/mix/TransferLight.h"
 
 #include <algorithm>
 #include <epoxy/gl.h>

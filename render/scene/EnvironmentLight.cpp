@@ -4,9 +4,9 @@
 #include "core/base/Log.h"
 #include "core/light/DfgTable.h"
 #include "core/light/DominantLight.h"
-#include "core/light/TransferLight.h"
 #include "core/math/ShRotation.h"
 #include "core/math/Shading.h"
+#include "core/mix/TransferLight.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/document/Document.h"
-#include "core/document/LightMix.h"
 #include "core/light/EnvironmentTexels.h"
+#include "core/mix/LightMix.h"
 #include "render/gl/Texture.h"
 #include "render/scene/Blocks.h"
 

@@ -1,11 +1,11 @@
 #include "render/scene/GpuScene.h"
 
-#include "core/bake/TexelPlaces.h"
+#include "core/bake/document/TexelPlaces.h"
 #include "core/base/Check.h"
 #include "core/base/Log.h"
 #include "core/document/Lighting.h"
 #include "core/light/LobeTable.h"
-#include "core/light/TransferLight.h"
+#include "core/mix/TransferLight.h"
 #include "render/scene/LightBlocks.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "render/scene/LightBlocks.h"
 
-#include "core/document/LightMix.h"
-#include "core/document/Lights.h"
+#include "core/light/Lights.h"
+#include "core/mix/LightMix.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "render/scene/TransferValues.h"
 
 #include "core/base/Check.h"
-#include "core/document/Edit.h"
+#include "core/edit/Edit.h"
 
 #include <algorithm>
 #include <glm/vec2.hpp>

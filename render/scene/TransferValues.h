@@ -2,7 +2,7 @@
 // GPU; and the light that it lets arrive, as RelightPass keeps it up to date.
 #pragma once
 
-#include "core/bake/NearShadows.h"
+#include "core/bake/local/NearShadows.h"
 #include "core/document/Document.h"
 #include "render/gl/Buffer.h"
 #include "render/gl/Texture.h"

@@ -1,7 +1,7 @@
 #include "render/view/ExplanationParts.h"
 
 #include "core/document/ToneResponse.h"
-#include "core/material/Parameters.h"
+#include "core/edit/Parameters.h"
 
 #include <algorithm>
 #include <array>

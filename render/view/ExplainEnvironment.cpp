@@ -1,7 +1,7 @@
 #include "render/view/ExplanationParts.h"
 
-#include "core/document/Edit.h"
 #include "core/document/Lighting.h"
+#include "core/edit/Edit.h"
 
 #include <algorithm>
 #include <array>

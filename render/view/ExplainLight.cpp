@@ -1,6 +1,6 @@
 #include "render/view/ExplanationParts.h"
 
-#include "core/document/Lights.h"
+#include "core/light/Lights.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // The sections of an explanation, and how their rows are made; only explain() needs this.
 #pragma once
 
-#include "core/document/LightMix.h"
+#include "core/mix/LightMix.h"
 #include "render/view/Explanation.h"
 #include "render/view/Recombine.h"
 

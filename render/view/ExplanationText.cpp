@@ -1,6 +1,6 @@
 #include "render/view/Explanation.h"
 
-#include "core/material/Parameters.h"
+#include "core/edit/Parameters.h"
 
 #include <algorithm>
 #include <cmath>

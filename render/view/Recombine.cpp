@@ -1,12 +1,12 @@
 #include "render/view/Recombine.h"
 
 #include "core/base/Check.h"
-#include "core/document/BrdfModel.h"
-#include "core/document/Edit.h"
 #include "core/document/Lighting.h"
-#include "core/document/Lights.h"
 #include "core/document/ToneResponse.h"
+#include "core/edit/Edit.h"
+#include "core/light/Lights.h"
 #include "core/light/LobeTable.h"
+#include "core/material/BrdfModel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // `patina bake ibl` from the outside, with radiance known in closed form: L(d) = 2 + d. GGX
 // prefiltering multiplies the linear part by lambda_1(alpha), irradiance is 2 pi + 2 pi / 3 n.
 #include "CommandRunner.h"
-#include "core/document/DocumentIO.h"
-#include "core/image/ImageIO.h"
+#include "core/io/ImageIO.h"
+#include "core/scene/DocumentIO.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/support/KnownRadiance.h"
 #include "tests/support/TextureFiles.h"

@@ -1,6 +1,7 @@
 // The commands themselves, on built-in scenes.
 #include "CommandRunner.h"
-#include "core/image/ImageIO.h"
+#include "core/document/View.h"
+#include "core/io/ImageIO.h"
 #include "core/worker/WorkerClient.h"
 
 #include <algorithm>

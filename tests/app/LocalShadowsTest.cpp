@@ -1,8 +1,8 @@
 // Pictures of local lights under transfer, as `patina render` writes them: with complete shadows.
 #include "CommandRunner.h"
-#include "core/document/DocumentIO.h"
-#include "core/document/Scene.h"
-#include "core/image/ImageIO.h"
+#include "core/io/ImageIO.h"
+#include "core/scene/DocumentIO.h"
+#include "core/scene/Scene.h"
 #include "core/worker/WorkerClient.h"
 
 #include <algorithm>

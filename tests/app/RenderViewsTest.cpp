@@ -1,7 +1,7 @@
 // `patina render --view …`.
 #include "CommandRunner.h"
 #include "core/document/Views.h"
-#include "core/image/ImageIO.h"
+#include "core/io/ImageIO.h"
 #include "core/worker/WorkerClient.h"
 
 #include <algorithm>

@@ -2,9 +2,10 @@
 // only counts, by the fastest fitting call of Embree 3. The two alternate within one run, and CPU
 // time is compared, so that a busy machine slows both alike. The only other file that sees Embree,
 // so that RayScene's own cost shows.
-#include "core/bake/BakePoints.h"
-#include "core/bake/RangeTracer.h"
-#include "core/bake/VertexSamples.h"
+#include "core/bake/Bake.h"
+#include "core/bake/domain/BakePoints.h"
+#include "core/bake/domain/VertexSamples.h"
+#include "core/bake/transfer/RangeTracer.h"
 #include "core/job/Parallel.h"
 #include "core/library/Library.h"
 #include "core/library/Meshes.h"

@@ -2,11 +2,11 @@
 // without: the coefficients and the hierarchy of the rays. Figures of resident memory (Linux), so
 // pages that the allocator keeps count too.
 #include "core/bake/Bake.h"
-#include "core/bake/BakeGeometry.h"
-#include "core/bake/BakeIO.h"
-#include "core/bake/RayScene.h"
+#include "core/bake/file/BakeIO.h"
 #include "core/document/Document.h"
 #include "core/library/Meshes.h"
+#include "core/trace/BakeGeometry.h"
+#include "core/trace/RayScene.h"
 #include "core/worker/WorkerClient.h"
 
 #include <algorithm>

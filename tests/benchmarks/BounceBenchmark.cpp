@@ -1,6 +1,7 @@
 // What following bounces again costs after an edit of albedo: for the light shown, per bounce, and
 // for all coefficients, against the bake that it saves.
-#include "core/bake/Interreflection.h"
+#include "core/bake/Bake.h"
+#include "core/bake/bounce/Interreflection.h"
 #include "core/library/Library.h"
 #include "core/library/Meshes.h"
 

@@ -9,7 +9,7 @@
 //   PATINA_BENCHMARK_HDR=a.hdr:b.hdr bench_ibl
 //
 // adds pictures to the built-in sky with a sun of 1e5; each is enlarged or reduced to 2048 × 1024.
-#include "core/image/ImageIO.h"
+#include "core/io/ImageIO.h"
 #include "core/job/Parallel.h"
 #include "core/light/CubeSampling.h"
 #include "core/light/Cubemap.h"

@@ -1,6 +1,6 @@
 // Shadows of one local light at 100,000 vertices: what has to be done anew when it is moved, and
 // what comes first.
-#include "core/bake/NearShadows.h"
+#include "core/bake/local/NearShadows.h"
 #include "core/library/Library.h"
 #include "core/library/Meshes.h"
 

@@ -1,7 +1,7 @@
 // Frame time of the built-in start scene at 1280 × 720 on whatever draws here (llvmpipe without a
 // GPU), with and without image-based light, multisampling and overlays.
-#include "core/document/Scene.h"
 #include "core/math/Camera.h"
+#include "core/scene/Scene.h"
 #include "render/Renderer.h"
 #include "render/scene/EnvironmentLight.h"
 

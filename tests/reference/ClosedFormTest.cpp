@@ -1,6 +1,7 @@
 // Visibility, transfer and bounces where they are known in closed form, as a table for the docs.
-#include "core/bake/Interreflection.h"
-#include "core/bake/TransferMeaning.h"
+#include "core/bake/Bake.h"
+#include "core/bake/bounce/Interreflection.h"
+#include "core/bake/transfer/TransferMeaning.h"
 #include "core/math/ZonalHarmonics.h"
 #include "tests/core/bake/BakeTestScene.h"
 #include "tests/reference/TruthTable.h"

@@ -2,7 +2,7 @@
 // environment, but bounces are followed from whatever direct light the walls get: here the
 // lamp's, in closed form. The truth: 30 million random walks per point, which a deterministic
 // radiosity solution of 28 × 28 patches a wall agrees with to 0.07 %.
-#include "core/bake/Interreflection.h"
+#include "core/bake/bounce/Interreflection.h"
 #include "core/library/Library.h"
 #include "tests/reference/TruthTable.h"
 

@@ -1,5 +1,6 @@
 #include "tests/reference/ReferenceScene.h"
 
+#include "core/bake/document/DocumentBakeInputs.h"
 #include "core/material/MapUv.h"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 // A scene as a path tracer sees it: what the ray through a pixel meets, and the surface there.
 // Shares with Patina's bakes the triangles and the question what a ray meets first
-// (core/bake/RayScene.h), nothing of what they do with the answers.
+// (core/trace/RayScene.h), nothing of what they do with the answers.
 #pragma once
 
-#include "core/bake/RayScene.h"
 #include "core/document/Document.h"
+#include "core/trace/RayScene.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

@@ -1,10 +1,11 @@
 // What the renderer shows of a transfer bake against the sum of the same numbers on the CPU: light,
 // rotation, bounces, interpolation, albedo, and nothing that reflections take away
 // (docs/maths/transfer-truth.md).
-#include "core/bake/BakeRequest.h"
-#include "core/document/Scene.h"
+#include "core/bake/Bake.h"
+#include "core/bake/domain/BakeRequest.h"
 #include "core/library/Library.h"
 #include "core/light/OrientedEnvironment.h"
+#include "core/scene/Scene.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/reference/ReferenceLight.h"
 #include "tests/reference/TransferPicture.h"

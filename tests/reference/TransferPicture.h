@@ -1,7 +1,7 @@
 // Patina's side of a comparison: what a transfer bake shows at places of a scene.
 #pragma once
 
-#include "core/bake/BakeArtifact.h"
+#include "core/bake/domain/BakeArtifact.h"
 #include "tests/reference/ReferenceScene.h"
 
 #include <glm/vec3.hpp>

@@ -1,12 +1,14 @@
 // Pictures of transfer bakes against pictures traced by brute force, lit by the same first bands
 // of an environment. Small ones: prt-reference measures the same with more of everything
 // (docs/maths/transfer-truth.md).
-#include "core/bake/BakeRequest.h"
+#include "core/bake/Bake.h"
 #include "core/bake/TransferRefinement.h"
-#include "core/document/Scene.h"
+#include "core/bake/document/DocumentBakeInputs.h"
+#include "core/bake/domain/BakeRequest.h"
 #include "core/library/Library.h"
 #include "core/light/OrientedEnvironment.h"
 #include "core/math/SphericalHarmonics.h"
+#include "core/scene/Scene.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/reference/PathReference.h"
 #include "tests/reference/TransferPicture.h"

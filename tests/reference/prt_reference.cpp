@@ -1,13 +1,15 @@
 // prt-reference SCENE --environment HDR…: how far the picture of a transfer bake, or one that
 // patina rendered from it (scripts/transfer-truth), is from one that paths trace by brute force,
 // per order of the light and against the whole environment.
-#include "core/bake/BakeRequest.h"
+#include "core/bake/Bake.h"
 #include "core/bake/TransferRefinement.h"
-#include "core/document/Scene.h"
-#include "core/image/ImageIO.h"
+#include "core/bake/document/DocumentBakeInputs.h"
+#include "core/bake/domain/BakeRequest.h"
+#include "core/io/ImageIO.h"
 #include "core/job/Parallel.h"
 #include "core/light/OrientedEnvironment.h"
 #include "core/math/SphericalHarmonics.h"
+#include "core/scene/Scene.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/reference/PathReference.h"
 #include "tests/reference/TransferPicture.h"

@@ -1,7 +1,7 @@
 // The explanation of a pixel: that its numbers are the picture's, and that it notices when they are
 // not.
 #include "render/view/Explanation.h"
-#include "core/document/Lights.h"
+#include "core/light/Lights.h"
 #include "render/view/Recombine.h"
 #include "tests/render/RenderTest.h"
 #include "tests/render/TransferScenes.h"

@@ -1,7 +1,7 @@
 // The white furnace in the viewport's own picture: what a sphere returns of an environment that is
 // 1 everywhere, from its centre to its rim, through the whole chain of an environment.
-#include "core/document/BrdfModel.h"
 #include "core/light/DfgTable.h"
+#include "core/material/BrdfModel.h"
 #include "tests/render/RenderTest.h"
 
 #include <cmath>

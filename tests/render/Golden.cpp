@@ -1,6 +1,6 @@
 #include "tests/render/Golden.h"
 
-#include "core/image/ImageIO.h"
+#include "core/io/ImageIO.h"
 #include "core/worker/WorkerClient.h"
 
 #include <cmath>

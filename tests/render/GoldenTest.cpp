@@ -1,6 +1,6 @@
 // Whole pictures. Their scenes are made here, so that nothing but the renderer can change them.
 #include "tests/render/Golden.h"
-#include "core/document/Lights.h"
+#include "core/light/Lights.h"
 #include "tests/render/RenderTest.h"
 
 #include <cmath>

@@ -1,9 +1,9 @@
 // Whatever is edited, the renderer that has seen all edits draws the same bytes as one that is
 // given the document at once. By default a few values of each parameter; PATINA_INCREMENTAL_VALUES
 // and PATINA_INCREMENTAL_EDITS ask for more.
-#include "core/document/Edit.h"
-#include "core/document/LightMix.h"
-#include "core/document/Lights.h"
+#include "core/edit/Edit.h"
+#include "core/light/Lights.h"
+#include "core/mix/LightMix.h"
 #include "tests/core/document/RandomDocument.h"
 #include "tests/render/RenderTest.h"
 #include "tests/render/TransferScenes.h"

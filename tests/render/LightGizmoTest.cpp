@@ -1,7 +1,7 @@
 // Where lights can be taken hold of, and what dragging does, without a window.
 #include "render/scene/LightGizmo.h"
 
-#include "core/document/Lights.h"
+#include "core/light/Lights.h"
 
 #include <algorithm>
 #include <cmath>

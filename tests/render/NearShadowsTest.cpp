@@ -1,6 +1,7 @@
 // Shadows of local lights under transfer, by rays instead of harmonics.
-#include "core/bake/NearShadows.h"
+#include "core/bake/local/NearShadows.h"
 #include "core/bake/Bake.h"
+#include "core/bake/document/DocumentBakeInputs.h"
 #include "core/math/Shading.h"
 #include "tests/render/TransferScenes.h"
 

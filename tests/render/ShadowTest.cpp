@@ -1,5 +1,5 @@
 // Shadows against geometry: umbra, light, penumbra, and nothing where nothing should be.
-#include "core/document/Lights.h"
+#include "core/light/Lights.h"
 #include "render/pass/ShadowPass.h"
 #include "render/scene/ShadowView.h"
 #include "tests/render/RenderTest.h"

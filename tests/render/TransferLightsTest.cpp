@@ -1,8 +1,9 @@
 // Light of lights and of two environments under radiance transfer, against what it should be.
 #include "core/bake/Bake.h"
-#include "core/document/LightMix.h"
-#include "core/light/EnvironmentBlend.h"
+#include "core/bake/document/DocumentBakeInputs.h"
 #include "core/math/Shading.h"
+#include "core/mix/EnvironmentBlend.h"
+#include "core/mix/LightMix.h"
 #include "tests/render/TransferScenes.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Small scenes under radiance transfer, and the transfer of open surfaces in closed form.
 #pragma once
 
-#include "core/bake/BakeArtifact.h"
+#include "core/bake/domain/BakeArtifact.h"
 #include "core/math/SphericalHarmonics.h"
 #include "tests/render/RenderTest.h"
 

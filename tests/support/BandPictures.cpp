@@ -1,10 +1,10 @@
 // band-pictures OUT.png|.jpg HDR: an environment beside what its first bands of spherical harmonics
 // hold, found by the classical 200 × 200 samples. Run by scripts/docs-pictures.
-#include "core/document/Scene.h"
-#include "core/image/ImageIO.h"
 #include "core/image/TextRaster.h"
+#include "core/io/ImageIO.h"
 #include "core/light/EnvironmentProjection.h"
 #include "core/light/ShBands.h"
+#include "core/scene/Scene.h"
 #include "core/worker/WorkerClient.h"
 
 #include <algorithm>

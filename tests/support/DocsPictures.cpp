@@ -20,6 +20,7 @@
 #include "app/editor/viewport/ViewportWidget.h"
 #include "app/editor/widget/ContributionChart.h"
 #include "core/bake/Bake.h"
+#include "core/bake/document/DocumentBakeInputs.h"
 
 #include <QApplication>
 #include <QComboBox>

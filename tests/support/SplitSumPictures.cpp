@@ -1,16 +1,16 @@
 // split-sum-pictures OUT.png|.jpg HDR…: white metal spheres (F = 1, single scattering) under the
 // first HDR as the split sum lights them, by the sum over every direction, and how far they are
 // apart; prints the figures for each HDR. Run by scripts/docs-pictures.
-#include "core/document/Scene.h"
-#include "core/image/ImageIO.h"
 #include "core/image/Srgb.h"
 #include "core/image/TextRaster.h"
+#include "core/io/ImageIO.h"
 #include "core/job/Parallel.h"
 #include "core/light/CubeSampling.h"
 #include "core/light/Cubemap.h"
 #include "core/light/DfgTable.h"
 #include "core/light/Ibl.h"
 #include "core/math/Shading.h"
+#include "core/scene/Scene.h"
 #include "core/worker/WorkerClient.h"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 
 #include "app/editor/document/BackgroundTasks.h"
 #include "app/editor/document/UserNotice.h"
-#include "core/image/DisplayTransform.h"
+#include "core/io/DisplayTransform.h"
 
 #include <QObject>
 #include <optional>

@@ -4,8 +4,8 @@
 #include "app/editor/document/EnvironmentResolver.h"
 #include "core/base/Check.h"
 #include "core/document/LightPlacement.h"
-#include "core/document/Lights.h"
-#include "core/document/ResetValue.h"
+#include "core/edit/ResetValue.h"
+#include "core/light/Lights.h"
 
 #include <algorithm>
 

@@ -9,9 +9,9 @@
 #include "app/editor/document/DocumentState.h"
 #include "app/editor/document/SaveQuestion.h"
 #include "app/editor/document/UserNotice.h"
-#include "core/document/Change.h"
 #include "core/document/Document.h"
-#include "core/document/Edit.h"
+#include "core/edit/Change.h"
+#include "core/edit/Edit.h"
 
 #include <QObject>
 #include <QString>
@@ -131,7 +131,7 @@ class DocumentController : public QObject {
     void setMeshVisible(Id mesh, bool visible);
     void removeMesh(Id mesh);
     void addModel(const QString& source); // a file or "builtin:NAME"
-    // Any edit of the lists of meshes, materials and lights (core/document/Edit.h) as one step.
+    // Any edit of the lists of meshes, materials and lights (core/edit/Edit.h) as one step.
     void editStructure(const QString& undoText, const std::function<void(Document&)>& edit);
 
     // --- Bakes -----------------------------------------------------------------------------------

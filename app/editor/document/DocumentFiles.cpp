@@ -7,10 +7,10 @@
 #include "app/editor/document/FileOnDisk.h"
 #include "app/editor/document/ImportNotice.h"
 #include "core/base/Check.h"
-#include "core/document/DocumentIO.h"
-#include "core/document/Scene.h"
-#include "core/image/DisplayTransform.h"
+#include "core/io/DisplayTransform.h"
 #include "core/library/Library.h"
+#include "core/scene/DocumentIO.h"
+#include "core/scene/Scene.h"
 
 #include <QFileInfo>
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/FileOnDisk.h"
-#include "core/document/DocumentIO.h"
+#include "core/scene/DocumentIO.h"
 
 #include <QFileInfo>
 #include <QStandardPaths>

@@ -2,7 +2,7 @@
 // there.
 #pragma once
 
-#include "core/bake/BakeArtifact.h"
+#include "core/bake/domain/BakeArtifact.h"
 
 #include <QtGlobal>
 #include <vector>

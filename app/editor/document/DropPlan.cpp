@@ -2,7 +2,7 @@
 
 #include "app/editor/document/FileKinds.h"
 #include "core/document/Document.h"
-#include "core/material/MapNames.h"
+#include "core/edit/MapNames.h"
 
 #include <QCoreApplication>
 #include <QFileInfo>

@@ -1,7 +1,7 @@
 // What files mean that are dropped together, worked out from their names before anything is read.
 #pragma once
 
-#include "core/material/Parameters.h"
+#include "core/edit/Parameters.h"
 
 #include <QString>
 #include <QStringList>
@@ -29,7 +29,7 @@ struct DropPlan {
     [[nodiscard]] QStringList lines(const Document& document, Id material) const;
 };
 
-// Images go by plain names to the maps of a material (core/material/MapNames.h); one alone whose
+// Images go by plain names to the maps of a material (core/edit/MapNames.h); one alone whose
 // name says nothing is its base colour, of several it is left out. Radiance and OpenEXR pictures
 // light the scene, unless they come with other images and their names say a map.
 [[nodiscard]] DropPlan planDrop(const QStringList& files);

@@ -1,8 +1,8 @@
 #include "app/editor/document/EnvironmentResolver.h"
 
-#include "core/document/LightMix.h"
 #include "core/job/Parallel.h"
 #include "core/light/EnvironmentResample.h"
+#include "core/mix/LightMix.h"
 
 #include <algorithm>
 #include <utility>

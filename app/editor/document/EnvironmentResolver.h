@@ -4,8 +4,8 @@
 #pragma once
 
 #include "core/job/JobContext.h"
-#include "core/light/EnvironmentBlend.h"
 #include "core/light/GeneratedEnvironment.h"
+#include "core/mix/EnvironmentBlend.h"
 
 #include <QObject>
 #include <QThreadPool>

@@ -1,6 +1,6 @@
 #include "app/editor/document/FileKinds.h"
 
-#include "core/mesh/MeshImport.h"
+#include "core/io/MeshImport.h"
 
 #include <QCoreApplication>
 #include <QFileInfo>

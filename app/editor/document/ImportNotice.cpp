@@ -1,6 +1,6 @@
 #include "app/editor/document/ImportNotice.h"
 
-#include "core/document/ImageProblem.h"
+#include "core/scene/ImageProblem.h"
 
 #include <QCoreApplication>
 

@@ -2,8 +2,8 @@
 
 #include "app/editor/document/Commands.h"
 #include "app/editor/document/DocumentController.h"
-#include "core/document/Scene.h"
 #include "core/document/Source.h"
+#include "core/scene/Scene.h"
 
 #include <QCoreApplication>
 #include <QFileInfo>

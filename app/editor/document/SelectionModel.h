@@ -2,7 +2,7 @@
 // viewport; never refers to an element that is gone.
 #pragma once
 
-#include "core/document/Change.h"
+#include "core/edit/Change.h"
 #include "core/material/Material.h"
 
 #include <QObject>

@@ -3,13 +3,15 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/UserNotice.h"
 #include "app/editor/job/LivePreview.h"
-#include "core/bake/BakeFileSize.h"
+#include "core/bake/Bake.h"
 #include "core/bake/BakeMemory.h"
-#include "core/bake/BakeStaleness.h"
-#include "core/bake/ResumableTracer.h"
+#include "core/bake/document/BakeStaleness.h"
+#include "core/bake/document/DocumentBakeInputs.h"
+#include "core/bake/file/BakeFileSize.h"
+#include "core/bake/transfer/ResumableTracer.h"
 #include "core/base/Log.h"
-#include "core/document/Edit.h"
-#include "core/material/Parameters.h"
+#include "core/edit/Edit.h"
+#include "core/edit/Parameters.h"
 
 #include <QFile>
 #include <QMetaObject>

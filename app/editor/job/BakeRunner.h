@@ -4,8 +4,8 @@
 
 #include "app/editor/job/InterruptedBakes.h"
 #include "app/editor/job/JobManager.h"
-#include "core/bake/BakeCache.h"
-#include "core/bake/BakeRequest.h"
+#include "core/bake/document/BakeCache.h"
+#include "core/bake/domain/BakeRequest.h"
 
 #include <QObject>
 #include <QString>

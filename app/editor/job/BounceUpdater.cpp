@@ -3,6 +3,8 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/job/JobManager.h"
 #include "app/editor/job/LivePreview.h"
+#include "core/bake/document/DocumentBakeInputs.h"
+#include "core/bake/domain/BakeHash.h"
 #include "core/base/Log.h"
 
 #include <algorithm>

@@ -1,8 +1,9 @@
 #include "app/editor/job/BounceWork.h"
 
-#include "core/bake/BakeOptions.h"
-#include "core/bake/BakeScene.h"
-#include "core/bake/Interreflection.h"
+#include "core/bake/bounce/Interreflection.h"
+#include "core/bake/domain/BakeHash.h"
+#include "core/bake/domain/BakeOptions.h"
+#include "core/trace/BakeScene.h"
 
 #include <algorithm>
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/bake/Bake.h"
-#include "core/bake/BounceSolver.h"
-#include "core/bake/SameTransport.h"
+#include "core/bake/bounce/BounceSolver.h"
+#include "core/bake/domain/SameTransport.h"
 
 #include <glm/vec3.hpp>
 #include <map>

@@ -1,6 +1,7 @@
 #include "app/editor/job/InterruptedBakes.h"
 
-#include "core/bake/BakeOptions.h"
+#include "core/bake/Bake.h"
+#include "core/bake/domain/BakeOptions.h"
 #include "core/base/Log.h"
 
 #include <algorithm>

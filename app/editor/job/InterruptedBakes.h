@@ -1,8 +1,8 @@
 // Checkpoints that a crash, a quit or another document left behind: bakes that can go on.
 #pragma once
 
-#include "core/bake/BakeCheckpoint.h"
-#include "core/bake/BakeRequest.h"
+#include "core/bake/domain/BakeRequest.h"
+#include "core/bake/transfer/BakeCheckpoint.h"
 
 #include <filesystem>
 #include <vector>

@@ -2,8 +2,8 @@
 
 #include "app/editor/document/DocumentController.h"
 #include "core/bake/BakeMemory.h"
-#include "core/document/Change.h"
-#include "core/document/Edit.h"
+#include "core/edit/Change.h"
+#include "core/edit/Edit.h"
 
 #include <new>
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "app/editor/job/LatestJob.h"
-#include "core/bake/NearShadows.h"
+#include "core/bake/local/NearShadows.h"
 
 #include <QObject>
 #include <QString>

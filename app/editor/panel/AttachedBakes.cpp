@@ -5,7 +5,8 @@
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/TextButton.h"
-#include "core/bake/BakeOptions.h"
+#include "core/bake/Bake.h"
+#include "core/bake/domain/BakeOptions.h"
 #include "core/document/AbsentBake.h"
 
 #include <QColor>

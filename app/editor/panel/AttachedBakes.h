@@ -2,7 +2,7 @@
 // why; baking again what is stale, all at once or one by one; going on with what was stopped.
 #pragma once
 
-#include "core/bake/BakeStaleness.h"
+#include "core/bake/document/BakeStaleness.h"
 
 #include <QWidget>
 #include <functional>

@@ -10,11 +10,13 @@
 #include "app/editor/widget/PanelScroll.h"
 #include "app/editor/widget/Section.h"
 #include "app/editor/widget/TextButton.h"
+#include "core/bake/Bake.h"
 #include "core/bake/BakeMemory.h"
-#include "core/bake/BakeStaleness.h"
+#include "core/bake/document/BakeStaleness.h"
+#include "core/bake/document/DocumentBakeInputs.h"
 #include "core/document/AbsentBake.h"
-#include "core/document/Edit.h"
-#include "core/material/Parameters.h"
+#include "core/edit/Edit.h"
+#include "core/edit/Parameters.h"
 
 #include <QButtonGroup>
 #include <QColor>

@@ -2,6 +2,7 @@
 
 #include "app/editor/job/BakeRunner.h"
 #include "app/editor/style/Tokens.h"
+#include "core/bake/Bake.h"
 
 #include <QCheckBox>
 #include <QComboBox>

@@ -1,8 +1,8 @@
-// What to bake and how finely: a row for each setting that applies (core/bake/BakeOptions.h), kept
-// for each kind of bake.
+// What to bake and how finely: a row for each setting that applies
+// (core/bake/domain/BakeOptions.h), kept for each kind of bake.
 #pragma once
 
-#include "core/bake/BakeOptions.h"
+#include "core/bake/domain/BakeOptions.h"
 
 #include <QWidget>
 #include <map>

@@ -6,6 +6,7 @@
 #include "app/editor/panel/LensComparison.h"
 #include "core/image/Image.h"
 #include "core/light/Ibl.h"
+#include "core/material/Material.h"
 
 #include <QWidget>
 #include <optional>

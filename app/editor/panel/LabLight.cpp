@@ -5,6 +5,7 @@
 #include "core/job/Parallel.h"
 #include "core/light/CubeSampling.h"
 #include "core/light/Cubemap.h"
+#include "core/light/Environment.h"
 #include "core/light/EnvironmentMapping.h"
 #include "core/light/EnvironmentResample.h"
 #include "core/math/Shading.h"

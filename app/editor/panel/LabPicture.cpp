@@ -3,6 +3,7 @@
 #include "app/editor/style/FocusRing.h"
 #include "app/editor/style/Tokens.h"
 #include "core/image/ColorMap.h"
+#include "core/light/Environment.h"
 #include "core/light/EnvironmentMapping.h"
 
 #include <QKeyEvent>

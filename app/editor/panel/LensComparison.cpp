@@ -3,7 +3,7 @@
 #include "app/editor/panel/ParameterRow.h"
 #include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/PlotStyle.h"
-#include "core/document/ModelPresets.h"
+#include "core/material/ModelPresets.h"
 
 #include <QHBoxLayout>
 #include <QIcon>

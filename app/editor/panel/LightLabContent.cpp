@@ -7,9 +7,9 @@
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/PixelProbe.h"
 #include "app/editor/widget/ElidedLabel.h"
-#include "core/document/LightMix.h"
 #include "core/light/LatLongGrid.h"
 #include "core/math/Shading.h"
+#include "core/mix/LightMix.h"
 
 #include <QLabel>
 

@@ -8,8 +8,8 @@
 #include "app/editor/style/LightIcon.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/PanelScroll.h"
-#include "core/document/LightMix.h"
-#include "core/document/Lights.h"
+#include "core/light/Lights.h"
+#include "core/mix/LightMix.h"
 
 #include <QHBoxLayout>
 #include <QHeaderView>

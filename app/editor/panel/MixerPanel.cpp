@@ -11,11 +11,11 @@
 #include "app/editor/widget/MapSlotWidget.h"
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Slider.h"
-#include "core/document/LightMix.h"
 #include "core/document/Source.h"
 #include "core/library/Library.h"
-#include "core/light/MixLevels.h"
 #include "core/math/Shading.h"
+#include "core/mix/LightMix.h"
+#include "core/mix/MixLevels.h"
 
 #include <QDateTime>
 #include <QFileDialog>

@@ -8,7 +8,7 @@
 #include "app/editor/widget/ColorConversion.h"
 #include "app/editor/widget/FurnacePlot.h"
 #include "app/editor/widget/PanelScroll.h"
-#include "core/document/ModelPresets.h"
+#include "core/material/ModelPresets.h"
 #include "core/math/Shading.h"
 
 #include <QGridLayout>

@@ -3,7 +3,7 @@
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/RowLabel.h"
-#include "core/document/ResetValue.h"
+#include "core/edit/ResetValue.h"
 
 #include <QDateTime>
 #include <QHBoxLayout>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/editor/document/DocumentController.h"
-#include "core/material/Parameters.h"
+#include "core/edit/Parameters.h"
 
 #include <QWidget>
 #include <functional>

@@ -5,7 +5,7 @@
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/ColorConversion.h"
 #include "app/editor/widget/Thumbnails.h"
-#include "core/document/ImageProblem.h"
+#include "core/scene/ImageProblem.h"
 
 #include <QPainter>
 #include <QPixmap>

@@ -2,7 +2,7 @@
 // nothing but the shape of the tree it last told its views about.
 #pragma once
 
-#include "core/document/Change.h"
+#include "core/edit/Change.h"
 
 #include <QAbstractItemModel>
 #include <QColor>

@@ -10,7 +10,7 @@
 #include "app/editor/widget/PlotStyle.h"
 #include "app/editor/widget/TextButton.h"
 #include "app/editor/widget/TileArea.h"
-#include "core/document/Edit.h"
+#include "core/edit/Edit.h"
 
 #include <QComboBox>
 #include <QHBoxLayout>

@@ -1,9 +1,10 @@
 #include "app/editor/panel/TransferStudy.h"
 
-#include "core/bake/NearLightAt.h"
-#include "core/bake/TransferMeaning.h"
-#include "core/light/TransferLight.h"
+#include "core/bake/document/DocumentBakeInputs.h"
+#include "core/bake/local/NearLightAt.h"
+#include "core/bake/transfer/TransferMeaning.h"
 #include "core/math/Shading.h"
+#include "core/mix/TransferLight.h"
 
 #include <QObject>
 #include <algorithm>

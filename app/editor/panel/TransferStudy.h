@@ -3,10 +3,10 @@
 #pragma once
 
 #include "app/editor/panel/LabLight.h"
-#include "core/bake/NearShadows.h"
-#include "core/bake/TransferPoint.h"
+#include "core/bake/document/TransferPoint.h"
+#include "core/bake/local/NearShadows.h"
 #include "core/document/Document.h"
-#include "core/document/LightMix.h"
+#include "core/mix/LightMix.h"
 #include "render/scene/SurfaceLobe.h"
 
 #include <QImage>

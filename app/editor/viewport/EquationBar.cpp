@@ -9,9 +9,9 @@
 #include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/ElidedLabel.h"
 #include "app/editor/widget/FoldButton.h"
-#include "core/document/LightMix.h"
-#include "core/document/Lights.h"
-#include "core/document/ViewReasons.h"
+#include "core/edit/ViewReasons.h"
+#include "core/light/Lights.h"
+#include "core/mix/LightMix.h"
 
 #include <QComboBox>
 #include <QHBoxLayout>

@@ -2,10 +2,10 @@
 
 #include "app/editor/viewport/ViewState.h"
 #include "core/document/Document.h"
-#include "core/document/LightMix.h"
-#include "core/document/Lights.h"
-#include "core/document/ViewReasons.h"
+#include "core/edit/ViewReasons.h"
+#include "core/light/Lights.h"
 #include "core/math/Shading.h"
+#include "core/mix/LightMix.h"
 
 #include <QCoreApplication>
 #include <algorithm>

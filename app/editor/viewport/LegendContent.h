@@ -1,7 +1,7 @@
 // What the legend of a view says, as plain values: names, colours, why there is nothing to see.
 #pragma once
 
-#include "core/document/ViewReasons.h"
+#include "core/edit/ViewReasons.h"
 #include "render/view/ViewSettings.h"
 
 #include <QColor>

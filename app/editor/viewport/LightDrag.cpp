@@ -4,7 +4,7 @@
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/viewport/Navigator.h"
 #include "app/editor/widget/StatusHint.h"
-#include "core/document/Lights.h"
+#include "core/light/Lights.h"
 
 #include <QWidget>
 #include <algorithm>

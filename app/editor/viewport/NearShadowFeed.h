@@ -1,7 +1,7 @@
 // Brings traced shadows of local lights into the renderer, and says whether it has use for them.
 #pragma once
 
-#include "core/bake/NearShadows.h"
+#include "core/bake/local/NearShadows.h"
 
 #include <QObject>
 

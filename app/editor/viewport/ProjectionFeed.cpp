@@ -1,7 +1,7 @@
 #include "app/editor/viewport/ProjectionFeed.h"
 
-#include "core/document/LightMix.h"
 #include "core/math/SphericalHarmonics.h"
+#include "core/mix/LightMix.h"
 
 #include <algorithm>
 

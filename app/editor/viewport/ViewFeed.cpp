@@ -3,7 +3,7 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/viewport/ViewGate.h"
 #include "app/editor/viewport/ViewState.h"
-#include "core/document/ViewReasons.h"
+#include "core/edit/ViewReasons.h"
 #include "render/Renderer.h"
 
 #include <utility>

@@ -2,7 +2,7 @@
 // between them. Sees to their places.
 #pragma once
 
-#include "core/document/ViewReasons.h"
+#include "core/edit/ViewReasons.h"
 
 #include <QObject>
 

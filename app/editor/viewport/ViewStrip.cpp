@@ -5,7 +5,7 @@
 #include "app/editor/viewport/ViewState.h"
 #include "app/editor/viewport/ViewThumb.h"
 #include "app/editor/widget/FoldButton.h"
-#include "core/document/ViewReasons.h"
+#include "core/edit/ViewReasons.h"
 
 #include <QContextMenuEvent>
 #include <QHBoxLayout>

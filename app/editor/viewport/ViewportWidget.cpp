@@ -7,9 +7,9 @@
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/LobeOnSurface.h"
 #include "core/base/Log.h"
-#include "core/document/LightMix.h"
 #include "core/job/Parallel.h"
 #include "core/job/WorkGate.h"
+#include "core/mix/LightMix.h"
 #include "render/Renderer.h"
 #include "render/gl/Context.h"
 

@@ -7,8 +7,8 @@
 #include "app/editor/widget/ElidedLabel.h"
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Thumbnails.h"
-#include "core/document/ImageProblem.h"
 #include "core/library/Library.h"
+#include "core/scene/ImageProblem.h"
 
 #include <QComboBox>
 #include <QDragEnterEvent>

@@ -5,6 +5,7 @@
 #include "app/editor/widget/RecentSkies.h"
 #include "app/editor/widget/Thumbnails.h"
 #include "core/library/Library.h"
+#include "core/light/Environment.h"
 
 #include <QFileInfo>
 #include <QGridLayout>

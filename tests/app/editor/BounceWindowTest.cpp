@@ -7,6 +7,7 @@
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Slider.h"
 #include "core/bake/Bake.h"
+#include "core/bake/document/DocumentBakeInputs.h"
 
 #include <QDir>
 #include <QDockWidget>

@@ -11,9 +11,9 @@
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/PolarPlot.h"
 #include "app/editor/widget/Slider.h"
-#include "core/document/ModelPresets.h"
+#include "core/edit/Parameters.h"
 #include "core/light/DfgTable.h"
-#include "core/material/Parameters.h"
+#include "core/material/ModelPresets.h"
 #include "tests/app/editor/EditorFixture.h"
 
 #include <QApplication>

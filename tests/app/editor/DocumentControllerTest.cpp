@@ -3,9 +3,9 @@
 #include "app/editor/Session.h"
 #include "app/editor/document/Commands.h"
 #include "app/editor/document/FileOnDisk.h"
-#include "core/document/DocumentIO.h"
-#include "core/document/Edit.h"
-#include "core/image/ImageIO.h"
+#include "core/edit/Edit.h"
+#include "core/io/ImageIO.h"
+#include "core/scene/DocumentIO.h"
 #include "tests/core/document/RandomDocument.h"
 
 #include <QFile>

@@ -3,8 +3,8 @@
 #include "tests/app/editor/EditorFixture.h"
 
 #include "app/editor/document/Commands.h"
-#include "core/document/EnvironmentSave.h"
-#include "core/document/Scene.h"
+#include "core/scene/EnvironmentSave.h"
+#include "core/scene/Scene.h"
 
 #include <QCheckBox>
 #include <QComboBox>

@@ -9,10 +9,10 @@
 #include "app/editor/widget/LatLongView.h"
 #include "app/editor/widget/RecentSkies.h"
 #include "app/editor/widget/SkyGallery.h"
-#include "core/document/EnvironmentSave.h"
 #include "core/library/SoftboxRigs.h"
 #include "core/light/GeneratedEnvironment.h"
 #include "core/light/LatLongGrid.h"
+#include "core/scene/EnvironmentSave.h"
 
 #include <QFile>
 #include <QListWidget>

@@ -11,7 +11,7 @@
 #include "app/editor/document/Commands.h"
 #include "app/editor/viewport/EquationBar.h"
 #include "app/editor/viewport/ViewStrip.h"
-#include "core/document/Edit.h"
+#include "core/edit/Edit.h"
 
 #include <QDialog>
 #include <QDir>

@@ -6,7 +6,7 @@
 #include "app/editor/widget/Fader.h"
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Slider.h"
-#include "core/document/LightMix.h"
+#include "core/mix/LightMix.h"
 #include "tests/app/editor/EditorFixture.h"
 
 #include <QLabel>

@@ -6,8 +6,9 @@
 #include "app/editor/job/NearShadowUpdater.h"
 #include "app/editor/widget/BusyIndicator.h"
 #include "core/bake/Bake.h"
-#include "core/light/TransferLight.h"
+#include "core/bake/document/DocumentBakeInputs.h"
 #include "core/math/Shading.h"
+#include "core/mix/TransferLight.h"
 
 #include <QLabel>
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Pictures outside the model's folder: asked about once, read when the user agrees.
 #include "app/editor/OutsideQuestion.h"
 #include "app/editor/document/PrintableNotice.h"
-#include "core/image/ImageIO.h"
+#include "core/io/ImageIO.h"
 #include "tests/app/editor/EditorFixture.h"
 
 #include <QMessageBox>

@@ -18,8 +18,8 @@
 #include "app/editor/widget/RowLabel.h"
 #include "app/editor/widget/SkyGallery.h"
 #include "app/editor/widget/Slider.h"
-#include "core/document/Lights.h"
-#include "core/image/ImageIO.h"
+#include "core/io/ImageIO.h"
+#include "core/light/Lights.h"
 
 #include <QCheckBox>
 #include <QComboBox>

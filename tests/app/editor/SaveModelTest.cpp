@@ -4,10 +4,10 @@
 
 #include "app/editor/Session.h"
 #include "app/editor/document/Commands.h"
-#include "core/bake/BakeIO.h"
-#include "core/document/DocumentIO.h"
-#include "core/document/Edit.h"
-#include "core/document/ProjectJson.h"
+#include "core/bake/file/BakeIO.h"
+#include "core/edit/Edit.h"
+#include "core/scene/DocumentIO.h"
+#include "core/scene/ProjectJson.h"
 
 #include <QElapsedTimer>
 #include <QFile>

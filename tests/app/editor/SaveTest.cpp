@@ -3,8 +3,8 @@
 
 #include "app/editor/Session.h"
 #include "app/editor/document/Commands.h"
-#include "core/document/DocumentIO.h"
-#include "core/document/Edit.h"
+#include "core/edit/Edit.h"
+#include "core/scene/DocumentIO.h"
 
 #include <QDir>
 #include <QFile>

@@ -6,7 +6,8 @@
 #include "app/editor/widget/BandBars.h"
 #include "app/editor/widget/PictureTile.h"
 #include "core/bake/Bake.h"
-#include "core/bake/NearLightAt.h"
+#include "core/bake/document/DocumentBakeInputs.h"
+#include "core/bake/local/NearLightAt.h"
 #include "core/math/SphericalHarmonics.h"
 
 #include <QComboBox>

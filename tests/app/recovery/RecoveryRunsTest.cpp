@@ -2,9 +2,9 @@
 // offered, at most two seconds of it are lost, and the user's file is as it was. How often:
 // PATINA_RECOVERY_KILLS, _TERMS and _DISPLAYS (a few by default; the demand is 100, 20 and 20).
 
-#include "core/document/DocumentIO.h"
-#include "core/document/Scene.h"
 #include "core/recovery/RecoverySession.h"
+#include "core/scene/DocumentIO.h"
+#include "core/scene/Scene.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/app/recovery/ChildProcess.h"
 #include "tests/support/TemporaryFolder.h"

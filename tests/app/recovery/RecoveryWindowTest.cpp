@@ -5,7 +5,7 @@
 #include "app/editor/Recovery.h"
 #include "app/editor/RecoveryDialog.h"
 #include "app/editor/document/Commands.h"
-#include "core/document/DocumentIO.h"
+#include "core/scene/DocumentIO.h"
 
 #include <QDir>
 #include <QFile>

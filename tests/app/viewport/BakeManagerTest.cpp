@@ -8,8 +8,10 @@
 #include "app/editor/panel/JobRow.h"
 #include "app/editor/panel/JobTexts.h"
 #include "app/editor/viewport/IblUpdater.h"
-#include "core/bake/BakeOptions.h"
-#include "core/bake/BakeStaleness.h"
+#include "core/bake/Bake.h"
+#include "core/bake/document/BakeStaleness.h"
+#include "core/bake/document/DocumentBakeInputs.h"
+#include "core/bake/domain/BakeOptions.h"
 
 #include <QCheckBox>
 #include <QComboBox>

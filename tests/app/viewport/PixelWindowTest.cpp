@@ -6,7 +6,7 @@
 #include "app/editor/viewport/PinMarker.h"
 #include "app/editor/viewport/PixelPicker.h"
 #include "app/editor/widget/ContributionChart.h"
-#include "core/document/Lights.h"
+#include "core/light/Lights.h"
 #include "tests/app/editor/EditorFixture.h"
 
 #include <QClipboard>

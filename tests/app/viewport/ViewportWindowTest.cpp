@@ -1,7 +1,7 @@
 // The viewport and the bakes, driven by real mouse and key events in the real window.
 
 #include "app/editor/job/JobManager.h"
-#include "core/document/Lights.h"
+#include "core/light/Lights.h"
 #include "render/scene/LightGizmo.h"
 #include "tests/app/editor/EditorFixture.h"
 

@@ -12,7 +12,7 @@
 #include "app/editor/widget/ColorScale.h"
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Slider.h"
-#include "core/document/Lights.h"
+#include "core/light/Lights.h"
 #include "tests/app/editor/EditorFixture.h"
 
 #include <QComboBox>

@@ -1,4 +1,5 @@
-#include "core/bake/BakeCache.h"
+#include "core/bake/document/BakeCache.h"
+#include "core/bake/domain/BakeHash.h"
 #include "tests/core/bake/BakeTestScene.h"
 #include "tests/support/TemporaryFolder.h"
 

@@ -1,6 +1,7 @@
 // Bakes in parts and in several runs end in the very bits of one that was left alone.
-#include "core/bake/BakeMerge.h"
-#include "core/bake/ResumableTracer.h"
+#include "core/bake/Bake.h"
+#include "core/bake/transfer/BakeMerge.h"
+#include "core/bake/transfer/ResumableTracer.h"
 #include "core/base/AtomicFile.h"
 #include "tests/core/bake/BakeTestScene.h"
 #include "tests/support/FullDisk.h"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/bake/Bake.h"
+#include "core/bake/document/DocumentBakeInputs.h"
 #include "core/document/Document.h"
 #include "tests/core/bake/BakeTestScene.h"
 

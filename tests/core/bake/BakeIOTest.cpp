@@ -1,6 +1,6 @@
 // Bake files: what is written comes back, and nothing else is believed.
-#include "core/bake/BakeIO.h"
-#include "core/bake/BakeParts.h"
+#include "core/bake/file/BakeIO.h"
+#include "core/bake/file/BakeParts.h"
 #include "core/document/Document.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/core/bake/BakeFileScene.h"

@@ -1,4 +1,5 @@
 // How bakes behave as jobs: passes, stop, cancel, determinism, errors.
+#include "core/bake/domain/BakeHash.h"
 #include "core/job/Parallel.h"
 #include "tests/core/bake/BakeTestScene.h"
 

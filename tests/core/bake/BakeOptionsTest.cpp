@@ -1,4 +1,4 @@
-#include "core/bake/BakeOptions.h"
+#include "core/bake/domain/BakeOptions.h"
 
 #include <gtest/gtest.h>
 #include <set>

@@ -1,7 +1,7 @@
 // Several meshes in a part of a bake file: the same bits come back, damage is refused.
-#include "core/bake/BakePacking.h"
-#include "core/bake/BakeIO.h"
-#include "core/bake/BakeParts.h"
+#include "core/bake/file/BakePacking.h"
+#include "core/bake/file/BakeIO.h"
+#include "core/bake/file/BakeParts.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/core/bake/BakeFileScene.h"
 #include "tests/support/TemporaryFolder.h"

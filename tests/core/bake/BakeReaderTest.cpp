@@ -1,5 +1,5 @@
 // The reader in docs/prt-format.md, run by Python on files of ours.
-#include "core/bake/BakeIO.h"
+#include "core/bake/file/BakeIO.h"
 #include "core/document/Document.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/core/bake/BakeFileScene.h"

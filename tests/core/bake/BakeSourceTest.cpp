@@ -1,11 +1,14 @@
 // Bakes lead back to the model's own file: what docs/prt-format.md says about that, its Python
 // included, on files whose import changes the vertices.
-#include "core/bake/BakeSource.h"
-#include "core/bake/BakeFileSize.h"
-#include "core/bake/BakeIO.h"
-#include "core/bake/BakeParts.h"
-#include "core/document/Scene.h"
+#include "core/bake/file/BakeSource.h"
+#include "core/bake/document/DocumentBakeInputs.h"
+#include "core/bake/domain/BakeHash.h"
+#include "core/bake/file/BakeFileSize.h"
+#include "core/bake/file/BakeIO.h"
+#include "core/bake/file/BakeParts.h"
+#include "core/io/MeshImport.h"
 #include "core/mesh/MeshSource.h"
+#include "core/scene/Scene.h"
 #include "tests/core/bake/BakeFileScene.h"
 #include "tests/core/worker/ModelFiles.h"
 

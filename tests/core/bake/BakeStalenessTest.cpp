@@ -1,5 +1,7 @@
-#include "core/bake/BakeStaleness.h"
-#include "core/bake/BakeOptions.h"
+#include "core/bake/document/BakeStaleness.h"
+#include "core/bake/Bake.h"
+#include "core/bake/document/DocumentBakeInputs.h"
+#include "core/bake/domain/BakeOptions.h"
 #include "core/document/Document.h"
 #include "tests/core/bake/BakeTestScene.h"
 

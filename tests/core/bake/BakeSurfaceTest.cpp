@@ -1,6 +1,7 @@
-#include "core/bake/BakeSurface.h"
+#include "core/trace/BakeSurface.h"
 
 #include "core/bake/Bake.h"
+#include "core/bake/document/DocumentBakeInputs.h"
 #include "core/document/Document.h"
 #include "core/image/Srgb.h"
 

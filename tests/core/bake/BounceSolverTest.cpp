@@ -1,7 +1,7 @@
 // The solver's sums against plain ones over the same hits, and its sets of instructions against
 // each other.
-#include "core/bake/BounceGather.h"
-#include "core/bake/Interreflection.h"
+#include "core/bake/bounce/BounceGather.h"
+#include "core/bake/bounce/Interreflection.h"
 #include "tests/core/bake/BakeTestScene.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ BakeInputs colourfulScene() {
 }
 
 // B_k of every coefficient and element, channel by channel in double precision, as
-// core/bake/BounceSolver.h writes the sum.
+// core/bake/bounce/BounceSolver.h writes the sum.
 std::vector<double> plainBounces(const HitSource& hits, const BakeInputs& inputs,
                                  std::span<const float> direct, int bounces) {
     const BounceElements& elements = hits.elements();

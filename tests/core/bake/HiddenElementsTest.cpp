@@ -1,6 +1,7 @@
 // What stands within another object tells nothing about the light beside it.
-#include "core/bake/HiddenElements.h"
-#include "core/bake/Interreflection.h"
+#include "core/bake/bounce/HiddenElements.h"
+#include "core/bake/Bake.h"
+#include "core/bake/bounce/Interreflection.h"
 #include "tests/core/bake/BakeTestScene.h"
 
 #include <gtest/gtest.h>

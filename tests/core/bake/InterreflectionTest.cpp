@@ -1,8 +1,9 @@
 // Bounces against closed forms: inside a sphere every point lights every other alike, so that
 // interreflection there is a geometric series in every band (integrating sphere; see
 // docs/maths/baking.md).
-#include "core/bake/Interreflection.h"
-#include "core/bake/BakeOptions.h"
+#include "core/bake/bounce/Interreflection.h"
+#include "core/bake/Bake.h"
+#include "core/bake/domain/BakeOptions.h"
 #include "core/job/Parallel.h"
 #include "core/math/Shading.h"
 #include "tests/core/bake/BakeTestScene.h"

@@ -1,6 +1,6 @@
 // Shadows of local lights against closed forms.
-#include "core/bake/NearLightAt.h"
-#include "core/bake/NearShadows.h"
+#include "core/bake/local/NearLightAt.h"
+#include "core/bake/local/NearShadows.h"
 #include "core/job/Parallel.h"
 #include "core/math/Shading.h"
 #include "tests/core/bake/BakeTestScene.h"

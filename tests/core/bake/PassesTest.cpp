@@ -1,9 +1,9 @@
 // The engine under the bakes: parts and resumed work are the whole, sampling methods, the error
 // that passes tell, and passes to a tolerance.
-#include "core/bake/BakePoints.h"
-#include "core/bake/Refinement.h"
-#include "core/bake/TransferMeaning.h"
-#include "core/bake/VisibilityTiles.h"
+#include "core/bake/domain/BakePoints.h"
+#include "core/bake/transfer/Refinement.h"
+#include "core/bake/transfer/TransferMeaning.h"
+#include "core/bake/transfer/VisibilityTiles.h"
 #include "core/job/Parallel.h"
 #include "core/math/Sampling.h"
 #include "core/math/SphericalHarmonics.h"

@@ -1,4 +1,4 @@
-#include "core/bake/RayScene.h"
+#include "core/trace/RayScene.h"
 #include "tests/core/bake/BakeTestScene.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-#include "core/bake/GutterFill.h"
+#include "core/bake/Bake.h"
+#include "core/bake/domain/GutterFill.h"
 #include "core/math/SphericalHarmonics.h"
 #include "core/mesh/UvUnwrap.h"
 #include "tests/core/bake/BakeTestScene.h"

@@ -1,7 +1,8 @@
 // Bounces between texels: against the closed form of the bowl, and against the bounces between the
 // vertices of a mesh that is fine enough for them.
-#include "core/bake/Interreflection.h"
-#include "core/bake/TexelBounces.h"
+#include "core/bake/Bake.h"
+#include "core/bake/bounce/Interreflection.h"
+#include "core/bake/bounce/TexelBounces.h"
 #include "core/job/Parallel.h"
 #include "core/math/Shading.h"
 #include "tests/core/bake/BakeTestScene.h"

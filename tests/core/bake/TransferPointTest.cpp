@@ -1,5 +1,6 @@
 // What the inspector shows of a point, against values that are known.
-#include "core/bake/TransferPoint.h"
+#include "core/bake/document/TransferPoint.h"
+#include "core/bake/document/DocumentBakeInputs.h"
 #include "core/document/Document.h"
 #include "tests/core/bake/BakeFileScene.h"
 

@@ -1,4 +1,5 @@
 #include "core/bake/TransferRefinement.h"
+#include "core/bake/Bake.h"
 #include "tests/core/bake/BakeTestScene.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // Radiance transfer against closed forms. The definitions there are T_i = ∫ V cos Y_i dω; ours are
-// divided by pi (core/bake/BakeArtifact.h).
+// divided by pi (core/bake/domain/BakeArtifact.h).
 #include "core/math/ShRotation.h"
 #include "core/math/SphericalHarmonics.h"
 #include "tests/core/bake/BakeTestScene.h"

@@ -1,5 +1,5 @@
 // The fit over the surface against what is known in closed form, without a ray.
-#include "core/bake/VertexFit.h"
+#include "core/bake/transfer/VertexFit.h"
 #include "core/job/Parallel.h"
 #include "tests/core/bake/BakeTestScene.h"
 

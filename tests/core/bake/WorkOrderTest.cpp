@@ -1,4 +1,5 @@
-#include "core/bake/WorkOrder.h"
+#include "core/bake/transfer/WorkOrder.h"
+#include "core/bake/Bake.h"
 #include "core/job/Parallel.h"
 #include "core/math/Camera.h"
 #include "tests/core/bake/BakeTestScene.h"

@@ -2,9 +2,14 @@
 
 #include <filesystem>
 #include <fstream>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <map>
 #include <regex>
+#include <set>
+#include <sstream>
 #include <string>
+#include <vector>
 
 namespace fs = std::filesystem;
 
@@ -43,6 +48,85 @@ TEST(Borders, CoreSeesNeitherQtNorOpenGlNorTheRoomsAboveIt) {
     EXPECT_EQ(violations("core", "Q[A-Z]|Qt|GL/|epoxy|render/|app/"), 0);
 }
 
+// The modules of core with those they depend on, as their CMakeLists.txt have it (patina_module()).
+std::map<std::string, std::set<std::string>> modules() {
+    std::map<std::string, std::set<std::string>> result;
+    const fs::path core = fs::path(PATINA_SOURCE_DIR) / "core";
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(core)) {
+        if (entry.path().filename() != "CMakeLists.txt" || entry.path().parent_path() == core)
+            continue;
+        std::ifstream stream(entry.path());
+        std::stringstream text;
+        text << stream.rdbuf();
+        const std::string lines = text.str();
+        const std::string folder = fs::relative(entry.path().parent_path(), core).generic_string();
+        EXPECT_THAT(lines, ::testing::HasSubstr("patina_module(" + folder + "\n"));
+        std::set<std::string>& dependencies = result[folder];
+        std::smatch list;
+        if (!std::regex_search(lines, list, std::regex("DEPENDS ([^\n)]*)")))
+            continue;
+        std::istringstream words(list[1]);
+        for (std::string word; words >> word;)
+            dependencies.insert(word);
+    }
+    return result;
+}
+
+// A module with all that lies below it; empty where that leads back to the module.
+std::set<std::string> withModulesBelow(const std::map<std::string, std::set<std::string>>& modules,
+                                       const std::string& module) {
+    std::set<std::string> seen;
+    std::vector<std::string> open{module};
+    while (!open.empty()) {
+        const std::string current = open.back();
+        open.pop_back();
+        if (!modules.contains(current)) {
+            ADD_FAILURE() << current << ": no such module";
+            continue;
+        }
+        for (const std::string& below : modules.at(current)) {
+            if (below == module)
+                return {};
+            if (seen.insert(below).second)
+                open.push_back(below);
+        }
+    }
+    seen.insert(module);
+    return seen;
+}
+
+TEST(Borders, CoreModulesSeeOnlyThoseBelowThem) {
+    const auto all = modules();
+    EXPECT_GT(all.size(), 20u);
+    for (const auto& [module, dependencies] : all) {
+        SCOPED_TRACE(module);
+        const std::set<std::string> visible = withModulesBelow(all, module);
+        EXPECT_FALSE(visible.empty()) << "depends on itself";
+        std::string allowed;
+        for (const std::string& name : visible)
+            allowed += (allowed.empty() ? "" : "|") + name;
+        // Folders of a module's own folder are modules of their own.
+        const std::string own = "core/" + module;
+        const std::regex include(R"(^\s*#\s*include\s*"core/([a-z/]+)/)");
+        for (const fs::directory_entry& entry :
+             fs::directory_iterator(fs::path(PATINA_SOURCE_DIR) / own)) {
+            const std::string extension = entry.path().extension().string();
+            if (extension != ".h" && extension != ".cpp")
+                continue;
+            std::ifstream stream(entry.path());
+            std::string line;
+            for (int number = 1; std::getline(stream, line); ++number) {
+                std::smatch found;
+                if (std::regex_search(line, found, include)) {
+                    EXPECT_TRUE(visible.contains(found[1]))
+                        << own << "/" << entry.path().filename().string() << ":" << number << ": "
+                        << line << "\nvisible: " << allowed;
+                }
+            }
+        }
+    }
+}
+
 TEST(Borders, RenderSeesNoQtAndNoApplication) {
     EXPECT_EQ(violations("render", "Q[A-Z]|Qt|app/|embree|assimp|OpenImageIO"), 0);
 }
@@ -53,11 +137,11 @@ TEST(Borders, TheCommandLineAndTheWorkerSeeNoQt) {
 }
 
 TEST(Borders, EachLibraryHasOneAdapter) {
-    EXPECT_EQ(violations("core", "OpenImageIO/", "core/worker/ImageCodec.cpp"), 0);
-    EXPECT_EQ(violations("core", "OpenEXR/", "core/worker/LuminanceChroma.cpp"), 0);
-    EXPECT_EQ(violations("core", "assimp/", "core/worker/Assimp(Reader|Materials).cpp"), 0);
-    EXPECT_EQ(violations("core", "draco/", "core/worker/DracoMesh.cpp"), 0);
-    EXPECT_EQ(violations("core", "embree3/", "core/bake/RayScene.cpp"), 0);
+    EXPECT_EQ(violations("core", "OpenImageIO/", "core/codec/image/ImageCodec.cpp"), 0);
+    EXPECT_EQ(violations("core", "OpenEXR/", "core/codec/image/LuminanceChroma.cpp"), 0);
+    EXPECT_EQ(violations("core", "assimp/", "core/codec/model/Assimp(Reader|Materials).cpp"), 0);
+    EXPECT_EQ(violations("core", "draco/", "core/codec/model/DracoMesh.cpp"), 0);
+    EXPECT_EQ(violations("core", "embree3/", "core/trace/RayScene.cpp"), 0);
     EXPECT_EQ(violations("core", "(oneapi/)?tbb/", "core/job/Parallel.cpp"), 0);
     EXPECT_EQ(violations("app", "embree3/|assimp/|OpenImageIO/|(oneapi/)?tbb/"), 0);
 }
@@ -68,9 +152,10 @@ TEST(Borders, FilesAreOpenedForReadingInOnePlace) {
     const std::regex opens(
         "::open(at)?\\((?!.*O_(DIRECTORY|WRONLY|RDWR|TMPFILE)).*O_RDONLY|ifstream|"
         "fopen\\(");
-    EXPECT_EQ(lines("core", opens,
-                    "core/base/InputFile.cpp|core/bake/BakeMemory.cpp|core/worker/ModelFolder.cpp"),
-              0);
+    EXPECT_EQ(
+        lines("core", opens,
+              "core/base/InputFile.cpp|core/bake/BakeMemory.cpp|core/codec/model/ModelFolder.cpp"),
+        0);
     EXPECT_EQ(lines("render", opens, ""), 0);
     EXPECT_EQ(lines("app/cli", opens, ""), 0);
     EXPECT_EQ(lines("app/editor", opens, "app/editor/document/OpenProjects.cpp"), 0);

@@ -1,7 +1,7 @@
 // What has to be renewed after an edit, bit by bit: neither too little nor too much.
 
 #include "core/document/Dirty.h"
-#include "core/document/Edit.h"
+#include "core/edit/Edit.h"
 #include "tests/core/document/RandomDocument.h"
 
 #include <functional>

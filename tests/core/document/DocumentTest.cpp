@@ -1,7 +1,7 @@
 #include "core/document/Document.h"
 #include "core/base/Utf8.h"
-#include "core/document/ProjectPath.h"
 #include "core/document/Source.h"
+#include "core/scene/ProjectPath.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>

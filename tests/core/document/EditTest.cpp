@@ -1,6 +1,6 @@
-#include "core/document/Edit.h"
+#include "core/edit/Edit.h"
 #include "RandomDocument.h"
-#include "core/document/Lights.h"
+#include "core/light/Lights.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Environments from files: the guess of the layout, and what each kind of file becomes.
-#include "core/document/EnvironmentFile.h"
+#include "core/scene/EnvironmentFile.h"
 #include "core/light/EnvironmentResample.h"
 #include "tests/core/document/SceneFixture.h"
 

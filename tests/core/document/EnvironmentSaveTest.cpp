@@ -1,8 +1,8 @@
 // Environments written to files come back, in every layout and both formats.
-#include "core/document/EnvironmentSave.h"
-#include "core/document/EnvironmentFile.h"
+#include "core/scene/EnvironmentSave.h"
 #include "core/library/Library.h"
 #include "core/light/EnvironmentResample.h"
+#include "core/scene/EnvironmentFile.h"
 #include "tests/core/document/SceneFixture.h"
 
 #include <cmath>

@@ -1,12 +1,12 @@
-#include "core/document/LightMix.h"
+#include "core/mix/LightMix.h"
 
-#include "core/document/DocumentIO.h"
-#include "core/document/Edit.h"
-#include "core/document/Lights.h"
-#include "core/light/EnvironmentBlend.h"
+#include "core/edit/Edit.h"
 #include "core/light/Ibl.h"
+#include "core/light/Lights.h"
 #include "core/math/ShRotation.h"
 #include "core/math/SphericalHarmonics.h"
+#include "core/mix/EnvironmentBlend.h"
+#include "core/scene/DocumentIO.h"
 
 #include <cmath>
 #include <glm/trigonometric.hpp>

@@ -1,7 +1,7 @@
 #include "core/document/LightPlacement.h"
 
-#include "core/document/Edit.h"
-#include "core/document/Lights.h"
+#include "core/edit/Edit.h"
+#include "core/light/Lights.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
 // What lights do, against what can be worked out by hand.
-#include "core/document/Lights.h"
-#include "core/document/LightMix.h"
+#include "core/light/Lights.h"
+#include "core/mix/LightMix.h"
 
-#include "core/material/Parameters.h"
+#include "core/edit/Parameters.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -1,7 +1,8 @@
 // Shading models by name, metals by measurement, and how both reach the shading terms.
-#include "core/document/ModelPresets.h"
-#include "core/document/BrdfModel.h"
-#include "core/material/Parameters.h"
+#include "core/material/ModelPresets.h"
+#include "core/document/Document.h"
+#include "core/edit/Parameters.h"
+#include "core/material/BrdfModel.h"
 
 #include <gtest/gtest.h>
 #include <set>

@@ -1,9 +1,9 @@
 // Pictures outside the model's folder: left out, listed and never exported, until somebody agrees.
-#include "core/document/OutsidePictures.h"
+#include "core/scene/OutsidePictures.h"
 
-#include "core/document/DocumentIO.h"
 #include "core/export/Export.h"
-#include "core/mesh/MeshImport.h"
+#include "core/io/MeshImport.h"
+#include "core/scene/DocumentIO.h"
 #include "tests/core/document/SceneFixture.h"
 
 #include <gmock/gmock.h>

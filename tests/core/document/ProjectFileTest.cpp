@@ -1,11 +1,11 @@
 // Projects on disk: saving and opening again gives the same document, whatever became of its files.
 #include "SceneFixture.h"
 #include "core/base/AtomicFile.h"
-#include "core/document/DocumentIO.h"
-#include "core/document/Edit.h"
+#include "core/edit/Edit.h"
+#include "core/edit/Parameters.h"
 #include "core/export/Export.h"
 #include "core/light/GeneratedEnvironment.h"
-#include "core/material/Parameters.h"
+#include "core/scene/DocumentIO.h"
 
 #include <gmock/gmock.h>
 

@@ -1,8 +1,8 @@
 // A save is one step: whenever it ends, the project and its bakes are of one version, nothing that
 // the project names is lost, and nothing of others is overwritten unasked.
 #include "SceneFixture.h"
-#include "core/document/DocumentIO.h"
-#include "core/document/Edit.h"
+#include "core/edit/Edit.h"
+#include "core/scene/DocumentIO.h"
 
 #include <array>
 #include <atomic>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/document/Document.h"
-#include "core/material/Parameters.h"
+#include "core/edit/Parameters.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,8 +1,8 @@
 // Scenes on disk: small models with textures, written by the test itself.
 #pragma once
 
-#include "core/document/Scene.h"
-#include "core/image/ImageIO.h"
+#include "core/io/ImageIO.h"
+#include "core/scene/Scene.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/support/TemporaryFolder.h"
 

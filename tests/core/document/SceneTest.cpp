@@ -1,6 +1,6 @@
 #include "SceneFixture.h"
-#include "core/document/Edit.h"
-#include "core/document/ImageProblem.h"
+#include "core/edit/Edit.h"
+#include "core/scene/ImageProblem.h"
 
 #include <gmock/gmock.h>
 #include <set>

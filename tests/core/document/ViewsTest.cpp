@@ -1,7 +1,7 @@
 #include "core/document/Views.h"
-#include "core/bake/BakeArtifact.h"
+#include "core/bake/domain/BakeArtifact.h"
 #include "core/document/Document.h"
-#include "core/document/ViewReasons.h"
+#include "core/edit/ViewReasons.h"
 
 #include <gtest/gtest.h>
 #include <set>

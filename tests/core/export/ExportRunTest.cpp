@@ -1,9 +1,9 @@
 // What is planned is what is written, and what was written is read back the same.
 #include "ExportScene.h"
-#include "core/document/Lights.h"
-#include "core/document/ModelConversion.h"
-#include "core/image/ImageIO.h"
-#include "core/mesh/MeshImport.h"
+#include "core/io/ImageIO.h"
+#include "core/io/MeshImport.h"
+#include "core/light/Lights.h"
+#include "core/scene/ModelConversion.h"
 #include "core/worker/WorkerClient.h"
 
 #include "tests/support/TemporaryFolder.h"

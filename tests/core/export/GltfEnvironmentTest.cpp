@@ -2,8 +2,8 @@
 // filtered; read here as the extension's text says, not as the writer does it.
 #include "core/export/GltfEnvironment.h"
 #include "ExportScene.h"
-#include "core/image/ImageIO.h"
-#include "core/mesh/MeshImport.h"
+#include "core/io/ImageIO.h"
+#include "core/io/MeshImport.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/support/KnownRadiance.h"
 #include "tests/support/TemporaryFolder.h"

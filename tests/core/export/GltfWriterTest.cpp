@@ -1,4 +1,9 @@
 #include "ExportScene.h"
+#include "core/base/Id.h"
+#include "core/document/Document.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
+#include "core/mesh/Mesh.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>

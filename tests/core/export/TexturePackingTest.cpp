@@ -1,4 +1,10 @@
 #include "ExportScene.h"
+#include "core/bake/domain/BakeArtifact.h"
+#include "core/base/Id.h"
+#include "core/document/Document.h"
+#include "core/image/Image.h"
+#include "core/job/JobContext.h"
+#include "core/material/Material.h"
 
 #include <gmock/gmock.h>
 

@@ -2,11 +2,12 @@
 #include "core/export/TransferExport.h"
 #include "ExportScene.h"
 #include "core/bake/Bake.h"
+#include "core/bake/document/DocumentBakeInputs.h"
 #include "core/base/AtomicFile.h"
 #include "core/export/Export.h"
+#include "core/io/MeshImport.h"
 #include "core/light/OrientedEnvironment.h"
 #include "core/math/SphericalHarmonics.h"
-#include "core/mesh/MeshImport.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/support/TemporaryFolder.h"
 

@@ -1,7 +1,7 @@
 // Pictures and files for the tests of reading and writing.
 #pragma once
 
-#include "core/image/ImageIO.h"
+#include "core/io/ImageIO.h"
 #include "core/worker/WorkerClient.h"
 
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 #include "core/library/MaterialRecipes.h"
 #include "core/library/Meshes.h"
 #include "core/library/Noise.h"
-#include "core/library/PortableMath.h"
 #include "core/library/SkyRecipes.h"
+#include "core/math/PortableMath.h"
 
 #include <cmath>
 #include <gmock/gmock.h>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/document/Document.h"
-#include "core/image/ImageIO.h"
+#include "core/io/ImageIO.h"
 #include "core/job/Parallel.h"
 #include "core/library/Library.h"
 #include "core/light/CubeSampling.h"

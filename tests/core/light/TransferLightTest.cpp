@@ -1,11 +1,11 @@
-#include "core/light/TransferLight.h"
+#include "core/mix/TransferLight.h"
 
-#include "core/document/Lights.h"
-#include "core/light/EnvironmentBlend.h"
+#include "core/light/Lights.h"
 #include "core/light/NearRectangle.h"
 #include "core/math/ShRotation.h"
 #include "core/math/ShWindow.h"
 #include "core/math/Shading.h"
+#include "core/mix/EnvironmentBlend.h"
 
 #include <algorithm>
 #include <cmath>

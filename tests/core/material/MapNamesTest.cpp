@@ -1,4 +1,4 @@
-#include "core/material/MapNames.h"
+#include "core/edit/MapNames.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "core/material/ParameterReference.h"
+#include "core/edit/ParameterReference.h"
 #include "core/base/AtomicFile.h"
-#include "core/material/Parameters.h"
+#include "core/edit/Parameters.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

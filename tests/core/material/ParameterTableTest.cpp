@@ -1,6 +1,6 @@
 // Every row of the table: does it keep its promises, and does it reach the member it names?
 #include "core/document/Document.h"
-#include "core/material/Parameters.h"
+#include "core/edit/Parameters.h"
 
 #include <cmath>
 #include <cstdlib>

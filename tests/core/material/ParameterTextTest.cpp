@@ -1,5 +1,5 @@
 #include "core/document/Document.h"
-#include "core/material/Parameters.h"
+#include "core/edit/Parameters.h"
 
 #include <cmath>
 #include <cstring>

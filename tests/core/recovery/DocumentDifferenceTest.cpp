@@ -1,8 +1,8 @@
 // What "Compare with saved" lists.
 
-#include "core/document/DocumentDifference.h"
-#include "core/document/Edit.h"
-#include "core/document/Scene.h"
+#include "core/edit/DocumentDifference.h"
+#include "core/edit/Edit.h"
+#include "core/scene/Scene.h"
 
 #include <gmock/gmock.h>
 

@@ -1,10 +1,10 @@
 // What is kept of a document that changes, and that it comes back.
 
 #include "core/recovery/RecoveryWriter.h"
-#include "core/document/DocumentIO.h"
-#include "core/document/Scene.h"
 #include "core/recovery/RecoveryBakes.h"
 #include "core/recovery/RecoveryLoader.h"
+#include "core/scene/DocumentIO.h"
+#include "core/scene/Scene.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/support/TemporaryFolder.h"
 

@@ -1,4 +1,5 @@
 // Model files that are not what they should be: each has its own message and kind.
+#include "core/io/MeshImport.h"
 #include "tests/core/worker/ModelFiles.h"
 
 #include <sys/stat.h>

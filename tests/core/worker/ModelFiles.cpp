@@ -1,6 +1,6 @@
 #include "tests/core/worker/ModelFiles.h"
 
-#include "core/image/ImageIO.h"
+#include "core/io/ImageIO.h"
 #include "tests/core/worker/FbxWriter.h"
 
 #include <cstring>

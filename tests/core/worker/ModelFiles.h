@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/AtomicFile.h"
-#include "core/mesh/MeshImport.h"
+#include "core/io/MeshImport.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/support/TemporaryFolder.h"
 

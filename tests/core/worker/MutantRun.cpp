@@ -1,7 +1,7 @@
 #include "tests/core/worker/MutantRun.h"
 
-#include "core/image/ImageIO.h"
-#include "core/mesh/MeshImport.h"
+#include "core/io/ImageIO.h"
+#include "core/io/MeshImport.h"
 #include "tests/core/worker/ModelFiles.h"
 #include "tests/support/TemporaryFolder.h"
 

@@ -1,4 +1,4 @@
-#include "core/mesh/TexturePaths.h"
+#include "core/io/TexturePaths.h"
 
 #include "tests/support/TemporaryFolder.h"
 

@@ -1,0 +1,20 @@
+#include "core/bake/document/DocumentBakeInputs.h"
+
+#include "core/document/Document.h"
+
+namespace patina {
+
+BakeInputs bakeInputs(const Document& document) {
+    BakeInputs inputs;
+    for (const MeshInstance& instance : document.meshes) {
+        if (!instance.visible || !instance.mesh)
+            continue;
+        const Material* material = document.material(instance.material);
+        inputs.meshes.push_back({instance.id, instance.material, instance.mesh, instance.transform,
+                                 material != nullptr && material->doubleSided,
+                                 material != nullptr ? bakeSurface(*material) : BakeSurface{}});
+    }
+    return inputs;
+}
+
+} // namespace patina

@@ -1,0 +1,45 @@
+// A bake as it is asked for: what, and with which settings. bake() of core/bake/Bake.h runs any.
+#pragma once
+
+#include "core/bake/domain/BakeArtifact.h"
+
+#include <cstdint>
+
+namespace patina {
+
+struct AoSettings {
+    int samples = 256;        // rays per element, rounded up to a power of two
+    float maxDistance = 0.0f; // metres; 0: unlimited
+    int size = 1024;          // texel bake: side of the square texture
+    std::uint32_t seed = 0;
+};
+
+enum class SampleMethod {
+    Qmc,        // Owen-scrambled Sobol'
+    Stratified, // jittered N × N, the classical way; samples are rounded up to a square
+    Random      // independent: only to compare with
+};
+
+struct PrtSettings {
+    int order = 3;      // SH bands 1…8
+    int samples = 1024; // rays per element, rounded up to a power of two
+    std::uint32_t seed = 0;
+    TransferKind transfer = TransferKind::Shadowed;
+    int bounces = 3;         // Interreflected: 1…64
+    int bounceSamples = 256; // Interreflected: cached rays per vertex, rounded up to a power of two
+    SampleMethod method = SampleMethod::Qmc;
+    float tolerance = 0.0f; // RMS error of the coefficients at which to end early; 0: never
+    bool fitted = true;     // vertex: least squares over points of the surface (VertexSamples.h)
+    int size = 512;         // texel bake: side of the square texture
+    // Interreflected: bytes that hits may take, 8 for each ray that meets something; where they
+    // could take more they are traced anew for every bounce. 0: always.
+    std::uint64_t hitBudget = std::uint64_t{1} << 30;
+};
+
+struct BakeRequest {
+    BakeKind kind = BakeKind::PrtVertex;
+    AoSettings ao;   // for the kinds of ambient occlusion
+    PrtSettings prt; // for transfer
+};
+
+} // namespace patina

@@ -1,0 +1,178 @@
+#include "core/codec/AssimpMaterials.h"
+
+#include <algorithm>
+#include <array>
+#include <assimp/material.h>
+#include <assimp/scene.h>
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+#include <initializer_list>
+
+namespace patina::codec {
+
+namespace {
+
+std::optional<float> number(const aiMaterial& material, const char* key) {
+    ai_real value = 0;
+    if (material.Get(key, 0, 0, value) != AI_SUCCESS || !std::isfinite(value))
+        return std::nullopt;
+    return static_cast<float>(value);
+}
+
+std::optional<glm::vec3> color(const aiMaterial& material, const char* key) {
+    aiColor4D value;
+    if (material.Get(key, 0, 0, value) != AI_SUCCESS)
+        return std::nullopt;
+    return glm::vec3(value.r, value.g, value.b);
+}
+
+// Blinn-Phong's exponent n as a microfacet width: alpha = sqrt(2 / (n + 2)) (Walter et al. 2007,
+// section 5.1 gives n = 2 / alpha² - 2).
+float roughnessOfExponent(float exponent) {
+    return std::sqrt(std::sqrt(2.0f / (std::max(exponent, 0.0f) + 2.0f)));
+}
+
+class Reader {
+  public:
+    Reader(const aiScene& scene, std::string format, ImportedModel& model)
+        : m_scene(scene)
+        , m_format(std::move(format))
+        , m_model(model) {}
+
+    ImportedMaterial material(const aiMaterial& source, std::size_t index);
+
+  private:
+    std::optional<ImportedTexture>
+    texture(const aiMaterial& source, std::initializer_list<aiTextureType> types, char channel = 0);
+
+    const aiScene& m_scene;
+    std::string m_format;
+    ImportedModel& m_model;
+};
+
+std::optional<ImportedTexture> Reader::texture(const aiMaterial& source,
+                                               std::initializer_list<aiTextureType> types,
+                                               char channel) {
+    for (const aiTextureType type : types) {
+        aiString path;
+        if (source.GetTexture(type, 0, &path) != AI_SUCCESS || path.length == 0)
+            continue;
+        ImportedTexture result;
+        result.channel = channel;
+        const auto embedded = m_scene.GetEmbeddedTextureAndIndex(path.C_Str());
+        if (embedded.first != nullptr)
+            result.embedded = embedded.second;
+        else
+            result.file = std::string(path.data, path.length);
+
+        // FlipUVs has negated the translation; in Assimp's space, whose v points up, the file says
+        // v' = s v + t, which is 1 - v' = s (1 - v) + (1 - s - t) in ours.
+        aiUVTransform transform;
+        if (source.Get(AI_MATKEY_UVTRANSFORM(type, 0), transform) == AI_SUCCESS) {
+            result.uvScale = {transform.mScaling.x, transform.mScaling.y};
+            result.uvOffset = {transform.mTranslation.x,
+                               1.0f - transform.mScaling.y + transform.mTranslation.y};
+            if (std::abs(transform.mRotation) > 1e-6f)
+                m_model.warnings.push_back(
+                    fmt::format("The rotation of texture \"{}\" was ignored.", path.C_Str()));
+        }
+        return result;
+    }
+    return std::nullopt;
+}
+
+ImportedMaterial Reader::material(const aiMaterial& source, std::size_t index) {
+    ImportedMaterial material;
+    aiString name;
+    source.Get(AI_MATKEY_NAME, name);
+    material.name = name.length > 0 ? name.C_Str() : fmt::format("material {}", index + 1);
+    if (material.name == AI_DEFAULT_MATERIAL_NAME && m_format != "fbx") {
+        material.name = "default"; // the file has none; Assimp's own grey says nothing
+        material.baseColorMap = texture(source, {aiTextureType_DIFFUSE});
+        if (material.baseColorMap)
+            material.baseColor = glm::vec4(1.0f);
+        return material;
+    }
+
+    // Colour. A texture replaces the diffuse colour (COLLADA and FBX by definition; exporters of
+    // OBJ write any grey beside map_Kd).
+    material.baseColorMap = texture(source, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
+    if (material.baseColorMap)
+        material.baseColor = glm::vec4(1.0f);
+    else if (const auto base = color(source, "$clr.base"))
+        material.baseColor = glm::vec4(*base, 1.0f);
+    else if (const auto diffuse = color(source, "$clr.diffuse"))
+        material.baseColor = glm::vec4(*diffuse, 1.0f);
+    if (const auto opacity = number(source, "$mat.opacity")) {
+        material.baseColor.a = *opacity;
+        material.alphaBlend = *opacity < 1.0f;
+    }
+    if (const auto opacityMap = texture(source, {aiTextureType_OPACITY})) {
+        // The usual case: the alpha of the colour texture. Another file has no slot.
+        if (material.baseColorMap && opacityMap->file == material.baseColorMap->file &&
+            opacityMap->embedded == material.baseColorMap->embedded)
+            material.alphaMask = true;
+        else
+            m_model.warnings.push_back(
+                fmt::format("The opacity texture of material \"{}\" is not used; put it into the "
+                            "alpha of the base colour texture.",
+                            material.name));
+    }
+
+    // Surface: physically based values where the file has them, otherwise the exponent. (For FBX
+    // Assimp itself turns the exponent n into 1 - sqrt(n) / 10, the inverse of what Blender
+    // writes.)
+    if (const auto metallic = number(source, "$mat.metallicFactor"))
+        material.metallic = *metallic;
+    const auto exponent = number(source, "$mat.shininess");
+    if (const auto roughness = number(source, "$mat.roughnessFactor"))
+        material.perceptualRoughness = *roughness;
+    else if (exponent && *exponent > 0.0f)
+        material.perceptualRoughness = roughnessOfExponent(*exponent);
+    material.metallicMap = texture(source, {aiTextureType_METALNESS}, 'r');
+    if (material.metallicMap)
+        material.metallic = 1.0f;
+    material.roughnessMap = texture(source, {aiTextureType_DIFFUSE_ROUGHNESS}, 'r');
+    if (material.roughnessMap)
+        material.perceptualRoughness = 1.0f;
+
+    // What OBJ calls bump is a normal map in practice; other formats keep them apart.
+    material.normalMap =
+        m_format == "obj" ? texture(source, {aiTextureType_NORMALS, aiTextureType_HEIGHT})
+                          : texture(source, {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA});
+    if (material.normalMap)
+        if (const auto strength = number(source, "$mat.bumpscaling"); strength && *strength > 0.0f)
+            material.normalStrength = *strength;
+    material.occlusionMap = texture(source, {aiTextureType_AMBIENT_OCCLUSION}, 'r');
+
+    material.emissiveMap = texture(source, {aiTextureType_EMISSION_COLOR, aiTextureType_EMISSIVE});
+    material.emissive = color(source, "$clr.emissive").value_or(glm::vec3(0.0f));
+    if (material.emissiveMap && material.emissive == glm::vec3(0.0f))
+        material.emissive = glm::vec3(1.0f);
+    int twoSided = 0;
+    source.Get(AI_MATKEY_TWOSIDED, twoSided);
+    material.doubleSided = twoSided != 0;
+    return material;
+}
+
+} // namespace
+
+void readAssimpMaterials(const aiScene& scene, const std::string& format, ImportedModel& model) {
+    for (unsigned int i = 0; i < scene.mNumTextures; ++i) {
+        const aiTexture& texture = *scene.mTextures[i];
+        Bytes& bytes = model.embeddedImages.emplace_back();
+        if (texture.mHeight != 0) {
+            model.warnings.emplace_back("An embedded texture without compression is not read.");
+            continue;
+        }
+        bytes.resize(texture.mWidth);
+        if (texture.mWidth > 0)
+            std::memcpy(bytes.data(), texture.pcData, bytes.size());
+    }
+    Reader reader(scene, format, model);
+    for (unsigned int i = 0; i < scene.mNumMaterials; ++i)
+        model.materials.push_back(reader.material(*scene.mMaterials[i], i));
+}
+
+} // namespace patina::codec

@@ -1,0 +1,265 @@
+#include "core/codec/AssimpReader.h"
+
+#include "core/base/Limits.h"
+#include "core/codec/AssimpMaterials.h"
+#include "core/codec/Codec.h"
+
+#include <algorithm>
+#include <assimp/DefaultLogger.hpp>
+#include <assimp/IOStream.hpp>
+#include <assimp/IOSystem.hpp>
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/importerdesc.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <cstring>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <sstream>
+
+namespace patina::codec {
+
+namespace {
+
+class Stream : public Assimp::IOStream {
+  public:
+    explicit Stream(MemoryFile file)
+        : m_file(std::move(file)) {}
+
+    std::size_t Read(void* buffer, std::size_t size, std::size_t count) override {
+        const auto rest = m_file.bytes().subspan(m_position);
+        const std::size_t whole = size == 0 ? 0 : std::min(count, rest.size() / size);
+        if (whole > 0)
+            std::memcpy(buffer, rest.data(), whole * size);
+        m_position += whole * size;
+        return whole;
+    }
+    std::size_t Write(const void*, std::size_t, std::size_t) override { return 0; }
+    aiReturn Seek(std::size_t offset, aiOrigin origin) override {
+        const std::size_t size = m_file.bytes().size();
+        const std::size_t base = origin == aiOrigin_SET   ? 0
+                                 : origin == aiOrigin_CUR ? m_position
+                                                          : size;
+        const std::size_t target = origin == aiOrigin_END ? base - offset : base + offset;
+        if (target > size)
+            return AI_FAILURE;
+        m_position = target;
+        return AI_SUCCESS;
+    }
+    [[nodiscard]] std::size_t Tell() const override { return m_position; }
+    [[nodiscard]] std::size_t FileSize() const override { return m_file.bytes().size(); }
+    void Flush() override {}
+
+  private:
+    MemoryFile m_file;
+    std::size_t m_position = 0;
+};
+
+// All Assimp sees of the disk.
+class FolderSystem : public Assimp::IOSystem {
+  public:
+    explicit FolderSystem(const ModelFolder& folder)
+        : m_folder(folder) {}
+
+    bool Exists(const char* path) const override { return m_folder.open(path).has_value(); }
+    [[nodiscard]] char getOsSeparator() const override { return '/'; }
+    Assimp::IOStream* Open(const char* path, const char* mode) override {
+        if (mode == nullptr || mode[0] != 'r')
+            return nullptr;
+        auto file = m_folder.open(path);
+        return file ? new Stream(std::move(*file)) : nullptr;
+    }
+    void Close(Assimp::IOStream* stream) override { delete stream; }
+
+  private:
+    const ModelFolder& m_folder;
+};
+
+void keepOnlyImporter(Assimp::Importer& importer, const std::string& extension) {
+    for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+        std::istringstream extensions(importer.GetImporterInfo(i)->mFileExtensions);
+        bool wanted = false;
+        for (std::string word; extensions >> word;)
+            wanted = wanted || word == extension;
+        if (!wanted)
+            importer.UnregisterLoader(importer.GetImporter(i)); // the child's end frees it
+    }
+}
+
+glm::mat4 toMatrix(const aiMatrix4x4& m) { // Assimp stores rows
+    return {{m.a1, m.b1, m.c1, m.d1},
+            {m.a2, m.b2, m.c2, m.d2},
+            {m.a3, m.b3, m.c3, m.d3},
+            {m.a4, m.b4, m.c4, m.d4}};
+}
+
+// FBX files say which of their axes point right, up and front, and how many centimetres a unit is;
+// Assimp 5.2.5 hands that on as metadata without applying it. (COLLADA's unit and axes it applies.)
+glm::mat4 fbxToWorld(const aiScene& scene) {
+    if (scene.mMetaData == nullptr)
+        return glm::mat4(0.01f);
+    const auto axis = [&](const char* key, const char* signKey, int fallback) {
+        int index = fallback;
+        int sign = 1;
+        scene.mMetaData->Get(key, index);
+        scene.mMetaData->Get(signKey, sign);
+        glm::vec3 direction(0.0f);
+        direction[std::clamp(index, 0, 2)] = sign < 0 ? -1.0f : 1.0f;
+        return direction;
+    };
+    double centimetres = 1.0;
+    if (float single = 1.0f; !scene.mMetaData->Get("UnitScaleFactor", centimetres) &&
+                             scene.mMetaData->Get("UnitScaleFactor", single))
+        centimetres = static_cast<double>(single);
+    if (!(centimetres > 0.0) || !std::isfinite(centimetres))
+        centimetres = 1.0;
+
+    const glm::vec3 right = axis("CoordAxis", "CoordAxisSign", 0);
+    const glm::vec3 up = axis("UpAxis", "UpAxisSign", 1);
+    const glm::vec3 front = axis("FrontAxis", "FrontAxisSign", 2);
+    const auto scale = static_cast<float>(centimetres * 0.01);
+    glm::mat4 result(1.0f);
+    for (int column = 0; column < 3; ++column)
+        result[column] =
+            glm::vec4(right[column] * scale, up[column] * scale, front[column] * scale, 0.0f);
+    return std::abs(glm::determinant(glm::mat3(result))) > 0.0f ? result
+                                                                : glm::mat4(glm::mat3(scale));
+}
+
+std::optional<Mesh> readMesh(const aiMesh& source, std::size_t index) {
+    if ((source.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0 || source.mNumFaces == 0)
+        return std::nullopt;
+    Mesh mesh;
+    mesh.name = source.mName.length > 0 ? source.mName.C_Str() : fmt::format("mesh {}", index + 1);
+    const std::size_t count = source.mNumVertices;
+    const auto copy3 = [&](std::vector<glm::vec3>& target, const aiVector3D* from) {
+        target.reserve(count);
+        for (std::size_t i = 0; i < count; ++i)
+            target.emplace_back(from[i].x, from[i].y, from[i].z);
+    };
+    copy3(mesh.positions, source.mVertices);
+    if (source.HasNormals())
+        copy3(mesh.normals, source.mNormals);
+    if (source.HasTextureCoords(0))
+        for (std::size_t i = 0; i < count; ++i)
+            mesh.uvs.emplace_back(source.mTextureCoords[0][i].x, source.mTextureCoords[0][i].y);
+    if (source.HasNormals() && source.HasTangentsAndBitangents())
+        for (std::size_t i = 0; i < count; ++i) {
+            const aiVector3D n = source.mNormals[i];
+            const aiVector3D t = source.mTangents[i];
+            const aiVector3D b = source.mBitangents[i];
+            // A file's bitangent is the direction of growing v where v grows up: ours as well.
+            const float w = (n ^ t) * b < 0.0f ? -1.0f : 1.0f;
+            mesh.tangents.emplace_back(t.x, t.y, t.z, w);
+        }
+    mesh.indices.reserve(static_cast<std::size_t>(source.mNumFaces) * 3);
+    for (unsigned int f = 0; f < source.mNumFaces; ++f)
+        if (const aiFace& face = source.mFaces[f]; face.mNumIndices == 3)
+            mesh.indices.insert(mesh.indices.end(), face.mIndices, face.mIndices + 3);
+    return mesh;
+}
+
+void readNodes(const aiScene& scene, const glm::mat4& root, const std::vector<int>& meshOf,
+               ImportedModel& model) {
+    std::vector<std::pair<const aiNode*, glm::mat4>> pending{{scene.mRootNode, root}};
+    while (!pending.empty()) {
+        const auto [node, above] = pending.back();
+        pending.pop_back();
+        const glm::mat4 world = above * toMatrix(node->mTransformation);
+        for (unsigned int i = 0; i < node->mNumMeshes; ++i) {
+            const unsigned int source = node->mMeshes[i];
+            if (source >= scene.mNumMeshes || meshOf[source] < 0)
+                continue;
+            ImportedInstance instance;
+            instance.mesh = meshOf[source];
+            instance.material = static_cast<int>(scene.mMeshes[source]->mMaterialIndex);
+            const std::string& meshName =
+                model.meshes[static_cast<std::size_t>(instance.mesh)]->name;
+            instance.name =
+                node->mName.length > 0 && node != scene.mRootNode ? node->mName.C_Str() : meshName;
+            instance.transform = world;
+            model.instances.push_back(std::move(instance));
+        }
+        for (unsigned int i = 0; i < scene.mNumLights; ++i) {
+            const aiLight& source = *scene.mLights[i];
+            if (source.mName != node->mName ||
+                (source.mType != aiLightSource_DIRECTIONAL && source.mType != aiLightSource_POINT &&
+                 source.mType != aiLightSource_SPOT))
+                continue;
+            ImportedLight light;
+            light.name = source.mName.C_Str();
+            using Type = ImportedLight::Type;
+            light.type = source.mType == aiLightSource_DIRECTIONAL ? Type::Directional
+                         : source.mType == aiLightSource_SPOT      ? Type::Spot
+                                                                   : Type::Point;
+            if (light.type == Type::Spot) { // Assimp has full angles
+                light.innerConeDeg = 0.5f * glm::degrees(source.mAngleInnerCone);
+                light.outerConeDeg = 0.5f * glm::degrees(source.mAngleOuterCone);
+            }
+            light.position = glm::vec3(
+                world * glm::vec4(source.mPosition.x, source.mPosition.y, source.mPosition.z, 1));
+            const glm::vec3 direction =
+                glm::mat3(world) *
+                glm::vec3(source.mDirection.x, source.mDirection.y, source.mDirection.z);
+            if (glm::dot(direction, direction) > 0.0f)
+                light.direction = glm::normalize(direction);
+            light.color = {source.mColorDiffuse.r, source.mColorDiffuse.g, source.mColorDiffuse.b};
+            model.lights.push_back(light);
+        }
+        for (unsigned int i = node->mNumChildren; i-- > 0;)
+            pending.emplace_back(node->mChildren[i], world);
+    }
+}
+
+} // namespace
+
+ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& format) {
+    Assimp::Importer importer;
+    keepOnlyImporter(importer, format);
+    importer.SetIOHandler(new FolderSystem(folder)); // the importer's from now on
+    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
+                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
+
+    const aiScene* scene = importer.ReadFile(folder.modelPath().string(), 0);
+    if (scene == nullptr)
+        throw Refusal("the file is damaged, cut short or not of the kind its name says",
+                      importer.GetErrorString());
+    std::size_t faces = 0;
+    std::size_t others = 0;
+    for (unsigned int i = 0; i < scene->mNumMeshes; ++i)
+        for (unsigned int f = 0; f < scene->mMeshes[i]->mNumFaces; ++f)
+            ++(scene->mMeshes[i]->mFaces[f].mNumIndices >= 3 ? faces : others);
+    if (faces == 0)
+        throw Refusal("the model has no faces; export it with geometry");
+    if (faces > limits::kMaxTriangles || scene->mNumMeshes > limits::kMaxMeshes)
+        throw Refusal("the model is larger than the supported 50 million triangles");
+
+    scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
+                                         aiProcess_SortByPType | aiProcess_FlipUVs);
+    if (scene == nullptr || scene->mRootNode == nullptr)
+        throw Refusal("the file is damaged; export it again", importer.GetErrorString());
+
+    ImportedModel model;
+    model.format = format == "dae" ? "collada" : format;
+    readAssimpMaterials(*scene, format, model);
+    std::vector<int> meshOf(scene->mNumMeshes, -1);
+    for (unsigned int i = 0; i < scene->mNumMeshes; ++i)
+        if (auto mesh = readMesh(*scene->mMeshes[i], i)) {
+            meshOf[i] = static_cast<int>(model.meshes.size());
+            model.meshes.push_back(std::make_shared<const Mesh>(std::move(*mesh)));
+        }
+    readNodes(*scene, format == "fbx" ? fbxToWorld(*scene) : glm::mat4(1.0f), meshOf, model);
+    if (others > 0)
+        model.warnings.push_back(fmt::format("{} lines and points were left out.", others));
+    if (scene->mNumAnimations > 0)
+        model.warnings.emplace_back("Animation is not read; the model is shown at rest.");
+    return model;
+}
+
+} // namespace patina::codec

@@ -1,0 +1,16 @@
+// OBJ, COLLADA and FBX through Assimp 5.2.5.
+#pragma once
+
+#include "core/codec/ModelFolder.h"
+#include "core/mesh/ImportedModel.h"
+
+#include <string>
+
+namespace patina::codec {
+
+// `format` is "obj", "dae" or "fbx": only that importer is registered, so that
+// Assimp never guesses. Transforms come out in metres with +Y up, texture coordinates as in glTF.
+// ImportedTexture::file is the path as the file spells it. Throws Refusal and std::bad_alloc.
+ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& format);
+
+} // namespace patina::codec

@@ -1,0 +1,458 @@
+#include "core/codec/GltfReader.h"
+
+#include "core/base/Limits.h"
+#include "core/codec/Codec.h"
+#include "core/codec/DracoMesh.h"
+#include "core/codec/GltfBuffers.h"
+#include "core/codec/GltfMaterials.h"
+#include "core/mesh/MeshSource.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+namespace patina::codec {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::uint32_t kGlbMagic = 0x46546C67;  // "glTF"
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A; // "JSON"
+constexpr std::uint32_t kBinChunk = 0x004E4942;  // "BIN"
+
+// Primitive modes.
+constexpr int kTriangles = 4;
+constexpr int kStrip = 5;
+constexpr int kFan = 6;
+
+struct Container {
+    std::string_view text;
+    std::span<const std::byte> binary;
+};
+
+std::uint32_t word(std::span<const std::byte> bytes, std::size_t offset) {
+    std::uint32_t value = 0;
+    if (offset + sizeof value <= bytes.size())
+        std::memcpy(&value, bytes.data() + offset, sizeof value);
+    return value;
+}
+
+// GLB or plain JSON, by content and not by name.
+Container openContainer(const MemoryFile& file) {
+    const auto bytes = file.bytes();
+    if (word(bytes, 0) != kGlbMagic)
+        return {file.text(), {}};
+    if (word(bytes, 4) != 2)
+        throw Refusal("only version 2 of glTF is supported; export it again as glTF 2.0",
+                      fmt::format("GLB version {}", word(bytes, 4)));
+    Container result;
+    constexpr std::size_t kHeader = 12;
+    constexpr std::size_t kChunkHeader = 8;
+    for (std::size_t offset = kHeader; offset + kChunkHeader <= bytes.size();) {
+        const std::size_t length = word(bytes, offset);
+        const std::uint32_t type = word(bytes, offset + 4);
+        offset += kChunkHeader;
+        if (length > bytes.size() - offset)
+            throw Refusal("the file is cut short; export or download it again", "GLB chunk");
+        if (type == kJsonChunk && result.text.empty())
+            result.text = file.text().substr(offset, length);
+        else if (type == kBinChunk && result.binary.empty())
+            result.binary = bytes.subspan(offset, length);
+        offset += (length + 3) / 4 * 4;
+    }
+    return result;
+}
+
+void checkExtensions(const json& root) {
+    static constexpr std::array<std::string_view, 8> kKnown{"KHR_draco_mesh_compression",
+                                                            "KHR_texture_transform",
+                                                            "KHR_materials_emissive_strength",
+                                                            "KHR_lights_punctual",
+                                                            "KHR_mesh_quantization",
+                                                            "EXT_texture_webp",
+                                                            "KHR_materials_pbrSpecularGlossiness",
+                                                            "KHR_materials_unlit"};
+    for (const json& required : root.value("extensionsRequired", json::array())) {
+        const auto name = required.get<std::string>();
+        const bool material = name.starts_with("KHR_materials_");
+        if (!material && std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end())
+            throw Refusal(fmt::format("the file needs the glTF extension {}, which is not "
+                                      "supported; export it without",
+                                      name));
+    }
+}
+
+// Strips and fans become triangles with the winding of glTF 2.0, section 3.7.2.1.
+std::vector<std::uint32_t> triangulate(const std::vector<std::uint32_t>& source, int mode) {
+    std::vector<std::uint32_t> result;
+    if (mode != kStrip && mode != kFan) {
+        result.assign(source.begin(),
+                      source.begin() + static_cast<std::ptrdiff_t>(source.size() / 3 * 3));
+        return result;
+    }
+    for (std::size_t i = 0; i + 2 < source.size(); ++i) {
+        const std::size_t odd = i % 2;
+        if (mode == kStrip)
+            result.insert(result.end(), {source[i], source[i + 1 + odd], source[i + 2 - odd]});
+        else
+            result.insert(result.end(), {source[i + 1], source[i + 2], source[0]});
+    }
+    return result;
+}
+
+template <class T>
+std::vector<T> regroup(const std::vector<float>& values) {
+    std::vector<T> result(values.size() / static_cast<std::size_t>(T::length()));
+    if (!result.empty())
+        std::memcpy(result.data(), values.data(), result.size() * sizeof(T));
+    return result;
+}
+
+// Without normals a mesh is flat-shaded (glTF 2.0, section 3.7.2.1): each triangle gets vertices of
+// its own. Tangents without normals are to be ignored. `origin` receives the vertices they repeat.
+Mesh flatShaded(const Mesh& mesh, std::vector<std::uint32_t>& origin) {
+    Mesh flat;
+    flat.name = mesh.name;
+    const std::size_t vertices = mesh.positions.size();
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const std::uint32_t* corner = mesh.indices.data() + i;
+        const bool valid = std::all_of(corner, corner + 3, [&](auto k) { return k < vertices; });
+        if (!valid) { // dropped and counted by the client
+            flat.indices.insert(flat.indices.end(), 3, ~std::uint32_t{0});
+            continue;
+        }
+        const auto at = [&](int k) { return mesh.positions[corner[k]]; };
+        const glm::vec3 area = glm::cross(at(1) - at(0), at(2) - at(0));
+        const float length = glm::length(area);
+        for (int k = 0; k < 3; ++k) {
+            flat.indices.push_back(static_cast<std::uint32_t>(flat.positions.size()));
+            flat.positions.push_back(at(k));
+            origin.push_back(corner[k]);
+            flat.normals.push_back(length > 0.0f ? area / length : glm::vec3(0, 1, 0));
+            if (!mesh.uvs.empty())
+                flat.uvs.push_back(mesh.uvs[corner[k]]);
+        }
+    }
+    return flat;
+}
+
+// The arrays of a primitive, from accessors or from a Draco stream.
+class PrimitiveArrays {
+  public:
+    PrimitiveArrays(const json& source, const GltfBuffers& buffers)
+        : m_source(source)
+        , m_buffers(buffers) {
+        const auto extensions = source.find("extensions");
+        if (extensions == source.end() || !extensions->contains("KHR_draco_mesh_compression"))
+            return;
+        const json& draco = (*extensions)["KHR_draco_mesh_compression"];
+        m_dracoIds = draco.at("attributes");
+        m_draco.emplace(buffers.view(draco.at("bufferView").get<std::size_t>()));
+    }
+
+    // Draco always yields single triangles.
+    [[nodiscard]] bool compressed() const { return m_draco.has_value(); }
+
+    // Empty when the primitive has no such attribute.
+    [[nodiscard]] std::vector<float> floats(const char* name, int components) const {
+        if (m_draco && m_dracoIds.contains(name))
+            return m_draco->floats(m_dracoIds.at(name).get<std::uint32_t>(), components);
+        const json& attributes = m_source.at("attributes");
+        const auto it = attributes.find(name);
+        if (it == attributes.end())
+            return {};
+        return m_buffers.floats(it->get<std::size_t>(), components);
+    }
+
+    [[nodiscard]] std::vector<std::uint32_t> indices() const {
+        if (m_draco)
+            return m_draco->indices();
+        const auto it = m_source.find("indices");
+        return it == m_source.end() ? std::vector<std::uint32_t>()
+                                    : m_buffers.indices(it->get<std::size_t>());
+    }
+
+  private:
+    const json& m_source;
+    const GltfBuffers& m_buffers;
+    json m_dracoIds;
+    std::optional<DracoMesh> m_draco;
+};
+
+class Reader {
+  public:
+    Reader(const json& root, std::span<const std::byte> binary, const ModelFolder& folder)
+        : m_root(root)
+        , m_buffers(root, binary, folder) {}
+
+    ImportedModel read();
+
+  private:
+    struct Primitive {
+        int mesh, material;
+    };
+
+    const std::vector<Primitive>& primitives(std::size_t mesh);
+    std::optional<Mesh> primitive(const json& source, const std::string& name,
+                                  std::vector<std::uint32_t>& origin);
+    void visit(std::size_t index, const glm::mat4& parent);
+    void light(const json& node, const glm::mat4& world);
+    int defaultMaterial();
+
+    const json& m_root;
+    GltfBuffers m_buffers;
+    ImportedModel m_model;
+    std::map<std::size_t, std::vector<Primitive>> m_primitives; // per glTF mesh
+    std::vector<bool> m_visited;                                // per node
+    int m_defaultMaterial = -1;
+    std::size_t m_linesAndPoints = 0;
+    std::size_t m_triangles = 0;
+    std::size_t m_vertices = 0; // that were read, also when no triangle uses them
+    bool m_animated = false;
+    bool m_holdsTransfer = false; // attributes of core/export/TransferExport.h
+};
+
+int Reader::defaultMaterial() {
+    if (m_defaultMaterial < 0) {
+        m_defaultMaterial = static_cast<int>(m_model.materials.size());
+        ImportedMaterial material;
+        material.name = "default";
+        m_model.materials.push_back(material);
+    }
+    return m_defaultMaterial;
+}
+
+// `origin` receives, for each vertex of the mesh, that of the primitive.
+std::optional<Mesh> Reader::primitive(const json& source, const std::string& name,
+                                      std::vector<std::uint32_t>& origin) {
+    const int mode = source.value("mode", kTriangles);
+    const json& attributes = source.at("attributes");
+    if (mode < kTriangles || mode > kFan) {
+        ++m_linesAndPoints;
+        return std::nullopt;
+    }
+    if (!attributes.contains("POSITION"))
+        return std::nullopt;
+    m_animated = m_animated || source.contains("targets") || attributes.contains("JOINTS_0");
+    m_holdsTransfer = m_holdsTransfer || attributes.contains("_PRT_0");
+
+    Mesh mesh;
+    mesh.name = name;
+    const PrimitiveArrays arrays(source, m_buffers);
+    mesh.positions = regroup<glm::vec3>(arrays.floats("POSITION", 3));
+    m_vertices += mesh.positions.size(); // primitives may share an accessor
+    if (m_vertices > 3 * limits::kMaxTriangles)
+        throw Refusal("the model is larger than the supported 50 million triangles");
+    const auto optional = [&](const char* key, int components) {
+        auto values = arrays.floats(key, components);
+        if (!values.empty() &&
+            values.size() != mesh.positions.size() * static_cast<std::size_t>(components))
+            throw Refusal("the file is damaged; export it again",
+                          fmt::format("{} and POSITION differ in length", key));
+        return values;
+    };
+    mesh.normals = regroup<glm::vec3>(optional("NORMAL", 3));
+    mesh.uvs = regroup<glm::vec2>(optional("TEXCOORD_0", 2));
+    mesh.tangents = regroup<glm::vec4>(optional("TANGENT", 4));
+    std::vector<std::uint32_t> indices = arrays.indices();
+    if (indices.empty() && !source.contains("indices")) {
+        indices.resize(mesh.positions.size());
+        std::iota(indices.begin(), indices.end(), 0u);
+    }
+    mesh.indices = triangulate(indices, arrays.compressed() ? kTriangles : mode);
+
+    if (mesh.normals.empty()) {
+        mesh = flatShaded(mesh, origin);
+        m_model.repairs.generatedNormals = true;
+    } else {
+        origin.resize(mesh.positions.size());
+        std::iota(origin.begin(), origin.end(), 0u);
+    }
+    return mesh;
+}
+
+const std::vector<Reader::Primitive>& Reader::primitives(std::size_t index) {
+    if (const auto known = m_primitives.find(index); known != m_primitives.end())
+        return known->second;
+    std::vector<Primitive> result;
+    const json& source = element(m_root, "meshes", index);
+    const json& parts = source.at("primitives");
+    const std::string name = source.value("name", fmt::format("mesh {}", index + 1));
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        MeshSource from;
+        from.mesh = static_cast<int>(index);
+        from.primitive = static_cast<int>(i);
+        auto mesh =
+            primitive(parts[i], i == 0 ? name : fmt::format("{} {}", name, i + 1), from.vertices);
+        if (!mesh || mesh->indices.empty())
+            continue;
+        m_triangles += mesh->triangleCount();
+        if (m_triangles > limits::kMaxTriangles || m_model.meshes.size() >= limits::kMaxMeshes)
+            throw Refusal("the model is larger than the supported 50 million triangles");
+        const int material = parts[i].value("material", -1);
+        if (material >= 0)
+            (void)element(m_root, "materials", static_cast<std::size_t>(material));
+        result.push_back({static_cast<int>(m_model.meshes.size()),
+                          material >= 0 ? material : defaultMaterial()});
+        m_model.meshes.push_back(withSource(std::move(*mesh), std::move(from)));
+    }
+    return m_primitives[index] = std::move(result);
+}
+
+glm::mat4 localTransform(const json& node) {
+    glm::mat4 matrix(1.0f);
+    if (const auto it = node.find("matrix"); it != node.end()) {
+        for (int i = 0; i < 16; ++i)
+            matrix[i / 4][i % 4] = it->at(static_cast<std::size_t>(i)).get<float>();
+        return matrix;
+    }
+    const auto numbers = [&](const char* key, std::array<float, 4> values, std::size_t count) {
+        if (const auto it = node.find(key); it != node.end())
+            for (std::size_t i = 0; i < count; ++i)
+                values[i] = it->at(i).get<float>();
+        return values;
+    };
+    const auto t = numbers("translation", {0, 0, 0, 0}, 3);
+    const auto r = numbers("rotation", {0, 0, 0, 1}, 4);
+    const auto s = numbers("scale", {1, 1, 1, 0}, 3);
+    const glm::quat rotation = glm::normalize(glm::quat(r[3], r[0], r[1], r[2]));
+    return glm::translate(matrix, {t[0], t[1], t[2]}) * glm::mat4_cast(rotation) *
+           glm::scale(glm::mat4(1.0f), {s[0], s[1], s[2]});
+}
+
+// KHR_lights_punctual: lights shine along their node's -Z.
+void Reader::light(const json& node, const glm::mat4& world) {
+    const auto extensions = node.find("extensions");
+    if (extensions == node.end() || !extensions->contains("KHR_lights_punctual"))
+        return;
+    const auto index = (*extensions)["KHR_lights_punctual"].at("light").get<std::size_t>();
+    const json all =
+        m_root.value("extensions", json::object()).value("KHR_lights_punctual", json::object());
+    const json& source = element(all, "lights", index);
+    const std::string type = source.at("type");
+    ImportedLight light;
+    light.name = source.value("name", node.value("name", std::string("light")));
+    using Type = ImportedLight::Type;
+    if (type != "directional" && type != "point" && type != "spot") {
+        m_model.warnings.push_back(
+            fmt::format("The light \"{}\" is of an unknown type and was left out.", light.name));
+        return;
+    }
+    light.type = type == "directional" ? Type::Directional
+                 : type == "spot"      ? Type::Spot
+                                       : Type::Point;
+    light.position = glm::vec3(world[3]);
+    const glm::vec3 axis = -glm::vec3(world[2]);
+    if (glm::dot(axis, axis) > 0.0f)
+        light.direction = glm::normalize(axis);
+    const json color = source.value("color", json::array({1.0f, 1.0f, 1.0f}));
+    for (int i = 0; i < 3; ++i)
+        light.color[i] =
+            color.at(static_cast<std::size_t>(i)).get<float>() * source.value("intensity", 1.0f);
+    light.range = source.value("range", 0.0f);
+    if (light.type == Type::Spot) {
+        const json cone = source.value("spot", json::object());
+        light.innerConeDeg = glm::degrees(cone.value("innerConeAngle", 0.0f));
+        light.outerConeDeg = glm::degrees(cone.value("outerConeAngle", glm::quarter_pi<float>()));
+    }
+    m_model.lights.push_back(light);
+}
+
+// Depth first with a stack of our own: a damaged file may nest as deeply as it likes.
+void Reader::visit(std::size_t rootIndex, const glm::mat4& parent) {
+    std::vector<std::pair<std::size_t, glm::mat4>> pending{{rootIndex, parent}};
+    while (!pending.empty()) {
+        const auto [index, above] = pending.back();
+        pending.pop_back();
+        const json& node = element(m_root, "nodes", index);
+        if (m_visited[index])
+            throw Refusal("the file is damaged: a node has two parents; export it again");
+        m_visited[index] = true;
+        const glm::mat4 world = above * localTransform(node);
+        if (const auto mesh = node.find("mesh"); mesh != node.end())
+            for (const Primitive& part : primitives(mesh->get<std::size_t>())) {
+                ImportedInstance instance;
+                instance.name =
+                    node.value("name", m_model.meshes[static_cast<std::size_t>(part.mesh)]->name);
+                instance.mesh = part.mesh;
+                instance.material = part.material;
+                instance.transform = world;
+                instance.node = static_cast<int>(index);
+                m_model.instances.push_back(std::move(instance));
+            }
+        m_animated = m_animated || node.contains("skin");
+        light(node, world);
+        if (const auto children = node.find("children"); children != node.end())
+            for (auto it = children->rbegin(); it != children->rend(); ++it)
+                pending.emplace_back(it->get<std::size_t>(), world);
+    }
+}
+
+ImportedModel Reader::read() {
+    const json asset = m_root.value("asset", json::object());
+    if (const std::string version = asset.value("version", std::string("?"));
+        !version.starts_with("2."))
+        throw Refusal("only version 2 of glTF is supported; export it again as glTF 2.0",
+                      "version " + version);
+    checkExtensions(m_root);
+    m_model.format = "gltf2";
+    readGltfMaterials(m_root, m_buffers, m_model);
+    if (const auto nodes = m_root.find("nodes"); nodes != m_root.end())
+        m_visited.resize(nodes->size());
+
+    // The default scene, or all that has no parent.
+    if (const auto scenes = m_root.find("scenes"); scenes != m_root.end() && !scenes->empty()) {
+        const json& scene = element(m_root, "scenes", m_root.value("scene", std::size_t{0}));
+        for (const json& node : scene.value("nodes", json::array()))
+            visit(node.get<std::size_t>(), glm::mat4(1.0f));
+    } else {
+        std::vector<bool> child(m_visited.size(), false);
+        for (std::size_t i = 0; i < m_visited.size(); ++i)
+            for (const json& c : m_root["nodes"][i].value("children", json::array()))
+                if (c.get<std::size_t>() < child.size())
+                    child[c.get<std::size_t>()] = true;
+        for (std::size_t i = 0; i < m_visited.size(); ++i)
+            if (!child[i])
+                visit(i, glm::mat4(1.0f));
+    }
+    if (m_linesAndPoints > 0)
+        m_model.warnings.push_back(
+            fmt::format("{} parts made of lines or points were left out.", m_linesAndPoints));
+    if (m_animated || m_root.contains("animations"))
+        m_model.warnings.emplace_back(
+            "Animation, skinning and morphing are not read; the model is shown at rest.");
+    if (m_holdsTransfer)
+        m_model.warnings.emplace_back(
+            "The radiance transfer in this file (attributes _PRT_n) is for engines and is not read "
+            "back; open the project it was exported from, or bake once more.");
+    return std::move(m_model);
+}
+
+} // namespace
+
+ImportedModel readGltf(const ModelFolder& folder) {
+    const auto file = folder.open(folder.modelPath());
+    if (!file)
+        throw Refusal("the file cannot be read");
+    const Container container = openContainer(*file);
+    const json root = json::parse(container.text, nullptr, false);
+    if (!root.is_object())
+        throw Refusal("the file is damaged or cut short; export or download it again",
+                      "no valid JSON");
+    try {
+        return Reader(root, container.binary, folder).read();
+    } catch (const json::exception& exception) {
+        throw Refusal("the file is damaged; export it again", exception.what());
+    }
+}
+
+} // namespace patina::codec

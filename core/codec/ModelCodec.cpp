@@ -1,0 +1,40 @@
+#include "core/codec/AssimpReader.h"
+#include "core/codec/Codec.h"
+#include "core/codec/GltfReader.h"
+#include "core/codec/PlyReader.h"
+#include "core/codec/StlReader.h"
+#include "core/worker/ModelWire.h"
+
+#include <nlohmann/json.hpp>
+
+namespace patina::codec {
+
+Reply importModel(const nlohmann::json& request, int payloadFd) {
+    const auto format = request.at("format").get<std::string>();
+    // The path travels as numbers: it is bytes, not text.
+    std::string bytes;
+    for (const int byte : request.at("path"))
+        bytes += static_cast<char>(byte);
+    const std::filesystem::path path(bytes);
+    const ModelFolder folder(path.parent_path(), path.stem().string() + "." + format, payloadFd);
+
+    ImportedModel model = format == "gltf"  ? readGltf(folder)
+                          : format == "ply" ? readPly(folder)
+                          : format == "stl" ? readStl(folder)
+                                            : readWithAssimp(folder, format);
+    if (model.materials.empty()) {
+        model.materials.emplace_back();
+        model.materials.back().name = "default";
+    }
+    if (model.meshes.empty() || model.instances.empty())
+        throw Refusal("the model has no faces; export it with geometry");
+
+    Reply reply;
+    std::size_t size = 0;
+    reply.header = writeModelHeader(model, size);
+    reply.payload = allocate(size);
+    writeModelPayload(model, reply.payload.writable());
+    return reply;
+}
+
+} // namespace patina::codec

@@ -1,0 +1,24 @@
+// Reading model files: glTF/GLB, OBJ, FBX, COLLADA, PLY, STL. Decoding happens in the isolated
+// worker process (core/worker: OBJ, FBX and COLLADA through Assimp, the others by readers of our
+// own); every size, index and number is validated before it is believed.
+#pragma once
+
+#include "core/base/Result.h"
+#include "core/mesh/ImportedModel.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace patina {
+
+class WorkerClient;
+
+// Errors: InputMissing; InputBroken (damaged, unsupported, no faces, beyond the limits, the
+// importer died or ran out of time).
+Result<ImportedModel> importModel(WorkerClient& worker, const std::filesystem::path& file);
+
+// The extensions importModel takes, with the dot, lower case.
+[[nodiscard]] const std::vector<std::string>& modelExtensions();
+
+} // namespace patina

@@ -1,0 +1,73 @@
+// A model file as values: what its reader found, before it becomes part of a document.
+#pragma once
+
+#include "core/base/AtomicFile.h"
+#include "core/mesh/Mesh.h"
+
+#include <filesystem>
+#include <glm/mat4x4.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace patina {
+
+// A texture as the model names it: a file beside it or an image embedded in it.
+struct ImportedTexture {
+    std::filesystem::path file; // absolute; empty when embedded; where it should be when missing
+    int embedded = -1;          // index into ImportedModel::embeddedImages
+    char channel = 0;           // 'r','g','b','a' for single-channel use; 0: whole colour
+    glm::vec2 uvScale{1.0f}, uvOffset{0.0f};
+    float uvRotationDeg = 0.0f; // KHR_texture_transform: T * R * S
+};
+
+struct ImportedMaterial {
+    std::string name;
+    glm::vec4 baseColor{0.8f, 0.8f, 0.8f, 1.0f}; // linear sRGB, alpha
+    float metallic = 0.0f;
+    float perceptualRoughness = 0.5f;
+    float normalStrength = 1.0f;
+    float occlusionStrength = 1.0f;
+    glm::vec3 emissive{0.0f};
+    bool doubleSided = false;
+    bool alphaMask = false, alphaBlend = false;
+    float alphaCutoff = 0.5f;
+    std::optional<ImportedTexture> baseColorMap, metallicMap, roughnessMap, normalMap, occlusionMap,
+        emissiveMap;
+};
+
+struct ImportedInstance {
+    std::string name;
+    int mesh = 0;              // index into ImportedModel::meshes
+    int material = 0;          // index into ImportedModel::materials
+    int node = -1;             // glTF: index of the node that shows it
+    glm::mat4 transform{1.0f}; // mesh to world, in metres and +Y up; never mirrors
+};
+
+struct ImportedLight {
+    enum class Type { Point, Directional, Spot };
+    std::string name;
+    Type type = Type::Directional;
+    glm::vec3 position{0.0f}, direction{0.0f, -1.0f, 0.0f};
+    glm::vec3 color{1.0f}; // linear, intensity included: candela, or lux of a directional light
+    float range = 0.0f;    // metres, 0: without end
+    float innerConeDeg = 0.0f, outerConeDeg = 45.0f; // half angles of a spot
+};
+
+struct ImportedModel {
+    std::vector<MeshPtr> meshes;
+    std::vector<ImportedMaterial> materials; // at least one
+    std::vector<ImportedInstance> instances; // at least one
+    std::vector<ImportedLight> lights;
+    std::vector<Bytes> embeddedImages;        // compressed files (PNG, JPEG …) or empty when raw
+    std::vector<std::string> missingTextures; // files the model names that are absent or empty
+    // Pictures outside the model's folder, absolute: not to be read, as nobody has agreed to it
+    // (WorkerClient::allowOutside()).
+    std::vector<std::string> outsideTextures;
+    std::vector<std::string> warnings; // one sentence each: what was repaired, dropped, generated
+    std::string format;                // "gltf2", "obj" …
+    std::size_t triangleCount = 0;
+    MeshRepairs repairs; // summed over the meshes
+};
+
+} // namespace patina

@@ -1,0 +1,82 @@
+#include "core/scene/Scene.h"
+
+#include "core/base/Check.h"
+#include "core/scene/DocumentIO.h"
+#include "core/scene/SceneLoader.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace patina {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr float kFramingAspect = 16.0f / 9.0f; // whatever the window or picture: the same camera
+
+bool isProjectFile(const fs::path& file) {
+    std::string extension = file.extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension == ".patina";
+}
+
+void frame(Document& document) {
+    const Bounds bounds = document.bounds();
+    if (!bounds.empty())
+        document.view.camera = frameBounds(document.view.camera, bounds, kFramingAspect);
+}
+
+Error cancelledError(const std::string& scene) {
+    return {ErrorKind::Cancelled, "opening was cancelled", scene, {}};
+}
+
+} // namespace
+
+Result<OpenedScene> openScene(WorkerClient& worker, const std::string& scene,
+                              const JobContext& job) {
+    const std::string source = normalizeSource(scene);
+    if (!isBuiltin(source) && isProjectFile(source))
+        return loadProject(worker, source, job);
+
+    SceneLoader loader(&worker, job);
+    OpenedScene opened;
+    if (!appendModel(loader, opened.document, source))
+        return loader.model(source).error();
+    loader.loadEnvironments(opened.document);
+    if (loader.cancelled())
+        return cancelledError(source);
+    frame(opened.document);
+    opened.notices = loader.takeNotices(isBuiltin(source) ? fs::path() : fs::path(source));
+    opened.missingFiles = loader.missingFiles();
+    return opened;
+}
+
+Document startDocument() {
+    SceneLoader loader(nullptr, {});
+    Document document;
+    const bool read = appendModel(loader, document, "builtin:shader-ball");
+    CHECK(read);
+    loader.loadEnvironments(document);
+    frame(document);
+    return document;
+}
+
+Result<std::vector<Notice>> addModel(WorkerClient& worker, Document& document,
+                                     const std::string& source, const JobContext& job,
+                                     std::vector<std::string>* missingFiles) {
+    const std::string normalized = normalizeSource(source);
+    SceneLoader loader(&worker, job);
+    Document extended = document;
+    if (!appendModel(loader, extended, normalized))
+        return loader.model(normalized).error();
+    if (loader.cancelled())
+        return cancelledError(normalized);
+    document = std::move(extended);
+    if (missingFiles != nullptr)
+        missingFiles->insert(missingFiles->end(), loader.missingFiles().begin(),
+                             loader.missingFiles().end());
+    return loader.takeNotices(isBuiltin(normalized) ? fs::path() : fs::path(normalized));
+}
+
+} // namespace patina
