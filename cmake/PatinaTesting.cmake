@@ -1,4 +1,4 @@
-# Sanitizers slow tests down, and a report that a decoder (patina-worker) printed about our own code
+# Sanitizers slow tests down, and a report that a decoder (a worker) printed about our own code
 # fails the test that fed it, even one that expects an error.
 set(PATINA_FAILING_OUTPUT "\\[  SKIPPED \\]")
 set(PATINA_TIMEOUT_FACTOR 1)
@@ -70,14 +70,14 @@ function(patina_test name)
     ENVIRONMENT "${PATINA_TEST_ENVIRONMENT}")
 endfunction()
 
-# patina_golden(NAME): the test NAME compares pictures with tests/golden/*.png (through patina-worker)
+# patina_golden(NAME): the test NAME compares pictures with tests/golden/*.png (through a worker)
 # and leaves what differs in build/<preset>/golden. PATINA_UPDATE_GOLDEN=1 in the environment
 # accepts the new pictures.
 function(patina_golden name)
   target_compile_definitions(${name} PRIVATE
     PATINA_GOLDEN_DIR="${CMAKE_SOURCE_DIR}/tests/golden"
     PATINA_GOLDEN_OUTPUT_DIR="${CMAKE_BINARY_DIR}/golden")
-  add_dependencies(${name} patina-worker)
+  add_dependencies(${name} patina-workers)
 endfunction()
 
 # patina_gui_test(NAME SOURCES … LIBRARIES …): a GoogleTest program with a window, on an X server of
@@ -94,7 +94,7 @@ function(patina_gui_test name)
     ${T_LIBRARIES} patina_gui_test_support patina_editor_lib Qt6::Test GTest::gmock)
   patina_test_options(${name})
   patina_reuse_precompiled(${name} patina_gui_test_support)
-  add_dependencies(${name} patina-worker)
+  add_dependencies(${name} patina-workers)
   set_target_properties(${name} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   add_test(NAME ${name} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-xvfb $<TARGET_FILE:${name}>)

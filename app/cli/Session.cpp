@@ -37,6 +37,10 @@ WorkerClient& Session::worker() {
         m_worker = std::make_unique<WorkerClient>();
         if (m_options.allowOutside)
             m_worker->allowOutsideOfAll();
+        // All others read or write images; loading their libraries takes a quarter of a second,
+        // while models are read.
+        if (m_options.command != "info")
+            m_worker->warmUp(WorkerKind::Image);
     }
     return *m_worker;
 }

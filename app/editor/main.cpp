@@ -101,7 +101,8 @@ int main(int argc, char* argv[]) {
     if (noOpenGl)
         return endWithoutOpenGl(noOpenGlText(*noOpenGl), !quits);
     Session session;
-    session.worker.warmUp();
+    session.worker.warmUp(WorkerKind::Image);
+    session.worker.warmUp(WorkerKind::Model);
     int status = 0;
     {
         MainWindow window(session);

@@ -3,7 +3,6 @@
 #include "app/worker/Sandbox.h"
 #include "app/worker/SelfTest.h"
 #include "core/codec/Codec.h"
-#include "core/io/MeshImport.h"
 
 #include <array>
 #include <csignal>
@@ -27,25 +26,13 @@ using nlohmann::json;
     __builtin_unreachable();
 }
 
-codec::Reply dispatch(const json& header, const protocol::Request& request,
-                      FileDescriptor& payload) {
+codec::Reply dispatch(const json& header, const Operations& operations,
+                      const protocol::Request& request, FileDescriptor& payload) {
     const auto op = header.at("op").get<std::string>();
-    if (op == "decodeImage")
-        return codec::decodeImage(header, payload.get());
-    if (op == "importModel")
-        return codec::importModel(header, payload.get());
-    if (op == "displayMenu")
-        return codec::displayMenu(header);
-    if (op == "displayTransform")
-        return codec::displayTransform(header);
-    if (op == "encodeImage") {
-        const auto bytes = MemoryFile::open(std::move(payload), request.payloadSize);
-        if (!bytes)
-            throw codec::Refusal("the image cannot be encoded", "payload");
-        return codec::encodeImage(header, bytes->bytes());
-    }
     if (op == "selfTest")
         return selfTest(header);
+    if (const auto found = operations.find(op); found != operations.end())
+        return found->second(header, request, payload);
     throw codec::Refusal("unknown request", op);
 }
 
@@ -74,7 +61,8 @@ void refuse(int socket, const std::string& message, const std::string& detail, b
 
 } // namespace
 
-void runChild(const protocol::Request& request, std::vector<FileDescriptor> descriptors) {
+void runChild(const Operations& operations, const protocol::Request& request,
+              std::vector<FileDescriptor> descriptors) {
     const FileDescriptor socket = std::move(descriptors[0]);
     const FileDescriptor log = std::move(descriptors[2]);
     // A crash is to end the process by its signal, whatever handlers libraries set. A sanitizer's
@@ -99,7 +87,7 @@ void runChild(const protocol::Request& request, std::vector<FileDescriptor> desc
                    failure, true);
             end(0);
         }
-        codec::Reply reply = dispatch(header, request, descriptors[3]);
+        codec::Reply reply = dispatch(header, operations, request, descriptors[3]);
         answer(socket.get(), protocol::Event::Answered, reply.header, std::move(reply.payload));
     } catch (const codec::Refusal& refusal) {
         refuse(socket.get(), refusal.what(), refusal.detail);

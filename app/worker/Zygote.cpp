@@ -1,6 +1,5 @@
 #include "app/worker/Zygote.h"
 
-#include "app/worker/Child.h"
 #include "core/base/FileDescriptor.h"
 #include "core/worker/WorkerProtocol.h"
 
@@ -33,8 +32,9 @@ void report(int socket, protocol::Event event, std::int64_t value) {
 // threads of their own, which may swallow the signal.
 class Zygote {
   public:
-    explicit Zygote(int control)
-        : m_control(control) {}
+    Zygote(int control, const Operations& operations)
+        : m_control(control)
+        , m_operations(operations) {}
 
     int run();
 
@@ -43,6 +43,7 @@ class Zygote {
     void start(const protocol::Request& request, std::vector<FileDescriptor> descriptors);
 
     FileDescriptor m_control;
+    const Operations& m_operations;
     std::vector<Running> m_running;
 };
 
@@ -109,7 +110,7 @@ void Zygote::start(const protocol::Request& request, std::vector<FileDescriptor>
             ::_exit(1); // it died in between
         m_control.reset();
         m_running.clear(); // the descriptors of the siblings
-        runChild(request, std::move(descriptors));
+        runChild(m_operations, request, std::move(descriptors));
     }
     // (The C library of Debian 12 declares pidfd_open for C only.)
     FileDescriptor process(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0)));
@@ -125,8 +126,8 @@ void Zygote::start(const protocol::Request& request, std::vector<FileDescriptor>
 
 } // namespace
 
-int serve(int controlSocket) {
-    return Zygote(controlSocket).run();
+int serve(int controlSocket, const Operations& operations) {
+    return Zygote(controlSocket, operations).run();
 }
 
 } // namespace patina::worker

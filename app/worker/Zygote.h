@@ -3,9 +3,11 @@
 // reads no file itself.
 #pragma once
 
+#include "app/worker/Child.h"
+
 namespace patina::worker {
 
 // Returns the exit status when the client has closed the control socket. Single-threaded.
-int serve(int controlSocket);
+int serve(int controlSocket, const Operations& operations);
 
 } // namespace patina::worker

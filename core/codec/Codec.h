@@ -1,4 +1,4 @@
-// The worker's side of a request: from JSON and bytes to JSON and bytes. Runs in a child that may
+// A worker's side of a request: from JSON and bytes to JSON and bytes. Runs in a child that may
 // die; nothing in here is linked into the editor or the command line.
 #pragma once
 
@@ -33,20 +33,5 @@ void checkImageSize(long long width, long long height, long long channels, std::
 
 // Text from a file may be no UTF-8; JSON must be.
 std::string toJsonText(const nlohmann::json& json);
-
-// All take the request's header and the payload and its descriptor. Throw Refusal and
-// std::bad_alloc.
-Reply decodeImage(const nlohmann::json& request, int payloadFd);
-Reply encodeImage(const nlohmann::json& request, std::span<const std::byte> payload);
-Reply importModel(const nlohmann::json& request, int payloadFd);
-Reply displayMenu(const nlohmann::json& request);      // of an OpenColorIO configuration
-Reply displayTransform(const nlohmann::json& request); // one of its views, for the GPU
-
-// The part of decodeImage and encodeImage that Radiance files are.
-Reply decodeRadiance(const nlohmann::json& request, int payloadFd);
-Reply encodeRadiance(const nlohmann::json& request, std::span<const std::byte> payload);
-
-// Once, before the first child is forked: loads what every child would have to load.
-void prepareImageCodec();
 
 } // namespace patina::codec

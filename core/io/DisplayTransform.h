@@ -1,4 +1,4 @@
-// OpenColorIO's displays and views. A configuration is a file like any other: patina-worker reads
+// OpenColorIO's displays and views. A configuration is a file like any other: a worker reads
 // it and answers with the view as shader text and textures, so that neither the editor nor the
 // command line is linked with the library or can be brought down by a broken configuration.
 //

@@ -199,7 +199,7 @@ Result<Bytes> encodeImage(WorkerClient& worker, std::vector<ImagePart> parts,
             rest = rest.subspan(sizeOnWire(part.image));
             part.image = {}; // large bakes have no room for the same numbers twice
         }
-        auto reply = worker.request(header.dump(), *std::move(payload), {});
+        auto reply = worker.request(WorkerKind::Image, header.dump(), *std::move(payload), {});
         if (!reply) {
             Error error = reply.error();
             error.kind = ErrorKind::Internal; // our own pixels: no file is to blame

@@ -163,7 +163,9 @@ Result<LoadedImage> loadImage(WorkerClient& worker, const std::filesystem::path&
     if (format.empty())
         return notAnImage(file);
     return load(
-        [&](const std::string& header) { return worker.request(header, input->fd.get(), file); },
+        [&](const std::string& header) {
+            return worker.request(WorkerKind::Image, header, input->fd.get(), file);
+        },
         format, file, options);
 }
 
@@ -177,8 +179,11 @@ Result<LoadedImage> loadImageFromMemory(WorkerClient& worker, std::span<const st
     const std::string format = formatOf(head, lowerExtension(name));
     if (format.empty())
         return notAnImage(name);
-    return load([&](const std::string& header) { return worker.request(header, data, name); },
-                format, name, options);
+    return load(
+        [&](const std::string& header) {
+            return worker.request(WorkerKind::Image, header, data, name);
+        },
+        format, name, options);
 }
 
 Result<ImageInfo> inspectImage(WorkerClient& worker, const std::filesystem::path& file) {
@@ -189,7 +194,9 @@ Result<ImageInfo> inspectImage(WorkerClient& worker, const std::filesystem::path
     if (format.empty())
         return notAnImage(file);
     const auto reply = decode(
-        [&](const std::string& header) { return worker.request(header, input->fd.get(), file); },
+        [&](const std::string& header) {
+            return worker.request(WorkerKind::Image, header, input->fd.get(), file);
+        },
         format, {}, true);
     if (!reply)
         return reply.error();

@@ -40,7 +40,7 @@ Result<ImportedModel> decode(WorkerClient& worker, const fs::path& file, const s
     const std::string absolute = fs::absolute(file, ignored).string();
     for (const char c : absolute)
         path.push_back(static_cast<int>(static_cast<unsigned char>(c)));
-    const auto reply = worker.request(header.dump(), fd, file);
+    const auto reply = worker.request(WorkerKind::Model, header.dump(), fd, file);
     if (!reply)
         return reply.error();
     auto model = readModel(reply->header, reply->payload);

@@ -134,49 +134,60 @@ Error noMemory(const std::filesystem::path& file) {
 } // namespace
 
 struct WorkerClient::Impl {
-    explicit Impl(std::filesystem::path worker)
-        : program(std::move(worker)) {}
+    explicit Impl(WorkerPrograms found)
+        : programs(std::move(found)) {}
+
+    [[nodiscard]] const std::filesystem::path& program(WorkerKind kind) const {
+        return kind == WorkerKind::Model ? programs.model : programs.image;
+    }
+    [[nodiscard]] WorkerProcess& process(WorkerKind kind) {
+        return kind == WorkerKind::Model ? modelProcess : imageProcess;
+    }
 
     // One attempt; nothing when the worker died before it took the request, so that trying again is
     // safe.
-    std::optional<Result<Reply>> attempt(const protocol::Request& request, const WorkerLimits& used,
-                                         Clock::time_point deadline, int headerFd, int payloadFd,
+    std::optional<Result<Reply>> attempt(WorkerKind kind, const protocol::Request& request,
+                                         const WorkerLimits& used, Clock::time_point deadline,
+                                         int headerFd, int payloadFd,
                                          const std::filesystem::path& file);
-    Result<Reply> run(const std::string& header, int payloadFd, std::size_t payloadSize,
-                      bool payloadIsFile, const std::filesystem::path& file);
+    Result<Reply> run(WorkerKind kind, const std::string& header, int payloadFd,
+                      std::size_t payloadSize, bool payloadIsFile,
+                      const std::filesystem::path& file);
 
-    std::filesystem::path program;
+    WorkerPrograms programs;
     mutable std::mutex mutex; // guards everything below
     WorkerLimits limits{limits::kWorkerMemoryBytes, limits::kWorkerCpuSeconds,
                         limits::kWorkerWallSeconds, limits::kWorkerReplyBytes};
-    WorkerProcess process;
+    WorkerProcess modelProcess, imageProcess;
     std::vector<int> children;
     std::set<std::filesystem::path> outsideModels; // that may name pictures anywhere
     bool outsideOfAll = false;
 };
 
-WorkerClient::WorkerClient(std::filesystem::path program)
-    : m_impl(std::make_unique<Impl>(std::move(program))) {}
+WorkerClient::WorkerClient(WorkerPrograms programs)
+    : m_impl(std::make_unique<Impl>(std::move(programs))) {}
 
 WorkerClient::~WorkerClient() = default;
 
-std::filesystem::path WorkerClient::defaultProgram() {
-    constexpr const char* kName = "patina-worker";
+WorkerPrograms WorkerClient::defaultPrograms() {
     std::error_code ignored;
     const auto self = std::filesystem::read_symlink("/proc/self/exe", ignored);
     const std::filesystem::path folder = self.parent_path();
-    for (const auto& candidate : {folder / kName, folder.parent_path() / "bin" / kName,
-                                  folder.parent_path() / PATINA_LIBEXEC / "patina" / kName})
-        if (std::filesystem::exists(candidate, ignored))
-            return candidate;
-    if (const char* programs = std::getenv("PATINA_BIN_DIR"))
-        return std::filesystem::path(programs) / kName;
-    return folder / kName; // named in the message when it is missing
+    const auto find = [&](const char* name) {
+        for (const auto& candidate : {folder / name, folder.parent_path() / "bin" / name,
+                                      folder.parent_path() / PATINA_LIBEXEC / "patina" / name})
+            if (std::filesystem::exists(candidate, ignored))
+                return candidate;
+        if (const char* programs = std::getenv("PATINA_BIN_DIR"))
+            return std::filesystem::path(programs) / name;
+        return folder / name; // named in the message when it is missing
+    };
+    return {find("patina-model-worker"), find("patina-image-worker")};
 }
 
-void WorkerClient::warmUp() {
+void WorkerClient::warmUp(WorkerKind kind) {
     const std::lock_guard lock(m_impl->mutex);
-    if (const auto started = m_impl->process.ensureRunning(m_impl->program); !started)
+    if (const auto started = m_impl->process(kind).ensureRunning(m_impl->program(kind)); !started)
         logWarning("{}", started.error().text());
 }
 
@@ -200,9 +211,9 @@ bool WorkerClient::outsideAllowed(const std::filesystem::path& model) const {
     return m_impl->outsideOfAll || m_impl->outsideModels.contains(sameFileName(model));
 }
 
-int WorkerClient::workerProcess() const {
+int WorkerClient::workerProcess(WorkerKind kind) const {
     const std::lock_guard lock(m_impl->mutex);
-    return m_impl->process.pid();
+    return m_impl->process(kind).pid();
 }
 
 std::vector<int> WorkerClient::childProcesses() const {
@@ -210,35 +221,38 @@ std::vector<int> WorkerClient::childProcesses() const {
     return m_impl->children;
 }
 
-Result<WorkerClient::Reply> WorkerClient::request(const std::string& header,
+Result<WorkerClient::Reply> WorkerClient::request(WorkerKind kind, const std::string& header,
                                                   std::span<const std::byte> payload,
                                                   const std::filesystem::path& fileForMessages) {
     auto copy = MemoryFile::copyOf(payload);
     if (!copy)
         return noMemory(fileForMessages);
-    return request(header, *std::move(copy), fileForMessages);
+    return request(kind, header, *std::move(copy), fileForMessages);
 }
 
-Result<WorkerClient::Reply> WorkerClient::request(const std::string& header, MemoryFile payload,
+Result<WorkerClient::Reply> WorkerClient::request(WorkerKind kind, const std::string& header,
+                                                  MemoryFile payload,
                                                   const std::filesystem::path& fileForMessages) {
     const std::size_t size = payload.bytes().size();
     if (!payload.seal())
         return noMemory(fileForMessages);
-    return m_impl->run(header, payload.fd(), size, false, fileForMessages);
+    return m_impl->run(kind, header, payload.fd(), size, false, fileForMessages);
 }
 
-Result<WorkerClient::Reply> WorkerClient::request(const std::string& header, int payloadFd,
+Result<WorkerClient::Reply> WorkerClient::request(WorkerKind kind, const std::string& header,
+                                                  int payloadFd,
                                                   const std::filesystem::path& fileForMessages) {
     struct stat status {};
     if (::fstat(payloadFd, &status) != 0)
         return Error{ErrorKind::InputMissing, "the file cannot be read", fileForMessages,
                      std::strerror(errno)};
-    return m_impl->run(header, payloadFd, static_cast<std::size_t>(status.st_size), true,
+    return m_impl->run(kind, header, payloadFd, static_cast<std::size_t>(status.st_size), true,
                        fileForMessages);
 }
 
-Result<WorkerClient::Reply> WorkerClient::Impl::run(const std::string& header, int payloadFd,
-                                                    std::size_t payloadSize, bool payloadIsFile,
+Result<WorkerClient::Reply> WorkerClient::Impl::run(WorkerKind kind, const std::string& header,
+                                                    int payloadFd, std::size_t payloadSize,
+                                                    bool payloadIsFile,
                                                     const std::filesystem::path& file) {
     auto headerCopy = MemoryFile::copyOf(std::as_bytes(std::span(header)));
     if (!headerCopy || !headerCopy->seal())
@@ -259,17 +273,17 @@ Result<WorkerClient::Reply> WorkerClient::Impl::run(const std::string& header, i
                                              std::chrono::duration<double>(used.wallSeconds));
     constexpr int kAttempts = 3;
     for (int i = 0; i < kAttempts; ++i)
-        if (auto result = attempt(request, used, deadline, headerCopy->fd(), payloadFd, file))
+        if (auto result = attempt(kind, request, used, deadline, headerCopy->fd(), payloadFd, file))
             return std::move(*result);
     return Error{ErrorKind::Internal,
-                 "the program that reads files does not start; reinstall Patina", program,
+                 "the program that reads files does not start; reinstall Patina", program(kind),
                  "it ended before it took a request"};
 }
 
 std::optional<Result<WorkerClient::Reply>>
-WorkerClient::Impl::attempt(const protocol::Request& request, const WorkerLimits& used,
-                            Clock::time_point deadline, int headerFd, int payloadFd,
-                            const std::filesystem::path& file) {
+WorkerClient::Impl::attempt(WorkerKind kind, const protocol::Request& request,
+                            const WorkerLimits& used, Clock::time_point deadline, int headerFd,
+                            int payloadFd, const std::filesystem::path& file) {
     std::array<int, 2> pair{};
     if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, pair.data()) != 0)
         return noMemory(file);
@@ -283,12 +297,12 @@ WorkerClient::Impl::attempt(const protocol::Request& request, const WorkerLimits
     int worker = -1;
     {
         const std::lock_guard lock(mutex);
-        if (const auto started = process.ensureRunning(program); !started)
+        if (const auto started = process(kind).ensureRunning(program(kind)); !started)
             return started.error();
-        worker = process.pid();
+        worker = process(kind).pid();
         const std::array<int, 4> descriptors{theirs.get(), headerFd, log.get(), payloadFd};
-        if (!protocol::send(process.control(), request, descriptors)) {
-            process.kill();
+        if (!protocol::send(process(kind).control(), request, descriptors)) {
+            process(kind).kill();
             return std::nullopt;
         }
     }
@@ -318,8 +332,8 @@ WorkerClient::Impl::attempt(const protocol::Request& request, const WorkerLimits
             // one.
             if (guard.child < 0) {
                 const std::lock_guard lock(mutex);
-                if (process.pid() == worker)
-                    process.kill();
+                if (process(kind).pid() == worker)
+                    process(kind).kill();
             }
             return timedOut(file, used.wallSeconds, "wall clock limit");
         }
@@ -332,8 +346,8 @@ WorkerClient::Impl::attempt(const protocol::Request& request, const WorkerLimits
         if (!received || received->size == 0) {
             {
                 const std::lock_guard lock(mutex);
-                if (process.pid() == worker)
-                    process.reapIfEnded();
+                if (process(kind).pid() == worker)
+                    process(kind).reapIfEnded();
             }
             if (guard.child < 0)
                 return std::nullopt;

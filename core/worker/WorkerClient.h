@@ -1,5 +1,7 @@
-// The parent's side of `patina-worker`: the small program that decodes untrusted files and may die
-// doing so. It is started once, forks for each request, and answers through a sealed memory file.
+// The parent's side of the workers: small programs that decode untrusted files and may die doing
+// so, one for models (patina-model-worker) and one for images (patina-image-worker). Each is
+// started once, when it is first needed, forks for each request, and answers through a sealed
+// memory file.
 //
 // Thread-safe: requests from several threads run in parallel children. A request never waits longer
 // than limits::kWorkerWallSeconds; a dead, killed or silent child is an Error, and a dead worker is
@@ -27,19 +29,26 @@ struct WorkerLimits {
     std::size_t replyBytes = limits::kWorkerReplyBytes; // of the payload it may answer with
 };
 
+enum class WorkerKind { Model, Image };
+
+struct WorkerPrograms {
+    std::filesystem::path model, image;
+};
+
 class WorkerClient {
   public:
-    // `program` is patina-worker; defaultProgram() finds it beside the running executable, in
-    // ../bin beside it, where it is installed (../libexec/patina), or in $PATINA_BIN_DIR. Nothing
-    // starts before the first request or warmUp().
-    explicit WorkerClient(std::filesystem::path program = defaultProgram());
+    // defaultPrograms() finds them beside the running executable, in ../bin beside it, where they
+    // are installed (../libexec/patina), or in $PATINA_BIN_DIR. Nothing starts before the first
+    // request or warmUp().
+    explicit WorkerClient(WorkerPrograms programs = defaultPrograms());
     ~WorkerClient();
     WorkerClient(const WorkerClient&) = delete;
     WorkerClient& operator=(const WorkerClient&) = delete;
 
-    static std::filesystem::path defaultProgram();
+    static WorkerPrograms defaultPrograms();
 
-    void warmUp(); // starts the process in the background, so that the first file does not wait
+    // Starts a process in the background, so that the first file does not wait.
+    void warmUp(WorkerKind kind);
     void setLimits(const WorkerLimits& limits);
 
     // Pictures that a model names outside its own folder are read only where somebody has agreed to
@@ -49,24 +58,25 @@ class WorkerClient {
     [[nodiscard]] bool outsideAllowed(const std::filesystem::path& model) const;
 
     // One request: `header` (JSON text) and an optional payload go out, `header` (JSON) and a
-    // payload come back. The adapters in core/image and core/mesh give them meaning.
+    // payload come back. The adapters in core/io give them meaning.
     struct Reply {
         std::string header;
         Bytes payload;
     };
-    Result<Reply> request(const std::string& header, std::span<const std::byte> payload,
+    Result<Reply> request(WorkerKind kind, const std::string& header,
+                          std::span<const std::byte> payload,
                           const std::filesystem::path& fileForMessages);
     // The same with a payload that is in its place already.
-    Result<Reply> request(const std::string& header, MemoryFile payload,
+    Result<Reply> request(WorkerKind kind, const std::string& header, MemoryFile payload,
                           const std::filesystem::path& fileForMessages);
     // The same with an open file as payload: the child reads it through the descriptor, which stays
     // the caller's.
-    Result<Reply> request(const std::string& header, int payloadFd,
+    Result<Reply> request(WorkerKind kind, const std::string& header, int payloadFd,
                           const std::filesystem::path& fileForMessages);
 
-    // For tests and diagnosis: the process id of the worker (-1 when none runs) and those of the
+    // For tests and diagnosis: the process id of a worker (-1 when none runs) and those of the
     // children at work.
-    [[nodiscard]] int workerProcess() const;
+    [[nodiscard]] int workerProcess(WorkerKind kind) const;
     [[nodiscard]] std::vector<int> childProcesses() const;
 
   private:

@@ -1,4 +1,4 @@
-// The running `patina-worker` as its client holds it: process id and control socket.
+// A running worker as its client holds it: process id and control socket.
 //
 // Owned and guarded by WorkerClient. The worker ends by itself when the control socket closes, so
 // it never outlives a client that crashed. (PR_SET_PDEATHSIG would not do here: it fires when the

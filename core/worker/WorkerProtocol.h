@@ -1,4 +1,4 @@
-// What the client and `patina-worker` say to each other. Both come from the same build, so the
+// What the client and a worker say to each other. Both come from the same build, so the
 // messages are plain structs; the heavy parts travel as memory files beside them (SCM_RIGHTS).
 //
 // The client keeps one control socket to the worker. For each request it makes a socket pair of

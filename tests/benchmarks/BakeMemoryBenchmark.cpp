@@ -75,7 +75,7 @@ void peakMemory(benchmark::State& state) {
     settings.samples = c.samples;
     settings.fitted = false;
     WorkerClient worker;
-    worker.warmUp();
+    worker.warmUp(WorkerKind::Image);
     double bake = 0.0, file = 0.0;
     for (auto _ : state) {
         TileSink sink;

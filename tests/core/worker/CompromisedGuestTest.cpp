@@ -42,7 +42,8 @@ class CompromisedGuest : public testing::Test {
 
     Result<WorkerClient::Reply> ask(json header) {
         header["op"] = "selfTest";
-        return client.request(header.dump(), std::span<const std::byte>(), "chair.obj");
+        return client.request(WorkerKind::Model, header.dump(), std::span<const std::byte>(),
+                              "chair.obj");
     }
     json answer(json header) {
         const auto reply = ask(std::move(header));
@@ -76,7 +77,7 @@ TEST_F(CompromisedGuest, CannotReachTheNetworkOrOtherPrograms) {
 
 TEST_F(CompromisedGuest, CannotTypeIntoTheTerminal) {
     const json described = answer({{"do", "describe"}});
-    EXPECT_EQ(described["session"], client.workerProcess());
+    EXPECT_EQ(described["session"], client.workerProcess(WorkerKind::Model));
     EXPECT_NE(described["session"], ::getsid(0));
     constexpr long kLinuxConsole = 0x541C; // TIOCLINUX
     expectRefused({{"TIOCSTI", SYS_ioctl, {1, TIOCSTI, "x"}},
@@ -136,7 +137,7 @@ TEST_F(CompromisedGuest, CannotSlowOthersDownButArrangesItself) {
 TEST_F(CompromisedGuest, SeesNothingOfTheUsersEnvironment) {
     ::setenv("PATINA_TEST_TOKEN", "secret", 1);
     WorkerClient fresh;
-    const auto reply = fresh.request(R"({"op":"selfTest","do":"describe"})",
+    const auto reply = fresh.request(WorkerKind::Model, R"({"op":"selfTest","do":"describe"})",
                                      std::span<const std::byte>(), "chair.obj");
     ::unsetenv("PATINA_TEST_TOKEN");
     ASSERT_TRUE(reply.ok()) << reply.error().text();
@@ -148,7 +149,7 @@ TEST_F(CompromisedGuest, SeesNothingOfTheUsersEnvironment) {
 TEST_F(CompromisedGuest, CannotReadTheMemoryOfItsClientNorOfItsWorker) {
     EXPECT_EQ(answer({{"do", "describe"}})["dumpable"], 0);
     EXPECT_EQ(::prctl(PR_GET_DUMPABLE, 0, 0, 0, 0), 0);
-    for (const int pid : {::getpid(), client.workerProcess()})
+    for (const int pid : {::getpid(), client.workerProcess(WorkerKind::Model)})
         for (const char* file : {"mem", "environ", "maps"}) {
             const std::string path = fmt::format("/proc/{}/{}", pid, file);
             EXPECT_EQ(attempt(SYS_openat, {AT_FDCWD, path, O_RDONLY}), EACCES) << path;

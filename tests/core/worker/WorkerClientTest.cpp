@@ -26,7 +26,8 @@ class Worker : public testing::Test {
 
     Result<WorkerClient::Reply> ask(json header) {
         header["op"] = "selfTest";
-        return client.request(header.dump(), std::span<const std::byte>(), "chair.obj");
+        return client.request(WorkerKind::Model, header.dump(), std::span<const std::byte>(),
+                              "chair.obj");
     }
     // Waits for something that other processes do, as long as the test's own limit allows.
     template <class Condition>
@@ -77,7 +78,8 @@ TEST_F(Worker, EachRequestHasAProcessOfItsOwn) {
 // A thread that runs while the worker forks may hold a lock that the child then waits for for ever.
 TEST_F(Worker, ForksFromASingleThread) {
     ASSERT_TRUE(ask({{"do", "echo"}}).ok());
-    const auto tasks = std::filesystem::path("/proc") / std::to_string(client.workerProcess());
+    const auto tasks =
+        std::filesystem::path("/proc") / std::to_string(client.workerProcess(WorkerKind::Model));
     std::size_t count = 0;
     for ([[maybe_unused]] const auto& task : std::filesystem::directory_iterator(tasks / "task"))
         ++count;
@@ -89,9 +91,9 @@ TEST_F(Worker, ForksFromASingleThread) {
 }
 
 TEST_F(Worker, NothingStartsBeforeTheFirstRequest) {
-    EXPECT_EQ(client.workerProcess(), -1);
-    client.warmUp();
-    EXPECT_TRUE(alive(client.workerProcess()));
+    EXPECT_EQ(client.workerProcess(WorkerKind::Model), -1);
+    client.warmUp(WorkerKind::Model);
+    EXPECT_TRUE(alive(client.workerProcess(WorkerKind::Model)));
 }
 
 TEST_F(Worker, ACrashIsAMessage) {
@@ -123,7 +125,7 @@ TEST_F(Worker, ARefusalCarriesMessageAndDetail) {
 
 TEST_F(Worker, AHangIsEndedByTheWallClock) {
     client.setLimits({kLimits.memoryBytes, 20.0, 1.0});
-    client.warmUp();
+    client.warmUp(WorkerKind::Model);
     int child = -1;
     std::thread observer([&] {
         eventually([&] {
@@ -175,7 +177,7 @@ TEST_F(Worker, PrintingWithoutEndFillsNothing) {
 }
 
 TEST_F(Worker, AKilledChildIsAnErrorAndNoMore) {
-    client.warmUp();
+    client.warmUp(WorkerKind::Model);
     std::thread killer([&] {
         eventually([&] { return !client.childProcesses().empty(); });
         ::kill(client.childProcesses().front(), SIGKILL);
@@ -189,21 +191,21 @@ TEST_F(Worker, AKilledChildIsAnErrorAndNoMore) {
 
 TEST_F(Worker, AKilledWorkerIsStartedAgain) {
     ASSERT_TRUE(ask({{"do", "echo"}}).ok());
-    const int first = client.workerProcess();
+    const int first = client.workerProcess(WorkerKind::Model);
     ::kill(first, SIGKILL);
     // Whether or not its death has been noticed, the next request succeeds.
     EXPECT_TRUE(ask({{"do", "echo"}}).ok());
-    EXPECT_NE(client.workerProcess(), first);
+    EXPECT_NE(client.workerProcess(WorkerKind::Model), first);
     EXPECT_FALSE(alive(first));
 }
 
 TEST_F(Worker, AWorkerKilledDuringARequestTakesItsChildAlong) {
-    client.warmUp();
+    client.warmUp(WorkerKind::Model);
     int child = -1;
     std::thread killer([&] {
         eventually([&] { return !client.childProcesses().empty(); });
         child = client.childProcesses().front();
-        ::kill(client.workerProcess(), SIGKILL);
+        ::kill(client.workerProcess(WorkerKind::Model), SIGKILL);
     });
     const auto reply = ask({{"do", "hang"}});
     killer.join();
@@ -217,7 +219,7 @@ TEST_F(Worker, AWorkerKilledDuringARequestTakesItsChildAlong) {
 TEST_F(Worker, AStoppedWorkerDoesNotHoldUpItsClient) {
     ASSERT_TRUE(ask({{"do", "echo"}}).ok());
     client.setLimits({kLimits.memoryBytes, 20.0, 0.5});
-    ::kill(client.workerProcess(), SIGSTOP);
+    ::kill(client.workerProcess(WorkerKind::Model), SIGSTOP);
     const auto reply = ask({{"do", "echo"}});
     ASSERT_FALSE(reply.ok());
     client.setLimits(kLimits);
@@ -226,24 +228,26 @@ TEST_F(Worker, AStoppedWorkerDoesNotHoldUpItsClient) {
 
 TEST_F(Worker, TheEndOfTheClientEndsEverything) {
     auto other = std::make_unique<WorkerClient>();
-    ASSERT_TRUE(other->request(R"({"op":"selfTest","do":"echo"})", {}, {}).ok());
-    const int worker = other->workerProcess();
+    ASSERT_TRUE(other->request(WorkerKind::Model, R"({"op":"selfTest","do":"echo"})", {}, {}).ok());
+    const int worker = other->workerProcess(WorkerKind::Model);
     ASSERT_TRUE(alive(worker));
     other.reset();
     EXPECT_FALSE(std::filesystem::exists("/proc/" + std::to_string(worker))); // reaped, too
 }
 
 TEST_F(Worker, AMissingProgramIsAMessage) {
-    WorkerClient broken("/nowhere/patina-worker");
-    const auto reply = broken.request("{}", std::span<const std::byte>(), "a.png");
+    WorkerClient broken({"/nowhere/patina-model-worker", "/nowhere/patina-image-worker"});
+    const auto reply =
+        broken.request(WorkerKind::Model, "{}", std::span<const std::byte>(), "a.png");
     ASSERT_FALSE(reply.ok());
     EXPECT_EQ(reply.error().kind, ErrorKind::Internal);
-    EXPECT_THAT(reply.error().text(), HasSubstr("/nowhere/patina-worker"));
+    EXPECT_THAT(reply.error().text(), HasSubstr("/nowhere/patina-model-worker"));
 }
 
 TEST_F(Worker, AProgramThatIsNoWorkerIsAMessage) {
-    WorkerClient broken("/bin/true");
-    const auto reply = broken.request("{}", std::span<const std::byte>(), "a.png");
+    WorkerClient broken({"/bin/true", "/bin/true"});
+    const auto reply =
+        broken.request(WorkerKind::Model, "{}", std::span<const std::byte>(), "a.png");
     ASSERT_FALSE(reply.ok());
     EXPECT_EQ(reply.error().kind, ErrorKind::Internal);
 }
@@ -286,7 +290,7 @@ TEST_F(Worker, LeavesNeitherDescriptorsNorZombies) {
     EXPECT_EQ(openDescriptors(), before);
 
     // Nor does the worker keep any of either.
-    const std::string worker = "/proc/" + std::to_string(client.workerProcess());
+    const std::string worker = "/proc/" + std::to_string(client.workerProcess(WorkerKind::Model));
     EXPECT_TRUE(eventually([&] {
         std::string children;
         std::getline(std::ifstream(worker + "/task/" + worker.substr(6) + "/children"), children);

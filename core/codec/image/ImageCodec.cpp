@@ -1,7 +1,7 @@
 // The only file that sees OpenImageIO.
+#include "core/codec/image/ImageCodec.h"
 #include "core/base/Limits.h"
-#include "core/codec/Codec.h"
-#include "core/codec/LuminanceChroma.h"
+#include "core/codec/image/LuminanceChroma.h"
 #include "core/image/AreaFilter.h"
 
 #include <OpenImageIO/filesystem.h>

@@ -1,4 +1,4 @@
-#include "core/codec/StlReader.h"
+#include "core/codec/model/StlReader.h"
 
 #include "core/base/Limits.h"
 #include "core/codec/Codec.h"

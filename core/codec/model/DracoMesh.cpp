@@ -1,5 +1,5 @@
 // The only file that sees Draco.
-#include "core/codec/DracoMesh.h"
+#include "core/codec/model/DracoMesh.h"
 
 #include "core/base/Limits.h"
 #include "core/codec/Codec.h"

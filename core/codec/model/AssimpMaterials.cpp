@@ -1,4 +1,4 @@
-#include "core/codec/AssimpMaterials.h"
+#include "core/codec/model/AssimpMaterials.h"
 
 #include <algorithm>
 #include <array>

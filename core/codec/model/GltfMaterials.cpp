@@ -1,4 +1,4 @@
-#include "core/codec/GltfMaterials.h"
+#include "core/codec/model/GltfMaterials.h"
 
 #include "core/codec/Codec.h"
 

@@ -1,8 +1,8 @@
-#include "core/codec/AssimpReader.h"
-#include "core/codec/Codec.h"
-#include "core/codec/GltfReader.h"
-#include "core/codec/PlyReader.h"
-#include "core/codec/StlReader.h"
+#include "core/codec/model/ModelCodec.h"
+#include "core/codec/model/AssimpReader.h"
+#include "core/codec/model/GltfReader.h"
+#include "core/codec/model/PlyReader.h"
+#include "core/codec/model/StlReader.h"
 #include "core/worker/ModelWire.h"
 
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 // cannot tell a file that was cut short.
 #pragma once
 
-#include "core/codec/ModelFolder.h"
+#include "core/codec/model/ModelFolder.h"
 #include "core/mesh/ImportedModel.h"
 
 namespace patina::codec {

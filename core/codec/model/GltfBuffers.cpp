@@ -1,4 +1,4 @@
-#include "core/codec/GltfBuffers.h"
+#include "core/codec/model/GltfBuffers.h"
 
 #include "core/base/Limits.h"
 #include "core/codec/Codec.h"

@@ -2,7 +2,7 @@
 // Every offset and length is checked before it is used.
 #pragma once
 
-#include "core/codec/ModelFolder.h"
+#include "core/codec/model/ModelFolder.h"
 
 #include <cstdint>
 #include <nlohmann/json.hpp>

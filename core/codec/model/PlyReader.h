@@ -2,7 +2,7 @@
 // hangs on one damaged PLY file in seven.
 #pragma once
 
-#include "core/codec/ModelFolder.h"
+#include "core/codec/model/ModelFolder.h"
 #include "core/mesh/ImportedModel.h"
 
 namespace patina::codec {

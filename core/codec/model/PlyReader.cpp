@@ -1,4 +1,4 @@
-#include "core/codec/PlyReader.h"
+#include "core/codec/model/PlyReader.h"
 
 #include "core/base/Limits.h"
 #include "core/codec/Codec.h"

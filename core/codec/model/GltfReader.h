@@ -7,7 +7,7 @@
 // strength, misreads normalised texture coordinates and does not decode percent signs in URIs.
 #pragma once
 
-#include "core/codec/ModelFolder.h"
+#include "core/codec/model/ModelFolder.h"
 #include "core/mesh/ImportedModel.h"
 
 namespace patina::codec {

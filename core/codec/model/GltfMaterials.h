@@ -1,7 +1,7 @@
 // The materials of a glTF file, with the textures they name.
 #pragma once
 
-#include "core/codec/GltfBuffers.h"
+#include "core/codec/model/GltfBuffers.h"
 #include "core/mesh/ImportedModel.h"
 
 #include <nlohmann/json_fwd.hpp>

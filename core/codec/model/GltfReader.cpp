@@ -1,10 +1,10 @@
-#include "core/codec/GltfReader.h"
+#include "core/codec/model/GltfReader.h"
 
 #include "core/base/Limits.h"
 #include "core/codec/Codec.h"
-#include "core/codec/DracoMesh.h"
-#include "core/codec/GltfBuffers.h"
-#include "core/codec/GltfMaterials.h"
+#include "core/codec/model/DracoMesh.h"
+#include "core/codec/model/GltfBuffers.h"
+#include "core/codec/model/GltfMaterials.h"
 #include "core/mesh/MeshSource.h"
 
 #include <algorithm>

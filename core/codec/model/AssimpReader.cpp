@@ -1,8 +1,8 @@
-#include "core/codec/AssimpReader.h"
+#include "core/codec/model/AssimpReader.h"
 
 #include "core/base/Limits.h"
-#include "core/codec/AssimpMaterials.h"
 #include "core/codec/Codec.h"
+#include "core/codec/model/AssimpMaterials.h"
 
 #include <algorithm>
 #include <assimp/DefaultLogger.hpp>

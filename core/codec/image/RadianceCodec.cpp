@@ -1,6 +1,6 @@
 // Radiance files in the worker's protocol.
-#include "core/codec/Codec.h"
-#include "core/codec/RadianceHdr.h"
+#include "core/codec/image/ImageCodec.h"
+#include "core/codec/image/RadianceHdr.h"
 #include "core/image/AreaFilter.h"
 
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "core/codec/RadianceHdr.h"
+#include "core/codec/image/RadianceHdr.h"
 
 #include "core/base/Limits.h"
 #include "core/codec/Codec.h"

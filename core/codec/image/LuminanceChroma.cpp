@@ -1,4 +1,4 @@
-#include "core/codec/LuminanceChroma.h"
+#include "core/codec/image/LuminanceChroma.h"
 
 #include "core/codec/Codec.h"
 

@@ -1,4 +1,4 @@
-#include "core/codec/ModelFolder.h"
+#include "core/codec/model/ModelFolder.h"
 
 #include <algorithm>
 #include <fcntl.h>

@@ -1,7 +1,7 @@
 // OBJ, COLLADA and FBX through Assimp 5.2.5.
 #pragma once
 
-#include "core/codec/ModelFolder.h"
+#include "core/codec/model/ModelFolder.h"
 #include "core/mesh/ImportedModel.h"
 
 #include <string>

@@ -1,0 +1,15 @@
+// What the workers have in common: one program for models and one for images, each linked with its
+// libraries alone. Started by Patina itself (core/worker/WorkerClient.h), never by hand.
+#pragma once
+
+#include "app/worker/Child.h"
+
+#include <functional>
+
+namespace patina::worker {
+
+// main() of a worker. `prepare` loads what every child would have to load, before the first one is
+// forked.
+int workerMain(const Operations& operations, const std::function<void()>& prepare);
+
+} // namespace patina::worker
