@@ -1,13 +1,13 @@
 #include "app/editor/Actions.h"
 
+#include "app/editor/document/UndoStack.h"
 #include "app/editor/style/Icons.h"
 
 #include <QActionGroup>
-#include <QUndoStack>
 
 namespace patina::editor {
 
-Actions::Actions(QUndoStack& undoStack, QObject* parent)
+Actions::Actions(UndoStack& undoStack, QObject* parent)
     : QObject(parent)
     , newScene(make(tr("&New"), QStringLiteral("new"), {QKeySequence::New},
                     tr("Start over with the built-in scene")))

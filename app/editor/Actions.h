@@ -8,14 +8,14 @@
 #include <QObject>
 #include <QString>
 
-class QUndoStack;
-
 namespace patina::editor {
+
+class UndoStack;
 
 class Actions : public QObject {
     Q_OBJECT
   public:
-    Actions(QUndoStack& undoStack, QObject* parent);
+    Actions(UndoStack& undoStack, QObject* parent);
 
     QAction *newScene, *open, *addModel, *save, *saveAs, *saveEnvironment, *exportScene, *quit;
     QAction* recover;

@@ -9,7 +9,7 @@
 #include "app/editor/HelpDialogs.h"
 #include "app/editor/Session.h"
 #include "app/editor/ViewActions.h"
-#include "app/editor/document/Commands.h"
+#include "core/edit/EditSession.h"
 #include "app/editor/document/PrintableNotice.h"
 #include "app/editor/panel/BakePanel.h"
 #include "app/editor/panel/BrdfLensPanel.h"

@@ -3,7 +3,6 @@
 #include "app/editor/Actions.h"
 #include "app/editor/FileFlow.h"
 #include "app/editor/MainWindow.h"
-#include "app/editor/RecoverCommand.h"
 #include "app/editor/RecoveryDialog.h"
 #include "app/editor/Session.h"
 #include "app/editor/viewport/ViewportWidget.h"
@@ -123,7 +122,10 @@ void Recovery::load(const Work& work) {
                     return;
                 }
                 OpenedScene& opened = result->value();
-                target.undoStack().push(new RecoverCommand(target, std::move(opened.document)));
+                // One step on top of what was saved: undo shows the saved state.
+                target.session().push(std::make_unique<ReplaceDocumentStep>(
+                    tr("Recover Unsaved Work").toStdString(), target.document(),
+                    std::move(opened.document)));
                 self->m_keeper.adopt(std::move(work->session));
                 const UserNotice notice = UserNotice::fromImport(
                     QString::fromStdString(work->record.name), opened.notices, opened.missingFiles);

@@ -67,8 +67,8 @@ RecoveryKeeper::RecoveryKeeper(DocumentController& controller, ViewportWidget& v
     m_pictureTimer.setSingleShot(true);
     connect(&m_pictureTimer, &QTimer::timeout, this, &RecoveryKeeper::takePicture);
 
-    // A step is on the stack when its index changes; what is no step of its own follows soon.
-    connect(&controller.undoStack(), &QUndoStack::indexChanged, this, &RecoveryKeeper::edited);
+    // What is no step of its own follows soon.
+    connect(&controller.undoStack(), &UndoStack::stepsChanged, this, &RecoveryKeeper::edited);
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
         if (change.affects != Affects::Nothing)
             schedule();
@@ -149,7 +149,7 @@ void RecoveryKeeper::take() {
         return;
     m_taken.start();
     const double start = threadMs();
-    const QUndoStack& undo = m_controller.undoStack();
+    const UndoStack& undo = m_controller.undoStack();
     RecoverySnapshot snapshot;
     snapshot.document = m_controller.document();
     snapshot.name = m_controller.displayName().toStdString();

@@ -1,22 +1,19 @@
-// The one place that changes the document. Every edit is a command on the undo stack; every view
-// of the document listens to the one signal changed() and reads document().
+// The editor's document: an EditSession (core/edit) with signals, files and what is read in the
+// background. Every view of the document listens to the one signal changed() and reads document().
 //
 // Files are read and written on background threads: the functions that name a file return at once,
 // apply their result later as one step, and tell of problems through noticed().
 #pragma once
 
 #include "app/editor/document/BackgroundTasks.h"
-#include "app/editor/document/DocumentState.h"
 #include "app/editor/document/SaveQuestion.h"
+#include "app/editor/document/UndoStack.h"
 #include "app/editor/document/UserNotice.h"
-#include "core/document/Document.h"
-#include "core/edit/Change.h"
-#include "core/edit/Edit.h"
+#include "core/edit/EditSession.h"
 
 #include <QObject>
 #include <QString>
 #include <QStringList>
-#include <QUndoStack>
 #include <functional>
 #include <map>
 #include <memory>
@@ -34,34 +31,23 @@ struct SoftboxRig;
 
 namespace patina::editor {
 
-// Edits of one parameter that carry the same session merge into one undo step; 0 never merges.
-using DragSession = quint64;
-
-class DocumentCommand;
 class EnvironmentResolver;
 class OpenProject;
 struct FileOnDisk;
 struct SaveOrder;
 
-// The lists that structural edits replace as a whole, ids kept.
-struct Elements {
-    std::vector<MeshInstance> meshes;
-    std::vector<Material> materials;
-    std::vector<Light> lights;
-    std::vector<Softbox> softboxes;
-    Id nextId = 1;
-};
-
-class DocumentController : public QObject {
+class DocumentController : public QObject, private EditObserver {
     Q_OBJECT
   public:
     // `worker` outlives the controller. The document is empty until newDocument() or openScene().
     explicit DocumentController(WorkerClient& worker, QObject* parent = nullptr);
     ~DocumentController() override;
 
-    [[nodiscard]] const Document& document() const { return m_document; }
+    [[nodiscard]] const Document& document() const { return m_session.document(); }
     [[nodiscard]] WorkerClient& worker() { return m_worker; }
-    [[nodiscard]] QUndoStack& undoStack() { return m_undo; }
+    // For edits that have no function of their own here.
+    [[nodiscard]] EditSession& session() { return m_session; }
+    [[nodiscard]] UndoStack& undoStack() { return m_undo; }
     [[nodiscard]] BackgroundTasks& tasks() { return m_tasks; }
 
     // The project file, empty when it has not been saved yet.
@@ -71,12 +57,9 @@ class DocumentController : public QObject {
     [[nodiscard]] QString displayName() const; // "helmet.patina", "FlightHelmet", "Untitled"
     // Whether the document differs from what was last saved or opened: what was written is compared
     // with what is there.
-    [[nodiscard]] bool isModified() const { return !(m_saved == state()); }
-    // Undo steps between what was last saved or opened and what is there; 0: none, or not known, as
-    // when undo does not lead back there.
-    [[nodiscard]] int unsavedSteps() const;
-    // Taken with a copy of the document it tells later whether the copy is still what is there.
-    [[nodiscard]] DocumentState state() const;
+    [[nodiscard]] bool isModified() const { return m_session.isModified(); }
+    [[nodiscard]] int unsavedSteps() const { return m_session.unsavedSteps(); }
+    [[nodiscard]] DocumentState state() const { return m_session.state(); }
     // When something was asked for that is read in the background.
     struct Begun {
         DocumentState state;
@@ -87,17 +70,15 @@ class DocumentController : public QObject {
     // soon as there is nothing to redo.
     void deliver(const Begun& begun, const QString& name, std::function<void()> edit);
     // Grows with each change of the document, whatever made it, navigation too.
-    [[nodiscard]] quint64 revision() const { return m_revision; }
+    [[nodiscard]] quint64 revision() const { return m_session.revision(); }
     // Nothing would be lost by replacing it: the untouched start scene.
     [[nodiscard]] bool isPristine() const;
 
-    // --- Parameters: clamped to their hard range; equal values make no undo step -----------------
-    [[nodiscard]] DragSession newDragSession() { return ++m_lastSession; }
+    // --- Parameters (core/edit/EditSession.h) ----------------------------------------------------
+    [[nodiscard]] DragSession newDragSession() { return m_session.newDragSession(); }
     void setParameter(const ParameterInfo& info, Target target, const ParameterValue& value,
                       DragSession session = 0);
     void resetParameter(const ParameterInfo& info, Target target);
-    // Several of one element as one step, as a drag in two directions needs it: within a session
-    // the same parameters in the same order.
     void setParameters(Target target, const std::vector<ParameterEdit>& edits, const QString& text,
                        DragSession session = 0);
 
@@ -109,39 +90,40 @@ class DocumentController : public QObject {
     void setSecondEnvironment(const QString& source); // to fade to; the same
 
     // --- Generated environments: the image follows each edit, a draft first --------------------
-    void setEnvironmentKind(EnvironmentKind kind);       // Softboxes without one get the first rig
-    void setSoftboxRig(const library::SoftboxRig& rig);  // in place of what is there
-    Id addSoftbox(float azimuthDeg, float elevationDeg); // 0: there are too many
-    Id duplicateSoftbox(Id softbox);
-    void removeSoftbox(Id softbox);
+    void setEnvironmentKind(EnvironmentKind kind);      // Softboxes without one get the first rig
+    void setSoftboxRig(const library::SoftboxRig& rig); // in place of what is there
+    Id addSoftbox(float azimuthDeg, float elevationDeg) { // 0: there are too many
+        return m_session.addSoftbox(azimuthDeg, elevationDeg);
+    }
+    Id duplicateSoftbox(Id softbox) { return m_session.duplicateSoftbox(softbox); }
+    void removeSoftbox(Id softbox) { m_session.removeSoftbox(softbox); }
 
-    // --- Structure -------------------------------------------------------------------------------
+    // --- Structure (core/edit/EditSession.h) -----------------------------------------------------
     void rename(Target target, const QString& name);
-    Id addLight(LightType type); // as bright at the scene's centre as any other type
-    Id duplicateLight(Id light);
+    Id addLight(LightType type) { return m_session.addLight(type); }
+    Id duplicateLight(Id light) { return m_session.duplicateLight(light); }
     // What changes of the light becomes one step, or part of a drag. Type, place, direction, size:
     // everything but its name.
     void changeLight(const Light& light, DragSession session, const QString& text);
-    void removeLight(Id light);
-    Id addMaterial();
-    Id duplicateMaterial(Id material);
-    void removeMaterial(Id material); // its meshes get the first of the others; the last one stays
-    void assignMaterial(Id mesh, Id material);
+    void removeLight(Id light) { m_session.removeLight(light); }
+    Id addMaterial() { return m_session.addMaterial(); }
+    Id duplicateMaterial(Id material) { return m_session.duplicateMaterial(material); }
+    void removeMaterial(Id material) { m_session.removeMaterial(material); }
+    void assignMaterial(Id mesh, Id material) { m_session.assignMaterial(mesh, material); }
     void applyLibraryMaterial(Id material, const QString& name); // keeps id and name
-    void setMeshVisible(Id mesh, bool visible);
-    void removeMesh(Id mesh);
+    void setMeshVisible(Id mesh, bool visible) { m_session.setMeshVisible(mesh, visible); }
+    void removeMesh(Id mesh) { m_session.removeMesh(mesh); }
     void addModel(const QString& source); // a file or "builtin:NAME"
     // Any edit of the lists of meshes, materials and lights (core/edit/Edit.h) as one step.
     void editStructure(const QString& undoText, const std::function<void(Document&)>& edit);
 
     // --- Bakes -----------------------------------------------------------------------------------
-    // Replaces the one of the same kind. A bake arrives when it is done: as an undo step, unless
-    // there is something to redo, which that would erase; then as none.
+    // An undo step, unless there is something to redo, which that would erase; then none.
     void attachBake(BakeArtifactPtr artifact);
-    void detachBake(BakeKind kind);
-    // `after` is `before` with what follows from the rest of the document brought up to date: no
-    // step of its own. Nothing happens when `before` is no longer attached.
-    void renewBake(const BakeArtifactPtr& before, BakeArtifactPtr after);
+    void detachBake(BakeKind kind) { m_session.detachBake(kind); }
+    void renewBake(const BakeArtifactPtr& before, BakeArtifactPtr after) {
+        m_session.renewBake(before, std::move(after));
+    }
 
     // --- View ------------------------------------------------------------------------------------
     // Shows the scene through an OpenColorIO configuration, with its default display and view; an
@@ -152,7 +134,7 @@ class DocumentController : public QObject {
     // that of attachBake().
     void showLighting(LightingMode mode);
     // Navigation is saved with the document, but is neither an undo step nor a modification.
-    void setCamera(const Camera& camera);
+    void setCamera(const Camera& camera) { m_session.setCamera(camera); }
 
     // --- Files -----------------------------------------------------------------------------------
     // `done` runs on the UI thread with whether it worked; not when something newer was opened, nor
@@ -183,19 +165,20 @@ class DocumentController : public QObject {
     void saved(const QString& file);
 
   private:
-    friend class DocumentCommand;
-    [[nodiscard]] QString nameText(Target target) const;
-    void apply(const std::function<Change(Document&)>& edit); // for commands only
-    void push(DocumentCommand* command);
-    void pushOrApply(std::unique_ptr<DocumentCommand> command); // never erases what can be redone
+    Affects derive(Document& document) override;
+    void documentChanged(const Change& change) override;
+    void historyChanged() override;
+    void stepsDropped() override;
+    // One step of those that differ.
+    void pushParameters(Target target, const std::vector<ParameterEdit>& edits,
+                        const QString& text) {
+        m_session.setDiffering(target, edits, text.toStdString());
+    }
     void deliverWaiting();
-    void announce(const Change& change); // and whether isModified() has changed
-    void noteModified();
+    void noteModified(); // tells whether isModified() has changed
     // Now, or when the user agrees to lose what was edited since `begun`.
     void replaceWhenAllowed(const DocumentState& begun, const QString& name,
                             std::function<void()> replace);
-    void pushParameters(Target target, const std::vector<ParameterEdit>& edits, DragSession session,
-                        const QString& text);
     void readEnvironment(const QString& source, EnvironmentLayout layout, const QString& undoText);
     void takeOpened(OpenedScene opened, const QString& scene, const QString& name,
                     const std::optional<Hash>& version);
@@ -208,28 +191,20 @@ class DocumentController : public QObject {
                          bool pristine);
 
     WorkerClient& m_worker;
-    Document m_document;
-    QUndoStack m_undo;
+    EditSession m_session;
+    UndoStack m_undo;
     BackgroundTasks m_tasks;
     EnvironmentResolver* m_environment; // owned by Qt
     QString m_filePath, m_name;
     bool m_pristine = true;
-    DragSession m_lastSession = 0;
 
-    quint64 m_revision = 0;
     quint64 m_opened = 0; // scenes asked for
     // What opening the newest of them replaces unasked: the state when it was asked for, and what
     // came since of what had been asked for before.
     std::shared_ptr<DocumentState> m_opening;
-    quint64 m_history = 0, m_step = 0; // of state()
-    quint64 m_lastStep = 0;            // steps are numbered once
-    quint64 m_mergeMark = 0;           // edits on two sides of a save do not merge
-    DocumentState m_saved;
     bool m_shownModified = false;
-    Id m_firstFreeId = 1;                              // ids are never used twice, also after undo
-    quint64 m_documents = 0;                           // which one this is, of those that were open
-    std::shared_ptr<FileOnDisk> m_onDisk;              // what is known of the file at m_filePath
-    std::vector<std::pair<quint64, QString>> m_saving; // on their way: document's number, file
+    std::shared_ptr<FileOnDisk> m_onDisk;                 // what is known of the file at m_filePath
+    std::vector<std::pair<quint64, QString>> m_saving;    // on their way: document's number, file
     std::map<QString, std::weak_ptr<FileOnDisk>> m_files; // that, and of saves on their way
     std::vector<std::function<void()>> m_waiting;         // for there being nothing to redo
     std::function<void(const SaveQuestion&)> m_saveQuestion;

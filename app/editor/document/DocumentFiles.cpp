@@ -1,12 +1,12 @@
 // The part of DocumentController that reads and writes files, always in the background.
 
-#include "app/editor/document/Commands.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/EnvironmentResolver.h"
 #include "app/editor/document/FileKinds.h"
 #include "app/editor/document/FileOnDisk.h"
 #include "app/editor/document/ImportNotice.h"
 #include "core/base/Check.h"
+#include "core/edit/EditSession.h"
 #include "core/io/DisplayTransform.h"
 #include "core/library/Library.h"
 #include "core/scene/DocumentIO.h"
@@ -77,19 +77,12 @@ void DocumentController::replaceDocument(Document document, const QString& fileP
     const bool model = filePath.isEmpty() && !pristine;
     m_tasks.cancelAll(model ? QStringList{environmentTask, secondEnvironmentTask} : QStringList());
     m_waiting.clear();
-    m_document = std::move(document);
-    m_environment->reset(m_document);
-    m_undo.clear();
+    m_environment->reset(document);
     m_filePath = filePath;
     m_name = name;
     m_pristine = pristine;
-    ++m_documents;
-    ++m_history;
-    m_firstFreeId = m_document.nextId;
-    m_saved = state();
-    m_shownModified = false;
     m_onDisk.reset();
-    announce(Change::everything());
+    m_session.replace(std::move(document));
     Q_EMIT fileChanged();
 }
 
@@ -178,7 +171,7 @@ void DocumentController::takeOpened(OpenedScene opened, const QString& scene, co
         isBuiltin(scene.toStdString()) ? scene : QFileInfo(scene).absoluteFilePath();
     notice.file = file;
     if (!opened.isProject)
-        keepLight(opened.document, m_document);
+        keepLight(opened.document, document());
     replaceDocument(std::move(opened.document), opened.isProject ? file : QString(),
                     opened.isProject ? name : QFileInfo(name).completeBaseName(), false);
     if (opened.isProject)
@@ -229,13 +222,13 @@ void DocumentController::setMap(const ParameterInfo& map, Target target, const Q
                     return;
                 }
                 deliver(begun, shortName(source), [this, &map, target, name, image] {
-                    if (!targetExists(m_document, target))
+                    if (!targetExists(document(), target))
                         return;
-                    MapSlot slot = std::get<MapSlot>(map.get(m_document, target.id));
+                    MapSlot slot = std::get<MapSlot>(map.get(document(), target.id));
                     slot.source = name;
                     slot.image = image->value();
                     slot.problem.clear();
-                    pushParameters(target, editsForMap(m_document, map, target, slot), 0,
+                    pushParameters(target, editsForMap(document(), map, target, slot),
                                    tr("Set %1").arg(labelOf(map)));
                 });
             };
@@ -243,7 +236,7 @@ void DocumentController::setMap(const ParameterInfo& map, Target target, const Q
 }
 
 void DocumentController::clearMap(const ParameterInfo& map, Target target) {
-    pushParameters(target, {{&map, map.defaultValue()}}, 0, tr("Remove %1").arg(labelOf(map)));
+    pushParameters(target, {{&map, map.defaultValue()}}, tr("Remove %1").arg(labelOf(map)));
 }
 
 void DocumentController::setEnvironment(const QString& source) {
@@ -271,9 +264,9 @@ void DocumentController::setSecondEnvironment(const QString& source) {
                 deliver(begun, title, [this, title, slot] {
                     std::vector<ParameterEdit> edits{{&parameter("environment.secondImage"), slot}};
                     // A new one is seen at once, and the first is not lost for it.
-                    if (m_document.environment.second.source.empty())
+                    if (document().environment.second.source.empty())
                         edits.push_back({&parameter("environment.fade"), 0.5f});
-                    pushParameters({Scope::Environment, 0}, edits, 0, tr("Fade to %1").arg(title));
+                    pushParameters({Scope::Environment, 0}, edits, tr("Fade to %1").arg(title));
                 });
                 const UserNotice notice = UserNotice::fromImport(title, *notices, {});
                 if (!notice.text.isEmpty())
@@ -310,7 +303,7 @@ void DocumentController::readEnvironment(const QString& source, EnvironmentLayou
                         {{&parameter("environment.kind"), static_cast<int>(EnvironmentKind::Image)},
                          {&parameter("environment.image"), sky},
                          {&parameter("environment.layout"), static_cast<int>(layout)}},
-                        0, undoText);
+                        undoText);
                 });
                 const UserNotice notice = UserNotice::fromImport(title, *notices, {});
                 if (!notice.text.isEmpty())
@@ -326,13 +319,12 @@ void DocumentController::setDisplayConfig(const QString& file) {
     if (openColorIoConfig(config).empty())
         curve = View().toneMap;
     else if (config.empty())
-        curve = m_document.view.toneMap;
+        curve = document().view.toneMap;
     pushParameters({Scope::View, 0},
                    {{&parameter("view.ocioConfig"), config},
                     {&parameter("view.ocioDisplay"), std::string()},
                     {&parameter("view.ocioView"), std::string()},
                     {&parameter("view.toneMap"), static_cast<int>(curve)}},
-                   0,
                    file.isEmpty() ? tr("Leave OpenColorIO Configuration")
                                   : tr("Show Through %1").arg(QFileInfo(file).fileName()));
 }
@@ -341,7 +333,7 @@ void DocumentController::setDisplayView(const QString& display, const QString& v
     pushParameters({Scope::View, 0},
                    {{&parameter("view.ocioDisplay"), display.toStdString()},
                     {&parameter("view.ocioView"), view.toStdString()}},
-                   0, tr("Show %1").arg(view.isEmpty() ? display : view));
+                   tr("Show %1").arg(view.isEmpty() ? display : view));
 }
 
 void DocumentController::applyLibraryMaterial(Id id, const QString& name) {
@@ -356,8 +348,11 @@ void DocumentController::applyLibraryMaterial(Id id, const QString& name) {
                     return;
                 }
                 deliver(begun, title, [this, id, title, result] {
-                    if (m_document.material(id))
-                        editStructure(tr("Make %1 %2").arg(nameText({Scope::Material, id}), title),
+                    if (document().material(id))
+                        editStructure(tr("Make %1 %2")
+                                          .arg(QString::fromStdString(
+                                                   nameOf(document(), {Scope::Material, id})),
+                                               title),
                                       [&](Document& document) {
                                           replaceLook(document, id, result->value());
                                       });

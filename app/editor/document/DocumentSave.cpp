@@ -125,22 +125,23 @@ void DocumentController::holdFile(const std::optional<Hash>& version) {
 }
 
 QString DocumentController::saveTarget() const {
-    return !m_saving.empty() && m_saving.back().first == m_documents ? m_saving.back().second
-                                                                     : m_filePath;
+    return !m_saving.empty() && m_saving.back().first == m_session.documentNumber()
+               ? m_saving.back().second
+               : m_filePath;
 }
 
 void DocumentController::saveAs(const QString& file, std::function<void(bool)> done,
                                 const SaveConsent& consent) {
-    ++m_mergeMark; // undo leads back to what is saved
+    m_session.separateSteps(); // undo leads back to what is saved
     auto order = std::make_shared<SaveOrder>();
     order->file = QFileInfo(file).absoluteFilePath();
     order->done = std::move(done);
     order->consent = consent;
-    order->document = std::make_shared<const Document>(m_document); // editing goes on meanwhile
+    order->document = std::make_shared<const Document>(document()); // editing goes on meanwhile
     order->state = state();
-    order->documentNumber = m_documents;
+    order->documentNumber = m_session.documentNumber();
     order->onDisk = fileOnDisk(order->file, false);
-    m_saving.emplace_back(m_documents, order->file);
+    m_saving.emplace_back(m_session.documentNumber(), order->file);
     m_tasks.enqueue(tr("Saving %1").arg(QFileInfo(file).fileName()),
                     [this, order](const JobContext&) -> BackgroundTasks::Apply {
                         auto outcome = std::make_shared<SaveOutcome>();
@@ -157,13 +158,14 @@ void DocumentController::saveAs(const QString& file, std::function<void(bool)> d
 
 void DocumentController::saveEnded(const SaveOutcome& outcome, const SaveOrder& order) {
     m_saving.erase(m_saving.begin()); // they end in the order of the calls
-    const bool stillOpen = order.documentNumber == m_documents; // else it is another document
+    const bool stillOpen =
+        order.documentNumber == m_session.documentNumber(); // else it is another document
     if (outcome.error) {
         const std::optional<Obstacle> obstacle = obstacleOf(outcome, order);
         if (obstacle && m_saveQuestion && stillOpen) {
-            const auto overwrite = [this, number = m_documents, file = order.file,
+            const auto overwrite = [this, number = m_session.documentNumber(), file = order.file,
                                     done = order.done, consent = obstacle->consent] {
-                if (number == m_documents)
+                if (number == m_session.documentNumber())
                     saveAs(file, done, consent);
                 else if (done)
                     done(false);
@@ -174,15 +176,13 @@ void DocumentController::saveEnded(const SaveOutcome& outcome, const SaveOrder& 
         }
         Q_EMIT noticed(UserNotice::fromError(*outcome.error));
     } else if (order.file == m_filePath && !stillOpen) {
-        m_saved.history = 0; // what was opened from this file is no longer what it holds
-        noteModified();
+        m_session.forgetSaved(); // what was opened from this file is no longer what it holds
     } else if (stillOpen) {
         m_filePath = order.file;
         m_name = QFileInfo(order.file).fileName();
         m_pristine = false;
         m_onDisk = order.onDisk;
-        m_saved = order.state;
-        m_shownModified = isModified();
+        m_session.setSaved(order.state);
         Q_EMIT fileChanged();
     }
     if (!outcome.error) {

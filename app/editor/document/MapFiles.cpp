@@ -1,8 +1,8 @@
 #include "app/editor/document/MapFiles.h"
 
-#include "app/editor/document/Commands.h"
 #include "app/editor/document/DocumentController.h"
 #include "core/document/Source.h"
+#include "core/edit/EditSession.h"
 #include "core/scene/Scene.h"
 
 #include <QCoreApplication>
@@ -81,7 +81,7 @@ void DocumentController::addFiles(const QStringList& files, Id material) {
         setEnvironment(file);
     for (const QString& file : plan.displayConfigs)
         setDisplayConfig(file);
-    if (m_document.material(material))
+    if (document().material(material))
         setMaps(*this, material, plan.maps);
     else if (!plan.maps.empty())
         Q_EMIT noticed({NoticeKind::Warning,

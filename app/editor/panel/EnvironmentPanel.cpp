@@ -1,6 +1,6 @@
 #include "app/editor/panel/EnvironmentPanel.h"
 
-#include "app/editor/document/Commands.h"
+#include "core/edit/EditSession.h"
 #include "app/editor/document/FileKinds.h"
 #include "app/editor/document/ProposedFolder.h"
 #include "app/editor/panel/ParameterList.h"

@@ -81,7 +81,7 @@ LabCaption labCaption(LabView view, bool whole, const LabLight& light, double ir
         if (light.rotationDeg != 0.0f && !whole)
             parts.clear(); // room for one of both
         if (light.rotationDeg != 0.0f)
-            parts << tr("turned %1°").arg(labFixed(static_cast<double>(light.rotationDeg), 1));
+            parts << tr("rotated %1°").arg(labFixed(static_cast<double>(light.rotationDeg), 1));
         if (whole && light.analysis)
             parts << tr("RMS %1").arg(
                 labNumber(light.analysis->bands.rms * static_cast<double>(light.scale)));

@@ -1,6 +1,6 @@
 #include "app/editor/panel/LightsPanel.h"
 
-#include "app/editor/document/Commands.h"
+#include "core/edit/EditSession.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/panel/ParameterList.h"

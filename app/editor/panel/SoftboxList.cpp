@@ -1,6 +1,6 @@
 #include "app/editor/panel/SoftboxList.h"
 
-#include "app/editor/document/Commands.h"
+#include "core/edit/EditSession.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/panel/ParameterList.h"
 #include "app/editor/style/Icons.h"

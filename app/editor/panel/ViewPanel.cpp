@@ -1,6 +1,6 @@
 #include "app/editor/panel/ViewPanel.h"
 
-#include "app/editor/document/Commands.h"
+#include "core/edit/EditSession.h"
 #include "app/editor/document/DisplayLoader.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/FileKinds.h"

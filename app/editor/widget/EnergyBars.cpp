@@ -11,7 +11,7 @@ namespace {
 constexpr int kBar = 14;    // height
 constexpr int kBetween = 4; // rows
 constexpr int kSwatch = 10;
-// Highlight, body, colour, lost. Light that is seen is light; what is lost has the warning's
+// Highlight, diffuse, colour, lost. Light that is seen is light; what is lost has the warning's
 // colour.
 constexpr std::array<QRgb, 4> kColors{0xffcfe9e3, tokens::kAccent, tokens::kRaised,
                                       tokens::kCopper};
@@ -50,7 +50,7 @@ void EnergyBars::setShares(const EnergyShares& without, const EnergyShares& with
 
 std::array<EnergyBars::Entry, 4> EnergyBars::legend() const {
     const std::array<double, 4> now = parts(m_compensated ? m_with : m_without);
-    const std::array<QString, 4> names{tr("Highlight"), tr("Body"), tr("Kept by colour"),
+    const std::array<QString, 4> names{tr("Highlight"), tr("Diffuse"), tr("Kept by colour"),
                                        tr("Lost")};
     std::array<Entry, 4> entries;
     for (int i = 0; i < 4; ++i)

@@ -1,11 +1,11 @@
 #include "app/editor/job/BounceUpdater.h"
 
 #include "app/editor/Session.h"
-#include "app/editor/document/Commands.h"
 #include "app/editor/job/LivePreview.h"
 #include "core/bake/Bake.h"
 #include "core/bake/bounce/HitCache.h"
 #include "core/bake/document/DocumentBakeInputs.h"
+#include "core/edit/EditSession.h"
 
 #include <QTest>
 #include <glm/gtc/matrix_transform.hpp>

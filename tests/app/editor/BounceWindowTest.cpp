@@ -1,13 +1,13 @@
 // A wall of the Cornell box recoloured in its window: the light that bounces off it follows.
 #include "tests/app/editor/EditorFixture.h"
 
-#include "app/editor/document/Commands.h"
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Slider.h"
 #include "core/bake/Bake.h"
 #include "core/bake/document/DocumentBakeInputs.h"
+#include "core/edit/EditSession.h"
 
 #include <QDir>
 #include <QDockWidget>

@@ -3,7 +3,6 @@
 
 #include "app/editor/panel/BrdfLensPanel.h"
 
-#include "app/editor/document/Commands.h"
 #include "app/editor/panel/LensControls.h"
 #include "app/editor/widget/CurvePlot.h"
 #include "app/editor/widget/LitSphere.h"
@@ -11,6 +10,7 @@
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/PolarPlot.h"
 #include "app/editor/widget/Slider.h"
+#include "core/edit/EditSession.h"
 #include "core/edit/Parameters.h"
 #include "core/light/DfgTable.h"
 #include "core/material/ModelPresets.h"

@@ -1,9 +1,9 @@
 #include "app/editor/document/DocumentController.h"
 
 #include "app/editor/Session.h"
-#include "app/editor/document/Commands.h"
 #include "app/editor/document/FileOnDisk.h"
 #include "core/edit/Edit.h"
+#include "core/edit/EditSession.h"
 #include "core/io/ImageIO.h"
 #include "core/scene/DocumentIO.h"
 #include "tests/core/document/RandomDocument.h"
@@ -35,7 +35,7 @@ struct Controller : ::testing::Test {
         ASSERT_TRUE(QTest::qWaitFor([&] { return !controller.tasks().busy(); }, 60'000));
     }
     const Document& document() const { return controller.document(); }
-    QUndoStack& undo() { return controller.undoStack(); }
+    UndoStack& undo() { return controller.undoStack(); }
     Target firstMaterial() const { return {Scope::Material, document().materials.front().id}; }
     float roughness() const { return document().materials.front().perceptualRoughness; }
 

@@ -1,7 +1,6 @@
 // The Energy dock: its numbers follow the material, its button turns compensation on as one undo
 // step, its warnings name what is wrong, and the furnace never touches the document.
 #include "app/editor/panel/EnergyPanel.h"
-#include "app/editor/document/Commands.h"
 #include "app/editor/panel/FurnaceControls.h"
 #include "app/editor/style/Style.h"
 #include "app/editor/widget/ColorButton.h"
@@ -10,6 +9,7 @@
 #include "app/editor/widget/EnergyMap.h"
 #include "app/editor/widget/EnergyPlot.h"
 #include "app/editor/widget/NumberField.h"
+#include "core/edit/EditSession.h"
 #include "tests/app/editor/EditorFixture.h"
 
 #include <QComboBox>
@@ -103,7 +103,7 @@ TEST_F(EnergyTest, SaysWhatIsLostAndTheButtonBringsItBack) {
                                       "0°: turn on compensation to get it back.");
     const auto* bars = panel->findChild<EnergyBars*>();
     EXPECT_EQ(bars->accessibleDescription().toStdString(),
-              "Highlight 65.6 %, Body 0.0 %, Kept by colour 0.0 %, Lost 34.4 %");
+              "Highlight 65.6 %, Diffuse 0.0 %, Kept by colour 0.0 %, Lost 34.4 %");
     const int before = undoCount();
     ASSERT_EQ(compensate()->text(), QStringLiteral("Turn On Compensation"));
     QTest::mouseClick(compensate(), Qt::LeftButton);
@@ -113,7 +113,7 @@ TEST_F(EnergyTest, SaysWhatIsLostAndTheButtonBringsItBack) {
     EXPECT_EQ(ledger().toStdString(), "Compensation gives back the 34.4 % that the specular lobe "
                                       "would lose at roughness 0.75, 37.3 % at 0°.");
     EXPECT_EQ(bars->accessibleDescription().toStdString(),
-              "Highlight 100.0 %, Body 0.0 %, Kept by colour 0.0 %, Lost 0.0 %");
+              "Highlight 100.0 %, Diffuse 0.0 %, Kept by colour 0.0 %, Lost 0.0 %");
     EXPECT_EQ(compensate()->text(), QStringLiteral("Turn Off Compensation"));
     controller().undoStack().undo();
     EXPECT_FALSE(document().model.multiScatter);

@@ -2,7 +2,7 @@
 
 #include "tests/app/editor/EditorFixture.h"
 
-#include "app/editor/document/Commands.h"
+#include "core/edit/EditSession.h"
 #include "core/scene/EnvironmentSave.h"
 #include "core/scene/Scene.h"
 

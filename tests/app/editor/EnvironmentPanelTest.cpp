@@ -2,13 +2,13 @@
 
 #include "tests/app/editor/EditorFixture.h"
 
-#include "app/editor/document/Commands.h"
 #include "app/editor/panel/EnvironmentPanel.h"
 #include "app/editor/panel/ParameterList.h"
 #include "app/editor/panel/SoftboxList.h"
 #include "app/editor/widget/LatLongView.h"
 #include "app/editor/widget/RecentSkies.h"
 #include "app/editor/widget/SkyGallery.h"
+#include "core/edit/EditSession.h"
 #include "core/library/SoftboxRigs.h"
 #include "core/light/GeneratedEnvironment.h"
 #include "core/light/LatLongGrid.h"

@@ -3,7 +3,6 @@
 
 #include "tests/app/editor/EditorFixture.h"
 
-#include "app/editor/document/Commands.h"
 #include "app/editor/panel/LightsPanel.h"
 #include "app/editor/panel/SoftboxList.h"
 #include "app/editor/viewport/ViewLegend.h"
@@ -16,6 +15,7 @@
 #include "app/editor/widget/MapSlotWidget.h"
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Slider.h"
+#include "core/edit/EditSession.h"
 
 #include <QDockWidget>
 #include <QHBoxLayout>

@@ -8,10 +8,10 @@
 #include "app/editor/ExportDialog.h"
 #include "app/editor/HelpDialogs.h"
 #include "app/editor/ViewActions.h"
-#include "app/editor/document/Commands.h"
 #include "app/editor/viewport/EquationBar.h"
 #include "app/editor/viewport/ViewStrip.h"
 #include "core/edit/Edit.h"
+#include "core/edit/EditSession.h"
 
 #include <QDialog>
 #include <QDir>

@@ -2,10 +2,10 @@
 // document.
 #include "app/editor/panel/MixerPanel.h"
 #include "app/editor/Session.h"
-#include "app/editor/document/Commands.h"
 #include "app/editor/widget/Fader.h"
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Slider.h"
+#include "core/edit/EditSession.h"
 #include "core/mix/LightMix.h"
 #include "tests/app/editor/EditorFixture.h"
 

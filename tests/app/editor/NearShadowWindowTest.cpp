@@ -2,11 +2,11 @@
 // input, and end complete.
 #include "tests/app/editor/EditorFixture.h"
 
-#include "app/editor/document/Commands.h"
 #include "app/editor/job/NearShadowUpdater.h"
 #include "app/editor/widget/BusyIndicator.h"
 #include "core/bake/Bake.h"
 #include "core/bake/document/DocumentBakeInputs.h"
+#include "core/edit/EditSession.h"
 #include "core/math/Shading.h"
 #include "core/mix/TransferLight.h"
 

@@ -2,7 +2,6 @@
 
 #include "tests/app/editor/EditorFixture.h"
 
-#include "app/editor/document/Commands.h"
 #include "app/editor/panel/LightsPanel.h"
 #include "app/editor/panel/MaterialPanel.h"
 #include "app/editor/panel/ModelPanel.h"
@@ -18,6 +17,7 @@
 #include "app/editor/widget/RowLabel.h"
 #include "app/editor/widget/SkyGallery.h"
 #include "app/editor/widget/Slider.h"
+#include "core/edit/EditSession.h"
 #include "core/io/ImageIO.h"
 #include "core/light/Lights.h"
 

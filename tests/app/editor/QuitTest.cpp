@@ -2,7 +2,7 @@
 
 #include "tests/app/editor/EditorFixture.h"
 
-#include "app/editor/document/Commands.h"
+#include "core/edit/EditSession.h"
 
 #include <QMessageBox>
 #include <QPushButton>

@@ -3,9 +3,9 @@
 // own seed), PATINA_SEED where they begin; a failure says with which it can be repeated.
 
 #include "app/editor/Session.h"
-#include "app/editor/document/Commands.h"
 #include "core/bake/file/BakeIO.h"
 #include "core/edit/Edit.h"
+#include "core/edit/EditSession.h"
 #include "core/scene/DocumentIO.h"
 #include "core/scene/ProjectJson.h"
 
@@ -75,7 +75,7 @@ class SaveModel : public ::testing::Test {
 
     [[nodiscard]] QString file(const QString& name) const { return folder.filePath(name); }
     const Document& document() const { return controller.document(); }
-    QUndoStack& undo() { return controller.undoStack(); }
+    UndoStack& undo() { return controller.undoStack(); }
     bool chance(unsigned of) { return random() % of == 0; }
     template <class Elements>
     Id any(const Elements& elements) {

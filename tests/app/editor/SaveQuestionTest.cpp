@@ -3,7 +3,7 @@
 
 #include "tests/app/editor/EditorFixture.h"
 
-#include "app/editor/document/Commands.h"
+#include "core/edit/EditSession.h"
 
 #include <QDir>
 #include <QFile>

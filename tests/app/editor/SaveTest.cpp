@@ -2,8 +2,8 @@
 // running operation lost or landing where it does not belong.
 
 #include "app/editor/Session.h"
-#include "app/editor/document/Commands.h"
 #include "core/edit/Edit.h"
+#include "core/edit/EditSession.h"
 #include "core/scene/DocumentIO.h"
 
 #include <QDir>
@@ -31,7 +31,7 @@ struct Saving : ::testing::Test {
         QCoreApplication::processEvents();
     }
     const Document& document() const { return controller.document(); }
-    QUndoStack& undo() { return controller.undoStack(); }
+    UndoStack& undo() { return controller.undoStack(); }
     Target firstMaterial() const { return {Scope::Material, document().materials.front().id}; }
     float roughness() const { return document().materials.front().perceptualRoughness; }
     void setRoughness(float value, DragSession drag = 0) {

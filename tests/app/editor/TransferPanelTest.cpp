@@ -1,13 +1,13 @@
 // The Transfer dock in its window: a known transfer, looked at from a pinned point.
 #include "tests/app/editor/EditorFixture.h"
 
-#include "app/editor/document/Commands.h"
 #include "app/editor/panel/TransferPanel.h"
 #include "app/editor/widget/BandBars.h"
 #include "app/editor/widget/PictureTile.h"
 #include "core/bake/Bake.h"
 #include "core/bake/document/DocumentBakeInputs.h"
 #include "core/bake/local/NearLightAt.h"
+#include "core/edit/EditSession.h"
 #include "core/math/SphericalHarmonics.h"
 
 #include <QComboBox>

@@ -5,7 +5,6 @@
 #include "app/editor/Actions.h"
 #include "app/editor/HelpDialogs.h"
 #include "app/editor/ViewActions.h"
-#include "app/editor/document/Commands.h"
 #include "app/editor/document/ProposedFolder.h"
 #include "app/editor/viewport/EquationBar.h"
 #include "app/editor/viewport/SceneProgress.h"
@@ -13,6 +12,7 @@
 #include "app/editor/widget/NoticeArea.h"
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Section.h"
+#include "core/edit/EditSession.h"
 
 #include <QAbstractButton>
 #include <QCheckBox>

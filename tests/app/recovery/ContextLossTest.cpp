@@ -3,8 +3,8 @@
 
 #include "tests/app/editor/EditorFixture.h"
 
-#include "app/editor/document/Commands.h"
 #include "app/editor/viewport/IblUpdater.h"
+#include "core/edit/EditSession.h"
 
 #include <QImage>
 #include <algorithm>

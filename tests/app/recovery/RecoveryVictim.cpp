@@ -6,8 +6,8 @@
 #include "app/editor/Recovery.h"
 #include "app/editor/Session.h"
 #include "app/editor/Startup.h"
-#include "app/editor/document/Commands.h"
 #include "app/editor/style/Style.h"
+#include "core/edit/EditSession.h"
 
 #include <QApplication>
 #include <QTimer>

@@ -4,7 +4,7 @@
 
 #include "app/editor/Recovery.h"
 #include "app/editor/RecoveryDialog.h"
-#include "app/editor/document/Commands.h"
+#include "core/edit/EditSession.h"
 #include "core/scene/DocumentIO.h"
 
 #include <QDir>

@@ -1,7 +1,6 @@
 // The Bake and Jobs docks, driven by real clicks: queue, pause, staleness, cache, interruption.
 #include "tests/app/editor/EditorFixture.h"
 
-#include "app/editor/document/Commands.h"
 #include "app/editor/job/InterruptedBakes.h"
 #include "app/editor/job/LivePreview.h"
 #include "app/editor/panel/BakePanel.h"
@@ -12,6 +11,7 @@
 #include "core/bake/document/BakeStaleness.h"
 #include "core/bake/document/DocumentBakeInputs.h"
 #include "core/bake/domain/BakeOptions.h"
+#include "core/edit/EditSession.h"
 
 #include <QCheckBox>
 #include <QComboBox>

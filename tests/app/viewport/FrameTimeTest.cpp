@@ -4,9 +4,9 @@
 #include "tests/app/editor/EditorFixture.h"
 #include "tests/app/viewport/FigureSize.h"
 
-#include "app/editor/document/Commands.h"
 #include "app/editor/viewport/ViewState.h"
 #include "core/document/Views.h"
+#include "core/edit/EditSession.h"
 #include "core/library/Library.h"
 
 #include <QElapsedTimer>

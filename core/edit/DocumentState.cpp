@@ -1,8 +1,8 @@
-#include "app/editor/document/DocumentState.h"
+#include "core/edit/DocumentState.h"
 
 #include <algorithm>
 
-namespace patina::editor {
+namespace patina {
 namespace {
 
 // What a bake was made from decides its values, so that these need no look.
@@ -20,4 +20,4 @@ bool operator==(const DocumentState& a, const DocumentState& b) {
            std::ranges::equal(a.bakes, b.bakes, sameBake);
 }
 
-} // namespace patina::editor
+} // namespace patina

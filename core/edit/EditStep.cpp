@@ -1,12 +1,10 @@
-#include "app/editor/document/Commands.h"
-
-#include "core/base/Check.h"
+#include "core/edit/EditStep.h"
 
 #include <algorithm>
 #include <map>
 #include <utility>
 
-namespace patina::editor {
+namespace patina {
 namespace {
 
 std::size_t imageBytes(const ImagePtr& image) {
@@ -33,63 +31,47 @@ std::map<const void*, std::size_t> payloads(const Elements& elements) {
     return result;
 }
 
+// The same part of the same file was read twice.
+void shareMeshes(const Document& from, Document& to) {
+    std::map<std::pair<std::string, int>, MeshPtr> known;
+    for (const MeshInstance& instance : from.meshes)
+        known[{instance.source, instance.sourceIndex}] = instance.mesh;
+    for (MeshInstance& instance : to.meshes) {
+        const auto found = known.find({instance.source, instance.sourceIndex});
+        if (found != known.end() && found->second && instance.mesh &&
+            *found->second == *instance.mesh)
+            instance.mesh = found->second;
+    }
+}
+
 } // namespace
 
-DocumentCommand::DocumentCommand(DocumentController& controller, const QString& text)
-    : QUndoCommand(text)
-    , m_controller(controller)
-    , m_mergeMark(controller.m_mergeMark) {}
-
-void DocumentCommand::undo() {
-    m_controller.m_step = m_stepBefore;
-    m_controller.apply([this](Document& document) { return swap(document, false); });
-}
-
-void DocumentCommand::redo() {
-    if (m_stepAfter == 0) {
-        m_stepBefore = m_controller.m_step;
-        m_stepAfter = ++m_controller.m_lastStep;
-    }
-    m_controller.m_step = m_stepAfter;
-    m_controller.apply([this](Document& document) { return swap(document, true); });
-}
-
-void DocumentCommand::applyOnly() {
-    ++m_controller.m_history;
-    m_controller.apply([this](Document& document) { return swap(document, true); });
-}
-
-void DocumentCommand::merged(const DocumentCommand& next) {
-    m_stepAfter = next.m_stepAfter;
-    if (isObsolete())
-        m_controller.m_step = m_stepBefore;
-}
-
-SetParametersCommand::SetParametersCommand(DocumentController& controller, const QString& text,
-                                           Target target, std::vector<ParameterEdit> after,
-                                           DragSession session)
-    : DocumentCommand(controller, text)
+SetParametersStep::SetParametersStep(std::string text, const Document& document, Target target,
+                                     std::vector<ParameterEdit> after, DragSession session)
+    : EditStep(std::move(text))
     , m_target(target)
     , m_after(std::move(after))
     , m_session(session) {
     for (const ParameterEdit& edit : m_after)
-        m_before.push_back({edit.info, edit.info->get(controller.document(), target.id)});
+        m_before.push_back({edit.info, edit.info->get(document, target.id)});
 }
 
-bool SetParametersCommand::mergeWith(const QUndoCommand* other) {
-    const auto* next = dynamic_cast<const SetParametersCommand*>(other);
-    if (!next || !mayMerge(*next) || next->m_session != m_session || next->m_target != m_target ||
+bool SetParametersStep::merge(const EditStep& step) {
+    const auto* next = dynamic_cast<const SetParametersStep*>(&step);
+    if (!next || m_session == 0 || next->m_session != m_session || next->m_target != m_target ||
         !std::equal(m_after.begin(), m_after.end(), next->m_after.begin(), next->m_after.end(),
                     [](const auto& a, const auto& b) { return a.info == b.info; }))
         return false;
     m_after = next->m_after;
-    setObsolete(std::equal(m_before.begin(), m_before.end(), m_after.begin(),
-                           [](const auto& a, const auto& b) { return a.value == b.value; }));
-    merged(*next);
     return true;
 }
 
-std::size_t SetParametersCommand::payloadBytes() const {
+bool SetParametersStep::isEmpty() const {
+    return std::equal(m_before.begin(), m_before.end(), m_after.begin(),
+                      [](const auto& a, const auto& b) { return a.value == b.value; });
+}
+
+std::size_t SetParametersStep::payloadBytes() const {
     std::size_t bytes = 0;
     for (const auto* edits : {&m_before, &m_after})
         for (const ParameterEdit& edit : *edits)
@@ -98,7 +80,7 @@ std::size_t SetParametersCommand::payloadBytes() const {
     return bytes;
 }
 
-Change SetParametersCommand::swap(Document& document, bool forward) {
+Change SetParametersStep::swap(Document& document, bool forward) {
     Change change{Affects::Nothing, m_target};
     for (const ParameterEdit& edit : forward ? m_after : m_before) {
         edit.info->set(document, m_target.id, edit.value);
@@ -107,16 +89,13 @@ Change SetParametersCommand::swap(Document& document, bool forward) {
     return change;
 }
 
-ReplaceElementsCommand::ReplaceElementsCommand(DocumentController& controller, const QString& text,
-                                               Elements after)
-    : DocumentCommand(controller, text)
-    , m_after(std::move(after)) {
-    const Document& document = controller.document();
-    m_before = {document.meshes, document.materials, document.lights,
-                document.environment.softboxes, document.nextId};
-}
+ReplaceElementsStep::ReplaceElementsStep(std::string text, const Document& before, Elements after)
+    : EditStep(std::move(text))
+    , m_before{before.meshes, before.materials, before.lights, before.environment.softboxes,
+               before.nextId}
+    , m_after(std::move(after)) {}
 
-std::size_t ReplaceElementsCommand::payloadBytes() const {
+std::size_t ReplaceElementsStep::payloadBytes() const {
     const auto before = payloads(m_before);
     const auto after = payloads(m_after);
     std::size_t bytes = 0;
@@ -127,7 +106,7 @@ std::size_t ReplaceElementsCommand::payloadBytes() const {
     return bytes;
 }
 
-Change ReplaceElementsCommand::swap(Document& document, bool forward) {
+Change ReplaceElementsStep::swap(Document& document, bool forward) {
     const Elements& elements = forward ? m_after : m_before;
     document.meshes = elements.meshes;
     document.materials = elements.materials;
@@ -138,13 +117,12 @@ Change ReplaceElementsCommand::swap(Document& document, bool forward) {
             std::nullopt};
 }
 
-SetBakeCommand::SetBakeCommand(DocumentController& controller, const QString& text, BakeKind kind,
-                               BakeArtifactPtr bake)
-    : DocumentCommand(controller, text)
+SetBakeStep::SetBakeStep(std::string text, BakeKind kind, BakeArtifactPtr bake)
+    : EditStep(std::move(text))
     , m_kind(kind)
     , m_other(std::move(bake)) {}
 
-std::size_t SetBakeCommand::payloadBytes() const {
+std::size_t SetBakeStep::payloadBytes() const {
     std::size_t bytes = 0;
     if (m_other) {
         for (const VertexBake& bake : m_other->vertices)
@@ -156,7 +134,7 @@ std::size_t SetBakeCommand::payloadBytes() const {
 }
 
 // In the order of their kinds: a bake that comes back takes the place it had.
-Change SetBakeCommand::swap(Document& document, bool /*forward*/) {
+Change SetBakeStep::swap(Document& document, bool /*forward*/) {
     std::vector<BakeArtifactPtr>& bakes = document.bakes;
     const auto place =
         std::ranges::find_if(bakes, [this](const auto& bake) { return bake->kind == m_kind; });
@@ -174,36 +152,42 @@ Change SetBakeCommand::swap(Document& document, bool /*forward*/) {
     return {Affects::Bakes, std::nullopt};
 }
 
-const ParameterInfo& parameter(const char* id) {
-    const ParameterInfo* info = findParameter(id);
-    CHECK(info != nullptr);
-    return *info;
+ReplaceDocumentStep::ReplaceDocumentStep(std::string text, const Document& before, Document after)
+    : EditStep(std::move(text))
+    , m_before(before)
+    , m_after(std::move(after)) {
+    shareMeshes(m_before, m_after);
 }
 
-std::string nameOf(const Document& document, Target target) {
-    switch (target.scope) {
-    case Scope::Mesh:
-        if (const MeshInstance* mesh = document.mesh(target.id))
-            return mesh->name;
-        break;
-    case Scope::Material:
-        if (const Material* material = document.material(target.id))
-            return material->name;
-        break;
-    case Scope::Light:
-        if (const Light* light = document.light(target.id))
-            return light->name;
-        break;
-    case Scope::Softbox:
-        if (const Softbox* softbox = document.softbox(target.id))
-            return softbox->name;
-        break;
-    case Scope::Environment:
-    case Scope::Model:
-    case Scope::View:
-        break;
-    }
-    return {};
+Change ReplaceDocumentStep::swap(Document& document, bool forward) {
+    // What was prepared for the state that goes (a finer environment, light that bounced) goes on
+    // with it.
+    (forward ? m_before : m_after) = document;
+    document = forward ? m_after : m_before;
+    return {Affects::Structure | Affects::Geometry | Affects::Picture | Affects::EnvironmentMap |
+                Affects::Bakes,
+            std::nullopt};
 }
 
-} // namespace patina::editor
+Change GroupStep::swap(Document& document, bool forward) {
+    Change change{Affects::Nothing, std::nullopt};
+    const auto swapOne = [&](EditStep& step) {
+        change.affects = change.affects | step.swap(document, forward).affects;
+    };
+    if (forward)
+        for (const auto& step : m_steps)
+            swapOne(*step);
+    else
+        for (auto step = m_steps.rbegin(); step != m_steps.rend(); ++step)
+            swapOne(**step);
+    return change;
+}
+
+std::size_t GroupStep::payloadBytes() const {
+    std::size_t bytes = 0;
+    for (const auto& step : m_steps)
+        bytes += step->payloadBytes();
+    return bytes;
+}
+
+} // namespace patina

@@ -1,0 +1,119 @@
+// The steps of an edited document's history. Each stores ids and values, never pointers into the
+// document, and swaps between what was and what is.
+#pragma once
+
+#include "core/document/Document.h"
+#include "core/edit/Change.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace patina {
+
+// Edits of the same parameters that carry the same session merge into one step; 0 never merges.
+using DragSession = std::uint64_t;
+
+class EditStep {
+  public:
+    explicit EditStep(std::string text)
+        : m_text(std::move(text)) {}
+    virtual ~EditStep() = default;
+    EditStep(const EditStep&) = delete;
+    EditStep& operator=(const EditStep&) = delete;
+
+    [[nodiscard]] const std::string& text() const { return m_text; } // "Change Roughness of Gold"
+    // Makes the edit, or takes it back.
+    virtual Change swap(Document& document, bool forward) = 0;
+    // Makes `next`, which was done right after this one, a part of it; false: they stay two.
+    virtual bool merge(const EditStep& /*next*/) { return false; }
+    // Both sides are equal.
+    [[nodiscard]] virtual bool isEmpty() const { return false; }
+    // Memory that only this step keeps alive, roughly: images, meshes, bakes.
+    [[nodiscard]] virtual std::size_t payloadBytes() const { return 0; }
+
+  private:
+    friend class EditSession;
+    std::string m_text;
+    std::uint64_t m_mergeMark = 0;
+    // DocumentState::step on its two sides; the second is 0 while it was not done yet.
+    std::uint64_t m_stateBefore = 0, m_stateAfter = 0;
+};
+
+// Parameters of one element: one, or the few that belong together. Merges within a drag; a drag
+// that returns to its start leaves no step behind.
+class SetParametersStep : public EditStep {
+  public:
+    SetParametersStep(std::string text, const Document& document, Target target,
+                      std::vector<ParameterEdit> after, DragSession session);
+    Change swap(Document& document, bool forward) override;
+    bool merge(const EditStep& next) override;
+    [[nodiscard]] bool isEmpty() const override;
+    [[nodiscard]] std::size_t payloadBytes() const override;
+
+  private:
+    Target m_target;
+    std::vector<ParameterEdit> m_before, m_after; // of the same parameters, in the same order
+    DragSession m_session;
+};
+
+// The lists that structural edits replace as a whole, ids kept.
+struct Elements {
+    std::vector<MeshInstance> meshes;
+    std::vector<Material> materials;
+    std::vector<Light> lights;
+    std::vector<Softbox> softboxes;
+    Id nextId = 1;
+};
+
+// Meshes, materials, lights and softboxes as a whole: added, removed, exchanged.
+class ReplaceElementsStep : public EditStep {
+  public:
+    ReplaceElementsStep(std::string text, const Document& before, Elements after);
+    Change swap(Document& document, bool forward) override;
+    [[nodiscard]] std::size_t payloadBytes() const override;
+
+  private:
+    Elements m_before, m_after;
+};
+
+// The bake of one kind: attached, exchanged, removed. Holds what is not attached at the time, so
+// that what follows from later edits (EditSession::renewBake) is kept by undo and redo.
+class SetBakeStep : public EditStep {
+  public:
+    SetBakeStep(std::string text, BakeKind kind, BakeArtifactPtr bake); // null: to remove it
+    Change swap(Document& document, bool forward) override;
+    [[nodiscard]] std::size_t payloadBytes() const override;
+
+  private:
+    BakeKind m_kind;
+    BakeArtifactPtr m_other;
+};
+
+// The whole document, such as unsaved work on top of what was saved.
+class ReplaceDocumentStep : public EditStep {
+  public:
+    // Meshes that both documents read from the same place are shared where they are equal.
+    ReplaceDocumentStep(std::string text, const Document& before, Document after);
+    Change swap(Document& document, bool forward) override;
+
+  private:
+    Document m_before, m_after;
+};
+
+// Several that are done and taken back together.
+class GroupStep : public EditStep {
+  public:
+    using EditStep::EditStep;
+    void add(std::unique_ptr<EditStep> step) { m_steps.push_back(std::move(step)); }
+    Change swap(Document& document, bool forward) override;
+    [[nodiscard]] bool isEmpty() const override { return m_steps.empty(); }
+    [[nodiscard]] std::size_t payloadBytes() const override;
+
+  private:
+    std::vector<std::unique_ptr<EditStep>> m_steps;
+};
+
+} // namespace patina

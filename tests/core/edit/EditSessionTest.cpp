@@ -1,0 +1,300 @@
+// Editing without a window: steps, undo, redo, merging, what was saved.
+
+#include "core/edit/EditSession.h"
+
+#include "core/image/Image.h"
+#include "tests/core/document/RandomDocument.h"
+
+#include <gtest/gtest.h>
+#include <set>
+#include <utility>
+
+namespace patina {
+namespace {
+
+struct Observer : EditObserver {
+    Affects derive(Document& document) override {
+        if (!follow)
+            return Affects::Nothing;
+        // Stands for whatever is derived from the document.
+        document.environment.backgroundBlur = document.environment.rotationDeg / 360.0f;
+        return Affects::EnvironmentMap;
+    }
+    void documentChanged(const Change& change) override { changes.push_back(change); }
+    void historyChanged() override { ++historyChanges; }
+    void stepsDropped() override { ++drops; }
+
+    bool follow = false;
+    std::vector<Change> changes;
+    int historyChanges = 0, drops = 0;
+};
+
+struct EditSessionTest : ::testing::Test {
+    void SetUp() override {
+        Document document;
+        addMaterial(document, Material{});
+        addLight(document, Light{});
+        MeshInstance mesh;
+        mesh.id = document.takeId();
+        mesh.name = "Body";
+        mesh.material = document.materials.front().id;
+        document.meshes.push_back(mesh);
+        session.replace(std::move(document));
+        session.observe(&observer);
+    }
+    Target material() const { return {Scope::Material, session.document().materials.front().id}; }
+    Target light() const { return {Scope::Light, session.document().lights.front().id}; }
+    float roughness() const { return session.document().materials.front().perceptualRoughness; }
+
+    const ParameterInfo& rough = parameter("material.perceptualRoughness");
+    Observer observer;
+    EditSession session;
+};
+
+TEST_F(EditSessionTest, AStepIsTakenBackAndDoneAgain) {
+    session.setParameter(rough, material(), 0.25f);
+    EXPECT_EQ(roughness(), 0.25f);
+    EXPECT_EQ(session.undoText(), "Change Roughness of Material");
+    EXPECT_FALSE(session.canRedo());
+    session.undo();
+    EXPECT_EQ(roughness(), 0.5f);
+    EXPECT_EQ(session.redoText(), "Change Roughness of Material");
+    session.redo();
+    EXPECT_EQ(roughness(), 0.25f);
+    ASSERT_EQ(observer.changes.size(), 3u);
+    EXPECT_EQ(observer.changes.back().target, material());
+    EXPECT_EQ(observer.historyChanges, 3);
+}
+
+TEST_F(EditSessionTest, EqualValuesMakeNoStepAndRangesHold) {
+    session.setParameter(rough, material(), 0.5f);
+    EXPECT_EQ(session.count(), 0);
+    session.setParameter(rough, material(), 7.0f);
+    EXPECT_EQ(roughness(), 1.0f);
+    session.setParameter(rough, {Scope::Material, 9999}, 0.1f); // there is no such material
+    EXPECT_EQ(session.count(), 1);
+}
+
+TEST_F(EditSessionTest, ADragIsOneStepAndNoneWhenItReturns) {
+    const DragSession drag = session.newDragSession();
+    for (const float value : {0.1f, 0.2f, 0.3f})
+        session.setParameter(rough, material(), value, drag);
+    EXPECT_EQ(session.count(), 1);
+    session.undo();
+    EXPECT_EQ(roughness(), 0.5f);
+    session.redo();
+    EXPECT_EQ(roughness(), 0.3f);
+
+    const DragSession back = session.newDragSession();
+    const DocumentState before = session.state();
+    session.setParameter(rough, material(), 0.9f, back);
+    session.setParameter(rough, material(), 0.3f, back);
+    EXPECT_EQ(session.count(), 1);
+    EXPECT_EQ(session.state(), before);
+}
+
+// An intensity and a type in one drag session stay apart; so do edits on two sides of a save.
+TEST_F(EditSessionTest, OtherParametersElementsSessionsAndSavesStayApart) {
+    const DragSession drag = session.newDragSession();
+    session.setParameter(rough, material(), 0.1f, drag);
+    session.setParameter(parameter("material.metallic"), material(), 0.1f, drag);
+    session.setParameter(rough, material(), 0.2f, drag);
+    EXPECT_EQ(session.count(), 3);
+    session.setParameter(rough, material(), 0.3f, session.newDragSession());
+    EXPECT_EQ(session.count(), 4);
+    session.setParameter(rough, material(), 0.4f);
+    session.setParameter(rough, material(), 0.5f);
+    EXPECT_EQ(session.count(), 6);
+    const DragSession other = session.newDragSession();
+    session.setParameter(rough, material(), 0.6f, other);
+    session.separateSteps();
+    session.setParameter(rough, material(), 0.7f, other);
+    EXPECT_EQ(session.count(), 8);
+}
+
+TEST_F(EditSessionTest, AnEditErasesWhatCouldBeRedone) {
+    session.setParameter(rough, material(), 0.1f);
+    session.setParameter(rough, material(), 0.2f);
+    session.undo();
+    session.undo();
+    session.setParameter(rough, material(), 0.9f);
+    EXPECT_EQ(session.count(), 1);
+    EXPECT_FALSE(session.canRedo());
+    session.undo();
+    EXPECT_EQ(roughness(), 0.5f);
+}
+
+TEST_F(EditSessionTest, WhatArrivesByItselfErasesNothing) {
+    session.setParameter(rough, material(), 0.1f);
+    session.undo();
+    const DocumentState before = session.state();
+    auto bake = std::make_shared<BakeArtifact>();
+    bake->kind = BakeKind::PrtVertex;
+    session.attachBake(bake);
+    EXPECT_EQ(session.document().bakes.size(), 1u);
+    EXPECT_TRUE(session.canRedo());
+    EXPECT_EQ(session.count(), 1);
+    EXPECT_FALSE(session.state() == before);
+    session.redo();
+    EXPECT_EQ(roughness(), 0.1f);
+    EXPECT_EQ(session.document().bakes.size(), 1u);
+}
+
+TEST_F(EditSessionTest, IdsAreNotGivenTwiceAlsoAfterUndo) {
+    std::set<Id> ids;
+    for (int i = 0; i < 4; ++i) {
+        EXPECT_TRUE(ids.insert(session.addLight(LightType::Point)).second);
+        EXPECT_TRUE(ids.insert(session.addMaterial()).second);
+        session.undo();
+        session.undo();
+    }
+}
+
+TEST_F(EditSessionTest, AGroupIsOneStep) {
+    const Document before = session.document();
+    session.group("Set Up", [&] {
+        session.setParameter(rough, material(), 0.1f);
+        session.addLight(LightType::Spot);
+        session.setParameter(rough, material(), 0.2f);
+    });
+    EXPECT_EQ(session.count(), 1);
+    EXPECT_EQ(session.undoText(), "Set Up");
+    const Document after = session.document();
+    EXPECT_EQ(after.lights.size(), 2u);
+    session.undo();
+    EXPECT_EQ(session.document(), before);
+    session.redo();
+    EXPECT_EQ(session.document(), after);
+    session.group("Nothing", [] {});
+    EXPECT_EQ(session.count(), 1);
+}
+
+TEST_F(EditSessionTest, WhatFollowsFromAnEditIsThereWhenItIsTold) {
+    observer.follow = true;
+    session.setParameter(parameter("environment.rotationDeg"), {Scope::Environment, 0}, 90.0f);
+    EXPECT_EQ(session.document().environment.backgroundBlur, 0.25f);
+    ASSERT_EQ(observer.changes.size(), 1u);
+    EXPECT_TRUE(touches(observer.changes[0].affects, Affects::EnvironmentMap));
+    session.undo();
+    EXPECT_EQ(session.document().environment.backgroundBlur, 0.0f);
+}
+
+TEST_F(EditSessionTest, ModifiedMeansOtherThanWhatWasSaved) {
+    EXPECT_FALSE(session.isModified());
+    session.setParameter(rough, material(), 0.1f);
+    session.setParameter(rough, material(), 0.2f);
+    EXPECT_TRUE(session.isModified());
+    EXPECT_EQ(session.unsavedSteps(), 2);
+    session.setSaved(session.state());
+    EXPECT_FALSE(session.isModified());
+    EXPECT_EQ(session.unsavedSteps(), 0);
+    session.undo();
+    EXPECT_TRUE(session.isModified());
+    EXPECT_EQ(session.unsavedSteps(), 1);
+    session.redo();
+    EXPECT_FALSE(session.isModified());
+    session.setCamera(Camera{.yawDeg = 12.0f}); // navigation is no modification
+    EXPECT_FALSE(session.isModified());
+    session.forgetSaved();
+    EXPECT_TRUE(session.isModified());
+    EXPECT_EQ(session.unsavedSteps(), 0);
+}
+
+TEST_F(EditSessionTest, StepsEndAtTheirLimits) {
+    EditSession small({.steps = 3, .payloadBytes = 100});
+    small.observe(&observer);
+    small.replace(session.document());
+    for (int i = 0; i < 10; ++i)
+        small.setParameter(rough, material(), 0.1f * static_cast<float>(i % 2) + 0.2f);
+    EXPECT_EQ(small.count(), 3);
+    EXPECT_EQ(small.index(), 3);
+    EXPECT_EQ(observer.drops, 0);
+    MapSlot slot;
+    slot.source = "builtin:wood/baseColor";
+    slot.image = std::make_shared<Image>(8, 8, 3, PixelType::U8, ColorEncoding::Srgb);
+    small.setDiffering(material(), {{&parameter("material.baseColor.map"), slot}}, "Set Map");
+    EXPECT_EQ(observer.drops, 1);
+    EXPECT_EQ(small.count(), 1);
+    EXPECT_EQ(small.document().materials.front().baseColorMap, slot);
+}
+
+// A walk over every kind of edit, there and back.
+TEST_F(EditSessionTest, RandomEditsThenUndoAllIsTheInitialDocument) {
+    for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+        SCOPED_TRACE("replay with seed " + std::to_string(seed));
+        RandomDocument random(seed);
+        session.replace(random.make());
+        const Document before = session.document();
+        const auto any = [&](Scope scope) {
+            const std::vector<Id> ids = RandomDocument::idsOf(session.document(), scope);
+            return ids.empty() ? Id{0} : ids[random.below(ids.size())];
+        };
+        for (int edit = 0; edit < 200; ++edit) {
+            switch (random.below(14)) {
+            case 0:
+                session.addLight(static_cast<LightType>(random.below(5)));
+                break;
+            case 1:
+                session.duplicateLight(any(Scope::Light));
+                break;
+            case 2:
+                session.removeLight(any(Scope::Light));
+                break;
+            case 3:
+                session.duplicateMaterial(any(Scope::Material));
+                break;
+            case 4:
+                session.removeMaterial(any(Scope::Material));
+                break;
+            case 5:
+                session.assignMaterial(any(Scope::Mesh), any(Scope::Material));
+                break;
+            case 6:
+                session.removeMesh(any(Scope::Mesh));
+                break;
+            case 7:
+                session.addSoftbox(10.0f, 20.0f);
+                session.duplicateSoftbox(any(Scope::Softbox));
+                break;
+            case 8:
+                session.removeSoftbox(any(Scope::Softbox));
+                break;
+            default: {
+                const auto table = parameters();
+                const ParameterInfo& info = table[random.below(table.size())];
+                const Target target{info.scope, any(info.scope)};
+                if (targetExists(session.document(), target))
+                    session.setParameter(info, target, random.value(info, session.document()),
+                                         random.below(3) == 0 ? session.newDragSession() : 0);
+            }
+            }
+            if (random.below(5) == 0)
+                session.undo();
+            if (random.below(7) == 0)
+                session.redo();
+        }
+        session.goTo(session.count());
+        const Document after = session.document();
+        session.goTo(0);
+        ASSERT_EQ(session.document(), before);
+        session.goTo(session.count());
+        ASSERT_EQ(session.document(), after);
+    }
+}
+
+// Unsaved work on top of what was saved: undo shows the saved state.
+TEST_F(EditSessionTest, AWholeDocumentIsAStep) {
+    const Document saved = session.document();
+    Document work = saved;
+    work.materials.front().metallic = 1.0f;
+    session.push(std::make_unique<ReplaceDocumentStep>("Recover Unsaved Work", saved, work));
+    EXPECT_EQ(session.document(), work);
+    EXPECT_TRUE(session.isModified());
+    EXPECT_EQ(session.unsavedSteps(), 1);
+    session.undo();
+    EXPECT_EQ(session.document(), saved);
+    EXPECT_FALSE(session.isModified());
+}
+
+} // namespace
+} // namespace patina
