@@ -101,8 +101,8 @@ int main(int argc, char* argv[]) {
     if (noOpenGl)
         return endWithoutOpenGl(noOpenGlText(*noOpenGl), !quits);
     Session session;
-    session.worker.warmUp(WorkerKind::Image);
-    session.worker.warmUp(WorkerKind::Model);
+    session.worker.warmUp(patina::WorkerKind::Image);
+    session.worker.warmUp(patina::WorkerKind::Model);
     int status = 0;
     {
         MainWindow window(session);

@@ -4,7 +4,7 @@
 #include "core/export/Export.h"
 #include "core/io/MeshImport.h"
 #include "core/scene/DocumentIO.h"
-#include "tests/core/document/SceneFixture.h"
+#include "tests/core/scene/SceneFixture.h"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // Environments from files: the guess of the layout, and what each kind of file becomes.
 #include "core/scene/EnvironmentFile.h"
 #include "core/light/EnvironmentResample.h"
-#include "tests/core/document/SceneFixture.h"
+#include "tests/core/scene/SceneFixture.h"
 
 #include <OpenEXR/ImfArray.h>
 #include <OpenEXR/ImfChannelList.h>

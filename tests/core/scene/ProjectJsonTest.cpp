@@ -1,6 +1,6 @@
 // The project's text: nothing is lost, nothing is believed.
-#include "RandomDocument.h"
 #include "core/scene/DocumentIO.h"
+#include "tests/core/document/RandomDocument.h"
 
 #include <chrono>
 #include <gmock/gmock.h>

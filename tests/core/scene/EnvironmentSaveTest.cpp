@@ -3,7 +3,7 @@
 #include "core/library/Library.h"
 #include "core/light/EnvironmentResample.h"
 #include "core/scene/EnvironmentFile.h"
-#include "tests/core/document/SceneFixture.h"
+#include "tests/core/scene/SceneFixture.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "core/edit/Edit.h"
-#include "RandomDocument.h"
 #include "core/light/Lights.h"
+#include "tests/core/document/RandomDocument.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
