@@ -5,6 +5,7 @@
 #include "core/bake/BakeHeader.h"
 #include "core/bake/BakePacking.h"
 #include "core/document/AbsentBake.h"
+#include "core/document/ById.h"
 #include "core/document/EnvironmentFile.h"
 #include "core/document/LightMix.h"
 #include "core/document/Lights.h"
@@ -67,8 +68,9 @@ Json imageJson(const Image& image) {
 
 void describeMeshes(Report& report, const Document& document) {
     Rows rows;
+    const ById materials(document.materials);
     for (const MeshInstance& mesh : document.meshes) {
-        const Material* material = document.material(mesh.material);
+        const Material* material = materials.find(mesh.material);
         const std::string materialName = material != nullptr ? material->name : "";
         report.json()["meshes"].push_back({{"name", mesh.name},
                                            {"vertices", mesh.mesh->vertexCount()},

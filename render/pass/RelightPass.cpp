@@ -55,7 +55,7 @@ Result<void> RelightPass::update(GpuScene& scene, LightingMode mode, const Frame
         return {};
     for (FarLight& light : m_far)
         light.current = false;
-    m_near.setLights(frame, lightOrder(scene.document()));
+    m_near.setLights(frame, lightOrder(scene.document()), scene.nearShareLights());
     bool any = false;
     for (const DrawItem& item : scene.items()) {
         const Result<bool> done = relight(scene, item, mode);

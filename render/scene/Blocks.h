@@ -15,7 +15,8 @@ inline constexpr unsigned kFrameBinding = 0, kInstanceBinding = 1, kMaterialBind
                           kModelBinding = 3, kShadowBinding = 4, kViewsBinding = 6,
                           kTransferLightBinding = 7, kNearLightBinding = 8;
 inline constexpr unsigned kVisibilityBinding = 0, kRecordsBinding = 2, kExitBinding = 3,
-                          kNearBinding = 4, kNearSharesBinding = 6; // storage blocks
+                          kNearBinding = 4, kNearRowsBinding = 1,
+                          kNearSharesBinding = 6; // storage blocks
 inline constexpr int kMaxLights = 64;
 inline constexpr int kMaxShadows = 4;                // lights that have a shadow map
 inline constexpr std::size_t kMaxTransferCount = 64; // order 8

@@ -13,6 +13,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace patina::render {
@@ -55,6 +56,8 @@ class GpuScene {
     // Shadows of local lights, of vertices and texels, instead of those that transfer knows; null:
     // none. What has not changed is not uploaded again.
     void setNearShadows(const NearShadowsPtr& shadows);
+    // The lights of LitElements::nearShares, in its order.
+    [[nodiscard]] std::vector<Id> nearShareLights() const;
 
     [[nodiscard]] const Document& document() const { return m_document; }
     [[nodiscard]] const EnvironmentLight& environment() const { return m_environment; }
@@ -96,7 +99,7 @@ class GpuScene {
     // What bakes, or their live preview, know of an item.
     void attachBakes(DrawItem& item);
     void applyNearShadows();
-    void applyNearShadows(LitElements& lit, const NearPart& part);
+    void applyNearShadows(LitElements& lit, std::optional<std::size_t> part);
 
     gl::Context& m_context;
     Document m_document;
