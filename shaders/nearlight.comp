@@ -23,7 +23,7 @@ layout(std430, binding = 4) buffer NearRadiance {
 layout(std430, binding = 6) readonly buffer NearShares {
     float b_shares[];
 };
-// The row of each of u_lights, counted over all buffers of shares; -1: none.
+// The row of each of LIGHTS, counted over all buffers of shares; -1: none.
 layout(std430, binding = 1) readonly buffer NearRows {
     int b_rows[];
 };
@@ -153,7 +153,7 @@ vec3 rectangleLight(int element, vec3 place, float direct) {
     float factor[8];
     rectangleFactors(abs(seen), ORDER, window(), factor);
     scaleBands(ORDER, factor, y);
-    return u_lights[u_lightBegin].color.rgb * transferred(element, y, direct);
+    return LIGHTS[u_lightBegin].color.rgb * transferred(element, y, direct);
 }
 
 // What a surface of albedo 1 at `place` sends out of the whole rectangle.
@@ -161,33 +161,33 @@ vec3 openLight(int k, vec3 place, vec3 n) {
     vec3 x;
     vec3 y;
     orthonormalBasis(n, x, y);
-    vec3 toCenter = u_lights[k].place.xyz - place;
+    vec3 toCenter = LIGHTS[k].place.xyz - place;
     vec3 center = vec3(dot(x, toCenter), dot(y, toCenter), dot(n, toCenter));
-    vec3 axis = u_lights[k].axis.xyz;
-    vec3 side = u_lights[k].side.xyz;
+    vec3 axis = LIGHTS[k].axis.xyz;
+    vec3 side = LIGHTS[k].side.xyz;
     vec3 hx = vec3(dot(x, axis), dot(y, axis), dot(n, axis));
     vec3 hy = vec3(dot(x, side), dot(y, side), dot(n, side));
-    return u_lights[k].color.rgb * quadFormFactor(center - hx - hy, center + hx - hy,
+    return LIGHTS[k].color.rgb * quadFormFactor(center - hx - hy, center + hx - hy,
                                                   center + hx + hy, center - hx + hy);
 }
 #elif defined(NEAR_POINTS)
 float reaches(int k, vec3 toLight, vec3 l) {
-    return pointFalloff(dot(toLight, toLight), u_lights[k].color.w) *
-           spotFalloff(dot(u_lights[k].axis.xyz, l), 1.0, u_lights[k].axis.w);
+    return pointFalloff(dot(toLight, toLight), LIGHTS[k].color.w) *
+           spotFalloff(dot(LIGHTS[k].axis.xyz, l), 1.0, LIGHTS[k].axis.w);
 }
 
 vec3 openLight(int k, vec3 place, vec3 n) {
-    vec3 toLight = u_lights[k].place.xyz - place;
+    vec3 toLight = LIGHTS[k].place.xyz - place;
     vec3 l = toLight * inversesqrt(max(dot(toLight, toLight), 1e-12));
-    return u_lights[k].color.rgb * reaches(k, toLight, l) * max(dot(n, l), 0.0) * kInvPi;
+    return LIGHTS[k].color.rgb * reaches(k, toLight, l) * max(dot(n, l), 0.0) * kInvPi;
 }
 #else
 vec3 openLight(int k, vec3 place, vec3 n) {
-    vec3 toCenter = u_lights[k].place.xyz - place;
+    vec3 toCenter = LIGHTS[k].place.xyz - place;
     float distance2 = max(dot(toCenter, toCenter), 1e-12);
-    float sin2 = u_lights[k].axis.x * u_lights[k].axis.x / distance2;
+    float sin2 = LIGHTS[k].axis.x * LIGHTS[k].axis.x / distance2;
     float cosBeta = dot(n, toCenter) * inversesqrt(distance2);
-    return u_lights[k].color.rgb * (sin2 >= 1.0 ? 1.0 : sphereFormFactor(cosBeta, sin2));
+    return LIGHTS[k].color.rgb * (sin2 >= 1.0 ? 1.0 : sphereFormFactor(cosBeta, sin2));
 }
 #endif
 
@@ -221,7 +221,7 @@ void main() {
 #ifdef NEAR_RECTANGLE
         sum += rectangleLight(i, place, direct);
 #else
-        vec3 toLight = u_lights[k].place.xyz - place;
+        vec3 toLight = LIGHTS[k].place.xyz - place;
         float y[64];
 #ifdef NEAR_POINTS
         float distance2 = dot(toLight, toLight);
@@ -232,9 +232,9 @@ void main() {
         nearPointSh(l, ORDER, window(), y);
 #else
         const float arrives = 1.0;
-        nearSphereSh(toLight, u_lights[k].axis.x, ORDER, window(), y);
+        nearSphereSh(toLight, LIGHTS[k].axis.x, ORDER, window(), y);
 #endif
-        sum += u_lights[k].color.rgb * arrives * transferred(i, y, direct);
+        sum += LIGHTS[k].color.rgb * arrives * transferred(i, y, direct);
 #endif
     }
     b_near[u_first + i] = vec4(sum, 0.0);

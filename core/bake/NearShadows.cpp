@@ -65,10 +65,9 @@ class BakedParts {
 
 std::vector<NearLight> nearLights(const Document& document) {
     std::vector<NearLight> lights;
-    for (const Light& light : document.lights)
-        if (isActive(document, light))
-            if (const std::optional<NearEmitter> emitter = nearEmitter(light))
-                lights.push_back({light.id, *emitter});
+    for (const Light* light : activeLights(document))
+        if (const std::optional<NearEmitter> emitter = nearEmitter(*light))
+            lights.push_back({light->id, *emitter});
     return lights;
 }
 

@@ -1,5 +1,6 @@
 #include "render/pass/NearLightPass.h"
 
+#include "core/base/Check.h"
 #include "core/light/NearRectangle.h"
 #include "core/light/TransferLight.h"
 
@@ -38,16 +39,15 @@ NearLightPass::NearLightPass(gl::Context& context, ShaderLibrary& shaders)
     , m_shaders(shaders)
     , m_parts(context) {}
 
-void NearLightPass::setLights(const FrameBlock& frame, std::span<const Id> ids,
-                              std::span<const Id> shareLights) {
-    setRows(frame, ids, shareLights);
-    Lights lights{
-        frame.lightEnds,
-        {frame.lights.begin() + frame.lightEnds.x, frame.lights.begin() + frame.lightEnds.w},
-        std::vector<Id>(static_cast<std::size_t>(frame.lightEnds.w - frame.lightEnds.x), 0)};
-    if (ids.size() == static_cast<std::size_t>(frame.lightEnds.w))
-        std::ranges::copy(ids.subspan(static_cast<std::size_t>(frame.lightEnds.x)),
-                          lights.ids.begin());
+void NearLightPass::setLights(const glm::ivec4& ends, std::span<const LightBlock> all,
+                              std::span<const Id> ids, std::span<const Id> shareLights) {
+    CHECK_LE(static_cast<std::size_t>(ends.w), all.size());
+    setRows(ends, ids, shareLights);
+    const auto local =
+        all.first(static_cast<std::size_t>(ends.w)).subspan(static_cast<std::size_t>(ends.x));
+    Lights lights{ends, {local.begin(), local.end()}, std::vector<Id>(local.size(), 0)};
+    if (ids.size() == static_cast<std::size_t>(ends.w))
+        std::ranges::copy(ids.subspan(static_cast<std::size_t>(ends.x)), lights.ids.begin());
     for (LightBlock& light : lights.lights)
         light.place.w = 0.0f; // the slot of its shadow map says nothing here
     if (lights == m_lights)
@@ -57,12 +57,12 @@ void NearLightPass::setLights(const FrameBlock& frame, std::span<const Id> ids,
     ++m_revision;
 }
 
-void NearLightPass::setRows(const FrameBlock& frame, std::span<const Id> ids,
+void NearLightPass::setRows(const glm::ivec4& ends, std::span<const Id> ids,
                             std::span<const Id> shareLights) {
     std::unordered_map<Id, std::int32_t> rowOf;
     for (std::size_t row = 0; row < shareLights.size(); ++row)
         rowOf.try_emplace(shareLights[row], static_cast<std::int32_t>(row));
-    const auto count = static_cast<std::size_t>(frame.lightEnds.w);
+    const auto count = static_cast<std::size_t>(ends.w);
     std::vector<std::int32_t> rows(count, -1);
     for (std::size_t i = 0; i < count && ids.size() == count; ++i)
         if (const auto row = rowOf.find(ids[i]); row != rowOf.end())
@@ -148,6 +148,8 @@ Result<void> NearLightPass::dispatch(const TransferWork& work, const char* kind,
         key.defines.emplace_back("COLORED");
     if (work.openSky)
         key.defines.emplace_back("OPEN_SKY");
+    if (m_lights.ends.w > kUniformLights)
+        key.defines.emplace_back("MANY_LIGHTS");
     const auto shader = m_shaders.program(key);
     if (!shader)
         return shader.error();

@@ -17,9 +17,10 @@ class NearLightPass {
   public:
     NearLightPass(gl::Context& context, ShaderLibrary& shaders);
 
-    // Those of the frame, whose buffer is bound; `ids` of all its lights, or of none.
-    // `shareLights`: ids of those that items may have shares of, in the order of these.
-    void setLights(const FrameBlock& frame, std::span<const Id> ids,
+    // Those of the frame, sorted by type up to `ends` (FrameBlock::lightEnds), whose buffers are
+    // bound; `ids` of all of them, or of none. `shareLights`: ids of those that items may have
+    // shares of, in the order of these.
+    void setLights(const glm::ivec4& ends, std::span<const LightBlock> all, std::span<const Id> ids,
                    std::span<const Id> shareLights);
     [[nodiscard]] bool any() const { return !m_lights.lights.empty(); }
     [[nodiscard]] std::uint64_t revision() const { return m_revision; } // grows with each change
@@ -40,7 +41,7 @@ class NearLightPass {
     };
     Result<void> dispatch(const TransferWork& work, const char* kind, const gl::Buffer& block,
                           int begin, int end, bool adds, std::optional<std::size_t> sharesBuffer);
-    void setRows(const FrameBlock& frame, std::span<const Id> ids, std::span<const Id> shareLights);
+    void setRows(const glm::ivec4& ends, std::span<const Id> ids, std::span<const Id> shareLights);
     [[nodiscard]] const std::vector<gl::Buffer>& blocks(int order);
 
     gl::Context& m_context;

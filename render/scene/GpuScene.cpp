@@ -55,6 +55,7 @@ GpuScene::GpuScene(gl::Context& context)
     , m_environment(context)
     , m_modelBlock(context, "shading model", sizeof(ModelBlock))
     , m_lobes(makeLobes(context))
+    , m_manyLights(context)
     , m_textures(context)
     , m_visibility(context, BakeKind::AoVertex)
     , m_transfer(context) {
@@ -65,11 +66,6 @@ GpuScene::GpuScene(gl::Context& context)
 
 Dirty GpuScene::update(const Document& document) {
     const Dirty dirty = dirtyBetween(m_document, document);
-    if (dirty.lights && tooManyLights(document) && !tooManyLights(m_document))
-        logWarning("Only the first {} lights that shine are drawn; switch some off.", kMaxLights);
-    if (dirty.lights && tooManyShadows(document) && !tooManyShadows(m_document))
-        logWarning("Only the first {} lights that cast shadows do so; the others shine through.",
-                   kMaxShadows);
     m_document = document;
 
     // Numbers of the view, the lights and the environment are read anew for each frame.
@@ -344,6 +340,10 @@ void GpuScene::fill(FrameBlock& frame, std::span<const Id> shadows) const {
     m_environment.fill(frame);
     frame.mix = mixWeights(m_document.view.reflectionMix);
     packLights(m_document, shadows, frame);
+}
+
+void GpuScene::setManyLights(std::span<const Id> shadows) {
+    m_manyLights.set(packLights(m_document, shadows), m_bounds);
 }
 
 } // namespace patina::render

@@ -7,6 +7,7 @@
 #include "render/scene/EnvironmentLight.h"
 #include "render/scene/GpuMaterial.h"
 #include "render/scene/GpuMesh.h"
+#include "render/scene/ManyLights.h"
 #include "render/scene/TextureCache.h"
 #include "render/scene/TransferValues.h"
 #include "render/scene/VertexValues.h"
@@ -77,6 +78,9 @@ class GpuScene {
     // The frame's uniforms that follow from the document: environment and lights. `shadows`: ids of
     // the lights that have a shadow map, by slot.
     void fill(FrameBlock& frame, std::span<const Id> shadows = {}) const;
+    // Makes the lights ready of which fill() finds more than the frame holds.
+    void setManyLights(std::span<const Id> shadows);
+    [[nodiscard]] const ManyLights& manyLights() const { return m_manyLights; }
     // What lights transfer from far away, order² radiance coefficients: the environments of the mix
     // and the directional lights.
     [[nodiscard]] std::vector<glm::vec3> transferLight(int order) const;
@@ -106,6 +110,7 @@ class GpuScene {
     EnvironmentLight m_environment;
     gl::Buffer m_modelBlock;
     gl::Texture m_lobes;
+    ManyLights m_manyLights;
     TextureCache m_textures;
     std::map<MeshPtr, GpuMesh> m_meshes; // holds the mesh: an address is never reused
     std::map<Id, GpuMaterial> m_materials;
