@@ -11,7 +11,7 @@
 
 namespace patina::render {
 
-FrameBlock Renderer::Impl::packFrame(const FrameSettings& frame) const {
+FrameBlock Renderer::Impl::packFrame(const FrameSettings& frame) {
     const auto width = static_cast<float>(frame.width), height = static_cast<float>(frame.height);
     FrameBlock block;
     block.worldToClip =
@@ -20,6 +20,8 @@ FrameBlock Renderer::Impl::packFrame(const FrameSettings& frame) const {
     block.cameraPosition = glm::vec4(frame.camera.position(), 1.0f);
     block.viewport = {width, height, 1.0f / width, 1.0f / height};
     scene.fill(block, shadows.lights());
+    if (block.lightEnds.w > kUniformLights)
+        scene.setManyLights(shadows.lights());
     if (frame.view.furnace)
         block.lightEnds = glm::ivec4(0);
     return block;
@@ -32,6 +34,7 @@ LightingMode Renderer::Impl::lightingFor(const ViewSettings& view, ViewKind kind
 void Renderer::Impl::useFrame(const FrameBlock& block) {
     frameBlock.writeValue(block);
     frameBlock.bindUniform(kFrameBinding);
+    scene.manyLights().bind();
 }
 
 SurfaceSettings Renderer::Impl::surfaceSettings(const FrameBlock& block, SurfaceOutput output,

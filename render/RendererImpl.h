@@ -147,7 +147,7 @@ struct Renderer::Impl {
     [[nodiscard]] std::optional<glm::mat4> sliceClip(const FrameBlock& block) const;
 
     // --- Renderer.cpp
-    [[nodiscard]] FrameBlock packFrame(const FrameSettings& frame) const;
+    [[nodiscard]] FrameBlock packFrame(const FrameSettings& frame);
     void useFrame(const FrameBlock& block);
     // How a view of this kind is lit.
     [[nodiscard]] LightingMode lightingFor(const ViewSettings& view, ViewKind kind) const;

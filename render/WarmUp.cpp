@@ -1,5 +1,6 @@
 #include "render/WarmUp.h"
 
+#include "core/base/ById.h"
 #include "core/base/Hash.h"
 #include "core/document/Lighting.h"
 #include "core/edit/Edit.h"
@@ -64,34 +65,49 @@ SurfaceSettings settingsOf(const Document& document, const FrameKind& frame) {
     return settings;
 }
 
-const VertexBake* vertexBake(const Document& document, const MeshInstance& mesh, BakeKind kind) {
-    for (const BakeArtifactPtr& bake : document.bakes)
-        if (bake->kind == kind)
-            for (const VertexBake& values : bake->vertices)
-                if (values.mesh == mesh.id &&
-                    values.values.size() ==
-                        mesh.mesh->vertexCount() * static_cast<std::size_t>(values.stride))
-                    return &values;
-    return nullptr;
-}
+// What the document's bakes hold, found by the ids of meshes and materials.
+class BakedValues {
+  public:
+    explicit BakedValues(const Document& document)
+        : m_prtVertices(verticesOf(document, BakeKind::PrtVertex))
+        , m_aoVertices(verticesOf(document, BakeKind::AoVertex))
+        , m_prtTexels(texelsOf(document, BakeKind::PrtTexel))
+        , m_aoTexels(texelsOf(document, BakeKind::AoTexel)) {}
 
-const TexelBake* texelBake(const Document& document, Id material, BakeKind kind) {
-    for (const BakeArtifactPtr& bake : document.bakes)
-        if (bake->kind == kind)
-            for (const TexelBake& texels : bake->texels)
-                if (texels.material == material && (texels.image || texels.side > 0))
-                    return &texels;
-    return nullptr;
-}
+    [[nodiscard]] SurfaceBakes of(const MeshInstance& mesh) const {
+        const VertexBake* transfer = fitting(m_prtVertices, mesh);
+        const VertexBake* ao = fitting(m_aoVertices, mesh);
+        const bool texels = filled(m_prtTexels, mesh.material);
+        return {texels ||
+                    (transfer && static_cast<std::size_t>(transfer->stride) <= kMaxTransferCount),
+                texels, filled(m_aoTexels, mesh.material), ao && ao->stride == 1};
+    }
 
-SurfaceBakes bakesOf(const Document& document, const MeshInstance& mesh) {
-    const VertexBake* transfer = vertexBake(document, mesh, BakeKind::PrtVertex);
-    const VertexBake* ao = vertexBake(document, mesh, BakeKind::AoVertex);
-    const bool texels = texelBake(document, mesh.material, BakeKind::PrtTexel) != nullptr;
-    return {texels || (transfer && static_cast<std::size_t>(transfer->stride) <= kMaxTransferCount),
-            texels, texelBake(document, mesh.material, BakeKind::AoTexel) != nullptr,
-            ao && ao->stride == 1};
-}
+  private:
+    static ById<VertexBake> verticesOf(const Document& document, BakeKind kind) {
+        const BakeArtifactPtr bake = findBake(document, kind);
+        return bake ? ById(bake->vertices, &VertexBake::mesh) : ById<VertexBake>();
+    }
+    static ById<TexelBake> texelsOf(const Document& document, BakeKind kind) {
+        const BakeArtifactPtr bake = findBake(document, kind);
+        return bake ? ById(bake->texels, &TexelBake::material) : ById<TexelBake>();
+    }
+    static const VertexBake* fitting(const ById<VertexBake>& bakes, const MeshInstance& mesh) {
+        const VertexBake* bake = bakes.find(mesh.id);
+        return bake && bake->values.size() ==
+                           mesh.mesh->vertexCount() * static_cast<std::size_t>(bake->stride)
+                   ? bake
+                   : nullptr;
+    }
+    static bool filled(const ById<TexelBake>& bakes, Id material) {
+        const TexelBake* bake = bakes.find(material);
+        return bake && (bake->image || bake->side > 0);
+    }
+
+    // Into the document's artifacts, which outlive this.
+    ById<VertexBake> m_prtVertices, m_aoVertices;
+    ById<TexelBake> m_prtTexels, m_aoTexels;
+};
 
 void addFormats(Hasher& hasher, Material material) {
     for (const MapSlot* map : slots(material)) {
@@ -199,13 +215,16 @@ std::vector<FrameKind> allFrameKinds(const Document& document) {
 std::map<std::uint64_t, Id> surfacePrograms(const Document& document, const FrameKind& frame) {
     const SurfaceSettings settings = settingsOf(document, frame);
     std::map<std::uint64_t, Id> programs;
+    const ById materials(document.materials);
+    const BakedValues baked(document);
+    static const Material kDefault; // of a mesh whose material is not there
     for (const MeshInstance& mesh : document.meshes) {
         if (!mesh.visible || !mesh.mesh || mesh.mesh->indices.empty())
             continue;
-        const Material* found = document.material(mesh.material);
-        const Material material = found ? *found : Material();
+        const Material* found = materials.find(mesh.material);
+        const Material& material = found ? *found : kDefault;
         const unsigned features =
-            surfaceFeatures(materialFeatures(material), bakesOf(document, mesh), settings);
+            surfaceFeatures(materialFeatures(material), baked.of(mesh), settings);
         Hasher hasher;
         for (const unsigned part : surfaceVariant(features, settings))
             hasher.value(part);

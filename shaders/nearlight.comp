@@ -19,9 +19,13 @@ layout(local_size_x = 64) in;
 layout(std430, binding = 4) buffer NearRadiance {
     vec4 b_near[];
 };
-// Of one light, a share for each element: 0…1, or negative where there is none.
+// Of each light a row of shares for the elements: 0…1, or negative where there is none.
 layout(std430, binding = 6) readonly buffer NearShares {
     float b_shares[];
+};
+// The row of each of LIGHTS, counted over all buffers of shares; -1: none.
+layout(std430, binding = 1) readonly buffer NearRows {
+    int b_rows[];
 };
 layout(std140, binding = 8) uniform NearLight {
     vec4 u_window[2]; // of the bands
@@ -48,7 +52,9 @@ uniform int u_placeVectors; // of u_places: 3: a vertex; 2: a texel's position a
 uniform mat4 u_placeToWorld;
 uniform int u_lightBegin;
 uniform int u_lightEnd;
-uniform int u_hasShares; // of the light u_lightBegin
+uniform int u_shareRows;    // that b_shares may have; 0: none is bound
+uniform int u_firstRow;     // in b_shares
+uniform int u_elementCount; // of a row
 uniform mat4 u_normalToWorld;
 
 float[8] window() {
@@ -147,7 +153,7 @@ vec3 rectangleLight(int element, vec3 place, float direct) {
     float factor[8];
     rectangleFactors(abs(seen), ORDER, window(), factor);
     scaleBands(ORDER, factor, y);
-    return u_lights[u_lightBegin].color.rgb * transferred(element, y, direct);
+    return LIGHTS[u_lightBegin].color.rgb * transferred(element, y, direct);
 }
 
 // What a surface of albedo 1 at `place` sends out of the whole rectangle.
@@ -155,35 +161,45 @@ vec3 openLight(int k, vec3 place, vec3 n) {
     vec3 x;
     vec3 y;
     orthonormalBasis(n, x, y);
-    vec3 toCenter = u_lights[k].place.xyz - place;
+    vec3 toCenter = LIGHTS[k].place.xyz - place;
     vec3 center = vec3(dot(x, toCenter), dot(y, toCenter), dot(n, toCenter));
-    vec3 axis = u_lights[k].axis.xyz;
-    vec3 side = u_lights[k].side.xyz;
+    vec3 axis = LIGHTS[k].axis.xyz;
+    vec3 side = LIGHTS[k].side.xyz;
     vec3 hx = vec3(dot(x, axis), dot(y, axis), dot(n, axis));
     vec3 hy = vec3(dot(x, side), dot(y, side), dot(n, side));
-    return u_lights[k].color.rgb * quadFormFactor(center - hx - hy, center + hx - hy,
+    return LIGHTS[k].color.rgb * quadFormFactor(center - hx - hy, center + hx - hy,
                                                   center + hx + hy, center - hx + hy);
 }
 #elif defined(NEAR_POINTS)
 float reaches(int k, vec3 toLight, vec3 l) {
-    return pointFalloff(dot(toLight, toLight), u_lights[k].color.w) *
-           spotFalloff(dot(u_lights[k].axis.xyz, l), 1.0, u_lights[k].axis.w);
+    return pointFalloff(dot(toLight, toLight), LIGHTS[k].color.w) *
+           spotFalloff(dot(LIGHTS[k].axis.xyz, l), 1.0, LIGHTS[k].axis.w);
 }
 
 vec3 openLight(int k, vec3 place, vec3 n) {
-    vec3 toLight = u_lights[k].place.xyz - place;
+    vec3 toLight = LIGHTS[k].place.xyz - place;
     vec3 l = toLight * inversesqrt(max(dot(toLight, toLight), 1e-12));
-    return u_lights[k].color.rgb * reaches(k, toLight, l) * max(dot(n, l), 0.0) * kInvPi;
+    return LIGHTS[k].color.rgb * reaches(k, toLight, l) * max(dot(n, l), 0.0) * kInvPi;
 }
 #else
 vec3 openLight(int k, vec3 place, vec3 n) {
-    vec3 toCenter = u_lights[k].place.xyz - place;
+    vec3 toCenter = LIGHTS[k].place.xyz - place;
     float distance2 = max(dot(toCenter, toCenter), 1e-12);
-    float sin2 = u_lights[k].axis.x * u_lights[k].axis.x / distance2;
+    float sin2 = LIGHTS[k].axis.x * LIGHTS[k].axis.x / distance2;
     float cosBeta = dot(n, toCenter) * inversesqrt(distance2);
-    return u_lights[k].color.rgb * (sin2 >= 1.0 ? 1.0 : sphereFormFactor(cosBeta, sin2));
+    return LIGHTS[k].color.rgb * (sin2 >= 1.0 ? 1.0 : sphereFormFactor(cosBeta, sin2));
 }
 #endif
+
+// Of a light, at an element of the chunk; negative: it has none.
+float shareOf(int k, int element) {
+    if (u_shareRows == 0)
+        return -1.0;
+    int row = b_rows[k] - u_firstRow;
+    if (row < 0 || row >= u_shareRows)
+        return -1.0;
+    return b_shares[row * u_elementCount + u_first + element];
+}
 
 void main() {
     int i = int(gl_GlobalInvocationID.x);
@@ -191,31 +207,35 @@ void main() {
         return;
     vec3 place = (u_placeToWorld * vec4(texelFetch(u_places, i * u_placeVectors).xyz, 1.0)).xyz;
     vec3 sum = u_adds != 0 ? b_near[u_first + i].rgb : vec3(0.0);
-    float direct = 1.0; // of the transfer
-    if (u_hasShares != 0) {
-        float share = b_shares[u_first + i];
+    vec3 n = u_shareRows != 0 ? normalOf(i) : vec3(0.0, 0.0, 1.0);
+    for (int k = u_lightBegin; k < u_lightEnd; ++k) {
+        float direct = 1.0; // of the transfer
+        float share = shareOf(k, i);
         if (share >= 0.0) {
             direct = 0.0;
-            sum += share * openLight(u_lightBegin, place, normalOf(i));
+            sum += share * openLight(k, place, n);
+#if !defined(COLORED) && !defined(OPEN_SKY)
+            continue; // nothing bounces
+#endif
         }
-    }
 #ifdef NEAR_RECTANGLE
-    sum += rectangleLight(i, place, direct);
+        sum += rectangleLight(i, place, direct);
 #else
-    for (int k = u_lightBegin; k < u_lightEnd; ++k) {
-        vec3 toLight = u_lights[k].place.xyz - place;
+        vec3 toLight = LIGHTS[k].place.xyz - place;
         float y[64];
 #ifdef NEAR_POINTS
         float distance2 = dot(toLight, toLight);
         vec3 l = toLight * inversesqrt(max(distance2, 1e-12));
         float arrives = reaches(k, toLight, l);
+        if (arrives == 0.0)
+            continue;
         nearPointSh(l, ORDER, window(), y);
 #else
         const float arrives = 1.0;
-        nearSphereSh(toLight, u_lights[k].axis.x, ORDER, window(), y);
+        nearSphereSh(toLight, LIGHTS[k].axis.x, ORDER, window(), y);
 #endif
-        sum += u_lights[k].color.rgb * arrives * transferred(i, y, direct);
+        sum += LIGHTS[k].color.rgb * arrives * transferred(i, y, direct);
+#endif
     }
-#endif
     b_near[u_first + i] = vec4(sum, 0.0);
 }

@@ -53,7 +53,9 @@ layout(binding = 9) uniform sampler2D u_lobes; // core/light/LobeTable.h
 
 #ifdef VIEWS
 #include "include/views.glsl"
+#define CHOSEN_LIGHT u_viewLight
 #else
+#define CHOSEN_LIGHT 0
 layout(location = 0) out vec4 o_radiance; // premultiplied by alpha
 #endif
 
@@ -288,35 +290,57 @@ void main() {
 #endif
 #ifdef HAS_PUNCTUAL_LIGHTS
     for (int i = 0; i < LIGHT_ENDS.x; ++i) {
-        vec3 E = u_lights[i].color.rgb;
+        vec3 E = LIGHTS[i].color.rgb;
         float shadow = 1.0;
 #ifdef HAS_SHADOWS
-        shadow = u_lights[i].place.w < 0.0 ? 1.0 : visibility[int(u_lights[i].place.w)];
+        shadow = LIGHTS[i].place.w < 0.0 ? 1.0 : visibility[int(LIGHTS[i].place.w)];
         E *= shadow;
 #endif
-        ShadedLight light = mixedDirect(shadeDirect(s, u_lights[i].place.xyz, E));
+        ShadedLight light = mixedDirect(shadeDirect(s, LIGHTS[i].place.xyz, E));
         directDiffuse += light.diffuse;
         directSpecular += light.specular;
 #ifdef VIEWS
-        recordLight(sums, s, i, u_lights[i].place.xyz, u_lights[i].color.rgb, shadow, light);
+        recordLight(sums, s, i, LIGHTS[i].place.xyz, LIGHTS[i].color.rgb, shadow, light);
 #endif
     }
+#ifdef MANY_LIGHTS
+    // Those without a range, then those that reach this cell. What does not is black there.
+#ifdef INSPECT
+    int endless = LIGHT_ENDS.y;
+    ivec2 listed = ivec2(0);
+#else
+    int endless = b_lightCellCount.w;
+    ivec2 listed = lightsOfCell(v_position);
+#endif
+    int last = endless + listed.y - listed.x;
+#if defined(VIEWS) && !defined(INSPECT)
+    // The chosen light is looked at wherever it reaches.
+    bool missing = u_viewLight >= endless && u_viewLight < LIGHT_ENDS.y;
+    for (int k = listed.x; k < listed.y; ++k)
+        missing = missing && int(b_lightCells[k]) != u_viewLight;
+    last += missing ? 1 : 0;
+#endif
+    for (int k = LIGHT_ENDS.x; k < last; ++k) {
+        int at = listed.x + k - endless;
+        int i = k < endless ? k : at < listed.y ? int(b_lightCells[at]) : CHOSEN_LIGHT;
+#else
     for (int i = LIGHT_ENDS.x; i < LIGHT_ENDS.y; ++i) {
-        vec3 toLight = u_lights[i].place.xyz - v_position;
+#endif
+        vec3 toLight = LIGHTS[i].place.xyz - v_position;
         float distance2 = dot(toLight, toLight);
         vec3 l = toLight * inversesqrt(max(distance2, 1e-12));
-        float reaches = pointFalloff(distance2, u_lights[i].color.w) *
-                        spotFalloff(dot(u_lights[i].axis.xyz, l), 1.0, u_lights[i].axis.w);
+        float reaches = pointFalloff(distance2, LIGHTS[i].color.w) *
+                        spotFalloff(dot(LIGHTS[i].axis.xyz, l), 1.0, LIGHTS[i].axis.w);
         float shadow = 1.0;
 #ifdef HAS_SHADOWS
-        shadow = u_lights[i].place.w < 0.0 ? 1.0 : visibility[int(u_lights[i].place.w)];
+        shadow = LIGHTS[i].place.w < 0.0 ? 1.0 : visibility[int(LIGHTS[i].place.w)];
 #endif
         ShadedLight light =
-            mixedDirect(shadeDirect(s, l, u_lights[i].color.rgb * (reaches * shadow)));
+            mixedDirect(shadeDirect(s, l, LIGHTS[i].color.rgb * (reaches * shadow)));
         directDiffuse += light.diffuse;
         directSpecular += light.specular;
 #ifdef VIEWS
-        recordLight(sums, s, i, l, u_lights[i].color.rgb * reaches, shadow, light);
+        recordLight(sums, s, i, l, LIGHTS[i].color.rgb * reaches, shadow, light);
 #endif
     }
 #endif
@@ -326,8 +350,8 @@ void main() {
     float lobeTexels = float(textureSize(u_lobes, 0).x);
     vec4 fit = textureLod(u_lobes, (lobe * (lobeTexels - 1.0) + 0.5) / lobeTexels, 0.0);
     for (int i = LIGHT_ENDS.y; i < LIGHT_ENDS.z; ++i) {
-        ShadedLight light = mixedDirect(shadeSphere(s, fit, u_lights[i].place.xyz - v_position,
-                                                  u_lights[i].axis.x, u_lights[i].color.rgb));
+        ShadedLight light = mixedDirect(shadeSphere(s, fit, LIGHTS[i].place.xyz - v_position,
+                                                  LIGHTS[i].axis.x, LIGHTS[i].color.rgb));
         directDiffuse += light.diffuse;
         directSpecular += light.specular;
 #ifdef VIEWS
@@ -336,9 +360,9 @@ void main() {
     }
     for (int i = LIGHT_ENDS.z; i < LIGHT_ENDS.w; ++i) {
         ShadedLight light =
-            mixedDirect(shadeRectangle(s, fit, u_lights[i].place.xyz - v_position,
-                                     u_lights[i].axis.xyz, u_lights[i].side.xyz,
-                                     u_lights[i].color.rgb));
+            mixedDirect(shadeRectangle(s, fit, LIGHTS[i].place.xyz - v_position,
+                                     LIGHTS[i].axis.xyz, LIGHTS[i].side.xyz,
+                                     LIGHTS[i].color.rgb));
         directDiffuse += light.diffuse;
         directSpecular += light.specular;
 #ifdef VIEWS

@@ -4,6 +4,7 @@
 #include "core/bake/file/BakeHeader.h"
 #include "core/bake/file/BakePacking.h"
 #include "core/bake/transfer/BakeCheckpoint.h"
+#include "core/base/ById.h"
 #include "core/document/AbsentBake.h"
 #include "core/document/Source.h"
 #include "core/edit/Parameters.h"
@@ -67,8 +68,9 @@ Json imageJson(const Image& image) {
 
 void describeMeshes(Report& report, const Document& document) {
     Rows rows;
+    const ById materials(document.materials);
     for (const MeshInstance& mesh : document.meshes) {
-        const Material* material = document.material(mesh.material);
+        const Material* material = materials.find(mesh.material);
         const std::string materialName = material != nullptr ? material->name : "";
         report.json()["meshes"].push_back({{"name", mesh.name},
                                            {"vertices", mesh.mesh->vertexCount()},

@@ -16,6 +16,7 @@
 #include "core/mix/LightMix.h"
 #include "render/Renderer.h"
 #include "render/gl/Context.h"
+#include "render/scene/LightBlocks.h"
 
 #include <algorithm>
 #include <charconv>
@@ -349,6 +350,8 @@ Result<void> run(Session& session, const RenderOptions& options) {
     if (wantsAllViews(options))
         reportLeftOut(session.report(), leftOutViews(*document, *shown));
     warnOfStaleBakes(session, *document);
+    for (const render::LightLimit& limit : render::lightLimits(*document))
+        session.report().warn(limit.text);
     if (Result<void> followed = followBounces(session, *shown, *document); !followed)
         return followed;
     if (!options.view.empty()) {

@@ -7,6 +7,7 @@
 #include "app/editor/job/BounceUpdater.h"
 #include "app/editor/job/JobManager.h"
 #include "app/editor/job/NearShadowUpdater.h"
+#include "app/editor/viewport/LightLimitNotice.h"
 #include "app/editor/viewport/LobeOnSurface.h"
 #include "app/editor/viewport/PixelProbe.h"
 #include "app/editor/viewport/ViewState.h"
@@ -27,6 +28,7 @@ struct Session {
     JobManager jobs{controller};
     BounceUpdater bounces{controller, jobs};
     NearShadowUpdater nearShadows{controller};
+    LightLimitNotice lightLimits{controller};
 };
 
 } // namespace patina::editor

@@ -1,5 +1,6 @@
 #include "core/edit/ViewReasons.h"
 
+#include "core/base/ById.h"
 #include "core/document/Equation.h"
 #include "core/document/Lighting.h"
 #include "core/edit/Edit.h"
@@ -35,8 +36,9 @@ bool anyMesh(const Document& document, Has has) {
 
 template <class Has>
 bool anyMaterial(const Document& document, Has has) {
+    const ById materials(document.materials);
     return anyMesh(document, [&](const MeshInstance& mesh) {
-        const Material* material = document.material(mesh.material);
+        const Material* material = materials.find(mesh.material);
         return material != nullptr && has(*material);
     });
 }

@@ -2,6 +2,7 @@
 
 #include "core/bake/Bake.h"
 #include "core/bake/document/DocumentBakeInputs.h"
+#include "core/base/ById.h"
 #include "core/document/AbsentBake.h"
 #include "core/edit/Edit.h"
 #include "core/export/GltfEnvironment.h"
@@ -11,12 +12,15 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <unordered_map>
 
 namespace patina {
 namespace {
 
 void addInstances(const Document& document, const ExportSettings& settings,
                   ExportContents& contents) {
+    const ById materials(document.materials);
+    std::unordered_map<const Material*, int> exportedAs;
     for (const MeshInstance& instance : document.meshes) {
         if (settings.visibleOnly && !instance.visible)
             continue;
@@ -31,11 +35,11 @@ void addInstances(const Document& document, const ExportSettings& settings,
                 "{}: its transform flattens it to nothing and will be left out", instance.name));
             continue;
         }
-        if (const Material* material = document.material(instance.material)) {
-            const auto known =
-                std::find(contents.materials.begin(), contents.materials.end(), material);
-            exported.material = static_cast<int>(known - contents.materials.begin());
-            if (known == contents.materials.end())
+        if (const Material* material = materials.find(instance.material)) {
+            const auto [known, isNew] =
+                exportedAs.try_emplace(material, static_cast<int>(contents.materials.size()));
+            exported.material = known->second;
+            if (isNew)
                 contents.materials.push_back(material);
         }
         contents.instances.push_back(std::move(exported));

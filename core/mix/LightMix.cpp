@@ -16,6 +16,15 @@ bool isActive(const Document& document, const Light& light) {
     return light.enabled && (light.solo || !anySolo(document));
 }
 
+std::vector<const Light*> activeLights(const Document& document) {
+    const bool solo = anySolo(document); // asked once: there may be thousands of lights
+    std::vector<const Light*> lights;
+    for (const Light& light : document.lights)
+        if (light.enabled && (light.solo || !solo))
+            lights.push_back(&light);
+    return lights;
+}
+
 namespace {
 
 // What its radiance is multiplied by; zero: it takes no part.

@@ -13,6 +13,8 @@ namespace patina {
 
 // Switched on, and solo if anything is.
 [[nodiscard]] bool isActive(const Document& document, const Light& light);
+// The lights of which that is so, in the document's order; they point into it.
+[[nodiscard]] std::vector<const Light*> activeLights(const Document& document);
 
 // Environment that lights the scene: radiance scale · image, turned about +Y.
 struct EnvironmentPart {

@@ -101,17 +101,17 @@ std::optional<std::vector<glm::vec3>> environmentLight(std::span<const Environme
 }
 
 void addDistantLights(const Document& document, int order, std::span<glm::vec3> sum) {
-    for (const Light& light : document.lights)
-        if (light.type == LightType::Directional && isActive(document, light))
-            addZonal(discLight(light.shadowSoftness, order), light.directionToLight(),
-                     lightPower(light), sum);
+    for (const Light* light : activeLights(document))
+        if (light->type == LightType::Directional)
+            addZonal(discLight(light->shadowSoftness, order), light->directionToLight(),
+                     lightPower(*light), sum);
 }
 
 void addNearLights(const Document& document, const glm::vec3& place, int order,
                    std::span<glm::vec3> sum) {
-    for (const Light& light : document.lights)
-        if (light.type != LightType::Directional && isActive(document, light))
-            addNearLight(light, place, order, sum);
+    for (const Light* light : activeLights(document))
+        if (light->type != LightType::Directional)
+            addNearLight(*light, place, order, sum);
 }
 
 void addNearLight(const Light& light, const glm::vec3& place, int order, std::span<glm::vec3> sum) {

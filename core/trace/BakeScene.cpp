@@ -1,5 +1,6 @@
 #include "core/trace/BakeScene.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace patina {
@@ -12,7 +13,10 @@ Result<BakeScene> BakeScene::build(const BakeInputs& inputs, const JobContext& j
     Result<RayScene> rays = RayScene::build(*geometry, job);
     if (!rays)
         return rays.error();
-    return BakeScene{std::move(geometry), *std::move(rays)};
+    const bool byChance = std::ranges::any_of(geometry->meshes, [](const BakeGeometryMesh& mesh) {
+        return mesh.surface.alphaMode == AlphaMode::Blend;
+    });
+    return BakeScene{std::move(geometry), *std::move(rays), byChance};
 }
 
 } // namespace patina

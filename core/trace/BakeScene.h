@@ -13,6 +13,7 @@ struct BakeScene {
 
     std::unique_ptr<const BakeGeometry> geometry; // stays where it is, however the scene moves:
     RayScene rays;                                // uses it in place
+    bool passesByChance = false;                  // some surface is blended
 };
 
 } // namespace patina

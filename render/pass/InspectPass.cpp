@@ -8,22 +8,26 @@
 namespace patina::render {
 namespace {
 
-// shaders/include/views.glsl.
+// shaders/include/views.glsl, before the lights' records.
 struct RecordsBlock {
     std::array<glm::vec4, shading::kRecordCount> values;
     std::array<glm::vec4, shading::kViewCount> parts;
-    std::array<LightRecordBlock, kMaxLights> lights;
 };
 
 } // namespace
 
 InspectPass::InspectPass(gl::Context& context)
-    : m_records(context, "records", sizeof(RecordsBlock)) {}
+    : m_context(context) {}
 
 Result<void> InspectPass::draw(const GpuScene& scene, const DrawItem& item, const PickPass& picked,
                                SurfacePass& surface, const SurfaceSettings& settings, int x, int y,
                                Inspection& result) {
-    m_records.writeValue(RecordsBlock{});
+    const auto count = static_cast<std::size_t>(
+        settings.hasManyLights() ? scene.manyLights().lights().ends.w : kUniformLights);
+    const std::vector<std::byte> zeros(sizeof(RecordsBlock) + count * sizeof(LightRecordBlock));
+    if (m_records.size() != zeros.size())
+        m_records = gl::Buffer(m_context, "records", zeros.size());
+    m_records.write(0, zeros);
     m_records.bindStorage(kRecordsBinding);
     picked.target().bind();
     glScissor(x, y, 1, 1);
@@ -40,14 +44,17 @@ Result<void> InspectPass::draw(const GpuScene& scene, const DrawItem& item, cons
         return done;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
 
+    const std::vector<std::byte> bytes = m_records.read();
     RecordsBlock records;
-    std::memcpy(&records, m_records.read().data(), sizeof(records));
+    std::memcpy(&records, bytes.data(), sizeof(records));
+    std::vector<LightRecordBlock> lights(count);
+    std::memcpy(lights.data(), bytes.data() + sizeof(records), count * sizeof(LightRecordBlock));
     result.values = records.values;
     result.contributions = records.parts;
     const std::vector<Id> order = lightOrder(scene.document());
-    const auto count = static_cast<std::size_t>(settings.lightEnds.w);
-    for (std::size_t i = 0; i < std::min(count, order.size()); ++i) {
-        const LightRecordBlock& light = records.lights[i];
+    const auto lit = std::min(static_cast<std::size_t>(settings.lightEnds.w), count);
+    for (std::size_t i = 0; i < std::min(lit, order.size()); ++i) {
+        const LightRecordBlock& light = lights[i];
         result.lights.push_back({order[i], glm::vec3(light.toLight), glm::vec3(light.arriving),
                                  light.toLight.w, glm::vec3(light.diffuse),
                                  glm::vec3(light.specular)});

@@ -20,6 +20,7 @@ class InspectPass {
                       Inspection& result);
 
   private:
+    gl::Context& m_context;
     gl::Buffer m_records;
 };
 

@@ -1,11 +1,13 @@
 #include "render/pass/NearLightPass.h"
 
+#include "core/base/Check.h"
 #include "core/light/NearRectangle.h"
 #include "core/mix/TransferLight.h"
 
 #include <algorithm>
 #include <epoxy/gl.h>
 #include <fmt/format.h>
+#include <unordered_map>
 
 namespace patina::render {
 namespace {
@@ -37,14 +39,15 @@ NearLightPass::NearLightPass(gl::Context& context, ShaderLibrary& shaders)
     , m_shaders(shaders)
     , m_parts(context) {}
 
-void NearLightPass::setLights(const FrameBlock& frame, std::span<const Id> ids) {
-    Lights lights{
-        frame.lightEnds,
-        {frame.lights.begin() + frame.lightEnds.x, frame.lights.begin() + frame.lightEnds.w},
-        std::vector<Id>(static_cast<std::size_t>(frame.lightEnds.w - frame.lightEnds.x), 0)};
-    if (ids.size() == static_cast<std::size_t>(frame.lightEnds.w))
-        std::ranges::copy(ids.subspan(static_cast<std::size_t>(frame.lightEnds.x)),
-                          lights.ids.begin());
+void NearLightPass::setLights(const glm::ivec4& ends, std::span<const LightBlock> all,
+                              std::span<const Id> ids, std::span<const Id> shareLights) {
+    CHECK_LE(static_cast<std::size_t>(ends.w), all.size());
+    setRows(ends, ids, shareLights);
+    const auto local =
+        all.first(static_cast<std::size_t>(ends.w)).subspan(static_cast<std::size_t>(ends.x));
+    Lights lights{ends, {local.begin(), local.end()}, std::vector<Id>(local.size(), 0)};
+    if (ids.size() == static_cast<std::size_t>(ends.w))
+        std::ranges::copy(ids.subspan(static_cast<std::size_t>(ends.x)), lights.ids.begin());
     for (LightBlock& light : lights.lights)
         light.place.w = 0.0f; // the slot of its shadow map says nothing here
     if (lights == m_lights)
@@ -52,6 +55,24 @@ void NearLightPass::setLights(const FrameBlock& frame, std::span<const Id> ids) 
     m_lights = std::move(lights);
     m_blocksOrder = 0;
     ++m_revision;
+}
+
+void NearLightPass::setRows(const glm::ivec4& ends, std::span<const Id> ids,
+                            std::span<const Id> shareLights) {
+    std::unordered_map<Id, std::int32_t> rowOf;
+    for (std::size_t row = 0; row < shareLights.size(); ++row)
+        rowOf.try_emplace(shareLights[row], static_cast<std::int32_t>(row));
+    const auto count = static_cast<std::size_t>(ends.w);
+    std::vector<std::int32_t> rows(count, -1);
+    for (std::size_t i = 0; i < count && ids.size() == count; ++i)
+        if (const auto row = rowOf.find(ids[i]); row != rowOf.end())
+            rows[i] = row->second;
+    if (rows == m_rows)
+        return;
+    m_rows = std::move(rows);
+    m_rowsBuffer = m_rows.empty()
+                       ? gl::Buffer()
+                       : gl::Buffer::of<std::int32_t>(m_context, "rows of shares", m_rows);
 }
 
 const std::vector<gl::Buffer>& NearLightPass::blocks(int order) {
@@ -76,27 +97,31 @@ Result<void> NearLightPass::light(const TransferWork& work, const gl::Buffer& ta
     const std::vector<gl::Buffer>& own = blocks(work.order);
     const glm::ivec4 ends = m_lights.ends;
     bool adds = false;
-    const auto sharesOf = [&](int light) -> const gl::Buffer* {
-        if (work.nearShares == nullptr)
-            return nullptr;
-        const auto found =
-            work.nearShares->find(m_lights.ids[static_cast<std::size_t>(light - ends.x)]);
-        return found != work.nearShares->end() &&
-                       found->second.values.size() == work.count * sizeof(float)
-                   ? &found->second.values
-                   : nullptr;
+    const NearShareBuffers* shares =
+        work.nearShares != nullptr && work.nearShares->elements == work.count ? work.nearShares
+                                                                              : nullptr;
+    // The buffer that holds the shares of a light; nothing: it has none.
+    const auto bufferOf = [&](int light) -> std::optional<std::size_t> {
+        const int row = m_rows[static_cast<std::size_t>(light)];
+        if (shares == nullptr || row < 0 || static_cast<std::size_t>(row) >= shares->sources.size())
+            return {};
+        return static_cast<std::size_t>(row) / shares->perBuffer;
     };
-    // Those without shares together, those with them one by one.
+    // As many at a time as find their shares in one buffer.
     const auto run = [&](const char* kind, const gl::Buffer& block, int begin,
                          int end) -> Result<void> {
         while (begin < end) {
-            const gl::Buffer* shares = sharesOf(begin);
+            std::optional<std::size_t> buffer = bufferOf(begin);
             int next = begin + 1;
-            while (shares == nullptr && next < end && sharesOf(next) == nullptr)
-                ++next;
+            for (; next < end; ++next) {
+                const std::optional<std::size_t> other = bufferOf(next);
+                if (other && buffer && *other != *buffer)
+                    break;
+                buffer = buffer ? buffer : other;
+            }
             if (adds)
                 glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-            if (auto done = dispatch(work, kind, block, begin, next, adds, shares); !done)
+            if (auto done = dispatch(work, kind, block, begin, next, adds, buffer); !done)
                 return done;
             adds = true;
             begin = next;
@@ -117,12 +142,14 @@ Result<void> NearLightPass::light(const TransferWork& work, const gl::Buffer& ta
 
 Result<void> NearLightPass::dispatch(const TransferWork& work, const char* kind,
                                      const gl::Buffer& block, int begin, int end, bool adds,
-                                     const gl::Buffer* shares) {
+                                     std::optional<std::size_t> sharesBuffer) {
     ProgramKey key{{"nearlight.comp"}, {kind, fmt::format("ORDER {}", work.order)}};
     if (work.bounced)
         key.defines.emplace_back("COLORED");
     if (work.openSky)
         key.defines.emplace_back("OPEN_SKY");
+    if (m_lights.ends.w > kUniformLights)
+        key.defines.emplace_back("MANY_LIGHTS");
     const auto shader = m_shaders.program(key);
     if (!shader)
         return shader.error();
@@ -134,10 +161,17 @@ Result<void> NearLightPass::dispatch(const TransferWork& work, const char* kind,
     program.set("u_lightEnd", end);
     program.set("u_placeVectors", work.placeVectors);
     program.set("u_placeToWorld", work.placeToWorld);
-    program.set("u_hasShares", shares != nullptr ? 1 : 0);
-    if (shares != nullptr)
-        shares->bindStorage(kNearSharesBinding);
+    program.set("u_shareRows", 0);
+    if (sharesBuffer) {
+        const NearShareBuffers& shares = *work.nearShares;
+        shares.buffers[*sharesBuffer].bindStorage(kNearSharesBinding);
+        m_rowsBuffer.bindStorage(kNearRowsBinding);
+        program.set("u_shareRows", static_cast<int>(shares.perBuffer));
+        program.set("u_firstRow", static_cast<int>(*sharesBuffer * shares.perBuffer));
+        program.set("u_elementCount", static_cast<int>(work.count));
+    }
     program.set("u_normalToWorld", glm::mat4(work.normalToWorld));
+    ++m_dispatches;
     m_parts.run(work, [&](int first, int count) {
         program.set("u_first", first);
         program.set("u_count", count);

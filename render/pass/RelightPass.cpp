@@ -55,7 +55,13 @@ Result<void> RelightPass::update(GpuScene& scene, LightingMode mode, const Frame
         return {};
     for (FarLight& light : m_far)
         light.current = false;
-    m_near.setLights(frame, lightOrder(scene.document()));
+    const std::vector<Id> ids = lightOrder(scene.document());
+    if (frame.lightEnds.w > kUniformLights) {
+        const PackedLights& many = scene.manyLights().lights();
+        m_near.setLights(many.ends, many.lights, ids, scene.nearShareLights());
+    } else {
+        m_near.setLights(frame.lightEnds, frame.lights, ids, scene.nearShareLights());
+    }
     bool any = false;
     for (const DrawItem& item : scene.items()) {
         const Result<bool> done = relight(scene, item, mode);

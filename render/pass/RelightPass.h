@@ -28,6 +28,9 @@ class RelightPass {
     [[nodiscard]] std::uint64_t elementsDone() const { return m_elementsDone; }
     [[nodiscard]] std::uint64_t nearElementsDone() const { return m_nearElementsDone; } // near by
 
+    // Of shaders over the elements, for lights near by.
+    [[nodiscard]] std::uint64_t nearDispatches() const { return m_near.dispatches(); }
+
     // Whether lights near by came by way of a bake since the last call.
     [[nodiscard]] bool takeNearUse() { return std::exchange(m_nearUsed, false); }
 

@@ -125,7 +125,8 @@ unsigned surfaceFeatures(const DrawItem& item, const SurfaceSettings& settings) 
 
 SurfaceVariant surfaceVariant(unsigned features, const SurfaceSettings& settings) {
     return {features, modelKey(settings.model), endsKey(unrolledEnds(settings)),
-            static_cast<unsigned>(settings.output) << 1 | (settings.floats ? 1u : 0u)};
+            (settings.hasManyLights() ? 1u << 8 : 0u) |
+                static_cast<unsigned>(settings.output) << 1 | (settings.floats ? 1u : 0u)};
 }
 
 std::vector<std::string> surfaceDefines(unsigned features) {
@@ -236,6 +237,8 @@ Result<const gl::Program*> SurfacePass::program(unsigned features,
     if (const glm::ivec4 ends = unrolledEnds(settings); ends != glm::ivec4(0))
         defines.push_back(
             fmt::format("LIGHT_ENDS ivec4({}, {}, {}, {})", ends.x, ends.y, ends.z, ends.w));
+    if (settings.hasManyLights())
+        defines.emplace_back("MANY_LIGHTS");
     for (const char* define : outputDefines(settings.output))
         defines.emplace_back(define);
     if (settings.floats)

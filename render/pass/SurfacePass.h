@@ -21,8 +21,9 @@ struct SurfaceSettings {
     bool hasPunctualLights = false;
     bool hasAreaLights = false;
     glm::ivec4 lightEnds{0}; // FrameBlock::lightEnds
-    int shadows = 0;         // maps that ShadowPass::bind() has bound
-    ShadingModel model;      // its choices; the numbers are in the scene's model block
+    [[nodiscard]] bool hasManyLights() const { return lightEnds.w > kUniformLights; }
+    int shadows = 0;    // maps that ShadowPass::bind() has bound
+    ShadingModel model; // its choices; the numbers are in the scene's model block
     SurfaceOutput output = SurfaceOutput::Picture;
     // Into a target of 32-bit floats: by a program of its own. llvmpipe (Mesa 22.3) names machine
     // code on disk by the program's code, which compiling for a first format changes: under a

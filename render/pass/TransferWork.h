@@ -31,7 +31,7 @@ struct TransferWork {
     const gl::Buffer* places = nullptr;
     int placeVectors = 1;
     glm::mat4 placeToWorld{1.0f};
-    const std::map<Id, NearShareBuffer>* nearShares = nullptr; // by light; null: none
+    const NearShareBuffers* nearShares = nullptr; // null: none
 
     [[nodiscard]] int vectors() const { return (shCount(order) + 3) / 4; }
 };

@@ -15,8 +15,11 @@ inline constexpr unsigned kFrameBinding = 0, kInstanceBinding = 1, kMaterialBind
                           kModelBinding = 3, kShadowBinding = 4, kViewsBinding = 6,
                           kTransferLightBinding = 7, kNearLightBinding = 8;
 inline constexpr unsigned kVisibilityBinding = 0, kRecordsBinding = 2, kExitBinding = 3,
-                          kNearBinding = 4, kNearSharesBinding = 6; // storage blocks
-inline constexpr int kMaxLights = 64;
+                          kNearBinding = 4, kNearRowsBinding = 1, kLightsBinding = 5,
+                          kNearSharesBinding = 6,
+                          kLightCellsBinding = 7;    // storage blocks
+inline constexpr int kUniformLights = 64;            // of the frame's block; more are in ManyLights
+inline constexpr int kMaxLights = 4096;              // that are drawn
 inline constexpr int kMaxShadows = 4;                // lights that have a shadow map
 inline constexpr std::size_t kMaxTransferCount = 64; // order 8
 
@@ -39,12 +42,12 @@ struct FrameBlock {
     glm::vec2 mix{1.0f};
     glm::vec2 reserved{0.0f};
     glm::ivec4 lightEnds{0};
-    std::array<LightBlock, kMaxLights> lights{};
+    std::array<LightBlock, kUniformLights> lights{}; // empty where there are more
 };
 static_assert(offsetof(FrameBlock, cameraPosition) == 192);
 static_assert(offsetof(FrameBlock, radianceScale) == 224);
 static_assert(offsetof(FrameBlock, irradianceSh) == 256);
-static_assert(sizeof(FrameBlock) == 256 + 8 * 16 + kMaxLights * sizeof(LightBlock));
+static_assert(sizeof(FrameBlock) == 256 + 8 * 16 + kUniformLights * sizeof(LightBlock));
 
 // shaders/include/shadow.glsl; see ShadowView for the numbers.
 struct ShadowBlock {

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
+#include <unordered_map>
 
 namespace patina::render {
 
@@ -54,6 +55,7 @@ GpuScene::GpuScene(gl::Context& context)
     , m_environment(context)
     , m_modelBlock(context, "shading model", sizeof(ModelBlock))
     , m_lobes(makeLobes(context))
+    , m_manyLights(context)
     , m_textures(context)
     , m_visibility(context, BakeKind::AoVertex)
     , m_transfer(context) {
@@ -64,11 +66,6 @@ GpuScene::GpuScene(gl::Context& context)
 
 Dirty GpuScene::update(const Document& document) {
     const Dirty dirty = dirtyBetween(m_document, document);
-    if (dirty.lights && tooManyLights(document) && !tooManyLights(m_document))
-        logWarning("Only the first {} lights that shine are drawn; switch some off.", kMaxLights);
-    if (dirty.lights && tooManyShadows(document) && !tooManyShadows(m_document))
-        logWarning("Only the first {} lights that cast shadows do so; the others shine through.",
-                   kMaxShadows);
     m_document = document;
 
     // Numbers of the view, the lights and the environment are read anew for each frame.
@@ -262,34 +259,66 @@ void GpuScene::setNearShadows(const NearShadowsPtr& shadows) {
 }
 
 void GpuScene::applyNearShadows() {
+    // The parts of meshes and of materials by id.
+    std::unordered_map<Id, std::size_t> ofMeshes, ofMaterials;
+    if (m_nearShadows)
+        for (std::size_t p = 0; p < m_nearShadows->request.parts.size(); ++p) {
+            const NearPart& part = m_nearShadows->request.parts[p];
+            (part.side > 0 ? ofMaterials : ofMeshes).insert_or_assign(part.id, p);
+        }
+    const auto partOf = [](const std::unordered_map<Id, std::size_t>& parts, Id id) {
+        const auto found = parts.find(id);
+        return found != parts.end() ? std::optional(found->second) : std::nullopt;
+    };
     for (auto& [mesh, lit] : m_lit)
-        applyNearShadows(lit, {mesh, 0});
+        applyNearShadows(lit, partOf(ofMeshes, mesh));
     for (auto& [material, lit] : m_litTexels)
-        applyNearShadows(lit, {material, 1});
+        applyNearShadows(lit, partOf(ofMaterials, material));
 }
 
-// `part`: its side says only whether it has texels.
-void GpuScene::applyNearShadows(LitElements& lit, const NearPart& part) {
-    std::map<Id, NearShareBuffer> now;
-    bool changed = false;
-    for (std::size_t l = 0; m_nearShadows && l < m_nearShadows->shares.size(); ++l)
-        for (std::size_t p = 0; p < m_nearShadows->shares[l].size(); ++p) {
-            const NearPart& other = m_nearShadows->request.parts[p];
-            const NearShares& shares = m_nearShadows->shares[l][p];
-            if (other.id != part.id || (other.side > 0) != (part.side > 0) || shares->empty())
-                continue;
-            const Id light = m_nearShadows->request.lights[l].id;
-            if (const auto known = lit.nearShares.find(light);
-                known != lit.nearShares.end() && known->second.source == shares) {
-                now[light] = std::move(known->second);
-                continue;
-            }
-            now[light] = {shares, gl::Buffer::of<float>(m_context, "shares of a light", *shares)};
-            changed = true;
-        }
-    if (changed || now.size() != lit.nearShares.size())
-        ++lit.nearSharesRevision;
-    lit.nearShares = std::move(now);
+// `part`: of the shadows; nothing: they know none.
+void GpuScene::applyNearShadows(LitElements& lit, std::optional<std::size_t> part) {
+    constexpr std::size_t kMostBytes = std::size_t{64} << 20; // of a buffer; drivers take 128 MiB
+    NearShareBuffers& known = lit.nearShares;
+    std::vector<NearShares> sources;
+    if (m_nearShadows && part)
+        for (const std::vector<NearShares>& shares : m_nearShadows->shares)
+            if (const NearShares& own = shares.at(*part); !own->empty())
+                sources.push_back(own);
+    CHECK(sources.empty() || sources.size() == m_nearShadows->shares.size());
+    if (sources == known.sources)
+        return;
+    ++lit.nearSharesRevision;
+    if (sources.empty()) {
+        known = {};
+        return;
+    }
+    // A light that moves renews its own.
+    const std::size_t elements = sources.front()->size(), bytes = elements * sizeof(float);
+    const bool fits = known.elements == elements && known.sources.size() == sources.size();
+    if (!fits) {
+        known.elements = elements;
+        known.perBuffer = std::clamp<std::size_t>(kMostBytes / bytes, 1, sources.size());
+        known.buffers.clear();
+        for (std::size_t first = 0; first < sources.size(); first += known.perBuffer)
+            known.buffers.emplace_back(m_context, "shares of lights",
+                                       std::min(known.perBuffer, sources.size() - first) * bytes);
+    }
+    for (std::size_t l = 0; l < sources.size(); ++l) {
+        CHECK_EQ(sources[l]->size(), elements);
+        if (!fits || known.sources[l] != sources[l])
+            known.buffers[l / known.perBuffer].write(l % known.perBuffer * bytes,
+                                                     std::as_bytes(std::span(*sources[l])));
+    }
+    known.sources = std::move(sources);
+}
+
+std::vector<Id> GpuScene::nearShareLights() const {
+    std::vector<Id> ids;
+    if (m_nearShadows)
+        for (const NearLight& light : m_nearShadows->request.lights)
+            ids.push_back(light.id);
+    return ids;
 }
 
 std::vector<glm::vec3> GpuScene::transferLight(int order) const {
@@ -311,6 +340,10 @@ void GpuScene::fill(FrameBlock& frame, std::span<const Id> shadows) const {
     m_environment.fill(frame);
     frame.mix = mixWeights(m_document.view.reflectionMix);
     packLights(m_document, shadows, frame);
+}
+
+void GpuScene::setManyLights(std::span<const Id> shadows) {
+    m_manyLights.set(packLights(m_document, shadows), m_bounds);
 }
 
 } // namespace patina::render

@@ -7,12 +7,14 @@
 #include "render/scene/EnvironmentLight.h"
 #include "render/scene/GpuMaterial.h"
 #include "render/scene/GpuMesh.h"
+#include "render/scene/ManyLights.h"
 #include "render/scene/TextureCache.h"
 #include "render/scene/TransferValues.h"
 #include "render/scene/VertexValues.h"
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace patina::render {
@@ -55,6 +57,8 @@ class GpuScene {
     // Shadows of local lights, of vertices and texels, instead of those that transfer knows; null:
     // none. What has not changed is not uploaded again.
     void setNearShadows(const NearShadowsPtr& shadows);
+    // The lights of LitElements::nearShares, in its order.
+    [[nodiscard]] std::vector<Id> nearShareLights() const;
 
     [[nodiscard]] const Document& document() const { return m_document; }
     [[nodiscard]] const EnvironmentLight& environment() const { return m_environment; }
@@ -74,6 +78,9 @@ class GpuScene {
     // The frame's uniforms that follow from the document: environment and lights. `shadows`: ids of
     // the lights that have a shadow map, by slot.
     void fill(FrameBlock& frame, std::span<const Id> shadows = {}) const;
+    // Makes the lights ready of which fill() finds more than the frame holds.
+    void setManyLights(std::span<const Id> shadows);
+    [[nodiscard]] const ManyLights& manyLights() const { return m_manyLights; }
     // What lights transfer from far away, order² radiance coefficients: the environments of the mix
     // and the directional lights.
     [[nodiscard]] std::vector<glm::vec3> transferLight(int order) const;
@@ -96,13 +103,14 @@ class GpuScene {
     // What bakes, or their live preview, know of an item.
     void attachBakes(DrawItem& item);
     void applyNearShadows();
-    void applyNearShadows(LitElements& lit, const NearPart& part);
+    void applyNearShadows(LitElements& lit, std::optional<std::size_t> part);
 
     gl::Context& m_context;
     Document m_document;
     EnvironmentLight m_environment;
     gl::Buffer m_modelBlock;
     gl::Texture m_lobes;
+    ManyLights m_manyLights;
     TextureCache m_textures;
     std::map<MeshPtr, GpuMesh> m_meshes; // holds the mesh: an address is never reused
     std::map<Id, GpuMaterial> m_materials;

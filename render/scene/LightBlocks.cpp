@@ -4,6 +4,8 @@
 #include "core/mix/LightMix.h"
 
 #include <algorithm>
+#include <fmt/format.h>
+#include <utility>
 #include <vector>
 
 namespace patina::render {
@@ -55,62 +57,92 @@ LightBlock packLight(const Light& light, int shadowSlot) {
     return block;
 }
 
-std::vector<const Light*> shiningLights(const Document& document) {
-    std::vector<const Light*> lights;
-    for (const Light& light : document.lights)
-        if (isActive(document, light))
-            lights.push_back(&light);
-    return lights;
+// Whether a light of many counts within its range alone. One with a shadow map counts everywhere:
+// views of shadows count the maps.
+bool isRanged(const Light& light, std::span<const Light* const> withMaps) {
+    return loopOf(light.type) == 1 && light.range > 0.0f &&
+           std::ranges::find(withMaps, &light) == withMaps.end();
 }
 
-// Those that the frame has room for, in its order.
-std::vector<const Light*> packedLights(const Document& document) {
-    std::vector<const Light*> lights = shiningLights(document);
-    lights.resize(std::min(lights.size(), std::size_t{kMaxLights})); // the caller has said so
-    std::stable_sort(lights.begin(), lights.end(), [](const Light* a, const Light* b) {
-        return loopOf(a->type) < loopOf(b->type);
-    });
-    return lights;
+struct OrderedLights {
+    std::vector<const Light*> lights;
+    int firstRanged = 0; // of PackedLights, where it is not ends.y
+};
+
+// Those that are drawn, in the order of the shader's loops.
+OrderedLights orderedLights(const Document& document) {
+    OrderedLights result;
+    std::vector<const Light*>& lights = result.lights;
+    lights = activeLights(document);
+    lights.resize(std::min(lights.size(), std::size_t{kMaxLights})); // lightLimits() says so
+    const bool many = lights.size() > std::size_t{kUniformLights};
+    std::vector<const Light*> withMaps;
+    if (many)
+        withMaps = castingLights(document);
+    withMaps.resize(std::min(withMaps.size(), std::size_t{kMaxShadows}));
+    const auto key = [&](const Light* light) {
+        return std::pair(loopOf(light->type), many && isRanged(*light, withMaps));
+    };
+    std::ranges::stable_sort(lights, {}, key);
+    result.firstRanged = static_cast<int>(
+        std::ranges::lower_bound(lights, std::pair(1, true), {}, key) - lights.begin());
+    return result;
 }
 
 } // namespace
 
 std::vector<Id> lightOrder(const Document& document) {
     std::vector<Id> ids;
-    for (const Light* light : packedLights(document))
+    for (const Light* light : orderedLights(document).lights)
         ids.push_back(light->id);
     return ids;
 }
 
-void packLights(const Document& document, std::span<const Id> shadowSlots, FrameBlock& frame) {
-    const std::vector<const Light*> lights = packedLights(document);
-    frame.lightEnds = glm::ivec4(0);
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        const bool casts = canCastShadow(lights[i]->type) && lights[i]->castsShadow;
-        const auto slot = casts ? std::find(shadowSlots.begin(), shadowSlots.end(), lights[i]->id)
+PackedLights packLights(const Document& document, std::span<const Id> shadowSlots) {
+    const OrderedLights ordered = orderedLights(document);
+    PackedLights packed;
+    packed.firstRanged = ordered.firstRanged;
+    packed.lights.reserve(ordered.lights.size());
+    for (const Light* light : ordered.lights) {
+        const bool casts = canCastShadow(light->type) && light->castsShadow;
+        const auto slot = casts ? std::find(shadowSlots.begin(), shadowSlots.end(), light->id)
                                 : shadowSlots.end();
-        frame.lights[i] = packLight(*lights[i], slot == shadowSlots.end()
-                                                    ? -1
-                                                    : static_cast<int>(slot - shadowSlots.begin()));
-        for (int loop = loopOf(lights[i]->type); loop < 4; ++loop)
-            frame.lightEnds[loop] = static_cast<int>(i) + 1;
+        packed.lights.push_back(packLight(
+            *light, slot == shadowSlots.end() ? -1 : static_cast<int>(slot - shadowSlots.begin())));
+        for (int loop = loopOf(light->type); loop < 4; ++loop)
+            packed.ends[loop] = static_cast<int>(packed.lights.size());
     }
+    return packed;
 }
 
-bool tooManyLights(const Document& document) {
-    return shiningLights(document).size() > std::size_t{kMaxLights};
+void packLights(const Document& document, std::span<const Id> shadowSlots, FrameBlock& frame) {
+    const PackedLights packed = packLights(document, shadowSlots);
+    frame.lightEnds = packed.ends;
+    if (packed.lights.size() <= frame.lights.size())
+        std::ranges::copy(packed.lights, frame.lights.begin());
+}
+
+std::vector<LightLimit> lightLimits(const Document& document) {
+    std::vector<LightLimit> limits;
+    if (const std::size_t count = activeLights(document).size(); count > std::size_t{kMaxLights})
+        limits.push_back({"lights", fmt::format("Only the first {} of {} lights are drawn; switch "
+                                                "others off to see the rest.",
+                                                kMaxLights, count)});
+    if (const std::size_t count = castingLights(document).size(); count > std::size_t{kMaxShadows})
+        limits.push_back(
+            {"shadows", fmt::format("Only the first {} of {} lights with shadows cast "
+                                    "them, and the others shine through; switch Shadow "
+                                    "off where it matters least.",
+                                    kMaxShadows, count)});
+    return limits;
 }
 
 std::vector<const Light*> castingLights(const Document& document) {
-    std::vector<const Light*> lights = shiningLights(document);
+    std::vector<const Light*> lights = activeLights(document);
     std::erase_if(lights, [](const Light* light) {
         return !canCastShadow(light->type) || !light->castsShadow;
     });
     return lights;
-}
-
-bool tooManyShadows(const Document& document) {
-    return castingLights(document).size() > std::size_t{kMaxShadows};
 }
 
 } // namespace patina::render

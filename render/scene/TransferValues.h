@@ -49,10 +49,15 @@ struct ExitRadiance {
     std::uint64_t nearRevision = 0;
 };
 
-// How much of one local light arrives at the elements, on the GPU.
-struct NearShareBuffer {
-    NearShares source; // what was uploaded
-    gl::Buffer values; // a float for each element; negative: none
+// How much of each local light arrives at the elements, on the GPU.
+struct NearShareBuffers {
+    std::vector<NearShares> sources; // what was uploaded, by light of NearShadows::request
+    std::size_t elements = 0;
+    // For each light after another a float for each element, negative: none. `perBuffer` lights in
+    // each buffer: no driver takes them all of a large mesh in one.
+    std::size_t perBuffer = 1;
+    std::vector<gl::Buffer> buffers;
+    [[nodiscard]] bool empty() const { return sources.empty(); }
 };
 
 // One for each of Unshadowed, Shadowed and Prt, so that two can be seen side by side.
@@ -62,7 +67,7 @@ struct LitElements {
     // the coefficients: vec4 for each element, replaces Transfer::bounced. Empty: none.
     gl::Buffer bouncedLight;
     std::uint64_t bouncedRevision = 0;
-    std::map<Id, NearShareBuffer> nearShares; // by light
+    NearShareBuffers nearShares;
     std::uint64_t nearSharesRevision = 0;
 
     [[nodiscard]] ExitRadiance& stage(LightingMode mode) {

@@ -29,8 +29,36 @@ layout(std140, binding = 0) uniform Frame {
     vec4 u_dominantIrradiance;  // of a surface that faces it
     vec2 u_mix;             // weights of diffuse light and of reflections
     ivec4 u_lightEnds;
-    Light u_lights[64];
+    Light u_lights[64]; // nothing where there are more
 };
+
+// MANY_LIGHTS: more than the block holds. The C++ side is render/scene/ManyLights.h.
+#ifdef MANY_LIGHTS
+layout(std430, binding = 5) readonly buffer Lights {
+    ivec4 b_lightEnds;      // as u_lightEnds
+    ivec4 b_lightCellCount; // along x, y, z; w: where points and spots begin that cells list
+    vec4 b_lightCellGrid;   // corner; w: cells per metre
+    Light b_manyLights[];
+};
+// Where each cell's list begins, and where the last one ends; then the lists of lights.
+layout(std430, binding = 7) readonly buffer LightCells {
+    uint b_lightCells[];
+};
+#define LIGHTS b_manyLights
+#define LIGHT_ENDS b_lightEnds
+
+// The beginning and the end of the list for a position.
+ivec2 lightsOfCell(vec3 position) {
+    ivec3 count = b_lightCellCount.xyz;
+    vec3 at = clamp((position - b_lightCellGrid.xyz) * b_lightCellGrid.w, vec3(0.0),
+                    vec3(count) - 0.5);
+    ivec3 cell = clamp(ivec3(at), ivec3(0), count - 1); // positions may be no numbers
+    int number = (cell.z * count.y + cell.y) * count.x + cell.x;
+    return ivec2(b_lightCells[number], b_lightCells[number + 1]);
+}
+#else
+#define LIGHTS u_lights
+#endif
 
 // Two of the numbers of u_irradianceSh. Software OpenGL takes longer to read a uniform than to
 // unpack it; what is lost is 1 / 65534 of the largest coefficient.

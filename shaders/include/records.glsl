@@ -28,7 +28,7 @@ void recordLight(inout LightSums sums, SurfaceTerms s, int i, vec3 l, vec3 E, fl
                  ShadedLight light) {
     ShadedLight all = mixedDirect(shadeDirect(s, l, E));
     sums.shadowed += (1.0 - lit) * (all.diffuse + all.specular);
-    float casts = u_lights[i].place.w < 0.0 ? 0.0 : 1.0;
+    float casts = LIGHTS[i].place.w < 0.0 ? 0.0 : 1.0;
     sums.casting += casts;
     sums.lit += casts * lit;
     if (i == u_viewLight) {
@@ -44,7 +44,7 @@ void recordLight(inout LightSums sums, SurfaceTerms s, int i, vec3 l, vec3 E, fl
 
 // Area lights cast no shadow. Their centre stands for the direction.
 void recordAreaLight(inout LightSums sums, int i, ShadedLight light) {
-    vec3 l = normalize(u_lights[i].place.xyz - v_position);
+    vec3 l = normalize(LIGHTS[i].place.xyz - v_position);
     if (i == u_viewLight) {
         sums.diffuse = light.diffuse;
         sums.specular = light.specular;

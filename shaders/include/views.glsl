@@ -11,7 +11,7 @@ layout(std140, binding = 6) uniform Views {
     ivec4 u_viewModes[2]; // 0 the factor's own value, 1 its contribution to the picture
     vec4 u_terms;         // 1 or 0: diffuse and specular image-based, direct diffuse and specular
     float u_emissionTerm;
-    int u_viewLight;    // in u_lights; -1: the mirror direction stands for a light
+    int u_viewLight;    // in LIGHTS; -1: the mirror direction stands for a light
     int u_flat;         // shading with the triangles' normals
     int u_halfFloats;   // the target takes no more
     vec4 u_furnace;     // rgb: radiance of a uniform environment; w: whether it is on
@@ -28,7 +28,7 @@ layout(early_fragment_tests) in;
 layout(std430, binding = 2) writeonly buffer Records {
     vec4 b_values[kRecordCount];
     vec4 b_parts[kViewCount];
-    LightRecord b_lights[64]; // as many as u_lights
+    LightRecord b_lights[]; // as many as LIGHTS
 };
 #else
 layout(location = 0) out vec4 o_views[VIEW_OUTPUTS];

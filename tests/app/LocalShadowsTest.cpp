@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <glm/ext/matrix_transform.hpp>
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 using namespace patina;
 using namespace patina::test;
@@ -98,6 +99,32 @@ class LocalShadows : public testing::Test {
     TemporaryFolder m_folder;
     WorkerClient m_worker;
 };
+
+// Lights and shadows beyond what pictures show are warnings, for people and for programs.
+TEST_F(LocalShadows, LimitsOfLightsAreWarnings) {
+    m_document.lights[0].type = LightType::Point;
+    m_document.lights.resize(5000, m_document.lights[0]);
+    for (std::size_t i = 1; i < m_document.lights.size(); ++i) {
+        Light& light = m_document.lights[i];
+        light.id = m_document.takeId();
+        light.range = 0.1f;
+        if (i < 10)
+            light.type = LightType::Spot;
+    }
+    ASSERT_TRUE(saveProject(m_worker, m_document, m_folder / "scene.patina").ok());
+    const std::vector<std::string> command{
+        "render", m_folder / "scene.patina", "-o", m_folder / "limits.png", "--size", "16x16"};
+    const Outcome told = runPatina(command);
+    EXPECT_EQ(told.status, 0) << told.err;
+    EXPECT_THAT(told.err, HasSubstr("Only the first 4096 of 5000 lights are drawn"));
+    EXPECT_THAT(told.err, HasSubstr("Only the first 4 of 9 lights with shadows cast them"));
+    std::vector<std::string> asJson = command;
+    asJson.emplace_back("--json");
+    const std::string json = runPatina(asJson).out;
+    const auto warnings = nlohmann::json::parse(json).at("warnings").dump();
+    EXPECT_THAT(warnings, HasSubstr("Only the first 4096 of 5000 lights are drawn"));
+    EXPECT_THAT(warnings, HasSubstr("Only the first 4 of 9 lights with shadows cast them"));
+}
 
 } // namespace
 

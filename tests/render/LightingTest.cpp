@@ -1,6 +1,7 @@
 // The lighting modes, from one directional light to baked transfer, and the mix of diffuse
 // light and reflections.
 #include "core/document/Lighting.h"
+#include "core/bake/local/NearShadows.h"
 #include "core/math/Shading.h"
 #include "core/math/SphericalHarmonics.h"
 #include "render/pass/RelightPass.h"
@@ -326,6 +327,41 @@ TEST_F(Lighting, StillLightCostsNothing) {
     EXPECT_EQ(done(LightingMode::Shadowed), 0u);
     EXPECT_EQ(done(LightingMode::Prt), count);
     EXPECT_EQ(done(LightingMode::Prt), 0u);
+}
+
+// However many lights have traced shares, each item is lit by one dispatch for each kind of light.
+TEST_F(Lighting, SharesOfAllLightsTakeOneDispatch) {
+    GpuScene scene(context());
+    ShaderLibrary shaders(context(), {});
+    RelightPass relight(context(), shaders);
+    Document document = ball();
+    document.bakes = {vertexBake(3, openTransfer(*document.meshes[0].mesh, 3))};
+    document.view.lighting = LightingMode::Shadowed;
+    for (Id id = 1; id <= 8; ++id) {
+        Light& light = document.lights.emplace_back();
+        light.id = 100 + id;
+        light.type = id <= 5 ? LightType::Point : LightType::Sphere;
+    }
+    scene.update(document);
+    const auto shadows = traceNearShadows(nearShadowRequest(document), nullptr, 0, {});
+    ASSERT_TRUE(shadows.ok());
+    scene.setNearShadows(*shadows);
+    EXPECT_EQ(scene.items()[0].lit->nearShares.sources.size(), 8u);
+    gl::Buffer block(context(), "frame", sizeof(FrameBlock));
+    const auto dispatches = [&] {
+        FrameBlock frame;
+        scene.fill(frame);
+        block.writeValue(frame);
+        block.bindUniform(kFrameBinding);
+        const std::uint64_t before = relight.nearDispatches();
+        EXPECT_TRUE(relight.update(scene, LightingMode::Shadowed, frame).ok());
+        return relight.nearDispatches() - before;
+    };
+    EXPECT_EQ(dispatches(), 2u); // points, spheres
+    EXPECT_EQ(dispatches(), 0u);
+    document.lights[2].position.x += 1.0f;
+    scene.update(document);
+    EXPECT_EQ(dispatches(), 2u);
 }
 
 // --- Occlusion of reflections ---

@@ -3,6 +3,7 @@
 #include "core/bake/domain/BakeHash.h"
 #include "core/bake/domain/BakeOptions.h"
 #include "core/bake/transfer/Passes.h"
+#include "core/base/ById.h"
 #include "core/base/Check.h"
 #include "core/trace/BakeScene.h"
 
@@ -14,14 +15,12 @@ namespace {
 
 constexpr int kMaxBounces = 64;
 
-// Null when the artifact is of other meshes.
-const VertexBake* bakeOf(const BounceElements::MeshPart& part, const BakeArtifact& artifact) {
-    const auto stride = static_cast<std::size_t>(artifact.order * artifact.order);
-    const auto found = std::find_if(artifact.vertices.begin(), artifact.vertices.end(),
-                                    [&](const VertexBake& bake) { return bake.mesh == part.id; });
-    const bool fits = found != artifact.vertices.end() &&
-                      found->values.size() == part.mesh->vertexCount() * stride;
-    return fits ? &*found : nullptr;
+// Null when the artifact is of other meshes; `stride`: of its elements.
+const VertexBake* bakeOf(const BounceElements::MeshPart& part, const ById<VertexBake>& bakes,
+                         std::size_t stride) {
+    const VertexBake* bake = bakes.find(part.id);
+    return bake != nullptr && bake->values.size() == part.mesh->vertexCount() * stride ? bake
+                                                                                       : nullptr;
 }
 
 } // namespace
@@ -65,10 +64,10 @@ Result<HitSourcePtr> traceHits(const RayScene& scene, const BakeGeometry& geomet
 
 std::vector<BakeSurface> surfacesOf(const BounceElements& elements, const BakeInputs& inputs) {
     std::vector<BakeSurface> surfaces;
+    const ById meshes(inputs.meshes);
     for (const BounceElements::MeshPart& part : elements.meshes()) {
-        const auto found = std::find_if(inputs.meshes.begin(), inputs.meshes.end(),
-                                        [&](const BakeMesh& mesh) { return mesh.id == part.id; });
-        surfaces.push_back(found != inputs.meshes.end() ? found->surface : BakeSurface{});
+        const BakeMesh* mesh = meshes.find(part.id);
+        surfaces.push_back(mesh != nullptr ? mesh->surface : BakeSurface{});
     }
     return surfaces;
 }
@@ -78,8 +77,9 @@ std::optional<std::vector<float>> directTransfer(const BounceElements& elements,
     const auto stride = static_cast<std::size_t>(artifact.order * artifact.order);
     std::vector<float> direct;
     direct.reserve(elements.fronts() * stride);
+    const ById bakes(artifact.vertices, &VertexBake::mesh);
     for (const BounceElements::MeshPart& part : elements.meshes()) {
-        const VertexBake* bake = bakeOf(part, artifact);
+        const VertexBake* bake = bakeOf(part, bakes, stride);
         if (!bake)
             return std::nullopt;
         direct.insert(direct.end(), bake->values.begin(), bake->values.end());
@@ -94,8 +94,9 @@ std::optional<std::vector<glm::vec3>> directLight(const BounceElements& elements
     const std::span<const glm::vec3> used = light.first(std::min(light.size(), stride));
     std::vector<glm::vec3> direct;
     direct.reserve(elements.fronts());
+    const ById bakes(artifact.vertices, &VertexBake::mesh);
     for (const BounceElements::MeshPart& part : elements.meshes()) {
-        const VertexBake* bake = bakeOf(part, artifact);
+        const VertexBake* bake = bakeOf(part, bakes, stride);
         if (!bake)
             return std::nullopt;
         for (std::size_t first = 0; first < bake->values.size(); first += stride) {
@@ -112,13 +113,13 @@ void setBounced(BakeArtifact& artifact, const BounceElements& elements,
                 std::span<const float> bounced) {
     const auto row = static_cast<std::size_t>(3 * artifact.order * artifact.order);
     CHECK_EQ(bounced.size(), elements.fronts() * row);
-    for (const BounceElements::MeshPart& part : elements.meshes())
-        for (VertexBake& bake : artifact.vertices)
-            if (bake.mesh == part.id) {
-                const std::span<const float> own =
-                    bounced.subspan(part.firstElement * row, part.mesh->vertexCount() * row);
-                bake.bounced.assign(own.begin(), own.end());
-            }
+    const ById parts(elements.meshes());
+    for (VertexBake& bake : artifact.vertices)
+        if (const BounceElements::MeshPart* part = parts.find(bake.mesh)) {
+            const std::span<const float> own =
+                bounced.subspan(part->firstElement * row, part->mesh->vertexCount() * row);
+            bake.bounced.assign(own.begin(), own.end());
+        }
 }
 
 std::optional<Error> addInterreflection(BakeArtifact& artifact, const BakeInputs& inputs,

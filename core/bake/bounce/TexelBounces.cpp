@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 namespace patina {
 namespace {
@@ -48,21 +49,24 @@ class TexelRows {
             part.place.assign(side * side, kNone);
             for (std::size_t t = 0; t < texels.size(); ++t)
                 part.place[texels[t]] = static_cast<std::uint32_t>(t);
+            m_starts.push_back({m_fronts, m_parts.size() - 1, false});
             m_fronts += texels.size();
         }
         m_count = m_fronts;
+        std::unordered_map<Id, std::size_t> partOf; // by material
+        for (std::size_t p = 0; p < m_parts.size(); ++p)
+            partOf.try_emplace(m_parts[p].material->material, p);
         m_partOfMesh.reserve(geometry.meshes.size());
         for (const BakeGeometryMesh& mesh : geometry.meshes) {
-            const auto part =
-                std::find_if(m_parts.begin(), m_parts.end(), [&](const Part& candidate) {
-                    return candidate.material->material == mesh.material;
-                });
-            CHECK(part != m_parts.end());
-            m_partOfMesh.push_back(static_cast<std::size_t>(part - m_parts.begin()));
+            const auto found = partOf.find(mesh.material);
+            CHECK(found != partOf.end());
+            m_partOfMesh.push_back(found->second);
+            Part* part = &m_parts[found->second];
             if (part->albedo.empty())
                 part->albedo = albedoOf(*part, mesh.surface);
             if (mesh.doubleSided && part->toBack == 0) {
                 part->toBack = static_cast<std::uint32_t>(m_count) - part->first;
+                m_starts.push_back({m_count, found->second, true});
                 m_count += part->material->texels.texels.size();
             }
         }
@@ -82,17 +86,10 @@ class TexelRows {
         bool back;
     };
     [[nodiscard]] Place place(std::size_t row) const {
-        const bool back = row >= m_fronts;
-        for (const Part& part : m_parts) {
-            if (back && part.toBack == 0)
-                continue;
-            const std::size_t first = part.first + (back ? part.toBack : 0u);
-            const std::size_t size = part.material->texels.texels.size();
-            if (row >= first && row < first + size)
-                return {&part, row - first, back};
-        }
-        CHECK(false);
-        return {};
+        CHECK_LT(row, m_count);
+        // The last that begins at or before it: those without texels begin where the next does.
+        const Start& start = *(std::ranges::upper_bound(m_starts, row, {}, &Start::row) - 1);
+        return {&m_parts[start.part], row - start.row, start.back};
     }
     // Where the rays of a row start.
     void points(const Place& place, std::vector<BakePoint>& result) const {
@@ -150,8 +147,15 @@ class TexelRows {
         return result;
     }
 
+    // Where the rows of a part's fronts or backs begin.
+    struct Start {
+        std::size_t row, part;
+        bool back;
+    };
+
     const TexelLayout& m_layout;
     std::vector<Part> m_parts;
+    std::vector<Start> m_starts; // ascending, without gaps
     std::vector<std::size_t> m_partOfMesh;
     std::size_t m_fronts = 0, m_count = 0;
 };
@@ -384,11 +388,13 @@ std::optional<Error> addTexelInterreflection(BakeArtifact& artifact, const BakeI
     const auto side = static_cast<std::size_t>(layout.size);
     const auto width = static_cast<std::size_t>(3 * settings.order * settings.order);
     const std::vector<float> dark(width, 0.0f);
+    std::unordered_map<Id, std::vector<TexelBake>::iterator> bakes; // by material
+    for (auto bake = artifact.texels.begin(); bake != artifact.texels.end(); ++bake)
+        bakes.try_emplace(bake->material, bake);
     for (const TexelRows::Part& part : rows.parts()) {
-        const auto bake =
-            std::find_if(artifact.texels.begin(), artifact.texels.end(),
-                         [&](const TexelBake& b) { return b.material == part.material->material; });
-        CHECK(bake != artifact.texels.end());
+        const auto found = bakes.find(part.material->material);
+        CHECK(found != bakes.end());
+        const auto bake = found->second;
         const std::vector<std::uint32_t>& texels = part.material->texels.texels;
         bake->bounced.assign(side * side * width, 0.0f);
         std::vector<std::uint8_t> known(side * side, 0);

@@ -2,6 +2,7 @@
 
 #include "core/bake/Bake.h"
 #include "core/bake/domain/BakeOptions.h"
+#include "core/base/ById.h"
 
 #include <algorithm>
 #include <cstring>
@@ -14,12 +15,11 @@ namespace {
 constexpr std::uint32_t kAlgorithm = 2;
 constexpr std::size_t kMaxFile = std::size_t{16} << 30;
 
-// Meshes by their place among the inputs, materials by that of the first mesh that has them.
-std::optional<std::uint32_t> placeOf(const BakeInputs& inputs, Id BakeMesh::*id, Id wanted) {
-    const auto found = std::ranges::find(inputs.meshes, wanted, id);
-    if (found == inputs.meshes.end())
+// Meshes by their position among the inputs, materials by that of the first mesh that has them.
+std::optional<std::uint32_t> positionOf(const BakeInputs& inputs, const BakeMesh* mesh) {
+    if (mesh == nullptr)
         return std::nullopt;
-    return static_cast<std::uint32_t>(found - inputs.meshes.begin());
+    return static_cast<std::uint32_t>(mesh - inputs.meshes.data());
 }
 
 class Writer {
@@ -104,8 +104,9 @@ std::optional<Bytes> encode(const BakeInputs& inputs, const BakeArtifact& artifa
     out.value(artifact.bounces);
     out.value(artifact.samplesDone);
     out.value(static_cast<std::uint32_t>(artifact.vertices.size()));
+    const ById meshes(inputs.meshes, &BakeMesh::id), materials(inputs.meshes, &BakeMesh::material);
     for (const VertexBake& bake : artifact.vertices) {
-        const auto place = placeOf(inputs, &BakeMesh::id, bake.mesh);
+        const auto place = positionOf(inputs, meshes.find(bake.mesh));
         if (!place)
             return std::nullopt;
         out.value(*place);
@@ -115,7 +116,7 @@ std::optional<Bytes> encode(const BakeInputs& inputs, const BakeArtifact& artifa
     }
     out.value(static_cast<std::uint32_t>(artifact.texels.size()));
     for (const TexelBake& bake : artifact.texels) {
-        const auto place = placeOf(inputs, &BakeMesh::material, bake.material);
+        const auto place = positionOf(inputs, materials.find(bake.material));
         if (!place)
             return std::nullopt;
         out.value(*place);

@@ -3,6 +3,7 @@
 #include "core/bake/Bake.h"
 #include "core/bake/domain/BakeOptions.h"
 #include "core/bake/transfer/BakeTracer.h"
+#include "core/base/ById.h"
 #include "core/document/Document.h"
 
 #include <algorithm>
@@ -14,8 +15,10 @@ namespace {
 // What a hash that differs can be told to mean; per-texel bakes do not know their meshes.
 std::vector<std::string> geometryReasons(const BakeArtifact& artifact, const Document& document) {
     std::vector<std::string> reasons;
+    const ById meshes(document.meshes);
+    const ById baked(artifact.vertices, &VertexBake::mesh);
     for (const VertexBake& bake : artifact.vertices) {
-        const MeshInstance* mesh = document.mesh(bake.mesh);
+        const MeshInstance* mesh = meshes.find(bake.mesh);
         if (mesh == nullptr)
             reasons.emplace_back("a mesh was removed");
         else if (!mesh->visible)
@@ -27,9 +30,7 @@ std::vector<std::string> geometryReasons(const BakeArtifact& artifact, const Doc
     }
     if (!artifact.vertices.empty())
         for (const MeshInstance& mesh : document.meshes)
-            if (mesh.visible && mesh.mesh &&
-                std::ranges::find(artifact.vertices, mesh.id, &VertexBake::mesh) ==
-                    artifact.vertices.end())
+            if (mesh.visible && mesh.mesh && !baked.contains(mesh.id))
                 reasons.push_back(fmt::format("“{}” was added or shown", mesh.name));
     if (reasons.empty())
         reasons.emplace_back("something was moved, reshaped, or lets light through elsewhere");
@@ -38,8 +39,9 @@ std::vector<std::string> geometryReasons(const BakeArtifact& artifact, const Doc
 
 // The same meshes take part, whatever has become of them; of per-texel bakes nobody knows.
 bool sameMeshes(const BakeArtifact& artifact, const Document& document) {
+    const ById meshes(document.meshes);
     const auto visible = [&](const VertexBake& bake) {
-        const MeshInstance* mesh = document.mesh(bake.mesh);
+        const MeshInstance* mesh = meshes.find(bake.mesh);
         return mesh != nullptr && mesh->visible;
     };
     const auto count = std::ranges::count_if(

@@ -1,15 +1,17 @@
 #include "core/bake/document/DocumentBakeInputs.h"
 
+#include "core/base/ById.h"
 #include "core/document/Document.h"
 
 namespace patina {
 
 BakeInputs bakeInputs(const Document& document) {
     BakeInputs inputs;
+    const ById materials(document.materials);
     for (const MeshInstance& instance : document.meshes) {
         if (!instance.visible || !instance.mesh)
             continue;
-        const Material* material = document.material(instance.material);
+        const Material* material = materials.find(instance.material);
         inputs.meshes.push_back({instance.id, instance.material, instance.mesh, instance.transform,
                                  material != nullptr && material->doubleSided,
                                  material != nullptr ? bakeSurface(*material) : BakeSurface{}});

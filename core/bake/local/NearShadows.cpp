@@ -6,12 +6,16 @@
 #include "core/bake/domain/SameTransport.h"
 #include "core/bake/transfer/InsideShares.h"
 #include "core/edit/Edit.h"
+#include "core/job/Parallel.h"
 #include "core/mix/LightMix.h"
 
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <functional>
 #include <glm/geometric.hpp>
+#include <set>
+#include <unordered_map>
 
 namespace patina {
 namespace {
@@ -20,30 +24,41 @@ constexpr std::uint64_t kTriangleBytes = 94; // of the hierarchy while it is bui
 constexpr float kNoShare = -1.0f;
 constexpr float kSameSide = 0.9f; // cosine to their mean of normals that share a texel
 
-// Whether a part of the document's transfer bakes fits the mesh: as TransferValues has it.
-std::optional<NearPart> partOf(const MeshInstance& mesh, const BakeArtifactPtr& vertices,
-                               const BakeArtifactPtr& texels) {
-    if (texels)
-        for (const TexelBake& bake : texels->texels)
-            if (bake.material == mesh.material && !bake.values.empty())
-                return NearPart{bake.material, bake.side};
-    if (vertices)
-        for (const VertexBake& bake : vertices->vertices)
-            if (bake.mesh == mesh.id && !bake.values.empty() &&
-                bake.values.size() / static_cast<std::size_t>(bake.stride) ==
-                    mesh.mesh->vertexCount())
-                return NearPart{bake.mesh, 0};
-    return {};
-}
+// What the document's transfer bakes hold, by id: scenes have thousands of parts.
+class BakedParts {
+  public:
+    explicit BakedParts(const Document& document)
+        : m_vertexBake(findBake(document, BakeKind::PrtVertex))
+        , m_texelBake(findBake(document, BakeKind::PrtTexel)) {
+        if (m_texelBake)
+            for (const TexelBake& bake : m_texelBake->texels)
+                if (!bake.values.empty())
+                    m_texels.try_emplace(bake.material, &bake);
+        if (m_vertexBake)
+            for (const VertexBake& bake : m_vertexBake->vertices)
+                if (!bake.values.empty())
+                    m_vertices.try_emplace(bake.mesh, &bake);
+    }
+    [[nodiscard]] bool none() const { return !m_vertexBake && !m_texelBake; }
 
-std::size_t elementCount(const NearPart& part, const BakeInputs& inputs) {
-    if (part.side > 0)
-        return static_cast<std::size_t>(part.side) * static_cast<std::size_t>(part.side);
-    for (const BakeMesh& mesh : inputs.meshes)
-        if (mesh.id == part.id)
-            return mesh.mesh->vertexCount();
-    return 0;
-}
+    // What fits the mesh: as TransferValues has it.
+    [[nodiscard]] std::optional<NearPart> of(const MeshInstance& mesh) const {
+        if (const auto bake = m_texels.find(mesh.material); bake != m_texels.end())
+            return NearPart{mesh.material, bake->second->side};
+        const auto found = m_vertices.find(mesh.id);
+        if (found == m_vertices.end())
+            return {};
+        const VertexBake& bake = *found->second;
+        if (bake.values.size() / static_cast<std::size_t>(bake.stride) != mesh.mesh->vertexCount())
+            return {};
+        return NearPart{mesh.id, 0};
+    }
+
+  private:
+    BakeArtifactPtr m_vertexBake, m_texelBake; // that the others point into
+    std::unordered_map<Id, const VertexBake*> m_vertices;
+    std::unordered_map<Id, const TexelBake*> m_texels;
+};
 
 } // namespace
 
@@ -51,25 +66,24 @@ std::size_t elementCount(const NearPart& part, const BakeInputs& inputs) {
 
 std::vector<NearLight> nearLights(const Document& document) {
     std::vector<NearLight> lights;
-    for (const Light& light : document.lights)
-        if (isActive(document, light))
-            if (const std::optional<NearEmitter> emitter = nearEmitter(light))
-                lights.push_back({light.id, *emitter});
+    for (const Light* light : activeLights(document))
+        if (const std::optional<NearEmitter> emitter = nearEmitter(*light))
+            lights.push_back({light->id, *emitter});
     return lights;
 }
 
 NearShadowRequest nearShadowRequest(const Document& document) {
     NearShadowRequest request;
     request.lights = nearLights(document);
-    const BakeArtifactPtr vertices = findBake(document, BakeKind::PrtVertex);
-    const BakeArtifactPtr texels = findBake(document, BakeKind::PrtTexel);
-    if (request.lights.empty() || (!vertices && !texels))
+    const BakedParts transfer(document);
+    if (request.lights.empty() || transfer.none())
         return request;
+    std::set<std::pair<Id, int>> taken; // meshes may share a material's texels
     for (const MeshInstance& mesh : document.meshes) {
         if (!mesh.visible || !mesh.mesh)
             continue;
-        const std::optional<NearPart> part = partOf(mesh, vertices, texels);
-        if (part && std::ranges::find(request.parts, *part) == request.parts.end())
+        const std::optional<NearPart> part = transfer.of(mesh);
+        if (part && taken.emplace(part->id, part->side).second)
             request.parts.push_back(*part);
     }
     if (!request.parts.empty())
@@ -89,10 +103,18 @@ bool operator==(const NearShadowRequest& a, const NearShadowRequest& b) {
 
 std::uint64_t nearShadowBytes(const NearShadowRequest& request) {
     std::uint64_t elements = 0, triangles = 0;
-    for (const NearPart& part : request.parts)
-        elements += elementCount(part, request.inputs);
-    for (const BakeMesh& mesh : request.inputs.meshes)
+    std::unordered_map<Id, std::size_t> vertices;
+    for (const BakeMesh& mesh : request.inputs.meshes) {
         triangles += mesh.mesh->triangleCount();
+        vertices.try_emplace(mesh.id, mesh.mesh->vertexCount());
+    }
+    for (const NearPart& part : request.parts) {
+        if (part.side > 0)
+            elements +=
+                static_cast<std::uint64_t>(part.side) * static_cast<std::uint64_t>(part.side);
+        else if (const auto own = vertices.find(part.id); own != vertices.end())
+            elements += own->second;
+    }
     // Shares here and on the graphics card, and the points that rays start from.
     return elements * (2 * sizeof(float) * request.lights.size() + sizeof(BakePoint)) +
            triangles * kTriangleBytes;
@@ -109,9 +131,14 @@ class NearScene {
             return built.error();
         auto scene = std::make_shared<NearScene>(std::move(*built));
         const std::vector<BakePoint> vertices = vertexPoints(*scene->m_scene.geometry, job);
+        const std::unordered_map<Id, MeshPoints> meshes =
+            pointsById(*scene->m_scene.geometry, vertices);
         for (const NearPart& part : request.parts)
             scene->m_parts.push_back(part.side > 0 ? scene->texelsOf(part, job)
-                                                   : scene->verticesOf(part, vertices));
+                                                   : scene->verticesOf(part, meshes));
+        for (std::size_t p = 0; p < scene->m_parts.size(); ++p)
+            (scene->m_parts[p].points.size() <= kNearGrain ? scene->m_small : scene->m_large)
+                .push_back(p);
         if (job.cancelled())
             return Error{ErrorKind::Cancelled, "Tracing shadows was cancelled.", {}, {}};
         return std::shared_ptr<const NearScene>(std::move(scene));
@@ -135,6 +162,32 @@ class NearScene {
             std::max(1.0, 100.0 * static_cast<double>(soft) / static_cast<double>(texels)));
     }
 
+    // Of all parts; calls `done` with how many of them are.
+    Result<std::vector<NearShares>> trace(const NearEmitter& emitter, const JobContext& job,
+                                          const std::function<void(std::size_t)>& done) const {
+        std::vector<NearShares> shares(m_parts.size());
+        // Thousands of small parts are for a thread each, large ones for all threads.
+        parallelFor(job, m_small.size(), kSmallParts, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end && !job.cancelled(); ++i)
+                if (Result<NearShares> traced = trace(m_small[i], emitter, job); traced.ok())
+                    shares[m_small[i]] = *std::move(traced);
+        });
+        done(m_small.size());
+        for (std::size_t i = 0; i < m_large.size(); ++i) {
+            Result<NearShares> traced = trace(m_large[i], emitter, job);
+            if (!traced)
+                return traced.error();
+            shares[m_large[i]] = *std::move(traced);
+            done(m_small.size() + i + 1);
+        }
+        if (job.cancelled())
+            return Error{ErrorKind::Cancelled, "Tracing shadows was cancelled.", {}, {}};
+        return shares;
+    }
+
+  private:
+    static constexpr std::size_t kSmallParts = 16; // traced by one thread, one after another
+
     Result<NearShares> trace(std::size_t part, const NearEmitter& emitter,
                              const JobContext& job) const {
         const Part& own = m_parts[part];
@@ -150,7 +203,6 @@ class NearScene {
         return NearShares(std::make_shared<const std::vector<float>>(std::move(*shares)));
     }
 
-  private:
     struct Part {
         int side = 0; // 0: vertices, one point each
         std::vector<BakePoint> points;
@@ -159,18 +211,35 @@ class NearScene {
         std::unique_ptr<const InsideShares> inside; // of vertices
     };
 
-    [[nodiscard]] Part verticesOf(const NearPart& part, std::span<const BakePoint> vertices) const {
-        Part result;
+    // Of a mesh of the geometry.
+    struct MeshPoints {
+        std::uint32_t mesh = 0; // its index
+        std::span<const BakePoint> points;
+    };
+
+    // `vertices` of all meshes, one after another; after a cancel of some.
+    [[nodiscard]] static std::unordered_map<Id, MeshPoints>
+    pointsById(const BakeGeometry& geometry, std::span<const BakePoint> vertices) {
+        std::unordered_map<Id, MeshPoints> meshes;
         std::size_t first = 0;
-        for (std::uint32_t m = 0; m < m_scene.geometry->meshes.size(); ++m) {
-            const BakeGeometryMesh& mesh = m_scene.geometry->meshes[m];
-            if (mesh.id == part.id && first + mesh.positions.size() <= vertices.size()) {
-                const auto own = vertices.subspan(first, mesh.positions.size());
-                result.points.assign(own.begin(), own.end());
-                result.inside = std::make_unique<InsideShares>(m_scene, m, result.points);
-            }
-            first += mesh.positions.size();
+        for (std::uint32_t m = 0; m < geometry.meshes.size(); ++m) {
+            const std::size_t count = geometry.meshes[m].positions.size();
+            if (first + count > vertices.size())
+                break;
+            meshes[geometry.meshes[m].id] = {m, vertices.subspan(first, count)};
+            first += count;
         }
+        return meshes;
+    }
+
+    [[nodiscard]] Part verticesOf(const NearPart& part,
+                                  const std::unordered_map<Id, MeshPoints>& meshes) const {
+        Part result;
+        const auto own = meshes.find(part.id);
+        if (own == meshes.end())
+            return result;
+        result.points.assign(own->second.points.begin(), own->second.points.end());
+        result.inside = std::make_unique<InsideShares>(m_scene, own->second.mesh, result.points);
         return result;
     }
 
@@ -229,7 +298,8 @@ class NearScene {
     }
 
     BakeScene m_scene;
-    std::vector<Part> m_parts; // as the request's
+    std::vector<Part> m_parts;                 // as the request's
+    std::vector<std::size_t> m_small, m_large; // of m_parts: what one thread traces, and the others
 };
 
 Result<NearShadowsPtr> traceNearShadows(const NearShadowRequest& request,
@@ -267,13 +337,16 @@ Result<NearShadowsPtr> traceNearShadows(const NearShadowRequest& request,
                     before
                         ->shares[static_cast<std::size_t>(known - before->request.lights.begin())];
         }
-        for (std::size_t p = shares.size(); p < request.parts.size(); ++p) {
-            Result<NearShares> traced = result->scene->trace(p, request.lights[l].emitter, job);
+        if (shares.empty()) {
+            const auto done = [&](std::size_t parts) {
+                job.setProgress(static_cast<double>(l * request.parts.size() + parts) /
+                                static_cast<double>(request.lights.size() * request.parts.size()));
+            };
+            Result<std::vector<NearShares>> traced =
+                result->scene->trace(request.lights[l].emitter, job, done);
             if (!traced)
                 return traced.error();
-            shares.push_back(std::move(*traced));
-            job.setProgress(static_cast<double>(l * request.parts.size() + p + 1) /
-                            static_cast<double>(request.lights.size() * request.parts.size()));
+            shares = std::move(*traced);
         }
     }
     return NearShadowsPtr(std::move(result));

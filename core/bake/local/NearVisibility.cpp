@@ -17,7 +17,6 @@ namespace {
 
 using Shape = NearEmitter::Shape;
 
-constexpr std::size_t kGrain = 64; // points that are traced together
 // Rays end this far before the light, in scene units: a rectangle may lie in the ceiling that it
 // lights the room from.
 constexpr float kEndOffset = 4.0f * kRayOffset;
@@ -56,12 +55,6 @@ NearEmitter toSceneUnits(NearEmitter emitter, const BakeGeometry& geometry) {
     emitter.halfX *= scale;
     emitter.halfY *= scale;
     return emitter;
-}
-
-bool passesByChance(const BakeGeometry& geometry) {
-    return std::ranges::any_of(geometry.meshes, [](const BakeGeometryMesh& mesh) {
-        return mesh.surface.alphaMode == AlphaMode::Blend;
-    });
 }
 
 // A direction to the light and what arrives from there, up to a factor that is the same for all
@@ -141,7 +134,7 @@ class Tracer {
         , m_samples(samples)
         , m_light(toSceneUnits(emitter, *scene.geometry))
         , m_firstElement(firstElement)
-        , m_spread(emitter.shape == Shape::Point && passesByChance(*scene.geometry))
+        , m_spread(emitter.shape == Shape::Point && scene.passesByChance)
         , m_once(emitter.shape == Shape::Point && !m_spread) {}
 
     void trace(std::span<const BakePoint> points, std::size_t begin, std::size_t end,
@@ -259,11 +252,15 @@ Result<std::vector<float>> nearVisibility(const BakeScene& scene, std::span<cons
                                           std::uint32_t firstElement) {
     std::vector<float> shares(points.size(), 1.0f);
     static const AreaSamples samples; // the same for every light
-    parallelFor(job, points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    const auto trace = [&](std::size_t begin, std::size_t end) {
         const FlushDenormals flush;
         Tracer tracer(scene, emitter, samples, firstElement);
         tracer.trace(points, begin, end, shares);
-    });
+    };
+    if (points.size() <= kNearGrain)
+        trace(0, points.size());
+    else
+        parallelFor(job, points.size(), kNearGrain, trace);
     if (job.cancelled())
         return Error{ErrorKind::Cancelled, "Tracing shadows was cancelled.", {}, {}};
     return shares;

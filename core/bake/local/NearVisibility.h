@@ -31,6 +31,9 @@ struct NearEmitter {
 // light take one; where blended surfaces let rays pass by chance, they take as many.
 inline constexpr std::uint32_t kFirstNearRays = 32, kMostNearRays = 256;
 
+// So many points are traced together, by one thread: the caller's where there are no more.
+inline constexpr std::size_t kNearGrain = 64;
+
 // For each point the share E / E_open, 0…1, of the light's irradiance that arrives: cosine-weighted
 // over the light's area, by rays that end at the light, so that nothing behind it casts a shadow.
 // Exactly 0 in full shadow and exactly 1 where nothing is in the way; 1 where the light would not

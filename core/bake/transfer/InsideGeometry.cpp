@@ -16,6 +16,7 @@ constexpr float kMostVisible = 1.0f / 64.0f; // rays may slip through between tw
 constexpr std::uint32_t kPairs = 16;         // of rays, to opposite sides
 constexpr int kFewestVotes = 30;             // of twice as many
 constexpr int kMostHits = 64;                // of one ray
+constexpr std::size_t kPairsAtATime = 2;
 // How deep something has to stand in something else, in scene units: the 5,000th part of the
 // scene.
 constexpr float kLeastDepth = 40.0f * kRayOffset;
@@ -59,16 +60,44 @@ class InsideTest {
                     std::uint32_t ownMesh, bool byItself) {
         const std::uint32_t seed = seedFor(0, number);
         const glm::mat3 frame = HemisphereSamples::frame(normal, seed);
+        const std::span<const glm::vec3> directions = m_samples.directions(seed, m_scratch);
+        const auto all = static_cast<int>(2 * directions.size());
+        m_windings.resize(2 * directions.size());
+        for (std::vector<OfMesh>& ofRay : m_windings)
+            ofRay.clear(); // keeps its memory
+        // A few rays at a time: nearly all vertices lie outside, which those tell.
+        int leaving = 0, traced = 0;
+        for (std::size_t first = 0; first < directions.size(); first += kPairsAtATime) {
+            const std::size_t count = std::min(kPairsAtATime, directions.size() - first);
+            trace(origin, frame, directions.subspan(first, count), first, ownMesh, byItself);
+            for (std::size_t r = 2 * first; r < 2 * (first + count); ++r, ++traced)
+                leaving += std::ranges::any_of(m_windings[r],
+                                               [](const OfMesh& w) { return w.number > 0; });
+            if (leaving + all - traced < kFewestVotes)
+                return false;
+        }
+        m_votes.clear();
+        for (const std::vector<OfMesh>& ofRay : m_windings)
+            for (const OfMesh& winding : ofRay)
+                if (winding.number > 0)
+                    ++numberOf(m_votes, winding.mesh);
+        return std::ranges::any_of(
+            m_votes, [](const OfMesh& votes) { return votes.number >= kFewestVotes; });
+    }
+
+    // On its way out of a closed mesh a ray meets one back more than fronts: into m_windings, of
+    // two rays for each of `directions`, which begin with number `first`.
+    void trace(const glm::vec3& origin, const glm::mat3& frame,
+               std::span<const glm::vec3> directions, std::size_t first, std::uint32_t ownMesh,
+               bool byItself) {
         m_rays.clear();
-        for (const glm::vec3& local : m_samples.directions(seed, m_scratch))
+        for (const glm::vec3& local : directions)
             for (const float side : {1.0f, -1.0f}) {
                 ClosestRay& closest = m_rays.emplace_back();
-                closest.ray.id = static_cast<unsigned>(m_rays.size() - 1);
+                closest.ray.id = static_cast<unsigned>(2 * first + m_rays.size() - 1);
                 closest.ray.origin = origin;
                 closest.ray.direction = side * (frame * local);
             }
-        // On its way out of a closed mesh a ray meets one back more than fronts.
-        m_windings.assign(m_rays.size(), {});
         for (int hits = 0; hits < kMostHits && !m_rays.empty(); ++hits) {
             // Points and normals are finite and unit by construction.
             CHECK_EQ(m_scene.intersect(m_rays), std::size_t{0});
@@ -84,13 +113,6 @@ class InsideTest {
                 closest.ray.maxDistance = std::numeric_limits<float>::infinity();
             }
         }
-        m_votes.clear();
-        for (const std::vector<OfMesh>& ofRay : m_windings)
-            for (const OfMesh& winding : ofRay)
-                if (winding.number > 0)
-                    ++numberOf(m_votes, winding.mesh);
-        return std::ranges::any_of(
-            m_votes, [](const OfMesh& votes) { return votes.number >= kFewestVotes; });
     }
 
     const BakeGeometry& m_geometry;
@@ -135,14 +157,18 @@ std::vector<std::uint8_t> verticesInside(const BakeGeometry& geometry, const Ray
                                          std::span<const std::uint32_t> which,
                                          const JobContext& job) {
     constexpr std::size_t kGrain = 64;
-    const HemisphereSamples samples(0, 0, kPairs);
+    static const HemisphereSamples samples(0, 0, kPairs); // asked for each of thousands of meshes
     std::vector<std::uint8_t> inside(which.size(), 0);
-    parallelFor(job, which.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    const auto testRange = [&](std::size_t begin, std::size_t end) {
         const FlushDenormals flush;
         InsideTest test(geometry, scene, samples);
         for (std::size_t i = begin; i < end; ++i)
             inside[i] = test.isInside(points[which[i]], which[i], mesh) ? 1 : 0;
-    });
+    };
+    if (which.size() <= kGrain) // too few to divide
+        testRange(0, which.size());
+    else
+        parallelFor(job, which.size(), kGrain, testRange);
     return inside;
 }
 
