@@ -26,12 +26,14 @@ endfunction()
 
 # What all tests run with. Software OpenGL takes seconds to compile the editor's programs, so the driver's
 # compiled shaders are kept in one folder for all tests, none of which starts with an editor that counts
-# on them. It is the driver's alone: settings and caches of the editor are each test's own.
+# on them. So is the light of environments, named by all that it is computed from. Settings and the other
+# caches of the editor are each test's own.
 set(PATINA_TEST_ENVIRONMENT
   "PATINA_BIN_DIR=${CMAKE_BINARY_DIR}/bin"
   "LP_NUM_THREADS=2"
   "XDG_RUNTIME_DIR=${CMAKE_BINARY_DIR}/run"
   "MESA_SHADER_CACHE_DIR=${CMAKE_BINARY_DIR}/tests/shader-cache"
+  "PATINA_LIGHT_CACHE=${CMAKE_BINARY_DIR}/tests/light-cache"
   ${PATINA_SANITIZER_ENVIRONMENT})
 
 # patina_test_support(NAME): a static library that tests share. Compiled like a program, so that tests

@@ -207,8 +207,9 @@ struct Prepared {
     std::unique_ptr<render::Renderer> renderer;
 };
 
+// `lit`: the environment's light is part of what is drawn.
 Result<Prepared> prepare(Session& session, const Document& document,
-                         const render::FrameSettings& frame, bool linear) {
+                         const render::FrameSettings& frame, bool linear, bool lit) {
     // Linear pictures need no display.
     Result<DisplayTransformPtr> display =
         linear ? DisplayTransformPtr() : openDisplay(session, document.view);
@@ -232,7 +233,7 @@ Result<Prepared> prepare(Session& session, const Document& document,
         return renderer.error();
     session.beginPhase();
     session.job().setActivity("preparing light");
-    if (const ImagePtr image = shownEnvironment(document).image) {
+    if (const ImagePtr image = lit ? shownEnvironment(document).image : nullptr) {
         Result<IblMaps> ibl = computeIbl(*image, {}, session.job());
         if (!ibl)
             return ibl.error();
@@ -379,9 +380,12 @@ Result<void> run(Session& session, const RenderOptions& options) {
     json["settings"]["lighting"] =
         formatParameterValue(*findParameter("view.lighting"), static_cast<int>(view.lighting));
 
+    // Light that is switched off is looked at only by views and by explanations.
+    const bool lit =
+        !environmentParts(*document).empty() || !options.view.empty() || inspected->has_value();
     // An explanation ends with the displayed colour, even where the picture is linear.
     Result<Prepared> prepared =
-        prepare(session, *document, *frame, isLinear(*format) && !inspected->has_value());
+        prepare(session, *document, *frame, isLinear(*format) && !inspected->has_value(), lit);
     if (!prepared)
         return prepared.error();
     render::Renderer& renderer = *prepared->renderer;

@@ -11,7 +11,6 @@
 #include "core/base/AtomicFile.h"
 #include "core/base/Limits.h"
 #include "core/base/Result.h"
-#include "core/image/Image.h"
 
 #include <filesystem>
 #include <memory>

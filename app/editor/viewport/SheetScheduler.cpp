@@ -28,6 +28,7 @@ QImage toQImage(const Image& image) {
 SheetScheduler::SheetScheduler(QObject* parent)
     : QObject(parent) {
     m_timer.setSingleShot(true);
+    m_timer.setTimerType(Qt::PreciseTimer); // a coarse one may end a pause early
     connect(&m_timer, &QTimer::timeout, this, &SheetScheduler::drawNext);
 }
 

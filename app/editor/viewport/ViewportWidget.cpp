@@ -82,7 +82,7 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
             }
             m_restTimer.start(); // the next step
         } else {
-            m_gate.rest();
+            compileAhead();
         }
     });
     connect(&m_gate, &ViewGate::opened, this, &ViewportWidget::gateOpened);
@@ -403,7 +403,18 @@ void ViewportWidget::gateOpened() {
     }
     letOthersDraw();
     if (!m_restTimer.isActive())
-        m_gate.rest(); // which may have been busy with something else
+        compileAhead(); // the gate may have been busy with something else
+}
+
+void ViewportWidget::compileAhead() {
+    if (m_compilesAhead)
+        m_gate.rest();
+}
+
+void ViewportWidget::setCompilesAhead(bool compiles) {
+    m_compilesAhead = compiles;
+    if (compiles && !m_restTimer.isActive())
+        m_gate.rest();
 }
 
 Result<render::Inspection> ViewportWidget::inspect(const QPoint& pixel) {

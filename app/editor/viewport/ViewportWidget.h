@@ -88,6 +88,9 @@ class ViewportWidget : public QOpenGLWidget {
     // an edit, or a background job that ends, the next frame is the same.
     [[nodiscard]] bool isSettled() const;
     void setAddsSlowFrames(bool adds) { m_pacing.setAddsSlowFrames(adds); } // see FramePacing
+    // Whether what may be looked at next is compiled at rest, which keeps a core busy for a while:
+    // by default. Without, it is compiled when it is asked for, in the background, too.
+    void setCompilesAhead(bool compiles);
 
     // Milliseconds of the slowest frame since the last call (tests and the status bar).
     double takeSlowestFrameMs();
@@ -111,6 +114,7 @@ class ViewportWidget : public QOpenGLWidget {
     void gateOpened();
     // Thumbnails and looks at pixels, where nothing need be compiled for them.
     void letOthersDraw();
+    void compileAhead(); // nobody needs the processor
     void setCamera(const Camera& camera);
     void touch();       // the hand moved something: draw fast now, refine when it rests
     void lookChanged(); // of the scene, other than by the hand: its thumbnails are old, too
@@ -174,6 +178,7 @@ class ViewportWidget : public QOpenGLWidget {
     QSize m_lastFrameSize;
 
     bool m_overlays = true;
+    bool m_compilesAhead = true;
 };
 
 } // namespace patina::editor

@@ -36,17 +36,8 @@ template <class Widget>
 
 class EditorTest : public ::testing::Test {
   protected:
-    static void SetUpTestSuite() {
-        session = std::make_unique<Session>();
-        window = std::make_unique<MainWindow>(*session);
-        window->resize(1040, 860);
-        window->show();
-        ASSERT_TRUE(QTest::qWaitForWindowExposed(window.get(), 60'000));
-    }
-    static void TearDownTestSuite() {
-        window.reset();
-        session.reset();
-    }
+    static void SetUpTestSuite();
+    static void TearDownTestSuite();
 
     void SetUp() override {
         if (!session->controller.isPristine() || document().meshes.empty())
