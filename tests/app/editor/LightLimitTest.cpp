@@ -1,6 +1,6 @@
 // What the window says of more lights than the picture can show.
 #include "app/editor/Session.h"
-#include "app/editor/document/Commands.h"
+#include "core/edit/EditSession.h"
 
 #include <QTest>
 #include <algorithm>
