@@ -20,6 +20,8 @@ namespace {
 struct TransferPanelTest : EditorTest {
     void SetUp() override {
         EditorTest::SetUp();
+        controller().openScene(QStringLiteral("builtin:sphere")); // quickly drawn
+        ASSERT_TRUE(settled(*session));
         window->resize(1440, 900);
         window->viewport().setFixedSize(400, 240);   // software OpenGL pays for each pixel
         QApplication::setActiveWindow(window.get()); // there is no window manager
