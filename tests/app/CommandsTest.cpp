@@ -374,10 +374,10 @@ TEST_F(Commands, RenderWarnsOfStaleBakes) {
               0);
     nlohmann::json scene = runPatina({"info", "builtin:shader-ball", "--json"}).json();
     const std::string mesh = scene["meshes"][0]["name"];
-    const Outcome stale = runPatina(
-        {"render", "builtin:shader-ball", "-o", m_folder / "x.png", "--size", "32x32", "--samples",
-         "1", "--bake", m_folder / "ao.exr", "--set", "mesh[" + mesh + "].visible=false", "--set",
-         "environment.enabled=false"});
+    const Outcome stale =
+        runPatina({"render", "builtin:shader-ball", "-o", m_folder / "x.png", "--size", "32x32",
+                   "--samples", "1", "--bake", m_folder / "ao.exr", "--set",
+                   "mesh[" + mesh + "].visible=false", "--set", "environment.enabled=false"});
     EXPECT_EQ(stale.status, 0) << stale.err;
     EXPECT_THAT(stale.err, HasSubstr("a bake is stale: “" + mesh + "” was hidden"));
 }

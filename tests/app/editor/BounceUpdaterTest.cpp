@@ -6,6 +6,7 @@
 #include "core/bake/bounce/HitCache.h"
 #include "core/bake/document/DocumentBakeInputs.h"
 #include "core/edit/EditSession.h"
+#include "tests/support/Events.h"
 
 #include <QTest>
 #include <glm/gtc/matrix_transform.hpp>
@@ -87,7 +88,7 @@ TEST_F(Bounces, FollowAnEditOfAlbedoAsIfBakedAnew) {
     const DragSession drag = controller.newDragSession();
     for (int i = 0; i <= 10; ++i) {
         controller.setParameter(baseColor, red, glm::vec3(0.05f, 0.05f, 0.07f * float(i)), drag);
-        QTest::qWait(1);
+        test::handleEvents();
     }
     ASSERT_TRUE(ready());
     const BakeArtifact anew = bake();
@@ -188,7 +189,7 @@ TEST_F(Bounces, LeaveABakeOfOtherGeometryAlone) {
         moved.meshes[0].transform = glm::translate(glm::mat4(1.0f), glm::vec3(0.1f, 0, 0));
     });
     controller.setParameter(baseColor, red, glm::vec3(0.1f, 0.6f, 0.1f));
-    QTest::qWait(300);
+    QTest::qWait(100); // nothing to wait for: it shows that nothing comes
     EXPECT_FALSE(bounces.upToDate());
     EXPECT_EQ(bounces.hits(), nullptr);
     EXPECT_EQ(attached(), before);

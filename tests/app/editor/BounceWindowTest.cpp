@@ -20,7 +20,7 @@ namespace {
 struct BounceWindow : EditorTest {
     void SetUp() override {
         EditorTest::SetUp();
-        window->resize(1440, 900);
+        window->viewport().setFixedSize(390, 300); // software OpenGL pays for each pixel
         controller().openScene(QStringLiteral("builtin:cornell-box"));
         ASSERT_TRUE(settled(*session));
         for (const Material& material : document().materials)
@@ -92,7 +92,7 @@ struct BounceWindow : EditorTest {
         if (folder.isEmpty())
             return;
         ASSERT_TRUE(QDir().mkpath(folder));
-        QTest::qWait(800);
+        EXPECT_TRUE(eventually([] { return viewport().isSettled(); }));
         EXPECT_TRUE(viewport().grabFramebuffer().save(QDir(folder).filePath(QLatin1String(name))));
     }
     const ParameterInfo& baseColor = parameter("material.baseColor");

@@ -2,6 +2,7 @@
 // drawn in the viewport.
 
 #include "tests/app/editor/EditorFixture.h"
+#include "tests/support/Events.h"
 
 #include "app/editor/panel/BrdfLensPanel.h"
 #include "app/editor/panel/MaterialPanel.h"
@@ -42,7 +43,7 @@ struct BrdfLensDockTest : EditorTest {
     static QImage frame() { return window->viewport().grabFramebuffer(); }
     static void keep(const QString& name) {
         const QString target = qEnvironmentVariable("PATINA_SCREENSHOTS");
-        QTest::qWait(400);
+        EXPECT_TRUE(eventually([] { return window->viewport().isSettled(); }));
         if (!target.isEmpty())
             window->grab().save(target + QLatin1Char('/') + name);
     }
@@ -88,28 +89,27 @@ TEST_F(BrdfLensDockTest, FollowsTheRoughnessSliderWhileItIsDragged) {
             slider = candidate;
     ASSERT_NE(slider, nullptr);
     const auto peak = [this] { return panel().result().curves.front().distribution.front().y; };
-    std::vector<float> seen{peak()};
+    const float first = peak();
     const float before = selectedMaterial().perceptualRoughness;
     const int y = slider->height() / 2;
     QTest::mousePress(slider, Qt::LeftButton, {}, {slider->handleX(), y});
-    for (int step = 1; step <= 10; ++step) {
+    for (int step = 1; step <= 3; ++step) {
+        const float last = peak();
         QTest::mouseMove(slider, {slider->handleX() - slider->width() / 16, y});
-        QTest::qWait(60);
-        if (peak() != seen.back())
-            seen.push_back(peak());
+        ASSERT_TRUE(eventually([&] { return peak() != last; }))
+            << "it moves with the hand, not after it";
     }
-    EXPECT_GE(seen.size(), 3u) << "it moves with the hand, not after it";
     QTest::mouseRelease(slider, Qt::LeftButton, {}, {slider->handleX(), y});
     ASSERT_TRUE(eventually([this] { return settled(); }));
     EXPECT_LT(selectedMaterial().perceptualRoughness, before);
-    EXPECT_GT(peak(), seen.front()) << "smoother: a higher, narrower D";
+    EXPECT_GT(peak(), first) << "smoother: a higher, narrower D";
     EXPECT_EQ(undoCount(), 1);
 }
 
 TEST_F(BrdfLensDockTest, ItsLobeIsDrawnInTheViewport) {
     session->probe.setPin(pointInView());
     ASSERT_TRUE(eventually([this] { return settled(); }));
-    QTest::qWait(600); // the picture is refined when nothing moves
+    ASSERT_TRUE(eventually([] { return window->viewport().isSettled(); }));
     const QImage without = frame();
     auto& box = *find<QComboBox>(panel(), QStringLiteral("Lobe on the surface"));
     box.setFocus();
@@ -119,7 +119,7 @@ TEST_F(BrdfLensDockTest, ItsLobeIsDrawnInTheViewport) {
     keep(QStringLiteral("lens-on-surface.png"));
     // Away with it, and with all overlays.
     window->actions().overlays->trigger();
-    QTest::qWait(200);
+    test::handleEvents();
     window->actions().overlays->trigger();
     QTest::keyClick(&box, Qt::Key_Up);
     ASSERT_TRUE(eventually([] { return session->lobe.lobe() == nullptr; }));

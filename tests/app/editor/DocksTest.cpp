@@ -1,6 +1,7 @@
 // Docks: opened, tabbed, floated, left and found again, reached by mouse and keys.
 
 #include "tests/app/editor/EditorFixture.h"
+#include "tests/support/Events.h"
 
 #include "app/editor/ViewActions.h"
 #include "app/editor/viewport/ViewThumb.h"
@@ -65,10 +66,7 @@ struct DocksTest : EditorTest {
     void SetUp() override {
         EditorTest::SetUp();
         window->resetLayout();
-        settle();
-    }
-    static void settle() {
-        QTest::qWait(60); // layouts and titles are refreshed by queued calls
+        test::handleEvents();
     }
     static QDockWidget* dock(const char* name) { return dockNamed(*window, name); }
     static QDockWidget* dockWithFocus() {
@@ -80,7 +78,7 @@ struct DocksTest : EditorTest {
     static void openAll() {
         for (QDockWidget* each : window->findChildren<QDockWidget*>())
             each->show();
-        settle();
+        test::handleEvents();
     }
     static void expectTabbedAgain(QDockWidget& dock) {
         dock.setFloating(false);
@@ -140,7 +138,7 @@ TEST_F(DocksTest, ATabIsDoubleClickedToFloatAndComesBackToItsGroup) {
         ASSERT_NE(tab.bar, nullptr) << name;
         QTest::mouseDClick(tab.bar, Qt::LeftButton, {}, tab.middle());
         ASSERT_TRUE(eventually([&] { return each->isFloating() && isSeen(*each); })) << name;
-        settle();
+        test::handleEvents();
         EXPECT_EQ(each->titleBarWidget(), nullptr) << name << ": it needs its title bar";
         expectTabbedAgain(*each);
     }
@@ -195,7 +193,7 @@ TEST_F(DocksTest, ATabIsDraggedOffItsBar) {
     QMouseEvent release(QEvent::MouseButtonRelease, end - model->pos(), end, Qt::LeftButton,
                         Qt::NoButton, {});
     QApplication::sendEvent(model, &release);
-    settle();
+    test::handleEvents();
     EXPECT_EQ(QWidget::mouseGrabber(), nullptr);
     EXPECT_TRUE(isSeen(*model));
     expectTabbedAgain(*model);
@@ -205,13 +203,13 @@ TEST_F(DocksTest, AFloatedDockKeepsClearOfItsNeighbours) {
     for (const char* name : {"scene", "log"}) {
         QDockWidget* each = dock(name);
         each->show();
-        settle();
+        test::handleEvents();
         if (const Tab tab = tabOf(*window, *each); tab.bar)
             QTest::mouseDClick(tab.bar, Qt::LeftButton, {}, tab.middle());
         else
             QTest::mouseClick(titleButton(*each, "qt_dockwidget_floatbutton"), Qt::LeftButton);
         ASSERT_TRUE(eventually([&] { return each->isFloating(); })) << name;
-        settle();
+        test::handleEvents();
         const QRect floating = onScreen(*each);
         EXPECT_TRUE(window->screen()->availableGeometry().contains(floating)) << name;
         for (const QDockWidget* other : window->findChildren<QDockWidget*>())
@@ -234,7 +232,7 @@ TEST_F(DocksTest, KeysLeadFromDockToDockAndBack) {
     std::vector<QString> forwards, backwards;
     const auto press = [&](std::vector<QString>& way, Qt::Key key, Qt::KeyboardModifiers keys) {
         QTest::keyClick(window.get(), key, keys);
-        QTest::qWait(20);
+        test::handleEvents();
         const QDockWidget* at = dockWithFocus();
         EXPECT_TRUE(at == nullptr || isSeen(*at));
         way.push_back(at ? at->objectName() : QStringLiteral("viewport"));
@@ -305,7 +303,7 @@ TEST(DocksOfTheNextSession, AFloatingDockIsWhereItWasAndInFront) {
         MainWindow& window = begun.window;
         QDockWidget* scene = dockNamed(window, "scene");
         scene->setFloating(true);
-        QTest::qWait(60);
+        test::handleEvents();
         const QRect middle = onScreen(*window.centralWidget());
         scene->setGeometry(middle.x() + 60, middle.y() + 50, 280, 260);
         left = scene->geometry();
@@ -395,11 +393,11 @@ TEST_F(DocksTest, NothingToHitIsUnderTwentyPixels) {
     openAll();
     for (QDockWidget* each : window->findChildren<QDockWidget*>()) {
         each->raise();
-        settle();
+        test::handleEvents();
         expectTargets(*each, each->objectName().toStdString());
     }
     window->looks().equation->setChecked(true);
-    settle();
+    test::handleEvents();
     expectTargets(*window->centralWidget(), "centre");
     expectTargets(*window, "window");
     window->looks().equation->setChecked(false);

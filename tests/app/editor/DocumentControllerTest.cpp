@@ -298,7 +298,7 @@ TEST_F(Controller, ANewMapReplacesOneThatIsStillOnItsWay) {
     controller.setMap(map, firstMaterial(), QStringLiteral("builtin:wood/baseColor"));
     controller.setMap(map, firstMaterial(), QStringLiteral("builtin:leather/baseColor"));
     settle();
-    QTest::qWait(200); // the first one must not come late
+    QTest::qWait(200); // nothing to wait for: the first one must not come late
     EXPECT_EQ(document().materials.front().baseColorMap.source, "builtin:leather/baseColor");
     EXPECT_EQ(undo().count(), 1);
 }

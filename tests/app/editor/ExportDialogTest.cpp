@@ -1,6 +1,7 @@
 // The export dialog shows the plan, and the plan follows its settings.
 
 #include "tests/app/editor/EditorFixture.h"
+#include "tests/support/Events.h"
 
 #include "app/editor/Actions.h"
 
@@ -67,7 +68,7 @@ TEST_F(ExportDialogTest, ManyWarningsLeaveTheFilesInSight) {
         texts << QStringLiteral("Material %1: its base colour could not be read").arg(i);
     warnings->setText(texts.join(QLatin1Char('\n')));
     area->show();
-    QTest::qWait(50);
+    test::handleEvents();
     EXPECT_GE(files->viewport()->height(), 4 * files->verticalHeader()->defaultSectionSize());
     EXPECT_GE(area->height(), 3 * warnings->fontMetrics().height());
     EXPECT_LE(dialog->height(), 700); // on a screen of 768

@@ -3,6 +3,7 @@
 
 #include "tests/app/editor/EditorFixture.h"
 #include "tests/app/editor/TextFit.h"
+#include "tests/support/Events.h"
 
 #include "app/editor/EnvironmentSaveDialog.h"
 #include "app/editor/ExportDialog.h"
@@ -74,13 +75,12 @@ struct LayoutTest : EditorTest {
         ASSERT_TRUE(
             widget.grab().save(QDir(target).filePath(name + QStringLiteral(".png")), "PNG", kFast));
     }
-    static void settle() { QTest::qWait(80); }
     static void resizeTo(const QSize& size) {
         window->resize(size);
         ASSERT_TRUE(eventually([&] { return window->size() == size; }))
             << window->width() << "x" << window->height() << ", at least "
             << window->minimumSizeHint().width() << "x" << window->minimumSizeHint().height();
-        settle();
+        test::handleEvents();
     }
     static void expectNothingCut(const QWidget& widget, const std::string& where) {
         for (const QString& text : cutTexts(widget))
@@ -90,12 +90,13 @@ struct LayoutTest : EditorTest {
 
 TEST_F(LayoutTest, EveryDockFitsEveryScreen) {
     for (const Screen& screen : kScreens) {
+        window->viewport().setUpdatesEnabled(false); // 14 pictures of the scene that nobody sees
         resizeTo(screen.size);
         for (QDockWidget* dock : window->findChildren<QDockWidget*>()) {
             const bool wasHidden = dock->isHidden();
             dock->show();
             dock->raise();
-            settle();
+            test::handleEvents();
             const std::string where = screen.name + (" " + dock->objectName().toStdString());
             EXPECT_EQ(window->size(), screen.size) << where << ": the window has grown";
             expectNothingCut(*dock, where);
@@ -103,31 +104,33 @@ TEST_F(LayoutTest, EveryDockFitsEveryScreen) {
             if (wasHidden)
                 dock->hide();
         }
+        window->viewport().setUpdatesEnabled(true);
         // Bars under the picture, open both.
         window->looks().equation->setChecked(true);
         window->looks().strip->setChecked(true);
-        settle();
+        test::handleEvents();
         EXPECT_EQ(window->size(), screen.size) << screen.name << " with both bars";
         expectNothingCut(*window, screen.name);
         keep(*window, QLatin1String(screen.name) + QStringLiteral("-window"));
         // And an instrument below them.
         window->actions().pixel->trigger();
-        settle();
+        test::handleEvents();
         EXPECT_EQ(window->size(), screen.size) << screen.name << " with bars and an instrument";
         EXPECT_GE(window->viewport().height(), 136) << screen.name;
         keep(*window, QLatin1String(screen.name) + QStringLiteral("-all"));
         window->actions().pixel->trigger();
         window->looks().equation->setChecked(false);
-        settle();
+        test::handleEvents();
     }
 }
 
 TEST_F(LayoutTest, EveryDialogFitsEveryScreen) {
+    window->viewport().setUpdatesEnabled(false); // it is not in these pictures
     for (const Screen& screen : kScreens) {
         resizeTo(screen.size);
         const auto check = [&](QDialog* dialog, const char* name) {
             dialog->show();
-            settle();
+            test::handleEvents();
             const std::string where = screen.name + std::string(" ") + name;
             EXPECT_LE(dialog->width(), screen.size.width()) << where;
             EXPECT_LE(dialog->height(), screen.size.height()) << where;
@@ -142,6 +145,7 @@ TEST_F(LayoutTest, EveryDialogFitsEveryScreen) {
               "shortcuts");
         check(makeAboutDialog(window.get()), "about");
     }
+    window->viewport().setUpdatesEnabled(true);
 }
 
 TEST_F(LayoutTest, TheFirstWindowLeavesRoomForItsFrame) {

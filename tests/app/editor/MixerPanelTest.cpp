@@ -8,6 +8,7 @@
 #include "core/edit/EditSession.h"
 #include "core/mix/LightMix.h"
 #include "tests/app/editor/EditorFixture.h"
+#include "tests/support/Events.h"
 
 #include <QLabel>
 #include <QMenu>
@@ -53,7 +54,7 @@ struct MixerPanelTest : ::testing::Test {
     }
     void keep(const QString& name) {
         const QString target = qEnvironmentVariable("PATINA_SCREENSHOTS");
-        QTest::qWait(100);
+        test::handleEvents();
         if (!target.isEmpty())
             panel.grab().save(target + QLatin1Char('/') + name);
     }

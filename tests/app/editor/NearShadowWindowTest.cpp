@@ -21,6 +21,7 @@ namespace {
 struct NearShadowWindow : EditorTest {
     void SetUp() override {
         EditorTest::SetUp();
+        window->viewport().setFixedSize(360, 300); // software OpenGL pays for each pixel
         controller().openScene(QStringLiteral("builtin:cornell-box"));
         ASSERT_TRUE(settled(*session));
         Camera camera = document().view.camera;
@@ -143,8 +144,9 @@ TEST_F(NearShadowWindow, AMovedLightEndsWithCompleteShadows) {
     QObject::connect(&shadows(), &NearShadowUpdater::shownChanged, &here, [&] { ++arrivals; });
     const quint64 drag = 77;
     for (int step = 0; step <= 12; ++step) {
+        const int before = frames;
         move(corner(0.15f + 0.03f * float(step), 0.75f, 0.6f), drag);
-        QTest::qWait(5);
+        ASSERT_TRUE(eventually([&] { return frames > before; })) << step;
     }
     move(corner(0.12f, 0.8f, 0.62f), drag);
     ASSERT_TRUE(atRest());
@@ -227,7 +229,7 @@ TEST_F(NearShadowWindow, WaitsUntilSomebodyLooks) {
     const NearShadowsPtr before = shadows().shown();
     move(corner(0.7f, 0.7f, 0.7f));
     ASSERT_TRUE(eventually([] { return viewport().isSettled(); }));
-    QTest::qWait(50);
+    QTest::qWait(50); // nothing to wait for: it shows that nothing comes
     EXPECT_EQ(shadows().shown(), before);
     set("view.lighting", {Scope::View, 0}, static_cast<int>(LightingMode::Shadowed));
     ASSERT_TRUE(atRest());

@@ -1,6 +1,7 @@
 // Panels and document together, by real events on the widgets of the window.
 
 #include "tests/app/editor/EditorFixture.h"
+#include "tests/support/Events.h"
 
 #include "app/editor/panel/LightsPanel.h"
 #include "app/editor/panel/MaterialPanel.h"
@@ -519,10 +520,10 @@ TEST_F(PanelTest, LightsOfEveryTypeShowTheirOwnRowsAndUnits) {
     EXPECT_TRUE(row("light.color").isEnabled());
     QCheckBox& temperature = in<QCheckBox>("light.usesTemperature");
     ASSERT_TRUE(eventually([&] { return temperature.isVisible(); }));
-    QTest::qWait(50); // the layout of the rows
+    test::handleEvents(); // the layout of the rows
     const QPoint place = temperature.mapTo(window.get(), QPoint());
     QTest::mouseClick(&temperature, Qt::LeftButton, {}, {8, 12});
-    QTest::qWait(50);
+    test::handleEvents();
     EXPECT_TRUE(document().light(session->selection.light())->usesTemperature);
     EXPECT_EQ(temperature.mapTo(window.get(), QPoint()), place);
     EXPECT_TRUE(row("light.temperatureK").isEnabled());

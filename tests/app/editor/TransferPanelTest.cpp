@@ -21,7 +21,10 @@ namespace {
 struct TransferPanelTest : EditorTest {
     void SetUp() override {
         EditorTest::SetUp();
+        controller().openScene(QStringLiteral("builtin:sphere")); // quickly drawn
+        ASSERT_TRUE(settled(*session));
         window->resize(1440, 900);
+        window->viewport().setFixedSize(400, 240);   // software OpenGL pays for each pixel
         QApplication::setActiveWindow(window.get()); // there is no window manager
         window->viewport().setFocus();
         dock = window->findChild<QDockWidget*>(QStringLiteral("transfer"));
@@ -76,7 +79,7 @@ struct TransferPanelTest : EditorTest {
         const QString target = qEnvironmentVariable("PATINA_SCREENSHOTS");
         if (target.isEmpty())
             return;
-        QTest::qWait(1500);
+        EXPECT_TRUE(eventually([] { return window->viewport().isSettled(); }));
         window->grab().save(target + QLatin1Char('/') + name);
     }
 

@@ -8,6 +8,7 @@
 #include "app/editor/widget/OutputFile.h"
 #include "app/editor/widget/Slider.h"
 #include "app/editor/widget/Thumbnails.h"
+#include "tests/support/Events.h"
 
 #include <QApplication>
 #include <QComboBox>
@@ -414,7 +415,7 @@ TEST(NoticeAreaTest, LiesInsideThePictureWhateverItsSize) {
     area.add({NoticeKind::Warning, QStringLiteral("Short"), {}});
     for (const QSize& size : {QSize(600, 400), QSize(320, 240), QSize(1900, 900)}) {
         picture.resize(size);
-        QTest::qWait(30);
+        test::handleEvents();
         EXPECT_TRUE(picture.rect().contains(area.geometry())) << size.width();
         for (const NoticeBar* bar : area.bars())
             for (const QLabel* label : bar->findChildren<QLabel*>())

@@ -1,6 +1,7 @@
 // The window as a whole: files, guard, drops, actions, layout, pictures of it.
 
 #include "tests/app/editor/EditorFixture.h"
+#include "tests/support/Events.h"
 
 #include "app/editor/Actions.h"
 #include "app/editor/HelpDialogs.h"
@@ -315,7 +316,7 @@ TEST_F(WindowTest, NoticesLeaveThePictureItsSize) {
     const QSize before = window->viewport().size();
     for (int i = 0; i < 3; ++i)
         Q_EMIT controller().noticed({NoticeKind::Error, QString::number(i), {}});
-    QTest::qWait(50);
+    test::handleEvents();
     EXPECT_EQ(window->viewport().size(), before);
     EXPECT_EQ(window->notices().bars().size(), 2);
 }
@@ -482,7 +483,7 @@ TEST_F(WindowTest, EscLeadsOutWhereverTheFocusIs) {
     std::set<std::string> seen;
     for (const bool floating : {false, true}) {
         scene->setFloating(floating);
-        QTest::qWait(50);
+        test::handleEvents();
         seen.clear();
         for (QWidget* widget : window->findChildren<QWidget*>()) {
             if (!widget->isVisible() || !widget->isEnabled() || widget->visibleRegion().isEmpty() ||
@@ -599,7 +600,7 @@ TEST_F(WindowTest, PicturesOfTheWindowAreKept) {
     for (QDockWidget* dock : window->findChildren<QDockWidget*>()) {
         dock->show();
         dock->raise();
-        QTest::qWait(30);
+        test::handleEvents();
         keep(dock, QStringLiteral("dock-") + dock->objectName());
     }
     window->resetLayout();
@@ -608,12 +609,12 @@ TEST_F(WindowTest, PicturesOfTheWindowAreKept) {
          QStringLiteral("helmet.gltf refers to 2 files that are missing; a checkered placeholder "
                         "stands in for them."),
          {QStringLiteral("Missing: a.png"), QStringLiteral("Missing: b.png")}});
-    QTest::qWait(50);
+    test::handleEvents();
     keep(window.get(), QStringLiteral("window"));
     QDialog* shortcuts =
         makeShortcutsDialog(window->actions().all(), window->looks().listed(), window.get());
     shortcuts->show();
-    QTest::qWait(30); // the style's sizes arrive with events
+    test::handleEvents(); // the style's sizes arrive with events
     keep(shortcuts, QStringLiteral("shortcuts"));
     shortcuts->close();
     QDialog* about = makeAboutDialog(window.get());

@@ -22,12 +22,13 @@ class ContextLoss : public EditorTest {
         viewport.setFocus();
         QImage before;
         const bool still = eventually([&] {
+            if (!viewport.isSettled() || session->controller.tasks().busy() ||
+                viewport.ibl().maps() == nullptr)
+                return false;
             const QImage now = viewport.grabFramebuffer();
             const bool same = !now.isNull() && now == before;
             before = now;
-            QTest::qWait(700); // longer than the viewport waits before it refines
-            return same && viewport.isSettled() && !session->controller.tasks().busy() &&
-                   viewport.ibl().maps() != nullptr;
+            return same && viewport.isSettled();
         });
         EXPECT_TRUE(still);
         return before;

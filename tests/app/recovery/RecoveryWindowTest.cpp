@@ -1,6 +1,7 @@
 // Unsaved work in a running window: what is kept when, and the dialog that offers it.
 
 #include "tests/app/editor/EditorFixture.h"
+#include "tests/support/Events.h"
 
 #include "app/editor/Recovery.h"
 #include "app/editor/RecoveryDialog.h"
@@ -65,7 +66,7 @@ class RecoveryWindow : public EditorTest {
         QTest::mouseClick(button, Qt::LeftButton);
     }
     static void shoot(const QString& name) {
-        QTest::qWait(50);
+        test::handleEvents();
         const QString to = qEnvironmentVariable("PATINA_SCREENSHOTS", QStringLiteral("."));
         QDir().mkpath(to);
         dialog()->grab().save(QStringLiteral("%1/%2.png").arg(to, name));

@@ -1,5 +1,6 @@
 // The Bake and Jobs docks, driven by real clicks: queue, pause, staleness, cache, interruption.
 #include "tests/app/editor/EditorFixture.h"
+#include "tests/support/Events.h"
 
 #include "app/editor/job/InterruptedBakes.h"
 #include "app/editor/job/LivePreview.h"
@@ -34,8 +35,9 @@ class BakeManagerTest : public EditorTest {
         // Kept bakes and checkpoints of other tests would answer instead.
         ASSERT_TRUE(QDir(cacheFolder()).removeRecursively());
         EditorTest::SetUp();
+        window->viewport().setFixedSize(320, 200); // software OpenGL pays for each pixel
         session->jobs.clearFinished();
-        controller().openScene(QStringLiteral("builtin:torus-knot"));
+        controller().openScene(QStringLiteral("builtin:sphere"));
         ASSERT_TRUE(settled(*session));
         choose("bakeKind", QStringLiteral("Ambient occlusion (per vertex)"));
     }
@@ -69,9 +71,20 @@ class BakeManagerTest : public EditorTest {
     static void rays(int count) { choose("bakeSamples", QLocale().toString(count)); }
     static JobRecord job(std::size_t index) { return session->jobs.jobs().at(index); }
     static std::string status() {
-        QTest::qWait(10); // rows that were made anew
+        test::handleEvents(); // rows that were made anew
         const auto* label = visible<QLabel>("bakeStatus");
         return label ? label->text().toStdString() : "";
+    }
+    // What a job has done when the ranges that were under way have come to their end.
+    static double workAtRest(std::size_t index) {
+        double last = -1.0;
+        int same = 0;
+        EXPECT_TRUE(eventually([&] {
+            const double now = job(index).progress.workDone;
+            same = now == std::exchange(last, now) ? same + 1 : 0;
+            return same >= 10;
+        }));
+        return last;
     }
     static bool traces(std::size_t index) {
         return eventually([&] { return job(index).progress.workDone > 0.0; });
@@ -96,8 +109,7 @@ TEST_F(BakeManagerTest, BakesTakeTurnsByPriority) {
     EXPECT_TRUE(job(0).begun);
     EXPECT_EQ(job(1).state, JobState::Running);
     ASSERT_TRUE(traces(1));
-    QTest::qWait(200); // ranges that were under way come to their end
-    const double rested = job(0).progress.workDone;
+    const double rested = workAtRest(0);
     const double second = job(1).progress.workDone;
     ASSERT_TRUE(eventually([&] { return job(1).progress.workDone > second; }));
     EXPECT_EQ(job(0).progress.workDone, rested);
@@ -120,7 +132,7 @@ TEST_F(BakeManagerTest, APausedBakeRestsAndLetsTheNextGo) {
     ASSERT_TRUE(eventually([&] { return job(1).ended(); }));
     EXPECT_EQ(job(1).state, JobState::Done) << job(1).summary.toStdString();
     const double rested = job(0).progress.workDone;
-    QTest::qWait(100);
+    QTest::qWait(50); // nothing to wait for: it shows that nothing comes
     EXPECT_EQ(job(0).state, JobState::Paused);
     EXPECT_EQ(job(0).progress.workDone, rested);
     click("bakePause");
@@ -151,8 +163,6 @@ TEST_F(BakeManagerTest, WhatWaitsCanBeCancelled) {
 }
 
 TEST_F(BakeManagerTest, AStaleBakeSaysWhyAndIsBakedAgainByOneClick) {
-    controller().openScene(QStringLiteral("builtin:sphere")); // quickly baked
-    ASSERT_TRUE(settled(*session));
     rays(32);
     click("bakeStart");
     ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
@@ -208,7 +218,7 @@ TEST_F(BakeManagerTest, WhatWasBakedBeforeComesFromTheCache) {
 // Another document interrupts a bake; back in the scene it goes on from its checkpoint and comes to
 // what it would have come to.
 TEST_F(BakeManagerTest, AnInterruptedBakeIsOfferedAndGoesOn) {
-    rays(256);
+    rays(512);
     click("bakeStart");
     ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
     const BakeArtifact whole = *document().bakes.front();
@@ -226,11 +236,11 @@ TEST_F(BakeManagerTest, AnInterruptedBakeIsOfferedAndGoesOn) {
     EXPECT_THAT(job(0).summary.toStdString(), HasSubstr("Interrupted; it can go on"));
     EXPECT_TRUE(document().bakes.empty()) << "of another document";
     EXPECT_EQ(visible<QPushButton>("bakeResume"), nullptr) << "not of this scene";
-    controller().openScene(QStringLiteral("builtin:torus-knot"));
+    controller().openScene(QStringLiteral("builtin:sphere"));
     ASSERT_TRUE(settled(*session));
     ASSERT_TRUE(eventually([] { return visible<QPushButton>("bakeResume") != nullptr; }));
     EXPECT_THAT(visible<QLabel>("bakeUnfinished")->text().toStdString(),
-                AllOf(HasSubstr("Unfinished, from"), HasSubstr("% of its 256 rays")));
+                AllOf(HasSubstr("Unfinished, from"), HasSubstr("% of its 512 rays")));
     click("bakeResume");
     ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
     BakeArtifact resumed = *document().bakes.front();
@@ -242,7 +252,7 @@ TEST_F(BakeManagerTest, AnInterruptedBakeIsOfferedAndGoesOn) {
 
 // The bake that goes on may have been asked for with quite other settings than the form has.
 TEST_F(BakeManagerTest, TheFormFollowsABakeThatIsResumed) {
-    rays(256);
+    rays(512);
     click("bakeStart");
     ASSERT_TRUE(traces(0));
     controller().newDocument();
@@ -251,15 +261,15 @@ TEST_F(BakeManagerTest, TheFormFollowsABakeThatIsResumed) {
     ASSERT_EQ(job(0).state, JobState::Cancelled);
     rays(32);
     choose("bakeKind", QStringLiteral("Radiance transfer (PRT, per vertex)"));
-    controller().openScene(QStringLiteral("builtin:torus-knot"));
+    controller().openScene(QStringLiteral("builtin:sphere"));
     ASSERT_TRUE(settled(*session));
     click("bakeResume");
     EXPECT_EQ(visible<QComboBox>("bakeKind")->currentText(),
               QStringLiteral("Ambient occlusion (per vertex)"));
-    EXPECT_EQ(visible<QComboBox>("bakeSamples")->currentText(), QLocale().toString(256));
+    EXPECT_EQ(visible<QComboBox>("bakeSamples")->currentText(), QLocale().toString(512));
     ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
     ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
-    EXPECT_THAT(status(), AllOf(HasSubstr("Up to date, 256 rays"), Not(HasSubstr("Form differs"))));
+    EXPECT_THAT(status(), AllOf(HasSubstr("Up to date, 512 rays"), Not(HasSubstr("Form differs"))));
     EXPECT_EQ(visible<QPushButton>("rebake"), nullptr);
 }
 
@@ -286,7 +296,7 @@ TEST_F(BakeManagerTest, TheFormFollowsAnAttachedBakeUntilItIsEdited) {
 }
 
 TEST_F(BakeManagerTest, AStoppedBakeSaysAtHowManyRaysAndGoesOn) {
-    rays(256);
+    rays(512);
     click("bakeStart");
     ASSERT_TRUE(eventually(
         [] { return session->jobs.preview() && session->jobs.preview()->samplesDone() >= 32; }));
@@ -302,9 +312,9 @@ TEST_F(BakeManagerTest, AStoppedBakeSaysAtHowManyRaysAndGoesOn) {
     ASSERT_EQ(document().bakes.size(), 1u);
     const std::optional<StoppedBake> stopped = stoppedEarly(*document().bakes[0]);
     ASSERT_TRUE(stopped);
-    EXPECT_EQ(stopped->asked, 256);
+    EXPECT_EQ(stopped->asked, 512);
     EXPECT_THAT(status(), HasSubstr("Stopped at " + std::to_string(stopped->done) + " of "));
-    EXPECT_THAT(job(0).summary.toStdString(), HasSubstr(" of 256 rays"));
+    EXPECT_THAT(job(0).summary.toStdString(), HasSubstr(" of 512 rays"));
     EXPECT_EQ(visible<QPushButton>("bakeResume"), nullptr) << "offered once";
     EXPECT_FALSE(QDir(cacheFolder()).entryList({QStringLiteral("*.checkpoint")}).isEmpty());
 
@@ -313,19 +323,19 @@ TEST_F(BakeManagerTest, AStoppedBakeSaysAtHowManyRaysAndGoesOn) {
     // Progress starts where it was: the rays that are known are not traced again.
     ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
     ASSERT_EQ(job(1).state, JobState::Done) << job(1).summary.toStdString();
-    EXPECT_THAT(status(), HasSubstr("Up to date, 256 rays"));
+    EXPECT_THAT(status(), HasSubstr("Up to date, 512 rays"));
     EXPECT_LT(job(1).progress.workDone,
-              256.0 * static_cast<double>(document().meshes[0].mesh->vertexCount()));
+              512.0 * static_cast<double>(document().meshes[0].mesh->vertexCount()));
     EXPECT_TRUE(QDir(cacheFolder()).entryList({QStringLiteral("*.checkpoint")}).isEmpty());
     TileSink sink;
     AoSettings settings;
-    settings.samples = 256;
+    settings.samples = 512;
     EXPECT_EQ(document().bakes[0]->vertices,
               bakeAoVertex(bakeInputs(document()), settings, sink, {})->vertices);
 }
 
 TEST_F(BakeManagerTest, AStoppedBakeDoesNotReplaceABetterOne) {
-    rays(256);
+    rays(64);
     click("bakeStart");
     ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
     const BakeArtifactPtr better = document().bakes[0];
@@ -367,7 +377,8 @@ TEST_F(BakeManagerTest, AFinishedBakeStaysInThePictureUntilTheNextIsDone) {
     const auto picture = [] { return window->viewport().grabFramebuffer(); };
     QImage before = picture();
     ASSERT_TRUE(eventually([&] { // light that has just been loaded comes in steps
-        QTest::qWait(400);
+        if (!window->viewport().isSettled())
+            return false;
         const QImage last = std::exchange(before, picture());
         return window->viewport().ibl().maps() && !window->viewport().waitsForPrograms() &&
                difference(last, before) < 0.02;
@@ -379,16 +390,16 @@ TEST_F(BakeManagerTest, AFinishedBakeStaysInThePictureUntilTheNextIsDone) {
     click("bakeStart");
     ASSERT_TRUE(eventually(
         [] { return session->jobs.preview() && session->jobs.preview()->samplesDone() >= 32; }));
-    QTest::qWait(2000); // time enough for the preview to be uploaded, where it would be
+    // Two passes later, and in a frame after them, it would be shown.
+    ASSERT_TRUE(eventually([] { return session->jobs.preview()->samplesDone() >= 96; }));
+    picture();
     EXPECT_FALSE(session->jobs.preview()->shown());
     EXPECT_LT(difference(before, picture()), 0.5);
     // Without a bake to keep, what is known so far is shown.
     controller().detachBake(BakeKind::PrtVertex);
     EXPECT_TRUE(session->jobs.preview()->shown());
-    EXPECT_TRUE(eventually([&] {
-        QTest::qWait(100);
-        return difference(before, picture()) > 1.0;
-    })) << "bounces are missing in it";
+    EXPECT_TRUE(eventually([&] { return difference(before, picture()) > 1.0; }))
+        << "bounces are missing in it";
     session->jobs.cancelAll();
     ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
 }

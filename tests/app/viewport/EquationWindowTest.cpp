@@ -25,6 +25,7 @@ class EquationWindowTest : public EditorTest {
   protected:
     void SetUp() override {
         EditorTest::SetUp();
+        window->viewport().setFixedSize(355, 300); // software OpenGL pays for each pixel
         session->views.set({});
         window->activateWindow();
         ASSERT_TRUE(QTest::qWaitForWindowActive(window.get(), 30'000));

@@ -15,8 +15,8 @@ class RefinementTest : public EditorTest {
 
     void SetUp() override {
         EditorTest::SetUp();
-        viewport().setFixedSize(1280, 720); // too many pixels to be drawn at once in software
-        controller().openScene(QStringLiteral("builtin:shader-ball"));
+        viewport().setFixedSize(1024, 576); // too many pixels to be drawn at once in software
+        controller().openScene(QStringLiteral("builtin:sphere"));
         ASSERT_TRUE(settled(*session));
         viewport().setAddsSlowFrames(true);
         QObject::connect(&viewport(), &ViewportWidget::frameRendered, &m_here,
@@ -39,12 +39,13 @@ class RefinementTest : public EditorTest {
             },
             240'000);
     }
-    static void drag() {
+    void drag() const {
         const QPoint center = viewport().rect().center();
         QTest::mousePress(&viewport(), Qt::LeftButton, Qt::NoModifier, center);
         for (int i = 1; i <= 12; ++i) {
+            const std::size_t frames = m_frames.size();
             QTest::mouseMove(&viewport(), center + QPoint(6 * i, i));
-            QTest::qWait(20);
+            ASSERT_TRUE(eventually([&] { return m_frames.size() > frames; })) << i;
         }
         QTest::mouseRelease(&viewport(), Qt::LeftButton, Qt::NoModifier, center + QPoint(72, 12));
     }

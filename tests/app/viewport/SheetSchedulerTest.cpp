@@ -1,6 +1,7 @@
 // Who gets thumbnails and when; the drawing itself is a stand-in that says what it was asked for.
 
 #include "app/editor/viewport/SheetScheduler.h"
+#include "tests/support/Events.h"
 
 #include <QTest>
 #include <algorithm>
@@ -73,14 +74,14 @@ TEST_F(SheetSchedulerTest, DrawsNothingWhileTheHandMoves) {
     Client client({kViewD});
     scheduler.add(client);
     scheduler.invalidate();
-    QTest::qWait(20);
+    patina::test::handleEvents();
     EXPECT_THAT(passes, IsEmpty());
     scheduler.setResting(true);
     drawAll();
     EXPECT_THAT(client.shown, ElementsAre(kViewD));
     scheduler.setResting(false);
     scheduler.invalidate();
-    QTest::qWait(20);
+    patina::test::handleEvents();
     EXPECT_THAT(passes, SizeIs(1));
 }
 

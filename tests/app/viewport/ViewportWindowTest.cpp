@@ -4,10 +4,10 @@
 #include "core/light/Lights.h"
 #include "render/scene/LightGizmo.h"
 #include "tests/app/editor/EditorFixture.h"
+#include "tests/support/Events.h"
 
 #include <QComboBox>
 #include <QDir>
-#include <QElapsedTimer>
 #include <QLabel>
 #include <QLocale>
 #include <QPushButton>
@@ -50,6 +50,10 @@ class ViewportWindowTest : public EditorTest {
         const auto* label = window->findChild<QLabel*>(QStringLiteral("bakeStatus"));
         return label ? label->text() : QString();
     }
+    static void openSphere() { // quickly baked
+        controller().openScene(QStringLiteral("builtin:sphere"));
+        ASSERT_TRUE(settled(*session));
+    }
     static void openKnot() {
         controller().openScene(QStringLiteral("builtin:torus-knot"));
         ASSERT_TRUE(settled(*session));
@@ -83,7 +87,7 @@ TEST_F(ViewportWindowTest, FlyingNeedsTheRightButtonAndLettersStayShortcutsOther
     activate();
     const Camera before = camera();
     QTest::keyPress(&viewport(), Qt::Key_W);
-    QTest::qWait(60);
+    QTest::qWait(60); // nothing to wait for: it shows that nothing comes
     QTest::keyRelease(&viewport(), Qt::Key_W);
     EXPECT_EQ(camera(), before);
 
@@ -95,7 +99,7 @@ TEST_F(ViewportWindowTest, FlyingNeedsTheRightButtonAndLettersStayShortcutsOther
     const glm::vec3 moved = camera().position() - before.position();
     EXPECT_GT(glm::dot(glm::normalize(moved), before.forward()), 0.99f);
     const Camera after = camera();
-    QTest::qWait(80);
+    QTest::qWait(60); // nothing to wait for: it shows that nothing comes
     EXPECT_EQ(camera(), after) << "the camera stops with the key";
 }
 
@@ -287,42 +291,30 @@ TEST_F(ViewportWindowTest, OrbitingGoesOnWhileABakeRunsAndCancelLeavesNothing) {
     EXPECT_EQ(document().view.lighting, LightingMode::Prt);
     ASSERT_TRUE(eventually([&] { return session->jobs.jobs().back().progress.workDone > 0; }));
 
-    // Orbit for three seconds; the figure is printed, for times are not asserted.
-    QElapsedTimer clock, gap;
-    clock.start();
-    viewport().takeSlowestFrameMs();
-    qint64 longestGapMs = 0;
     int frames = 0;
     const auto counting = QObject::connect(&viewport(), &ViewportWidget::frameRendered, &viewport(),
                                            [&] { ++frames; });
     const float yaw = camera().yawDeg;
     QTest::mousePress(&viewport(), Qt::LeftButton, Qt::NoModifier, center());
-    for (int i = 0; clock.elapsed() < 3000; ++i) {
-        gap.start();
-        QTest::mouseMove(&viewport(), center() + QPoint(i % 80, 0));
-        QTest::qWait(1);
-        longestGapMs = std::max(longestGapMs, gap.elapsed());
+    for (int i = 1; i <= 20; ++i) {
+        const int before = frames;
+        QTest::mouseMove(&viewport(), center() + QPoint(4 * i, 0));
+        ASSERT_TRUE(eventually([&] { return frames > before; })) << i;
     }
     QTest::mouseRelease(&viewport(), Qt::LeftButton, Qt::NoModifier, center());
     QObject::disconnect(counting);
-    std::printf("[ figures  ] orbiting during a bake: %d frames in 3 s, slowest frame %.0f ms, "
-                "longest wait %lld ms\n",
-                frames, viewport().takeSlowestFrameMs(), static_cast<long long>(longestGapMs));
-    EXPECT_GT(frames, 5);
     EXPECT_NE(camera().yawDeg, yaw);
     EXPECT_TRUE(bakeRuns());
 
-    clock.restart();
     QTest::mouseClick(&button("bakeCancel"), Qt::LeftButton);
     ASSERT_TRUE(eventually([&] { return !bakeRuns(); }));
-    std::printf("[ figures  ] cancel took %lld ms\n", static_cast<long long>(clock.elapsed()));
     EXPECT_FALSE(hasPrt());
     EXPECT_EQ(session->jobs.jobs().back().state, JobState::Cancelled);
     EXPECT_EQ(session->jobs.preview(), nullptr);
 }
 
 TEST_F(ViewportWindowTest, ABakeIsAttachedUndoneAndGoesStaleWithTheGeometry) {
-    openKnot();
+    openSphere();
     window->findChild<QComboBox*>(QStringLiteral("bakeSamples"))
         ->setCurrentText(QLocale().toString(32));
     QTest::mouseClick(&button("bakeStart"), Qt::LeftButton);
@@ -336,17 +328,17 @@ TEST_F(ViewportWindowTest, ABakeIsAttachedUndoneAndGoesStaleWithTheGeometry) {
                               Target{Scope::Environment, 0}, 30.0f);
     EXPECT_TRUE(bakeStatus().contains(QStringLiteral("Up to date")));
     controller().setParameter(*findParameter("mesh.visible"), Target{Scope::Mesh, mesh}, false);
-    QTest::qWait(10); // the rows are made anew
+    test::handleEvents(); // the rows are made anew
     EXPECT_TRUE(bakeStatus().contains(QStringLiteral("Stale"))) << bakeStatus().toStdString();
     controller().undoStack().undo();
-    QTest::qWait(10);
+    test::handleEvents();
     EXPECT_TRUE(bakeStatus().contains(QStringLiteral("Up to date")));
 
     QTest::mouseClick(&button("lightingIbl"), Qt::LeftButton);
     EXPECT_EQ(document().view.lighting, LightingMode::Ibl);
 
     // Saved with the project and there again after opening it.
-    const QString file = folder.filePath(QStringLiteral("knot.patina"));
+    const QString file = folder.filePath(QStringLiteral("ball.patina"));
     bool saved = false;
     controller().saveAs(file, [&](bool ok) { saved = ok; });
     ASSERT_TRUE(eventually([&] { return saved; }));
@@ -361,7 +353,7 @@ TEST_F(ViewportWindowTest, ABakeIsAttachedUndoneAndGoesStaleWithTheGeometry) {
 }
 
 TEST_F(ViewportWindowTest, StoppingKeepsACompletePass) {
-    openKnot();
+    openSphere();
     window->findChild<QComboBox*>(QStringLiteral("bakeSamples"))
         ->setCurrentText(QLocale().toString(4096));
     QTest::mouseClick(&button("bakeStart"), Qt::LeftButton);

@@ -14,6 +14,7 @@
 #include "app/editor/widget/Slider.h"
 #include "core/light/Lights.h"
 #include "tests/app/editor/EditorFixture.h"
+#include "tests/support/Events.h"
 
 #include <QComboBox>
 #include <QDir>
@@ -36,6 +37,7 @@ class ViewsWindowTest : public EditorTest {
   protected:
     void SetUp() override {
         EditorTest::SetUp();
+        window->viewport().setFixedSize(355, 300); // software OpenGL pays for each pixel
         session->views.setMode(render::ViewMode::Raw);
         session->views.set({});
         window->activateWindow();
@@ -374,14 +376,11 @@ TEST_F(ViewsWindowTest, InvalidPixelsBlinkOnlyWhileTheyAreLookedAt) {
                                            [&] { ++frames; });
     EXPECT_TRUE(eventually([&] { return frames >= 4; }));
     views().show(kViewFinal);
-    // What was under way comes to rest.
-    int before = -1;
-    EXPECT_TRUE(eventually([&] {
-        const bool still = frames == before;
-        before = frames;
-        QTest::qWait(800);
-        return still;
-    }));
+    // What was under way comes to rest; then nothing to wait for is left: three turns of a blink.
+    ASSERT_TRUE(eventually([] { return viewport().isSettled(); }));
+    frames = 0;
+    QTest::qWait(1050);
+    EXPECT_EQ(frames, 0);
     QObject::disconnect(counting);
 }
 
@@ -441,12 +440,12 @@ TEST_F(ViewsWindowTest, AFoldedStripDrawsNothing) {
     ASSERT_TRUE(rested());
     key(Qt::Key_T);
     EXPECT_TRUE(strip().isFolded());
-    QTest::qWait(300);
+    test::handleEvents();
     int passes = 0;
     const auto counting = QObject::connect(&viewport().sheets(), &SheetScheduler::passDrawn,
                                            &viewport(), [&] { ++passes; });
     viewport().sheets().invalidate();
-    QTest::qWait(200);
+    ASSERT_TRUE(frameCame() && eventually([] { return viewport().isSettled(); }));
     EXPECT_EQ(passes, 0);
     QTest::mouseClick(strip().findChild<QToolButton*>(QStringLiteral("foldViews")), Qt::LeftButton);
     EXPECT_FALSE(strip().isFolded());
@@ -550,32 +549,31 @@ TEST_F(ViewsWindowTest, EachSideShowsItsViewAndHasItsLegend) {
     EXPECT_NE(turned.pixel(left), whole.pixel(left));
 }
 
-// --- Times and pictures ----------------------------------------------------------------------
+// --- What is compiled, and pictures ------------------------------------------------------------
 
-// Printed, not asserted: they depend on the machine.
-TEST_F(ViewsWindowTest, SwitchingTimes) {
-    ASSERT_TRUE(rested());
-    double longest = 0;
-    std::string longestId;
+// Views in the document's light share their programs: when one has been shown, the very next frame
+// shows any other.
+TEST_F(ViewsWindowTest, WhatIsCompiledIsShownAtOnce) {
+    views().show(kViewNoV);
+    ASSERT_TRUE(rested() && frameCame());
+    int frames = 0, waiting = 0;
+    QObject here;
+    QObject::connect(&viewport(), &ViewportWidget::frameRendered, &here, [&] {
+        ++frames;
+        waiting += viewport().waitsForPrograms() ? 1 : 0;
+    });
+    const LightingMode own = document().view.lighting;
     for (const ViewInfo& info : patina::views()) {
-        QElapsedTimer clock;
-        double frameMs = -1;
-        const auto connection = QObject::connect(&viewport(), &ViewportWidget::frameRendered,
-                                                 &viewport(), [&](double ms) { frameMs = ms; });
-        clock.start();
+        if (lightingOf(info.kind, own) != own)
+            continue;
+        frames = 0;
         window->looks().view(info.kind)->trigger();
-        const double handled = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
-        viewport().update();
-        ASSERT_TRUE(eventually([&] { return frameMs >= 0; }));
-        QObject::disconnect(connection);
-        if (frameMs > longest) {
-            longest = frameMs;
-            longestId = info.id;
-        }
-        std::printf("[ figures  ] %-20s handled in %.1f ms, frame %.1f ms\n",
-                    std::string(info.id).c_str(), handled, frameMs);
+        EXPECT_EQ(shown(), info.kind);
+        viewport().update(); // also of what is shown already
+        ASSERT_TRUE(eventually([&] { return frames > 0; })) << info.id;
+        EXPECT_EQ(waiting, 0) << info.id;
+        EXPECT_FALSE(views().preparing()) << info.id;
     }
-    std::printf("[ figures  ] longest: %s %.1f ms\n", longestId.c_str(), longest);
 }
 
 TEST_F(ViewsWindowTest, WhatTheStripCosts) {
@@ -629,6 +627,15 @@ TEST_F(ViewsWindowTest, Pictures) {
     views().showOther(kViewTexelDensity);
     keep("views-split.png");
     QObject::disconnect(drawing);
+}
+
+// The last of these tests: what it begins ends with the window.
+TEST_F(ViewsWindowTest, AtRestTheDriverCompilesWhatMayBeLookedAtNext) {
+    ASSERT_TRUE(
+        eventually([] { return viewport().isSettled() && !viewport().compilesPrograms(); }));
+    viewport().setCompilesAhead(true);
+    EXPECT_TRUE(viewport().compilesPrograms()) << "other lighting modes have not been shown";
+    viewport().setCompilesAhead(false);
 }
 
 } // namespace
