@@ -112,16 +112,12 @@ TEST_F(LocalShadows, LimitsOfLightsAreWarnings) {
             light.type = LightType::Spot;
     }
     ASSERT_TRUE(saveProject(m_worker, m_document, m_folder / "scene.patina").ok());
-    const std::vector<std::string> command{
-        "render", m_folder / "scene.patina", "-o", m_folder / "limits.png", "--size", "16x16"};
-    const Outcome told = runPatina(command);
+    const Outcome told = runPatina({"render", m_folder / "scene.patina", "-o",
+                                    m_folder / "limits.png", "--size", "16x16", "--json"});
     EXPECT_EQ(told.status, 0) << told.err;
     EXPECT_THAT(told.err, HasSubstr("Only the first 4096 of 5000 lights are drawn"));
     EXPECT_THAT(told.err, HasSubstr("Only the first 4 of 9 lights with shadows cast them"));
-    std::vector<std::string> asJson = command;
-    asJson.emplace_back("--json");
-    const std::string json = runPatina(asJson).out;
-    const auto warnings = nlohmann::json::parse(json).at("warnings").dump();
+    const auto warnings = nlohmann::json::parse(told.out).at("warnings").dump();
     EXPECT_THAT(warnings, HasSubstr("Only the first 4096 of 5000 lights are drawn"));
     EXPECT_THAT(warnings, HasSubstr("Only the first 4 of 9 lights with shadows cast them"));
 }
