@@ -1,4 +1,5 @@
 #include "core/edit/Edit.h"
+
 #include "core/bake/Bake.h"
 #include "core/bake/document/DocumentBakeInputs.h"
 #include "core/document/Dirty.h"
