@@ -128,5 +128,6 @@ function(patina_benchmark name)
 endfunction()
 
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/tests/shader-cache)
+file(REMOVE_RECURSE ${CMAKE_BINARY_DIR}/tests/light-cache) # who works on it configures, and begins anew
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/run)
 file(CHMOD ${CMAKE_BINARY_DIR}/run PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)

@@ -7,12 +7,13 @@
 #include "core/bake/document/BakeStaleness.h"
 #include "core/bake/document/DocumentBakeInputs.h"
 #include "core/bake/domain/BakeHash.h"
+#include "core/base/Log.h"
 #include "core/document/Lighting.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
 #include "core/io/DisplayTransform.h"
 #include "core/io/ImageIO.h"
-#include "core/light/Ibl.h"
+#include "core/light/IblCache.h"
 #include "core/mix/LightMix.h"
 #include "render/Renderer.h"
 #include "render/gl/Context.h"
@@ -20,6 +21,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -201,6 +203,24 @@ Result<DisplayTransformPtr> openDisplay(Session& session, const View& view) {
     return std::make_shared<const DisplayTransform>(std::move(*display));
 }
 
+// Of the folder PATINA_LIGHT_CACHE, where one is named, or else computed, and kept there.
+Result<IblMaps> lightOf(const Image& environment, const JobContext& job) {
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody changes them
+    const char* folder = std::getenv("PATINA_LIGHT_CACHE");
+    if (folder == nullptr || *folder == '\0')
+        return computeIbl(environment, {}, job);
+    const IblCache cache(folder);
+    const Hash key = IblCache::key(environment, {});
+    if (std::optional<IblMaps> found = cache.find(key))
+        return std::move(*found);
+    Result<IblMaps> computed = computeIbl(environment, {}, job);
+    if (computed)
+        if (const Result<void> stored = cache.store(key, *computed); !stored)
+            logWarning("The light of this environment could not be kept for next time: {}",
+                       stored.error().text());
+    return computed;
+}
+
 // A renderer that holds the document and its light; the context lives as long as it.
 struct Prepared {
     std::unique_ptr<gl::Context> context;
@@ -234,7 +254,7 @@ Result<Prepared> prepare(Session& session, const Document& document,
     session.beginPhase();
     session.job().setActivity("preparing light");
     if (const ImagePtr image = lit ? shownEnvironment(document).image : nullptr) {
-        Result<IblMaps> ibl = computeIbl(*image, {}, session.job());
+        Result<IblMaps> ibl = lightOf(*image, session.job());
         if (!ibl)
             return ibl.error();
         Result<HalfMipmapsPtr> background = makeBackground(*image, session.job());

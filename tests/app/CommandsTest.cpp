@@ -256,6 +256,32 @@ TEST_F(Commands, RenderExplainsAPixel) {
 }
 
 // The background has the radiance it was given: no tone curve, no rounding to 8 bits.
+TEST_F(Commands, RenderFindsLightThatWasKept) {
+    std::filesystem::create_directory(m_folder / "light");
+    const auto render = [&](const std::string& name, const std::string& cache) {
+        RunOptions options;
+        options.environment = {{"PATINA_LIGHT_CACHE", cache}};
+        const Outcome outcome = runPatina(
+            {"render", "builtin:plane", "--size", "24x24", "--samples", "1", "-o", m_folder / name},
+            options);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return readBytes(m_folder / name);
+    };
+    const auto kept = [&] {
+        std::set<std::string> files;
+        for (const auto& entry : std::filesystem::directory_iterator(m_folder / "light"))
+            files.insert(entry.path().filename().string());
+        return files;
+    };
+    const std::string computed = render("none.exr", "");
+    EXPECT_THAT(kept(), IsEmpty());
+    EXPECT_EQ(render("stored.exr", m_folder / "light"), computed);
+    const auto files = kept();
+    EXPECT_EQ(files.size(), 1u);
+    EXPECT_EQ(render("found.exr", m_folder / "light"), computed);
+    EXPECT_EQ(kept(), files);
+}
+
 TEST_F(Commands, RenderWritesLinearFloats) {
     const Outcome outcome =
         runPatina({"render", "builtin:sphere", "-o", m_folder / "a.exr", "--size", "32x32",
