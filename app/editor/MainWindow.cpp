@@ -9,7 +9,6 @@
 #include "app/editor/HelpDialogs.h"
 #include "app/editor/Session.h"
 #include "app/editor/ViewActions.h"
-#include "core/edit/EditSession.h"
 #include "app/editor/document/PrintableNotice.h"
 #include "app/editor/panel/BakePanel.h"
 #include "app/editor/panel/BrdfLensPanel.h"
@@ -38,6 +37,7 @@
 #include "app/editor/widget/MessageBar.h"
 #include "app/editor/widget/NoticeArea.h"
 #include "core/base/Log.h"
+#include "core/edit/EditSession.h"
 #include "core/library/Library.h"
 
 #include <QCloseEvent>

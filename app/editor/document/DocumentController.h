@@ -90,8 +90,8 @@ class DocumentController : public QObject, private EditObserver {
     void setSecondEnvironment(const QString& source); // to fade to; the same
 
     // --- Generated environments: the image follows each edit, a draft first --------------------
-    void setEnvironmentKind(EnvironmentKind kind);      // Softboxes without one get the first rig
-    void setSoftboxRig(const library::SoftboxRig& rig); // in place of what is there
+    void setEnvironmentKind(EnvironmentKind kind);        // Softboxes without one get the first rig
+    void setSoftboxRig(const library::SoftboxRig& rig);   // in place of what is there
     Id addSoftbox(float azimuthDeg, float elevationDeg) { // 0: there are too many
         return m_session.addSoftbox(azimuthDeg, elevationDeg);
     }

@@ -1,6 +1,5 @@
 #include "app/editor/panel/EnergyPanel.h"
 
-#include "core/edit/EditSession.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/job/LatestJob.h"
@@ -16,6 +15,7 @@
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/PanelScroll.h"
 #include "app/editor/widget/PlotLegend.h"
+#include "core/edit/EditSession.h"
 
 #include <QComboBox>
 #include <QHBoxLayout>

@@ -1,6 +1,5 @@
 #include "app/editor/panel/EnvironmentPanel.h"
 
-#include "core/edit/EditSession.h"
 #include "app/editor/document/FileKinds.h"
 #include "app/editor/document/ProposedFolder.h"
 #include "app/editor/panel/ParameterList.h"
@@ -15,6 +14,7 @@
 #include "app/editor/widget/PanelScroll.h"
 #include "app/editor/widget/SkyGallery.h"
 #include "core/document/Source.h"
+#include "core/edit/EditSession.h"
 
 #include <QButtonGroup>
 #include <QDateTime>

@@ -1,6 +1,5 @@
 #include "app/editor/panel/LightsPanel.h"
 
-#include "core/edit/EditSession.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/panel/ParameterList.h"
@@ -8,6 +7,7 @@
 #include "app/editor/style/LightIcon.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/PanelScroll.h"
+#include "core/edit/EditSession.h"
 #include "core/light/Lights.h"
 #include "core/mix/LightMix.h"
 

@@ -1,6 +1,5 @@
 #include "app/editor/panel/MixerPanel.h"
 
-#include "core/edit/EditSession.h"
 #include "app/editor/document/FileKinds.h"
 #include "app/editor/document/ProposedFolder.h"
 #include "app/editor/panel/ParameterRow.h"
@@ -12,6 +11,7 @@
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Slider.h"
 #include "core/document/Source.h"
+#include "core/edit/EditSession.h"
 #include "core/library/Library.h"
 #include "core/math/Shading.h"
 #include "core/mix/LightMix.h"

@@ -1,6 +1,5 @@
 #include "app/editor/panel/ModelPanel.h"
 
-#include "core/edit/EditSession.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/panel/ParameterList.h"
@@ -8,6 +7,7 @@
 #include "app/editor/widget/ColorConversion.h"
 #include "app/editor/widget/FurnacePlot.h"
 #include "app/editor/widget/PanelScroll.h"
+#include "core/edit/EditSession.h"
 #include "core/material/ModelPresets.h"
 #include "core/math/Shading.h"
 

@@ -1,10 +1,10 @@
 #include "app/editor/panel/SoftboxList.h"
 
-#include "core/edit/EditSession.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/panel/ParameterList.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
+#include "core/edit/EditSession.h"
 #include "core/library/SoftboxRigs.h"
 
 #include <QHBoxLayout>

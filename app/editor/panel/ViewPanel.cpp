@@ -1,6 +1,5 @@
 #include "app/editor/panel/ViewPanel.h"
 
-#include "core/edit/EditSession.h"
 #include "app/editor/document/DisplayLoader.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/FileKinds.h"
@@ -13,6 +12,7 @@
 #include "app/editor/widget/PanelScroll.h"
 #include "app/editor/widget/Section.h"
 #include "app/editor/widget/ToneCurvePlot.h"
+#include "core/edit/EditSession.h"
 
 #include <QComboBox>
 #include <QFileDialog>
