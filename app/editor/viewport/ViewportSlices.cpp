@@ -1,4 +1,5 @@
-// The part of ViewportWidget that refines the picture in slices between events.
+// The part of ViewportWidget that uses idle time: it refines the picture in slices between events,
+// and lets programs be compiled ahead.
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "core/base/Log.h"
@@ -78,6 +79,17 @@ PictureState ViewportWidget::pictureState() const {
     return m_pacing.refined() && !adding && !m_slicing && !m_gate.waiting()
                ? PictureState::Refined
                : PictureState::Refining;
+}
+
+void ViewportWidget::compileAhead() {
+    if (m_compilesAhead)
+        m_gate.rest();
+}
+
+void ViewportWidget::setCompilesAhead(bool compiles) {
+    m_compilesAhead = compiles;
+    if (compiles && !m_restTimer.isActive())
+        m_gate.rest();
 }
 
 } // namespace patina::editor

@@ -406,17 +406,6 @@ void ViewportWidget::gateOpened() {
         compileAhead(); // the gate may have been busy with something else
 }
 
-void ViewportWidget::compileAhead() {
-    if (m_compilesAhead)
-        m_gate.rest();
-}
-
-void ViewportWidget::setCompilesAhead(bool compiles) {
-    m_compilesAhead = compiles;
-    if (compiles && !m_restTimer.isActive())
-        m_gate.rest();
-}
-
 Result<render::Inspection> ViewportWidget::inspect(const QPoint& pixel) {
     if (!m_renderer)
         return Error{ErrorKind::NoOpenGl, "there is no OpenGL to draw with", {}, {}};
