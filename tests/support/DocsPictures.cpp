@@ -140,7 +140,7 @@ bool saveEnergy(Session& session, MainWindow& window, const QString& file) {
     const bool saved = save(window, file);
     window.actions().furnace->trigger();
     window.actions().energy->trigger();
-    controller.undoStack().setIndex(before);
+    controller.session().goTo(before);
     return saved;
 }
 
