@@ -4,6 +4,7 @@
 #include "core/base/Hash.h"
 #include "core/document/Lighting.h"
 #include "core/edit/Edit.h"
+#include "core/material/MaterialInputs.h"
 #include "render/pass/SurfacePass.h"
 #include "render/scene/LightBlocks.h"
 
@@ -44,11 +45,6 @@ int reducedSide(int side) {
 ImagePtr reduced(const Image& image) {
     return std::make_shared<const Image>(reducedSide(image.width()), reducedSide(image.height()),
                                          image.channels(), image.type(), image.encoding());
-}
-
-std::array<MapSlot*, 6> slots(Material& m) {
-    return {&m.baseColorMap, &m.metallicMap,  &m.perceptualRoughnessMap,
-            &m.normalMap,    &m.occlusionMap, &m.emissiveMap};
 }
 
 SurfaceSettings settingsOf(const Document& document, const FrameKind& frame) {
@@ -109,17 +105,17 @@ class BakedValues {
     ById<TexelBake> m_prtTexels, m_aoTexels;
 };
 
-void addFormats(Hasher& hasher, Material material) {
-    for (const MapSlot* map : slots(material)) {
-        if (!map->image)
-            continue;
-        const Image& image = *map->image;
+void addFormats(Hasher& hasher, const Material& material) {
+    forEachMap(material, [&](const MapSlot& map) {
+        if (!map.image)
+            return;
+        const Image& image = *map.image;
         hasher.value(image.channels())
             .value(image.type())
             .value(image.encoding())
             .value(reducedSide(image.width()))
             .value(reducedSide(image.height()));
-    }
+    });
 }
 
 // The values of a bake for squares.
@@ -223,11 +219,10 @@ std::map<std::uint64_t, Id> surfacePrograms(const Document& document, const Fram
             continue;
         const Material* found = materials.find(mesh.material);
         const Material& material = found ? *found : kDefault;
-        const unsigned features =
+        const SurfaceFeatures features =
             surfaceFeatures(materialFeatures(material), baked.of(mesh), settings);
         Hasher hasher;
-        for (const unsigned part : surfaceVariant(features, settings))
-            hasher.value(part);
+        hashVariant(hasher, surfaceVariant(features, settings));
         addFormats(hasher, material);
         programs.emplace(hasher.finish().low, mesh.id);
     }
@@ -256,13 +251,14 @@ Document warmUpScene(const Document& document) {
     std::erase_if(scene.materials, [&](const Material& m) { return !materials.contains(m.id); });
     std::map<ImagePtr, ImagePtr> images; // maps that share an image still do
     for (Material& material : scene.materials)
-        for (MapSlot* map : slots(material))
-            if (map->image) {
-                ImagePtr& image = images[map->image];
-                if (!image)
-                    image = reduced(*map->image);
-                map->image = image;
-            }
+        forEachMap(material, [&](MapSlot& map) {
+            if (!map.image)
+                return;
+            ImagePtr& image = images[map.image];
+            if (!image)
+                image = reduced(*map.image);
+            map.image = image;
+        });
     for (BakeArtifactPtr& bake : scene.bakes)
         bake = reducedBake(*bake, meshes);
     Camera camera; // in front

@@ -4,7 +4,6 @@
 #include "include/material.glsl"
 
 in vec2 v_uv;
-layout(binding = 0) uniform sampler2D u_baseColorTexture;
 layout(location = 0) out uint o_id;
 
 void main() {

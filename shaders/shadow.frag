@@ -3,7 +3,6 @@
 #include "include/material.glsl"
 
 in vec2 v_uv;
-layout(binding = 0) uniform sampler2D u_baseColorTexture;
 
 void main() {
 #ifdef ALPHA_MASK

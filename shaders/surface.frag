@@ -35,12 +35,6 @@ centroid in vec2 v_bakeNumbers;
 #endif
 #endif
 
-layout(binding = 0) uniform sampler2D u_baseColorTexture;
-layout(binding = 1) uniform sampler2D u_metallicTexture;
-layout(binding = 2) uniform sampler2D u_roughnessTexture;
-layout(binding = 3) uniform sampler2D u_normalTexture;
-layout(binding = 4) uniform sampler2D u_occlusionTexture;
-layout(binding = 5) uniform sampler2D u_emissiveTexture;
 layout(binding = 6) uniform sampler2D u_visibilityTexture; // baked
 #ifdef HAS_TEXEL_TRANSFER
 layout(binding = 13) uniform sampler2D u_exitTexture;
@@ -151,6 +145,7 @@ vec3 storable(vec3 c) {
                 isnan(c.z) ? 0.0 : clamp(c.z, 0.0, kBrightest));
 }
 
+#include "generated/surface-inputs.glsl"
 #ifdef VIEWS
 #include "include/records.glsl"
 #endif
@@ -166,21 +161,11 @@ void main() {
         discard;
 #endif
 
-    // Metallic, roughness and occlusion often share one image: it is fetched once.
-    float metallic = u_metallic;
-    float perceptualRoughness = u_perceptualRoughness;
-#ifdef HAS_METALLIC_MAP
-    vec4 packedTexel = texture(u_metallicTexture, mapUv(u_metallicMap, v_uv));
-    metallic *= packedTexel.METALLIC_CHANNEL;
-#endif
-#ifdef HAS_ROUGHNESS_MAP
-#ifdef ROUGHNESS_IS_PACKED
-    perceptualRoughness *= packedTexel.ROUGHNESS_CHANNEL;
-#else
-    perceptualRoughness *=
-        texture(u_roughnessTexture, mapUv(u_roughnessMap, v_uv)).ROUGHNESS_CHANNEL;
-#endif
-#endif
+    MapNumbers map = mapNumbers(v_uv);
+    SurfaceInputs inputs;
+    inputs.baseColor = clamp(baseColor.rgb, 0.0, 1.0);
+    inputs.diffuseRoughness = u_diffuseRoughness;
+    setNumbers(inputs, map);
 
     // Ambient visibility: a texel bake, else a vertex bake, else the material's map. A bake has
     // been made for this very scene, so it replaces the map instead of darkening twice.
@@ -190,12 +175,8 @@ void main() {
     visible = texture(u_visibilityTexture, v_uv).r;
 #elif defined(HAS_VERTEX_AO)
     visible = v_visibility;
-#elif defined(HAS_OCCLUSION_MAP)
-#ifdef OCCLUSION_IS_PACKED
-    visible = packedTexel.OCCLUSION_CHANNEL;
 #else
-    visible = texture(u_occlusionTexture, mapUv(u_occlusionMap, v_uv)).OCCLUSION_CHANNEL;
-#endif
+    visible = map.occlusion;
 #endif
     float ao = mix(1.0, clamp(visible, 0.0, 1.0), u_occlusionStrength);
 #else
@@ -211,15 +192,12 @@ void main() {
 #endif
     vec3 v = normalize(u_cameraPosition.xyz - v_position);
     float NoV = clamp(dot(n, v), kMinNoV, 1.0);
-    perceptualRoughness = clamp(perceptualRoughness, 0.0, 1.0);
 #ifdef CONSTANT_DFG
     vec3 dfg = vec3(0.9, 0.05, 0.5);
 #else
-    vec3 dfg = dfgEntry(NoV, perceptualRoughness);
+    vec3 dfg = dfgEntry(NoV, inputs.perceptualRoughness);
 #endif
-    SurfaceTerms s =
-        makeSurface(shadingModel(), clamp(baseColor.rgb, 0.0, 1.0), clamp(metallic, 0.0, 1.0),
-                    perceptualRoughness, u_diffuseRoughness, n, v, dfg.xy);
+    SurfaceTerms s = makeSurface(shadingModel(), inputs, n, v, dfg.xy);
     s = fadeSpecularLayer(s, u_mix.y); // reflections that are not shown take nothing
 
     // Light from the environment. Transfer coefficients know the shadows already.
@@ -383,7 +361,7 @@ void main() {
     float alpha = 1.0;
 #endif
 #ifdef VIEWS
-    recordSurface(s, baseColor, ao, dfg, alpha, triangle);
+    recordSurface(inputs, s, ao, dfg, alpha, triangle);
 #ifdef HAS_TRANSFER_CONE
     recordBake(cone);
 #endif

@@ -3,7 +3,7 @@
 // or as a judgement of the picture's radiance. The C++ side is render/pass/ViewPass.h.
 #include "include/exposure.glsl"
 #include "include/side.glsl"
-#include "shared/views.glsl"
+#include "generated/views.glsl"
 
 layout(binding = 0) uniform sampler2D u_values; // premultiplied where they are radiance
 layout(binding = 1) uniform sampler2D u_colors; // rows: ColorMap

@@ -12,11 +12,13 @@
 #include "core/io/MeshImport.h"
 #include "core/library/Library.h"
 #include "core/light/Lights.h"
+#include "core/material/MaterialInputs.h"
 #include "core/mix/LightMix.h"
 #include "core/scene/EnvironmentFile.h"
 #include "core/scene/Scene.h"
 
 #include <algorithm>
+#include <cctype>
 #include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -85,30 +87,32 @@ void describeMeshes(Report& report, const Document& document) {
     report.table(fmt::format("Meshes ({})", rows.size()), rows);
 }
 
+std::string lowerCase(std::string_view label) {
+    std::string text(label);
+    text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+    return text;
+}
+
 void describeMaterials(Report& report, const Document& document) {
     report.line(fmt::format("Materials ({})", document.materials.size()));
     for (const Material& material : document.materials) {
-        Json json = {{"name", material.name},
-                     {"baseColor", vectorJson(material.baseColor)},
-                     {"metallic", material.metallic},
-                     {"perceptualRoughness", material.perceptualRoughness},
-                     {"emissive", vectorJson(material.emissive * material.emissiveStrength)},
+        Json json = {{"name", material.name}, {"baseColor", vectorJson(material.baseColor)}};
+        std::string numbers;
+        for (const MaterialInputInfo& info : kMaterialInputs)
+            if (info.role == InputRole::Number) {
+                json[std::string(info.id)] = material.*info.number;
+                numbers += fmt::format(", {} {:.3g}", lowerCase(info.parameters.label),
+                                       material.*info.number);
+            }
+        json.update({{"emissive", vectorJson(material.emissive * material.emissiveStrength)},
                      {"opacity", material.opacity},
-                     {"maps", Json::object()}};
-        report.line(fmt::format("  {}  base colour {:.3g} {:.3g} {:.3g}, metallic {:.3g}, "
-                                "roughness {:.3g}",
-                                material.name, material.baseColor.r, material.baseColor.g,
-                                material.baseColor.b, material.metallic,
-                                material.perceptualRoughness));
+                     {"maps", Json::object()}});
+        report.line(fmt::format("  {}  base colour {:.3g} {:.3g} {:.3g}{}", material.name,
+                                material.baseColor.r, material.baseColor.g, material.baseColor.b,
+                                numbers));
         Rows rows;
-        for (const auto& [key, slot] :
-             std::initializer_list<std::pair<const char*, const MapSlot&>>{
-                 {"baseColor", material.baseColorMap},
-                 {"metallic", material.metallicMap},
-                 {"perceptualRoughness", material.perceptualRoughnessMap},
-                 {"normal", material.normalMap},
-                 {"occlusion", material.occlusionMap},
-                 {"emissive", material.emissiveMap}}) {
+        for (const MaterialInputInfo& info : kMaterialInputs) {
+            const MapSlot& slot = material.*info.map;
             if (!slot.assigned())
                 continue;
             Json map = {{"source", slot.source}};
@@ -116,8 +120,8 @@ void describeMaterials(Report& report, const Document& document) {
                 map.update(imageJson(*slot.image));
             else
                 map["problem"] = slot.problem;
-            json["maps"][key] = std::move(map);
-            rows.emplace_back(fmt::format("    {}", key),
+            json["maps"][std::string(info.id)] = std::move(map);
+            rows.emplace_back(fmt::format("    {}", info.id),
                               fmt::format("{}  {}", slot.source,
                                           slot.image != nullptr ? imageText(*slot.image)
                                                                 : "missing: " + slot.problem));

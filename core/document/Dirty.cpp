@@ -1,5 +1,7 @@
 #include "core/document/Dirty.h"
 
+#include "core/material/MaterialInputs.h"
+
 #include <algorithm>
 #include <tuple>
 #include <unordered_map>
@@ -22,11 +24,9 @@ bool cutsAlike(const Material& a, const Material& b) {
 }
 
 bool sameImages(const Material& a, const Material& b) {
-    const auto images = [](const Material& m) {
-        return std::tie(m.baseColorMap.image, m.metallicMap.image, m.perceptualRoughnessMap.image,
-                        m.normalMap.image, m.occlusionMap.image, m.emissiveMap.image);
-    };
-    return images(a) == images(b);
+    return std::all_of(kMaterialInputs.begin(), kMaterialInputs.end(), [&](const auto& info) {
+        return (a.*info.map).image == (b.*info.map).image;
+    });
 }
 
 class Materials {

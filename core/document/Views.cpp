@@ -1,6 +1,7 @@
 #include "core/document/Views.h"
 
 #include "core/base/Check.h"
+#include "core/material/MaterialInputs.h"
 
 #include <algorithm>
 #include <array>
@@ -20,11 +21,10 @@ constexpr auto kLighting = ViewGroup::Lighting;
 
 constexpr std::string_view kScaledLight = "The part of the picture that this factor scales.";
 
-constexpr ViewInfo row(ViewKind kind, std::string_view id, std::string_view label,
-                       std::string_view symbol, ViewGroup group, ViewValue value,
-                       std::string_view help, std::string_view contribution = {}) {
+constexpr ViewInfo row(std::string_view id, std::string_view label, std::string_view symbol,
+                       ViewGroup group, ViewValue value, std::string_view help,
+                       std::string_view contribution = {}) {
     ViewInfo info;
-    info.kind = kind;
     info.id = id;
     info.label = label;
     info.symbol = symbol;
@@ -34,40 +34,38 @@ constexpr ViewInfo row(ViewKind kind, std::string_view id, std::string_view labe
     info.contribution = contribution;
     return info;
 }
-constexpr ViewInfo radiance(ViewKind kind, std::string_view id, std::string_view label,
-                            std::string_view symbol, ViewGroup group, std::string_view help,
+constexpr ViewInfo radiance(std::string_view id, std::string_view label, std::string_view symbol,
+                            ViewGroup group, std::string_view help,
                             std::string_view contribution = {}) {
-    ViewInfo info = row(kind, id, label, symbol, group, ViewValue::Radiance, help, contribution);
+    ViewInfo info = row(id, label, symbol, group, ViewValue::Radiance, help, contribution);
     info.unit = "cd/m²";
     return info;
 }
-constexpr ViewInfo color(ViewKind kind, std::string_view id, std::string_view label,
-                         std::string_view symbol, ViewGroup group, std::string_view help,
+constexpr ViewInfo color(std::string_view id, std::string_view label, std::string_view symbol,
+                         ViewGroup group, std::string_view help,
                          std::string_view contribution = {}) {
-    return row(kind, id, label, symbol, group, ViewValue::Color, help, contribution);
+    return row(id, label, symbol, group, ViewValue::Color, help, contribution);
 }
-constexpr ViewInfo direction(ViewKind kind, std::string_view id, std::string_view label,
-                             std::string_view symbol, std::string_view help) {
-    ViewInfo info = row(kind, id, label, symbol, kGeometry, ViewValue::Direction, help);
+constexpr ViewInfo direction(std::string_view id, std::string_view label, std::string_view symbol,
+                             std::string_view help) {
+    ViewInfo info = row(id, label, symbol, kGeometry, ViewValue::Direction, help);
     info.rangeMin = -1.0f;
     return info;
 }
-constexpr ViewInfo scalar(ViewKind kind, std::string_view id, std::string_view label,
-                          std::string_view symbol, ViewGroup group, ColorMap map, float min,
-                          float max, std::string_view help, std::string_view contribution = {}) {
-    ViewInfo info = row(kind, id, label, symbol, group, ViewValue::Scalar, help, contribution);
+constexpr ViewInfo scalar(std::string_view id, std::string_view label, std::string_view symbol,
+                          ViewGroup group, ColorMap map, float min, float max,
+                          std::string_view help, std::string_view contribution = {}) {
+    ViewInfo info = row(id, label, symbol, group, ViewValue::Scalar, help, contribution);
     info.colorMap = map;
     info.rangeMin = min;
     info.rangeMax = max;
     return info;
 }
-constexpr ViewInfo judged(ViewKind kind, std::string_view id, std::string_view label,
-                          std::string_view help) {
-    return row(kind, id, label, {}, kPicture, ViewValue::Picture, help);
+constexpr ViewInfo judged(std::string_view id, std::string_view label, std::string_view help) {
+    return row(id, label, {}, kPicture, ViewValue::Picture, help);
 }
-constexpr ViewInfo identity(ViewKind kind, std::string_view id, std::string_view label,
-                            std::string_view help) {
-    return row(kind, id, label, {}, kGeometry, ViewValue::Identity, help);
+constexpr ViewInfo identity(std::string_view id, std::string_view label, std::string_view help) {
+    return row(id, label, {}, kGeometry, ViewValue::Identity, help);
 }
 // What a grey card of half the light would show of it.
 constexpr ViewInfo irradiance(ViewInfo info) {
@@ -101,196 +99,22 @@ constexpr ViewInfo measured(ViewInfo info, std::string_view unit, bool logarithm
     return info;
 }
 
+constexpr ViewInfo numbered(ViewKind kind, ViewInfo info) {
+    info.kind = kind;
+    return info;
+}
+
 constexpr std::array<ViewInfo, kViewCount> kViews{{
-    radiance(kViewFinal, "final", "Final", "L", kPicture,
-             "The picture: every term of the shading equation together"),
-    luminance(judged(kViewLuminance, "luminance", "Luminance",
-                     "Luminance of the picture after exposure, in steps of EV around middle grey")),
-    judged(kViewInvalid, "invalid", "Invalid",
-           "Marks pixels that are not a number (magenta), infinite (yellow) or negative (cyan)"),
-    judged(kViewClipped, "clipped", "Clipped",
-           "Marks what the display cannot show: one channel clipped (red), all clipped (white), "
-           "black (blue)"),
-    judged(kViewOutOfGamut, "outOfGamut", "Out of Gamut",
-           "Marks colours outside of the sRGB gamut: a channel below zero before the display"),
-    scalar(kViewFurnace, "furnace", "Energy", "ρ", kPicture, ColorMap::Diverging, 0.0f, 2.0f,
-           "What the surface returns of a uniform environment of radiance 1: below 1 it absorbs, "
-           "above 1 it makes energy"),
-
-    color(kViewBaseColor, "baseColor", "Base Colour", "", kMaterial,
-          "Base colour with its map, linear",
-          "The light that base colour tints: all diffuse light, and the reflection of metals"),
-    scalar(kViewMetallic, "metallic", "Metallic", "", kMaterial, ColorMap::Grey, 0.0f, 1.0f,
-           "Metallic with its map: 0 dielectric, 1 metal", "The reflection of the metallic share"),
-    scalar(kViewPerceptualRoughness, "perceptualRoughness", "Roughness", "r", kMaterial,
-           ColorMap::Grey, 0.0f, 1.0f, "Perceptual roughness with its map; α = r²",
-           "The reflections that it spreads"),
-    color(kViewF0, "f0", "F0", "F0", kMaterial,
-          "Share of the light that the surface reflects when it comes straight from above"),
-    scalar(kViewAo, "ao", "Ambient Occlusion", "", kMaterial, ColorMap::Grey, 0.0f, 1.0f,
-           "Share of the environment that is not hidden: map or bake, with its strength",
-           "The image-based light that it takes away"),
-    inMaterials(
-        direction(kViewNormalMap, "normalMap", "Normal Map", "",
-                  "The normal map in its tangent space, as OpenGL maps are stored (green up)")),
-    radiance(kViewEmissive, "emissive", "Emission", "Lₑ", kMaterial,
-             "Light that the material sends out by itself",
-             "Emission as it stands in the picture's sum"),
-    scalar(kViewAlpha, "alpha", "Opacity", "α", kMaterial, ColorMap::Grey, 0.0f, 1.0f,
-           "Opacity: alpha of base colour with its map"),
-
-    direction(kViewShadingNormal, "shadingNormal", "Shading Normal", "n",
-              "The normal that shading uses, normal map included, in world space"),
-    direction(kViewGeometricNormal, "geometricNormal", "Geometric Normal", "nᵍ",
-              "The normal of the triangle itself, in world space"),
-    direction(kViewTangent, "tangent", "Tangent", "t",
-              "The tangent, along which u grows, in world space"),
-    direction(kViewBitangent, "bitangent", "Bitangent", "b",
-              "The bitangent, along which v grows in OpenGL's sense, in world space"),
-    color(kViewUvChecker, "uvChecker", "UV Checker", "uv", kGeometry,
-          "A board in texture space, red along u and green along v: shows stretching, mirroring "
-          "and seams"),
-    measured(
-        scalar(kViewTexelDensity, "texelDensity", "Texel Density", "", kGeometry,
-               ColorMap::Sequential, 10.0f, 10000.0f,
-               "Texels of the base colour map, or of a 1024² map when there is none, per metre"),
-        "texel/m", true),
-    identity(kViewMaterialId, "materialId", "Materials", "A colour for each material"),
-    identity(kViewMeshId, "meshId", "Meshes", "A colour for each mesh"),
-    measured(scalar(kViewDepth, "depth", "Depth", "z", kGeometry, ColorMap::Sequential, 0.0f, 10.0f,
-                    "Distance from the camera's plane"),
-             "m", false),
-    row(kViewWireframe, "wireframe", "Wireframe", {}, kGeometry, ViewValue::Picture,
-        "The edges of the triangles over the picture"),
-    radiance(kViewFlat, "flat", "Flat Shading", "", kGeometry,
-             "The picture with the triangles' own normals"),
-
-    measured(scalar(kViewD, "d", "D: Distribution", "D", kFactors, ColorMap::Sequential, 1e-3f,
-                    1e3f,
-                    "Density of microfacets that face the half vector of the chosen direction",
-                    kScaledLight),
-             "1/sr", true),
-    scalar(kViewG, "g", "G: Masking", "G", kFactors, ColorMap::Sequential, 0.0f, 1.0f,
-           "Share of those facets that light reaches and the viewer sees",
-           "The specular light that masking takes away"),
-    color(kViewF, "f", "F: Fresnel", "F", kFactors,
-          "Share of the light that a facet reflects at the angle of the half vector",
-          "The specular light that Fresnel adds to the reflection at normal incidence"),
-    measured(scalar(kViewDGF, "dgf", "Specular BRDF", "fₛ", kFactors, ColorMap::Sequential, 1e-3f,
-                    1e3f, "D·G·F / (4 N·L N·V) of the chosen direction, by its luminance",
-                    kScaledLight),
-             "1/sr", true),
-    color(kViewDiffuseLobe, "diffuseLobe", "Diffuse BRDF", "π f", kFactors,
-          "The diffuse BRDF of the chosen direction times π, before kD: for Lambert its albedo"),
-    scalar(kViewNoL, "nol", "N·L", "N·L", kFactors, ColorMap::Sequential, 0.0f, 1.0f,
-           "Cosine between normal and chosen direction", kScaledLight),
-    scalar(kViewNoV, "nov", "N·V", "N·V", kFactors, ColorMap::Sequential, 0.0f, 1.0f,
-           "Cosine between normal and viewer"),
-    scalar(kViewNoH, "noh", "N·H", "N·H", kFactors, ColorMap::Sequential, 0.0f, 1.0f,
-           "Cosine between normal and half vector"),
-    scalar(kViewVoH, "voh", "V·H", "V·H", kFactors, ColorMap::Sequential, 0.0f, 1.0f,
-           "Cosine between viewer and half vector, which Fresnel depends on"),
-
-    radiance(
-        kViewDirect, "direct", "Direct Light", "", kDirect,
-        "Light of all analytic lights, shadows included; under transfer their highlights alone"),
-    radiance(kViewDirectDiffuse, "directDiffuse", "Direct Diffuse", "", kDirect,
-             "Diffuse reflection of the analytic lights",
-             "Direct diffuse light as it stands in the picture's sum"),
-    radiance(kViewDirectSpecular, "directSpecular", "Direct Specular", "", kDirect,
-             "Specular reflection of the analytic lights",
-             "Direct specular light as it stands in the picture's sum"),
-    scalar(kViewShadow, "shadow", "Shadow", "shadow", kDirect, ColorMap::Grey, 0.0f, 1.0f,
-           "Share of the chosen light, or of all that cast shadows, that arrives",
-           "The direct light that shadows take away"),
-    irradiance(radiance(kViewLightArriving, "lightArriving", "Arriving Light", "E", kDirect,
-                        "Illuminance of the chosen light, or of all but area lights, on a surface "
-                        "that faces it, before shadow; shown as a grey card of 50 % would reflect "
-                        "it")),
-    radiance(kViewLightDiffuse, "lightDiffuse", "Light: Diffuse", "", kDirect,
-             "Diffuse reflection of the chosen light alone, or of all when none is chosen"),
-    radiance(kViewLightSpecular, "lightSpecular", "Light: Specular", "", kDirect,
-             "Specular reflection of the chosen light alone, or of all when none is chosen"),
-
-    irradiance(
-        radiance(kViewIrradiance, "irradiance", "Irradiance", "E(n)", kIbl,
-                 "Light from the whole environment that falls on the surface, before "
-                 "occlusion; under transfer with it, and with that of lights; shown as a grey "
-                 "card of 50 % would reflect it")),
-    radiance(kViewDiffuseIbl, "diffuseIbl", "Diffuse IBL", "", kIbl,
-             "Diffuse reflection of the environment; under transfer of lights, too",
-             "Diffuse image-based light as it stands in the picture's sum"),
-    color(kViewDiffuseAlbedo, "diffuseAlbedo", "Diffuse Albedo", "ρ", kIbl,
-          "What the diffuse lobe returns of uniform light, before kD: base colour × (1 - metallic) "
-          "for "
-          "Lambert, and what the other diffuse models make of it"),
-    scalar(kViewDiffuseOcclusion, "diffuseOcclusion", "Diffuse AO", "AO", kIbl, ColorMap::Grey,
-           0.0f, 1.0f,
-           "What ambient occlusion leaves of the irradiance: 1 under radiance transfer, which "
-           "includes the shadows"),
-    radiance(kViewPrefiltered, "prefiltered", "Prefiltered", "Lₚ", kIbl,
-             "The environment, blurred as the roughness asks, in the direction of reflection"),
-    measured(scalar(kViewPrefilteredLevel, "prefilteredLevel", "Prefilter Level", "", kIbl,
-                    ColorMap::Sequential, 0.0f, 21.0f,
-                    "Which level of the prefiltered cube is read: 0 mirror, last fully rough"),
-             "", false),
-    scalar(kViewDfgScale, "dfgScale", "DFG Scale", "A", kIbl, ColorMap::Sequential, 0.0f, 1.0f,
-           "A of the split sum F0·A + B: what F0 is multiplied with"),
-    scalar(kViewDfgBias, "dfgBias", "DFG Bias", "B", kIbl, ColorMap::Sequential, 0.0f, 1.0f,
-           "B of the split sum F0·A + B: what is added"),
-    color(kViewIblFresnel, "iblFresnel", "IBL Fresnel", "F̄", kIbl,
-          "Mean Fresnel reflectance over the lobe: (F0 A + B) / (A + B)",
-          "The reflection that Fresnel adds to the one at normal incidence"),
-    color(
-        kViewTransmission, "kd", "kD", "kD", kIbl,
-        "Share that the specular layer lets through to the diffuse lobe: 1 - its albedo; where the "
-        "mix fades reflections it takes less",
-        "The diffuse light that the specular layer takes away"),
-    radiance(kViewSpecularIbl, "specularIbl", "Specular IBL", "", kIbl,
-             "Specular reflection of the environment",
-             "Specular image-based light as it stands in the picture's sum"),
-    color(kViewSingleScatterAlbedo, "singleScatterAlbedo", "Specular Albedo", "F0·A + B", kIbl,
-          "What the specular lobe returns of uniform light, reflected once: F0·A + B"),
-    upTo(2.0f, color(kViewMultiScatterGain, "multiScatterGain", "Multi-Scatter", "gain", kIbl,
-                     "Factor for light that is reflected more than once between facets; grey "
-                     "is 1, which adds nothing",
-                     "The reflection that multiple scattering adds")),
-    scalar(kViewSpecularOcclusion, "specularOcclusion", "Specular AO", "AOₛ", kIbl, ColorMap::Grey,
-           0.0f, 1.0f, "What ambient occlusion leaves of the reflected environment"),
-    radiance(kViewAmbient, "ambient", "All IBL", "", kIbl,
-             "Diffuse and specular reflection of the environment together"),
-    inTransfer(direction(kViewBentNormal, "bentNormal", "Bent Normal", "b",
-                         "Mean direction that light of a uniform environment comes from, as the "
-                         "transfer bake recorded it, in world space")),
-    scalar(kViewSkyVisibility, "skyVisibility", "Sky Visibility", "", kIbl, ColorMap::Grey, 0.0f,
-           1.0f,
-           "Share of the light of a uniform upper half of the environment that arrives, by the "
-           "rays of the transfer bake"),
-    measured(scalar(kViewBakeError, "bakeError", "Bake Error", "σ", kIbl, ColorMap::Sequential,
-                    0.0f, 0.01f,
-                    "Estimated standard error of the transfer bake's coefficients: bright places "
-                    "want more rays"),
-             "", false),
-
-    radiance(kViewCosineLight, "cosine", "N·L Light", "", kLighting,
-             "The picture under the dominant light of the environment"),
-    radiance(kViewShLight, "shIrradiance", "SH Irradiance", "", kLighting,
-             "The picture under irradiance from nine coefficients, nothing hidden"),
-    radiance(kViewUnshadowedLight, "unshadowed", "Unshadowed", "", kLighting,
-             "The picture under transfer of an open sky, per vertex and in eight bands"),
-    radiance(kViewShadowedLight, "shadowed", "Shadowed", "", kLighting,
-             "The picture under baked transfer: what the scene hides of the environment"),
-    radiance(kViewInterreflectedLight, "interreflected", "Interreflected", "", kLighting,
-             "The picture under baked transfer with light by way of other surfaces"),
+#define VIEW(kind, ...) numbered(kind, __VA_ARGS__),
+#include "core/document/ViewTable.inc"
 }};
 
-constexpr bool numbered() {
-    for (std::size_t i = 0; i < kViews.size(); ++i)
-        if (kViews[i].kind != static_cast<ViewKind>(i))
-            return false;
-    return true;
+constexpr bool hasView(const MaterialInputInfo& input) {
+    return std::any_of(kViews.begin(), kViews.end(),
+                       [&](const ViewInfo& info) { return info.id == input.view; });
 }
-static_assert(numbered(), "a row for every kView… of views.glsl, in its order");
+static_assert(std::all_of(kMaterialInputs.begin(), kMaterialInputs.end(), hasView),
+              "a view for every input of the material");
 
 } // namespace
 
@@ -314,6 +138,18 @@ const ViewInfo* findView(std::string_view id) {
     const auto found = std::find_if(kViews.begin(), kViews.end(),
                                     [&](const ViewInfo& info) { return info.id == id; });
     return found == kViews.end() ? nullptr : &*found;
+}
+
+ViewKind viewOf(MaterialInput input) {
+    static constexpr PerInput<ViewKind> kKinds = [] {
+        PerInput<ViewKind> kinds;
+        for (const MaterialInputInfo& info : kMaterialInputs)
+            for (const ViewInfo& view : kViews)
+                if (view.id == info.view)
+                    kinds[info.input] = view.kind;
+        return kinds;
+    }();
+    return kKinds[input];
 }
 
 } // namespace patina

@@ -1,6 +1,6 @@
 // THE table of views: every term of the shading equation that can be looked at, described once. It
 // drives the renderer, the menu, the strip, the keys, `--list-views`, the channel names of
-// `--view all` and the documentation. The numbers are those of shaders/shared/views.glsl.
+// `--view all` and the documentation. Its rows are in ViewTable.inc, which numbers them, too.
 #pragma once
 
 #include "core/image/ColorMap.h"
@@ -9,19 +9,34 @@
 #include <string>
 #include <string_view>
 
-#define PT_CPP 1
-#define PT_CONST inline constexpr
 namespace patina::shading {
-// clang-format off
-#include "../../shaders/shared/views.glsl"
-// clang-format on
+
+enum class ViewNumber {
+#define VIEW(kind, ...) kind,
+#include "core/document/ViewTable.inc"
+    Count
+};
+enum class RecordNumber {
+    LastView = static_cast<int>(ViewNumber::Count) - 1,
+#define VIEW(kind, ...)
+#define RECORD(kind) kind,
+#include "core/document/ViewTable.inc"
+    Count
+};
+
+// kView… and kRecord…; records come after the views.
+#define VIEW(kind, ...) inline constexpr int kind = static_cast<int>(ViewNumber::kind);
+#define RECORD(kind) inline constexpr int kind = static_cast<int>(RecordNumber::kind);
+#include "core/document/ViewTable.inc"
+inline constexpr int kViewCount = static_cast<int>(ViewNumber::Count);
+inline constexpr int kRecordCount = static_cast<int>(RecordNumber::Count);
+
 } // namespace patina::shading
-#undef PT_CPP
-#undef PT_CONST
 
 namespace patina {
 
 struct Document;
+enum class MaterialInput;
 
 using ViewKind = int; // one of shading::kView…
 
@@ -59,6 +74,8 @@ struct ViewInfo {
 [[nodiscard]] std::span<const ViewInfo> views(); // by number, kViewCount of them
 [[nodiscard]] const ViewInfo& viewInfo(ViewKind kind);
 [[nodiscard]] const ViewInfo* findView(std::string_view id); // null: no such view
+// That of an input of the material, times its map.
+[[nodiscard]] ViewKind viewOf(MaterialInput input);
 
 // The terms of the picture's sum: diffuse and specular image-based light, diffuse and specular
 // direct light, emission. Their views are kViewDiffuseIbl …; the picture is their sum.

@@ -1,5 +1,7 @@
 #include "core/edit/EditStep.h"
 
+#include "core/material/MaterialInputs.h"
+
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -23,11 +25,10 @@ std::map<const void*, std::size_t> payloads(const Elements& elements) {
                                       instance.mesh->indices.size() * sizeof(std::uint32_t);
     }
     for (const Material& material : elements.materials)
-        for (const MapSlot* slot :
-             {&material.baseColorMap, &material.metallicMap, &material.perceptualRoughnessMap,
-              &material.normalMap, &material.occlusionMap, &material.emissiveMap})
-            if (slot->image)
-                result[slot->image.get()] = imageBytes(slot->image);
+        forEachMap(material, [&](const MapSlot& map) {
+            if (map.image)
+                result[map.image.get()] = imageBytes(map.image);
+        });
     return result;
 }
 

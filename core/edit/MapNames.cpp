@@ -1,7 +1,8 @@
 #include "core/edit/MapNames.h"
 
+#include "core/material/MaterialInputs.h"
+
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <string>
 #include <vector>
@@ -13,33 +14,21 @@ struct MapWord {
     std::string_view word, map;
     bool weak = false; // also a word for the stuff itself: counts where no other word does
 };
-constexpr std::array kWords{
-    MapWord{"basecolor", "material.baseColor.map"},
-    MapWord{"basecolour", "material.baseColor.map"},
-    MapWord{"albedo", "material.baseColor.map"},
-    MapWord{"diffuse", "material.baseColor.map"},
-    MapWord{"diff", "material.baseColor.map"},
-    MapWord{"color", "material.baseColor.map"},
-    MapWord{"colour", "material.baseColor.map"},
-    MapWord{"col", "material.baseColor.map"},
-    MapWord{"metallic", "material.metallic.map"},
-    MapWord{"metalness", "material.metallic.map"},
-    MapWord{"metal", "material.metallic.map", true},
-    MapWord{"roughness", "material.perceptualRoughness.map"},
-    MapWord{"rough", "material.perceptualRoughness.map", true},
-    MapWord{"normal", "material.normalStrength.map"},
-    MapWord{"normals", "material.normalStrength.map"},
-    MapWord{"normalgl", "material.normalStrength.map"},
-    MapWord{"normaldx", "material.normalStrength.map"},
-    MapWord{"nrm", "material.normalStrength.map"},
-    MapWord{"nor", "material.normalStrength.map"},
-    MapWord{"occlusion", "material.occlusionStrength.map"},
-    MapWord{"ambientocclusion", "material.occlusionStrength.map"},
-    MapWord{"ao", "material.occlusionStrength.map"},
-    MapWord{"emissive", "material.emissive.map"},
-    MapWord{"emission", "material.emissive.map"},
-    MapWord{"glow", "material.emissive.map", true},
-};
+
+// Those of the table of inputs.
+std::vector<MapWord> mapWords() {
+    std::vector<MapWord> words;
+    for (const MaterialInputInfo& info : kMaterialInputs)
+        for (const bool weak : {false, true}) {
+            std::string_view rest = weak ? info.weakFileWords : info.fileWords;
+            while (!rest.empty()) {
+                const std::size_t end = std::min(rest.find(' '), rest.size());
+                words.push_back({rest.substr(0, end), info.parameters.map, weak});
+                rest.remove_prefix(std::min(end + 1, rest.size()));
+            }
+        }
+    return words;
+}
 
 // "T_BrickWall_baseColor-2k" → t brick wall base color 2 k. Capitals that stand together are a
 // word.
@@ -61,6 +50,7 @@ std::vector<std::string> wordsOf(std::string_view text) {
 }
 
 const MapWord* find(const std::string& word) {
+    static const std::vector<MapWord> kWords = mapWords();
     const auto found = std::find_if(kWords.begin(), kWords.end(),
                                     [&](const MapWord& w) { return w.word == word; });
     return found == kWords.end() ? nullptr : &*found;

@@ -7,6 +7,7 @@
 #include "core/io/DisplayTransform.h"
 #include "core/light/Blackbody.h"
 #include "core/light/Lights.h"
+#include "core/material/MaterialInputs.h"
 
 #include <algorithm>
 #include <array>
@@ -173,6 +174,14 @@ std::string_view lightIntensityUnit(const Document& document, Id id) {
 
 using Text = std::string_view;
 
+template <std::size_t... N>
+constexpr auto joined(const std::array<ParameterInfo, N>&... parts) {
+    std::array<ParameterInfo, (N + ...)> all{};
+    auto end = all.begin();
+    ((end = std::copy(parts.begin(), parts.end(), end)), ...);
+    return all;
+}
+
 struct Range {
     float min, max;
 };
@@ -253,13 +262,50 @@ constexpr ParameterInfo text(Text id, Text label, Text group, Text help,
     return row<Path<Members...>>(ParameterType::Text, id, label, group, help, affects);
 }
 
-template <auto... Members>
-constexpr ParameterInfo map(Text id, Text label, Text group, ColorEncoding encoding,
-                            MapChannel channel, Text help) {
-    auto info = row<Path<Members...>>(ParameterType::Map, id, label, group, help, Affects::Picture);
-    info.mapEncoding = encoding;
-    info.mapChannel = channel;
-    return info;
+// The value of an input of the material and its map, as kMaterialInputs describes them.
+template <std::size_t I>
+constexpr std::array<ParameterInfo, 2> inputRows() {
+    constexpr const MaterialInputInfo& kInput = kMaterialInputs[I];
+    constexpr const InputParameters& kText = kInput.parameters;
+    ParameterInfo value;
+    if constexpr (kInput.role == InputRole::Color)
+        value = color<kInput.color>(kText.value(), kText.label, kText.group, kText.help);
+    else
+        value = number<kInput.number>(kText.value(), kText.label, kText.group,
+                                      {kText.softMin, kText.softMax},
+                                      {kText.hardMin, kText.hardMax}, 3, "", kText.help);
+    value.alias = kText.alias;
+    auto map = row<Path<kInput.map>>(ParameterType::Map, kText.map, kText.mapLabel, kText.group,
+                                     kText.mapHelp, Affects::Picture);
+    map.alias = kText.mapAlias;
+    map.mapEncoding = kInput.encoding;
+    map.mapChannel = kInput.channel;
+    return {value, map};
+}
+
+template <MaterialInput Input>
+constexpr auto inputRows() {
+    return inputRows<static_cast<std::size_t>(Input)>();
+}
+
+constexpr auto inGroup(Text group) {
+    return [group](const MaterialInputInfo& info) { return info.parameters.group == group; };
+}
+
+template <std::size_t First, std::size_t... I>
+constexpr auto inputRowsFrom(std::index_sequence<I...>) {
+    return joined(inputRows<First + I>()...);
+}
+
+// The rows of all inputs of a group, which stand together in the table.
+template <const Text& Group>
+constexpr auto inputRowsOf() {
+    constexpr auto kFirst =
+        std::find_if(kMaterialInputs.begin(), kMaterialInputs.end(), inGroup(Group));
+    constexpr auto kCount =
+        std::count_if(kMaterialInputs.begin(), kMaterialInputs.end(), inGroup(Group));
+    return inputRowsFrom<static_cast<std::size_t>(kFirst - kMaterialInputs.begin())>(
+        std::make_index_sequence<static_cast<std::size_t>(kCount)>());
 }
 
 template <auto Get, auto Set>
@@ -319,17 +365,8 @@ constexpr ParameterInfo unitOfElement(std::string_view (*unitOf)(const Document&
     return info;
 }
 
-constexpr ParameterInfo alias(Text name, ParameterInfo info) {
-    info.alias = name;
-    return info;
-}
-
 // --- The table ---
 
-constexpr auto kSrgb = ColorEncoding::Srgb;
-constexpr auto kData = ColorEncoding::Data;
-constexpr auto kRgb = MapChannel::Rgb;
-constexpr auto kRed = MapChannel::R;
 constexpr auto kPicture = Affects::Picture;
 constexpr auto kGeometry = Affects::Geometry | Affects::Bakes;
 constexpr auto kEnvironment = Affects::EnvironmentMap;
@@ -345,22 +382,23 @@ using L = Light;
 using B = Softbox;
 
 // clang-format off
-constexpr std::array kParameters{
+constexpr Text kSurface = "Surface";
+
+constexpr auto kParameters = joined(
+  std::array{
     text<&M::name>("material.name", "Name", "Material", "What the material is called in lists, exports and scripts."),
-    color<&M::baseColor>("material.baseColor", "Base colour", "Surface", "Colour of a non-metal's body, or of a metal's reflection."),
-    map<&M::baseColorMap>("material.baseColor.map", "Base colour map", "Surface", kSrgb, kRgb, "Image that multiplies the base colour; its alpha multiplies the opacity."),
-    number<&M::metallic>("material.metallic", "Metallic", "Surface", kUnit, kUnit, 3, "", "0 for everything that is not metal, 1 for bare metal; values between belong to mixed pixels such as rust or dust."),
-    map<&M::metallicMap>("material.metallic.map", "Metallic map", "Surface", kData, kRed, "Image that multiplies the metallic value."),
-    alias("material.roughness", number<&M::perceptualRoughness>("material.perceptualRoughness", "Roughness", "Surface", kUnit, kUnit, 3, "", "How blurred reflections are: 0 is a mirror, 1 is chalk; the shading uses its square.")),
-    alias("material.roughness.map", map<&M::perceptualRoughnessMap>("material.perceptualRoughness.map", "Roughness map", "Surface", kData, kRed, "Image that multiplies the roughness.")),
+  },
+  inputRowsOf<kSurface>(),
+  std::array{
     number<&M::diffuseRoughness>("material.diffuseRoughness", "Diffuse roughness", "Surface", kUnit, kUnit, 3, "", "How powdery the body is: 0 is smooth and 1 dust; used by the diffuse models Oren-Nayar and EON."),
-    number<&M::normalStrength>("material.normalStrength", "Normal strength", "Normal & occlusion", {0.0f, 2.0f}, {-10.0f, 10.0f}, 3, "", "How strongly the normal map tilts the surface; negative values turn bumps into dents."),
-    alias("material.normal.map", map<&M::normalMap>("material.normalStrength.map", "Normal map", "Normal & occlusion", kData, kRgb, "Tangent-space normal map that adds fine relief.")),
+  },
+  inputRows<MaterialInput::Normal>(),
+  std::array{
     choice<&M::normalConvention>("material.normalConvention", "Normal map format", "Normal & occlusion", kNormalConventions, "Which way the normal map's green channel points; choose the other one when bumps look like dents."),
-    number<&M::occlusionStrength>("material.occlusionStrength", "Occlusion strength", "Normal & occlusion", kUnit, kUnit, 3, "", "How much the occlusion map darkens the light that arrives from the environment."),
-    alias("material.occlusion.map", map<&M::occlusionMap>("material.occlusionStrength.map", "Occlusion map", "Normal & occlusion", kData, kRed, "Image of how open each point is to the environment: white is open, black is hidden.")),
-    color<&M::emissive>("material.emissive", "Emission colour", "Emission", "Colour of the light that the surface gives off by itself; black gives none."),
-    map<&M::emissiveMap>("material.emissive.map", "Emission map", "Emission", kSrgb, kRgb, "Image that multiplies the emission colour."),
+  },
+  inputRows<MaterialInput::Occlusion>(),
+  inputRows<MaterialInput::Emissive>(),
+  std::array{
     number<&M::emissiveStrength>("material.emissiveStrength", "Emission strength", "Emission", {0.0f, 20.0f}, {0.0f, 1e5f}, 2, "", "Multiplies the emission colour, for screens and lights brighter than white paper."),
     number<&M::opacity>("material.opacity", "Opacity", "Transparency", kUnit, kUnit, 3, "", "1 is solid and 0 invisible; used when the alpha mode is cut-out or blend."),
     choice<&M::alphaMode>("material.alphaMode", "Alpha mode", "Transparency", kAlphaModes, "Whether opacity is ignored, cuts holes with a hard edge, or lets the background show through."),
@@ -458,8 +496,15 @@ constexpr std::array kParameters{
     text<&MeshInstance::name>("mesh.name", "Name", "Mesh", "What the mesh is called in lists, exports and scripts."),
     flag<&MeshInstance::visible>("mesh.visible", "Visible", "Mesh", "Shows the mesh, and lets it take part in bakes.", kGeometry),
     reference<&MeshInstance::material>("mesh.material", "Material", "Mesh", "The material that covers the mesh.", kGeometry),
-};
+  });
 // clang-format on
+
+constexpr bool hasRow(const MaterialInputInfo& input) {
+    return std::any_of(kParameters.begin(), kParameters.end(),
+                       [&](const ParameterInfo& info) { return info.id == input.parameters.map; });
+}
+static_assert(std::all_of(kMaterialInputs.begin(), kMaterialInputs.end(), hasRow),
+              "the rows of every input of the material");
 
 } // namespace
 

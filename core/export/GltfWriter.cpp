@@ -5,6 +5,7 @@
 #include "core/export/Names.h"
 #include "core/export/ShFile.h"
 #include "core/light/Lights.h"
+#include "core/material/MaterialInputs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +63,8 @@ class Writer {
         std::map<std::tuple<const Mesh*, int, const VertexBake*>, int> known;
         std::set<const Mesh*> needTangents;
         for (const ExportedInstance& exported : m_contents.instances)
-            if (exported.material >= 0 && textures(exported.material).normal.texture >= 0)
+            if (exported.material >= 0 &&
+                textures(exported.material)[MaterialInput::Normal].texture >= 0)
                 needTangents.insert(exported.instance->mesh.get());
 
         UniqueNames nodeNames, meshNames;
@@ -151,19 +153,23 @@ class Writer {
     }
 
     Json material(const Material& m, const MaterialTextures& t) {
-        Json pbr = {{"baseColorFactor", {m.baseColor.r, m.baseColor.g, m.baseColor.b, m.opacity}},
-                    {"metallicFactor", m.metallic},
-                    {"roughnessFactor", m.perceptualRoughness}};
-        addTexture(pbr, "baseColorTexture", t.baseColor);
-        addTexture(pbr, "metallicRoughnessTexture", t.metallicRoughness);
+        Json pbr = {{"baseColorFactor", {m.baseColor.r, m.baseColor.g, m.baseColor.b, m.opacity}}};
+        for (const MaterialInputInfo& info : kMaterialInputs)
+            if (info.gltf.object == kGltfPbr && !info.gltf.factor.empty())
+                pbr[std::string(info.gltf.factor)] = m.*info.number;
+        for (const MaterialInputInfo& info : kMaterialInputs)
+            if (info.gltf.object == kGltfPbr)
+                addTexture(pbr, info.gltf.texture, t[info.input]);
 
         Json result = {{"name", m_materialNames.take(cleanName(m.name, "Material"))},
                        {"pbrMetallicRoughness", std::move(pbr)}};
-        if (addTexture(result, "normalTexture", t.normal) && m.normalStrength != 1.0f)
-            result["normalTexture"]["scale"] = m.normalStrength;
-        if (addTexture(result, "occlusionTexture", t.occlusion) && m.occlusionStrength != 1.0f)
-            result["occlusionTexture"]["strength"] = m.occlusionStrength;
-        addEmission(result, m, t);
+        for (const MaterialInputInfo& info : kMaterialInputs)
+            if (info.gltf.object.empty() && addTexture(result, info.gltf.texture, t[info.input]) &&
+                !info.gltf.scale.empty() && m.*info.number != 1.0f)
+                result[std::string(info.gltf.texture)][std::string(info.gltf.scale)] =
+                    m.*info.number;
+        addEmission(result, m);
+        addExtensions(result, m, t);
         if (m.alphaMode == AlphaMode::Mask) {
             result["alphaMode"] = "MASK";
             result["alphaCutoff"] = m.alphaCutoff;
@@ -176,7 +182,7 @@ class Writer {
     }
 
     // emissiveFactor stays within 0…1; what is brighter is KHR_materials_emissive_strength's.
-    void addEmission(Json& result, const Material& m, const MaterialTextures& t) {
+    void addEmission(Json& result, const Material& m) {
         glm::vec3 factor = m.emissive;
         float strength = m.emissiveStrength;
         const float peak = std::max({factor.r, factor.g, factor.b});
@@ -185,7 +191,6 @@ class Writer {
             factor = factor * strength / brightest;
             strength = brightest;
         }
-        addTexture(result, "emissiveTexture", t.emissive);
         if (factor == glm::vec3(0.0f))
             return;
         result["emissiveFactor"] = toJson(factor);
@@ -195,7 +200,24 @@ class Writer {
         }
     }
 
-    bool addTexture(Json& parent, const char* key, const TextureUse& use) {
+    // Inputs that glTF keeps in extensions: those that are not as without the extension.
+    void addExtensions(Json& result, const Material& m, const MaterialTextures& t) {
+        for (const MaterialInputInfo& info : kMaterialInputs) {
+            if (info.gltf.object.empty() || info.gltf.object == kGltfPbr)
+                continue;
+            Json object = Json::object();
+            if (m.*info.number != 1.0f)
+                object[std::string(info.gltf.factor)] = m.*info.number;
+            addTexture(object, info.gltf.texture, t[info.input]);
+            if (object.empty())
+                continue;
+            const std::string name(info.gltf.object);
+            result["extensions"][name].update(object);
+            m_extensions.insert(name);
+        }
+    }
+
+    bool addTexture(Json& parent, std::string_view key, const TextureUse& use) {
         if (use.texture < 0)
             return false;
         Json info = {{"index", use.texture}};
@@ -210,7 +232,7 @@ class Writer {
             info["extensions"]["KHR_texture_transform"] = std::move(transform);
             m_extensions.insert("KHR_texture_transform");
         }
-        parent[key] = std::move(info);
+        parent[std::string(key)] = std::move(info);
         return true;
     }
 

@@ -105,9 +105,9 @@ Image packChannels(const PackedTexture& texture, const JobContext& job) {
     const auto fitted = [&](const ImagePtr& image) {
         return image == nullptr ? Image() : resized(*image, texture.width, texture.height);
     };
-    const Image occlusion = fitted(texture.occlusion.image);
-    const Image roughness = fitted(texture.roughness.image);
-    const Image metallic = fitted(texture.metallic.image);
+    std::array<Image, 4> images;
+    for (std::size_t c = 0; c < images.size(); ++c)
+        images[c] = fitted(texture.channel[c].image);
 
     // Absent maps are 1: the material's numbers then count alone.
     const auto valueOf = [](const Image& image, const MapSlot& slot, int x, int y) {
@@ -118,21 +118,16 @@ Image packChannels(const PackedTexture& texture, const JobContext& job) {
                  ColorEncoding::Data);
     const std::span<std::uint8_t> out = result.u8();
     const auto width = static_cast<std::size_t>(texture.width);
-    parallelFor(
-        job, static_cast<std::size_t>(texture.height), 16, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin * width; i < end * width; ++i) {
-                const int x = static_cast<int>(i % width), y = static_cast<int>(i / width);
-                const auto channels = static_cast<std::size_t>(texture.channels);
-                out[i * channels] =
-                    quantize<std::uint8_t>(valueOf(occlusion, texture.occlusion, x, y), 255.0f);
-                if (channels == 1)
-                    continue;
-                out[i * channels + 1] =
-                    quantize<std::uint8_t>(valueOf(roughness, texture.roughness, x, y), 255.0f);
-                out[i * channels + 2] =
-                    quantize<std::uint8_t>(valueOf(metallic, texture.metallic, x, y), 255.0f);
-            }
-        });
+    parallelFor(job, static_cast<std::size_t>(texture.height), 16,
+                [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t i = begin * width; i < end * width; ++i) {
+                        const int x = static_cast<int>(i % width), y = static_cast<int>(i / width);
+                        const auto channels = static_cast<std::size_t>(texture.channels);
+                        for (std::size_t c = 0; c < channels; ++c)
+                            out[i * channels + c] = quantize<std::uint8_t>(
+                                valueOf(images[c], texture.channel[c], x, y), 255.0f);
+                    }
+                });
     return result;
 }
 

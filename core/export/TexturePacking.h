@@ -5,7 +5,9 @@
 #include "core/document/Document.h"
 #include "core/export/Export.h"
 #include "core/io/ImageIO.h"
+#include "core/material/MaterialInputs.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -18,9 +20,7 @@ struct TextureUse {
     float rotationDeg = 0.0f;
 };
 
-struct MaterialTextures {
-    TextureUse baseColor, metallicRoughness, normal, occlusion, emissive;
-};
+using MaterialTextures = PerInput<TextureUse>;
 
 enum class PackKind { Color, Normal, Channels };
 
@@ -34,9 +34,9 @@ struct PackedTexture {
     PixelType type = PixelType::U8;
     ImageFileFormat format = ImageFileFormat::Png;
 
-    MapSlot color;                          // Color, Normal: the map
-    bool flipGreen = false;                 // Normal: from DirectX's convention
-    MapSlot occlusion, roughness, metallic; // Channels: each may be without an image
+    MapSlot color;                  // Color, Normal: the map
+    bool flipGreen = false;         // Normal: from DirectX's convention
+    std::array<MapSlot, 4> channel; // Channels: of R, G, B and A; each may be without an image
 
     [[nodiscard]] const char* extension() const { // with the dot
         return format == ImageFileFormat::Jpeg ? ".jpg" : ".png";

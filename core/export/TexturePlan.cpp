@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
@@ -14,6 +15,8 @@ namespace patina {
 namespace {
 
 using Transform = std::tuple<glm::vec2, glm::vec2, float>;
+
+constexpr std::size_t kRed = 0, kGreen = 1, kBlue = 2, kAlpha = 3; // of PackedTexture::channel
 
 constexpr const char* kBakeSource = "bake"; // MapSlot::source of a baked texture
 
@@ -34,10 +37,14 @@ class Planner {
 
     void add(const Material& material) {
         MaterialTextures& uses = m_plan.materials.emplace_back();
-        uses.baseColor = addBaseColor(material);
-        uses.emissive = addColor(material, material.emissiveMap, "emissive", "emissive");
-        uses.normal = addNormal(material);
+        uses[MaterialInput::BaseColor] = addBaseColor(material);
+        uses[MaterialInput::Emissive] =
+            addColor(material, material.emissiveMap, "emissive", "emissive");
+        uses[MaterialInput::Normal] = addNormal(material);
         addChannels(material, uses);
+        for (const MaterialInputInfo& info : kMaterialInputs)
+            if (info.role == InputRole::Number && info.gltf.object != kGltfPbr)
+                uses[info.input] = addNumber(material, info);
         for (const auto& [source, maps] : std::exchange(m_missing, {}))
             m_plan.warnings.push_back(
                 fmt::format("{}: “{}” could not be read and will be left out ({})", material.name,
@@ -48,7 +55,7 @@ class Planner {
 
   private:
     // The slot, or an empty one when its image could not be read.
-    MapSlot readable(const MapSlot& slot, const char* what) {
+    MapSlot readable(const MapSlot& slot, const std::string& what) {
         if (!slot.assigned() || (slot.image != nullptr && !slot.image->empty()))
             return slot;
         m_missing[slot.source].emplace_back(what);
@@ -99,41 +106,66 @@ class Planner {
                    transformOf(slot));
     }
 
+    // A number with a texture of its own, of which one channel counts.
+    TextureUse addNumber(const Material& material, const MaterialInputInfo& info) {
+        std::string what(info.parameters.label);
+        what[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(what[0])));
+        const MapSlot slot = readable(material.*info.map, what);
+        if (slot.image == nullptr)
+            return {};
+        const auto channel = std::string_view("rgba").find(info.gltf.channel);
+        PackedTexture texture;
+        texture.kind = PackKind::Channels;
+        texture.channel[channel] = slot;
+        texture.channels = channel == kRed ? 1 : channel == kAlpha ? 4 : 3;
+        return add(material, std::move(texture), std::string(info.id).c_str(),
+                   fmt::format("{} ({})", what, "RGBA"[channel]), {slot.image.get()},
+                   transformOf(slot));
+    }
+
+    // glTF keeps roughness and metallic in one image.
+    static void setReflectance(MaterialTextures& uses, const TextureUse& use) {
+        uses[MaterialInput::Metallic] = uses[MaterialInput::PerceptualRoughness] = use;
+    }
+
     // Occlusion, roughness and metallic share an image when their texture transforms agree.
     void addChannels(const Material& material, MaterialTextures& uses) {
         PackedTexture texture;
         texture.kind = PackKind::Channels;
         const ImagePtr baked = bakedOcclusion(material);
-        texture.occlusion = baked ? bakeSlot(baked) : readable(material.occlusionMap, "occlusion");
-        texture.roughness = readable(material.perceptualRoughnessMap, "roughness");
-        texture.metallic = readable(material.metallicMap, "metallic");
-        const bool occludes = texture.occlusion.image != nullptr;
+        texture.channel[kRed] =
+            baked ? bakeSlot(baked) : readable(material.occlusionMap, "occlusion");
+        texture.channel[kGreen] = readable(material.perceptualRoughnessMap, "roughness");
+        texture.channel[kBlue] = readable(material.metallicMap, "metallic");
+        const bool occludes = texture.channel[kRed].image != nullptr;
         const bool reflects =
-            texture.roughness.image != nullptr || texture.metallic.image != nullptr;
+            texture.channel[kGreen].image != nullptr || texture.channel[kBlue].image != nullptr;
 
-        const Transform occlusionTransform = transformOf(texture.occlusion);
+        const Transform occlusionTransform = transformOf(texture.channel[kRed]);
         const Transform reflectanceTransform =
-            transformOf(texture.roughness.image != nullptr ? texture.roughness : texture.metallic);
-        if (texture.roughness.image != nullptr && texture.metallic.image != nullptr &&
-            transformOf(texture.metallic) != reflectanceTransform)
+            transformOf(texture.channel[kGreen].image != nullptr ? texture.channel[kGreen]
+                                                                 : texture.channel[kBlue]);
+        if (texture.channel[kGreen].image != nullptr && texture.channel[kBlue].image != nullptr &&
+            transformOf(texture.channel[kBlue]) != reflectanceTransform)
             m_plan.warnings.push_back(
                 fmt::format("{}: glTF keeps roughness and metallic in one image; the metallic map "
                             "will follow the roughness map's tiling",
                             material.name));
 
         if (occludes && reflects && occlusionTransform == reflectanceTransform) {
-            uses.occlusion = uses.metallicRoughness =
-                addPacked(material, texture, reflectanceTransform);
+            uses[MaterialInput::Occlusion] = addPacked(material, texture, reflectanceTransform);
+            setReflectance(uses, uses[MaterialInput::Occlusion]);
             return;
         }
         if (occludes) {
             PackedTexture alone = texture;
-            alone.roughness = alone.metallic = {};
-            uses.occlusion = addPacked(material, std::move(alone), occlusionTransform);
+            alone.channel[kGreen] = alone.channel[kBlue] = {};
+            uses[MaterialInput::Occlusion] =
+                addPacked(material, std::move(alone), occlusionTransform);
         }
         if (reflects) {
-            texture.occlusion = {};
-            uses.metallicRoughness = addPacked(material, std::move(texture), reflectanceTransform);
+            texture.channel[kRed] = {};
+            setReflectance(uses, addPacked(material, std::move(texture), reflectanceTransform));
         }
     }
 
@@ -141,12 +173,12 @@ class Planner {
                          const Transform& transform) {
         std::vector<std::string> parts;
         std::vector<const Image*> images;
-        if (texture.occlusion.image != nullptr)
-            parts.emplace_back(texture.occlusion.source == kBakeSource ? "baked occlusion"
-                                                                       : "occlusion");
+        if (texture.channel[kRed].image != nullptr)
+            parts.emplace_back(texture.channel[kRed].source == kBakeSource ? "baked occlusion"
+                                                                           : "occlusion");
         const bool occludes = !parts.empty();
-        for (const ImagePtr& image :
-             {texture.occlusion.image, texture.roughness.image, texture.metallic.image})
+        for (const ImagePtr& image : {texture.channel[kRed].image, texture.channel[kGreen].image,
+                                      texture.channel[kBlue].image})
             images.push_back(image.get());
         const bool reflects = images[1] != nullptr || images[2] != nullptr;
         texture.channels = reflects ? 3 : 1;
@@ -230,9 +262,8 @@ class Planner {
                                  static_cast<int>(texture.format), texture.flipGreen ? 1 : 0})
             hasher.value(number);
         slot(texture.color);
-        slot(texture.occlusion);
-        slot(texture.roughness);
-        slot(texture.metallic);
+        for (const MapSlot& channel : texture.channel)
+            slot(channel);
         return hasher.finish();
     }
 

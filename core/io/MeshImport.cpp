@@ -189,9 +189,8 @@ void resolveTextures(ImportedModel& model, const fs::path& folder, bool outsideA
             outside.insert(map->file.string());
     };
     for (ImportedMaterial& material : model.materials)
-        for (auto* map : {&material.baseColorMap, &material.metallicMap, &material.roughnessMap,
-                          &material.normalMap, &material.occlusionMap, &material.emissiveMap})
-            resolve(*map);
+        for (std::optional<ImportedTexture>& map : material.maps.values)
+            resolve(map);
     model.missingTextures.assign(missing.begin(), missing.end());
     model.outsideTextures.assign(outside.begin(), outside.end());
 }

@@ -2,6 +2,7 @@
 
 #include "core/base/Check.h"
 #include "core/library/Lathe.h"
+#include "core/material/MaterialInputs.h"
 #include "core/math/PortableMath.h"
 
 #include <algorithm>
@@ -39,9 +40,9 @@ Material materialNamed(const char* partName, const char* materialName, glm::vec2
     CHECK(result.ok());
     Material m = std::move(result).value();
     m.name = partName;
-    for (MapSlot* slot : {&m.baseColorMap, &m.metallicMap, &m.perceptualRoughnessMap, &m.normalMap,
-                          &m.occlusionMap})
-        slot->uvScale = repeat;
+    for (const MaterialInputInfo& info : kMaterialInputs)
+        if (info.input != MaterialInput::Emissive) // none of them glows
+            (m.*info.map).uvScale = repeat;
     return m;
 }
 

@@ -60,9 +60,7 @@ glm::vec3 BrdfLens::dfg(float NoV) const {
 
 shading::SurfaceTerms BrdfLens::surface(const glm::vec3& n, const glm::vec3& v) const {
     const float NoV = std::clamp(glm::dot(n, v), shading::kMinNoV, 1.0f);
-    return shading::makeSurface(m_model, m_point.baseColor, m_point.metallic,
-                                m_point.perceptualRoughness, m_point.diffuseRoughness, n, v,
-                                glm::vec2(dfg(NoV)));
+    return shading::makeSurface(m_model, m_point, n, v, glm::vec2(dfg(NoV)));
 }
 
 glm::vec3 BrdfLens::brdf(const glm::vec3& l, const glm::vec3& v, LensLobe lobe) const {

@@ -19,9 +19,8 @@ shading::SurfaceTerms surfaceTerms(const ShadingModel& model, const SurfacePoint
                                        iblVisibility(model.visibility));
     const float mu = std::clamp(NoV, shading::kMinNoV, 1.0f);
     const glm::vec3 v(std::sqrt(1.0f - mu * mu), 0.0f, mu);
-    return shading::makeSurface(brdfModel(model), point.baseColor, point.metallic,
-                                point.perceptualRoughness, point.diffuseRoughness,
-                                glm::vec3(0.0f, 0.0f, 1.0f), v, glm::vec2(dfg));
+    return shading::makeSurface(brdfModel(model), point, glm::vec3(0.0f, 0.0f, 1.0f), v,
+                                glm::vec2(dfg));
 }
 
 // ∫ specular cos: over visible normals of GGX (Dupuy & Benyoub 2023), whose density follows every

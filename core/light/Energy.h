@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/material/ShadingModel.h"
+#include "core/math/Shading.h"
 
 #include <functional>
 #include <glm/vec3.hpp>
@@ -10,13 +11,7 @@
 namespace patina {
 
 // What the shading code knows of a material at one point.
-struct SurfacePoint {
-    glm::vec3 baseColor{1.0f}; // linear sRGB, 0…1
-    float metallic = 1.0f;
-    float perceptualRoughness = 0.5f;
-    float diffuseRoughness = 0.0f;
-    friend bool operator==(const SurfacePoint&, const SurfacePoint&) = default;
-};
+using SurfacePoint = shading::SurfaceInputs;
 
 // Shares of the light that arrives, by lobe, per channel: directional albedos.
 struct Returned {

@@ -1,5 +1,7 @@
 #include "core/light/EnergyStudy.h"
 
+#include "core/material/MaterialInputs.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -116,18 +118,19 @@ SurfaceRange surfaceRange(const Material& material,
     const auto rangeOfMap = [&](const MapSlot& map) {
         return map.image ? rangeOf(map.image) : TexelRange();
     };
-    const TexelRange color = rangeOfMap(material.baseColorMap);
-    const TexelRange metallic = rangeOfMap(material.metallicMap);
-    const TexelRange roughness = rangeOfMap(material.perceptualRoughnessMap);
+    PerInput<TexelRange> maps;
+    for (const MaterialInputInfo& info : kMaterialInputs)
+        if (info.role == InputRole::Number || info.input == MaterialInput::BaseColor)
+            maps[info.input] = rangeOfMap(material.*info.map);
     const auto fill = [&](SurfacePoint& point, glm::vec4 TexelRange::*part) {
-        point.baseColor =
-            material.baseColor * pickColor(color.*part, material.baseColorMap.channel);
-        point.metallic = std::clamp(
-            material.metallic * pick(metallic.*part, material.metallicMap.channel), 0.0f, 1.0f);
-        point.perceptualRoughness =
-            std::clamp(material.perceptualRoughness *
-                           pick(roughness.*part, material.perceptualRoughnessMap.channel),
-                       0.0f, 1.0f);
+        point.baseColor = material.baseColor * pickColor(maps[MaterialInput::BaseColor].*part,
+                                                         material.baseColorMap.channel);
+        for (const MaterialInputInfo& info : kMaterialInputs)
+            if (info.role == InputRole::Number)
+                point.*info.shown =
+                    std::clamp(material.*info.number *
+                                   pick(maps[info.input].*part, (material.*info.map).channel),
+                               0.0f, 1.0f);
         point.diffuseRoughness = material.diffuseRoughness;
     };
     fill(range.low, &TexelRange::low);

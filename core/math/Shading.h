@@ -22,6 +22,9 @@
 #define PT_ARRAY(type, name, n) const type* name
 #define PT_OUT_ARRAY(type, name, n) type* name
 #define PT_INOUT_ARRAY(type, name, n) type* name
+#define PT_INIT(value)                                                                             \
+    { value }
+#define PT_EQUALITY(type) friend bool operator==(const type&, const type&) = default;
 
 namespace patina::shading {
 
@@ -81,3 +84,5 @@ using glm::sqrt;
 #undef PT_ARRAY
 #undef PT_OUT_ARRAY
 #undef PT_INOUT_ARRAY
+#undef PT_INIT
+#undef PT_EQUALITY

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/AtomicFile.h"
+#include "core/material/MaterialInputs.h"
 #include "core/mesh/Mesh.h"
 
 #include <filesystem>
@@ -24,16 +25,12 @@ struct ImportedTexture {
 struct ImportedMaterial {
     std::string name;
     glm::vec4 baseColor{0.8f, 0.8f, 0.8f, 1.0f}; // linear sRGB, alpha
-    float metallic = 0.0f;
-    float perceptualRoughness = 0.5f;
-    float normalStrength = 1.0f;
-    float occlusionStrength = 1.0f;
+    PerInput<float> numbers = defaultNumbers();  // of inputs that have one
     glm::vec3 emissive{0.0f};
     bool doubleSided = false;
     bool alphaMask = false, alphaBlend = false;
     float alphaCutoff = 0.5f;
-    std::optional<ImportedTexture> baseColorMap, metallicMap, roughnessMap, normalMap, occlusionMap,
-        emissiveMap;
+    PerInput<std::optional<ImportedTexture>> maps;
 };
 
 struct ImportedInstance {

@@ -4,6 +4,7 @@
 #include "core/base/Utf8.h"
 #include "core/edit/Parameters.h"
 #include "core/light/Lights.h"
+#include "core/material/MaterialInputs.h"
 
 #include <algorithm>
 #include <tuple>
@@ -72,10 +73,11 @@ Material convertMaterial(const ImportedMaterial& imported, const std::string& mo
     material.name = nameOr(imported.name, "Material");
     material.baseColor = glm::vec3(imported.baseColor);
     material.opacity = imported.baseColor.a;
-    material.metallic = imported.metallic;
-    material.perceptualRoughness = imported.perceptualRoughness;
-    material.normalStrength = imported.normalStrength;
-    material.occlusionStrength = imported.occlusionStrength;
+    for (const MaterialInputInfo& info : kMaterialInputs) {
+        if (info.number != nullptr)
+            material.*info.number = imported.numbers[info.input];
+        material.*info.map = convertTexture(imported.maps[info.input], model, info.channel);
+    }
     std::tie(material.emissive, material.emissiveStrength) =
         splitBrightness(imported.emissive, 1.0f);
     material.alphaMode = imported.alphaMask    ? AlphaMode::Mask
@@ -83,12 +85,6 @@ Material convertMaterial(const ImportedMaterial& imported, const std::string& mo
                                                : AlphaMode::Opaque;
     material.alphaCutoff = imported.alphaCutoff;
     material.doubleSided = imported.doubleSided;
-    material.baseColorMap = convertTexture(imported.baseColorMap, model, MapChannel::Rgb);
-    material.metallicMap = convertTexture(imported.metallicMap, model, MapChannel::R);
-    material.perceptualRoughnessMap = convertTexture(imported.roughnessMap, model, MapChannel::R);
-    material.normalMap = convertTexture(imported.normalMap, model, MapChannel::Rgb);
-    material.occlusionMap = convertTexture(imported.occlusionMap, model, MapChannel::R);
-    material.emissiveMap = convertTexture(imported.emissiveMap, model, MapChannel::Rgb);
     return material;
 }
 

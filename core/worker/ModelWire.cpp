@@ -3,7 +3,6 @@
 #include "core/base/Limits.h"
 #include "core/mesh/MeshSource.h"
 
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -65,17 +64,6 @@ glm::vec<N, float> vector(const json& value) {
     return v;
 }
 
-struct MapSlotOf {
-    const char* key;
-    std::optional<ImportedTexture> ImportedMaterial::*map;
-};
-constexpr std::array<MapSlotOf, 6> kMaps{{{"baseColorMap", &ImportedMaterial::baseColorMap},
-                                          {"metallicMap", &ImportedMaterial::metallicMap},
-                                          {"roughnessMap", &ImportedMaterial::roughnessMap},
-                                          {"normalMap", &ImportedMaterial::normalMap},
-                                          {"occlusionMap", &ImportedMaterial::occlusionMap},
-                                          {"emissiveMap", &ImportedMaterial::emissiveMap}}};
-
 json write(const ImportedTexture& texture) {
     return {{"file", toHex(texture.file.native())},
             {"embedded", texture.embedded},
@@ -102,18 +90,19 @@ ImportedTexture readTexture(const json& value) {
 json write(const ImportedMaterial& material) {
     json result = {{"name", material.name},
                    {"baseColor", array<4>(material.baseColor)},
-                   {"metallic", material.metallic},
-                   {"perceptualRoughness", material.perceptualRoughness},
-                   {"normalStrength", material.normalStrength},
-                   {"occlusionStrength", material.occlusionStrength},
                    {"emissive", array<3>(material.emissive)},
                    {"doubleSided", material.doubleSided},
                    {"alphaMask", material.alphaMask},
                    {"alphaBlend", material.alphaBlend},
                    {"alphaCutoff", material.alphaCutoff}};
-    for (const MapSlotOf& slot : kMaps)
-        if (const auto& map = material.*slot.map)
-            result[slot.key] = write(*map);
+    json& numbers = result["numbers"] = json::object();
+    json& maps = result["maps"] = json::object();
+    for (const MaterialInputInfo& info : kMaterialInputs) {
+        if (info.number != nullptr)
+            numbers[std::string(info.id)] = material.numbers[info.input];
+        if (const auto& map = material.maps[info.input])
+            maps[std::string(info.id)] = write(*map);
+    }
     return result;
 }
 
@@ -121,18 +110,23 @@ ImportedMaterial readMaterial(const json& value) {
     ImportedMaterial material;
     material.name = value.at("name");
     material.baseColor = glm::clamp(vector<4>(value.at("baseColor")), 0.0f, 1.0f);
-    material.metallic = glm::clamp(number(value.at("metallic")), 0.0f, 1.0f);
-    material.perceptualRoughness = glm::clamp(number(value.at("perceptualRoughness")), 0.0f, 1.0f);
-    material.normalStrength = number(value.at("normalStrength"));
-    material.occlusionStrength = glm::clamp(number(value.at("occlusionStrength")), 0.0f, 1.0f);
     material.emissive = glm::max(vector<3>(value.at("emissive")), glm::vec3(0.0f));
     material.doubleSided = value.at("doubleSided");
     material.alphaMask = value.at("alphaMask");
     material.alphaBlend = value.at("alphaBlend");
     material.alphaCutoff = glm::clamp(number(value.at("alphaCutoff")), 0.0f, 1.0f);
-    for (const MapSlotOf& slot : kMaps)
-        if (const auto it = value.find(slot.key); it != value.end())
-            material.*slot.map = readTexture(*it);
+    const json& numbers = value.at("numbers");
+    const json& maps = value.at("maps");
+    for (const MaterialInputInfo& info : kMaterialInputs) {
+        const std::string key(info.id);
+        if (info.number != nullptr) {
+            const float read = number(numbers.at(key));
+            material.numbers[info.input] =
+                info.role == InputRole::Normal ? read : glm::clamp(read, 0.0f, 1.0f);
+        }
+        if (const auto it = maps.find(key); it != maps.end())
+            material.maps[info.input] = readTexture(*it);
+    }
     return material;
 }
 
@@ -210,8 +204,8 @@ ImportedModel readUnchecked(const json& header, std::span<const std::byte> bytes
     for (const json& material : header.at("materials"))
         model.materials.push_back(readMaterial(material));
     for (const ImportedMaterial& material : model.materials)
-        for (const MapSlotOf& slot : kMaps)
-            if (const auto& map = material.*slot.map; map && map->embedded != -1)
+        for (const auto& map : material.maps.values)
+            if (map && map->embedded != -1)
                 checkIndex(map->embedded, model.embeddedImages.size());
     for (const json& value : header.at("instances")) {
         ImportedInstance instance;

@@ -34,16 +34,14 @@ Result<Id> PickPass::pick(const GpuScene& scene, const glm::mat4& worldToClip, i
     for (const DrawItem& item : scene.items()) {
         if (!insideFrustum(item.bounds, worldToClip))
             continue;
-        const unsigned features =
-            item.material->features & (AlphaMasked | HasBaseColorMap | HasMovedMaps);
+        const SurfaceFeatures features = coverageFeatures(item.material->features);
         auto shader = m_shaders.program({{"surface.vert", "id.frag"}, surfaceDefines(features)});
         if (!shader) {
             result = shader.error();
             break;
         }
         (*shader)->use();
-        if (item.material->maps[0])
-            item.material->maps[0]->bind(0);
+        bindMap(*item.material, MaterialInput::BaseColor);
         drawItem(item, !item.material->doubleSided);
     }
     glDisable(GL_SCISSOR_TEST);

@@ -142,17 +142,13 @@ Result<void> ShadowPass::drawMap(const GpuScene& scene, const ShadowView& view, 
         if (item.material->alphaMode == AlphaMode::Blend ||
             !insideFrustum(item.bounds, view.worldToClip))
             continue;
-        const unsigned features =
-            item.material->features & AlphaMasked
-                ? item.material->features & (AlphaMasked | HasBaseColorMap | HasMovedMaps)
-                : 0u;
+        const SurfaceFeatures features = coverageFeatures(item.material->features);
         const auto shader =
             m_shaders.program({{"surface.vert", "shadow.frag"}, surfaceDefines(features)});
         if (!shader)
             return shader.error();
         (*shader)->use();
-        if ((features & HasBaseColorMap) && item.material->maps[0])
-            item.material->maps[0]->bind(0);
+        bindMap(*item.material, MaterialInput::BaseColor);
         drawItem(item, false); // meshes need not be closed
     }
     return {};

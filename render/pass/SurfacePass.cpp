@@ -1,6 +1,7 @@
 #include "render/pass/SurfacePass.h"
 
 #include "core/document/Lighting.h"
+#include "render/shader/GeneratedShaders.h"
 
 #include <algorithm>
 #include <array>
@@ -13,12 +14,11 @@ namespace {
 
 // Bit i of SurfaceFeature.
 constexpr std::array<const char*, kSurfaceFeatureCount> kDefines{
-    "HAS_BASE_COLOR_MAP", "HAS_METALLIC_MAP",   "HAS_ROUGHNESS_MAP",   "HAS_NORMAL_MAP",
-    "HAS_OCCLUSION_MAP",  "HAS_EMISSIVE_MAP",   "ROUGHNESS_IS_PACKED", "OCCLUSION_IS_PACKED",
-    "ALPHA_MASK",         "ALPHA_BLEND",        "DOUBLE_SIDED",        "HAS_PLACEHOLDER",
-    "HAS_TEXEL_AO",       "HAS_VERTEX_AO",      "HAS_TRANSFER",        "HAS_PUNCTUAL_LIGHTS",
-    "HAS_AREA_LIGHTS",    "HAS_SHADOWS",        "HAS_SHADOWS_2",       "HAS_SHADOWS_3",
-    "HAS_SHADOWS_4",      "HAS_DOMINANT_LIGHT", "HAS_TEXEL_TRANSFER",  "HAS_TRANSFER_CONE"};
+    "HAS_MOVED_MAPS",     "HAS_PICKED_COLORS",   "ALPHA_MASK",      "ALPHA_BLEND",
+    "DOUBLE_SIDED",       "HAS_PLACEHOLDER",     "HAS_TEXEL_AO",    "HAS_VERTEX_AO",
+    "HAS_TRANSFER",       "HAS_PUNCTUAL_LIGHTS", "HAS_AREA_LIGHTS", "HAS_SHADOWS",
+    "HAS_SHADOWS_2",      "HAS_SHADOWS_3",       "HAS_SHADOWS_4",   "HAS_DOMINANT_LIGHT",
+    "HAS_TEXEL_TRANSFER", "HAS_TRANSFER_CONE"};
 
 // The choices of the model: name of the define, value, default.
 struct ModelChoice {
@@ -82,9 +82,10 @@ unsigned endsKey(const glm::ivec4& ends) {
 
 } // namespace
 
-unsigned surfaceFeatures(unsigned material, const SurfaceBakes& bakes,
-                         const SurfaceSettings& settings) {
-    unsigned features = material;
+SurfaceFeatures surfaceFeatures(const SurfaceFeatures& material, const SurfaceBakes& bakes,
+                                const SurfaceSettings& settings) {
+    SurfaceFeatures result = material;
+    unsigned& features = result.flags;
     if (settings.hasPunctualLights)
         features |= HasPunctualLights;
     for (int i = 0; i < settings.shadows; ++i)
@@ -108,43 +109,52 @@ unsigned surfaceFeatures(unsigned material, const SurfaceBakes& bakes,
         features |= HasTexelAo;
     else if (bakes.vertexAo)
         features |= HasVertexAo;
-    if (features & (HasTexelAo | HasVertexAo))
-        features &= ~static_cast<unsigned>(HasOcclusionMap | OcclusionIsPacked);
+    if (hidesNothing(settings.lighting) || result.has(HasTexelAo | HasVertexAo))
+        result.maps[MaterialInput::Occlusion] = {};
     if (hidesNothing(settings.lighting))
-        features &=
-            ~static_cast<unsigned>(HasTexelAo | HasVertexAo | HasOcclusionMap | OcclusionIsPacked);
-    return features;
+        features &= ~static_cast<unsigned>(HasTexelAo | HasVertexAo);
+    return result;
 }
 
-unsigned surfaceFeatures(const DrawItem& item, const SurfaceSettings& settings) {
+SurfaceFeatures surfaceFeatures(const DrawItem& item, const SurfaceSettings& settings) {
     return surfaceFeatures(item.material->features,
                            {item.transfer != nullptr, item.transfer && item.transfer->side > 0,
                             item.texelAo != nullptr, item.visibility != nullptr},
                            settings);
 }
 
-SurfaceVariant surfaceVariant(unsigned features, const SurfaceSettings& settings) {
+SurfaceVariant surfaceVariant(const SurfaceFeatures& features, const SurfaceSettings& settings) {
     return {features, modelKey(settings.model), endsKey(unrolledEnds(settings)),
             (settings.hasManyLights() ? 1u << 8 : 0u) |
                 static_cast<unsigned>(settings.output) << 1 | (settings.floats ? 1u : 0u)};
 }
 
-std::vector<std::string> surfaceDefines(unsigned features) {
+void hashVariant(Hasher& hasher, const SurfaceVariant& variant) {
+    hasher.value(variant.features.flags);
+    for (const MapUse& map : variant.features.maps.values)
+        hasher.value(map.used).value(map.channel).value(map.texelOf);
+    hasher.value(variant.model).value(variant.lightEnds).value(variant.output);
+}
+
+std::vector<std::string> surfaceDefines(const SurfaceFeatures& features) {
     std::vector<std::string> defines;
     for (std::size_t bit = 0; bit < kDefines.size(); ++bit)
-        if (features & (1u << bit))
+        if (features.has(1u << bit))
             defines.emplace_back(kDefines[bit]);
-    if (features & HasMovedMaps)
-        defines.emplace_back("HAS_MOVED_MAPS");
-    if (features & HasPickedColors)
-        defines.emplace_back("HAS_PICKED_COLORS");
-    const auto channel = [&](SurfaceFeature map, const char* name, unsigned shift) {
-        if (features & map)
-            defines.push_back(std::string(name) + ' ' + "rgba"[features >> shift & 3u]);
-    };
-    channel(HasMetallicMap, "METALLIC_CHANNEL", kMetallicChannelShift);
-    channel(HasRoughnessMap, "ROUGHNESS_CHANNEL", kRoughnessChannelShift);
-    channel(HasOcclusionMap, "OCCLUSION_CHANNEL", kOcclusionChannelShift);
+    for (const MaterialInputInfo& info : kMaterialInputs) {
+        const MapUse& use = features.maps[info.input];
+        if (!use.used)
+            continue;
+        const std::string name = inputDefine(info);
+        defines.push_back(fmt::format("HAS_{}_MAP", name));
+        if (!readsOneChannel(info))
+            continue;
+        const auto owner = static_cast<MaterialInput>(use.texelOf);
+        defines.push_back(
+            fmt::format("{}_TEXEL {}.{}", name, texelName(inputInfo(owner)), "rgba"[use.channel]));
+        if (owner == info.input)
+            defines.push_back("FETCH_" + name);
+    }
     return defines;
 }
 
@@ -193,9 +203,10 @@ static std::vector<TriangleRange> part(const std::vector<TriangleRange>& ranges,
 }
 
 // What the variant reads of a bake: textures, or attributes of the mesh's vertices.
-static void bindTransfer(const DrawItem& item, unsigned features, LightingMode lighting) {
-    if (features & HasTexelTransfer) {
-        if (features & HasTransfer)
+static void bindTransfer(const DrawItem& item, const SurfaceFeatures& features,
+                         LightingMode lighting) {
+    if (features.has(HasTexelTransfer)) {
+        if (features.has(HasTransfer))
             item.lit->stage(lighting).texels.bind(kExitUnit);
         item.transfer->coneTexels.bind(kConeUnit);
         if (!item.transfer->numberTexels.empty())
@@ -206,12 +217,12 @@ static void bindTransfer(const DrawItem& item, unsigned features, LightingMode l
     }
     const gl::VertexArray& array = item.mesh->array;
     constexpr std::size_t kVector = 4 * sizeof(float);
-    if (features & HasTransfer) {
+    if (features.has(HasTransfer)) {
         const LitElements& lit =
             lighting == LightingMode::Unshadowed ? *item.litVertices : *item.lit;
         array.setFloats(4, 3, lit.stage(lighting).values, 0, kVector);
     }
-    if (features & HasTransferCone) {
+    if (features.has(HasTransferCone)) {
         array.setFloats(5, 4, item.transfer->cone, 0, kVector);
         if (!item.transfer->numbers.empty())
             array.setFloats(6, 2, item.transfer->numbers, 0, 2 * sizeof(float));
@@ -220,7 +231,7 @@ static void bindTransfer(const DrawItem& item, unsigned features, LightingMode l
     }
 }
 
-Result<const gl::Program*> SurfacePass::program(unsigned features,
+Result<const gl::Program*> SurfacePass::program(const SurfaceFeatures& features,
                                                 const SurfaceSettings& settings) {
     const SurfaceVariant variant = surfaceVariant(features, settings);
     if (m_drops != m_shaders.drops()) {
@@ -268,17 +279,16 @@ Result<void> SurfacePass::draw(const GpuScene& scene, const std::vector<const Dr
         rest = {first, end - first};
         if (ranges.empty())
             continue;
-        const unsigned features = surfaceFeatures(*item, settings);
+        const SurfaceFeatures features = surfaceFeatures(*item, settings);
         const auto shader = program(features, settings);
         if (!shader)
             return shader.error();
         (*shader)->use();
-        for (unsigned unit = 0; unit < kMaterialMapCount; ++unit)
-            if (item->material->maps[unit])
-                item->material->maps[unit]->bind(unit);
-        if (features & HasTexelAo)
+        for (const MaterialInputInfo& info : kMaterialInputs)
+            bindMap(*item->material, info.input);
+        if (features.has(HasTexelAo))
             item->texelAo->bind(kVisibilityUnit);
-        if (features & HasVertexAo)
+        if (features.has(HasVertexAo))
             item->visibility->bindStorage(kVisibilityBinding);
         bindTransfer(*item, features, settings.lighting);
         drawItem(*item, !item->material->doubleSided,

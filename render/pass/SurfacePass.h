@@ -1,6 +1,7 @@
 // Draws the meshes with their materials and light into the scene's target.
 #pragma once
 
+#include "core/base/Hash.h"
 #include "render/pass/SurfaceOutput.h"
 #include "render/scene/DrawList.h"
 #include "render/scene/SceneSlice.h"
@@ -38,7 +39,12 @@ struct SurfaceSettings {
 
 // What tells two variants apart: features, the choices of the model, the unrolled lights, the
 // output.
-using SurfaceVariant = std::array<unsigned, 4>;
+struct SurfaceVariant {
+    SurfaceFeatures features;
+    unsigned model = 0, lightEnds = 0, output = 0;
+    friend auto operator<=>(const SurfaceVariant&, const SurfaceVariant&) = default;
+};
+void hashVariant(Hasher& hasher, const SurfaceVariant& variant);
 
 class SurfacePass {
   public:
@@ -57,7 +63,8 @@ class SurfacePass {
                       const SurfaceSettings& settings);
 
   private:
-    Result<const gl::Program*> program(unsigned features, const SurfaceSettings& settings);
+    Result<const gl::Program*> program(const SurfaceFeatures& features,
+                                       const SurfaceSettings& settings);
 
     ShaderLibrary& m_shaders;
     std::vector<std::string> m_studyDefines;
@@ -71,12 +78,15 @@ struct SurfaceBakes {
     bool texelAo = false, vertexAo = false;
 };
 
-// Bits of SurfaceFeature that an item needs under these settings. `material`: its own.
-[[nodiscard]] unsigned surfaceFeatures(unsigned material, const SurfaceBakes& bakes,
-                                       const SurfaceSettings& settings);
-[[nodiscard]] unsigned surfaceFeatures(const DrawItem& item, const SurfaceSettings& settings);
-[[nodiscard]] SurfaceVariant surfaceVariant(unsigned features, const SurfaceSettings& settings);
-[[nodiscard]] std::vector<std::string> surfaceDefines(unsigned features);
+// What an item needs under these settings. `material`: its own features.
+[[nodiscard]] SurfaceFeatures surfaceFeatures(const SurfaceFeatures& material,
+                                              const SurfaceBakes& bakes,
+                                              const SurfaceSettings& settings);
+[[nodiscard]] SurfaceFeatures surfaceFeatures(const DrawItem& item,
+                                              const SurfaceSettings& settings);
+[[nodiscard]] SurfaceVariant surfaceVariant(const SurfaceFeatures& features,
+                                            const SurfaceSettings& settings);
+[[nodiscard]] std::vector<std::string> surfaceDefines(const SurfaceFeatures& features);
 // The choices of the model that are not the default.
 [[nodiscard]] std::vector<std::string> modelDefines(const ShadingModel& model);
 

@@ -2,6 +2,8 @@
 // material.glsl and model.glsl have the other side. One line changes there, one here.
 #pragma once
 
+#include "core/material/MaterialInputs.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -68,6 +70,14 @@ struct InstanceBlock {
 };
 static_assert(sizeof(InstanceBlock) == 144);
 
+// Numbers of the table of inputs, filled up to whole vectors.
+inline constexpr std::size_t kInputNumbers = [] {
+    std::size_t count = 0;
+    for (const MaterialInputInfo& info : kMaterialInputs)
+        count += info.number != nullptr ? 1 : 0;
+    return (count + 3) / 4 * 4;
+}();
+
 struct MapBlock {
     glm::vec4 uvMatrix{1.0f, 0.0f, 0.0f, 1.0f};
     glm::vec4 uvOffset{0.0f};
@@ -77,16 +87,16 @@ struct MapBlock {
 struct MaterialBlock {
     glm::vec4 baseColor{1.0f};
     glm::vec4 emissive{0.0f};
-    float metallic = 0.0f, perceptualRoughness = 0.5f;
-    float occlusionStrength = 1.0f, normalStrength = 1.0f;
     glm::vec4 normalBasis{1.0f, 0.0f, 0.0f, 1.0f};
     float normalGreenUp = 1.0f, placeholder = 0.0f;
     float diffuseRoughness = 0.0f, reserved = 0.0f;
-    MapBlock baseColorMap, metallicMap, roughnessMap, normalMap, occlusionMap, emissiveMap;
+    std::array<float, kInputNumbers> numbers{}; // of the inputs that have one, in their order
+    PerInput<MapBlock> maps;
 };
-static_assert(offsetof(MaterialBlock, normalBasis) == 48);
-static_assert(offsetof(MaterialBlock, baseColorMap) == 80);
-static_assert(sizeof(MaterialBlock) == 80 + 6 * 48);
+static_assert(offsetof(MaterialBlock, normalBasis) == 32);
+static_assert(offsetof(MaterialBlock, numbers) == 64);
+static_assert(offsetof(MaterialBlock, maps) == 64 + 4 * kInputNumbers);
+static_assert(sizeof(MaterialBlock) == 64 + 4 * kInputNumbers + kMaterialInputCount * 48);
 
 // shaders/include/model.glsl.
 struct ModelBlock {

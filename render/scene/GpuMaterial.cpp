@@ -2,6 +2,7 @@
 
 #include "core/material/MapUv.h"
 #include "render/scene/TextureCache.h"
+#include "render/shader/GeneratedShaders.h"
 
 #include <glm/geometric.hpp>
 #include <utility>
@@ -74,10 +75,15 @@ bool sameTexels(const MapSlot& a, const MapSlot& b) {
            a.uvRotationDeg == b.uvRotationDeg;
 }
 
-// In the order of the texture units.
-std::array<const MapSlot*, kMaterialMapCount> slots(const Material& m) {
-    return {&m.baseColorMap, &m.metallicMap,  &m.perceptualRoughnessMap,
-            &m.normalMap,    &m.occlusionMap, &m.emissiveMap};
+// The input whose texel it reads: the first number with the same ones.
+MaterialInput texelOwner(const Material& m, const MaterialInputInfo& info) {
+    for (const MaterialInputInfo& earlier : kMaterialInputs) {
+        if (earlier.input == info.input)
+            break;
+        if (earlier.role == InputRole::Number && sameTexels(m.*earlier.map, m.*info.map))
+            return earlier.input;
+    }
+    return info.input;
 }
 
 // How much of the surface the pattern covers: all of it in place of a base colour that is missing.
@@ -95,44 +101,37 @@ MaterialBlock packMaterial(const Material& m) {
     // A missing emissive map would set the whole surface aglow.
     const float emission = missing(m.emissiveMap) ? 0.0f : m.emissiveStrength;
     block.emissive = glm::vec4(m.emissive * emission, m.alphaCutoff);
-    block.metallic = m.metallic;
-    block.perceptualRoughness = m.perceptualRoughness;
-    block.occlusionStrength = m.occlusionStrength;
-    block.normalStrength = m.normalStrength;
     block.normalBasis = normalBasis(m.normalMap);
     block.normalGreenUp = m.normalConvention == NormalConvention::OpenGl ? 1.0f : -1.0f;
     block.placeholder = placeholderShare(m);
     block.diffuseRoughness = m.diffuseRoughness;
-    block.baseColorMap = packMap(m.baseColorMap);
-    block.metallicMap = packMap(m.metallicMap);
-    block.roughnessMap = packMap(m.perceptualRoughnessMap);
-    block.normalMap = packMap(m.normalMap);
-    block.occlusionMap = packMap(m.occlusionMap);
-    block.emissiveMap = packMap(m.emissiveMap);
+    std::size_t numbers = 0;
+    for (const MaterialInputInfo& info : kMaterialInputs) {
+        if (info.number != nullptr)
+            block.numbers[numbers++] = m.*info.number;
+        block.maps[info.input] = packMap(m.*info.map);
+    }
     return block;
 }
 
-unsigned materialFeatures(const Material& m) {
-    unsigned features = 0;
-    const auto maps = slots(m);
-    for (std::size_t i = 0; i < maps.size(); ++i)
-        if (maps[i]->image)
-            features |= 1u << i; // HasBaseColorMap … HasEmissiveMap
-    for (const MapSlot* map : maps)
-        if (map->image && moved(*map))
+SurfaceFeatures materialFeatures(const Material& m) {
+    SurfaceFeatures result;
+    unsigned& features = result.flags;
+    for (const MaterialInputInfo& info : kMaterialInputs) {
+        const MapSlot& map = m.*info.map;
+        if (!map.image)
+            continue;
+        if (moved(map))
             features |= HasMovedMaps;
-    for (const MapSlot* map : {&m.baseColorMap, &m.emissiveMap})
-        if (map->image && map->channel != MapChannel::Rgb)
+        if (info.role == InputRole::Color && map.channel != MapChannel::Rgb)
             features |= HasPickedColors;
-    for (const auto& [map, shift] : {std::pair(&m.metallicMap, kMetallicChannelShift),
-                                     std::pair(&m.perceptualRoughnessMap, kRoughnessChannelShift),
-                                     std::pair(&m.occlusionMap, kOcclusionChannelShift)})
-        if (map->image)
-            features |= channelIndex(map->channel) << shift;
-    if (sameTexels(m.metallicMap, m.perceptualRoughnessMap))
-        features |= RoughnessIsPacked;
-    if (sameTexels(m.metallicMap, m.occlusionMap))
-        features |= OcclusionIsPacked;
+        MapUse& use = result.maps[info.input];
+        use.used = true;
+        if (readsOneChannel(info)) {
+            use.channel = static_cast<std::uint8_t>(channelIndex(map.channel));
+            use.texelOf = static_cast<std::uint8_t>(texelOwner(m, info));
+        }
+    }
     if (m.alphaMode == AlphaMode::Mask)
         features |= AlphaMasked;
     if (m.alphaMode == AlphaMode::Blend)
@@ -141,15 +140,30 @@ unsigned materialFeatures(const Material& m) {
         features |= DoubleSided;
     if (placeholderShare(m) > 0.0f)
         features |= HasPlaceholder;
-    return features;
+    return result;
+}
+
+SurfaceFeatures coverageFeatures(const SurfaceFeatures& features) {
+    SurfaceFeatures result;
+    if (!features.has(AlphaMasked))
+        return result;
+    result.flags = features.flags & (AlphaMasked | HasMovedMaps);
+    result.maps[MaterialInput::BaseColor] = features.maps[MaterialInput::BaseColor];
+    return result;
 }
 
 std::set<ImagePtr> materialImages(const Material& material) {
     std::set<ImagePtr> images;
-    for (const MapSlot* map : slots(material))
-        if (map->image)
-            images.insert(map->image);
+    forEachMap(material, [&](const MapSlot& map) {
+        if (map.image)
+            images.insert(map.image);
+    });
     return images;
+}
+
+void bindMap(const GpuMaterial& material, MaterialInput input) {
+    if (const gl::Texture* texture = material.maps[input])
+        texture->bind(mapUnit(input));
 }
 
 void updateGpuMaterial(gl::Context& context, TextureCache& textures, const Material& material,
@@ -158,9 +172,10 @@ void updateGpuMaterial(gl::Context& context, TextureCache& textures, const Mater
     if (gpu.block.empty())
         gpu.block = gl::Buffer(context, "material", sizeof(MaterialBlock));
     gpu.block.writeValue(gpu.values);
-    const auto maps = slots(material);
-    for (std::size_t i = 0; i < maps.size(); ++i)
-        gpu.maps[i] = maps[i]->image ? textures.texture(maps[i]->image) : nullptr;
+    for (const MaterialInputInfo& info : kMaterialInputs) {
+        const ImagePtr& image = (material.*info.map).image;
+        gpu.maps[info.input] = image ? textures.texture(image) : nullptr;
+    }
     gpu.features = materialFeatures(material);
     gpu.alphaMode = material.alphaMode;
     gpu.doubleSided = material.doubleSided;

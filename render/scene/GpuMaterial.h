@@ -2,12 +2,12 @@
 // which variant of the shader they need.
 #pragma once
 
-#include "core/material/Material.h"
+#include "core/material/MaterialInputs.h"
 #include "render/gl/Buffer.h"
 #include "render/gl/Texture.h"
 #include "render/scene/Blocks.h"
 
-#include <array>
+#include <cstdint>
 #include <set>
 
 namespace patina::render {
@@ -18,46 +18,52 @@ class TextureCache;
 // materials do not need, and every uniform that is not read, counts: software OpenGL gathers each
 // number of a uniform block for each pixel.
 enum SurfaceFeature : unsigned {
-    HasMovedMaps = 1u << 24,    // a map is scaled, shifted or turned
-    HasPickedColors = 1u << 25, // a colour map gives one of its channels
-    HasBaseColorMap = 1u << 0,
-    HasMetallicMap = 1u << 1,
-    HasRoughnessMap = 1u << 2,
-    HasNormalMap = 1u << 3,
-    HasOcclusionMap = 1u << 4,
-    HasEmissiveMap = 1u << 5,
-    RoughnessIsPacked = 1u << 6, // in the same texel as metallic
-    OcclusionIsPacked = 1u << 7,
-    AlphaMasked = 1u << 8,
-    AlphaBlended = 1u << 9,
-    DoubleSided = 1u << 10,
-    HasPlaceholder = 1u << 11,
-    HasTexelAo = 1u << 12,
-    HasVertexAo = 1u << 13,
-    HasTransfer = 1u << 14,
-    HasPunctualLights = 1u << 15, // points, spots, directional lights
-    HasAreaLights = 1u << 16,     // spheres, rectangles
-    HasShadows = 1u << 17,        // of one spot or directional light
-    HasShadows2 = 1u << 18,       // … of a second one …
-    HasShadows3 = 1u << 19,
-    HasShadows4 = 1u << 20,
-    HasDominantLight = 1u << 21, // that stands for the environment
-    HasTexelTransfer = 1u << 22, // transfer is looked up in texels
-    HasTransferCone = 1u << 23,  // a bake says what is visible
+    HasMovedMaps = 1u << 0,    // a map is scaled, shifted or turned
+    HasPickedColors = 1u << 1, // a colour map gives one of its channels
+    AlphaMasked = 1u << 2,
+    AlphaBlended = 1u << 3,
+    DoubleSided = 1u << 4,
+    HasPlaceholder = 1u << 5,
+    HasTexelAo = 1u << 6,
+    HasVertexAo = 1u << 7,
+    HasTransfer = 1u << 8,
+    HasPunctualLights = 1u << 9, // points, spots, directional lights
+    HasAreaLights = 1u << 10,    // spheres, rectangles
+    HasShadows = 1u << 11,       // of one spot or directional light
+    HasShadows2 = 1u << 12,      // … of a second one …
+    HasShadows3 = 1u << 13,
+    HasShadows4 = 1u << 14,
+    HasDominantLight = 1u << 15, // that stands for the environment
+    HasTexelTransfer = 1u << 16, // transfer is looked up in texels
+    HasTransferCone = 1u << 17,  // a bake says what is visible
 };
-inline constexpr int kSurfaceFeatureCount = 24;
+inline constexpr int kSurfaceFeatureCount = 18;
 
-// Two bits each: which channel of the map counts, R G B A.
-inline constexpr unsigned kMetallicChannelShift = 26, kRoughnessChannelShift = 28,
-                          kOcclusionChannelShift = 30;
+// How a variant reads the map of an input.
+struct MapUse {
+    bool used = false;
+    // Of an input that reads one channel: which, R G B A; and the input whose texel it is, itself
+    // or an earlier one whose map is the same image at the same place.
+    std::uint8_t channel = 0;
+    std::uint8_t texelOf = 0;
+    friend auto operator<=>(const MapUse&, const MapUse&) = default;
+};
 
-inline constexpr std::size_t kMaterialMapCount = 6; // texture units 0…5, order of the block
+struct SurfaceFeatures {
+    unsigned flags = 0; // of SurfaceFeature
+    PerInput<MapUse> maps;
+    [[nodiscard]] bool has(unsigned feature) const { return (flags & feature) != 0; }
+    friend auto operator<=>(const SurfaceFeatures&, const SurfaceFeatures&) = default;
+};
+
+// What says where a surface has holes: for passes that draw no light.
+[[nodiscard]] SurfaceFeatures coverageFeatures(const SurfaceFeatures& features);
 
 struct GpuMaterial {
     MaterialBlock values;
     gl::Buffer block;
-    std::array<const gl::Texture*, kMaterialMapCount> maps{}; // null: none; owned by the cache
-    unsigned features = 0;
+    PerInput<const gl::Texture*> maps; // null: none; owned by the cache
+    SurfaceFeatures features;
     AlphaMode alphaMode = AlphaMode::Opaque;
     bool doubleSided = false;
 };
@@ -65,8 +71,11 @@ struct GpuMaterial {
 // The numbers alone; no OpenGL.
 [[nodiscard]] MaterialBlock packMaterial(const Material& material);
 // Which maps are usable, shared, missing; no OpenGL.
-[[nodiscard]] unsigned materialFeatures(const Material& material);
+[[nodiscard]] SurfaceFeatures materialFeatures(const Material& material);
 [[nodiscard]] std::set<ImagePtr> materialImages(const Material& material);
+
+// Binds the texture of the input's map, if there is one, to its unit.
+void bindMap(const GpuMaterial& material, MaterialInput input);
 
 // Rewrites `gpu` after an edit, creating the block on first use.
 void updateGpuMaterial(gl::Context& context, TextureCache& textures, const Material& material,

@@ -1,6 +1,7 @@
 #include "render/shader/ShaderSources.h"
 
 #include "core/base/AtomicFile.h"
+#include "render/shader/GeneratedShaders.h"
 
 #include <algorithm>
 #include <charconv>
@@ -152,6 +153,8 @@ ShaderSources::ShaderSources(std::filesystem::path folder)
     : m_folder(std::move(folder)) {}
 
 Result<std::string> ShaderSources::read(std::string_view name) const {
+    if (auto generated = generatedShader(name))
+        return *std::move(generated);
     if (onDisk())
         return readTextFile(m_folder / name, kMaxShaderBytes);
     const auto all = embeddedShaders();
@@ -164,6 +167,8 @@ Result<std::string> ShaderSources::read(std::string_view name) const {
 }
 
 long long ShaderSources::stamp(std::string_view name) const {
+    if (generatedShader(name))
+        return 0;
     if (!onDisk()) {
         const auto all = embeddedShaders();
         return std::any_of(all.begin(), all.end(),

@@ -1,6 +1,7 @@
 #include "render/view/ExplanationParts.h"
 
 #include "core/material/MapUv.h"
+#include "core/material/MaterialInputs.h"
 
 #include <algorithm>
 #include <array>
@@ -13,33 +14,37 @@ namespace {
 
 using namespace shading;
 
-// What a map multiplies, and the view that shows the product.
-struct Slot {
-    const MapSlot* map;
-    ViewKind view;
-    ExplainedValue parameter;
-    std::string formula;
-    bool isColor;
-};
+// What the map of an input multiplies.
+ExplainedValue factorOf(const MaterialInputInfo& info, const Material& m) {
+    const auto text = [](std::string_view view) { return std::string(view); };
+    switch (info.role) {
+    case InputRole::Color: {
+        const float strength = info.input == MaterialInput::Emissive ? m.emissiveStrength : 1.0f;
+        return color(text(info.id) + "Factor", text(viewInfo(viewOf(info.input)).label), "factor",
+                     m.*info.color * strength);
+    }
+    case InputRole::Number:
+        return scalar(text(info.id) + "Factor", text(viewInfo(viewOf(info.input)).label), "factor",
+                      m.*info.number);
+    case InputRole::Normal:
+    case InputRole::Occlusion:
+        break;
+    }
+    return scalar(text(info.id) + "Strength", "Strength", "strength", m.*info.number);
+}
 
-std::array<Slot, 6> slotsOf(const Material& m) {
-    return {
-        {{&m.baseColorMap, kViewBaseColor,
-          color("baseColorFactor", "Base Colour", "factor", m.baseColor), "factor · texel", true},
-         {&m.metallicMap, kViewMetallic, scalar("metallicFactor", "Metallic", "factor", m.metallic),
-          "factor · texel", false},
-         {&m.perceptualRoughnessMap, kViewPerceptualRoughness,
-          scalar("perceptualRoughnessFactor", "Roughness", "factor", m.perceptualRoughness),
-          "factor · texel", false},
-         {&m.occlusionMap, kViewAo,
-          scalar("occlusionStrength", "Strength", "strength", m.occlusionStrength),
-          "1 + strength · (texel − 1)", false},
-         {&m.normalMap, kViewNormalMap,
-          scalar("normalStrength", "Strength", "strength", m.normalStrength),
-          "normalize((2 texel − 1) · (strength, ±strength, 1))", true},
-         {&m.emissiveMap, kViewEmissive,
-          color("emissiveFactor", "Emission", "factor", m.emissive * m.emissiveStrength),
-          "factor · texel", true}}};
+// Of that and the texel.
+std::string formulaOf(InputRole role) {
+    switch (role) {
+    case InputRole::Color:
+    case InputRole::Number:
+        break;
+    case InputRole::Normal:
+        return "normalize((2 texel − 1) · (strength, ±strength, 1))";
+    case InputRole::Occlusion:
+        return "1 + strength · (texel − 1)";
+    }
+    return "factor · texel";
 }
 
 std::string_view channelName(MapChannel channel) {
@@ -98,24 +103,21 @@ ExplainedValue number(std::string key, std::string label, std::string symbol, co
     return scalar(std::move(key), std::move(label), std::move(symbol), v.x);
 }
 
-ExplainedStep explainSlot(const Subject& subject, const Slot& slot) {
-    const ViewInfo& info = viewInfo(slot.view);
-    ExplainedStep step{std::string(info.id),
-                       std::string(info.label),
-                       {},
-                       {},
-                       ofView(subject, slot.view),
-                       {},
-                       true,
-                       {}};
-    step.factors.push_back(words("file", "File", slot.map->source));
-    if (!slot.map->image) {
-        step.note = "The file could not be read: " + slot.map->problem;
+ExplainedStep explainMap(const Subject& subject, const MaterialInputInfo& input) {
+    const MapSlot& map = subject.material.*input.map;
+    const bool isColor = !readsOneChannel(input);
+    const ViewKind view = viewOf(input.input);
+    const ViewInfo& info = viewInfo(view);
+    ExplainedStep step{
+        std::string(info.id), std::string(info.label), {}, {}, ofView(subject, view), {}, true, {}};
+    step.factors.push_back(words("file", "File", map.source));
+    if (!map.image) {
+        step.note = "The file could not be read: " + map.problem;
         return step;
     }
-    step.formula = slot.formula;
-    const Image& image = *slot.map->image;
-    const glm::vec2 uv = mapUv(*slot.map, glm::vec2(subject.pixel.value(kRecordUv)));
+    step.formula = formulaOf(input.role);
+    const Image& image = *map.image;
+    const glm::vec2 uv = mapUv(map, glm::vec2(subject.pixel.value(kRecordUv)));
     const glm::vec2 wrapped = uv - glm::floor(uv);
     const auto texelAt = [](float position, int size) {
         return std::clamp(static_cast<int>(position * static_cast<float>(size)), 0, size - 1);
@@ -125,16 +127,14 @@ ExplainedStep explainSlot(const Subject& subject, const Slot& slot) {
     step.factors.push_back(words(
         "texel", "Texel", fmt::format("{}, {} of {} × {}", x, y, image.width(), image.height())));
     step.factors.push_back(words("stored", "Stored", storedText(image, x, y)));
-    if (slot.map->channel != MapChannel::Rgb)
-        step.factors.push_back(
-            words("channel", "Channel", std::string(channelName(slot.map->channel))));
+    if (map.channel != MapChannel::Rgb)
+        step.factors.push_back(words("channel", "Channel", std::string(channelName(map.channel))));
     step.factors.push_back(number("linear", "Texel, Linear", "texel",
-                                  picked(image.linear(x, y), slot.map->channel, slot.isColor),
-                                  slot.isColor));
-    step.factors.push_back(number(
-        "filtered", "Between Texels", "",
-        picked(sampleBilinear(image, uv.x, uv.y), slot.map->channel, slot.isColor), slot.isColor));
-    step.factors.push_back(slot.parameter);
+                                  picked(image.linear(x, y), map.channel, isColor), isColor));
+    step.factors.push_back(number("filtered", "Between Texels", "",
+                                  picked(sampleBilinear(image, uv.x, uv.y), map.channel, isColor),
+                                  isColor));
+    step.factors.push_back(factorOf(input, subject.material));
     step.note = "The shader averages the texels that the pixel covers.";
     return step;
 }
@@ -143,9 +143,9 @@ ExplainedStep explainSlot(const Subject& subject, const Slot& slot) {
 
 ExplainedSection explainMaps(const Subject& subject) {
     ExplainedSection section{"maps", "Maps", {}, {}};
-    for (const Slot& slot : slotsOf(subject.material))
-        if (slot.map->assigned())
-            section.steps.push_back(explainSlot(subject, slot));
+    for (const MaterialInputInfo& input : kMaterialInputs)
+        if ((subject.material.*input.map).assigned())
+            section.steps.push_back(explainMap(subject, input));
     return section;
 }
 
@@ -202,8 +202,9 @@ ExplainedSection explainSurface(const Subject& subject) {
     add(vector3("toViewer", "To the Viewer", "v", subject.vector(kRecordToViewer)));
     add(ofView(subject, kViewNoV));
     add(ofView(subject, kViewBaseColor));
-    add(ofView(subject, kViewMetallic));
-    add(ofView(subject, kViewPerceptualRoughness));
+    for (const MaterialInputInfo& input : kMaterialInputs)
+        if (input.role == InputRole::Number)
+            add(ofView(subject, viewOf(input.input)));
     add(ofView(subject, kViewAo));
     if (subject.material.alphaMode == AlphaMode::Blend)
         add(scalar("alpha", "Opacity", "o", subject.number(kViewAlpha)));

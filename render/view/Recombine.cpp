@@ -7,6 +7,7 @@
 #include "core/light/Lights.h"
 #include "core/light/LobeTable.h"
 #include "core/material/BrdfModel.h"
+#include "core/material/MaterialInputs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,12 +27,11 @@ glm::vec3 straight(const glm::vec4& value) {
 
 SurfaceTerms surfaceOf(const Inspection& pixel, const Document& document) {
     const Material* material = document.material(pixel.material);
-    const auto number = [&](int record) { return pixel.value(record).x; };
-    const SurfaceTerms s = makeSurface(
-        brdfModel(document.model), glm::clamp(glm::vec3(pixel.value(kViewBaseColor)), 0.0f, 1.0f),
-        number(kViewMetallic), number(kViewPerceptualRoughness),
-        (material ? *material : Material()).diffuseRoughness, pixel.value(kViewShadingNormal),
-        pixel.value(kRecordToViewer), {number(kViewDfgScale), number(kViewDfgBias)});
+    const SurfaceTerms s =
+        makeSurface(brdfModel(document.model),
+                    surfaceInputs(pixel, material != nullptr ? *material : Material()),
+                    pixel.value(kViewShadingNormal), pixel.value(kRecordToViewer),
+                    {pixel.value(kViewDfgScale).x, pixel.value(kViewDfgBias).x});
     return fadeSpecularLayer(s, mixWeights(document.view.reflectionMix).y);
 }
 
@@ -89,6 +89,16 @@ glm::vec3 restOf(const Inspection& pixel) {
 }
 
 } // namespace
+
+SurfaceInputs surfaceInputs(const Inspection& pixel, const Material& material) {
+    SurfaceInputs inputs;
+    inputs.baseColor = glm::clamp(glm::vec3(pixel.value(kViewBaseColor)), 0.0f, 1.0f);
+    inputs.diffuseRoughness = material.diffuseRoughness;
+    for (const MaterialInputInfo& info : kMaterialInputs)
+        if (info.role == InputRole::Number)
+            inputs.*info.shown = pixel.value(viewOf(info.input)).x;
+    return inputs;
+}
 
 RebuiltPixel recombine(const Inspection& pixel, const Document& document) {
     CHECK(pixel.onSurface());

@@ -43,6 +43,10 @@ struct RebuiltPixel {
     std::optional<glm::vec3> displayed; // 0…1, encoded; nothing: OpenColorIO runs on the GPU only
 };
 
+// What the material says of the point that the pixel shows, its maps included.
+[[nodiscard]] shading::SurfaceInputs surfaceInputs(const Inspection& pixel,
+                                                   const Material& material);
+
 // `pixel` must lie on a surface.
 [[nodiscard]] RebuiltPixel recombine(const Inspection& pixel, const Document& document);
 

@@ -1,4 +1,5 @@
-// A material's numbers and maps. The C++ side is render/scene/Blocks.h.
+// A material's numbers and maps. The C++ side is render/scene/Blocks.h; what is generated follows from
+// the table core/material/MaterialInputs.h.
 #ifndef PT_MATERIAL_GLSL
 #define PT_MATERIAL_GLSL
 
@@ -12,20 +13,12 @@ struct Map {
 layout(std140, binding = 2) uniform Material {
     vec4 u_baseColor;       // rgb, opacity
     vec4 u_emissive;        // rgb, alpha cutoff
-    float u_metallic;
-    float u_perceptualRoughness;
-    float u_occlusionStrength;
-    float u_normalStrength;
     vec4 u_normalBasis;     // rows: map x and y of the normal to tangent and bitangent
     float u_normalGreenUp;  // +1 OpenGL, -1 DirectX
     float u_placeholder;    // share of the pattern that stands for a missing map
     float u_diffuseRoughness;
-    Map u_baseColorMap;
-    Map u_metallicMap;
-    Map u_roughnessMap;
-    Map u_normalMap;
-    Map u_occlusionMap;
-    Map u_emissiveMap;
+    float u_reserved;
+#include "generated/input-block.glsl"
 };
 
 vec2 mapUv(Map map, vec2 uv) {
@@ -41,6 +34,8 @@ vec3 mapColor(Map map, vec4 texel) {
 #endif
     return map.channel.x < 0.0 ? texel.rgb : vec3(dot(map.channel, texel));
 }
+
+#include "generated/inputs.glsl"
 
 // A magenta and black board of eight fields per unit of texture space: nobody takes it for a
 // material.

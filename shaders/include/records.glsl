@@ -66,10 +66,10 @@ float texelsPerMetre(vec2 uv) {
     return sqrt(texels / max(area, 1e-20));
 }
 
-void recordSurface(SurfaceTerms s, vec4 baseColor, float ao, vec3 dfg, float alpha, vec3 triangle) {
-    record(kViewBaseColor, clamp(baseColor.rgb, 0.0, 1.0));
-    record(kViewMetallic, s.metallic);
-    record(kViewPerceptualRoughness, s.perceptualRoughness);
+void recordSurface(SurfaceInputs inputs, SurfaceTerms s, float ao, vec3 dfg, float alpha,
+                   vec3 triangle) {
+    record(kViewBaseColor, inputs.baseColor);
+    recordNumbers(inputs);
     record(kViewF0, s.f0);
     record(kViewAo, ao);
     vec3 mapped = vec3(0.0, 0.0, 1.0);

@@ -4,7 +4,7 @@
 #ifndef PT_INCLUDE_VIEWS_GLSL
 #define PT_INCLUDE_VIEWS_GLSL
 
-#include "../shared/views.glsl"
+#include "generated/views.glsl"
 
 layout(std140, binding = 6) uniform Views {
     ivec4 u_views[2];     // kView… of each output; -1: nothing

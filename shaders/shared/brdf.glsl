@@ -404,6 +404,16 @@ PT_FN vec3 diffuseReflectance(BrdfModel m, vec3 rho, float perceptualRoughness,
 
 // ---- The surface -------------------------------------------------------------------------------
 
+// What a material says of a point: its numbers, times their maps. Every number but the diffuse
+// roughness is an input of the table core/material/MaterialInputs.h.
+struct SurfaceInputs {
+    vec3 baseColor PT_INIT(1.0f);           // linear sRGB, 0…1
+    float metallic PT_INIT(1.0f);            // 0…1
+    float perceptualRoughness PT_INIT(0.5f); // as authored, 0…1
+    float diffuseRoughness PT_INIT(0.0f);    // 0…1, of Oren-Nayar and EON
+    PT_EQUALITY(SurfaceInputs)
+};
+
 // All that shading needs to know about a point; makeSurface() fills it.
 struct SurfaceTerms {
     BrdfModel model;
@@ -471,22 +481,20 @@ PT_FN vec3 specularAlbedo(BrdfModel m, vec3 f0, float metallic, vec2 dfg) {
 }
 
 // `dfg`: (scale, bias) of the model's DFG table at (N·V, perceptualRoughness).
-PT_FN SurfaceTerms makeSurface(BrdfModel model, vec3 baseColor, float metallic,
-                               float perceptualRoughness, float diffuseRoughness, vec3 n, vec3 v,
-                               vec2 dfg) {
+PT_FN SurfaceTerms makeSurface(BrdfModel model, SurfaceInputs inputs, vec3 n, vec3 v, vec2 dfg) {
     SurfaceTerms s;
     s.model = model;
     s.n = n;
     s.v = v;
     s.NoV = clamp(dot(n, v), kMinNoV, 1.0f);
-    s.metallic = metallic;
-    s.perceptualRoughness = clamp(perceptualRoughness, 0.0f, 1.0f);
-    s.alpha = alphaFromPerceptualRoughness(perceptualRoughness);
-    s.diffuseRoughness = clamp(diffuseRoughness, 0.0f, 1.0f);
-    s.diffuseColor = diffuseColorFromBaseColor(baseColor, metallic);
-    s.f0 = normalReflectance(model, baseColor, metallic);
+    s.metallic = inputs.metallic;
+    s.perceptualRoughness = clamp(inputs.perceptualRoughness, 0.0f, 1.0f);
+    s.alpha = alphaFromPerceptualRoughness(inputs.perceptualRoughness);
+    s.diffuseRoughness = clamp(inputs.diffuseRoughness, 0.0f, 1.0f);
+    s.diffuseColor = diffuseColorFromBaseColor(inputs.baseColor, inputs.metallic);
+    s.f0 = normalReflectance(model, inputs.baseColor, inputs.metallic);
     s.energyCompensation = energyCompensation(model, s.f0, dfg);
-    s.specularAlbedo = specularAlbedo(model, s.f0, metallic, dfg);
+    s.specularAlbedo = specularAlbedo(model, s.f0, s.metallic, dfg);
     // Albedo scaling: what the specular layer reflects towards the viewer cannot enter the diffuse
     // one (Kulla & Conty 2017, slide 26; OpenPBR 1.1, section 3.7). A white dielectric in a white
     // furnace then returns exactly 1 at every angle and roughness.

@@ -14,6 +14,8 @@
 #define PT_ARRAY(type, name, n) type name[n]         // parameter: array that is read
 #define PT_OUT_ARRAY(type, name, n) out type name[n] // parameter: array that is written
 #define PT_INOUT_ARRAY(type, name, n) inout type name[n] // parameter: array that is changed
+#define PT_INIT(value)                               // default of a structure's member, in C++ only
+#define PT_EQUALITY(type)                            // in a structure: C++ compares it by members
 #endif
 
 #endif

@@ -2,12 +2,15 @@
 // not.
 #include "render/view/Explanation.h"
 #include "core/light/Lights.h"
+#include "core/material/MaterialInputs.h"
 #include "render/view/Recombine.h"
+#include "tests/core/document/RandomDocument.h"
 #include "tests/render/RenderTest.h"
 #include "tests/render/TransferScenes.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -207,6 +210,89 @@ TEST_F(Explanations, RecombineToThePictureAtAThousandPixels) {
         }
     EXPECT_GE(surfaces, 1000);
     printf("%d pixels, largest difference %.3f of 255\n", surfaces, double(largest));
+}
+
+// Any values of the material and of the shading model that the parameter table takes, and any maps.
+TEST_F(Explanations, RecombineForRandomMaterials) {
+    const char* seedText = std::getenv("PATINA_TEST_SEED");
+    const char* countText = std::getenv("PATINA_EXPLAINED_MATERIALS");
+    const int first = seedText != nullptr ? std::atoi(seedText) : 1;
+    const int count = countText != nullptr ? std::atoi(countText) : 12;
+    const ImagePtr color = noise(4, ColorEncoding::Srgb), data = noise(3, ColorEncoding::Data);
+    int surfaces = 0;
+    for (int seed = first; seed < first + count; ++seed) {
+        SCOPED_TRACE("PATINA_TEST_SEED=" + std::to_string(seed));
+        RandomDocument random(static_cast<std::uint32_t>(seed));
+        Document document = litScene();
+        for (const ParameterInfo& info : parameters())
+            for (const Id id : RandomDocument::idsOf(document, info.scope)) {
+                if (info.scope != Scope::Material && info.scope != Scope::Model)
+                    continue;
+                if (info.type == ParameterType::Float)
+                    info.set(document, id, random.between(info.softMin, info.softMax));
+                else if (info.type != ParameterType::Map)
+                    info.set(document, id, random.value(info, document));
+            }
+        Material& m = document.materials[0];
+        for (const MaterialInputInfo& info : kMaterialInputs) {
+            if (random.below(3) == 0)
+                continue;
+            MapSlot& map = m.*info.map;
+            map.source = std::string(info.id) + ".png";
+            map.image = info.encoding == ColorEncoding::Srgb ? color : data;
+            map.channel = info.role == InputRole::Normal || random.below(2) == 0
+                              ? info.channel
+                              : static_cast<MapChannel>(random.below(4)); // no alpha in data
+            if (random.below(2) == 0)
+                map.uvScale = {random.between(0.5f, 3.0f), random.between(0.5f, 3.0f)};
+        }
+        setIblOf(document);
+        draw(document, kSize, oneSample());
+        for (const glm::ivec2 at : {glm::ivec2(32, 32), {20, 24}, {44, 36}, {30, 50}}) {
+            const Inspection pixel = inspect(at.x, at.y);
+            if (!pixel.onSurface()) // a hole, or nothing but glass
+                continue;
+            ++surfaces;
+            const Explanation explanation = explain(pixel, document);
+            EXPECT_EQ(disagreements(explanation), "") << toText(explanation);
+            glm::vec3 sum(0.0f);
+            for (const Contribution& part : explanation.contributions)
+                sum += part.radiance;
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(sum[c], pixel.radiance[c], 2e-3f * std::max(0.1f, std::abs(sum[c])));
+            for (const MaterialInputInfo& info : kMaterialInputs)
+                EXPECT_EQ(step(explanation, "maps", std::string(info.view)) != nullptr,
+                          (m.*info.map).assigned())
+                    << info.id;
+        }
+    }
+    EXPECT_GE(surfaces, count);
+}
+
+// Shading reads every number and every map of the table.
+TEST_F(Explanations, EveryInputReachesThePicture) {
+    Document document = litScene();
+    Material& m = document.materials[0];
+    m.emissive = glm::vec3(0.5f);
+    for (const MaterialInputInfo& info : kMaterialInputs) {
+        if (info.role == InputRole::Number)
+            m.*info.number = 0.8f;
+        (m.*info.map).image = noise(3, info.encoding);
+        (m.*info.map).channel = info.channel;
+    }
+    setIblOf(document);
+    const Image whole = draw(document, kSize, oneSample());
+    for (const MaterialInputInfo& info : kMaterialInputs) {
+        Document changed = document;
+        (changed.materials[0].*info.map).image = nullptr;
+        EXPECT_NE(draw(changed, kSize, oneSample()), whole) << "the map of " << info.id;
+        changed = document;
+        if (info.color != nullptr)
+            changed.materials[0].*info.color *= 0.5f;
+        else
+            changed.materials[0].*info.number *= 0.5f;
+        EXPECT_NE(draw(changed, kSize, oneSample()), whole) << info.id;
+    }
 }
 
 // The frames of a drag have fewer triangles, whose texture coordinates and normals are others.

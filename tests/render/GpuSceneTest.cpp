@@ -68,13 +68,20 @@ TEST(MaterialPacking, SharedImagesAreFetchedOnce) {
         makeImage(1, 1, 3, PixelType::U8, ColorEncoding::Data, [](int, int, int) { return 0.5f; });
     Material m;
     m.metallicMap.image = m.perceptualRoughnessMap.image = m.occlusionMap.image = orm;
-    EXPECT_TRUE(materialFeatures(m) & RoughnessIsPacked);
-    EXPECT_TRUE(materialFeatures(m) & OcclusionIsPacked);
+    const auto ownerOf = [&](MaterialInput input) {
+        return static_cast<MaterialInput>(materialFeatures(m).maps[input].texelOf);
+    };
+    const auto kRoughness = MaterialInput::PerceptualRoughness;
+    EXPECT_EQ(ownerOf(kRoughness), MaterialInput::Metallic);
+    EXPECT_EQ(ownerOf(MaterialInput::Occlusion), MaterialInput::Metallic);
     m.perceptualRoughnessMap.uvScale.x = 2.0f;
-    EXPECT_FALSE(materialFeatures(m) & RoughnessIsPacked) << "another place in the same image";
+    EXPECT_EQ(ownerOf(kRoughness), kRoughness) << "another place in the same image";
     m.occlusionMap.image =
         makeImage(1, 1, 3, PixelType::U8, ColorEncoding::Data, [](int, int, int) { return 0.5f; });
-    EXPECT_FALSE(materialFeatures(m) & OcclusionIsPacked) << "another image of the same content";
+    EXPECT_EQ(ownerOf(MaterialInput::Occlusion), MaterialInput::Occlusion)
+        << "another image of the same content";
+    m.occlusionMap = m.perceptualRoughnessMap;
+    EXPECT_EQ(ownerOf(MaterialInput::Occlusion), kRoughness);
 }
 
 class GpuSceneTest : public gl::GlTest {};

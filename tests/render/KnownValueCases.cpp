@@ -1,6 +1,7 @@
 #include "tests/render/KnownValueCases.h"
 
 #include "core/math/Shading.h"
+#include "tests/render/SharedTermCases.h"
 
 namespace patina::render {
 namespace {
@@ -219,8 +220,9 @@ std::vector<KnownValueCase> makeCases() {
                  for (int i = 0; i < 2; ++i) {
                      BrdfModel m = defaultBrdfModel();
                      m.visibility = i == 0 ? 0 : 2;
-                     SurfaceTerms s = makeSurface(m, vec3(I(1), I(1), I(1)), I(2), I(0), 0.0f,
-                                                  vec3(0.0f, 0.0f, 1.0f), v, vec2(1.0f, 0.0f));
+                     SurfaceTerms s =
+                         makeSurface(m, surfaceOf(vec3(I(1), I(1), I(1)), I(2), I(0), 0.0f),
+                                     vec3(0.0f, 0.0f, 1.0f), v, vec2(1.0f, 0.0f));
                      O(i) = shadeDirect(s, l, vec3(1.0f, 1.0f, 1.0f)).specular.x;
                      f0 = s.f0;
                  } float cosines = 4.0f * v.z * l.z;

@@ -122,8 +122,8 @@ void rgbe(InputMaker& make, In in) {
             prepare, scale                                                                         \
     }
 #define SURFACE_OF(model)                                                                          \
-    makeSurface(model, vec3(I(9), I(10), I(11)), I(12), I(13), I(25), vec3(I(0), I(1), I(2)),      \
-                vec3(I(3), I(4), I(5)), vec2(I(14), I(15)))
+    makeSurface(model, surfaceOf(vec3(I(9), I(10), I(11)), I(12), I(13), I(25)),                   \
+                vec3(I(0), I(1), I(2)), vec3(I(3), I(4), I(5)), vec2(I(14), I(15)))
 #define SURFACE SURFACE_OF(defaultBrdfModel())
 // Any model, chosen by inputs that no case of a surface needs otherwise.
 #define CHOOSE_MODEL(m)                                                                            \

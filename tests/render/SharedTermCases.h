@@ -2,6 +2,8 @@
 // C++ and, as text, as GLSL. I(k) are the inputs, O(k) the outputs.
 #pragma once
 
+#include "core/math/Shading.h"
+
 #include <functional>
 #include <random>
 #include <span>
@@ -43,5 +45,17 @@ struct SharedTermCase {
 };
 
 [[nodiscard]] const std::vector<SharedTermCase>& sharedTermCases();
+
+// What the bodies name; other inputs have their defaults. For GLSL it is in SharedTermShader.cpp.
+[[nodiscard]] inline shading::SurfaceInputs surfaceOf(const glm::vec3& baseColor, float metallic,
+                                                      float perceptualRoughness,
+                                                      float diffuseRoughness) {
+    shading::SurfaceInputs inputs;
+    inputs.baseColor = baseColor;
+    inputs.metallic = metallic;
+    inputs.perceptualRoughness = perceptualRoughness;
+    inputs.diffuseRoughness = diffuseRoughness;
+    return inputs;
+}
 
 } // namespace patina::render

@@ -1,11 +1,31 @@
 #include "tests/render/SharedTermShader.h"
 
+#include "core/material/MaterialInputs.h"
 #include "render/shader/ShaderSources.h"
 #include "tests/render/SharedTermCases.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace patina::render {
+
+// surfaceOf() of SharedTermCases.h: inputs that the cases do not name are as in C++.
+static std::string surfaceOfShader() {
+    std::string text = "SurfaceInputs surfaceOf(vec3 baseColor, float metallic, "
+                       "float perceptualRoughness, float diffuseRoughness) {\n"
+                       "SurfaceInputs inputs;\n";
+    for (const MaterialInputInfo& info : kMaterialInputs)
+        if (info.role == InputRole::Number) {
+            const std::string_view id = info.parameters.value();
+            text += fmt::format("inputs.{} = {:f};\n", id.substr(id.rfind('.') + 1),
+                                shading::SurfaceInputs().*info.shown);
+        }
+    return text + "inputs.baseColor = baseColor;\n"
+                  "inputs.metallic = metallic;\n"
+                  "inputs.perceptualRoughness = perceptualRoughness;\n"
+                  "inputs.diffuseRoughness = diffuseRoughness;\n"
+                  "return inputs;\n}\n";
+}
 
 std::string sharedTermShader(const std::string& body) {
     std::string text = "#version 450 core\n"
@@ -24,9 +44,9 @@ std::string sharedTermShader(const std::string& body) {
                        "#define OUT3(k, v) { vec3 value = v; O(k) = value.x; O(k + 1) = value.y; "
                        "O(k + 2) = value.z; }\n"
                        "#define IS_LIGHT(x) ((x) >= 0.0f && (x) < 3e38f ? 1.0f : 3.0f)\n"
-                       "#define SURFACE_OF(model) makeSurface(model, vec3(I(9), I(10), I(11)), "
-                       "I(12), I(13), I(25), vec3(I(0), I(1), I(2)), vec3(I(3), I(4), I(5)), "
-                       "vec2(I(14), I(15)))\n"
+                       "#define SURFACE_OF(model) makeSurface(model, "
+                       "surfaceOf(vec3(I(9), I(10), I(11)), I(12), I(13), I(25)), "
+                       "vec3(I(0), I(1), I(2)), vec3(I(3), I(4), I(5)), vec2(I(14), I(15)))\n"
                        "#define SURFACE SURFACE_OF(defaultBrdfModel())\n"
                        "#define CHOOSE_MODEL(m) BrdfModel m = defaultBrdfModel(); "
                        "m.distribution = int(2.999f * I(26)); "
@@ -42,6 +62,7 @@ std::string sharedTermShader(const std::string& body) {
         EXPECT_TRUE(expandShader(ShaderSources(), file, {}, expanded).ok()) << file;
         text += expanded.text;
     }
+    text += surfaceOfShader();
     return text + "void main() {\nfor (int i = 0; i < " + std::to_string(kCaseOutputs) +
            "; ++i) out_[i] = 0.0f;\n" + body + "\nfor (int i = 0; i < " +
            std::to_string(kCaseOutputs) + "; ++i) b_out[gl_GlobalInvocationID.x * " +

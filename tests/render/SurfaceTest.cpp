@@ -35,9 +35,10 @@ glm::vec2 dfgAt(float NoV, float perceptualRoughness) {
 glm::vec3 reflectedOfLight(const Material& m, const glm::vec3& n, const glm::vec3& l, float E) {
     const glm::vec3 v(0, 1, 0);
     const float NoV = std::max(glm::dot(n, v), shading::kMinNoV);
-    const auto s = shading::makeSurface(shading::defaultBrdfModel(), m.baseColor, m.metallic,
-                                        m.perceptualRoughness, m.diffuseRoughness, n, v,
-                                        dfgAt(NoV, m.perceptualRoughness));
+    const auto s =
+        shading::makeSurface(shading::defaultBrdfModel(),
+                             {m.baseColor, m.metallic, m.perceptualRoughness, m.diffuseRoughness},
+                             n, v, dfgAt(NoV, m.perceptualRoughness));
     const auto shaded = shading::shadeDirect(s, l, glm::vec3(E));
     return shaded.diffuse + shaded.specular;
 }
@@ -231,9 +232,9 @@ TEST_F(Surface, MapsMultiplyTheirNumbersThroughTheirChannel) {
         makeImage(2, 2, 3, PixelType::U8, ColorEncoding::Srgb,
                   [](int, int, int c) { return c == 1 ? 188.0f / 255.0f : 1.0f; });
     const auto expected = [&](float metallic, float perceptualRoughness, const glm::vec3& color) {
-        const auto s =
-            shading::makeSurface(shading::defaultBrdfModel(), color, metallic, perceptualRoughness,
-                                 0.0f, {0, 1, 0}, {0, 1, 0}, dfgAt(1.0f, perceptualRoughness));
+        const auto s = shading::makeSurface(shading::defaultBrdfModel(),
+                                            {color, metallic, perceptualRoughness, 0.0f}, {0, 1, 0},
+                                            {0, 1, 0}, dfgAt(1.0f, perceptualRoughness));
         const auto light =
             shading::shadeEnvironment(s, glm::vec3(glm::pi<float>()), glm::vec3(1.0f));
         return light.diffuse + light.specular;

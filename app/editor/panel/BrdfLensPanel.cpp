@@ -13,6 +13,8 @@
 #include "app/editor/widget/TileArea.h"
 #include "core/image/TexelRange.h"
 #include "core/light/EnergyStudy.h"
+#include "core/material/MaterialInputs.h"
+#include "render/view/Recombine.h"
 
 #include <QComboBox>
 #include <QLabel>
@@ -38,8 +40,10 @@ std::vector<QPointF> toPoints(const LensCurves::Curve& curve) {
 }
 
 bool hasMaps(const Material& material) {
-    return material.baseColorMap.assigned() || material.metallicMap.assigned() ||
-           material.perceptualRoughnessMap.assigned();
+    return std::any_of(kMaterialInputs.begin(), kMaterialInputs.end(), [&](const auto& info) {
+        return (info.role == InputRole::Number || info.input == MaterialInput::BaseColor) &&
+               (material.*info.map).assigned();
+    });
 }
 
 } // namespace
@@ -285,9 +289,7 @@ std::optional<SurfacePoint> BrdfLensPanel::pinnedPoint(const Material& material)
     const std::optional<render::Inspection>& pin = m_probe.pin();
     if (!pin || !pin->onSurface() || pin->material != material.id)
         return std::nullopt;
-    return SurfacePoint{glm::vec3(pin->value(shading::kViewBaseColor)),
-                        pin->value(shading::kViewMetallic).x,
-                        pin->value(shading::kViewPerceptualRoughness).x, material.diffuseRoughness};
+    return render::surfaceInputs(*pin, material);
 }
 
 void BrdfLensPanel::describe() {

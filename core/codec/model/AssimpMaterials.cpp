@@ -89,16 +89,17 @@ ImportedMaterial Reader::material(const aiMaterial& source, std::size_t index) {
     material.name = name.length > 0 ? name.C_Str() : fmt::format("material {}", index + 1);
     if (material.name == AI_DEFAULT_MATERIAL_NAME && m_format != "fbx") {
         material.name = "default"; // the file has none; Assimp's own grey says nothing
-        material.baseColorMap = texture(source, {aiTextureType_DIFFUSE});
-        if (material.baseColorMap)
+        material.maps[MaterialInput::BaseColor] = texture(source, {aiTextureType_DIFFUSE});
+        if (material.maps[MaterialInput::BaseColor])
             material.baseColor = glm::vec4(1.0f);
         return material;
     }
 
     // Colour. A texture replaces the diffuse colour (COLLADA and FBX by definition; exporters of
     // OBJ write any grey beside map_Kd).
-    material.baseColorMap = texture(source, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
-    if (material.baseColorMap)
+    material.maps[MaterialInput::BaseColor] =
+        texture(source, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
+    if (material.maps[MaterialInput::BaseColor])
         material.baseColor = glm::vec4(1.0f);
     else if (const auto base = color(source, "$clr.base"))
         material.baseColor = glm::vec4(*base, 1.0f);
@@ -110,8 +111,9 @@ ImportedMaterial Reader::material(const aiMaterial& source, std::size_t index) {
     }
     if (const auto opacityMap = texture(source, {aiTextureType_OPACITY})) {
         // The usual case: the alpha of the colour texture. Another file has no slot.
-        if (material.baseColorMap && opacityMap->file == material.baseColorMap->file &&
-            opacityMap->embedded == material.baseColorMap->embedded)
+        if (material.maps[MaterialInput::BaseColor] &&
+            opacityMap->file == material.maps[MaterialInput::BaseColor]->file &&
+            opacityMap->embedded == material.maps[MaterialInput::BaseColor]->embedded)
             material.alphaMask = true;
         else
             m_model.warnings.push_back(
@@ -124,31 +126,34 @@ ImportedMaterial Reader::material(const aiMaterial& source, std::size_t index) {
     // Assimp itself turns the exponent n into 1 - sqrt(n) / 10, the inverse of what Blender
     // writes.)
     if (const auto metallic = number(source, "$mat.metallicFactor"))
-        material.metallic = *metallic;
+        material.numbers[MaterialInput::Metallic] = *metallic;
     const auto exponent = number(source, "$mat.shininess");
     if (const auto roughness = number(source, "$mat.roughnessFactor"))
-        material.perceptualRoughness = *roughness;
+        material.numbers[MaterialInput::PerceptualRoughness] = *roughness;
     else if (exponent && *exponent > 0.0f)
-        material.perceptualRoughness = roughnessOfExponent(*exponent);
-    material.metallicMap = texture(source, {aiTextureType_METALNESS}, 'r');
-    if (material.metallicMap)
-        material.metallic = 1.0f;
-    material.roughnessMap = texture(source, {aiTextureType_DIFFUSE_ROUGHNESS}, 'r');
-    if (material.roughnessMap)
-        material.perceptualRoughness = 1.0f;
+        material.numbers[MaterialInput::PerceptualRoughness] = roughnessOfExponent(*exponent);
+    material.maps[MaterialInput::Metallic] = texture(source, {aiTextureType_METALNESS}, 'r');
+    if (material.maps[MaterialInput::Metallic])
+        material.numbers[MaterialInput::Metallic] = 1.0f;
+    material.maps[MaterialInput::PerceptualRoughness] =
+        texture(source, {aiTextureType_DIFFUSE_ROUGHNESS}, 'r');
+    if (material.maps[MaterialInput::PerceptualRoughness])
+        material.numbers[MaterialInput::PerceptualRoughness] = 1.0f;
 
     // What OBJ calls bump is a normal map in practice; other formats keep them apart.
-    material.normalMap =
+    material.maps[MaterialInput::Normal] =
         m_format == "obj" ? texture(source, {aiTextureType_NORMALS, aiTextureType_HEIGHT})
                           : texture(source, {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA});
-    if (material.normalMap)
+    if (material.maps[MaterialInput::Normal])
         if (const auto strength = number(source, "$mat.bumpscaling"); strength && *strength > 0.0f)
-            material.normalStrength = *strength;
-    material.occlusionMap = texture(source, {aiTextureType_AMBIENT_OCCLUSION}, 'r');
+            material.numbers[MaterialInput::Normal] = *strength;
+    material.maps[MaterialInput::Occlusion] =
+        texture(source, {aiTextureType_AMBIENT_OCCLUSION}, 'r');
 
-    material.emissiveMap = texture(source, {aiTextureType_EMISSION_COLOR, aiTextureType_EMISSIVE});
+    material.maps[MaterialInput::Emissive] =
+        texture(source, {aiTextureType_EMISSION_COLOR, aiTextureType_EMISSIVE});
     material.emissive = color(source, "$clr.emissive").value_or(glm::vec3(0.0f));
-    if (material.emissiveMap && material.emissive == glm::vec3(0.0f))
+    if (material.maps[MaterialInput::Emissive] && material.emissive == glm::vec3(0.0f))
         material.emissive = glm::vec3(1.0f);
     int twoSided = 0;
     source.Get(AI_MATKEY_TWOSIDED, twoSided);

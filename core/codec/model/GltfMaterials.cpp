@@ -24,13 +24,21 @@ glm::vec<N, float> vector(const json& parent, const char* key, glm::vec<N, float
     return fallback;
 }
 
-const json& extension(const json& parent, const char* name) {
+const json& extension(const json& parent, std::string_view name) {
     static const json kNone = json::object();
     const auto extensions = parent.find("extensions");
     if (extensions == parent.end())
         return kNone;
-    const auto it = extensions->find(name);
+    const auto it = extensions->find(std::string(name));
     return it == extensions->end() ? kNone : *it;
+}
+
+bool isOfPbr(const MaterialInputInfo& info) {
+    return info.gltf.object == kGltfPbr;
+}
+
+bool isOfMaterial(const MaterialInputInfo& info) {
+    return info.gltf.object.empty();
 }
 
 class Reader {
@@ -46,6 +54,9 @@ class Reader {
     std::optional<ImportedTexture> texture(const json& parent, const char* key,
                                            const std::string& material, char channel = 0);
     void image(std::size_t index, ImportedTexture& texture);
+    void readInput(const MaterialInputInfo& info, const json& object, ImportedMaterial& material);
+    void readInputs(const json& object, bool (*wanted)(const MaterialInputInfo&),
+                    ImportedMaterial& material);
     void specularGlossiness(const json& source, ImportedMaterial& material);
     void warnOnce(std::string text) {
         if (std::find(m_model.warnings.begin(), m_model.warnings.end(), text) ==
@@ -114,12 +125,32 @@ std::optional<ImportedTexture> Reader::texture(const json& parent, const char* k
     return result;
 }
 
+// The map of an input and its number from the object that holds them.
+void Reader::readInput(const MaterialInputInfo& info, const json& object,
+                       ImportedMaterial& material) {
+    const std::string key(info.gltf.texture);
+    auto& map = material.maps[info.input] =
+        texture(object, key.c_str(), material.name, info.gltf.channel);
+    if (!info.gltf.factor.empty())
+        material.numbers[info.input] = object.value(std::string(info.gltf.factor), 1.0f);
+    if (!info.gltf.scale.empty() && map)
+        material.numbers[info.input] = object.at(key).value(std::string(info.gltf.scale), 1.0f);
+}
+
+void Reader::readInputs(const json& object, bool (*wanted)(const MaterialInputInfo&),
+                        ImportedMaterial& material) {
+    for (const MaterialInputInfo& info : kMaterialInputs)
+        if (wanted(info))
+            readInput(info, object, material);
+}
+
 // KHR_materials_pbrSpecularGlossiness, archived by Khronos: taken as a dielectric.
 void Reader::specularGlossiness(const json& source, ImportedMaterial& material) {
     material.baseColor = vector<4>(source, "diffuseFactor", glm::vec4(1.0f));
-    material.metallic = 0.0f;
-    material.perceptualRoughness = 1.0f - source.value("glossinessFactor", 1.0f);
-    material.baseColorMap = texture(source, "diffuseTexture", material.name);
+    material.numbers[MaterialInput::Metallic] = 0.0f;
+    material.numbers[MaterialInput::PerceptualRoughness] =
+        1.0f - source.value("glossinessFactor", 1.0f);
+    material.maps[MaterialInput::BaseColor] = texture(source, "diffuseTexture", material.name);
     warnOnce(fmt::format("Material \"{}\" uses the outdated specular-glossiness model; it is "
                          "approximated.",
                          material.name));
@@ -131,22 +162,17 @@ ImportedMaterial Reader::material(const json& source, std::size_t index) {
     const json& pbr =
         source.contains("pbrMetallicRoughness") ? source["pbrMetallicRoughness"] : json::object();
     material.baseColor = vector<4>(pbr, "baseColorFactor", glm::vec4(1.0f));
-    material.metallic = pbr.value("metallicFactor", 1.0f);
-    material.perceptualRoughness = pbr.value("roughnessFactor", 1.0f);
-    material.baseColorMap = texture(pbr, "baseColorTexture", material.name);
-    material.metallicMap = texture(pbr, "metallicRoughnessTexture", material.name, 'b');
-    material.roughnessMap = texture(pbr, "metallicRoughnessTexture", material.name, 'g');
+    readInputs(pbr, &isOfPbr, material);
     const json& glossiness = extension(source, "KHR_materials_pbrSpecularGlossiness");
     if (!glossiness.empty() && pbr.empty())
         specularGlossiness(glossiness, material);
 
-    material.normalMap = texture(source, "normalTexture", material.name);
-    if (material.normalMap)
-        material.normalStrength = source["normalTexture"].value("scale", 1.0f);
-    material.occlusionMap = texture(source, "occlusionTexture", material.name, 'r');
-    if (material.occlusionMap)
-        material.occlusionStrength = source["occlusionTexture"].value("strength", 1.0f);
-    material.emissiveMap = texture(source, "emissiveTexture", material.name);
+    // Extensions last: an embedded image is known to projects by its place among those that were
+    // read before it.
+    readInputs(source, &isOfMaterial, material);
+    for (const MaterialInputInfo& info : kMaterialInputs)
+        if (!isOfPbr(info) && !isOfMaterial(info))
+            readInput(info, extension(source, info.gltf.object), material);
     material.emissive =
         vector<3>(source, "emissiveFactor", glm::vec3(0.0f)) *
         extension(source, "KHR_materials_emissive_strength").value("emissiveStrength", 1.0f);

@@ -291,7 +291,7 @@ ImportedModel readPly(const ModelFolder& folder) {
     material.name = "default";
     if (!header.texture.empty()) {
         material.baseColor = glm::vec4(1.0f);
-        material.baseColorMap.emplace().file = header.texture;
+        material.maps[MaterialInput::BaseColor].emplace().file = header.texture;
     }
     ImportedInstance& instance = model.instances.emplace_back();
     instance.name = mesh.name;

@@ -1,6 +1,9 @@
 #include "core/edit/MapNames.h"
 
+#include "core/material/MaterialInputs.h"
+
 #include <gtest/gtest.h>
+#include <sstream>
 
 namespace patina {
 namespace {
@@ -27,6 +30,15 @@ TEST(MapNames, PlainWordsNameTheMap) {
         EXPECT_EQ(map(name), "Occlusion map") << name;
     for (const char* name : {"emissive.png", "lamp_Emission.png", "sign_glow.png"})
         EXPECT_EQ(map(name), "Emission map") << name;
+}
+
+TEST(MapNames, EveryWordOfTheInputsNamesItsMap) {
+    for (const MaterialInputInfo& input : kMaterialInputs)
+        for (const std::string_view words : {input.fileWords, input.weakFileWords}) {
+            std::istringstream rest{std::string(words)};
+            for (std::string word; rest >> word;)
+                EXPECT_EQ(map("T_" + word + "_2k.png"), input.parameters.mapLabel) << word;
+        }
 }
 
 TEST(MapNames, OtherWordsAndPackedFilesNameNone) {

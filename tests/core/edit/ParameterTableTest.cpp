@@ -1,6 +1,7 @@
 // Every row of the table: does it keep its promises, and does it reach the member it names?
 #include "core/document/Document.h"
 #include "core/edit/Parameters.h"
+#include "core/material/MaterialInputs.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -281,4 +282,33 @@ TEST(ParameterTable, MapsBelongToTheirNumbersAndCarryTheColourPolicy) {
     }
     EXPECT_EQ(mapFor("material.metallic")->mapChannel, MapChannel::R);
     EXPECT_EQ(mapFor("material.normalStrength")->mapChannel, MapChannel::Rgb);
+}
+
+TEST(ParameterTable, HasAValueAndAMapForEachInputOfTheMaterial) {
+    Document document = twoOfEach();
+    const Id id = document.materials[0].id;
+    Material& material = document.materials[0];
+    MapSlot picture;
+    picture.source = "/picture.png";
+    std::set<const ParameterInfo*> rows;
+    for (const MaterialInputInfo& input : kMaterialInputs) {
+        const ParameterInfo* value = findParameter(input.parameters.value());
+        const ParameterInfo* map = findParameter(input.parameters.map);
+        ASSERT_TRUE(value && map) << input.id;
+        rows.insert(map);
+        EXPECT_EQ(mapOf(*value), map);
+        map->set(document, id, picture);
+        EXPECT_EQ(material.*input.map, picture) << input.id;
+        if (input.color != nullptr) {
+            value->set(document, id, glm::vec3(0.25f));
+            EXPECT_EQ(material.*input.color, glm::vec3(0.25f)) << input.id;
+        } else {
+            value->set(document, id, 0.25f);
+            EXPECT_EQ(material.*input.number, 0.25f) << input.id;
+        }
+    }
+    for (const ParameterInfo& info : parameters()) {
+        const bool map = info.scope == Scope::Material && info.type == ParameterType::Map;
+        EXPECT_EQ(rows.contains(&info), map) << info.id;
+    }
 }

@@ -4,10 +4,12 @@
 #include "core/io/MeshImport.h"
 #include "core/light/Lights.h"
 #include "core/scene/ModelConversion.h"
+#include "core/scene/Scene.h"
 #include "core/worker/WorkerClient.h"
 
 #include "tests/support/TemporaryFolder.h"
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -156,18 +158,73 @@ TEST_F(ExportRun, ReadBackItIsTheSameScene) {
         const ImportedMaterial& paint = model->materials[static_cast<std::size_t>(square.material)];
         EXPECT_EQ(paint.name, "Paint");
         EXPECT_EQ(paint.baseColor, glm::vec4(0.5f, 0.25f, 0.75f, 1.0f));
-        EXPECT_EQ(paint.metallic, 0.5f);
-        EXPECT_EQ(paint.perceptualRoughness, 0.25f);
-        ASSERT_TRUE(paint.baseColorMap && paint.roughnessMap && paint.metallicMap &&
-                    paint.normalMap && paint.occlusionMap);
-        EXPECT_EQ(paint.roughnessMap->channel, 'g');
-        EXPECT_EQ(paint.metallicMap->channel, 'b');
-        EXPECT_EQ(paint.normalMap->uvScale, glm::vec2(2, 3));
+        EXPECT_EQ(paint.numbers[MaterialInput::Metallic], 0.5f);
+        EXPECT_EQ(paint.numbers[MaterialInput::PerceptualRoughness], 0.25f);
+        for (const MaterialInputInfo& info : kMaterialInputs) {
+            if (info.input == MaterialInput::Emissive)
+                continue;
+            ASSERT_TRUE(paint.maps[info.input]) << info.id;
+            EXPECT_EQ(paint.maps[info.input]->channel, info.gltf.channel) << info.id;
+        }
+        EXPECT_EQ(paint.maps[MaterialInput::Normal]->uvScale, glm::vec2(2, 3));
         const ImportedMaterial& lamp =
             model->materials[static_cast<std::size_t>(model->instances[1].material)];
         EXPECT_NEAR(lamp.emissive.r, 4.0f, 1e-5f);
         EXPECT_NEAR(lamp.emissive.b, 1.0f, 1e-5f);
         EXPECT_TRUE(lamp.doubleSided);
+    }
+}
+
+// One texel for each input, another code in each, and no two numbers alike.
+TEST_F(ExportRun, EveryInputOfAMaterialIsReadBack) {
+    Document document;
+    Material& out = addMaterial(document, "All");
+    const auto code = [](const MaterialInputInfo& info) {
+        return 60 + 20 * static_cast<int>(info.input);
+    };
+    const auto number = [](const MaterialInputInfo& info) {
+        return 0.25f + 0.0625f * static_cast<float>(info.input);
+    };
+    for (const MaterialInputInfo& info : kMaterialInputs) {
+        out.*info.map = map(codes(1, 1, 3, {code(info)}, info.encoding), info.channel);
+        (out.*info.map).uvOffset.x = 0.125f * static_cast<float>(info.input);
+        if (info.color != nullptr)
+            out.*info.color = glm::vec3(number(info));
+        else
+            out.*info.number = number(info);
+    }
+    out.metallicMap.uvOffset = out.perceptualRoughnessMap.uvOffset; // of one image
+    addSquare(document, out.id);
+    const Material sent = out;
+
+    for (const char* name : {"inputs.glb", "inputs.gltf"}) {
+        ASSERT_TRUE(
+            runExport(m_worker, document, planExport(document, settings(name)), JobContext()).ok());
+        const Result<OpenedScene> opened = openScene(m_worker, m_folder / name);
+        ASSERT_TRUE(opened.ok()) << opened.error().text();
+        ASSERT_EQ(opened->document.materials.size(), 1u);
+        const Material& back = opened->document.materials[0];
+        for (const MaterialInputInfo& info : kMaterialInputs) {
+            const MapSlot& read = back.*info.map;
+            ASSERT_TRUE(read.image) << name << ' ' << info.id << read.problem;
+            EXPECT_EQ(read.image->encoding(), info.encoding) << info.id;
+            EXPECT_EQ(read.uvOffset, (sent.*info.map).uvOffset) << info.id;
+            const int channel =
+                read.channel == MapChannel::Rgb
+                    ? 0
+                    : static_cast<int>(read.channel) - static_cast<int>(MapChannel::R);
+            const int stored = static_cast<int>(std::lround(
+                read.image->sample(0, 0, std::min(channel, read.image->channels() - 1)) * 255.0f));
+            EXPECT_EQ(stored, code(info)) << name << ' ' << info.id;
+            if (info.number != nullptr)
+                EXPECT_FLOAT_EQ(back.*info.number, number(info)) << name << ' ' << info.id;
+            else // the brightest channel of a colour may have gone into its strength
+                EXPECT_NEAR((back.*info.color).x * (info.input == MaterialInput::Emissive
+                                                        ? back.emissiveStrength
+                                                        : 1.0f),
+                            number(info), 1e-6f)
+                    << name << ' ' << info.id;
+        }
     }
 }
 

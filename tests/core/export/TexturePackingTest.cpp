@@ -57,8 +57,8 @@ TEST_F(TexturePacking, MaterialsWithoutMapsNeedNoTextures) {
     const TexturePlan p = plan();
     EXPECT_TRUE(p.textures.empty());
     ASSERT_EQ(p.materials.size(), 1u);
-    EXPECT_EQ(p.materials[0].baseColor.texture, -1);
-    EXPECT_EQ(p.materials[0].metallicRoughness.texture, -1);
+    EXPECT_EQ(p.materials[0][MaterialInput::BaseColor].texture, -1);
+    EXPECT_EQ(p.materials[0][MaterialInput::Metallic].texture, -1);
 }
 
 TEST_F(TexturePacking, ChannelsOfThreeMapsShareOneImage) {
@@ -72,8 +72,8 @@ TEST_F(TexturePacking, ChannelsOfThreeMapsShareOneImage) {
     EXPECT_EQ(p.textures[0].contents, "Body: occlusion (R), roughness (G), metallic (B)");
     EXPECT_EQ(p.textures[0].formatText(), "PNG 8-bit RGB 1 × 1");
     EXPECT_THAT(pixels(p.textures[0]), ElementsAre(10, 20, 30));
-    EXPECT_EQ(p.materials[0].occlusion.texture, 0);
-    EXPECT_EQ(p.materials[0].metallicRoughness.texture, 0);
+    EXPECT_EQ(p.materials[0][MaterialInput::Occlusion].texture, 0);
+    EXPECT_EQ(p.materials[0][MaterialInput::Metallic].texture, 0);
 }
 
 TEST_F(TexturePacking, AbsentMapsAreOne) {
@@ -83,11 +83,11 @@ TEST_F(TexturePacking, AbsentMapsAreOne) {
     ASSERT_EQ(p.textures.size(), 2u);
     EXPECT_EQ(p.textures[0].name, "A_metallicRoughness");
     EXPECT_THAT(pixels(p.textures[0]), ElementsAre(255, 255, 9));
-    EXPECT_EQ(p.materials[0].occlusion.texture, -1);
+    EXPECT_EQ(p.materials[0][MaterialInput::Occlusion].texture, -1);
     EXPECT_EQ(p.textures[1].name, "B_occlusion");
     EXPECT_EQ(p.textures[1].formatText(), "PNG 8-bit grey 1 × 1");
     EXPECT_THAT(pixels(p.textures[1]), ElementsAre(7));
-    EXPECT_EQ(p.materials[1].metallicRoughness.texture, -1);
+    EXPECT_EQ(p.materials[1][MaterialInput::Metallic].texture, -1);
 }
 
 TEST_F(TexturePacking, SmallerMapsGrowToTheLargest) {
@@ -185,10 +185,10 @@ TEST_F(TexturePacking, EqualImagesAreWrittenOnceEvenWhenLoadedTwice) {
     const TexturePlan p = plan();
     ASSERT_EQ(p.textures.size(), 2u);
     EXPECT_EQ(p.textures[0].contents, "A, B: base colour; D: emissive");
-    EXPECT_EQ(p.materials[1].baseColor.texture, 0);
-    EXPECT_EQ(p.materials[1].baseColor.scale, glm::vec2(2));
-    EXPECT_EQ(p.materials[2].baseColor.texture, 1);
-    EXPECT_EQ(p.materials[3].emissive.texture, 0);
+    EXPECT_EQ(p.materials[1][MaterialInput::BaseColor].texture, 0);
+    EXPECT_EQ(p.materials[1][MaterialInput::BaseColor].scale, glm::vec2(2));
+    EXPECT_EQ(p.materials[2][MaterialInput::BaseColor].texture, 1);
+    EXPECT_EQ(p.materials[3][MaterialInput::Emissive].texture, 0);
 }
 
 TEST_F(TexturePacking, MaterialsOfOneNameGetDifferentFiles) {
@@ -210,8 +210,8 @@ TEST_F(TexturePacking, DifferentTransformsKeepOcclusionApart) {
     ASSERT_EQ(p.textures.size(), 2u);
     EXPECT_EQ(p.textures[0].name, "M_occlusion");
     EXPECT_EQ(p.textures[1].name, "M_metallicRoughness");
-    EXPECT_EQ(p.materials[0].occlusion.scale, glm::vec2(1));
-    EXPECT_EQ(p.materials[0].metallicRoughness.scale, glm::vec2(3));
+    EXPECT_EQ(p.materials[0][MaterialInput::Occlusion].scale, glm::vec2(1));
+    EXPECT_EQ(p.materials[0][MaterialInput::Metallic].scale, glm::vec2(3));
     EXPECT_THAT(p.warnings, ElementsAre(HasSubstr("metallic map will follow")));
 }
 
@@ -238,7 +238,7 @@ TEST_F(TexturePacking, TheBakeReplacesTheOcclusionMap) {
     ASSERT_EQ(p.textures.size(), 1u);
     EXPECT_EQ(p.textures[0].contents, "M: baked occlusion (R), roughness (G)");
     EXPECT_THAT(pixels(p.textures[0]), ElementsAre(128, 7, 255, 51, 7, 255));
-    EXPECT_EQ(p.materials[0].occlusion.scale, glm::vec2(1));
+    EXPECT_EQ(p.materials[0][MaterialInput::Occlusion].scale, glm::vec2(1));
 }
 
 TEST_F(TexturePacking, MissingImagesAreLeftOutAndTold) {

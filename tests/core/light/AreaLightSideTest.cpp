@@ -21,7 +21,7 @@ struct Element {
 Element element() {
     const float NoV = 0.9f, r = 0.6f;
     const vec3 v(std::sqrt(1.0f - NoV * NoV), 0.0f, NoV);
-    return {shading::makeSurface(shading::defaultBrdfModel(), vec3(0.5f), 0.0f, r, 0.0f,
+    return {shading::makeSurface(shading::defaultBrdfModel(), {vec3(0.5f), 0.0f, r, 0.0f},
                                  vec3(0, 0, 1), v, glm::vec2(integrateDfg(NoV, r))),
             lobeFit(r, NoV)};
 }

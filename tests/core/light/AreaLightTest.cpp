@@ -269,8 +269,9 @@ TEST(AreaLight, NothingMakesNaN) {
         for (const float NoV : {-0.2f, 0.0f, 1e-4f, 0.5f, 1.0f}) {
             const vec3 v(std::sqrt(1.0f - NoV * NoV), 0.0f, NoV);
             const float cosine = std::max(NoV, shading::kMinNoV);
-            const auto s = shading::makeSurface(shading::defaultBrdfModel(), vec3(1.0f), r, r, 0.0f,
-                                                n, v, glm::vec2(integrateDfg(cosine, r)));
+            const auto s =
+                shading::makeSurface(shading::defaultBrdfModel(), {vec3(1.0f), r, r, 0.0f}, n, v,
+                                     glm::vec2(integrateDfg(cosine, r)));
             const glm::vec4 fit = lobeFit(r, cosine);
             for (const float x : places)
                 for (const float z : places)

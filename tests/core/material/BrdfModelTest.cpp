@@ -60,7 +60,7 @@ TEST(WhiteMetal, KeepsAllLightForEveryDistributionAndVisibility) {
         for (const float r : {0.2f, 0.6f, 1.0f})
             for (const float NoV : {0.1f, 0.5f, 1.0f}) {
                 const float alpha = alphaFromPerceptualRoughness(r);
-                const SurfaceTerms s = makeSurface(m, vec3(1.0f), 1.0f, r, 0.0f, vec3(0, 0, 1),
+                const SurfaceTerms s = makeSurface(m, {vec3(1.0f), 1.0f, r, 0.0f}, vec3(0, 0, 1),
                                                    viewerAt(NoV), quadratureDfg(m, NoV, alpha));
                 EXPECT_NEAR(specularIntegral(s).x, 1.0, 5e-3)
                     << nameOf(m) << " " << r << " " << NoV;
@@ -104,7 +104,7 @@ TEST(WhiteMetal, LosesWhatTheTableSaysWithoutCompensation) {
             m.visibility = row.visibility;
             m.multiScatter = 0;
             const vec2 dfg = quadratureDfg(m, kNoV[i], row.r * row.r);
-            const SurfaceTerms s = makeSurface(m, vec3(1.0f), 1.0f, row.r, 0.0f, vec3(0, 0, 1),
+            const SurfaceTerms s = makeSurface(m, {vec3(1.0f), 1.0f, row.r, 0.0f}, vec3(0, 0, 1),
                                                viewerAt(kNoV[i]), dfg);
             EXPECT_NEAR(1.0 - specularIntegral(s).x, row.loss[i], 1.5e-3)
                 << nameOf(m) << " " << row.r << " " << kNoV[i];
@@ -136,7 +136,7 @@ TEST(Energy, SingleScatteringNeverMakesLightWhereTheModelPromisesIt) {
     m.multiScatter = 0;
     const vec2 dfg = quadratureDfg(m, 0.02f, 1.0f);
     EXPECT_GT(dfg.x + dfg.y, 1.5f);
-    EXPECT_EQ(makeSurface(m, vec3(1.0f), 1.0f, 1.0f, 0.0f, vec3(0, 0, 1), viewerAt(0.02f), dfg)
+    EXPECT_EQ(makeSurface(m, {vec3(1.0f), 1.0f, 1.0f, 0.0f}, vec3(0, 0, 1), viewerAt(0.02f), dfg)
                   .specularAlbedo,
               vec3(1.0f));
 }
@@ -151,7 +151,7 @@ TEST(Energy, WhiteDielectricReturnsAtMostAllOfIt) {
                     m.diffuse = diffuse;
                     const vec2 dfg = quadratureDfg(m, NoV, alphaFromPerceptualRoughness(r));
                     const SurfaceTerms s =
-                        makeSurface(m, vec3(1.0f), 0.0f, r, r, vec3(0, 0, 1), viewerAt(NoV), dfg);
+                        makeSurface(m, {vec3(1.0f), 0.0f, r, r}, vec3(0, 0, 1), viewerAt(NoV), dfg);
                     const float total = specularIntegral(s).y + diffuseIntegral(s).y;
                     EXPECT_LE(total, 1.005f) << nameOf(m) << " " << r << " " << NoV;
                     EXPECT_GT(total, 0.6f) << nameOf(m) << " " << r << " " << NoV;
@@ -172,7 +172,7 @@ TEST(Energy, FadedLayerTakesItsShare) {
         for (const float NoV : {0.1f, 1.0f}) {
             const vec2 dfg = quadratureDfg(m, NoV, alphaFromPerceptualRoughness(r));
             const SurfaceTerms whole =
-                makeSurface(m, vec3(1.0f), 0.0f, r, r, vec3(0, 0, 1), viewerAt(NoV), dfg);
+                makeSurface(m, {vec3(1.0f), 0.0f, r, r}, vec3(0, 0, 1), viewerAt(NoV), dfg);
             const SurfaceTerms same = fadeSpecularLayer(whole, 1.0f);
             EXPECT_EQ(same.transmission, whole.transmission);
             EXPECT_EQ(same.diffuseAlbedo, whole.diffuseAlbedo);
@@ -204,8 +204,8 @@ TEST(Reciprocity, OfEverySingleLobe) {
                         continue;
                     // A layer that takes nothing: what remains is the lobes themselves.
                     const auto at = [&](const vec3& viewer, const vec3& light) {
-                        const SurfaceTerms s = makeSurface(m, vec3(0.6f), 0.4f, r, r, vec3(0, 0, 1),
-                                                           viewer, vec2(0.0f));
+                        const SurfaceTerms s = makeSurface(m, {vec3(0.6f), 0.4f, r, r},
+                                                           vec3(0, 0, 1), viewer, vec2(0.0f));
                         return shadeDirect(s, light, vec3(1.0f));
                     };
                     const ShadedLight a = at(v, l), b = at(l, v);
@@ -250,7 +250,7 @@ TEST(ExactFresnel, AlbedoUnderImageBasedLight) {
                 m.conductorN = material.n;
                 m.conductorK = material.k;
                 const vec2 dfg = quadratureDfg(m, NoV, alphaFromPerceptualRoughness(r));
-                const SurfaceTerms s = makeSurface(m, vec3(0.5f), material.metallic, r, 0.0f,
+                const SurfaceTerms s = makeSurface(m, {vec3(0.5f), material.metallic, r, 0.0f},
                                                    vec3(0, 0, 1), viewerAt(NoV), dfg);
                 const vec3 exact = specularIntegral(s);
                 const vec3 fit = s.f0 * dfg.x + vec3(dfg.y);
@@ -274,7 +274,7 @@ TEST(ExactFresnel, AMirrorIsFresnelItself) {
     m.ior = 1.8f;
     for (const float NoV : {0.05f, 0.3f, 1.0f}) {
         const float weight = schlickWeight(NoV); // table at roughness 0
-        const SurfaceTerms s = makeSurface(m, vec3(0.5f), 0.0f, 0.0f, 0.0f, vec3(0, 0, 1),
+        const SurfaceTerms s = makeSurface(m, {vec3(0.5f), 0.0f, 0.0f, 0.0f}, vec3(0, 0, 1),
                                            viewerAt(NoV), vec2(1.0f - weight, weight));
         EXPECT_NEAR(s.specularAlbedo.x, F_Dielectric(NoV, 1.8f), 2e-5f) << NoV;
     }
@@ -284,7 +284,7 @@ TEST(Choices, EachOneReachesThePicture) {
     // Switching one term changes the reflection of one light; so no dispatch is forgotten.
     const vec3 l = normalize(vec3(-0.6f, 0.2f, 0.5f));
     const auto shade = [&](const BrdfModel& m) {
-        const SurfaceTerms s = makeSurface(m, vec3(0.7f), 0.3f, 0.5f, 0.8f, vec3(0, 0, 1),
+        const SurfaceTerms s = makeSurface(m, {vec3(0.7f), 0.3f, 0.5f, 0.8f}, vec3(0, 0, 1),
                                            viewerAt(0.6f), vec2(0.8f, 0.05f));
         const ShadedLight light = shadeDirect(s, l, vec3(1.0f));
         return light.specular.x + light.diffuse.x;
@@ -350,8 +350,8 @@ TEST(Sweep, NoModelYieldsAnythingButFiniteLight) {
                         ++n;
                         const vec3 v = viewerAt(NoV), normal(0, 0, 1);
                         const SurfaceTerms s =
-                            makeSurface(m, vec3(kAlbedo[n % 4]), kMetallic[n % 3], r, r, normal, v,
-                                        kDfg[(n / 7) % 4]);
+                            makeSurface(m, {vec3(kAlbedo[n % 4]), kMetallic[n % 3], r, r}, normal,
+                                        v, kDfg[(n / 7) % 4]);
                         for (const vec3& l :
                              {-v, v, reflect(-v, normal), normal, -normal, vec3(1, 0, 0),
                               normalize(vec3(1.0f, 0.0f, 1e-6f)), uniformSphere(sobolOwen2D(n, 5))})

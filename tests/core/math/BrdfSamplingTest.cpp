@@ -134,7 +134,7 @@ TEST(SurfaceSampling, EstimatesTheReflectionOfTheFurnace) {
                 for (const float NoV : {0.2f, 0.9f}) {
                     const BrdfModel m = withTerms(d, diffuse);
                     const float alpha = alphaFromPerceptualRoughness(r);
-                    const SurfaceTerms s = makeSurface(m, vec3(0.8f), 0.2f, r, r, vec3(0, 0, 1),
+                    const SurfaceTerms s = makeSurface(m, {vec3(0.8f), 0.2f, r, r}, vec3(0, 0, 1),
                                                        viewerAt(NoV), quadratureDfg(m, NoV, alpha));
                     double sum = 0.0, largest = 0.0;
                     constexpr std::uint32_t kSamples = 4096;
@@ -167,7 +167,8 @@ TEST(SurfaceSampling, TurnsWithTheSurface) {
         const vec3 v = viewerAt(0.5f);
         const vec3 world = v.x * t + v.y * b + v.z * n;
         const auto at = [&](const vec3& normal, const vec3& viewer) {
-            return makeSurface(m, vec3(0.5f), 0.0f, 0.4f, 0.6f, normal, viewer, vec2(0.9f, 0.02f));
+            return makeSurface(m, {vec3(0.5f), 0.0f, 0.4f, 0.6f}, normal, viewer,
+                               vec2(0.9f, 0.02f));
         };
         const SurfaceTerms up = at(vec3(0, 0, 1), v), turned = at(n, world);
         for (std::uint32_t i = 0; i < 200; ++i) {

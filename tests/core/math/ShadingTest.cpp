@@ -111,7 +111,7 @@ TEST(Fresnel, SchlickValues) {
 // Of the default model.
 SurfaceTerms surfaceOf(const vec3& baseColor, float metallic, float perceptualRoughness,
                        const vec3& n, const vec3& v, const vec2& dfg) {
-    return makeSurface(defaultBrdfModel(), baseColor, metallic, perceptualRoughness, 0.0f, n, v,
+    return makeSurface(defaultBrdfModel(), {baseColor, metallic, perceptualRoughness, 0.0f}, n, v,
                        dfg);
 }
 

@@ -27,12 +27,15 @@ TEST_F(FbxImport, TextAndBinaryHoldTheSame) {
         const ImportedMaterial& material = model.materials[index];
         EXPECT_EQ(material.name, "oak");
         // Blender, the most common writer, stores (10 (1 - r))² as the exponent.
-        EXPECT_NEAR(material.perceptualRoughness, 1.0f - std::sqrt(30.0f) / 10.0f, 1e-5f);
+        EXPECT_NEAR(material.numbers[MaterialInput::PerceptualRoughness],
+                    1.0f - std::sqrt(30.0f) / 10.0f, 1e-5f);
         // "C:\art\Wood.PNG" was elsewhere; here it is in the folder of textures.
-        ASSERT_TRUE(material.baseColorMap);
-        EXPECT_EQ(material.baseColorMap->file, folder.path() / "textures" / "wood.png");
-        EXPECT_EQ(material.baseColorMap->uvScale, glm::vec2(2, 2));
-        EXPECT_EQ(material.baseColorMap->uvOffset, glm::vec2(0, -1)); // 1 - scale: v points down
+        ASSERT_TRUE(material.maps[MaterialInput::BaseColor]);
+        EXPECT_EQ(material.maps[MaterialInput::BaseColor]->file,
+                  folder.path() / "textures" / "wood.png");
+        EXPECT_EQ(material.maps[MaterialInput::BaseColor]->uvScale, glm::vec2(2, 2));
+        EXPECT_EQ(material.maps[MaterialInput::BaseColor]->uvOffset,
+                  glm::vec2(0, -1)); // 1 - scale: v points down
         EXPECT_EQ(material.baseColor, glm::vec4(1.0f));
         EXPECT_TRUE(model.missingTextures.empty());
         expectNear(glm::normalize(areaVector(model)), {0, 0, 1});

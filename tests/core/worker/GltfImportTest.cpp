@@ -142,33 +142,36 @@ TEST_F(GltfImport, MaterialsInFull) {
     const ImportedMaterial& steel = model.materials[0];
     EXPECT_EQ(steel.name, "steel");
     EXPECT_EQ(steel.baseColor, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
-    EXPECT_FLOAT_EQ(steel.metallic, 0.9f);
-    EXPECT_FLOAT_EQ(steel.perceptualRoughness, 0.35f);
-    EXPECT_FLOAT_EQ(steel.normalStrength, 0.7f);
-    EXPECT_FLOAT_EQ(steel.occlusionStrength, 0.6f);
+    EXPECT_FLOAT_EQ(steel.numbers[MaterialInput::Metallic], 0.9f);
+    EXPECT_FLOAT_EQ(steel.numbers[MaterialInput::PerceptualRoughness], 0.35f);
+    EXPECT_FLOAT_EQ(steel.numbers[MaterialInput::Normal], 0.7f);
+    EXPECT_FLOAT_EQ(steel.numbers[MaterialInput::Occlusion], 0.6f);
     EXPECT_EQ(steel.emissive, glm::vec3(4, 2, 0));
     EXPECT_TRUE(steel.doubleSided);
     EXPECT_TRUE(steel.alphaMask);
     EXPECT_FALSE(steel.alphaBlend);
     EXPECT_FLOAT_EQ(steel.alphaCutoff, 0.25f);
-    ASSERT_TRUE(steel.metallicMap && steel.roughnessMap && steel.occlusionMap &&
-                steel.baseColorMap);
-    EXPECT_EQ(steel.metallicMap->channel, 'b');
-    EXPECT_EQ(steel.roughnessMap->channel, 'g');
-    EXPECT_EQ(steel.occlusionMap->channel, 'r');
-    EXPECT_EQ(steel.baseColorMap->channel, 0);
-    EXPECT_EQ(steel.baseColorMap->file, folder.path() / "folder one" / "color.png");
-    EXPECT_EQ(steel.baseColorMap->uvScale, glm::vec2(2, 3));
-    EXPECT_EQ(steel.baseColorMap->uvOffset, glm::vec2(0.25f, 0.5f));
-    EXPECT_NEAR(steel.baseColorMap->uvRotationDeg, 28.64789f, 1e-4f);
-    EXPECT_EQ(steel.normalMap->uvScale, glm::vec2(1));
+    ASSERT_TRUE(steel.maps[MaterialInput::Metallic] &&
+                steel.maps[MaterialInput::PerceptualRoughness] &&
+                steel.maps[MaterialInput::Occlusion] && steel.maps[MaterialInput::BaseColor]);
+    EXPECT_EQ(steel.maps[MaterialInput::Metallic]->channel, 'b');
+    EXPECT_EQ(steel.maps[MaterialInput::PerceptualRoughness]->channel, 'g');
+    EXPECT_EQ(steel.maps[MaterialInput::Occlusion]->channel, 'r');
+    EXPECT_EQ(steel.maps[MaterialInput::BaseColor]->channel, 0);
+    EXPECT_EQ(steel.maps[MaterialInput::BaseColor]->file,
+              folder.path() / "folder one" / "color.png");
+    EXPECT_EQ(steel.maps[MaterialInput::BaseColor]->uvScale, glm::vec2(2, 3));
+    EXPECT_EQ(steel.maps[MaterialInput::BaseColor]->uvOffset, glm::vec2(0.25f, 0.5f));
+    EXPECT_NEAR(steel.maps[MaterialInput::BaseColor]->uvRotationDeg, 28.64789f, 1e-4f);
+    EXPECT_EQ(steel.maps[MaterialInput::Normal]->uvScale, glm::vec2(1));
     EXPECT_THAT(model.missingTextures, ElementsAre("orm.png"));
-    EXPECT_EQ(steel.roughnessMap->file, folder.path() / "orm.png"); // where it is expected
+    EXPECT_EQ(steel.maps[MaterialInput::PerceptualRoughness]->file,
+              folder.path() / "orm.png"); // where it is expected
 
     const ImportedMaterial& glass = model.materials[1];
     EXPECT_TRUE(glass.alphaBlend);
-    EXPECT_FLOAT_EQ(glass.metallic, 1.0f); // glTF's defaults
-    EXPECT_FLOAT_EQ(glass.perceptualRoughness, 1.0f);
+    EXPECT_FLOAT_EQ(glass.numbers[MaterialInput::Metallic], 1.0f); // glTF's defaults
+    EXPECT_FLOAT_EQ(glass.numbers[MaterialInput::PerceptualRoughness], 1.0f);
     EXPECT_EQ(glass.baseColor, glm::vec4(1.0f));
     EXPECT_EQ(model.materials[2].name, "default");
     EXPECT_EQ(model.instances[2].material, 2);
@@ -189,10 +192,10 @@ TEST_F(GltfImport, EmbeddedTexturesAreHandedOverCompressed) {
     EXPECT_EQ(test::bytesOf(model.embeddedImages[0]), png);
     EXPECT_EQ(test::bytesOf(model.embeddedImages[1]), png);
     const ImportedMaterial& material = model.materials[0];
-    EXPECT_EQ(material.baseColorMap->embedded, 0);
-    EXPECT_EQ(material.normalMap->embedded, 0);
-    EXPECT_EQ(material.emissiveMap->embedded, 1);
-    EXPECT_TRUE(material.baseColorMap->file.empty());
+    EXPECT_EQ(material.maps[MaterialInput::BaseColor]->embedded, 0);
+    EXPECT_EQ(material.maps[MaterialInput::Normal]->embedded, 0);
+    EXPECT_EQ(material.maps[MaterialInput::Emissive]->embedded, 1);
+    EXPECT_TRUE(material.maps[MaterialInput::BaseColor]->file.empty());
     EXPECT_THAT(model.missingTextures, IsEmpty());
 }
 

@@ -76,16 +76,17 @@ TEST_F(ObjImport, BlinnPhongBecomesRoughness) {
     EXPECT_EQ(m.name, "m");
     EXPECT_FLOAT_EQ(m.baseColor.r, 0.8f);
     EXPECT_FLOAT_EQ(m.baseColor.b, 0.05f);
-    EXPECT_FLOAT_EQ(m.metallic, 0.0f);
+    EXPECT_FLOAT_EQ(m.numbers[MaterialInput::Metallic], 0.0f);
     // alpha = sqrt(2 / (48 + 2)) = 0.2; perceptual roughness is its root.
-    EXPECT_NEAR(m.perceptualRoughness, std::sqrt(0.2f), 1e-5f);
-    EXPECT_NEAR(material("Kd 1 1 1\nNs 0\n").perceptualRoughness, 0.5f, 1e-6f);
+    EXPECT_NEAR(m.numbers[MaterialInput::PerceptualRoughness], std::sqrt(0.2f), 1e-5f);
+    EXPECT_NEAR(material("Kd 1 1 1\nNs 0\n").numbers[MaterialInput::PerceptualRoughness], 0.5f,
+                1e-6f);
 }
 
 TEST_F(ObjImport, PhysicallyBasedExtensionWins) {
     const ImportedMaterial m = material("Kd 1 1 1\nNs 48\nPr 0.3\nPm 0.8\n");
-    EXPECT_FLOAT_EQ(m.perceptualRoughness, 0.3f);
-    EXPECT_FLOAT_EQ(m.metallic, 0.8f);
+    EXPECT_FLOAT_EQ(m.numbers[MaterialInput::PerceptualRoughness], 0.3f);
+    EXPECT_FLOAT_EQ(m.numbers[MaterialInput::Metallic], 0.8f);
 }
 
 TEST_F(ObjImport, Maps) {
@@ -93,19 +94,21 @@ TEST_F(ObjImport, Maps) {
         folder.write(name, std::string_view("any"));
     const ImportedMaterial m = material("Kd 0.2 0.2 0.2\nPr 0.1\nmap_Kd c.png\nnorm n.png\n"
                                         "map_Pr r.png\nmap_Pm m.png\nmap_Ke e.png\n");
-    ASSERT_TRUE(m.baseColorMap && m.normalMap && m.roughnessMap && m.metallicMap && m.emissiveMap);
-    EXPECT_EQ(m.baseColorMap->file, folder.path() / "c.png");
-    EXPECT_EQ(m.normalMap->file, folder.path() / "n.png");
-    EXPECT_EQ(m.roughnessMap->file, folder.path() / "r.png");
-    EXPECT_EQ(m.metallicMap->file, folder.path() / "m.png");
-    EXPECT_EQ(m.emissiveMap->file, folder.path() / "e.png");
+    ASSERT_TRUE(m.maps[MaterialInput::BaseColor] && m.maps[MaterialInput::Normal] &&
+                m.maps[MaterialInput::PerceptualRoughness] && m.maps[MaterialInput::Metallic] &&
+                m.maps[MaterialInput::Emissive]);
+    EXPECT_EQ(m.maps[MaterialInput::BaseColor]->file, folder.path() / "c.png");
+    EXPECT_EQ(m.maps[MaterialInput::Normal]->file, folder.path() / "n.png");
+    EXPECT_EQ(m.maps[MaterialInput::PerceptualRoughness]->file, folder.path() / "r.png");
+    EXPECT_EQ(m.maps[MaterialInput::Metallic]->file, folder.path() / "m.png");
+    EXPECT_EQ(m.maps[MaterialInput::Emissive]->file, folder.path() / "e.png");
     EXPECT_EQ(m.baseColor, glm::vec4(1.0f)); // the map replaces the colour
-    EXPECT_FLOAT_EQ(m.metallic, 1.0f);
-    EXPECT_FLOAT_EQ(m.perceptualRoughness, 1.0f);
+    EXPECT_FLOAT_EQ(m.numbers[MaterialInput::Metallic], 1.0f);
+    EXPECT_FLOAT_EQ(m.numbers[MaterialInput::PerceptualRoughness], 1.0f);
     EXPECT_EQ(m.emissive, glm::vec3(1.0f));
     const ImportedMaterial bump = material("Kd 1 1 1\nmap_Bump n.png\n");
-    ASSERT_TRUE(bump.normalMap);
-    EXPECT_EQ(bump.normalMap->file, folder.path() / "n.png");
+    ASSERT_TRUE(bump.maps[MaterialInput::Normal]);
+    EXPECT_EQ(bump.maps[MaterialInput::Normal]->file, folder.path() / "n.png");
 }
 
 TEST_F(ObjImport, EmissionAndOpacity) {
@@ -130,8 +133,9 @@ TEST_F(ObjImport, NamesAreBytes) {
         EXPECT_EQ(model.triangleCount, 2u) << name;
         EXPECT_THAT(model.missingTextures, IsEmpty()) << name;
         const auto index = static_cast<std::size_t>(model.instances[0].material);
-        ASSERT_TRUE(model.materials[index].baseColorMap);
-        EXPECT_EQ(model.materials[index].baseColorMap->file, folder.path() / "h\xf6lz e.png");
+        ASSERT_TRUE(model.materials[index].maps[MaterialInput::BaseColor]);
+        EXPECT_EQ(model.materials[index].maps[MaterialInput::BaseColor]->file,
+                  folder.path() / "h\xf6lz e.png");
     }
 }
 

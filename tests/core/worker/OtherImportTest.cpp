@@ -39,10 +39,11 @@ TEST_F(ColladaImport, MaterialAndTexture) {
     const auto index = static_cast<std::size_t>(model.instances[0].material);
     const ImportedMaterial& material = model.materials[index];
     EXPECT_EQ(material.name, "oak");
-    ASSERT_TRUE(material.baseColorMap);
-    EXPECT_EQ(material.baseColorMap->file, folder.path() / "wood panel.png");
+    ASSERT_TRUE(material.maps[MaterialInput::BaseColor]);
+    EXPECT_EQ(material.maps[MaterialInput::BaseColor]->file, folder.path() / "wood panel.png");
     EXPECT_EQ(material.baseColor, glm::vec4(1.0f));
-    EXPECT_NEAR(material.perceptualRoughness, std::sqrt(0.25f), 1e-5f); // exponent 30
+    EXPECT_NEAR(material.numbers[MaterialInput::PerceptualRoughness], std::sqrt(0.25f),
+                1e-5f); // exponent 30
     EXPECT_EQ(model.instances[0].name, "plank");
     for (std::size_t i = 0; i < 4; ++i) {
         const Mesh& mesh = *model.meshes[0];
@@ -89,8 +90,8 @@ TEST_F(PlyImport, BigEndianPolygonsExtrasAndTexture) {
     const ImportedModel model = import("a.ply", file);
     EXPECT_EQ(model.triangleCount, 3u);
     expectNear(areaVector(model), {0, 0, 10});
-    ASSERT_TRUE(model.materials[0].baseColorMap);
-    EXPECT_EQ(model.materials[0].baseColorMap->file, folder.path() / "skin.png");
+    ASSERT_TRUE(model.materials[0].maps[MaterialInput::BaseColor]);
+    EXPECT_EQ(model.materials[0].maps[MaterialInput::BaseColor]->file, folder.path() / "skin.png");
 }
 
 TEST_F(PlyImport, InvalidIndicesAreCounted) {
