@@ -149,12 +149,17 @@ inline constexpr std::array<MaterialInputInfo, kMaterialInputCount> kMaterialInp
 
 namespace detail {
 
+constexpr bool isExtension(std::string_view object) {
+    return object.starts_with("KHR_") || object.starts_with("EXT_");
+}
+
 constexpr bool isWhole(const MaterialInputInfo& info, std::size_t place) {
     const bool number = info.role == InputRole::Number;
     return static_cast<std::size_t>(info.input) == place && !info.id.empty() &&
            info.map != nullptr && (info.color != nullptr) == (info.role == InputRole::Color) &&
            (info.number != nullptr) != (info.color != nullptr) &&
            (info.shown != nullptr) == number && number != info.gltf.factor.empty() &&
+           (!number || info.gltf.object == kGltfPbr || isExtension(info.gltf.object)) &&
            readsOneChannel(info) == (info.gltf.channel != 0) && !info.gltf.texture.empty() &&
            !info.fileWords.empty() && info.parameters.map.ends_with(".map") &&
            !info.parameters.label.empty() && !info.parameters.mapLabel.empty() &&
