@@ -252,7 +252,7 @@ std::vector<LeftOut> leftOutViews(const Document& document, const render::ViewSe
     return left;
 }
 
-Result<Image> viewNumbers(render::Renderer& renderer, const ViewChoice& choice) {
+Result<Image> viewNumbers(render::ViewRenderer& renderer, const ViewChoice& choice) {
     if (!hasNumbers(viewInfo(choice.kind)))
         return usage(fmt::format("the view \"{}\" judges the displayed picture and has no numbers; "
                                  "write it as .png",
@@ -275,7 +275,7 @@ Result<Image> viewNumbers(render::Renderer& renderer, const ViewChoice& choice) 
     return image;
 }
 
-Result<std::vector<ImagePart>> viewParts(render::Renderer& renderer, const Document& document,
+Result<std::vector<ImagePart>> viewParts(render::ViewRenderer& renderer, const Document& document,
                                          const render::ViewSettings& settings) {
     const ViewMode mode = settings.shown.mode;
     std::vector<ImagePart> parts;
@@ -311,8 +311,8 @@ Result<std::vector<ImagePart>> viewParts(render::Renderer& renderer, const Docum
     return parts;
 }
 
-Result<Image> contactSheet(Session& session, render::Renderer& renderer, const Document& document,
-                           render::FrameSettings frame) {
+Result<Image> contactSheet(Session& session, render::ViewRenderer& renderer,
+                           const Document& document, render::FrameSettings frame) {
     Result<TextRaster> text = TextRaster::create();
     if (!text)
         return text.error();

@@ -2,7 +2,7 @@
 
 #include "app/editor/job/JobManager.h"
 #include "app/editor/job/LivePreview.h"
-#include "render/Renderer.h"
+#include "render/SceneRenderer.h"
 
 namespace patina::editor {
 namespace {
@@ -43,7 +43,7 @@ void PreviewFeed::restart() {
     m_pending = true;
 }
 
-void PreviewFeed::upload(render::Renderer& renderer) {
+void PreviewFeed::upload(render::SceneRenderer& renderer) {
     const std::shared_ptr<LivePreview> preview = m_jobs ? m_jobs->preview() : nullptr;
     const bool shown = preview && preview->shown();
     if (m_pending && shown) {

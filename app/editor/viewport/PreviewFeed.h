@@ -6,7 +6,7 @@
 #include <QTimer>
 
 namespace patina::render {
-class Renderer;
+class SceneRenderer;
 }
 
 namespace patina::editor {
@@ -24,7 +24,7 @@ class PreviewFeed : public QObject {
     // While the hand moves, frames have little time for what is new.
     void setHandMoves(bool moves) { m_handMoves = moves; }
     // With the renderer's context current: what has come since the last call, or the end of it.
-    void upload(render::Renderer& renderer);
+    void upload(render::SceneRenderer& renderer);
 
   Q_SIGNALS:
     void changed(); // there is something to upload

@@ -4,7 +4,7 @@
 
 #include "app/editor/job/LatestJob.h"
 #include "core/document/Document.h"
-#include "render/Renderer.h"
+#include "render/SceneRenderer.h"
 
 #include <QObject>
 #include <memory>
@@ -17,7 +17,7 @@ class ProjectionFeed : public QObject {
     explicit ProjectionFeed(QObject* parent = nullptr);
 
     // With the renderer's context current, before a frame of the document.
-    void upload(render::Renderer& renderer, const Document& document);
+    void upload(render::SceneRenderer& renderer, const Document& document);
 
   Q_SIGNALS:
     void changed(); // there is something to upload
@@ -25,7 +25,7 @@ class ProjectionFeed : public QObject {
   private:
     LatestJob m_job;
     ImagePtr m_asked; // under way, or done
-    std::shared_ptr<const render::Renderer::ProjectionSh> m_done;
+    std::shared_ptr<const render::SceneRenderer::ProjectionSh> m_done;
 };
 
 } // namespace patina::editor

@@ -14,7 +14,9 @@
 #include "app/editor/viewport/ViewportHand.h"
 #include "core/document/Document.h"
 #include "core/math/Camera.h"
-#include "render/Renderer.h"
+#include "render/SceneRenderer.h"
+#include "render/SheetRenderer.h"
+#include "render/ViewRenderer.h"
 
 #include <QElapsedTimer>
 #include <QImage>
@@ -156,7 +158,10 @@ class ViewportWidget : public QOpenGLWidget {
     PixelPicker m_picker;
 
     std::unique_ptr<gl::Context> m_context;
-    std::unique_ptr<render::Renderer> m_renderer;
+    // Null until there is a context.
+    std::unique_ptr<render::SceneRenderer> m_scene;
+    std::unique_ptr<render::ViewRenderer> m_renderer; // of what is shown
+    std::unique_ptr<render::SheetRenderer> m_thumbnails;
     bool m_displayPending = true; // m_displays->transform() is not in the renderer yet
     bool m_luminanceWanted = false;
     std::optional<Luminance> m_luminance; // as announced last

@@ -24,7 +24,7 @@ struct ProjectionFeedTest : ::testing::Test {
         auto made = gl::Context::createHeadless();
         ASSERT_TRUE(made.ok());
         context = std::move(*made);
-        auto created = render::Renderer::create(*context);
+        auto created = render::SceneRenderer::create(*context);
         ASSERT_TRUE(created.ok());
         renderer = std::move(*created);
         document.environment.image = sky(1.0f);
@@ -40,7 +40,7 @@ struct ProjectionFeedTest : ::testing::Test {
         return renderer->transferLight(2)[0].y / std::sqrt(4.0f * std::numbers::pi_v<float>);
     }
     std::unique_ptr<gl::Context> context;
-    std::unique_ptr<render::Renderer> renderer;
+    std::unique_ptr<render::SceneRenderer> renderer;
     Document document;
     ProjectionFeed feed;
     QSignalSpy changed{&feed, &ProjectionFeed::changed};
