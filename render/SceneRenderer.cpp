@@ -243,7 +243,7 @@ ViewsBlock SceneRenderer::Impl::viewsBlock(const ViewSettings& view,
     CHECK(choices.size() <= 8);
     ViewsBlock block;
     for (std::size_t i = 0; i < choices.size(); ++i) {
-        block.kinds[i] = recordedFor(choices[i].kind);
+        block.kinds[i] = viewInfo(choices[i].kind).recorded;
         block.modes[i] = choices[i].mode == ViewMode::Contribution ? 1 : 0;
         block.flat |= choices[i].kind == shading::kViewFlat ? 1 : 0;
     }
@@ -417,7 +417,7 @@ SceneRenderer::Impl::GlScope::~GlScope() {
 
 bool blends(const ViewChoice& choice) {
     return choice.mode == ViewMode::Contribution ||
-           viewInfo(recordedFor(choice.kind)).value == ViewValue::Radiance;
+           viewInfo(viewInfo(choice.kind).recorded).value == ViewValue::Radiance;
 }
 
 void flipRows(Image& image) {

@@ -77,7 +77,7 @@ Result<std::vector<Image>> SheetRenderer::draw(const FrameSettings& frame, const
         std::vector<ViewChoice> choices;
         while (next < sheet.kinds.size() && choices.size() < SheetTargets::kViews) {
             const ViewKind kind = sheet.kinds[next];
-            const bool alone = kind == kViewFlat || viewInfo(kind).group == ViewGroup::Lighting;
+            const bool alone = kind == kViewFlat || viewInfo(kind).lighting.has_value();
             if (alone && !choices.empty())
                 break;
             choices.push_back({kind, sheet.mode, {}});

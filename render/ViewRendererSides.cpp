@@ -39,7 +39,7 @@ glm::mat4 besideBy(int frame, int width, int height, const glm::mat4& worldToCli
 
 // With the sky behind: what is made of the whole picture.
 bool hasBackground(const ViewChoice& choice) {
-    return choice.mode == ViewMode::Raw && recordedFor(choice.kind) == kViewFinal;
+    return choice.mode == ViewMode::Raw && viewInfo(choice.kind).recorded == kViewFinal;
 }
 
 } // namespace
@@ -47,7 +47,7 @@ bool hasBackground(const ViewChoice& choice) {
 bool ViewSettings::isOrdinary(const ViewChoice& choice) const {
     const bool allTerms = std::all_of(terms.begin(), terms.end(), [](bool on) { return on; });
     return allTerms && !furnace && choice.mode == ViewMode::Raw &&
-           recordedFor(choice.kind) == kViewFinal && choice.kind != kViewFlat;
+           viewInfo(choice.kind).recorded == kViewFinal && choice.kind != kViewFlat;
 }
 
 Result<void> ViewRenderer::Impl::drawRadiance(const FrameSettings& frame, const ViewChoice& choice,

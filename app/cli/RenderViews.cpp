@@ -29,22 +29,8 @@ std::string viewNames() {
     return names;
 }
 
-// Whether a view shows what a bake of transfer holds.
-bool readsTransfer(ViewKind kind) {
-    switch (kind) {
-    case shading::kViewBentNormal:
-    case shading::kViewSkyVisibility:
-    case shading::kViewBakeError:
-    case shading::kViewShadowedLight:
-    case shading::kViewInterreflectedLight:
-        return true;
-    default:
-        return false;
-    }
-}
-
 bool hasNumbers(const ViewInfo& info) {
-    return info.value != ViewValue::Picture && info.kind != shading::kViewUvChecker;
+    return info.value != ViewValue::Picture && info.coversSurface;
 }
 
 // Channels of a part: which of the four floats, under which names.
@@ -235,7 +221,7 @@ Result<render::ViewSettings> viewSettings(const RenderOptions& options, const Do
     if (const std::string reason = whyEmpty(kind, document, settings.light); !reason.empty())
         return usage(fmt::format(
             "the view \"{}\" does not apply to this scene: {}{}", viewInfo(kind).id, reason,
-            readsTransfer(kind) && !hasTransfer(document)
+            viewInfo(kind).ofTransfer && !hasTransfer(document)
                 ? " Compute one with \"patina bake prt\" and add it with --bake."
                 : ""));
     return settings;
