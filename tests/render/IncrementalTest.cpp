@@ -2,6 +2,7 @@
 // given the document at once. By default a few values of each parameter; PATINA_INCREMENTAL_VALUES
 // and PATINA_INCREMENTAL_EDITS ask for more.
 #include "core/edit/Edit.h"
+#include "core/edit/Parameters.h"
 #include "core/light/Lights.h"
 #include "core/mix/LightMix.h"
 #include "tests/core/document/RandomDocument.h"
@@ -163,11 +164,12 @@ TEST_F(Incremental, AnyValueOfAnyParameterDrawsLikeAFreshScene) {
     RandomDocument random(11);
     const Document start = scene();
     int edits = 0, seen = 0;
-    Picture before = show(sceneRenderer(), renderer(), start);
-    ASSERT_EQ(before, afresh(start));
+    const Picture first = show(sceneRenderer(), renderer(), start);
+    ASSERT_EQ(first, afresh(start));
     for (const ParameterInfo& info : parameters()) {
         SCOPED_TRACE(std::string(info.id));
         Document document = start;
+        Picture before = first;
         const std::vector<Id> ids = RandomDocument::idsOf(document, info.scope);
         // Every choice there is, and then whatever comes.
         const int count = std::max(values, static_cast<int>(info.choices.size()));
@@ -186,9 +188,13 @@ TEST_F(Incremental, AnyValueOfAnyParameterDrawsLikeAFreshScene) {
                 map->uvOffset = glm::vec2(0.0f);
                 map->uvRotationDeg = random.between(0.0f, 90.0f);
             }
+            const bool idle = !whyIdle(info, document, target.id).empty();
             ASSERT_TRUE(applyParameter(document, info, target, value));
             const Picture picture = show(sceneRenderer(), renderer(), document);
             ASSERT_EQ(picture, fresh(document)) << "value " << i;
+            if (idle) {
+                ASSERT_EQ(picture, before) << "but " << whyIdle(info, document, target.id);
+            }
             seen += !(picture == before);
             before = picture;
             ++edits;
