@@ -7,6 +7,7 @@
 #include "app/editor/job/BounceUpdater.h"
 #include "app/editor/job/JobManager.h"
 #include "app/editor/job/NearShadowUpdater.h"
+#include "app/editor/job/UiTasks.h"
 #include "app/editor/viewport/LightLimitNotice.h"
 #include "app/editor/viewport/LobeOnSurface.h"
 #include "app/editor/viewport/PixelProbe.h"
@@ -18,10 +19,11 @@ namespace patina::editor {
 
 struct Session {
     WorkerClient worker;
-    DocumentController controller{worker};
+    TaskRunner tasks{postToThisThread()}; // all work in the background
+    DocumentController controller{worker, tasks};
     DisplayLoader displays{controller};
     SelectionModel selection{controller};
-    Thumbnails thumbnails;
+    Thumbnails thumbnails{tasks};
     ViewState views;
     PixelProbe probe;
     LobeOnSurface lobe{controller, probe};

@@ -371,12 +371,16 @@ JobControl TaskGroup::start(TaskSpec spec, std::function<void(const JobContext&)
             task->control.cancel();
             return control;
         }
-        const TaskPolicy policy = task->spec.policy;
-        if (policy == TaskPolicy::Newest || policy == TaskPolicy::Follow)
-            for (const TaskRunner::Impl::TaskPtr& other : m_runner->tasks)
-                if (other->sameTag(*task) && !other->mustBeDone() &&
-                    (policy == TaskPolicy::Newest || other->phase == Phase::Waiting))
-                    m_runner->drop(other, out);
+        bool first = true; // of those of its tag that are wanted
+        for (const TaskRunner::Impl::TaskPtr& other : m_runner->tasks) {
+            if (!other->sameTag(*task) || other->mustBeDone() || !other->wanted)
+                continue;
+            const bool begins = std::exchange(first, false);
+            if (task->spec.policy == TaskPolicy::Newest ||
+                (task->spec.policy == TaskPolicy::Follow && !begins &&
+                 other->phase == Phase::Waiting))
+                m_runner->drop(other, out);
+        }
         m_runner->erase(out);
         task->id = m_runner->nextId++;
         m_runner->tasks.push_back(std::move(task));

@@ -26,8 +26,8 @@ enum class TaskPolicy {
     // Cancels and drops what it replaces, waiting or running, and does not wait for the end of
     // that.
     Newest,
-    // Replaces what waits. What runs comes to its end and is applied, so that results keep coming
-    // while something is dragged. Never two at once.
+    // Waits for the end of the first, which is applied, so that results keep coming while something
+    // is dragged, and replaces what waits for that already. Never two at once.
     Follow,
     Queue, // one after another, the highest priority first
     // One after another, and for good: nothing replaces or cancels it, and the end of the group or
@@ -108,13 +108,13 @@ class TaskGroup {
     // the log. The control pauses, stops or cancels the work; what that comes to is applied.
     template <class Work, class Apply>
     JobControl run(TaskSpec spec, Work work, Apply apply) {
-        using Returned = std::invoke_result_t<Work&, const JobContext&>;
-        using Value = typename detail::TaskValue<Returned>::type;
+        using Answer = std::invoke_result_t<Work&, const JobContext&>;
+        using Value = typename detail::TaskValue<Answer>::type;
         auto found = std::make_shared<std::optional<Result<Value>>>();
         return start(
             std::move(spec),
             [work = std::move(work), found](const JobContext& job) mutable {
-                if constexpr (std::is_void_v<Returned>) {
+                if constexpr (std::is_void_v<Answer>) {
                     work(job);
                     found->emplace();
                 } else {

@@ -42,9 +42,9 @@ BounceUpdater::BounceUpdater(DocumentController& controller, JobManager& jobs, Q
     : QObject(parent)
     , m_controller(controller)
     , m_jobs(jobs)
-    , m_tracing("hits of a bake")
-    , m_lighting("bounced light", nullptr, LatestJob::Priority::Normal)
-    , m_solving("bounces") {
+    , m_tracing(controller.runner(), "hits of a bake")
+    , m_lighting(controller.runner(), "bounced light", nullptr, TaskPriority::High)
+    , m_solving(controller.runner(), "bounces") {
     m_pause.setSingleShot(true);
     m_pause.setInterval(kPauseMs);
     connect(&m_pause, &QTimer::timeout, this, &BounceUpdater::solve);

@@ -62,7 +62,6 @@ class BounceUpdater : public QObject {
 
     DocumentController& m_controller;
     JobManager& m_jobs;
-    LatestJob m_tracing, m_lighting, m_solving;
     QTimer m_pause; // of the hand, before all coefficients are solved
 
     BakeInputs m_inputs;                           // what the hits are of, or what is being traced
@@ -77,7 +76,8 @@ class BounceUpdater : public QObject {
     Request m_request;
     BouncedLightPtr m_shown;
     std::vector<BakeSurface> m_shownSurfaces;
-    int m_bounces = 0; // that the view asks for
+    int m_bounces = 0;                          // that the view asks for
+    LatestJob m_tracing, m_lighting, m_solving; // last: they end first
 };
 
 } // namespace patina::editor

@@ -1,11 +1,11 @@
-// The bakes and exports that run or wait, each on a thread of its own. Exports start at once; bakes
-// take turns, for the cores are better used by one than shared by two. UI thread only; progress is
-// polled.
+// The bakes and exports that run or wait, each on a thread of its own (TaskPriority::Job). Exports
+// start at once; bakes take turns, for the cores are better used by one than shared by two. UI
+// thread only; progress is polled.
 #pragma once
 
 #include "app/editor/job/JobQueue.h"
 #include "core/base/Result.h"
-#include "core/job/JobContext.h"
+#include "core/job/TaskRunner.h"
 #include "core/job/WorkGate.h"
 
 #include <QObject>
@@ -58,7 +58,7 @@ class JobManager : public QObject {
     using Prepare = std::function<Result<Work>()>;
 
     explicit JobManager(DocumentController& controller, QObject* parent = nullptr);
-    ~JobManager() override; // cancels everything and waits
+    ~JobManager() override;
 
     // `work` runs on a low-priority thread and must not touch the document: it gets copies.
     quint64 start(const QString& title, bool canStop, Work work);
@@ -92,7 +92,7 @@ class JobManager : public QObject {
     struct Job;
     void schedule();
     void begin(Job& job, Work work);
-    void finish(quint64 id, JobOutcome outcome);
+    void finish(quint64 id, const Result<JobOutcome>& outcome);
     void end(Job& job, const JobOutcome& outcome);
     void measure();
     [[nodiscard]] JobRecord record(const Job& job) const;
@@ -104,6 +104,7 @@ class JobManager : public QObject {
     std::shared_ptr<LivePreview> m_preview;
     QTimer m_meter; // rates, while something runs
     quint64 m_nextId = 1;
+    TaskGroup m_tasks; // last: it ends first
 };
 
 } // namespace patina::editor

@@ -47,8 +47,9 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     : QOpenGLWidget(parent)
     , m_controller(controller)
     , m_selection(selection)
-    , m_ibl(new IblUpdater(iblCacheFolder(), this))
+    , m_ibl(new IblUpdater(controller.runner(), iblCacheFolder(), this))
     , m_hand(controller, selection, *this)
+    , m_projections(controller.runner())
     , m_viewFeed(controller)
     , m_gate(controller)
     , m_picker(controller, *this) {

@@ -28,7 +28,7 @@ struct LightLabTest : testing::Test {
     static void SetUpTestSuite() {
         s_cache = std::make_unique<QTemporaryDir>();
         s_session = std::make_unique<Session>();
-        s_ibl = std::make_unique<IblUpdater>(s_cache->path().toStdString());
+        s_ibl = std::make_unique<IblUpdater>(s_session->tasks, s_cache->path().toStdString());
         QObject::connect(&controller(), &DocumentController::changed, s_ibl.get(),
                          [] { s_ibl->request(document().environment.image); });
         s_panel = std::make_unique<LightLabPanel>(controller(), *s_ibl, s_session->probe);
@@ -385,7 +385,7 @@ TEST_F(LightLabWindowTest, OpensByItsKeysAtAUsefulHeight) {
 TEST(LightLabWithoutADocument, SaysThatThereIsNoEnvironment) {
     Session session;
     const QTemporaryDir folder;
-    IblUpdater ibl(folder.path().toStdString());
+    IblUpdater ibl(session.tasks, folder.path().toStdString());
     LightLabPanel panel(session.controller, ibl, session.probe);
     panel.resize(700, 260);
     panel.show();
