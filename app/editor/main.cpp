@@ -146,8 +146,7 @@ int main(int argc, char* argv[]) {
         if (!window.isVisible()) // closed by the user, who was asked about what is unsaved
             recovery.leave();
     }
-    // What is being saved is saved, and a bake keeps its checkpoint.
-    if (!session.tasks.shutDown(kPatience))
+    if (!session.shutDown(kPatience))
         std::_Exit(status); // a hostile file may keep its decoder busy for a minute
     return status;
 }

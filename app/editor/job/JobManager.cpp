@@ -1,7 +1,6 @@
 #include "app/editor/job/JobManager.h"
 
 #include "app/editor/document/DocumentController.h"
-#include "app/editor/job/LivePreview.h"
 #include "core/base/Log.h"
 #include "core/job/Parallel.h"
 #include "core/job/ProgressRate.h"
@@ -265,13 +264,6 @@ std::vector<JobRecord> JobManager::jobs() const {
 std::optional<JobRecord> JobManager::job(quint64 id) const {
     const Job* found = find(id);
     return found ? std::optional(record(*found)) : std::nullopt;
-}
-
-void JobManager::setPreview(std::shared_ptr<LivePreview> preview) {
-    if (preview == m_preview)
-        return;
-    m_preview = std::move(preview);
-    Q_EMIT previewChanged();
 }
 
 } // namespace patina::editor

@@ -19,7 +19,6 @@
 namespace patina::editor {
 
 class DocumentController;
-class LivePreview;
 
 enum class JobState { Queued, Running, Paused, Done, Stopped, Cancelled, Failed };
 
@@ -79,14 +78,10 @@ class JobManager : public QObject {
 
     // Closed while a frame is drawn that the user waits for: jobs step aside.
     [[nodiscard]] WorkGate& gate() { return *m_gate; }
-    // What a running bake has found so far; null when no bake runs.
-    [[nodiscard]] std::shared_ptr<LivePreview> preview() const { return m_preview; }
-    void setPreview(std::shared_ptr<LivePreview> preview);
 
   Q_SIGNALS:
-    void jobsChanged();    // one was added, began, rests, goes on or has ended
-    void previewChanged(); // preview() is another one
-    void shuttingDown();   // everything is about to be cancelled: keep what can be gone on from
+    void jobsChanged();  // one was added, began, rests, goes on or has ended
+    void shuttingDown(); // everything is about to be cancelled: keep what can be gone on from
 
   private:
     struct Job;
@@ -101,7 +96,6 @@ class JobManager : public QObject {
     DocumentController& m_controller;
     std::shared_ptr<WorkGate> m_gate = std::make_shared<WorkGate>();
     std::vector<std::unique_ptr<Job>> m_jobs;
-    std::shared_ptr<LivePreview> m_preview;
     QTimer m_meter; // rates, while something runs
     quint64 m_nextId = 1;
     TaskGroup m_tasks; // last: it ends first

@@ -2,6 +2,9 @@
 
 #include "core/base/Log.h"
 
+#include <QFile>
+#include <QStandardPaths>
+
 namespace patina::editor {
 namespace {
 
@@ -10,6 +13,11 @@ constexpr const char* kFirst = "image-based light";
 constexpr const char* kRefined = "image-based light in full";
 
 } // namespace
+
+std::filesystem::path iblCacheFolder() {
+    const QString folder = QStandardPaths::writableLocation(QStandardPaths::CacheLocation);
+    return std::filesystem::path(QFile::encodeName(folder).toStdString()) / "ibl";
+}
 
 IblUpdater::IblUpdater(TaskRunner& runner, const std::filesystem::path& cacheFolder,
                        QObject* parent)

@@ -14,6 +14,9 @@
 
 namespace patina::editor {
 
+// Computed light outlives the session; the system may empty this folder at any time.
+[[nodiscard]] std::filesystem::path iblCacheFolder();
+
 class IblUpdater : public QObject {
     Q_OBJECT
   public:

@@ -358,7 +358,7 @@ TEST_F(LightLabWindowTest, OpensByItsKeysAtAUsefulHeight) {
     ASSERT_TRUE(eventually([&] { return dock->height() >= 240; }));
     EXPECT_GE(window->viewport().height(), 300) << "the viewport stays usable";
     ASSERT_TRUE(eventually([] { return panel().idle() && panel().light().maps; }));
-    EXPECT_EQ(panel().light().maps, window->viewport().ibl().maps()) << "the viewport's own";
+    EXPECT_EQ(panel().light().maps, session->ibl.maps()) << "the viewport's own";
 
     // Behind another tab the keys bring it to the front; in front they close it.
     auto* log = window->findChild<QDockWidget*>(QStringLiteral("log"));
