@@ -135,10 +135,13 @@ struct TaskRunner::Impl : std::enable_shared_from_this<TaskRunner::Impl> {
         return lane == Lane::Low ? limits.low : limits.normal;
     }
 
-    // Has threads for what may start.
-    void wake() {
+    // Has threads for what may start. A thread has the priority of the one that starts it, or less:
+    // those that gave theirs up start none of the normal lane.
+    void wake(bool ofLowPriority = false) {
         for (const Lane lane : {Lane::Low, Lane::Normal, Lane::Job}) {
             const std::size_t l = indexOf(lane);
+            if (lane == Lane::Normal && ofLowPriority)
+                continue; // the owner's thread does, when it hears that this task is done
             for (int missing = ready(lane) - idle[l]; missing > 0 && threads[l] < limit(lane);
                  --missing)
                 if (!addThread(lane))
@@ -205,7 +208,7 @@ struct TaskRunner::Impl : std::enable_shared_from_this<TaskRunner::Impl> {
                 --idle[l];
                 execute(*task, lock);
                 ++idle[l];
-                wake();
+                wake(lane != Lane::Normal);
                 continue;
             }
             if (closing || lane == Lane::Job)
@@ -318,14 +321,16 @@ bool TaskRunner::shutDown(std::chrono::milliseconds patience) {
         if (!task->mustBeDone())
             m_impl->drop(task, out);
     m_impl->erase(out);
-    m_impl->wake();
     const auto unfinished = [this](bool all) {
         return m_impl->any([all](const Impl::Task& task) {
             return task.phase != Phase::Done &&
                    (all || task.mustBeDone() || task.spec.priority == TaskPriority::Job);
         });
     };
-    m_impl->done.wait(lock, [&] { return !unfinished(false); });
+    m_impl->done.wait(lock, [&] {
+        m_impl->wake(); // for what must be done
+        return !unfinished(false);
+    });
     return m_impl->done.wait_for(lock, patience, [&] { return !unfinished(true); });
 }
 
@@ -341,6 +346,7 @@ TaskGroup::~TaskGroup() {
     std::vector<TaskRunner::Impl::TaskPtr> mine; // end after the mutex is free
     std::unique_lock lock(m_runner->mutex);
     m_runner->done.wait(lock, [this] {
+        m_runner->wake(); // for what must be done
         return !m_runner->any([this](const auto& task) {
             return task.group == m_state.get() && task.phase != Phase::Done;
         });

@@ -492,6 +492,34 @@ TEST_F(TaskRunnerTest, LowTasksAndJobsYieldToTheRest) {
     TaskGroup tasks(runner);
     std::map<TaskPriority, int> nice;
     const int own = ::getpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()));
+    // The end of a low one lets a normal one begin, whose thread must not take after it.
+    Barrier go;
+    int behind = -1;
+    tasks.run(
+        {.tag = "q", .policy = TaskPolicy::Queue, .priority = TaskPriority::Low},
+        [&](const JobContext&) { go.wait(); }, ignore);
+    tasks.run(
+        {.tag = "q", .policy = TaskPolicy::Exclusive},
+        [](const JobContext&) {
+            return ::getpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()));
+        },
+        [&](const Result<int>& result) { behind = result.value(); });
+    go.open();
+    ASSERT_TRUE(here.until([&] { return !tasks.busy(); }));
+    EXPECT_EQ(behind, own);
+    {
+        TaskRunner fresh(here.post());
+        bool done = false;
+        {
+            TaskGroup ends(fresh);
+            ends.run({.tag = "q", .policy = TaskPolicy::Queue, .priority = TaskPriority::Low},
+                     runUntilCancelled, ignore);
+            ends.run(
+                {.tag = "q", .policy = TaskPolicy::Exclusive},
+                [&](const JobContext&) { done = true; }, ignore);
+        } // while this thread waits, it still starts the thread
+        EXPECT_TRUE(done);
+    }
     for (const TaskPriority priority :
          {TaskPriority::Low, TaskPriority::Normal, TaskPriority::High, TaskPriority::Job})
         tasks.run(
