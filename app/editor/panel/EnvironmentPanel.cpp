@@ -37,9 +37,8 @@ EnvironmentPanel::EnvironmentPanel(DocumentController& controller, Thumbnails& t
                                    QWidget* parent)
     : QWidget(parent)
     , m_controller(controller)
-    , m_previews(new BackgroundTasks(1, this))
     , m_view(new LatLongView)
-    , m_picture(new LatLongPicture(this))
+    , m_picture(new LatLongPicture(controller.runner(), this))
     , m_gallery(new SkyGallery)
     , m_source(new ElidedLabel)
     , m_imageControls(makeImageControls())
@@ -50,7 +49,7 @@ EnvironmentPanel::EnvironmentPanel(DocumentController& controller, Thumbnails& t
            [] { return std::optional(kEnvironment); },
            // shown above, or by the mixer, in another way
            {"environment.kind", "environment.image", "environment.secondImage"}})) {
-    m_gallery->setTasks(*m_previews);
+    m_gallery->setRunner(controller.runner());
     auto* scroll = new PanelScroll;
     scroll->contents()->addWidget(makeKinds());
     scroll->contents()->addWidget(m_view);

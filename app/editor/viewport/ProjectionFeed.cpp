@@ -7,9 +7,9 @@
 
 namespace patina::editor {
 
-ProjectionFeed::ProjectionFeed(QObject* parent)
+ProjectionFeed::ProjectionFeed(TaskRunner& runner, QObject* parent)
     : QObject(parent)
-    , m_job("cross-fade", nullptr, LatestJob::Priority::Normal) {}
+    , m_job(runner, "cross-fade", nullptr, TaskPriority::High) {}
 
 void ProjectionFeed::upload(render::SceneRenderer& renderer, const Document& document) {
     const std::vector<EnvironmentPart> parts = environmentParts(document);

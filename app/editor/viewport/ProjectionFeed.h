@@ -14,7 +14,7 @@ namespace patina::editor {
 class ProjectionFeed : public QObject {
     Q_OBJECT
   public:
-    explicit ProjectionFeed(QObject* parent = nullptr);
+    explicit ProjectionFeed(TaskRunner& runner, QObject* parent = nullptr);
 
     // With the renderer's context current, before a frame of the document.
     void upload(render::SceneRenderer& renderer, const Document& document);
@@ -23,9 +23,9 @@ class ProjectionFeed : public QObject {
     void changed(); // there is something to upload
 
   private:
-    LatestJob m_job;
     ImagePtr m_asked; // under way, or done
     std::shared_ptr<const render::SceneRenderer::ProjectionSh> m_done;
+    LatestJob m_job; // last: it ends first
 };
 
 } // namespace patina::editor

@@ -12,15 +12,12 @@
 #include "core/mix/LightMix.h"
 #include "render/gl/Context.h"
 
-#include <QFile>
 #include <QOpenGLContext>
 #include <QOpenGLExtraFunctions>
 #include <QOpenGLFramebufferObject>
 #include <QOpenGLFunctions>
-#include <QStandardPaths>
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <glm/trigonometric.hpp>
 
 namespace patina::editor {
@@ -33,21 +30,16 @@ constexpr int kAccumulationMs = 16;                 // between frames that are a
 constexpr std::size_t kEnvironmentBytes = 16 << 20; // of textures between frames: some 10 ms
 constexpr int kShaderPollMs = 500;                  // hot reload in developers' builds
 
-// Computed light outlives the session; the system may empty this folder at any time.
-std::filesystem::path iblCacheFolder() {
-    const QString folder = QStandardPaths::writableLocation(QStandardPaths::CacheLocation);
-    return std::filesystem::path(QFile::encodeName(folder).toStdString()) / "ibl";
-}
-
 } // namespace
 
 ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& selection,
-                               QWidget* parent)
+                               IblUpdater& ibl, QWidget* parent)
     : QOpenGLWidget(parent)
     , m_controller(controller)
     , m_selection(selection)
-    , m_ibl(new IblUpdater(iblCacheFolder(), this))
+    , m_ibl(&ibl)
     , m_hand(controller, selection, *this)
+    , m_projections(controller.runner())
     , m_viewFeed(controller)
     , m_gate(controller)
     , m_picker(controller, *this) {
@@ -169,8 +161,11 @@ ViewportWidget::~ViewportWidget() {
     releaseGl();
 }
 
+void ViewportWidget::setBakes(BakeService& bakes) {
+    m_preview.setBakes(bakes);
+}
+
 void ViewportWidget::setJobs(JobManager& jobs) {
-    m_preview.setJobs(jobs);
     m_workGate = &jobs.gate();
     connect(this, &QOpenGLWidget::frameSwapped, this, [this] { m_workGate->open(); });
 }

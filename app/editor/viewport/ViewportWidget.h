@@ -38,6 +38,7 @@ namespace patina::editor {
 class DisplayLoader;
 class DocumentController;
 class IblUpdater;
+class BakeService;
 class JobManager;
 class LobeOnSurface;
 class SelectionModel;
@@ -50,11 +51,13 @@ enum class PictureState { Moving, Refining, Refined };
 class ViewportWidget : public QOpenGLWidget {
     Q_OBJECT
   public:
-    ViewportWidget(DocumentController& controller, SelectionModel& selection,
+    // `ibl`: prepares the light of what is shown.
+    ViewportWidget(DocumentController& controller, SelectionModel& selection, IblUpdater& ibl,
                    QWidget* parent = nullptr);
     ~ViewportWidget() override;
 
-    void setJobs(JobManager& jobs); // whose live preview is shown, and who gives way to frames
+    void setBakes(BakeService& bakes);       // whose live preview is shown
+    void setJobs(JobManager& jobs);          // who give way to frames
     void setBounces(BounceUpdater& bounces); // whose light is shown
     void setNearShadows(NearShadowUpdater& shadows);
     void setDisplays(DisplayLoader& displays); // whose view of OpenColorIO is shown
@@ -68,7 +71,6 @@ class ViewportWidget : public QOpenGLWidget {
     [[nodiscard]] PixelPicker& picker() { return m_picker; }
 
     // The light of the document's environment, for whoever shows it, too.
-    [[nodiscard]] IblUpdater& ibl() { return *m_ibl; }
 
     void frameSelection();                 // the selected mesh, or everything
     void resetCamera();                    // Home: the whole scene from the default side

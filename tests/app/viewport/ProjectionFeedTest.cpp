@@ -1,6 +1,7 @@
 // Coefficients of both pictures of a cross-fade reach the renderer before there is a picture of
 // both.
 #include "app/editor/viewport/ProjectionFeed.h"
+#include "app/editor/job/UiTasks.h"
 #include "core/math/SphericalHarmonics.h"
 #include "render/gl/Context.h"
 
@@ -42,7 +43,8 @@ struct ProjectionFeedTest : ::testing::Test {
     std::unique_ptr<gl::Context> context;
     std::unique_ptr<render::SceneRenderer> renderer;
     Document document;
-    ProjectionFeed feed;
+    TaskRunner runner{postToThisThread()};
+    ProjectionFeed feed{runner};
     QSignalSpy changed{&feed, &ProjectionFeed::changed};
 };
 
