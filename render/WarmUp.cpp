@@ -270,9 +270,12 @@ Document warmUpScene(const Document& document) {
     return scene;
 }
 
-WarmUp::WarmUp(gl::Context& context, std::unique_ptr<Renderer> renderer, const Document& document)
+WarmUp::WarmUp(gl::Context& context, std::unique_ptr<SceneRenderer> renderer,
+               const Document& document)
     : m_context(context)
     , m_renderer(std::move(renderer))
+    , m_picture(std::make_unique<ViewRenderer>(*m_renderer))
+    , m_thumbnails(std::make_unique<SheetRenderer>(*m_renderer))
     , m_scene(warmUpScene(document)) {
     m_frame.width = kSide * std::max(1, static_cast<int>(m_scene.meshes.size()));
     m_frame.height = kSide;
@@ -287,11 +290,11 @@ WarmUp::WarmUp(gl::Context& context, std::unique_ptr<Renderer> renderer, const D
 }
 
 Result<WarmUp> WarmUp::create(gl::Context& context, const Document& document) {
-    auto renderer = Renderer::create(context);
+    auto renderer = SceneRenderer::create(context);
     if (!renderer)
         return renderer.error();
     WarmUp result(context, std::move(*renderer), document);
-    result.m_renderer->setEnvironment(someSky());
+    result.m_renderer->setEnvironment(std::make_shared<const EnvironmentTexels>(someSky()));
     result.m_renderer->setDocument(result.m_scene);
     return result;
 }
@@ -303,7 +306,7 @@ Result<void> WarmUp::drawFrame(const ViewSettings& view, const JobContext& job) 
         if (job.cancelled())
             return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
         m_frame.samples = samples;
-        if (auto done = m_renderer->render(m_frame, 0); !done || m_context.info().software)
+        if (auto done = m_picture->render(m_frame, 0); !done || m_context.info().software)
             return done;
     }
     return {};
@@ -336,10 +339,10 @@ Result<void> WarmUp::drawSheet(LightingMode lighting, const JobContext& job) {
     ViewSheet sheet{{shading::kViewFinal, shading::kViewBaseColor, shading::kViewNoV}};
     sheet.width = m_frame.width;
     sheet.height = m_frame.height;
-    if (auto drawn = m_renderer->drawSheet(m_frame, sheet); !drawn)
+    if (auto drawn = m_thumbnails->draw(m_frame, sheet, *m_picture); !drawn)
         return drawn.error();
     // A light that is set up later finds its programs, too.
-    return m_renderer->prepareNearLights(lighting);
+    return m_picture->prepareNearLights(lighting);
 }
 
 Result<void> WarmUp::inspectAll(LightingMode lighting, const JobContext& job) {
@@ -358,7 +361,7 @@ Result<void> WarmUp::inspectAll(LightingMode lighting, const JobContext& job) {
         const glm::vec4 center = worldToClip * mesh.transform[3];
         const auto x = static_cast<int>((0.5f + 0.5f * center.x / center.w) *
                                         static_cast<float>(m_frame.width));
-        if (auto done = m_renderer->inspect(x, m_frame.height / 2); !done)
+        if (auto done = m_picture->inspect(x, m_frame.height / 2); !done)
             return done.error();
     }
     return {};

@@ -6,7 +6,9 @@
 
 #include "core/document/Document.h"
 #include "core/job/JobContext.h"
-#include "render/Renderer.h"
+#include "render/SceneRenderer.h"
+#include "render/SheetRenderer.h"
+#include "render/ViewRenderer.h"
 #include "render/pass/SurfaceOutput.h"
 
 #include <compare>
@@ -45,24 +47,26 @@ struct FrameKind {
 class WarmUp {
   public:
     // `context`: current on the calling thread whenever something is called. Errors as
-    // Renderer::create().
+    // SceneRenderer::create().
     static Result<WarmUp> create(gl::Context& context, const Document& document);
 
     // Draws what frames of this kind need: the picture with its overlays, every view, a sheet, the
     // explanation of a pixel. Cancelled between two frames when the job is.
     Result<void> draw(const FrameKind& frame, const JobContext& job);
 
-    [[nodiscard]] const Renderer& renderer() const { return *m_renderer; }
+    [[nodiscard]] const SceneRenderer& renderer() const { return *m_renderer; }
 
   private:
-    WarmUp(gl::Context& context, std::unique_ptr<Renderer> renderer, const Document& document);
+    WarmUp(gl::Context& context, std::unique_ptr<SceneRenderer> renderer, const Document& document);
     Result<void> drawFrame(const ViewSettings& view, const JobContext& job);
     Result<void> drawViews(LightingMode lighting, const JobContext& job);
     Result<void> drawSheet(LightingMode lighting, const JobContext& job);
     Result<void> inspectAll(LightingMode lighting, const JobContext& job);
 
     gl::Context& m_context;
-    std::unique_ptr<Renderer> m_renderer;
+    std::unique_ptr<SceneRenderer> m_renderer;
+    std::unique_ptr<ViewRenderer> m_picture;
+    std::unique_ptr<SheetRenderer> m_thumbnails;
     Document m_scene;
     FrameSettings m_frame;
 };

@@ -279,8 +279,8 @@ Result<void> bakeScene(Session& session, const std::string& scene, const std::st
             return written;
     }
     // What is complete needs no checkpoint; neither does anybody need an older one.
-    if (!session.interrupted() && !plan->checkpoint.empty())
-        fs::remove(plan->checkpoint, ignored);
+    if (!session.interrupted())
+        tracer.removeCheckpoint();
     return {};
 }
 

@@ -1,6 +1,6 @@
 #include "app/cli/InspectPixel.h"
 
-#include "render/Renderer.h"
+#include "render/ViewRenderer.h"
 #include "render/view/Explanation.h"
 
 #include <charconv>
@@ -30,8 +30,8 @@ Result<std::optional<glm::ivec2>> parsePixel(const std::string& text,
     return std::optional(pixel);
 }
 
-Result<void> explainPixel(Session& session, render::Renderer& renderer, const Document& document,
-                          const glm::ivec2& pixel) {
+Result<void> explainPixel(Session& session, render::ViewRenderer& renderer,
+                          const Document& document, const glm::ivec2& pixel) {
     const Result<render::Inspection> inspection = renderer.inspect(pixel.x, pixel.y);
     if (!inspection)
         return inspection.error();

@@ -9,7 +9,7 @@
 #include <string>
 
 namespace patina::render {
-class Renderer;
+class ViewRenderer;
 struct FrameSettings;
 } // namespace patina::render
 
@@ -21,7 +21,7 @@ Result<std::optional<glm::ivec2>> parsePixel(const std::string& text,
 
 // Prints the explanation of a pixel of the renderer's last frame, or puts it into the report as
 // "inspection".
-Result<void> explainPixel(Session& session, render::Renderer& renderer, const Document& document,
-                          const glm::ivec2& pixel);
+Result<void> explainPixel(Session& session, render::ViewRenderer& renderer,
+                          const Document& document, const glm::ivec2& pixel);
 
 } // namespace patina::cli

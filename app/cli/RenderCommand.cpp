@@ -15,7 +15,8 @@
 #include "core/io/ImageIO.h"
 #include "core/light/IblCache.h"
 #include "core/mix/LightMix.h"
-#include "render/Renderer.h"
+#include "render/SceneRenderer.h"
+#include "render/ViewRenderer.h"
 #include "render/gl/Context.h"
 #include "render/scene/LightBlocks.h"
 
@@ -221,10 +222,10 @@ Result<IblMaps> lightOf(const Image& environment, const JobContext& job) {
     return computed;
 }
 
-// A renderer that holds the document and its light; the context lives as long as it.
+// The document and its light on the GPU; the context lives as long as they.
 struct Prepared {
     std::unique_ptr<gl::Context> context;
-    std::unique_ptr<render::Renderer> renderer;
+    std::unique_ptr<render::SceneRenderer> scene;
 };
 
 // `lit`: the environment's light is part of what is drawn.
@@ -248,9 +249,9 @@ Result<Prepared> prepare(Session& session, const Document& document,
         return usage(fmt::format("{} takes at most {} samples per pixel; choose fewer --samples",
                                  info.renderer, info.maxSamples));
 
-    Result<std::unique_ptr<render::Renderer>> renderer = render::Renderer::create(**context);
-    if (!renderer)
-        return renderer.error();
+    Result<std::unique_ptr<render::SceneRenderer>> scene = render::SceneRenderer::create(**context);
+    if (!scene)
+        return scene.error();
     session.beginPhase();
     session.job().setActivity("preparing light");
     if (const ImagePtr image = lit ? shownEnvironment(document).image : nullptr) {
@@ -260,13 +261,14 @@ Result<Prepared> prepare(Session& session, const Document& document,
         Result<HalfMipmapsPtr> background = makeBackground(*image, session.job());
         if (!background)
             return background.error();
-        (*renderer)->setEnvironment(makeEnvironmentTexels(image, *ibl, std::move(*background)));
+        (*scene)->setEnvironment(std::make_shared<const EnvironmentTexels>(
+            makeEnvironmentTexels(image, *ibl, std::move(*background))));
     }
-    if (Result<void> set = (*renderer)->setDisplay(*display); !set)
+    if (Result<void> set = (*scene)->setDisplay(*display); !set)
         return set.error();
     session.job().setActivity("drawing");
-    (*renderer)->setDocument(document);
-    return Prepared{std::move(*context), std::move(*renderer)};
+    (*scene)->setDocument(document);
+    return Prepared{std::move(*context), std::move(*scene)};
 }
 
 bool isLinear(ImageFileFormat format) {
@@ -274,7 +276,7 @@ bool isLinear(ImageFileFormat format) {
 }
 
 // What the file will hold, after the frame has been drawn.
-Result<std::vector<ImagePart>> takePictures(Session& session, render::Renderer& renderer,
+Result<std::vector<ImagePart>> takePictures(Session& session, render::ViewRenderer& renderer,
                                             const Document& document, const RenderOptions& options,
                                             const render::FrameSettings& frame, bool linear) {
     const render::ViewChoice& shown = frame.view.shown;
@@ -295,9 +297,9 @@ Result<std::vector<ImagePart>> takePictures(Session& session, render::Renderer& 
     return take(frame.transparentBackground ? picture : withoutAlpha(picture));
 }
 
-Result<void> writePictures(Session& session, render::Renderer& renderer, const Document& document,
-                           const RenderOptions& options, const render::FrameSettings& frame,
-                           ImageFileFormat format) {
+Result<void> writePictures(Session& session, render::ViewRenderer& renderer,
+                           const Document& document, const RenderOptions& options,
+                           const render::FrameSettings& frame, ImageFileFormat format) {
     Result<std::vector<ImagePart>> pictures =
         takePictures(session, renderer, document, options, frame, isLinear(format));
     if (!pictures)
@@ -408,11 +410,11 @@ Result<void> run(Session& session, const RenderOptions& options) {
         prepare(session, *document, *frame, isLinear(*format) && !inspected->has_value(), lit);
     if (!prepared)
         return prepared.error();
-    render::Renderer& renderer = *prepared->renderer;
+    render::ViewRenderer renderer(*prepared->scene);
     const Result<NearShadowsPtr> shadows = traceLocalShadows(session, options, *document, *shown);
     if (!shadows)
         return shadows.error();
-    renderer.setNearShadows(*shadows);
+    prepared->scene->setNearShadows(*shadows);
     if (Result<void> drawn = renderer.render(*frame, 0); !drawn)
         return drawn;
     if (const std::optional<Luminance> luminance = renderer.readLuminance())

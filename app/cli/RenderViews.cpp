@@ -29,22 +29,8 @@ std::string viewNames() {
     return names;
 }
 
-// Whether a view shows what a bake of transfer holds.
-bool readsTransfer(ViewKind kind) {
-    switch (kind) {
-    case shading::kViewBentNormal:
-    case shading::kViewSkyVisibility:
-    case shading::kViewBakeError:
-    case shading::kViewShadowedLight:
-    case shading::kViewInterreflectedLight:
-        return true;
-    default:
-        return false;
-    }
-}
-
 bool hasNumbers(const ViewInfo& info) {
-    return info.value != ViewValue::Picture && info.kind != shading::kViewUvChecker;
+    return info.value != ViewValue::Picture && info.coversSurface;
 }
 
 // Channels of a part: which of the four floats, under which names.
@@ -235,7 +221,7 @@ Result<render::ViewSettings> viewSettings(const RenderOptions& options, const Do
     if (const std::string reason = whyEmpty(kind, document, settings.light); !reason.empty())
         return usage(fmt::format(
             "the view \"{}\" does not apply to this scene: {}{}", viewInfo(kind).id, reason,
-            readsTransfer(kind) && !hasTransfer(document)
+            viewInfo(kind).ofTransfer && !hasTransfer(document)
                 ? " Compute one with \"patina bake prt\" and add it with --bake."
                 : ""));
     return settings;
@@ -252,7 +238,7 @@ std::vector<LeftOut> leftOutViews(const Document& document, const render::ViewSe
     return left;
 }
 
-Result<Image> viewNumbers(render::Renderer& renderer, const ViewChoice& choice) {
+Result<Image> viewNumbers(render::ViewRenderer& renderer, const ViewChoice& choice) {
     if (!hasNumbers(viewInfo(choice.kind)))
         return usage(fmt::format("the view \"{}\" judges the displayed picture and has no numbers; "
                                  "write it as .png",
@@ -275,7 +261,7 @@ Result<Image> viewNumbers(render::Renderer& renderer, const ViewChoice& choice) 
     return image;
 }
 
-Result<std::vector<ImagePart>> viewParts(render::Renderer& renderer, const Document& document,
+Result<std::vector<ImagePart>> viewParts(render::ViewRenderer& renderer, const Document& document,
                                          const render::ViewSettings& settings) {
     const ViewMode mode = settings.shown.mode;
     std::vector<ImagePart> parts;
@@ -311,8 +297,8 @@ Result<std::vector<ImagePart>> viewParts(render::Renderer& renderer, const Docum
     return parts;
 }
 
-Result<Image> contactSheet(Session& session, render::Renderer& renderer, const Document& document,
-                           render::FrameSettings frame) {
+Result<Image> contactSheet(Session& session, render::ViewRenderer& renderer,
+                           const Document& document, render::FrameSettings frame) {
     Result<TextRaster> text = TextRaster::create();
     if (!text)
         return text.error();

@@ -5,7 +5,7 @@
 #include "app/cli/Session.h"
 #include "core/document/Document.h"
 #include "core/io/ImageIO.h"
-#include "render/Renderer.h"
+#include "render/ViewRenderer.h"
 
 #include <string>
 #include <vector>
@@ -34,16 +34,16 @@ struct LeftOut {
 // (radiance premultiplied by A), X, Y, Z of directions, Z of depth, id of identities, else Y; A is
 // 1 where a surface is. "final" is the picture that has been drawn; with "background", what the
 // terms of kTermViews leave of it, they add up to it.
-[[nodiscard]] Result<std::vector<ImagePart>> viewParts(render::Renderer& renderer,
+[[nodiscard]] Result<std::vector<ImagePart>> viewParts(render::ViewRenderer& renderer,
                                                        const Document& document,
                                                        const render::ViewSettings& settings);
 // The numbers of one view, the same way. Usage error for views that are judgements.
-[[nodiscard]] Result<Image> viewNumbers(render::Renderer& renderer,
+[[nodiscard]] Result<Image> viewNumbers(render::ViewRenderer& renderer,
                                         const render::ViewChoice& choice);
 
 // Every view that applies in a picture of frame.width × frame.height, with name and range; below
 // them those that do not, with the reasons.
-[[nodiscard]] Result<Image> contactSheet(Session& session, render::Renderer& renderer,
+[[nodiscard]] Result<Image> contactSheet(Session& session, render::ViewRenderer& renderer,
                                          const Document& document, render::FrameSettings frame);
 
 } // namespace patina::cli

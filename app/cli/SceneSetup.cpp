@@ -173,6 +173,21 @@ namespace {
 
 // --set, maps first: putting one on raises its number to 1, and numbers given should win. The
 // layout of an environment last: naming an image starts it anew, and what was given should win.
+// Where none of the elements that it was set in has a use for it now.
+void warnIfIdle(Session& session, const Document& document, const std::string& name) {
+    const Result<ParameterSelection> selection = selectParameter(document, name);
+    if (!selection)
+        return;
+    std::string_view why;
+    for (const Target& target : selection->targets) {
+        why = whyIdle(*selection->info, document, target.id);
+        if (why.empty())
+            return;
+    }
+    if (!why.empty())
+        session.report().warn(fmt::format("--set {} has no effect: {}", name, why));
+}
+
 Result<void> applySets(Session& session, Document& document, const std::vector<std::string>& sets) {
     const EnvironmentRecipe before = environmentRecipe(document.environment);
     std::vector<std::pair<std::string, std::string>> assignments;
@@ -194,6 +209,8 @@ Result<void> applySets(Session& session, Document& document, const std::vector<s
     for (const auto& [name, value] : assignments)
         if (Result<void> offered = checkOffered(document, name); !offered)
             return offered.error();
+    for (const auto& [name, value] : assignments)
+        warnIfIdle(session, document, name);
     if (environmentRecipe(document.environment) != before)
         resolveEnvironment(document.environment, session.job());
     resolveBlend(document, session.job());

@@ -77,10 +77,11 @@ MainWindow::MainWindow(Session& session)
     , m_looks(new ViewActions(session.views, session.controller, this))
     , m_files(new FileFlow(session, *this))
     , m_docks(new Docks(*this))
-    , m_viewport(new ViewportWidget(session.controller, session.selection))
+    , m_viewport(new ViewportWidget(session.controller, session.selection, session.ibl))
     , m_notices(new NoticeArea(*m_viewport)) {
     setObjectName(QStringLiteral("mainWindow"));
     setAcceptDrops(true);
+    m_viewport->setBakes(session.bakes);
     m_viewport->setJobs(session.jobs);
     m_viewport->setBounces(session.bounces);
     m_viewport->setNearShadows(session.nearShadows);
@@ -179,7 +180,7 @@ void MainWindow::makeDocks() {
     connect(m_viewport, &ViewportWidget::luminanceMeasured, view, &ViewPanel::setLuminance);
     connect(m_docks->add(a.viewDock, QStringLiteral("view"), view), &QDockWidget::visibilityChanged,
             m_viewport, &ViewportWidget::setLuminanceWanted);
-    auto* bake = new BakePanel(controller, m_session.jobs);
+    auto* bake = new BakePanel(controller, m_session.bakes, m_session.jobs);
     m_docks->add(a.bakeDock, QStringLiteral("bake"), bake);
     connect(m_overlay, &ViewOverlay::remedyWanted, this, [&controller, bake](ViewRemedy remedy) {
         if (remedy == ViewRemedy::AddLight)
@@ -193,7 +194,7 @@ void MainWindow::makeDocks() {
     m_docks->add(a.logDock, QStringLiteral("log"), new LogPanel);
     m_docks->addInstrument(a.pixel, QStringLiteral("pixel"),
                            new PixelPanel(controller, m_session.probe, m_viewport->picker()));
-    auto* lightLab = new LightLabPanel(controller, m_viewport->ibl(), m_session.probe);
+    auto* lightLab = new LightLabPanel(controller, m_session.ibl, m_session.probe);
     connect(m_viewport, &ViewportWidget::luminanceMeasured, lightLab, &LightLabPanel::setLuminance);
     connect(m_docks->addInstrument(a.lightLab, QStringLiteral("lightLab"), lightLab),
             &QDockWidget::visibilityChanged, lightLab, &LightLabPanel::setSeen);

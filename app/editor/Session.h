@@ -1,12 +1,16 @@
-// What one run of the editor is made of, apart from its window: who lives longer stands first.
+// What one run of the editor is made of, apart from its window: the document, the services that
+// panels use, and the one runner of their work. Who lives longer stands first.
 #pragma once
 
 #include "app/editor/document/DisplayLoader.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/SelectionModel.h"
+#include "app/editor/job/BakeService.h"
 #include "app/editor/job/BounceUpdater.h"
 #include "app/editor/job/JobManager.h"
 #include "app/editor/job/NearShadowUpdater.h"
+#include "app/editor/job/UiTasks.h"
+#include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/LightLimitNotice.h"
 #include "app/editor/viewport/LobeOnSurface.h"
 #include "app/editor/viewport/PixelProbe.h"
@@ -14,21 +18,33 @@
 #include "app/editor/widget/Thumbnails.h"
 #include "core/worker/WorkerClient.h"
 
+#include <chrono>
+
 namespace patina::editor {
 
 struct Session {
     WorkerClient worker;
-    DocumentController controller{worker};
+    TaskRunner tasks{postToThisThread()}; // all work in the background
+    DocumentController controller{worker, tasks};
     DisplayLoader displays{controller};
     SelectionModel selection{controller};
-    Thumbnails thumbnails;
+    Thumbnails thumbnails{tasks};
+    IblUpdater ibl{tasks, iblCacheFolder()};
     ViewState views;
     PixelProbe probe;
     LobeOnSurface lobe{controller, probe};
     JobManager jobs{controller};
-    BounceUpdater bounces{controller, jobs};
+    BakeService bakes{controller, jobs};
+    BounceUpdater bounces{controller, bakes.hits()};
     NearShadowUpdater nearShadows{controller};
     LightLimitNotice lightLimits{controller};
+
+    // The end of all work in the background: what is being saved is saved, bakes keep their
+    // checkpoints, and the rest has `patience` to notice. False when something still runs.
+    bool shutDown(std::chrono::milliseconds patience) {
+        jobs.shutDown();
+        return tasks.shutDown(patience);
+    }
 };
 
 } // namespace patina::editor

@@ -22,28 +22,6 @@ namespace {
 
 using namespace shading;
 
-// Letters of views that are looked at often. W A S D Q E fly the camera, F, G and P are commands.
-struct ViewKey {
-    ViewKind kind;
-    char key;
-};
-constexpr ViewKey kKeys[] = {
-    {kViewLuminance, 'Y'},
-    {kViewClipped, 'X'},
-    {kViewBaseColor, 'B'},
-    {kViewMetallic, 'M'},
-    {kViewPerceptualRoughness, 'R'},
-    {kViewAo, 'O'},
-    {kViewShadingNormal, 'N'},
-    {kViewUvChecker, 'U'},
-    {kViewDepth, 'Z'},
-    {kViewWireframe, 'H'},
-    {kViewDirect, 'L'},
-    {kViewIrradiance, 'I'},
-    {kViewPrefiltered, 'J'},
-    {kViewTransmission, 'K'},
-};
-
 QString text(std::string_view utf8) {
     return QString::fromUtf8(utf8.data(), static_cast<qsizetype>(utf8.size()));
 }
@@ -63,12 +41,7 @@ bool isModifier(int key) {
 } // namespace
 
 QString ViewActions::keyOf(ViewKind kind) {
-    for (const ViewKey& entry : kKeys)
-        if (entry.kind == kind)
-            return QString(QLatin1Char(entry.key));
-    if (viewInfo(kind).group == ViewGroup::Lighting)
-        return QStringLiteral("F%1").arg(kind - kViewCosineLight + 5);
-    return {};
+    return text(viewInfo(kind).key);
 }
 
 ViewActions::ViewActions(ViewState& views, DocumentController& controller, QObject* parent)

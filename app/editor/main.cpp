@@ -16,6 +16,7 @@
 #include <QIcon>
 #include <QMessageBox>
 #include <QSettings>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -25,7 +26,7 @@ namespace {
 using patina::editor::kNoOpenGlStatus;
 
 // Files that are still being read when the user leaves get this long to come to an end.
-constexpr int kPatienceMs = 1500;
+constexpr std::chrono::milliseconds kPatience(1500);
 
 void describe(QCommandLineParser& parser) {
     parser.setApplicationDescription(QCoreApplication::translate(
@@ -145,8 +146,7 @@ int main(int argc, char* argv[]) {
         if (!window.isVisible()) // closed by the user, who was asked about what is unsaved
             recovery.leave();
     }
-    session.controller.tasks().cancelAll();
-    if (!session.controller.tasks().waitForDone(kPatienceMs))
+    if (!session.shutDown(kPatience))
         std::_Exit(status); // a hostile file may keep its decoder busy for a minute
     return status;
 }

@@ -4,6 +4,7 @@
 
 #include "core/bake/domain/BakeArtifact.h"
 #include "core/document/MeshInstance.h"
+#include "core/document/UnknownKeys.h"
 #include "core/document/View.h"
 #include "core/light/Environment.h"
 #include "core/light/Light.h"
@@ -23,6 +24,7 @@ struct Document {
     View view;
     std::vector<BakeArtifactPtr> bakes; // at most one of each BakeKind
     Id nextId = 1;
+    UnknownKeys unknownKeys; // of its project
 
     [[nodiscard]] Id takeId() { return nextId++; }
     [[nodiscard]] const Material* material(Id id) const;

@@ -21,11 +21,8 @@ namespace patina {
 }
 
 // How a view is lit: some stand for a way of their own.
-[[nodiscard]] constexpr LightingMode lightingOf(ViewKind kind, LightingMode ofDocument) {
-    if (kind < shading::kViewCosineLight || kind > shading::kViewInterreflectedLight)
-        return ofDocument;
-    return static_cast<LightingMode>(static_cast<int>(LightingMode::Cosine) + kind -
-                                     shading::kViewCosineLight);
+[[nodiscard]] inline LightingMode lightingOf(ViewKind kind, LightingMode ofDocument) {
+    return viewInfo(kind).lighting.value_or(ofDocument);
 }
 
 // Weights of diffuse light (x) and of reflections (y) for View::reflectionMix: both 1 in the

@@ -1,6 +1,7 @@
 #include "core/document/Views.h"
 
 #include "core/base/Check.h"
+#include "core/document/View.h"
 #include "core/material/MaterialInputs.h"
 
 #include <algorithm>
@@ -32,6 +33,7 @@ constexpr ViewInfo row(std::string_view id, std::string_view label, std::string_
     info.value = value;
     info.help = help;
     info.contribution = contribution;
+    info.exposed = value == ViewValue::Radiance;
     return info;
 }
 constexpr ViewInfo radiance(std::string_view id, std::string_view label, std::string_view symbol,
@@ -62,7 +64,9 @@ constexpr ViewInfo scalar(std::string_view id, std::string_view label, std::stri
     return info;
 }
 constexpr ViewInfo judged(std::string_view id, std::string_view label, std::string_view help) {
-    return row(id, label, {}, kPicture, ViewValue::Picture, help);
+    ViewInfo info = row(id, label, {}, kPicture, ViewValue::Picture, help);
+    info.recorded = kViewFinal;
+    return info;
 }
 constexpr ViewInfo identity(std::string_view id, std::string_view label, std::string_view help) {
     return row(id, label, {}, kGeometry, ViewValue::Identity, help);
@@ -92,6 +96,37 @@ constexpr ViewInfo upTo(float rangeMax, ViewInfo info) {
     info.rangeMax = rangeMax;
     return info;
 }
+// A letter, or a function key, of views that are looked at often. W A S D Q E fly the camera, F, G
+// and P are commands.
+constexpr ViewInfo onKey(std::string_view key, ViewInfo info) {
+    info.key = key;
+    return info;
+}
+constexpr ViewInfo ofChosenLight(ViewInfo info) {
+    info.ofChosenLight = true;
+    return info;
+}
+constexpr ViewInfo ofTransfer(ViewInfo info) {
+    info.ofTransfer = true;
+    return info;
+}
+constexpr ViewInfo patterned(ViewInfo info) {
+    info.coversSurface = false;
+    return info;
+}
+// The picture, and something over it.
+constexpr ViewInfo overPicture(ViewInfo info) {
+    info.recorded = kViewFinal;
+    info.exposed = true;
+    return info;
+}
+// The picture, lit in another way.
+constexpr ViewInfo lit(LightingMode lighting, std::string_view key, ViewInfo info) {
+    info.recorded = kViewFinal;
+    info.lighting = lighting;
+    info.key = key;
+    return info;
+}
 constexpr ViewInfo measured(ViewInfo info, std::string_view unit, bool logarithmic) {
     info.unit = unit;
     info.logarithmic = logarithmic;
@@ -101,6 +136,8 @@ constexpr ViewInfo measured(ViewInfo info, std::string_view unit, bool logarithm
 
 constexpr ViewInfo numbered(ViewKind kind, ViewInfo info) {
     info.kind = kind;
+    if (info.recorded < 0)
+        info.recorded = kind;
     return info;
 }
 
@@ -115,6 +152,15 @@ constexpr bool hasView(const MaterialInputInfo& input) {
 }
 static_assert(std::all_of(kMaterialInputs.begin(), kMaterialInputs.end(), hasView),
               "a view for every input of the material");
+
+constexpr bool keysDiffer() {
+    for (std::size_t i = 0; i < kViews.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (!kViews[i].key.empty() && kViews[i].key == kViews[j].key)
+                return false;
+    return true;
+}
+static_assert(keysDiffer(), "a key shows one view");
 
 } // namespace
 

@@ -1,10 +1,12 @@
 // THE table of views: every term of the shading equation that can be looked at, described once. It
 // drives the renderer, the menu, the strip, the keys, `--list-views`, the channel names of
-// `--view all` and the documentation. Its rows are in ViewTable.inc, which numbers them, too.
+// `--view all`, the pixel panel and the documentation. Its rows are in ViewTable.inc, which numbers
+// them, too.
 #pragma once
 
 #include "core/image/ColorMap.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -37,6 +39,7 @@ namespace patina {
 
 struct Document;
 enum class MaterialInput;
+enum class LightingMode;
 
 using ViewKind = int; // one of shading::kView…
 
@@ -69,6 +72,19 @@ struct ViewInfo {
     float displayScale = 1.0f;     // Radiance: factor on what is displayed, beside the exposure
     std::string_view help;         // one sentence: what it is
     std::string_view contribution; // one sentence: what its contribution shows; empty: none
+    std::string_view key;          // that shows it in the editor: "B", "F5"; empty: none
+
+    // What the shader records for it: itself, or the picture that it judges or lights otherwise.
+    ViewKind recorded = -1;               // in the table: itself, unless a row says otherwise
+    std::optional<LightingMode> lighting; // that it stands for; nothing: the document's
+    bool ofChosenLight = false;           // its numbers are of the chosen light or direction
+    bool ofTransfer = false;              // shows what a bake of radiance transfer holds
+    // Seen through exposure and tone curve, as the picture is.
+    bool exposed = false;
+    bool coversSurface = true; // false: a pattern over it, whose numbers say nothing
+
+    // A row of what a pixel's explanation tells, and of its numbers in files.
+    [[nodiscard]] constexpr bool isRecorded() const { return recorded == kind; }
 };
 
 [[nodiscard]] std::span<const ViewInfo> views(); // by number, kViewCount of them

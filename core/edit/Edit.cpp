@@ -240,6 +240,14 @@ BakeArtifactPtr findBake(const Document& document, BakeKind kind) {
     return found == document.bakes.end() || isAbsent(**found) ? nullptr : *found;
 }
 
+int bakedBounces(const Document& document) {
+    int bounces = 0;
+    for (const BakeArtifactPtr& bake : document.bakes)
+        if (bake->transfer == TransferKind::Interreflected && holdsTransfer(bake->kind))
+            bounces = std::max(bounces, std::max(bake->bounces, 1));
+    return bounces;
+}
+
 bool hasTransfer(const Document& document) {
     return std::any_of(
         document.bakes.begin(), document.bakes.end(),

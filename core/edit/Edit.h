@@ -77,5 +77,7 @@ void attachBake(Document& document, BakeArtifactPtr bake);
 bool removeBake(Document& document, BakeKind kind);
 [[nodiscard]] BakeArtifactPtr findBake(const Document& document, BakeKind kind); // or null
 [[nodiscard]] bool hasTransfer(const Document& document); // a bake of radiance transfer
+// How often light may bounce in what the transfer bakes hold; 0: none holds bounces.
+[[nodiscard]] int bakedBounces(const Document& document);
 
 } // namespace patina

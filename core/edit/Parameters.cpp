@@ -4,6 +4,7 @@
 #include "core/document/Document.h"
 #include "core/edit/Edit.h"
 #include "core/edit/ParameterChoices.h"
+#include "core/edit/ParameterConditions.h"
 #include "core/io/DisplayTransform.h"
 #include "core/light/Blackbody.h"
 #include "core/light/Lights.h"
@@ -365,6 +366,18 @@ constexpr ParameterInfo unitOfElement(std::string_view (*unitOf)(const Document&
     return info;
 }
 
+// --- Where a parameter has a say ---
+
+constexpr ParameterInfo only(const Condition& applies, ParameterInfo info) {
+    info.applies = &applies;
+    return info;
+}
+
+constexpr ParameterInfo whileHolds(const Condition& works, ParameterInfo info) {
+    info.works = &works;
+    return info;
+}
+
 // --- The table ---
 
 constexpr auto kPicture = Affects::Picture;
@@ -390,7 +403,7 @@ constexpr auto kParameters = joined(
   },
   inputRowsOf<kSurface>(),
   std::array{
-    number<&M::diffuseRoughness>("material.diffuseRoughness", "Diffuse roughness", "Surface", kUnit, kUnit, 3, "", "How powdery the body is: 0 is smooth and 1 dust; used by the diffuse models Oren-Nayar and EON."),
+    only(kInRoughDiffuse, number<&M::diffuseRoughness>("material.diffuseRoughness", "Diffuse roughness", "Surface", kUnit, kUnit, 3, "", "How powdery the body is: 0 is smooth and 1 dust; used by the diffuse models Oren-Nayar and EON.")),
   },
   inputRows<MaterialInput::Normal>(),
   std::array{
@@ -400,36 +413,36 @@ constexpr auto kParameters = joined(
   inputRows<MaterialInput::Emissive>(),
   std::array{
     number<&M::emissiveStrength>("material.emissiveStrength", "Emission strength", "Emission", {0.0f, 20.0f}, {0.0f, 1e5f}, 2, "", "Multiplies the emission colour, for screens and lights brighter than white paper."),
-    number<&M::opacity>("material.opacity", "Opacity", "Transparency", kUnit, kUnit, 3, "", "1 is solid and 0 invisible; used when the alpha mode is cut-out or blend."),
+    only(kWithAlpha, number<&M::opacity>("material.opacity", "Opacity", "Transparency", kUnit, kUnit, 3, "", "1 is solid and 0 invisible; used when the alpha mode is cut-out or blend.")),
     choice<&M::alphaMode>("material.alphaMode", "Alpha mode", "Transparency", kAlphaModes, "Whether opacity is ignored, cuts holes with a hard edge, or lets the background show through."),
-    number<&M::alphaCutoff>("material.alphaCutoff", "Alpha cutoff", "Transparency", kUnit, kUnit, 3, "", "In cut-out mode, points of lower opacity than this are left out."),
+    only(kInCutOut, number<&M::alphaCutoff>("material.alphaCutoff", "Alpha cutoff", "Transparency", kUnit, kUnit, 3, "", "In cut-out mode, points of lower opacity than this are left out.")),
     flag<&M::doubleSided>("material.doubleSided", "Double-sided", "Transparency", "Shows the back of thin surfaces such as leaves and cloth, with their normal turned to the viewer.", kPicture | Affects::Bakes),
 
     choice<&E::kind>("environment.kind", "Kind", "Image", kEnvironmentKinds, "What surrounds and lights the model: an image, a computed clear sky, or softboxes in a dark room.", kEnvironment),
     environmentImage<getEnvironmentImage, setEnvironmentImage>("environment.image", "Image", "Image", "Image of the environment that lights the scene."),
-    choice<&E::layout>("environment.layout", "Layout", "Image", kEnvironmentLayouts, "How the file shows the environment; automatic guesses it from the file, choose another one when the guess is wrong.", Affects::Picture | Affects::EnvironmentMap),
-    angle<&E::sky, &Sky::sunAzimuthDeg>("environment.skySunAzimuthDeg", "Sun azimuth", "Sky", "The compass direction of the sun; 0 is the model's front, positive values turn towards +X.", kEnvironment),
-    number<&E::sky, &Sky::sunElevationDeg>("environment.skySunElevationDeg", "Sun elevation", "Sky", {0.0f, 90.0f}, {0.0f, 90.0f}, 1, "°", "How high the sun stands: 0 is sunset, 90 is overhead.", kEnvironment),
-    number<&E::sky, &Sky::turbidity>("environment.skyTurbidity", "Haze", "Sky", {2.0f, 10.0f}, {2.0f, 10.0f}, 2, "", "How much haze is in the air (turbidity): 2 is a clear mountain day, 10 a milky one with a weak sun.", kEnvironment),
-    number<&E::sky, &Sky::sunScale>("environment.skySunScale", "Sun strength", "Sky", {0.0f, 2.0f}, {0.0f, 100.0f}, 2, "", "Multiplies the light of the sun's disc; 0 leaves only the sky.", kEnvironment),
-    number<&E::sky, &Sky::sunDiameterDeg>("environment.skySunDiameterDeg", "Sun size", "Sky", {0.5f, 20.0f}, {0.1f, 90.0f}, 2, "°", "Diameter of the sun's disc, 0.53° in nature; a larger sun gives softer shadows and as much light.", kEnvironment),
-    number<&E::sky, &Sky::groundAlbedo>("environment.skyGroundAlbedo", "Ground", "Sky", kUnit, kUnit, 2, "", "How much light the ground reflects: 0.1 is wet soil, 0.3 sand, 0.8 snow.", kEnvironment),
-    color<&E::softboxAmbient>("environment.softboxAmbient", "Ambient", "Softboxes", "Light of the room between the softboxes.", kEnvironment),
+    only(kInImageFile, choice<&E::layout>("environment.layout", "Layout", "Image", kEnvironmentLayouts, "How the file shows the environment; automatic guesses it from the file, choose another one when the guess is wrong.", Affects::Picture | Affects::EnvironmentMap)),
+    only(kInSky, angle<&E::sky, &Sky::sunAzimuthDeg>("environment.skySunAzimuthDeg", "Sun azimuth", "Sky", "The compass direction of the sun; 0 is the model's front, positive values turn towards +X.", kEnvironment)),
+    only(kInSky, number<&E::sky, &Sky::sunElevationDeg>("environment.skySunElevationDeg", "Sun elevation", "Sky", {0.0f, 90.0f}, {0.0f, 90.0f}, 1, "°", "How high the sun stands: 0 is sunset, 90 is overhead.", kEnvironment)),
+    only(kInSky, number<&E::sky, &Sky::turbidity>("environment.skyTurbidity", "Haze", "Sky", {2.0f, 10.0f}, {2.0f, 10.0f}, 2, "", "How much haze is in the air (turbidity): 2 is a clear mountain day, 10 a milky one with a weak sun.", kEnvironment)),
+    only(kInSky, number<&E::sky, &Sky::sunScale>("environment.skySunScale", "Sun strength", "Sky", {0.0f, 2.0f}, {0.0f, 100.0f}, 2, "", "Multiplies the light of the sun's disc; 0 leaves only the sky.", kEnvironment)),
+    only(kInSky, number<&E::sky, &Sky::sunDiameterDeg>("environment.skySunDiameterDeg", "Sun size", "Sky", {0.5f, 20.0f}, {0.1f, 90.0f}, 2, "°", "Diameter of the sun's disc, 0.53° in nature; a larger sun gives softer shadows and as much light.", kEnvironment)),
+    only(kInSky, number<&E::sky, &Sky::groundAlbedo>("environment.skyGroundAlbedo", "Ground", "Sky", kUnit, kUnit, 2, "", "How much light the ground reflects: 0.1 is wet soil, 0.3 sand, 0.8 snow.", kEnvironment)),
+    only(kInSoftboxes, color<&E::softboxAmbient>("environment.softboxAmbient", "Ambient", "Softboxes", "Light of the room between the softboxes.", kEnvironment)),
     angle<&E::rotationDeg>("environment.rotationDeg", "Rotation", "Adjustments", "Rotates the environment about the vertical axis, counter-clockwise seen from above."),
     number<&E::exposureEv>("environment.exposureEv", "Brightness", "Adjustments", {-6.0f, 6.0f}, {-24.0f, 24.0f}, 2, "EV", "Brightens the environment; each step doubles its light."),
     flag<&E::enabled>("environment.enabled", "On", "Mix", "Switches the light of the environment, and its picture, on or off.", kSwitch),
     flag<&E::solo>("environment.solo", "Solo", "Mix", kSoloHelp, kSwitch),
     color<&E::tint>("environment.tint", "Tint", "Mix", "Colours the light of the environment like a filter in front of it."),
     environmentImage<getSecondImage, setSecondImage>("environment.secondImage", "Second image", "Mix", "Image of another environment that the light can be faded to."),
-    angle<&E::second, &E2::rotationDeg>("environment.secondRotationDeg", "Second rotation", "Mix", "Turns the second environment about the vertical axis, counter-clockwise seen from above."),
-    number<&E::second, &E2::exposureEv>("environment.secondExposureEv", "Second brightness", "Mix", {-6.0f, 6.0f}, {-24.0f, 24.0f}, 2, "EV", "Brightens the second environment; each step doubles its light."),
-    flag<&E::second, &E2::enabled>("environment.secondEnabled", "Second on", "Mix", "Switches the light of the second environment, and its picture, on or off.", kSwitch),
-    flag<&E::second, &E2::solo>("environment.secondSolo", "Second solo", "Mix", kSoloHelp, kSwitch),
-    color<&E::second, &E2::tint>("environment.secondTint", "Second tint", "Mix", "Colours the light of the second environment like a filter in front of it."),
-    number<&E::fade>("environment.fade", "Cross-fade", "Mix", kUnit, kUnit, 3, "", "Fades from this environment at 0 to the second one at 1, between them to a mix of the light of both; of no effect without a second image."),
+    only(kWithSecond, angle<&E::second, &E2::rotationDeg>("environment.secondRotationDeg", "Second rotation", "Mix", "Turns the second environment about the vertical axis, counter-clockwise seen from above.")),
+    only(kWithSecond, number<&E::second, &E2::exposureEv>("environment.secondExposureEv", "Second brightness", "Mix", {-6.0f, 6.0f}, {-24.0f, 24.0f}, 2, "EV", "Brightens the second environment; each step doubles its light.")),
+    only(kWithSecond, flag<&E::second, &E2::enabled>("environment.secondEnabled", "Second on", "Mix", "Switches the light of the second environment, and its picture, on or off.", kSwitch)),
+    only(kWithSecond, flag<&E::second, &E2::solo>("environment.secondSolo", "Second solo", "Mix", kSoloHelp, kSwitch)),
+    only(kWithSecond, color<&E::second, &E2::tint>("environment.secondTint", "Second tint", "Mix", "Colours the light of the second environment like a filter in front of it.")),
+    only(kWithSecond, number<&E::fade>("environment.fade", "Cross-fade", "Mix", kUnit, kUnit, 3, "", "Fades from this environment at 0 to the second one at 1, between them to a mix of the light of both; of no effect without a second image.")),
     choice<&E::background>("environment.background", "Background", "Background", kBackgrounds, "What is seen behind the model; the light on it stays the same."),
-    number<&E::backgroundBlur>("environment.backgroundBlur", "Background blur", "Background", kUnit, kUnit, 2, "", "How far out of focus the environment behind the model is."),
-    color<&E::backgroundColor>("environment.backgroundColor", "Background colour", "Background", "Colour behind the model when the background is a colour."),
+    only(kBlurred, number<&E::backgroundBlur>("environment.backgroundBlur", "Background blur", "Background", kUnit, kUnit, 2, "", "How far out of focus the environment behind the model is.")),
+    only(kColored, color<&E::backgroundColor>("environment.backgroundColor", "Background colour", "Background", "Colour behind the model when the background is a colour.")),
 
     text<&B::name>("softbox.name", "Name", "Softbox", "What the softbox is called in lists and scripts."),
     flag<&B::enabled>("softbox.enabled", "On", "Softbox", "Switches the softbox on or off.", kEnvironment),
@@ -446,52 +459,52 @@ constexpr auto kParameters = joined(
     choice<&S::visibility>("model.visibility", "Visibility", "Highlight", kVisibilities, "How facets hide each other: Smith's models are derived (correlated: with their heights), Schlick's fits are those of the Unreal Engine 4 for lights, k = (r + 1)² / 8, and for image-based light, k = α / 2; the last two are shortcuts of old."),
     flag<&S::multiScatter>("model.multiScatter", "Energy compensation", "Highlight", "Gives back the light that bounces more than once between facets; without it rough metals are too dark."),
     choice<&S::fresnel>("model.fresnel", "Fresnel", "Fresnel", kFresnels, "How reflection grows towards grazing angles: by Schlick's approximation, or by Fresnel's exact equations for non-metals or for metals."),
-    number<&S::f90>("model.f90", "Grazing reflectance", "Fresnel", kUnit, kUnit, 3, "", "Reflectance at grazing angles for Schlick with f90; real surfaces reach 1."),
-    number<&S::ior>("model.ior", "Refractive index", "Fresnel", {1.0f, 2.5f}, {1.0f, 10.0f}, 3, "", "Refractive index of all non-metals for the exact dielectric: water 1.33, glass and plastic 1.5, diamond 2.42."),
-    vector<&S::conductorN>("model.conductorN", "Index n", "Fresnel", {0.05f, 5.0f}, {0.01f, 50.0f}, "", "Real part of the metals' refractive index at red, green and blue for the exact conductor; it replaces their base colour."),
-    vector<&S::conductorK>("model.conductorK", "Extinction k", "Fresnel", {0.0f, 10.0f}, {0.0f, 50.0f}, "", "Imaginary part of the metals' refractive index at red, green and blue for the exact conductor."),
+    only(kInSchlickF90, number<&S::f90>("model.f90", "Grazing reflectance", "Fresnel", kUnit, kUnit, 3, "", "Reflectance at grazing angles for Schlick with f90; real surfaces reach 1.")),
+    only(kInDielectric, number<&S::ior>("model.ior", "Refractive index", "Fresnel", {1.0f, 2.5f}, {1.0f, 10.0f}, 3, "", "Refractive index of all non-metals for the exact dielectric: water 1.33, glass and plastic 1.5, diamond 2.42.")),
+    only(kInConductor, vector<&S::conductorN>("model.conductorN", "Index n", "Fresnel", {0.05f, 5.0f}, {0.01f, 50.0f}, "", "Real part of the metals' refractive index at red, green and blue for the exact conductor; it replaces their base colour.")),
+    only(kInConductor, vector<&S::conductorK>("model.conductorK", "Extinction k", "Fresnel", {0.0f, 10.0f}, {0.0f, 50.0f}, "", "Imaginary part of the metals' refractive index at red, green and blue for the exact conductor.")),
     choice<&S::diffuse>("model.diffuse", "Diffuse", "Diffuse", kDiffuses, "How light that enters the body leaves it: evenly (Lambert), or flatter and brighter at the edges as from powder, cloth and clay."),
     choice<&S::lobeDirection>("model.lobeDirection", "Reflections from", "Image-based light", kLobeDirections, "Where rough reflections of the environment are looked up: around the lobe's mean direction, or around the mirror direction as is usual but off by several degrees."),
 
     choice<&View::exposureMode>("view.exposureMode", "Exposure mode", "Exposure", kExposureModes, "Fixed, or automatic like an eye that gets used to how bright the picture is."),
     number<&View::exposureEv>("view.exposureEv", "Exposure", "Exposure", {-6.0f, 6.0f}, {-24.0f, 24.0f}, 2, "EV", "Brightens the whole picture like a camera's exposure, each step doubles it; it corrects automatic exposure."),
     offered(toneMapUnavailable, choice<&View::toneMap>("view.toneMap", "Tone mapping", "Tone curve", kToneMaps, "How light that is brighter than the screen is brought into its range; PBR Neutral keeps base colours as they are.")),
-    flag<&View::reinhardAutoKey>("view.reinhardAutoKey", "Automatic key", "Tone curve", "Lets the photographic operator find its key from the darkest, average and brightest light of the picture."),
-    number<&View::reinhardKey>("view.reinhardKey", "Key", "Tone curve", {0.045f, 0.72f}, {0.045f, 0.72f}, 3, "", "Brightness that the picture's average gets: 0.045 for a night, 0.18 for an ordinary scene, 0.72 for snow."),
-    number<&View::reinhardWhite>("view.reinhardWhite", "White point", "Tone curve", {0.0f, 16.0f}, {0.0f, 10000.0f}, 2, "", "Smallest scaled luminance that becomes white; 0 is none, and nothing is ever quite white."),
-    number<&View::exponentialK>("view.exponentialK", "Rate k", "Tone curve", {0.1f, 8.0f}, {0.01f, 100.0f}, 2, "", "The k of 1 - exp(-k L): how quickly light comes near white."),
-    choice<&View::displayTransfer>("view.displayTransfer", "Transfer curve", "Display", kDisplayTransfers, "What the display expects: the sRGB curve, or a pure power; OpenColorIO brings its own."),
-    number<&View::displayGamma>("view.displayGamma", "Display gamma", "Display", {1.0f, 3.0f}, {1.0f, 4.0f}, 2, "", "Exponent of a display that is a pure power."),
+    only(kInPhotographic, flag<&View::reinhardAutoKey>("view.reinhardAutoKey", "Automatic key", "Tone curve", "Lets the photographic operator find its key from the darkest, average and brightest light of the picture.")),
+    whileHolds(kKeyByHand, only(kInPhotographic, number<&View::reinhardKey>("view.reinhardKey", "Key", "Tone curve", {0.045f, 0.72f}, {0.045f, 0.72f}, 3, "", "Brightness that the picture's average gets: 0.045 for a night, 0.18 for an ordinary scene, 0.72 for snow."))),
+    only(kInPhotographic, number<&View::reinhardWhite>("view.reinhardWhite", "White point", "Tone curve", {0.0f, 16.0f}, {0.0f, 10000.0f}, 2, "", "Smallest scaled luminance that becomes white; 0 is none, and nothing is ever quite white.")),
+    only(kInExponential, number<&View::exponentialK>("view.exponentialK", "Rate k", "Tone curve", {0.1f, 8.0f}, {0.01f, 100.0f}, 2, "", "The k of 1 - exp(-k L): how quickly light comes near white.")),
+    only(kNotInOpenColorIo, choice<&View::displayTransfer>("view.displayTransfer", "Transfer curve", "Display", kDisplayTransfers, "What the display expects: the sRGB curve, or a pure power; OpenColorIO brings its own.")),
+    only(kInGamma, number<&View::displayGamma>("view.displayGamma", "Display gamma", "Display", {1.0f, 3.0f}, {1.0f, 4.0f}, 2, "", "Exponent of a display that is a pure power.")),
     text<&View::ocioConfig>("view.ocioConfig", "OpenColorIO configuration", "Display", "File with OpenColorIO's displays and views; empty means the one that the environment variable OCIO names.", kPicture),
     text<&View::ocioDisplay>("view.ocioDisplay", "OpenColorIO display", "Display", "Display of the OpenColorIO configuration; empty means its default.", kPicture),
     text<&View::ocioView>("view.ocioView", "OpenColorIO view", "Display", "View of the OpenColorIO display; empty means the display's default.", kPicture),
     number<&View::camera, &Camera::fovDeg>("view.fovDeg", "Field of view", "Camera and lighting", {10.0f, 90.0f}, {1.0f, 170.0f}, 1, "°", "Vertical angle that the camera sees: small like a telephoto lens, large like a wide-angle lens."),
     offered(lightingUnavailable, choice<&View::lighting>("view.lighting", "Lighting", "Camera and lighting", kLightings, "How the environment lights the scene: image-based light; one dominant light (N·L); SH irradiance; transfer of an open sky; baked transfer with its soft shadows; and with interreflection.")),
-    number<&View::bounces>("view.bounces", "Bounces", "Camera and lighting", {0.0f, 8.0f}, {-1.0f, 64.0f}, 0, "", "How often light may bounce between surfaces under interreflected transfer; -1 is never, 0 as often as the bake was made for."),
+    only(kWithBounces, number<&View::bounces>("view.bounces", "Bounces", "Camera and lighting", {0.0f, 8.0f}, {-1.0f, 64.0f}, 0, "", "How often light may bounce between surfaces under interreflected transfer; -1 is never, 0 as often as the bake was made for.")),
     number<&View::reflectionMix>("view.reflectionMix", "Diffuse / reflection", "Camera and lighting", kUnit, kUnit, 2, "", "Fades between diffuse light alone (0) and reflections alone (1); in the middle both show in full. Reflections that are left out take nothing from the diffuse light."),
 
     text<&L::name>("light.name", "Name", "Light", "What the light is called in lists, exports and scripts."),
     withEdits(lightTypeEdits, choice<&L::type>("light.type", "Type", "Light", kLightTypes, "A point emits from one position in all directions, a directional light from far away like the sun, a spot in a cone; spheres and rectangles emit from an area and make soft highlights.", kPicture | Affects::Structure)),
     flag<&L::enabled>("light.enabled", "On", "Light", "Switches the light on or off.", kPicture | Affects::Structure),
     flag<&L::solo>("light.solo", "Solo", "Light", kSoloHelp, kPicture | Affects::Structure),
-    color<&L::color>("light.color", "Colour", "Light", "Colour of the light; its brightness is set by the intensity."),
+    whileHolds(kColoredByHand, color<&L::color>("light.color", "Colour", "Light", "Colour of the light; its brightness is set by the intensity.")),
     flag<&L::usesTemperature>("light.usesTemperature", "Use temperature", "Light", "Takes the colour of a glowing body of the temperature below instead of the colour above."),
-    number<&L::temperatureK>("light.temperatureK", "Temperature", "Light", {1000.0f, 12000.0f}, {kMinTemperatureK, kMaxTemperatureK}, 0, "K", "Colour temperature: a candle has 1900 K, a light bulb 2700 K, the midday sun 5500 K, a clear sky 10000 K and more."),
+    whileHolds(kColoredByTemperature, number<&L::temperatureK>("light.temperatureK", "Temperature", "Light", {1000.0f, 12000.0f}, {kMinTemperatureK, kMaxTemperatureK}, 0, "K", "Colour temperature: a candle has 1900 K, a light bulb 2700 K, the midday sun 5500 K, a clear sky 10000 K and more.")),
     unitOfElement(lightIntensityUnit, number<&L::intensity>("light.intensity", "Intensity", "Light", {0.0f, 20.0f}, {0.0f, 1e6f}, 3, "cd, lx or nit", "Brightness: in lux at a surface that faces a directional light, in candela for points and spots, in nit (candela per m²) for spheres and rectangles.")),
     number<&L::gainEv>("light.gainEv", "Gain", "Light", {-6.0f, 6.0f}, {-24.0f, 24.0f}, 2, "EV", "Brightens the light in the mix, its intensity staying as it is; each step doubles it."),
     color<&L::tint>("light.tint", "Tint", "Light", "Colours the light in the mix like a filter in front of it; white leaves it as it is."),
-    vector<&L::position>("light.position", "Position", "Place", {-10.0f, 10.0f}, {-1e6f, 1e6f}, "m", "Where the light stands: right, up and towards the viewer; not of a directional light."),
-    angle<&L::azimuthDeg>("light.azimuthDeg", "Azimuth", "Place", "The compass direction that light of a directional light, spot or rectangle comes from; 0 is the model's front, positive values turn towards +X."),
-    number<&L::elevationDeg>("light.elevationDeg", "Elevation", "Place", {-90.0f, 90.0f}, {-90.0f, 90.0f}, 1, "°", "How far from above the light of a directional light, spot or rectangle comes: 90 is straight down, 0 level."),
-    angle<&L::rollDeg>("light.rollDeg", "Roll", "Place", "Turns a rectangle about the direction it emits in."),
-    number<&L::range>("light.range", "Range", "Shape", {0.0f, 50.0f}, {0.0f, 1e6f}, 2, "m", "Where light of a point or spot ends, fading smoothly; 0 lets it go on for ever, as real light does."),
-    number<&L::innerConeDeg>("light.innerConeDeg", "Inner cone", "Shape", {0.0f, 90.0f}, {0.0f, 90.0f}, 1, "°", "Half angle of the cone within which a spot has its full intensity."),
-    number<&L::outerConeDeg>("light.outerConeDeg", "Outer cone", "Shape", {0.1f, 90.0f}, {0.1f, 90.0f}, 1, "°", "Half angle of the cone outside of which a spot is dark."),
-    number<&L::radius>("light.radius", "Radius", "Shape", {0.0f, 2.0f}, {0.0f, 1e5f}, 3, "m", "Radius of a sphere light."),
-    number<&L::width>("light.width", "Width", "Shape", {0.0f, 5.0f}, {0.0f, 1e5f}, 3, "m", "Width of a rectangle light."),
-    number<&L::height>("light.height", "Height", "Shape", {0.0f, 5.0f}, {0.0f, 1e5f}, 3, "m", "Height of a rectangle light."),
-    flag<&L::castsShadow>("light.castsShadow", "Shadow", "Shadow", "Lets the meshes cast shadows in the light of a spot or a directional light."),
-    number<&L::shadowSoftness>("light.shadowSoftness", "Softness", "Shadow", {0.0f, 10.0f}, {0.0f, 45.0f}, 2, "°", "How large the source appears from the scene, which makes shadows soft: the sun has 0.53°; 0 gives hard edges."),
+    only(kOfPlaced, vector<&L::position>("light.position", "Position", "Place", {-10.0f, 10.0f}, {-1e6f, 1e6f}, "m", "Where the light stands: right, up and towards the viewer; not of a directional light.")),
+    only(kOfDirected, angle<&L::azimuthDeg>("light.azimuthDeg", "Azimuth", "Place", "The compass direction that light of a directional light, spot or rectangle comes from; 0 is the model's front, positive values turn towards +X.")),
+    only(kOfDirected, number<&L::elevationDeg>("light.elevationDeg", "Elevation", "Place", {-90.0f, 90.0f}, {-90.0f, 90.0f}, 1, "°", "How far from above the light of a directional light, spot or rectangle comes: 90 is straight down, 0 level.")),
+    only(kOfRectangles, angle<&L::rollDeg>("light.rollDeg", "Roll", "Place", "Turns a rectangle about the direction it emits in.")),
+    only(kOfRanged, number<&L::range>("light.range", "Range", "Shape", {0.0f, 50.0f}, {0.0f, 1e6f}, 2, "m", "Where light of a point or spot ends, fading smoothly; 0 lets it go on for ever, as real light does.")),
+    only(kOfSpots, number<&L::innerConeDeg>("light.innerConeDeg", "Inner cone", "Shape", {0.0f, 90.0f}, {0.0f, 90.0f}, 1, "°", "Half angle of the cone within which a spot has its full intensity.")),
+    only(kOfSpots, number<&L::outerConeDeg>("light.outerConeDeg", "Outer cone", "Shape", {0.1f, 90.0f}, {0.1f, 90.0f}, 1, "°", "Half angle of the cone outside of which a spot is dark.")),
+    only(kOfSpheres, number<&L::radius>("light.radius", "Radius", "Shape", {0.0f, 2.0f}, {0.0f, 1e5f}, 3, "m", "Radius of a sphere light.")),
+    only(kOfRectangles, number<&L::width>("light.width", "Width", "Shape", {0.0f, 5.0f}, {0.0f, 1e5f}, 3, "m", "Width of a rectangle light.")),
+    only(kOfRectangles, number<&L::height>("light.height", "Height", "Shape", {0.0f, 5.0f}, {0.0f, 1e5f}, 3, "m", "Height of a rectangle light.")),
+    only(kOfCasters, flag<&L::castsShadow>("light.castsShadow", "Shadow", "Shadow", "Lets the meshes cast shadows in the light of a spot or a directional light.")),
+    whileHolds(kCasting, only(kOfCasters, number<&L::shadowSoftness>("light.shadowSoftness", "Softness", "Shadow", {0.0f, 10.0f}, {0.0f, 45.0f}, 2, "°", "How large the source appears from the scene, which makes shadows soft: the sun has 0.53°; 0 gives hard edges."))),
 
     text<&MeshInstance::name>("mesh.name", "Name", "Mesh", "What the mesh is called in lists, exports and scripts."),
     flag<&MeshInstance::visible>("mesh.visible", "Visible", "Mesh", "Shows the mesh, and lets it take part in bakes.", kGeometry),
@@ -507,6 +520,13 @@ static_assert(std::all_of(kMaterialInputs.begin(), kMaterialInputs.end(), hasRow
               "the rows of every input of the material");
 
 } // namespace
+
+std::string_view whyIdle(const ParameterInfo& info, const Document& document, Id element) {
+    for (const Condition* condition : {info.applies, info.works})
+        if (condition != nullptr && !condition->holds(document, element))
+            return condition->otherwise;
+    return {};
+}
 
 std::span<const ParameterInfo> parameters() {
     return kParameters;

@@ -58,6 +58,12 @@ struct ParameterEdit {
     ParameterValue value;
 };
 
+// What must be so of the element for a parameter to have a say.
+struct Condition {
+    bool (*holds)(const Document&, Id) = nullptr; // the element exists
+    std::string_view otherwise;                   // why it has no effect then: "only spots have it"
+};
+
 struct ParameterInfo {
     std::string_view id;    // "material.perceptualRoughness": stable, in files and scripts
     std::string_view alias; // another accepted spelling, or empty
@@ -96,12 +102,23 @@ struct ParameterInfo {
     // value alone. Ask editsFor() of core/edit/Edit.h.
     std::vector<ParameterEdit> (*onSet)(const Document&, Id, const ParameterValue&) = nullptr;
 
+    // Whether it makes sense for the element (a cone only of spots): else panels hide its row.
+    // Null: always.
+    const Condition* applies = nullptr;
+    // Whether it has an effect while it does: else its row is disabled, so that rows under the
+    // pointer keep their place when a switch beside them is clicked. Null: always.
+    const Condition* works = nullptr;
+
     [[nodiscard]] ParameterValue defaultValue() const; // of a default-constructed element
 };
 
 // Why this choice of a parameter is not offered in this document; empty when it is.
 [[nodiscard]] std::string whyUnavailable(const ParameterInfo& info, const Document& document,
                                          int choice);
+
+// Why the parameter has no effect on this element now, as the end of a sentence; empty when it has.
+[[nodiscard]] std::string_view whyIdle(const ParameterInfo& info, const Document& document,
+                                       Id element);
 
 [[nodiscard]] std::span<const ParameterInfo> parameters(); // the whole table, in panel order
 [[nodiscard]] const ParameterInfo* findParameter(std::string_view idOrAlias);

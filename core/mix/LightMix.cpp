@@ -29,43 +29,46 @@ namespace {
 
 // What its radiance is multiplied by; zero: it takes no part.
 template <class Part>
-glm::vec3 scaleOf(const Document& document, const Part& environment, float share) {
-    if (!environment.enabled || (!environment.solo && anySolo(document)))
+glm::vec3 scaleOf(const Document& document, const Part& environment, bool solo, float share) {
+    if (!environment.enabled || (!solo && anySolo(document)))
         return glm::vec3(0.0f);
     return environment.tint * (share * std::exp2(environment.exposureEv));
 }
 
 // Where the cross-fade stands: one environment alone is shown in full.
-float effectiveFade(const Environment& first) {
-    const SecondEnvironment& second = first.second;
-    if (!second.image)
+float effectiveFade(const Document& document, const Environment& first) {
+    if (!first.second.image)
         return 0.0f;
-    if (first.solo != second.solo)
-        return first.solo ? 0.0f : 1.0f;
+    const bool solo = document.environment.solo;
+    if (solo != document.environment.second.solo)
+        return solo ? 0.0f : 1.0f;
     return first.fade;
 }
 
 } // namespace
 
-std::vector<EnvironmentPart> environmentParts(const Document& document) {
-    const Environment& first = document.environment;
+std::vector<EnvironmentPart> environmentParts(const Document& document, const Environment& first) {
     const SecondEnvironment& second = first.second;
     std::vector<EnvironmentPart> parts;
-    const auto add = [&](EnvironmentPart::Role role, const auto& environment, float share) {
-        const glm::vec3 scale = scaleOf(document, environment, share);
+    const auto add = [&](EnvironmentPart::Role role, const auto& environment, bool solo,
+                         float share) {
+        const glm::vec3 scale = scaleOf(document, environment, solo, share);
         if (environment.image && scale != glm::vec3(0.0f))
             parts.push_back({role, environment.image, environment.rotationDeg, scale});
     };
-    const float fade = effectiveFade(first);
-    add(EnvironmentPart::Role::First, first, 1.0f - fade);
+    const float fade = effectiveFade(document, first);
+    add(EnvironmentPart::Role::First, first, document.environment.solo, 1.0f - fade);
     if (second.image)
-        add(EnvironmentPart::Role::Second, second, fade);
+        add(EnvironmentPart::Role::Second, second, document.environment.second.solo, fade);
     return parts;
 }
 
-EnvironmentPart shownEnvironment(const Document& document) {
-    const std::vector<EnvironmentPart> parts = environmentParts(document);
-    const Environment& environment = document.environment;
+std::vector<EnvironmentPart> environmentParts(const Document& document) {
+    return environmentParts(document, document.environment);
+}
+
+EnvironmentPart shownEnvironment(const Document& document, const Environment& environment) {
+    const std::vector<EnvironmentPart> parts = environmentParts(document, environment);
     if (parts.size() == 2 && environment.blended)
         return {EnvironmentPart::Role::Both, environment.blended, environment.rotationDeg,
                 glm::vec3(1.0f)};
@@ -73,7 +76,12 @@ EnvironmentPart shownEnvironment(const Document& document) {
         return parts.front();
     // Without a picture a grey one stands in, which is mixed all the same.
     return {EnvironmentPart::Role::First, environment.image, environment.rotationDeg,
-            scaleOf(document, environment, 1.0f - effectiveFade(environment))};
+            scaleOf(document, environment, document.environment.solo,
+                    1.0f - effectiveFade(document, environment))};
+}
+
+EnvironmentPart shownEnvironment(const Document& document) {
+    return shownEnvironment(document, document.environment);
 }
 
 } // namespace patina

@@ -30,9 +30,14 @@ struct EnvironmentPart {
 // up; the cross-fade weighs the first by 1 - fade, the second by fade, as long as there is a second
 // one with an image and not one alone is solo, which is in full. At most two, the first one first.
 [[nodiscard]] std::vector<EnvironmentPart> environmentParts(const Document& document);
+// With `environment` in place of the document's own; which one is solo the document says.
+[[nodiscard]] std::vector<EnvironmentPart> environmentParts(const Document& document,
+                                                            const Environment& environment);
 
 // The same as one picture: the part where there is one; `blended` where there are two, or the first
 // until it is there; where there is none the first environment's, scaled by 0.
 [[nodiscard]] EnvironmentPart shownEnvironment(const Document& document);
+[[nodiscard]] EnvironmentPart shownEnvironment(const Document& document,
+                                               const Environment& environment);
 
 } // namespace patina

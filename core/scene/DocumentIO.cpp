@@ -5,13 +5,16 @@
 #include "core/base/FileLock.h"
 #include "core/base/Leftovers.h"
 #include "core/base/Limits.h"
+#include "core/base/PrintableText.h"
 #include "core/base/Utf8.h"
 #include "core/document/AbsentBake.h"
 #include "core/scene/ProjectBakes.h"
 #include "core/scene/ProjectJson.h"
 #include "core/scene/SceneLoader.h"
 
+#include <algorithm>
 #include <chrono>
+#include <fmt/format.h>
 #include <set>
 #include <span>
 #include <sys/stat.h>
@@ -29,6 +32,16 @@ MeshPtr placeholderMesh(const std::string& name) {
     Mesh mesh;
     mesh.name = name;
     return std::make_shared<const Mesh>(std::move(mesh));
+}
+
+std::string aboutUnknown(const std::vector<std::string>& places) {
+    constexpr std::size_t kNamed = 3;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(places.size(), kNamed); ++i)
+        names += (i > 0 ? ", " : "") + printableLine(places[i]);
+    return fmt::format("this version of Patina does not know {} of the project's settings ({}{}): "
+                       "they are kept when you save, and not shown; a newer version may know them",
+                       places.size(), names, places.size() > kNamed ? ", …" : "");
 }
 
 void resolveMeshes(SceneLoader& loader, Document& document) {
@@ -167,6 +180,8 @@ Result<OpenedScene> loadProjectText(WorkerClient& worker, const std::string& jso
     opened.isProject = true;
     opened.document = std::move(parsed->document);
     SceneLoader loader(&worker, job);
+    if (!parsed->unknown.empty())
+        loader.addNotice(aboutUnknown(parsed->unknown), projectFile);
     resolveMeshes(loader, opened.document);
     if (!loader.cancelled())
         loader.loadMaps(opened.document.materials);

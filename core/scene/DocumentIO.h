@@ -19,7 +19,9 @@ inline constexpr int kProjectVersion = 1;
                                          const std::filesystem::path& projectFile);
 
 // Values only: every payload (mesh, image, bake) is still null. Errors: InputBroken naming the key
-// and what was expected; unknown keys of newer versions are an error that says so.
+// and what was expected. Unknown keys of newer versions are kept (Document::unknownKeys): loading
+// says which, saving writes them again beside those of elements that are still there. A newer
+// kProjectVersion says that this is not enough, and is an error.
 Result<Document> documentFromJson(const std::string& json,
                                   const std::filesystem::path& projectFile);
 

@@ -50,6 +50,8 @@ struct BakeReference {
 struct ParsedProject {
     Document document; // every payload null
     std::vector<BakeReference> bakes;
+    std::vector<std::string>
+        unknown; // keys that are kept, by their place: "materials[3].clearcoat"
 };
 // The project's text with these files for its bakes.
 [[nodiscard]] std::string projectText(const Document& document,

@@ -37,6 +37,7 @@ struct Broken {
 struct Node {
     const Json* json;
     std::string key;
+    std::string path{}; // the same as a JSON pointer: "/materials/3/metallic"; of objects and lists
 };
 
 std::string describe(const Json& json) {
@@ -54,8 +55,15 @@ std::string describe(const Json& json) {
                              describe(*node.json))};
 }
 
-// An object whose keys must all be known: a key that is not comes from a newer version of Patina,
-// and ignoring it would lose it at the next save.
+// A key that this version does not know, in an object that is kept by that name
+// (UnknownKeys::ofObject).
+struct UnknownKey {
+    std::string parent, path; // where the object stands: "materials[3]", "/materials/3"
+    std::string object, key;
+};
+
+// An object whose keys are known, or kept: a key that is not known comes from a newer version of
+// Patina, and ignoring it would lose it at the next save.
 class ObjectReader {
   public:
     explicit ObjectReader(Node node)
@@ -68,7 +76,8 @@ class ObjectReader {
         if (found == m_node.json->end())
             return std::nullopt;
         m_used.insert(key);
-        return Node{&*found, m_node.key.empty() ? key : m_node.key + "." + key};
+        return Node{&*found, m_node.key.empty() ? key : m_node.key + "." + key,
+                    m_node.path + "/" + key};
     }
     [[nodiscard]] Node require(const std::string& key) {
         std::optional<Node> found = find(key);
@@ -77,13 +86,10 @@ class ObjectReader {
                                      m_node.key.empty() ? key : m_node.key + "." + key)};
         return *std::move(found);
     }
-    void refuseUnknownKeys() const {
+    void keepUnknownKeys(const std::string& object, std::vector<UnknownKey>& unknown) const {
         for (const auto& [key, value] : m_node.json->items())
             if (!m_used.contains(key))
-                throw Broken{fmt::format(
-                    "{}{}{} is unknown to this version of Patina; the project was saved by a newer "
-                    "one, or damaged",
-                    m_node.key, m_node.key.empty() ? "" : ".", key.substr(0, 80))};
+                unknown.push_back({m_node.key, m_node.path, object, key});
     }
 
   private:
@@ -100,7 +106,8 @@ std::vector<Node> readList(const Node& node, std::size_t maxSize) {
     std::vector<Node> nodes;
     nodes.reserve(node.json->size());
     for (std::size_t i = 0; i < node.json->size(); ++i)
-        nodes.push_back({&(*node.json)[i], fmt::format("{}[{}]", node.key, i)});
+        nodes.push_back({&(*node.json)[i], fmt::format("{}[{}]", node.key, i),
+                         fmt::format("{}/{}", node.path, i)});
     return nodes;
 }
 
@@ -150,14 +157,22 @@ std::string readSource(const Node& node, const fs::path& projectFile) {
     return *std::move(source);
 }
 
-MapSlot readMap(const Node& node, bool hasAdjustments, const fs::path& projectFile) {
+// Where a project lies, and what of it is not known.
+struct Reading {
+    const fs::path& projectFile;
+    std::vector<UnknownKey> unknown;
+};
+
+// `object`: what its unknown keys are kept under.
+MapSlot readMap(const Node& node, bool hasAdjustments, const std::string& object,
+                Reading& reading) {
     MapSlot slot;
     if (node.json->is_null())
         return slot;
-    ObjectReader object(node);
-    slot.source = readSource(object.require("source"), projectFile);
+    ObjectReader map(node);
+    slot.source = readSource(map.require("source"), reading.projectFile);
     if (hasAdjustments) {
-        if (const auto channel = object.find("channel")) {
+        if (const auto channel = map.find("channel")) {
             const std::string name = readText(*channel, "one of rgb, r, g, b, a");
             const auto found = std::find(kMapChannels.begin(), kMapChannels.end(), name);
             if (found != kMapChannels.end())
@@ -167,23 +182,23 @@ MapSlot readMap(const Node& node, bool hasAdjustments, const fs::path& projectFi
             else if (name != kRgbChannel)
                 fail(*channel, "one of rgb, r, g, b, a");
         }
-        if (const auto scale = object.find("uvScale")) {
+        if (const auto scale = map.find("uvScale")) {
             const auto v = readFloats<2>(*scale, "two numbers");
             slot.uvScale = {v[0], v[1]};
         }
-        if (const auto offset = object.find("uvOffset")) {
+        if (const auto offset = map.find("uvOffset")) {
             const auto v = readFloats<2>(*offset, "two numbers");
             slot.uvOffset = {v[0], v[1]};
         }
-        if (const auto rotation = object.find("uvRotationDeg"))
+        if (const auto rotation = map.find("uvRotationDeg"))
             slot.uvRotationDeg = readFloat(*rotation);
     }
-    object.refuseUnknownKeys();
+    map.keepUnknownKeys(object, reading.unknown);
     return slot;
 }
 
 ParameterValue readParameter(const ParameterInfo& info, const Node& node,
-                             const fs::path& projectFile) {
+                             const std::string& element, Reading& reading) {
     const std::string expected = describeExpected(info);
     ParameterValue value;
     switch (info.type) {
@@ -210,7 +225,7 @@ ParameterValue readParameter(const ParameterInfo& info, const Node& node,
     case ParameterType::Text:
         return readText(node, expected);
     case ParameterType::Map:
-        return readMap(node, info.scope == Scope::Material, projectFile);
+        return readMap(node, info.scope == Scope::Material, element + "." + keyOf(info), reading);
     case ParameterType::Reference:
         return static_cast<int>(readInteger(node, 0, kMaxId));
     }
@@ -221,18 +236,23 @@ ParameterValue readParameter(const ParameterInfo& info, const Node& node,
 }
 
 // A parameter that is absent (it is younger than the file) keeps its default.
+// `element`: what its unknown keys are kept under.
 void readParameters(ObjectReader& object, Document& document, Scope scope, Id id,
-                    const fs::path& projectFile) {
+                    const std::string& element, Reading& reading) {
     for (const ParameterInfo& info : parameters())
         if (info.scope == scope)
             if (const auto node = object.find(keyOf(info)))
-                info.set(document, id, readParameter(info, *node, projectFile));
+                info.set(document, id, readParameter(info, *node, element, reading));
+}
+// Of an element with an id: those that are read here are all of it.
+void readElement(ObjectReader& object, Document& document, Scope scope, Id id, Reading& reading) {
+    readParameters(object, document, scope, id, std::to_string(id), reading);
 }
 
 class ProjectReader {
   public:
     explicit ProjectReader(const fs::path& projectFile)
-        : m_projectFile(projectFile) {}
+        : m_reading{projectFile, {}} {}
 
     ParsedProject read(const Json& json) {
         checkVersion(json);
@@ -258,9 +278,11 @@ class ProjectReader {
         if (!m_ids.empty() && *m_ids.rbegin() >= document().nextId)
             fail(nextId,
                  fmt::format("larger than every id, the largest being {}", *m_ids.rbegin()));
-        root.refuseUnknownKeys();
+        root.keepUnknownKeys("", m_reading.unknown);
         return std::move(m_project);
     }
+
+    [[nodiscard]] const std::vector<UnknownKey>& unknown() const { return m_reading.unknown; }
 
   private:
     Document& document() { return m_project.document; }
@@ -289,13 +311,13 @@ class ProjectReader {
 
     void readView(const Node& node) {
         ObjectReader object(node);
-        readParameters(object, document(), Scope::View, 0, m_projectFile);
+        readParameters(object, document(), Scope::View, 0, "view", m_reading);
         if (const auto camera = object.find("camera"))
             readCamera(*camera, document().view.camera);
-        object.refuseUnknownKeys();
+        object.keepUnknownKeys("view", m_reading.unknown);
     }
 
-    static void readCamera(const Node& node, Camera& camera) {
+    void readCamera(const Node& node, Camera& camera) {
         ObjectReader object(node);
         const Node target = object.require("target");
         const auto v = readFloats<3>(target, "three numbers");
@@ -303,7 +325,7 @@ class ProjectReader {
         camera.yawDeg = readFloat(object.require("yawDeg"));
         camera.pitchDeg = readFloat(object.require("pitchDeg"));
         camera.distance = readFloat(object.require("distance"));
-        object.refuseUnknownKeys();
+        object.keepUnknownKeys("view.camera", m_reading.unknown);
         if (!(sanitizeCamera(camera) == camera))
             fail(node, "a camera with sensible numbers (pitchDeg from -89 to 89, distance from "
                        "1e-6 to 1e9)");
@@ -311,26 +333,26 @@ class ProjectReader {
 
     void readEnvironment(const Node& node) {
         ObjectReader object(node);
-        readParameters(object, document(), Scope::Environment, 0, m_projectFile);
+        readParameters(object, document(), Scope::Environment, 0, "environment", m_reading);
         if (const auto softboxes = object.find("softboxes"))
             for (const Node& softbox : readList(*softboxes, kMaxSoftboxes))
                 document().environment.softboxes.push_back(readSoftbox(softbox));
-        object.refuseUnknownKeys();
+        object.keepUnknownKeys("environment", m_reading.unknown);
     }
 
     Softbox readSoftbox(const Node& node) {
         ObjectReader object(node);
         Document scratch;
         const Id id = scratch.environment.softboxes.emplace_back().id = readId(object);
-        readParameters(object, scratch, Scope::Softbox, id, m_projectFile);
-        object.refuseUnknownKeys();
+        readElement(object, scratch, Scope::Softbox, id, m_reading);
+        object.keepUnknownKeys(std::to_string(id), m_reading.unknown);
         return std::move(scratch.environment.softboxes.front());
     }
 
     void readModel(const Node& node) {
         ObjectReader object(node);
-        readParameters(object, document(), Scope::Model, 0, m_projectFile);
-        object.refuseUnknownKeys();
+        readParameters(object, document(), Scope::Model, 0, "model", m_reading);
+        object.keepUnknownKeys("model", m_reading.unknown);
     }
 
     // Elements are read alone in a document, where they are found at once however many there are.
@@ -338,8 +360,8 @@ class ProjectReader {
         ObjectReader object(node);
         Document scratch;
         const Id id = scratch.materials.emplace_back().id = readId(object);
-        readParameters(object, scratch, Scope::Material, id, m_projectFile);
-        object.refuseUnknownKeys();
+        readElement(object, scratch, Scope::Material, id, m_reading);
+        object.keepUnknownKeys(std::to_string(id), m_reading.unknown);
         m_materials.insert(id);
         return std::move(scratch.materials.front());
     }
@@ -348,8 +370,8 @@ class ProjectReader {
         ObjectReader object(node);
         Document scratch;
         const Id id = scratch.lights.emplace_back().id = readId(object);
-        readParameters(object, scratch, Scope::Light, id, m_projectFile);
-        object.refuseUnknownKeys();
+        readElement(object, scratch, Scope::Light, id, m_reading);
+        object.keepUnknownKeys(std::to_string(id), m_reading.unknown);
         return std::move(scratch.lights.front());
     }
 
@@ -357,17 +379,17 @@ class ProjectReader {
         ObjectReader object(node);
         Document scratch;
         const Id id = scratch.meshes.emplace_back().id = readId(object);
-        readParameters(object, scratch, Scope::Mesh, id, m_projectFile);
+        readElement(object, scratch, Scope::Mesh, id, m_reading);
         MeshInstance mesh = std::move(scratch.meshes.front());
         if (mesh.material != 0 && !m_materials.contains(mesh.material))
             fail(object.require("material"), "the id of a material in this project");
-        mesh.source = readSource(object.require("source"), m_projectFile);
+        mesh.source = readSource(object.require("source"), m_reading.projectFile);
         mesh.sourceIndex = static_cast<int>(readInteger(object.require("sourceIndex"), 0,
                                                         std::numeric_limits<std::int32_t>::max()));
         const auto transform = readFloats<16>(object.require("transform"), "16 numbers");
         for (int i = 0; i < 16; ++i)
             mesh.transform[i / 4][i % 4] = transform[static_cast<std::size_t>(i)];
-        object.refuseUnknownKeys();
+        object.keepUnknownKeys(std::to_string(id), m_reading.unknown);
         return mesh;
     }
 
@@ -383,16 +405,31 @@ class ProjectReader {
                         [&](const BakeReference& bake) { return bake.kind == kind->first; });
         if (kind == kBakeKinds.end() || repeated)
             fail(kindNode, "one of aoTexel, aoVertex, prtVertex, prtTexel, each at most once");
-        BakeReference bake{kind->first, readSource(object.require("file"), m_projectFile)};
-        object.refuseUnknownKeys();
+        BakeReference bake{kind->first, readSource(object.require("file"), m_reading.projectFile)};
+        object.keepUnknownKeys("bake." + name, m_reading.unknown);
         return bake;
     }
 
-    const fs::path& m_projectFile;
+    Reading m_reading;
     ParsedProject m_project;
     std::set<Id> m_ids;
     std::unordered_set<Id> m_materials;
 };
+
+// Their values as they stand in the file: the reader's own numbers have single precision.
+UnknownKeys textsOf(const std::vector<UnknownKey>& unknown, const std::string& text) {
+    if (unknown.empty())
+        return {};
+    const auto root = nlohmann::ordered_json::parse(text);
+    UnknownKeys::ByObject byObject;
+    for (const UnknownKey& one : unknown) {
+        const auto& object = root.at(nlohmann::ordered_json::json_pointer(one.path));
+        byObject[one.object].emplace_back(
+            one.key, object.at(one.key).dump(-1, ' ', false,
+                                             nlohmann::ordered_json::error_handler_t::replace));
+    }
+    return UnknownKeys(std::move(byObject));
+}
 
 // Counts brackets and commas outside of strings, before the text is given to the parser.
 std::optional<std::string> checkShape(const std::string& text) {
@@ -436,7 +473,13 @@ Result<ParsedProject> parseProject(const std::string& json, const fs::path& proj
     if (const auto problem = checkShape(json))
         return broken("this is no Patina project: " + *problem, {});
     try {
-        return ProjectReader(projectFile).read(Json::parse(json));
+        ProjectReader reader(projectFile);
+        ParsedProject project = reader.read(Json::parse(json));
+        project.document.unknownKeys = textsOf(reader.unknown(), json);
+        for (const UnknownKey& one : reader.unknown())
+            project.unknown.push_back(one.parent + (one.parent.empty() ? "" : ".") +
+                                      one.key.substr(0, 80));
+        return project;
     } catch (const Broken& problem) {
         return broken(problem.message, {});
     } catch (const Json::exception& problem) {

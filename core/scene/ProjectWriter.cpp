@@ -93,46 +93,68 @@ Json parameterToJson(const ParameterInfo& info, const ParameterValue& value,
     return nullptr;
 }
 
-// Every parameter of the element, clamped: what is saved can be opened again.
-void addParameters(Json& json, const Document& document, Scope scope, Id id,
-                   const fs::path& projectFile) {
-    for (const ParameterInfo& info : parameters())
-        if (info.scope == scope)
-            json[project::keyOf(info)] =
-                parameterToJson(info, clampToRange(info, info.get(document, id)), projectFile);
+// Stands in an object for the text of keys that are only kept (UnknownKeys). No key of ours.
+constexpr const char* kKept = "\n";
+
+void addKept(Json& json, const Document& document, const std::string& object) {
+    const UnknownKeys::Entries* entries = document.unknownKeys.of(object);
+    if (entries == nullptr)
+        return;
+    Json kept = Json::array();
+    for (const auto& [key, value] : *entries)
+        kept.push_back(Json(key).dump() + ": " + value);
+    json[kKept] = std::move(kept);
 }
 
-// The element alone in a document, where it is found at once however many there are.
-Json materialToJson(const Material& material, const fs::path& projectFile) {
+struct Writing {
+    const Document& document;
+    const fs::path& projectFile;
+};
+
+// Every parameter of the element, clamped: what is saved can be opened again. `holder`: the
+// document that holds it; `element`: what its unknown keys are kept under.
+void addParameters(Json& json, const Document& holder, Scope scope, Id id,
+                   const std::string& element, const Writing& writing) {
+    for (const ParameterInfo& info : parameters())
+        if (info.scope == scope) {
+            const std::string key = project::keyOf(info);
+            Json& value = json[key] = parameterToJson(
+                info, clampToRange(info, info.get(holder, id)), writing.projectFile);
+            if (value.is_object())
+                addKept(value, writing.document, element + "." + key);
+        }
+}
+
+// An element with an id: `holder` has it alone, where it is found at once however many there are.
+Json elementToJson(const Document& holder, Scope scope, Id id, const Writing& writing) {
+    Json json{{"id", id}};
+    addParameters(json, holder, scope, id, std::to_string(id), writing);
+    return json;
+}
+
+Json materialToJson(const Material& material, const Writing& writing) {
     Document scratch;
     scratch.materials.push_back(material);
-    Json json{{"id", material.id}};
-    addParameters(json, scratch, Scope::Material, material.id, projectFile);
-    return json;
+    return elementToJson(scratch, Scope::Material, material.id, writing);
 }
 
-Json lightToJson(const Light& light, const fs::path& projectFile) {
+Json lightToJson(const Light& light, const Writing& writing) {
     Document scratch;
     scratch.lights.push_back(light);
-    Json json{{"id", light.id}};
-    addParameters(json, scratch, Scope::Light, light.id, projectFile);
-    return json;
+    return elementToJson(scratch, Scope::Light, light.id, writing);
 }
 
-Json softboxToJson(const Softbox& softbox, const fs::path& projectFile) {
+Json softboxToJson(const Softbox& softbox, const Writing& writing) {
     Document scratch;
     scratch.environment.softboxes.push_back(softbox);
-    Json json{{"id", softbox.id}};
-    addParameters(json, scratch, Scope::Softbox, softbox.id, projectFile);
-    return json;
+    return elementToJson(scratch, Scope::Softbox, softbox.id, writing);
 }
 
-Json meshToJson(const MeshInstance& mesh, const fs::path& projectFile) {
+Json meshToJson(const MeshInstance& mesh, const Writing& writing) {
     Document scratch;
     scratch.meshes.push_back(mesh);
-    Json json{{"id", mesh.id}};
-    addParameters(json, scratch, Scope::Mesh, mesh.id, projectFile);
-    json["source"] = toProjectPath(mesh.source, projectFile);
+    Json json = elementToJson(scratch, Scope::Mesh, mesh.id, writing);
+    json["source"] = toProjectPath(mesh.source, writing.projectFile);
     json["sourceIndex"] = std::max(mesh.sourceIndex, 0);
     Json transform = Json::array(); // column by column
     for (int column = 0; column < 4; ++column)
@@ -171,6 +193,15 @@ void print(const Json& json, int indent, std::string& out) {
     out += isObject ? '{' : '[';
     const char* separator = "";
     for (auto element = json.begin(); element != json.end(); ++element) {
+        if (isObject && element.key() == kKept) {
+            for (const Json& text : *element) {
+                out += separator;
+                newLine(indent + 1);
+                out += text.get<std::string>();
+                separator = ",";
+            }
+            continue;
+        }
         out += separator;
         if (nested)
             newLine(indent + 1);
@@ -199,34 +230,45 @@ std::string documentToJson(const Document& document, const fs::path& projectFile
 std::string project::projectText(const Document& document, const fs::path& projectFile,
                                  const BakeNames& bakes) {
     Json json{{"format", "patina"}, {"version", kProjectVersion}, {"nextId", document.nextId}};
+    const Writing writing{document, projectFile};
+    const auto addWhole = [&](const char* name, Scope scope) -> Json& {
+        Json& object = json[name] = Json::object();
+        addParameters(object, document, scope, 0, name, writing);
+        return object;
+    };
+    const auto addList = [&](Json& object, const char* name, const auto& elements,
+                             const auto& toJson) {
+        Json& list = object[name] = Json::array();
+        for (const auto& element : elements) {
+            Json one = toJson(element, writing);
+            addKept(one, document, std::to_string(element.id));
+            list.push_back(std::move(one));
+        }
+    };
 
-    json["view"] = Json::object();
-    addParameters(json["view"], document, Scope::View, 0, projectFile);
-    json["view"]["camera"] = cameraToJson(document.view.camera);
-    json["environment"] = Json::object();
-    addParameters(json["environment"], document, Scope::Environment, 0, projectFile);
-    json["environment"]["softboxes"] = Json::array();
-    for (const Softbox& softbox : document.environment.softboxes)
-        json["environment"]["softboxes"].push_back(softboxToJson(softbox, projectFile));
-    json["model"] = Json::object();
-    addParameters(json["model"], document, Scope::Model, 0, projectFile);
+    Json& view = addWhole("view", Scope::View);
+    view["camera"] = cameraToJson(document.view.camera);
+    addKept(view["camera"], document, "view.camera");
+    addKept(view, document, "view");
+    Json& environment = addWhole("environment", Scope::Environment);
+    addList(environment, "softboxes", document.environment.softboxes, softboxToJson);
+    addKept(environment, document, "environment");
+    addKept(addWhole("model", Scope::Model), document, "model");
 
-    json["materials"] = Json::array();
-    for (const Material& material : document.materials)
-        json["materials"].push_back(materialToJson(material, projectFile));
-    json["lights"] = Json::array();
-    for (const Light& light : document.lights)
-        json["lights"].push_back(lightToJson(light, projectFile));
-    json["meshes"] = Json::array();
-    for (const MeshInstance& mesh : document.meshes)
-        json["meshes"].push_back(meshToJson(mesh, projectFile));
+    addList(json, "materials", document.materials, materialToJson);
+    addList(json, "lights", document.lights, lightToJson);
+    addList(json, "meshes", document.meshes, meshToJson);
 
     json["bakes"] = Json::array();
     for (const BakeArtifactPtr& bake : document.bakes)
         for (const auto& [kind, name] : project::kBakeKinds)
-            if (bake && bake->kind == kind)
-                json["bakes"].push_back({{"kind", std::string(name)},
-                                         {"file", toProjectPath(bakes.at(kind), projectFile)}});
+            if (bake && bake->kind == kind) {
+                Json one{{"kind", std::string(name)},
+                         {"file", toProjectPath(bakes.at(kind), projectFile)}};
+                addKept(one, document, "bake." + std::string(name));
+                json["bakes"].push_back(std::move(one));
+            }
+    addKept(json, document, "");
 
     std::string text;
     print(json, 0, text);

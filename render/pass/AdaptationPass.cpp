@@ -39,9 +39,9 @@ AdaptationPass::~AdaptationPass() {
         glDeleteSync(static_cast<GLsync>(slot.fence)); // null is ignored
 }
 
-Result<void> AdaptationPass::compile() {
+Result<void> AdaptationPass::compile(ShaderLibrary& shaders) {
     for (const char* file : {"luminance.comp", "adapt.comp"})
-        if (auto made = m_shaders.program({{file}, {}}); !made)
+        if (auto made = shaders.program({{file}, {}}); !made)
             return made.error();
     return {};
 }

@@ -39,7 +39,7 @@ class AdaptationPass {
     [[nodiscard]] bool pending() const { return m_underWay > 0; } // poll() will have a newer one
 
     // Compiles the programs, so that a broken one is found when the renderer is made.
-    Result<void> compile();
+    static Result<void> compile(ShaderLibrary& shaders);
 
   private:
     static constexpr unsigned kBinding = 5;

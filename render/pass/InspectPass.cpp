@@ -2,8 +2,10 @@
 
 #include "render/scene/LightBlocks.h"
 
+#include <algorithm>
 #include <cstring>
 #include <epoxy/gl.h>
+#include <span>
 
 namespace patina::render {
 namespace {
@@ -13,6 +15,9 @@ struct RecordsBlock {
     std::array<glm::vec4, shading::kRecordCount> values;
     std::array<glm::vec4, shading::kViewCount> parts;
 };
+
+// Of a record that the shader has not written: no number that it computes has these bits.
+constexpr std::byte kUntouched{0xff};
 
 } // namespace
 
@@ -24,10 +29,11 @@ Result<void> InspectPass::draw(const GpuScene& scene, const DrawItem& item, cons
                                Inspection& result) {
     const auto count = static_cast<std::size_t>(
         settings.hasManyLights() ? scene.manyLights().lights().ends.w : kUniformLights);
-    const std::vector<std::byte> zeros(sizeof(RecordsBlock) + count * sizeof(LightRecordBlock));
-    if (m_records.size() != zeros.size())
-        m_records = gl::Buffer(m_context, "records", zeros.size());
-    m_records.write(0, zeros);
+    std::vector<std::byte> before(sizeof(RecordsBlock) + count * sizeof(LightRecordBlock));
+    std::fill_n(before.begin(), sizeof(RecordsBlock::values), kUntouched);
+    if (m_records.size() != before.size())
+        m_records = gl::Buffer(m_context, "records", before.size());
+    m_records.write(0, before);
     m_records.bindStorage(kRecordsBinding);
     picked.target().bind();
     glScissor(x, y, 1, 1);
@@ -49,7 +55,12 @@ Result<void> InspectPass::draw(const GpuScene& scene, const DrawItem& item, cons
     std::memcpy(&records, bytes.data(), sizeof(records));
     std::vector<LightRecordBlock> lights(count);
     std::memcpy(lights.data(), bytes.data() + sizeof(records), count * sizeof(LightRecordBlock));
-    result.values = records.values;
+    for (std::size_t i = 0; i < records.values.size(); ++i) {
+        const auto written = std::as_bytes(std::span(&records.values[i], 1));
+        result.recorded[i] =
+            std::ranges::any_of(written, [](std::byte b) { return b != kUntouched; });
+        result.values[i] = result.recorded[i] ? records.values[i] : glm::vec4(0.0f);
+    }
     result.contributions = records.parts;
     const std::vector<Id> order = lightOrder(scene.document());
     const auto lit = std::min(static_cast<std::size_t>(settings.lightEnds.w), count);

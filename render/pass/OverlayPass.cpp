@@ -49,7 +49,7 @@ Result<void> OverlayPass::draw(const Canvas& canvas, const Targets& targets, con
 Result<void> OverlayPass::drawLines(const Canvas& canvas, const Targets& targets,
                                     const GpuScene& scene, const FrameBlock& frame,
                                     const Camera& camera, const OverlaySettings& settings) {
-    if (auto done = drawGrid(canvas, targets, scene.document().view, camera); !done)
+    if (auto done = drawGrid(canvas, targets, settings.look, camera); !done)
         return done;
     if (auto done = drawOutline(canvas, settings); !done)
         return done;

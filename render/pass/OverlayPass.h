@@ -15,6 +15,7 @@ struct OverlaySettings {
     Id selectedLight = 0; // shown with its handles; 0: none
     const SurfaceLobe* lobe = nullptr;
     float scale = 1.0f; // pixels per pixel that marks are sized in
+    View look;          // exposure of the grid
 };
 
 class OverlayPass {

@@ -34,12 +34,12 @@ RelightPass::RelightPass(gl::Context& context, ShaderLibrary& shaders)
     , m_near(context, shaders)
     , m_parts(context) {}
 
-RelightPass::FarLight& RelightPass::farLight(const GpuScene& scene, int order) {
-    FarLight& light = m_far[static_cast<std::size_t>(order)];
+RelightPass::FarLight& RelightPass::farLight(const GpuScene& scene, LightId id, int order) {
+    FarLight& light = m_far[{id, order}];
     if (light.current)
         return light;
     light.current = true;
-    std::vector<glm::vec3> coefficients = scene.transferLight(order);
+    std::vector<glm::vec3> coefficients = scene.transferLight(id, order);
     if (light.revision != 0 && coefficients == light.coefficients)
         return light;
     if (light.block.empty())
@@ -50,10 +50,15 @@ RelightPass::FarLight& RelightPass::farLight(const GpuScene& scene, int order) {
     return light;
 }
 
-Result<void> RelightPass::update(GpuScene& scene, LightingMode mode, const FrameBlock& frame) {
-    if (mode < LightingMode::Unshadowed)
+void RelightPass::removeLight(LightId light) {
+    std::erase_if(m_far, [&](const auto& entry) { return entry.first.first == light; });
+}
+
+Result<void> RelightPass::update(GpuScene& scene, const RelightSettings& settings,
+                                 const FrameBlock& frame) {
+    if (settings.lighting < LightingMode::Unshadowed)
         return {};
-    for (FarLight& light : m_far)
+    for (auto& [key, light] : m_far)
         light.current = false;
     const std::vector<Id> ids = lightOrder(scene.document());
     if (frame.lightEnds.w > kUniformLights) {
@@ -64,7 +69,7 @@ Result<void> RelightPass::update(GpuScene& scene, LightingMode mode, const Frame
     }
     bool any = false;
     for (const DrawItem& item : scene.items()) {
-        const Result<bool> done = relight(scene, item, mode);
+        const Result<bool> done = relight(scene, item, settings);
         if (!done)
             return done.error();
         any |= *done;
@@ -74,16 +79,20 @@ Result<void> RelightPass::update(GpuScene& scene, LightingMode mode, const Frame
     return {};
 }
 
-Result<bool> RelightPass::relight(GpuScene& scene, const DrawItem& item, LightingMode mode) {
+Result<bool> RelightPass::relight(GpuScene& scene, const DrawItem& item,
+                                  const RelightSettings& settings) {
+    const LightingMode mode = settings.lighting;
     const bool openSky = mode == LightingMode::Unshadowed;
     const Transfer* transfer = item.transfer;
     if (!openSky && transfer == nullptr)
         return false;
     const bool perTexel = !openSky && transfer->side > 0;
-    const bool bounces = mode == LightingMode::Prt && scene.document().view.bounces >= 0;
+    const bool bounces = mode == LightingMode::Prt && settings.bounces;
     const int order = openSky ? kMaxShOrder : transfer->order();
-    const FarLight& light = farLight(scene, order);
-    ExitRadiance& exit = (openSky ? item.litVertices : item.lit)->stage(mode);
+    const FarLight& light = farLight(scene, settings.light, order);
+    LitElements& elements = openSky ? *item.litVertices : *item.lit;
+    const LitByLight& lit = elements.byLight[settings.light];
+    ExitRadiance& exit = elements.stage(settings.light, mode);
 
     TransferWork work{.elements = openSky ? item.mesh->vertices : transfer->direct,
                       .elementVectors = openSky ? kVertexVectors : transfer->vectors(),
@@ -126,7 +135,7 @@ Result<bool> RelightPass::relight(GpuScene& scene, const DrawItem& item, Lightin
         exit.nearSources = {};
     }
     sources.light = light.revision;
-    sources.bounced = bounces ? item.lit->bouncedRevision : kNoBounces;
+    sources.bounced = bounces ? lit.bouncedRevision : kNoBounces;
     const std::size_t bytes = elementBytes(work.count, 1);
     if (exit.values.size() == bytes && exit.sources == sources)
         return false;
@@ -135,9 +144,9 @@ Result<bool> RelightPass::relight(GpuScene& scene, const DrawItem& item, Lightin
         exit.values = gl::Buffer(m_context, "exit radiance", bytes);
 
     // What a solver found for this very light stands in for the coefficients.
-    const bool adds = bounces && item.lit->bouncedLight.size() == bytes;
+    const bool adds = bounces && lit.bouncedLight.size() == bytes;
     if (adds)
-        glCopyNamedBufferSubData(item.lit->bouncedLight.id(), exit.values.id(), 0, 0,
+        glCopyNamedBufferSubData(lit.bouncedLight.id(), exit.values.id(), 0, 0,
                                  static_cast<GLsizeiptr>(bytes));
     if (auto done = dispatch(work, exit, light, adds); !done)
         return done.error();

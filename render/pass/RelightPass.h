@@ -8,21 +8,28 @@
 #include "render/scene/GpuScene.h"
 #include "render/shader/ShaderLibrary.h"
 
-#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <map>
 #include <utility>
 #include <vector>
 
 namespace patina::render {
 
+// In what light, and how.
+struct RelightSettings {
+    LightingMode lighting = LightingMode::Ibl;
+    LightId light = kDocumentLight;
+    bool bounces = true; // Prt: what came by way of other surfaces, too
+};
+
 class RelightPass {
   public:
     RelightPass(gl::Context& context, ShaderLibrary& shaders);
 
-    // Exit radiance of all items for `mode`, in the environments and lights of the scene; does
-    // nothing for modes that need none. `frame`: of the lights near by; its buffer is bound.
-    Result<void> update(GpuScene& scene, LightingMode mode, const FrameBlock& frame);
+    // Exit radiance of all items in an environment and the lights of the scene; does nothing for
+    // modes that need none. `frame`: of the lights near by; its buffer is bound.
+    Result<void> update(GpuScene& scene, const RelightSettings& settings, const FrameBlock& frame);
 
     // Elements that have been computed since the beginning, to see that nothing is done in vain.
     [[nodiscard]] std::uint64_t elementsDone() const { return m_elementsDone; }
@@ -30,6 +37,9 @@ class RelightPass {
 
     // Of shaders over the elements, for lights near by.
     [[nodiscard]] std::uint64_t nearDispatches() const { return m_near.dispatches(); }
+
+    // Light that is no longer there.
+    void removeLight(LightId light);
 
     // Whether lights near by came by way of a bake since the last call.
     [[nodiscard]] bool takeNearUse() { return std::exchange(m_nearUsed, false); }
@@ -42,9 +52,9 @@ class RelightPass {
         std::uint64_t revision = 0;
         bool current = false; // in this update
     };
-    FarLight& farLight(const GpuScene& scene, int order);
+    FarLight& farLight(const GpuScene& scene, LightId light, int order);
     // Whether there was something to do.
-    Result<bool> relight(GpuScene& scene, const DrawItem& item, LightingMode mode);
+    Result<bool> relight(GpuScene& scene, const DrawItem& item, const RelightSettings& settings);
     Result<void> relightNear(ExitRadiance& exit, const TransferWork& work,
                              const ExitRadiance::Sources& sources);
     Result<void> dispatch(const TransferWork& work, const ExitRadiance& exit, const FarLight& light,
@@ -54,7 +64,7 @@ class RelightPass {
     ShaderLibrary& m_shaders;
     NearLightPass m_near;
     TransferParts m_parts;
-    std::array<FarLight, kMaxShOrder + 1> m_far; // by order
+    std::map<std::pair<LightId, int>, FarLight> m_far; // by light and order
     std::uint64_t m_farRevision = 0;
     std::uint64_t m_elementsDone = 0, m_nearElementsDone = 0;
     bool m_nearUsed = false;

@@ -1,6 +1,6 @@
 #include "render/pass/SheetTargets.h"
 
-#include "render/RendererImpl.h"
+#include "render/SceneRendererImpl.h"
 
 #include <fmt/format.h>
 

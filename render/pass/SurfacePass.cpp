@@ -204,10 +204,11 @@ static std::vector<TriangleRange> part(const std::vector<TriangleRange>& ranges,
 
 // What the variant reads of a bake: textures, or attributes of the mesh's vertices.
 static void bindTransfer(const DrawItem& item, const SurfaceFeatures& features,
-                         LightingMode lighting) {
+                         const SurfaceSettings& settings) {
+    const LightingMode lighting = settings.lighting;
     if (features.has(HasTexelTransfer)) {
         if (features.has(HasTransfer))
-            item.lit->stage(lighting).texels.bind(kExitUnit);
+            item.lit->stage(settings.light, lighting).texels.bind(kExitUnit);
         item.transfer->coneTexels.bind(kConeUnit);
         if (!item.transfer->numberTexels.empty())
             item.transfer->numberTexels.bind(kNumbersUnit);
@@ -220,7 +221,7 @@ static void bindTransfer(const DrawItem& item, const SurfaceFeatures& features,
     if (features.has(HasTransfer)) {
         const LitElements& lit =
             lighting == LightingMode::Unshadowed ? *item.litVertices : *item.lit;
-        array.setFloats(4, 3, lit.stage(lighting).values, 0, kVector);
+        array.setFloats(4, 3, lit.stage(settings.light, lighting).values, 0, kVector);
     }
     if (features.has(HasTransferCone)) {
         array.setFloats(5, 4, item.transfer->cone, 0, kVector);
@@ -263,8 +264,8 @@ Result<const gl::Program*> SurfacePass::program(const SurfaceFeatures& features,
 
 Result<void> SurfacePass::draw(const GpuScene& scene, const std::vector<const DrawItem*>& items,
                                const SurfaceSettings& settings) {
-    scene.environment().prefiltered().bind(kPrefilteredUnit);
-    scene.environment().dfg().bind(kDfgUnit);
+    scene.light(settings.light).prefiltered().bind(kPrefilteredUnit);
+    scene.dfg().bind(kDfgUnit);
     scene.modelBlock().bindUniform(kModelBinding);
     scene.lobes().bind(kLobesUnit);
     TriangleRange rest = settings.triangles; // of this item and those after it
@@ -290,7 +291,7 @@ Result<void> SurfacePass::draw(const GpuScene& scene, const std::vector<const Dr
             item->texelAo->bind(kVisibilityUnit);
         if (features.has(HasVertexAo))
             item->visibility->bindStorage(kVisibilityBinding);
-        bindTransfer(*item, features, settings.lighting);
+        bindTransfer(*item, features, settings);
         drawItem(*item, !item->material->doubleSided,
                  settings.coarseView && coarseSuffices(*item, *settings.coarseView), ranges);
     }

@@ -19,6 +19,7 @@ namespace patina::render {
 // What is the same for all items of a frame.
 struct SurfaceSettings {
     LightingMode lighting = LightingMode::Ibl;
+    LightId light = kDocumentLight;
     bool hasPunctualLights = false;
     bool hasAreaLights = false;
     glm::ivec4 lightEnds{0}; // FrameBlock::lightEnds

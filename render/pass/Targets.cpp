@@ -70,31 +70,6 @@ Result<const gl::Framebuffer*> Targets::dataTarget(gl::Context& context) {
     return &m_dataTarget;
 }
 
-Result<const gl::Framebuffer*> Targets::dataSamplesTarget(gl::Context& context) {
-    auto plain = dataTarget(context);
-    if (!plain || m_samples == 1)
-        return plain;
-    if (m_dataSamplesTarget.empty()) {
-        m_dataSamples = gl::Texture(context, "view data samples",
-                                    {.kind = gl::TextureKind::Multisample,
-                                     .format = gl::PixelFormat::Rgba32f,
-                                     .width = m_width,
-                                     .height = m_height,
-                                     .samples = m_samples});
-        auto made = gl::Framebuffer::create(context, "view data samples", {&m_dataSamples},
-                                            &m_depthSamples);
-        if (!made)
-            return made.error();
-        m_dataSamplesTarget = std::move(*made);
-    }
-    return &m_dataSamplesTarget;
-}
-
-void Targets::resolveData() const {
-    if (m_samples > 1)
-        m_dataSamplesTarget.resolveTo(m_dataTarget, true);
-}
-
 Result<const gl::Framebuffer*> Targets::meanTarget(gl::Context& context, std::size_t side) {
     gl::Framebuffer& target = m_meanTargets[side];
     if (target.empty()) {

@@ -45,17 +45,12 @@ class Targets {
     // when first asked for. Error Internal from the driver.
     Result<const gl::Framebuffer*> dataTarget(gl::Context& context);
     [[nodiscard]] const gl::Texture& data() const { return m_data; } // once there is a target
-    // The same sampled as the scene is: resolveData() makes data() readable. Without multisampling
-    // dataTarget() itself.
-    Result<const gl::Framebuffer*> dataSamplesTarget(gl::Context& context);
-    void resolveData() const;
 
   private:
     int m_width = 0, m_height = 0, m_samples = 0;
     bool m_floats = false;
-    gl::Texture m_linearSamples, m_depthSamples, m_linear, m_depth, m_displayed, m_data,
-        m_dataSamples;
-    gl::Framebuffer m_multisampled, m_resolved, m_display, m_dataTarget, m_dataSamplesTarget;
+    gl::Texture m_linearSamples, m_depthSamples, m_linear, m_depth, m_displayed, m_data;
+    gl::Framebuffer m_multisampled, m_resolved, m_display, m_dataTarget;
     std::array<gl::Texture, 2> m_means;
     std::array<gl::Framebuffer, 2> m_meanTargets;
 };

@@ -27,19 +27,8 @@ gl::Texture makeColors(gl::Context& context) {
 
 } // namespace
 
-ViewKind recordedFor(ViewKind kind) {
-    const ViewGroup group = viewInfo(kind).group;
-    const bool fromPicture = group == ViewGroup::Lighting ||
-                             (group == ViewGroup::Picture && kind != shading::kViewFurnace);
-    return fromPicture || kind == shading::kViewWireframe || kind == shading::kViewFlat
-               ? shading::kViewFinal
-               : kind;
-}
-
 bool showsRadiance(const ViewChoice& choice) {
-    return choice.mode == ViewMode::Contribution ||
-           viewInfo(choice.kind).value == ViewValue::Radiance ||
-           choice.kind == shading::kViewClipped || choice.kind == shading::kViewWireframe;
+    return choice.mode == ViewMode::Contribution || viewInfo(choice.kind).exposed;
 }
 
 ViewPass::ViewPass(gl::Context& context, ShaderLibrary& shaders, const ScreenPasses& screen)

@@ -46,8 +46,6 @@ class ViewPass {
     gl::Texture m_colors;
 };
 
-// What surface.frag records for this view: itself, or the picture that it judges.
-[[nodiscard]] ViewKind recordedFor(ViewKind kind);
 // Whether the view is seen through exposure and tone curve, as the picture is.
 [[nodiscard]] bool showsRadiance(const ViewChoice& choice);
 

@@ -2,10 +2,8 @@
 
 #include "core/base/Check.h"
 #include "core/base/Log.h"
-#include "core/light/DfgTable.h"
 #include "core/light/DominantLight.h"
 #include "core/math/ShRotation.h"
-#include "core/math/Shading.h"
 #include "core/mix/TransferLight.h"
 
 #include <algorithm>
@@ -23,17 +21,6 @@ namespace {
 
 constexpr float kGreySky = 0.5f; // radiance that lights the scene before an environment is ready
 constexpr std::uint16_t kGreyHalf = 0x3800, kOneHalf = 0x3c00; // 0.5 and 1
-
-gl::Texture makeDfg(gl::Context& context, Distribution distribution, Visibility visibility) {
-    const Image table = computeDfgTable(static_cast<int>(shading::kDfgTableSize), distribution,
-                                        visibility, DfgTexels::ToTheEnds);
-    gl::Texture texture(
-        context, "DFG table",
-        {.format = gl::PixelFormat::Rgba16f, .width = table.width(), .height = table.height()});
-    texture.upload(0, table.channels(), gl::SampleType::F32, table.f32().data());
-    texture.setSampling(gl::Filter::Linear, gl::Wrap::Clamp);
-    return texture;
-}
 
 gl::Texture makePrefiltered(gl::Context& context, const HalfPicture& atlas) {
     gl::Texture texture(
@@ -97,7 +84,6 @@ IblMaps uniformIbl(const glm::vec3& radiance) {
 
 EnvironmentLight::EnvironmentLight(gl::Context& context)
     : m_context(context) {
-    setModel(ShadingModel{});
     const auto grey = std::make_shared<const HalfMipmaps>(
         HalfMipmaps{{1, 1, {kGreyHalf, kGreyHalf, kGreyHalf, kOneHalf}}});
     set(makeEnvironmentTexels(nullptr, uniformIbl(glm::vec3(kGreySky)), grey));
@@ -115,13 +101,29 @@ void EnvironmentLight::setIbl(const IblMaps& maps) {
 
 void EnvironmentLight::begin(EnvironmentTexelsPtr texels) {
     Arriving next{texels, {makePrefiltered(m_context, texels->prefiltered)}, std::nullopt};
-    const bool shown = texels->image == m_backgroundImage && !m_background.empty();
+    const bool shown = texels->image == m_backgroundImage && m_background != nullptr;
     if (m_arriving && m_arriving->background && m_arriving->texels->image == texels->image)
         next.background = std::move(m_arriving->background);
     else if (!shown)
         next.background =
             Filling{makeBackground(m_context, fittingLevels(m_context, *texels->background))};
     m_arriving = std::move(next);
+}
+
+void EnvironmentLight::share(const EnvironmentLight& other) {
+    m_arriving.reset();
+    m_prefiltered = other.m_prefiltered;
+    m_background = other.m_background;
+    m_source = other.m_source;
+    m_backgroundImage = other.m_backgroundImage;
+    m_irradianceSh = other.m_irradianceSh;
+    m_radianceSh = other.m_radianceSh;
+    m_projections = other.m_projections;
+    m_prefilteredSide = other.m_prefilteredSide;
+    m_prefilteredLevels = other.m_prefilteredLevels;
+    m_clampedTexels = other.m_clampedTexels;
+    if (m_wanted.image == m_backgroundImage)
+        m_shown = m_wanted;
 }
 
 bool EnvironmentLight::proceed(std::size_t bytes) {
@@ -158,9 +160,11 @@ bool EnvironmentLight::proceed(std::size_t bytes) {
         return false;
 
     // All there: from now on it is what is seen.
-    m_prefiltered = std::move(m_arriving->prefiltered.texture);
+    m_prefiltered = std::make_shared<const gl::Texture>(std::move(m_arriving->prefiltered.texture));
+    m_source = m_arriving->texels;
     if (m_arriving->background) {
-        m_background = std::move(m_arriving->background->texture);
+        m_background =
+            std::make_shared<const gl::Texture>(std::move(m_arriving->background->texture));
         m_backgroundImage = texels.image;
     }
     m_prefilteredSide = texels.side;
@@ -178,23 +182,13 @@ bool EnvironmentLight::proceed(std::size_t bytes) {
     return true;
 }
 
-void EnvironmentLight::setModel(const ShadingModel& model) {
-    const std::pair terms(model.distribution, iblVisibility(model.visibility));
-    auto known = m_dfgTables.find(terms);
-    if (known == m_dfgTables.end())
-        known = m_dfgTables.emplace(terms, makeDfg(m_context, terms.first, terms.second)).first;
-    m_dfg = &known->second;
-}
-
 std::size_t EnvironmentLight::memoryBytes() const {
-    std::size_t bytes = m_prefiltered.memoryBytes() + m_background.memoryBytes();
+    std::size_t bytes = m_prefiltered->memoryBytes() + m_background->memoryBytes();
     if (m_arriving) {
         bytes += m_arriving->prefiltered.texture.memoryBytes();
         if (m_arriving->background)
             bytes += m_arriving->background->texture.memoryBytes();
     }
-    for (const auto& [terms, table] : m_dfgTables)
-        bytes += table.memoryBytes();
     return bytes;
 }
 

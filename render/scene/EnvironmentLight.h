@@ -1,5 +1,5 @@
-// The environment on the GPU: prefiltered radiance, DFG table, lat-long background, and the SH
-// coefficients turned and scaled for the frame.
+// An environment on the GPU: prefiltered radiance, lat-long background, and the SH coefficients
+// turned and scaled for the frame.
 #pragma once
 
 #include "core/document/Document.h"
@@ -12,7 +12,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace patina::render {
@@ -27,16 +26,15 @@ class EnvironmentLight {
     void set(const EnvironmentTexels& texels);
     void setIbl(const IblMaps& maps); // light alone; the picture stays
 
+    // What another one shows, whose textures are used by both.
+    void share(const EnvironmentLight& other);
+
     // set() in pieces that hold no frame up. What is there stays until all of the new is; an
     // environment that begins takes the place of an unfinished one. A picture that is there
     // already, or partly, is not uploaded again.
     void begin(EnvironmentTexelsPtr texels);
     // Uploads about so many bytes more, at least one row; true when nothing is left to do.
     bool proceed(std::size_t bytes);
-
-    // Terms of the specular lobe that the DFG table is for: 25 ms (GGX) to 130 ms of processor time
-    // when they are new, nothing when they have been in use before.
-    void setModel(const ShadingModel& model);
 
     // How the picture is to be turned and scaled: shownEnvironment() of the document. While it is
     // of another role than the picture that is there, that one stays as it was shown.
@@ -55,9 +53,10 @@ class EnvironmentLight {
                                                        int order) const;
 
     // A CubeAtlas; its side and levels are in the frame's block.
-    [[nodiscard]] const gl::Texture& prefiltered() const { return m_prefiltered; }
-    [[nodiscard]] const gl::Texture& dfg() const { return *m_dfg; }
-    [[nodiscard]] const gl::Texture& background() const { return m_background; }
+    [[nodiscard]] const gl::Texture& prefiltered() const { return *m_prefiltered; }
+    [[nodiscard]] const gl::Texture& background() const { return *m_background; }
+    // What is shown was made of these texels; empty once they are gone.
+    [[nodiscard]] const std::weak_ptr<const EnvironmentTexels>& source() const { return m_source; }
     [[nodiscard]] std::size_t memoryBytes() const; // of the textures
     // Texels of the light that exceeded 65504, the largest half float.
     [[nodiscard]] std::size_t clampedTexels() const { return m_clampedTexels; }
@@ -76,12 +75,10 @@ class EnvironmentLight {
     };
 
     gl::Context& m_context;
-    gl::Texture m_prefiltered, m_background;
+    std::shared_ptr<const gl::Texture> m_prefiltered, m_background; // complete ones
+    std::weak_ptr<const EnvironmentTexels> m_source;
     ImagePtr m_backgroundImage; // that m_background shows; null: grey
     std::optional<Arriving> m_arriving;
-    // By D and V, 128 KiB each: switching models to and fro, as one does to compare, is free.
-    std::map<std::pair<Distribution, Visibility>, gl::Texture> m_dfgTables;
-    const gl::Texture* m_dfg = nullptr; // one of them
     std::array<glm::vec3, 9> m_irradianceSh{};
     ProjectionSh m_radianceSh{};
     std::map<std::weak_ptr<const Image>, ProjectionSh, std::owner_less<>> m_projections;

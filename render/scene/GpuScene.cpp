@@ -13,6 +13,7 @@
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
 #include <unordered_map>
+#include <utility>
 
 namespace patina::render {
 
@@ -52,7 +53,9 @@ gl::Texture makeLobes(gl::Context& context) {
 
 GpuScene::GpuScene(gl::Context& context)
     : m_context(context)
-    , m_environment(context)
+    , m_documentLight(context)
+    , m_dfgTextures(context)
+    , m_dfg(&m_dfgTextures.of(m_document.model))
     , m_modelBlock(context, "shading model", sizeof(ModelBlock))
     , m_lobes(makeLobes(context))
     , m_manyLights(context)
@@ -69,10 +72,12 @@ Dirty GpuScene::update(const Document& document) {
     m_document = document;
 
     // Numbers of the view, the lights and the environment are read anew for each frame.
-    m_environment.show(shownEnvironment(m_document));
+    m_documentLight.show(shownEnvironment(m_document));
+    for (auto& [id, other] : m_otherLights)
+        other.light.show(shownEnvironment(m_document, other.environment));
     if (dirty.model) {
         m_modelBlock.writeValue(packModel(m_document.model));
-        m_environment.setModel(m_document.model);
+        m_dfg = &m_dfgTextures.of(m_document.model);
     }
     if (dirty.instances)
         updateMeshes();
@@ -94,6 +99,63 @@ Dirty GpuScene::update(const Document& document) {
         rebuildItems();
     return dirty;
 }
+
+// --- Environments --------------------------------------------------------------------------------
+
+LightId GpuScene::addLight(const Environment& environment) {
+    const LightId id = ++m_lastLight;
+    m_otherLights.emplace(id, OtherLight{environment, EnvironmentLight(m_context)});
+    changeLight(id, environment);
+    return id;
+}
+
+void GpuScene::changeLight(LightId light, const Environment& environment) {
+    const auto found = m_otherLights.find(light);
+    CHECK(found != m_otherLights.end());
+    found->second.environment = environment;
+    found->second.light.show(shownEnvironment(m_document, environment));
+}
+
+void GpuScene::removeLight(LightId light) {
+    CHECK(m_otherLights.erase(light) == 1);
+    for (auto* lit : {&m_lit, &m_litTexels})
+        for (auto& [id, elements] : *lit)
+            elements.byLight.erase(light);
+}
+
+EnvironmentLight& GpuScene::light(LightId light) {
+    return const_cast<EnvironmentLight&>(std::as_const(*this).light(light));
+}
+
+const EnvironmentLight& GpuScene::light(LightId light) const {
+    if (light == kDocumentLight)
+        return m_documentLight;
+    const auto found = m_otherLights.find(light);
+    CHECK(found != m_otherLights.end());
+    return found->second.light;
+}
+
+const Environment& GpuScene::environment(LightId light) const {
+    if (light == kDocumentLight)
+        return m_document.environment;
+    const auto found = m_otherLights.find(light);
+    CHECK(found != m_otherLights.end());
+    return found->second.environment;
+}
+
+const EnvironmentLight* GpuScene::lightOf(const EnvironmentTexelsPtr& texels) const {
+    const auto isOf = [&](const EnvironmentLight& light) {
+        return light.source().lock() == texels;
+    };
+    if (isOf(m_documentLight))
+        return &m_documentLight;
+    for (const auto& [id, other] : m_otherLights)
+        if (isOf(other.light))
+            return &other.light;
+    return nullptr;
+}
+
+// --- What a document holds -----------------------------------------------------------------------
 
 void GpuScene::updateMeshes() {
     std::set<MeshPtr> used;
@@ -230,14 +292,14 @@ void GpuScene::clearPreview() {
         attachBakes(item);
 }
 
-void GpuScene::setBouncedLight(Id mesh, std::span<const glm::vec3> radiance) {
+void GpuScene::setBouncedLight(LightId light, Id mesh, std::span<const glm::vec3> radiance) {
     const auto found = m_lit.find(mesh);
     if (found == m_lit.end() || radiance.empty())
         return;
     std::vector<glm::vec4> values(radiance.size());
     std::ranges::transform(radiance, values.begin(),
                            [](const glm::vec3& c) { return glm::vec4(c, 0.0f); });
-    LitElements& lit = found->second;
+    LitByLight& lit = found->second.byLight[light];
     if (lit.bouncedLight.size() != values.size() * sizeof(glm::vec4))
         lit.bouncedLight =
             gl::Buffer(m_context, "bounced light", values.size() * sizeof(glm::vec4));
@@ -246,11 +308,12 @@ void GpuScene::setBouncedLight(Id mesh, std::span<const glm::vec3> radiance) {
 }
 
 void GpuScene::clearBouncedLight() {
-    for (auto& [mesh, lit] : m_lit)
-        if (!lit.bouncedLight.empty()) {
-            lit.bouncedLight = {};
-            ++lit.bouncedRevision;
-        }
+    for (auto& [mesh, elements] : m_lit)
+        for (auto& [light, lit] : elements.byLight)
+            if (!lit.bouncedLight.empty()) {
+                lit.bouncedLight = {};
+                ++lit.bouncedRevision;
+            }
 }
 
 void GpuScene::setNearShadows(const NearShadowsPtr& shadows) {
@@ -321,10 +384,11 @@ std::vector<Id> GpuScene::nearShareLights() const {
     return ids;
 }
 
-std::vector<glm::vec3> GpuScene::transferLight(int order) const {
-    std::vector<glm::vec3> light = m_environment.transferLight(environmentParts(m_document), order);
-    addDistantLights(m_document, order, light);
-    return light;
+std::vector<glm::vec3> GpuScene::transferLight(LightId id, int order) const {
+    std::vector<glm::vec3> sum =
+        light(id).transferLight(environmentParts(m_document, environment(id)), order);
+    addDistantLights(m_document, order, sum);
+    return sum;
 }
 
 const gl::Buffer& GpuScene::texelPlaces(Id material, int side) {
@@ -336,9 +400,10 @@ const gl::Buffer& GpuScene::texelPlaces(Id material, int side) {
     return buffer;
 }
 
-void GpuScene::fill(FrameBlock& frame, std::span<const Id> shadows) const {
-    m_environment.fill(frame);
-    frame.mix = mixWeights(m_document.view.reflectionMix);
+void GpuScene::fill(FrameBlock& frame, LightId id, float reflectionMix,
+                    std::span<const Id> shadows) const {
+    light(id).fill(frame);
+    frame.mix = mixWeights(reflectionMix);
     packLights(m_document, shadows, frame);
 }
 

@@ -4,9 +4,11 @@
 
 #include "core/document/Dirty.h"
 #include "core/document/Document.h"
+#include "render/scene/DfgTextures.h"
 #include "render/scene/EnvironmentLight.h"
 #include "render/scene/GpuMaterial.h"
 #include "render/scene/GpuMesh.h"
+#include "render/scene/LightId.h"
 #include "render/scene/ManyLights.h"
 #include "render/scene/TextureCache.h"
 #include "render/scene/TransferValues.h"
@@ -43,17 +45,28 @@ class GpuScene {
 
     // Renews what differs from the document that was shown; returns what that was.
     Dirty update(const Document& document);
-    // Light and the picture behind the scene come with it, not with the document.
-    [[nodiscard]] EnvironmentLight& environment() { return m_environment; }
+
+    // Environments that may light it: the document's own and others beside it. Their light and the
+    // picture behind the scene come with them, not with the document. Throws away what surfaces
+    // show in a light that is removed.
+    LightId addLight(const Environment& environment);
+    void changeLight(LightId light, const Environment& environment); // not the document's own
+    void removeLight(LightId light);                                 // not the document's own
+    [[nodiscard]] EnvironmentLight& light(LightId light = kDocumentLight);
+    [[nodiscard]] const EnvironmentLight& light(LightId light = kDocumentLight) const;
+    // How it is turned, mixed and seen.
+    [[nodiscard]] const Environment& environment(LightId light = kDocumentLight) const;
+    // One that was made of the same texels; null: none.
+    [[nodiscard]] const EnvironmentLight* lightOf(const EnvironmentTexelsPtr& texels) const;
 
     // AoVertex or PrtVertex.
     void previewVertices(BakeKind kind, Id mesh, int stride, std::span<const float> values);
     void previewTexels(Id material, int size, std::span<const float> values);
     void clearPreview();
-    // Radiance of unit albedo per vertex that came by way of other surfaces in the light shown.
+    // Radiance of unit albedo per vertex that came by way of other surfaces in this light.
     // Nothing where the mesh has no transfer of as many vertices.
-    void setBouncedLight(Id mesh, std::span<const glm::vec3> radiance);
-    void clearBouncedLight();
+    void setBouncedLight(LightId light, Id mesh, std::span<const glm::vec3> radiance);
+    void clearBouncedLight(); // of all lights
     // Shadows of local lights, of vertices and texels, instead of those that transfer knows; null:
     // none. What has not changed is not uploaded again.
     void setNearShadows(const NearShadowsPtr& shadows);
@@ -61,7 +74,7 @@ class GpuScene {
     [[nodiscard]] std::vector<Id> nearShareLights() const;
 
     [[nodiscard]] const Document& document() const { return m_document; }
-    [[nodiscard]] const EnvironmentLight& environment() const { return m_environment; }
+    [[nodiscard]] const gl::Texture& dfg() const { return *m_dfg; } // of the shading model
     [[nodiscard]] const gl::Buffer& modelBlock() const { return m_modelBlock; }
     [[nodiscard]] const gl::Texture& lobes() const { return m_lobes; } // core/light/LobeTable.h
     // Visible instances with geometry, in document order.
@@ -75,15 +88,16 @@ class GpuScene {
     // Grows when geometry, or what is cut out of it, changes: shadow maps are drawn anew.
     [[nodiscard]] std::uint64_t shapeRevision() const { return m_shapeRevision; }
 
-    // The frame's uniforms that follow from the document: environment and lights. `shadows`: ids of
-    // the lights that have a shadow map, by slot.
-    void fill(FrameBlock& frame, std::span<const Id> shadows = {}) const;
+    // The frame's uniforms of environment and lights. `shadows`: ids of the lights that have a
+    // shadow map, by slot; `reflectionMix`: View's.
+    void fill(FrameBlock& frame, LightId light, float reflectionMix,
+              std::span<const Id> shadows = {}) const;
     // Makes the lights ready of which fill() finds more than the frame holds.
     void setManyLights(std::span<const Id> shadows);
     [[nodiscard]] const ManyLights& manyLights() const { return m_manyLights; }
     // What lights transfer from far away, order² radiance coefficients: the environments of the mix
     // and the directional lights.
-    [[nodiscard]] std::vector<glm::vec3> transferLight(int order) const;
+    [[nodiscard]] std::vector<glm::vec3> transferLight(LightId light, int order) const;
     // World position and normal (TexelPlace) of each texel of a material's bake, for lights near
     // by; made when it is first asked for.
     [[nodiscard]] const gl::Buffer& texelPlaces(Id material, int side);
@@ -105,9 +119,19 @@ class GpuScene {
     void applyNearShadows();
     void applyNearShadows(LitElements& lit, std::optional<std::size_t> part);
 
+    // An environment beside the document's.
+    struct OtherLight {
+        Environment environment;
+        EnvironmentLight light;
+    };
+
     gl::Context& m_context;
     Document m_document;
-    EnvironmentLight m_environment;
+    EnvironmentLight m_documentLight;
+    std::map<LightId, OtherLight> m_otherLights;
+    LightId m_lastLight = kDocumentLight;
+    DfgTextures m_dfgTextures;
+    const gl::Texture* m_dfg; // one of them
     gl::Buffer m_modelBlock;
     gl::Texture m_lobes;
     ManyLights m_manyLights;

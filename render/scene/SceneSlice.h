@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 #include <limits>
 
@@ -21,5 +22,8 @@ struct SceneSlice {
     std::uint64_t shown = 0;
     bool complete = false;
 };
+
+// Clip space of the rectangle, and a pixel around it, out of that of a picture of width × height.
+[[nodiscard]] glm::mat4 clipOfRect(const glm::ivec4& rect, int width, int height);
 
 } // namespace patina::render

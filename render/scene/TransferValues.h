@@ -6,6 +6,7 @@
 #include "core/document/Document.h"
 #include "render/gl/Buffer.h"
 #include "render/gl/Texture.h"
+#include "render/scene/LightId.h"
 
 #include <array>
 #include <glm/mat4x4.hpp>
@@ -60,22 +61,30 @@ struct NearShareBuffers {
     [[nodiscard]] bool empty() const { return sources.empty(); }
 };
 
-// One for each of Unshadowed, Shadowed and Prt, so that two can be seen side by side.
-struct LitElements {
+// In the light of one environment.
+struct LitByLight {
+    // One for each of Unshadowed, Shadowed and Prt, so that two can be seen side by side.
     std::array<ExitRadiance, 3> stages;
-    // What came by way of other surfaces in the light shown, from a solver that is faster than
-    // the coefficients: vec4 for each element, replaces Transfer::bounced. Empty: none.
+    // What came by way of other surfaces in this light, from a solver that is faster than the
+    // coefficients: vec4 for each element, replaces Transfer::bounced. Empty: none.
     gl::Buffer bouncedLight;
     std::uint64_t bouncedRevision = 0;
+};
+
+struct LitElements {
+    std::map<LightId, LitByLight> byLight; // made when it is first shown in it
     NearShareBuffers nearShares;
     std::uint64_t nearSharesRevision = 0;
 
-    [[nodiscard]] ExitRadiance& stage(LightingMode mode) {
-        return stages[static_cast<std::size_t>(mode) -
-                      static_cast<std::size_t>(LightingMode::Unshadowed)];
+    [[nodiscard]] static std::size_t stageIndex(LightingMode mode) {
+        return static_cast<std::size_t>(mode) - static_cast<std::size_t>(LightingMode::Unshadowed);
     }
-    [[nodiscard]] const ExitRadiance& stage(LightingMode mode) const {
-        return const_cast<LitElements*>(this)->stage(mode);
+    [[nodiscard]] ExitRadiance& stage(LightId light, LightingMode mode) {
+        return byLight[light].stages[stageIndex(mode)];
+    }
+    // Of a light that it has been shown in.
+    [[nodiscard]] const ExitRadiance& stage(LightId light, LightingMode mode) const {
+        return byLight.at(light).stages[stageIndex(mode)];
     }
 };
 

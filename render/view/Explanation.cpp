@@ -1,10 +1,13 @@
 #include "render/view/Explanation.h"
 
+#include "core/edit/ViewReasons.h"
 #include "render/view/ExplanationParts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
+#include <string_view>
 
 namespace patina::render {
 namespace {
@@ -54,6 +57,28 @@ void addContributions(Explanation& explanation, const Subject& subject) {
     }
 }
 
+// The views that no other section tells of, so that none of the table is missing.
+ExplainedSection explainOtherViews(const Subject& subject, const Explanation& explanation) {
+    std::set<std::string_view> told;
+    for (const ExplainedSection& section : explanation.sections) {
+        for (const ExplainedValue& value : section.values)
+            told.insert(value.key);
+        for (const ExplainedStep& step : section.steps) {
+            told.insert(step.result.key);
+            for (const ExplainedValue& factor : step.factors)
+                told.insert(factor.key);
+        }
+    }
+    ExplainedSection others{"otherViews", "Other Views", {}, {}};
+    for (const ViewInfo& info : views())
+        if (info.isRecorded() && info.coversSurface && info.kind != shading::kViewFinal &&
+            subject.pixel.recorded[static_cast<std::size_t>(info.kind)] &&
+            !told.contains(info.id) &&
+            whyEmpty(info.kind, subject.document, subject.pixel.view.light).empty())
+            others.values.push_back(ofView(subject, info.kind));
+    return others;
+}
+
 void explainSurfacePixel(Explanation& explanation, const Inspection& pixel,
                          const Document& document) {
     const MeshInstance* mesh = document.mesh(pixel.mesh);
@@ -72,6 +97,7 @@ void explainSurfacePixel(Explanation& explanation, const Inspection& pixel,
         explanation.sections.push_back(explainLight(subject, i));
     explanation.sections.push_back(explainSum(subject));
     explanation.sections.push_back(explainDisplay(pixel, document, rebuilt));
+    explanation.sections.push_back(explainOtherViews(subject, explanation));
     addContributions(explanation, subject);
     explanation.exposed = rebuilt.exposed;
     explanation.displayed = glm::vec3(pixel.displayed);

@@ -7,6 +7,7 @@
 #include "render/view/ViewSettings.h"
 
 #include <array>
+#include <bitset>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -26,7 +27,8 @@ struct Inspection {
     int x = 0, y = 0;          // pixel, from the top left
     int width = 0, height = 0; // of the frame that was looked at
     Id mesh = 0, material = 0; // 0: no surface there; then only `final` and `displayed` count
-    std::array<glm::vec4, shading::kRecordCount> values{};      // raw, by kView…, kRecord…
+    std::array<glm::vec4, shading::kRecordCount> values{}; // raw, by kView…, kRecord…
+    std::bitset<shading::kRecordCount> recorded; // which of these the shader wrote; the rest is 0
     std::array<glm::vec4, shading::kViewCount> contributions{}; // radiance
     std::vector<LightShare> lights;                             // shining, in the document's order
     glm::vec4 radiance{0.0f};  // of the picture before exposure, premultiplied

@@ -97,6 +97,24 @@ TEST_F(Commands, InfoTellsWhatAnImageHolds) {
     EXPECT_THAT(runPatina({"info", m_folder / "a.png"}).out, HasSubstr("3 × 2 pixels"));
 }
 
+TEST_F(Commands, WhatIsSetInVainIsTold) {
+    const auto warnings = [&](const std::vector<std::string>& sets) {
+        std::vector<std::string> arguments{"export", "builtin:sphere", "-o", m_folder / "ball.glb",
+                                           "--json"};
+        for (const std::string& set : sets)
+            arguments.insert(arguments.end(), {"--set", set});
+        const Outcome exported = runPatina(arguments);
+        EXPECT_EQ(exported.status, 0) << exported.err;
+        const nlohmann::json json = exported.json();
+        return json.contains("warnings") ? json["warnings"].dump() : std::string();
+    };
+    EXPECT_THAT(warnings({"material.alphaCutoff=0.3"}),
+                HasSubstr("material.alphaCutoff has no effect: only cut-out materials have it"));
+    EXPECT_THAT(warnings({"material.alphaCutoff=0.3", "material.alphaMode=mask"}),
+                testing::Not(HasSubstr("no effect")));
+    EXPECT_THAT(warnings({"environment.fade=0.5"}), HasSubstr("environment.secondImage"));
+}
+
 TEST_F(Commands, InfoReadsTheExportedModelBack) {
     const Outcome exported =
         runPatina({"export", "builtin:sphere", "-o", m_folder / "ball.glb", "--json", "--set",

@@ -3,7 +3,7 @@
 // machine does touches both.
 #include "tests/benchmarks/WindowStage.h"
 
-#include "app/editor/job/BakeRunner.h"
+#include "app/editor/job/BakeService.h"
 #include "app/editor/job/JobManager.h"
 #include "app/editor/panel/ParameterRow.h"
 #include "app/editor/widget/Slider.h"
@@ -64,8 +64,7 @@ bool openBakedTorus(WindowStage& stage) {
     file.close();
     if (!stage.open(path))
         return false;
-    BakeRunner runner(stage.controller(), stage.session.jobs);
-    runner.start(transferOfFiveBands(32));
+    stage.session.bakes.start(transferOfFiveBands(32));
     return WindowStage::eventually([&] {
                return stage.document().bakes.size() == 1 && stage.session.jobs.runningCount() == 0;
            }) &&
@@ -116,8 +115,8 @@ void editDuringBake(benchmark::State& state, WindowStage& stage) {
         (void)edit(stage, block); // what is drawn for the first time
     JobManager& jobs = stage.session.jobs;
     const ThreadLimit limit(static_cast<int>(state.range(0)));
-    BakeRunner runner(stage.controller(), jobs);
-    runner.start(transferOfFiveBands(16384), JobPriority::Low); // longer than anyone waits here
+    stage.session.bakes.start(transferOfFiveBands(16384),
+                              JobPriority::Low); // longer than anyone waits here
     const auto rays = [&] { return jobs.jobs().back().progress.workDone; };
     if (!WindowStage::eventually([&] { return rays() > 0.0; }))
         return state.SkipWithError("the bake does not run");

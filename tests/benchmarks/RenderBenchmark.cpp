@@ -2,7 +2,8 @@
 // GPU), with and without image-based light, multisampling and overlays.
 #include "core/math/Camera.h"
 #include "core/scene/Scene.h"
-#include "render/Renderer.h"
+#include "render/SceneRenderer.h"
+#include "render/ViewRenderer.h"
 #include "render/scene/EnvironmentLight.h"
 
 #include <benchmark/benchmark.h>
@@ -14,7 +15,8 @@ namespace {
 
 struct Stage {
     std::unique_ptr<gl::Context> context;
-    std::unique_ptr<Renderer> renderer;
+    std::unique_ptr<SceneRenderer> scene;
+    std::unique_ptr<ViewRenderer> renderer;
     Document document;
 };
 
@@ -25,21 +27,22 @@ std::unique_ptr<Stage> makeStage(bool withIbl) {
     if (!context)
         return nullptr;
     stage->context = std::move(*context);
-    auto renderer = Renderer::create(*stage->context);
-    if (!renderer)
+    auto scene = SceneRenderer::create(*stage->context);
+    if (!scene)
         return nullptr;
-    stage->renderer = std::move(*renderer);
+    stage->scene = std::move(*scene);
+    stage->renderer = std::make_unique<ViewRenderer>(*stage->scene);
     stage->document = startDocument();
-    stage->renderer->setDocument(stage->document);
+    stage->scene->setDocument(stage->document);
     if (withIbl && stage->document.environment.image) {
         const auto maps = computeIbl(*stage->document.environment.image, {}, JobContext());
         if (!maps)
             return nullptr;
         const ImagePtr& image = stage->document.environment.image;
-        stage->renderer->setEnvironment(
-            makeEnvironmentTexels(image, *maps, *makeBackground(*image, JobContext())));
+        stage->scene->setEnvironment(std::make_shared<const EnvironmentTexels>(
+            makeEnvironmentTexels(image, *maps, *makeBackground(*image, JobContext()))));
     } else {
-        stage->renderer->setIbl(uniformIbl(glm::vec3(0.5f)));
+        stage->scene->setIbl(uniformIbl(glm::vec3(0.5f)));
     }
     return stage;
 }

@@ -132,7 +132,7 @@ struct Study {
         if (variant.edit)
             variant.edit(document);
         scene.update(document);
-        scene.environment().setIbl(ibl);
+        scene.light().setIbl(ibl);
     }
 
     GpuScene scene;
@@ -150,7 +150,7 @@ struct Study {
             camera.projectionMatrix(static_cast<float>(kWidth) / kHeight, scene.bounds()) *
             camera.viewMatrix();
         block.cameraPosition = glm::vec4(camera.position(), 1.0f);
-        scene.fill(block);
+        scene.fill(block, kDocumentLight, View().reflectionMix);
         frameBlock.writeValue(block);
         frameBlock.bindUniform(kFrameBinding);
         const DrawList list = makeDrawList(scene.items(), block.worldToClip, camera.position());
@@ -251,7 +251,7 @@ void relightVertices(benchmark::State& state) {
     document.bakes = {bake};
     GpuScene scene(**context);
     scene.update(document);
-    scene.environment().setIbl(*ibl);
+    scene.light().setIbl(*ibl);
     RelightPass relight(**context, shaders);
     gl::Buffer block(**context, "frame", sizeof(FrameBlock));
     FrameBlock frame;
@@ -260,7 +260,7 @@ void relightVertices(benchmark::State& state) {
         document.lights = lights;
         scene.update(document);
         frame = FrameBlock();
-        scene.fill(frame);
+        scene.fill(frame, kDocumentLight, document.view.reflectionMix);
         block.writeValue(frame);
         block.bindUniform(kFrameBinding);
     };
@@ -269,7 +269,7 @@ void relightVertices(benchmark::State& state) {
         const std::uint64_t before = relight.elementsDone();
         glFinish();
         const double start = processMilliseconds();
-        if (!relight.update(scene, mode, frame))
+        if (!relight.update(scene, {mode}, frame))
             return std::numeric_limits<double>::max();
         glFinish();
         const double spent = processMilliseconds() - start;
@@ -297,7 +297,7 @@ void relightVertices(benchmark::State& state) {
         shadowed = std::min(shadowed, milliseconds(LightingMode::Shadowed));
         bounced = std::min(bounced, milliseconds(LightingMode::Prt));
         const double start = processMilliseconds();
-        if (relight.update(scene, LightingMode::Prt, frame))
+        if (relight.update(scene, {LightingMode::Prt}, frame))
             still = std::min(still, processMilliseconds() - start);
         for (std::size_t i = 0; i < near.size(); ++i)
             near[i] = std::min(near[i], milliseconds(LightingMode::Shadowed, oneLight[i]));

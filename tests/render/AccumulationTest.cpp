@@ -21,7 +21,7 @@ class AccumulationTest : public RenderTest {
   protected:
     void SetUp() override {
         RenderTest::SetUp();
-        renderer().setIbl(uniformIbl(glm::vec3(0.0f)));
+        sceneRenderer().setIbl(uniformIbl(glm::vec3(0.0f)));
     }
     Image drawOnce(const Document& document, int size, bool accumulate, bool reuse = false) {
         FrameSettings frame;
@@ -54,14 +54,14 @@ double coverageError(const Image& picture, const Image& fine) {
 
 TEST_F(AccumulationTest, FramesAddUpToTheShareOfAPixelThatIsCovered) {
     const Document document = glowingSphere();
-    renderer().setDocument(document);
+    sceneRenderer().setDocument(document);
     const Image fine = drawOnce(document, 16 * kSize, false);
     const Image single = drawOnce(document, kSize, false);
     EXPECT_EQ(renderer().accumulatedFrames(), 0);
     Image mean = drawOnce(document, kSize, true);
     EXPECT_EQ(mean, single) << "the first frame is the ordinary one";
     EXPECT_EQ(renderer().accumulatedFrames(), 1);
-    for (int i = 2; i <= Renderer::kSteadyFrames; ++i) {
+    for (int i = 2; i <= ViewRenderer::kSteadyFrames; ++i) {
         mean = drawOnce(document, kSize, true);
         EXPECT_EQ(renderer().accumulatedFrames(), i);
     }
@@ -73,12 +73,12 @@ TEST_F(AccumulationTest, FramesAddUpToTheShareOfAPixelThatIsCovered) {
 
 TEST_F(AccumulationTest, WhatChangesBeginsAnew) {
     Document document = glowingSphere();
-    renderer().setDocument(document);
+    sceneRenderer().setDocument(document);
     for (int i = 0; i < 3; ++i)
         (void)drawOnce(document, kSize, true);
     ASSERT_EQ(renderer().accumulatedFrames(), 3);
     document.materials[0].emissive = glm::vec3(0.25f);
-    renderer().setDocument(document);
+    sceneRenderer().setDocument(document);
     const Image changed = drawOnce(document, kSize, true);
     EXPECT_EQ(renderer().accumulatedFrames(), 1);
     EXPECT_FLOAT_EQ(centerPixel(changed).r, 0.25f) << "nothing is left of what was";
@@ -93,7 +93,7 @@ TEST_F(AccumulationTest, WhatChangesBeginsAnew) {
 
 TEST_F(AccumulationTest, BothSidesOfASplitHaveTheirOwn) {
     const Document document = glowingSphere();
-    renderer().setDocument(document);
+    sceneRenderer().setDocument(document);
     FrameSettings frame;
     frame.width = frame.height = kSize;
     frame.samples = 1;
@@ -101,7 +101,7 @@ TEST_F(AccumulationTest, BothSidesOfASplitHaveTheirOwn) {
     const auto steady = [&](const ViewSettings& view) {
         frame.view = view;
         frame.accumulate = true;
-        for (int i = 0; i < Renderer::kSteadyFrames + 1; ++i)
+        for (int i = 0; i < ViewRenderer::kSteadyFrames + 1; ++i)
             EXPECT_TRUE(renderer().render(frame, 0).ok());
         return renderer().readDisplayed();
     };

@@ -14,6 +14,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <set>
 
 using namespace patina;
 using namespace patina::render;
@@ -293,6 +294,52 @@ TEST_F(Explanations, EveryInputReachesThePicture) {
             changed.materials[0].*info.number *= 0.5f;
         EXPECT_NE(draw(changed, kSize, oneSample()), whole) << info.id;
     }
+}
+
+// Of the table of views: what is looked at is recorded by the shader, and the pixel panel tells it.
+TEST_F(Explanations, EveryViewThatAppliesIsRecordedAndExplained) {
+    std::set<ViewKind> applied;
+    for (const LightingMode mode : {LightingMode::Ibl, LightingMode::Prt}) {
+        Document document = litScene();
+        applyMaterial(document, 0);
+        document.view.lighting = mode;
+        BakeArtifact bake = *openBake(document, 5, 0.2f);
+        for (VertexBake& element : bake.vertices) {
+            const std::size_t vertices = document.meshes[0].mesh->vertexCount();
+            element.sky.assign(vertices, 0.5f);
+            element.error.assign(vertices, 0.01f);
+        }
+        document.bakes = {std::make_shared<const BakeArtifact>(std::move(bake))};
+        const Inspection pixel = inspectCenter(document);
+        const Explanation explanation = explain(pixel, document);
+        std::set<std::string> told;
+        for (const ExplainedSection& section : explanation.sections) {
+            for (const ExplainedValue& value : section.values)
+                told.insert(value.key);
+            for (const ExplainedStep& step : section.steps) {
+                told.insert(step.key);
+                told.insert(step.result.key);
+                for (const ExplainedValue& factor : step.factors)
+                    told.insert(factor.key);
+            }
+        }
+        for (const Contribution& part : explanation.contributions)
+            told.insert(part.key);
+        for (const ViewInfo& info : views()) {
+            if (!info.isRecorded() || !whyEmpty(info.kind, document).empty())
+                continue;
+            applied.insert(info.kind);
+            if (info.kind == shading::kViewFinal || !info.coversSurface)
+                continue; // the sum; a pattern
+            EXPECT_TRUE(pixel.recorded[static_cast<std::size_t>(info.kind)])
+                << info.id << " has no record() in shaders/include/records.glsl";
+            EXPECT_THAT(told, testing::Contains(std::string(info.id)))
+                << "no row of the explanation is about it";
+        }
+    }
+    for (const ViewInfo& info : views())
+        EXPECT_EQ(applied.count(info.kind), info.isRecorded() ? 1u : 0u)
+            << info.id << " applies to neither scene: give one of them what it needs";
 }
 
 // The frames of a drag have fewer triangles, whose texture coordinates and normals are others.

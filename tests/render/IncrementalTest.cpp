@@ -2,6 +2,7 @@
 // given the document at once. By default a few values of each parameter; PATINA_INCREMENTAL_VALUES
 // and PATINA_INCREMENTAL_EDITS ask for more.
 #include "core/edit/Edit.h"
+#include "core/edit/Parameters.h"
 #include "core/light/Lights.h"
 #include "core/mix/LightMix.h"
 #include "tests/core/document/RandomDocument.h"
@@ -58,23 +59,25 @@ class Incremental : public RenderTest {
   protected:
     void SetUp() override {
         RenderTest::SetUp();
-        auto made = Renderer::create(context());
+        auto made = SceneRenderer::create(context());
         ASSERT_TRUE(made.ok()) << made.error().text();
-        m_other = std::move(*made);
+        m_otherScene = std::move(*made);
+        m_other = std::make_unique<ViewRenderer>(*m_otherScene);
         for (int i = 0; i < 3; ++i) {
             const ImagePtr image = makeEnvironment(8, [=](const glm::vec3& d) {
                 return glm::vec3(0.4f + 0.3f * d[i], 0.5f, 0.6f - 0.2f * d[(i + 1) % 3]);
             });
             const auto light = computeIbl(*image, {.cubeSize = 8, .levels = 3}, JobContext());
             ASSERT_TRUE(light.ok());
-            m_environments.push_back(
-                makeEnvironmentTexels(image, *light, *makeBackground(*image, JobContext())));
+            m_environments.push_back(std::make_shared<const EnvironmentTexels>(
+                makeEnvironmentTexels(image, *light, *makeBackground(*image, JobContext()))));
         }
         m_maps = {checks(4, ColorEncoding::Srgb, 2), checks(3, ColorEncoding::Data, 4),
                   checks(1, ColorEncoding::Data, 8)};
     }
     void TearDown() override {
         m_other.reset();
+        m_otherScene.reset();
         RenderTest::TearDown();
     }
 
@@ -97,10 +100,10 @@ class Incremental : public RenderTest {
             light.intensity = 2.0f;
             addLight(document, light);
         }
-        document.environment.image = m_environments[0].image;
-        document.environment.second.image = m_environments[1].image;
+        document.environment.image = m_environments[0]->image;
+        document.environment.second.image = m_environments[1]->image;
         document.environment.second.source = "/second.hdr";
-        document.environment.blended = m_environments[2].image;
+        document.environment.blended = m_environments[2]->image;
         document.environment.softboxes.emplace_back().id = document.takeId();
         document.view.camera.pitchDeg = 35.0f;
         document.view.camera.distance = 7.0f;
@@ -118,14 +121,14 @@ class Incremental : public RenderTest {
         document.meshes.push_back(instance);
     }
 
-    Picture show(Renderer& renderer, const Document& document) {
-        renderer.setDocument(document);
+    Picture show(SceneRenderer& scene, ViewRenderer& renderer, const Document& document) {
+        scene.setDocument(document);
         // What others prepare comes with the document each time.
         const ImagePtr image = shownEnvironment(document).image;
-        for (const EnvironmentTexels& texels : m_environments) {
-            renderer.setProjection(texels.image, texels.radianceSh);
-            if (texels.image == image)
-                renderer.setEnvironment(texels);
+        for (const EnvironmentTexelsPtr& texels : m_environments) {
+            scene.setProjection(texels->image, texels->radianceSh);
+            if (texels->image == image)
+                scene.setEnvironment(texels);
         }
         FrameSettings frame;
         frame.width = frame.height = kSize;
@@ -137,21 +140,23 @@ class Incremental : public RenderTest {
     }
     // By a renderer that holds nothing of any scene.
     Picture fresh(const Document& document) {
-        m_other->setDocument(Document{});
-        return show(*m_other, document);
+        m_otherScene->setDocument(Document{});
+        return show(*m_otherScene, *m_other, document);
     }
     // By one that has just been made.
     Picture afresh(const Document& document) {
-        auto made = Renderer::create(context());
+        auto made = SceneRenderer::create(context());
         EXPECT_TRUE(made.ok());
-        return show(**made, document);
+        ViewRenderer renderer(**made);
+        return show(**made, renderer, document);
     }
 
-    std::vector<EnvironmentTexels> m_environments;
+    std::vector<EnvironmentTexelsPtr> m_environments;
     std::vector<ImagePtr> m_maps;
 
   private:
-    std::unique_ptr<Renderer> m_other;
+    std::unique_ptr<SceneRenderer> m_otherScene;
+    std::unique_ptr<ViewRenderer> m_other;
 };
 
 TEST_F(Incremental, AnyValueOfAnyParameterDrawsLikeAFreshScene) {
@@ -159,11 +164,12 @@ TEST_F(Incremental, AnyValueOfAnyParameterDrawsLikeAFreshScene) {
     RandomDocument random(11);
     const Document start = scene();
     int edits = 0, seen = 0;
-    Picture before = show(renderer(), start);
-    ASSERT_EQ(before, afresh(start));
+    const Picture first = show(sceneRenderer(), renderer(), start);
+    ASSERT_EQ(first, afresh(start));
     for (const ParameterInfo& info : parameters()) {
         SCOPED_TRACE(std::string(info.id));
         Document document = start;
+        Picture before = first;
         const std::vector<Id> ids = RandomDocument::idsOf(document, info.scope);
         // Every choice there is, and then whatever comes.
         const int count = std::max(values, static_cast<int>(info.choices.size()));
@@ -176,21 +182,25 @@ TEST_F(Incremental, AnyValueOfAnyParameterDrawsLikeAFreshScene) {
                         static_cast<int>(info.choices.size());
             if (MapSlot* map = std::get_if<MapSlot>(&value); map && random.below(4) > 0) {
                 map->image = info.scope == Scope::Environment
-                                 ? m_environments[random.below(m_environments.size())].image
+                                 ? m_environments[random.below(m_environments.size())]->image
                                  : m_maps[random.below(m_maps.size())];
                 map->uvScale = glm::vec2(random.between(0.5f, 2.0f));
                 map->uvOffset = glm::vec2(0.0f);
                 map->uvRotationDeg = random.between(0.0f, 90.0f);
             }
+            const bool idle = !whyIdle(info, document, target.id).empty();
             ASSERT_TRUE(applyParameter(document, info, target, value));
-            const Picture picture = show(renderer(), document);
+            const Picture picture = show(sceneRenderer(), renderer(), document);
             ASSERT_EQ(picture, fresh(document)) << "value " << i;
+            if (idle) {
+                ASSERT_EQ(picture, before) << "but " << whyIdle(info, document, target.id);
+            }
             seen += !(picture == before);
             before = picture;
             ++edits;
         }
     }
-    ASSERT_EQ(show(renderer(), start), afresh(start)) << "and back";
+    ASSERT_EQ(show(sceneRenderer(), renderer(), start), afresh(start)) << "and back";
     EXPECT_GT(seen, edits / 4) << "most parameters show";
     std::printf("%d values, of which %d changed the picture\n", edits, seen);
 }
@@ -270,7 +280,7 @@ TEST_F(Incremental, AnyOrderOfStructuralEditsDrawsLikeAFreshScene) {
         [&] { document.bakes = {texelBake()}; },
         [&] { document.bakes.clear(); },
         [&] { document.view.lighting = static_cast<LightingMode>(random.below(6)); },
-        [&] { document.environment.image = any(m_environments).image; },
+        [&] { document.environment.image = any(m_environments)->image; },
         [&] { document.environment.fade = random.below(2) == 0 ? 0.0f : 0.5f; },
         [&] { document = any(history); },
     };
@@ -279,7 +289,7 @@ TEST_F(Incremental, AnyOrderOfStructuralEditsDrawsLikeAFreshScene) {
         if (history.size() > 8)
             history.erase(history.begin());
         any(all)();
-        const Picture picture = show(renderer(), document);
+        const Picture picture = show(sceneRenderer(), renderer(), document);
         ASSERT_EQ(picture, fresh(document)) << "edit " << i;
         if (i % 16 == 0) {
             ASSERT_EQ(picture, afresh(document)) << "edit " << i;

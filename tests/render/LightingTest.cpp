@@ -48,7 +48,7 @@ TEST_F(Lighting, MixWeighsDiffuseLightAgainstReflections) {
     EXPECT_EQ(mixWeights(0.75f), glm::vec2(0.5f, 1.0f));
     EXPECT_EQ(mixWeights(0.25f), glm::vec2(1.0f, 0.5f));
 
-    renderer().setIbl(uniformIbl(glm::vec3(1.0f)));
+    sceneRenderer().setIbl(uniformIbl(glm::vec3(1.0f)));
     Document document = matte();
     document.materials[0].emissive = glm::vec3(0.25f);
     document.materials[0].emissiveStrength = 1.0f;
@@ -78,7 +78,7 @@ TEST_F(Lighting, TheDominantLightFollowsTheCosine) {
     document.view.lighting = LightingMode::Cosine;
     document.view.reflectionMix = 0.0f;
     const auto lit = [&](const glm::vec3& toLight) {
-        renderer().setIbl(dominantLightOnly(toLight, glm::vec3(4.0f)));
+        sceneRenderer().setIbl(dominantLightOnly(toLight, glm::vec3(4.0f)));
         return centerPixel(draw(document)).x;
     };
     const float above = lit({0, 1, 0});
@@ -93,7 +93,7 @@ TEST_F(Lighting, TheDominantLightFollowsTheCosine) {
 
 // What hides nothing pays no heed to ambient occlusion.
 TEST_F(Lighting, ClassicalLightIgnoresOcclusion) {
-    renderer().setIbl(uniformIbl(glm::vec3(1.0f)));
+    sceneRenderer().setIbl(uniformIbl(glm::vec3(1.0f)));
     Document document = matte();
     auto bake = std::make_shared<BakeArtifact>();
     bake->kind = BakeKind::AoVertex;
@@ -137,7 +137,7 @@ Document ball() {
 // Every order, against the sum on the CPU at the middle of the ball.
 TEST_F(Lighting, TransferIsTheDotProductInEveryOrder) {
     const IblMaps maps = lively();
-    renderer().setIbl(maps);
+    sceneRenderer().setIbl(maps);
     Document document = ball();
     document.view.lighting = LightingMode::Shadowed;
     const glm::vec3 n(0.0f, 0.0f, 1.0f); // the camera looks along -Z
@@ -162,7 +162,7 @@ TEST_F(Lighting, TransferIsTheDotProductInEveryOrder) {
 
 // Of an open sky there is nothing to bake: the same light as through the transfer in closed form.
 TEST_F(Lighting, UnshadowedNeedsNoBake) {
-    renderer().setIbl(lively());
+    sceneRenderer().setIbl(lively());
     Document document = ball();
     document.meshes[0].transform = glm::mat4(0.0f, 0.0f, -1.0f, 0.0f, 0.0f, 2.0f, 0.0f, 0.0f, 1.0f,
                                              0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f);
@@ -187,7 +187,7 @@ TEST_F(Lighting, UnshadowedNeedsNoBake) {
 
 // Half of the light straight, and of all three colours something by way of other surfaces.
 TEST_F(Lighting, BouncesAddTheirColours) {
-    renderer().setIbl(uniformIbl(glm::vec3(1.0f)));
+    sceneRenderer().setIbl(uniformIbl(glm::vec3(1.0f)));
     Document document = ball();
     const std::vector<float> open = openTransfer(*document.meshes[0].mesh, 3);
     std::vector<float> half = open, bounced(3 * open.size());
@@ -213,17 +213,17 @@ TEST_F(Lighting, BouncesAddTheirColours) {
 
     // What a solver found for this light replaces the coefficients, until it is taken back.
     const std::size_t count = document.meshes[0].mesh->vertexCount();
-    renderer().setBouncedLight(1, std::vector<glm::vec3>(count, glm::vec3(0.0f, 0.0f, 0.5f)));
+    sceneRenderer().setBouncedLight(1, std::vector<glm::vec3>(count, glm::vec3(0.0f, 0.0f, 0.5f)));
     EXPECT_NEAR(centerPixel(draw(document)).z, all.z, 2e-3f);
     EXPECT_NEAR(centerPixel(draw(document)).x, 0.5f * all.x, 2e-3f);
     EXPECT_EQ(lit(LightingMode::Shadowed), shadowed);
-    renderer().clearBouncedLight();
+    sceneRenderer().clearBouncedLight();
     EXPECT_EQ(lit(LightingMode::Prt), full);
 }
 
 // The left half of the texture sees nothing.
 TEST_F(Lighting, TransferPerTexel) {
-    renderer().setIbl(uniformIbl(glm::vec3(1.0f)));
+    sceneRenderer().setIbl(uniformIbl(glm::vec3(1.0f)));
     Document document = matte();
     document.view.reflectionMix = 0.0f;
     document.view.lighting = LightingMode::ShIrradiance;
@@ -270,11 +270,11 @@ TEST_F(Lighting, StillLightCostsNothing) {
     gl::Buffer block(context(), "frame", sizeof(FrameBlock));
     const auto done = [&](LightingMode mode) {
         FrameBlock frame;
-        scene.fill(frame);
+        scene.fill(frame, kDocumentLight, document.view.reflectionMix);
         block.writeValue(frame);
         block.bindUniform(kFrameBinding);
         const std::uint64_t before = relight.elementsDone();
-        EXPECT_TRUE(relight.update(scene, mode, frame).ok());
+        EXPECT_TRUE(relight.update(scene, {mode}, frame).ok());
         return relight.elementsDone() - before;
     };
     for (const LightingMode mode :
@@ -323,7 +323,7 @@ TEST_F(Lighting, StillLightCostsNothing) {
     EXPECT_EQ(edited(), 0u);
     scene.previewVertices(BakeKind::PrtVertex, 1, 9, openTransfer(*document.meshes[0].mesh, 3));
     EXPECT_EQ(done(LightingMode::Shadowed), count);
-    scene.setBouncedLight(1, std::vector<glm::vec3>(count, glm::vec3(0.5f)));
+    scene.setBouncedLight(kDocumentLight, 1, std::vector<glm::vec3>(count, glm::vec3(0.5f)));
     EXPECT_EQ(done(LightingMode::Shadowed), 0u);
     EXPECT_EQ(done(LightingMode::Prt), count);
     EXPECT_EQ(done(LightingMode::Prt), 0u);
@@ -350,11 +350,11 @@ TEST_F(Lighting, SharesOfAllLightsTakeOneDispatch) {
     gl::Buffer block(context(), "frame", sizeof(FrameBlock));
     const auto dispatches = [&] {
         FrameBlock frame;
-        scene.fill(frame);
+        scene.fill(frame, kDocumentLight, document.view.reflectionMix);
         block.writeValue(frame);
         block.bindUniform(kFrameBinding);
         const std::uint64_t before = relight.nearDispatches();
-        EXPECT_TRUE(relight.update(scene, LightingMode::Shadowed, frame).ok());
+        EXPECT_TRUE(relight.update(scene, {LightingMode::Shadowed}, frame).ok());
         return relight.nearDispatches() - before;
     };
     EXPECT_EQ(dispatches(), 2u); // points, spheres

@@ -141,7 +141,7 @@ TEST_F(ManyLightsTest, UnderTransferTheyAddUpToo) {
     // Traced shares of all, in which nothing is hidden, are those of open surfaces.
     const auto shadows = traceNearShadows(nearShadowRequest(document), nullptr, 0, {});
     ASSERT_TRUE(shadows.ok());
-    renderer().setNearShadows(*shadows);
+    sceneRenderer().setNearShadows(*shadows);
     expectSumOfLots(document, "traced shares");
 }
 

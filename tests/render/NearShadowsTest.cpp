@@ -148,9 +148,9 @@ class NearShadowsTest : public LocalLightsTest {
         document.view.lighting = LightingMode::Ibl;
         const Image open = picture(document); // closed forms; nothing casts a shadow
         document.view.lighting = LightingMode::Shadowed;
-        renderer().setNearShadows(nullptr);
+        sceneRenderer().setNearShadows(nullptr);
         const Quality before = qualityOf(picture(document), open, document);
-        renderer().setNearShadows(traced(document));
+        sceneRenderer().setNearShadows(traced(document));
         const Quality after = qualityOf(picture(document), open, document);
         std::printf(
             "[ figures  ] %s, light of type %d: left in the umbra %.3f (most %.3f) in bands, "
@@ -187,7 +187,7 @@ TEST_F(NearShadowsTest, LightByWayOfOtherSurfacesStays) {
     const Image direct = picture(document);
     document.view.lighting = LightingMode::Prt;
     const Image both = picture(document);
-    renderer().setNearShadows(everywhere(document, 0.0f));
+    sceneRenderer().setNearShadows(everywhere(document, 0.0f));
     const Image bounced = picture(document);
     document.view.lighting = LightingMode::Shadowed;
     const Image nothing = picture(document);
@@ -209,7 +209,7 @@ TEST_F(NearShadowsTest, SharesScaleTheOpenLightAndHarmonicsStandIn) {
     document.view.lighting = LightingMode::Ibl;
     const Image open = picture(document);
     document.view.lighting = LightingMode::Shadowed;
-    renderer().setNearShadows(everywhere(document, 0.25f));
+    sceneRenderer().setNearShadows(everywhere(document, 0.25f));
     const Image quarter = picture(document);
     inOpen([&](float x, float z) {
         EXPECT_NEAR(at(quarter, document, x, z), 0.25f * at(open, document, x, z),
@@ -218,19 +218,19 @@ TEST_F(NearShadowsTest, SharesScaleTheOpenLightAndHarmonicsStandIn) {
     const auto same = [](const Image& a, const Image& b) {
         return std::ranges::equal(a.f32(), b.f32());
     };
-    renderer().setNearShadows(everywhere(document, -1.0f));
+    sceneRenderer().setNearShadows(everywhere(document, -1.0f));
     EXPECT_TRUE(same(picture(document), before));
     // One light has moved since: what is known is shown, until it is set again or taken away.
-    renderer().setNearShadows(everywhere(document, 0.25f));
+    sceneRenderer().setNearShadows(everywhere(document, 0.25f));
     document.lights[0].position.x += 0.2f;
     EXPECT_FALSE(same(picture(document), quarter));
     // Of one light alone: the other is as harmonics have it.
     Document one = document;
     one.lights[1].enabled = false;
-    renderer().setNearShadows(everywhere(one, 0.0f));
+    sceneRenderer().setNearShadows(everywhere(one, 0.0f));
     const Image second = picture(document);
     document.lights[0].enabled = false;
-    renderer().setNearShadows(nullptr);
+    sceneRenderer().setNearShadows(nullptr);
     EXPECT_TRUE(same(picture(document), second));
 }
 
@@ -239,14 +239,14 @@ TEST_F(NearShadowsTest, NewSharesLightAnewAndEqualOnesDoNot) {
     document.bakes = {openBake(document, 3)};
     document.lights = {lightAbove(document, LightType::Point)};
     const NearShadowsPtr shadows = everywhere(document, 1.0f);
-    renderer().setNearShadows(nullptr);
+    sceneRenderer().setNearShadows(nullptr);
     const Image without = picture(document);
-    renderer().setNearShadows(shadows);
+    sceneRenderer().setNearShadows(shadows);
     const Image with = picture(document);
     EXPECT_FALSE(std::ranges::equal(with.f32(), without.f32()));
-    renderer().setNearShadows(std::make_shared<const NearShadows>(*shadows));
+    sceneRenderer().setNearShadows(std::make_shared<const NearShadows>(*shadows));
     EXPECT_TRUE(std::ranges::equal(picture(document).f32(), with.f32()));
-    renderer().setNearShadows(nullptr);
+    sceneRenderer().setNearShadows(nullptr);
     EXPECT_TRUE(std::ranges::equal(picture(document).f32(), without.f32()));
 }
 
@@ -262,9 +262,9 @@ TEST_F(NearShadowsTest, TermsStillAddUpToThePicture) {
                        lightAbove(document, LightType::Rectangle)};
     document.view.lighting = LightingMode::Prt;
     document.view.reflectionMix = 0.5f;
-    renderer().setNearShadows(nullptr);
+    sceneRenderer().setNearShadows(nullptr);
     picture(document); // so that everything is there to be given shares
-    renderer().setNearShadows(traced(document));
+    sceneRenderer().setNearShadows(traced(document));
     const Image whole = picture(document);
     std::vector<float> sum(whole.f32().size(), 0.0f);
     for (const ViewKind kind : kTermViews) {

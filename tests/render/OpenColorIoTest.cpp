@@ -284,13 +284,15 @@ TEST_F(OpenColorIoInFrames, TheDefaultStandsIn) {
     DisplayTransform transform;
     transform.view = "Swap";
     transform.shader = "vec4 ocioDisplay(vec4 c) { return vec4(c.b, c.g, c.r, c.a); }\n";
-    ASSERT_TRUE(renderer().setDisplay(std::make_shared<const DisplayTransform>(transform)).ok());
+    ASSERT_TRUE(
+        sceneRenderer().setDisplay(std::make_shared<const DisplayTransform>(transform)).ok());
     draw(document);
     EXPECT_NEAR(centerPixel(renderer().readDisplayed()).x, 0.1f, 0.01f);
     EXPECT_NEAR(centerPixel(renderer().readDisplayed()).z, 0.5f, 0.01f);
 
     transform.shader = "vec4 ocioDisplay(vec4 c) { return nonsense; }\n";
-    const auto refused = renderer().setDisplay(std::make_shared<const DisplayTransform>(transform));
+    const auto refused =
+        sceneRenderer().setDisplay(std::make_shared<const DisplayTransform>(transform));
     ASSERT_FALSE(refused.ok());
     EXPECT_THAT(refused.error().message, HasSubstr("Swap"));
     EXPECT_THAT(refused.error().detail, HasSubstr("nonsense"));

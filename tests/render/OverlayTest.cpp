@@ -29,7 +29,7 @@ class Overlays : public RenderTest {
         auto made = gl::Framebuffer::create(context(), "shown", {&m_texture}, nullptr);
         ASSERT_TRUE(made.ok());
         m_framebuffer = std::move(*made);
-        renderer().setDocument(m_document);
+        sceneRenderer().setDocument(m_document);
     }
 
     // What is shown of a picture of `size` pixels.

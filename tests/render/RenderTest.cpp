@@ -126,14 +126,16 @@ glm::vec4 centerPixel(const Image& image) {
 
 void RenderTest::SetUp() {
     GlTest::SetUp();
-    auto made = Renderer::create(context());
+    auto made = SceneRenderer::create(context());
     ASSERT_TRUE(made.ok()) << made.error().text();
-    m_renderer = std::move(*made);
-    m_renderer->setIbl(uniformIbl(glm::vec3(0.0f)));
+    m_scene = std::move(*made);
+    m_renderer = std::make_unique<ViewRenderer>(*m_scene);
+    m_scene->setIbl(uniformIbl(glm::vec3(0.0f)));
 }
 
 void RenderTest::TearDown() {
     m_renderer.reset();
+    m_scene.reset();
     GlTest::TearDown();
 }
 
@@ -141,7 +143,7 @@ Image RenderTest::draw(const Document& document, int size, const FrameSettings& 
     FrameSettings frame = settings;
     frame.width = frame.height = size;
     frame.camera = document.view.camera;
-    m_renderer->setDocument(document);
+    m_scene->setDocument(document);
     const auto done = m_renderer->render(frame, 0);
     EXPECT_TRUE(done.ok()) << (done.ok() ? std::string() : done.error().text());
     return m_renderer->readLinear();
@@ -155,8 +157,8 @@ void RenderTest::setIblOf(const Document& document) {
 }
 
 void RenderTest::setBackground(const ImagePtr& image, const IblMaps& light) {
-    m_renderer->setEnvironment(
-        makeEnvironmentTexels(image, light, *makeBackground(*image, JobContext())));
+    m_scene->setEnvironment(std::make_shared<const EnvironmentTexels>(
+        makeEnvironmentTexels(image, light, *makeBackground(*image, JobContext()))));
 }
 
 } // namespace patina::render

@@ -3,7 +3,9 @@
 
 #include "core/document/Document.h"
 #include "core/mesh/Mesh.h"
-#include "render/Renderer.h"
+#include "render/SceneRenderer.h"
+#include "render/SheetRenderer.h"
+#include "render/ViewRenderer.h"
 #include "tests/render/GlTest.h"
 
 #include <functional>
@@ -37,7 +39,8 @@ class RenderTest : public gl::GlTest {
   protected:
     void SetUp() override;
     void TearDown() override;
-    Renderer& renderer() { return *m_renderer; }
+    SceneRenderer& sceneRenderer() { return *m_scene; }
+    ViewRenderer& renderer() { return *m_renderer; } // of its picture
 
     // Draws with the document's camera and returns the linear picture.
     Image draw(const Document& document, int size = 64, const FrameSettings& settings = {});
@@ -46,7 +49,8 @@ class RenderTest : public gl::GlTest {
     void setBackground(const ImagePtr& image, const IblMaps& light);
 
   private:
-    std::unique_ptr<Renderer> m_renderer;
+    std::unique_ptr<SceneRenderer> m_scene;
+    std::unique_ptr<ViewRenderer> m_renderer;
 };
 
 } // namespace patina::render

@@ -91,7 +91,7 @@ TEST_F(Scene, BackgroundIsAsBlurredAsAskedOrOff) {
 TEST_F(Scene, ACoarseFrameLooksLikeTheFineOne) {
     Document document = makeScene(makeSphere(128));
     ASSERT_GT(document.triangleCount(), 30'000u);
-    renderer().setIbl(uniformIbl(glm::vec3(1.0f)));
+    sceneRenderer().setIbl(uniformIbl(glm::vec3(1.0f)));
     document.materials[0].metallic = 1.0f;
     FrameSettings fine, coarse;
     fine.samples = coarse.samples = 1;
@@ -198,21 +198,21 @@ TEST_F(Scene, PrtWithUnshadowedTransferIsTheIrradianceLighting) {
     document.materials[0].metallic = 0.0f;
     const float attached = centerPixel(draw(document)).x;
     std::vector<float> none(document.meshes[0].mesh->vertexCount() * 9, 0.0f);
-    renderer().previewVertices(BakeKind::PrtVertex, 1, 9, none);
+    sceneRenderer().previewVertices(BakeKind::PrtVertex, 1, 9, none);
     const float specularOnly = centerPixel(draw(document)).x;
     std::vector<float> halfTransfer = unshadowedTransfer(*document.meshes[0].mesh, 3);
     for (float& value : halfTransfer)
         value *= 0.5f;
-    renderer().previewVertices(BakeKind::PrtVertex, 1, 9, halfTransfer);
+    sceneRenderer().previewVertices(BakeKind::PrtVertex, 1, 9, halfTransfer);
     const float half = centerPixel(draw(document)).x;
     EXPECT_GT(attached, 2.0f * specularOnly);
     EXPECT_NEAR(half - specularOnly, 0.5f * (attached - specularOnly), 0.02f * attached);
-    renderer().clearPreview();
+    sceneRenderer().clearPreview();
     EXPECT_EQ(centerPixel(draw(document)).x, attached);
 }
 
 TEST_F(Scene, BakedOcclusionDarkensAmbientLightOnly) {
-    renderer().setIbl(uniformIbl(glm::vec3(1.0f)));
+    sceneRenderer().setIbl(uniformIbl(glm::vec3(1.0f)));
     Document document = makeScene(makePlane());
     document.view.camera = cameraAbove();
     document.materials[0].perceptualRoughness = 1.0f;
@@ -250,14 +250,14 @@ TEST_F(Scene, BakedOcclusionDarkensAmbientLightOnly) {
     EXPECT_NEAR(centerPixel(draw(document)).x, 0.6f * open, 0.02f);
 
     // Live texels hide everything else.
-    renderer().previewTexels(2, 2, std::vector<float>(4, 0.1f));
+    sceneRenderer().previewTexels(2, 2, std::vector<float>(4, 0.1f));
     EXPECT_NEAR(centerPixel(draw(document)).x, 0.1f * open, 0.02f);
-    renderer().previewVertices(BakeKind::AoVertex, 1, 1, std::vector<float>(4, 0.9f));
-    renderer().clearPreview();
+    sceneRenderer().previewVertices(BakeKind::AoVertex, 1, 1, std::vector<float>(4, 0.9f));
+    sceneRenderer().clearPreview();
     EXPECT_NEAR(centerPixel(draw(document)).x, 0.6f * open, 0.02f);
 
     // Analytic light is not ambient.
-    renderer().setIbl(uniformIbl(glm::vec3(0.0f)));
+    sceneRenderer().setIbl(uniformIbl(glm::vec3(0.0f)));
     Light light;
     light.elevationDeg = 90.0f;
     document.lights = {light};
@@ -321,13 +321,13 @@ TEST_F(Scene, MultisamplingSmoothsEdgesAndLeavesTheInsideAlone) {
 }
 
 TEST_F(Scene, SmallChangesReachThePicture) {
-    renderer().setIbl(uniformIbl(glm::vec3(1.0f)));
+    sceneRenderer().setIbl(uniformIbl(glm::vec3(1.0f)));
     Document document = makeScene(makePlane());
     document.view.camera = cameraAbove();
     document.materials[0].baseColor = glm::vec3(0.2f);
     const float before = centerPixel(draw(document)).x;
     const auto redraw = [&] {
-        renderer().setDocument(document);
+        sceneRenderer().setDocument(document);
         FrameSettings settings;
         settings.width = settings.height = 64;
         settings.camera = document.view.camera;

@@ -53,8 +53,8 @@ class Slices : public RenderTest {
     void begin() {
         Document other = m_document;
         other.lights[0].intensity += 1.0f;
-        renderer().setDocument(other);
-        renderer().setDocument(m_document);
+        sceneRenderer().setDocument(other);
+        sceneRenderer().setDocument(m_document);
     }
 
     FrameSettings settings() const {
@@ -231,11 +231,11 @@ void Slices::addsFrames(bool split) {
     if (split)
         frame.view.split = ViewSplit{{kViewDirectSpecular, ViewMode::Raw, {}}, {0.5f, 0.5f}, 0.0f};
     std::vector<Pictures> whole;
-    for (int i = 0; i < Renderer::kSteadyFrames; ++i)
+    for (int i = 0; i < ViewRenderer::kSteadyFrames; ++i)
         whole.push_back(drawn(frame));
     EXPECT_FALSE(whole.front() == whole.back());
     begin();
-    for (int i = 0; i < Renderer::kSteadyFrames; ++i) {
+    for (int i = 0; i < ViewRenderer::kSteadyFrames; ++i) {
         EXPECT_FALSE(renderer().isCurrent(frame));
         prepare(frame);
         EXPECT_TRUE(drawn(frame) == whole[static_cast<std::size_t>(i)]) << i;

@@ -78,7 +78,7 @@ TEST_F(Surface, WhiteDielectricInAWhiteFurnaceDisappears) {
 }
 
 TEST_F(Surface, MetalInAWhiteFurnaceShowsItsDfgAlbedo) {
-    renderer().setIbl(uniformIbl(glm::vec3(1.0f)));
+    sceneRenderer().setIbl(uniformIbl(glm::vec3(1.0f)));
     for (const float perceptualRoughness : {0.1f, 0.5f, 0.9f}) {
         Document document = makeScene(makeSphere());
         Material& m = materialOf(document);
@@ -109,7 +109,7 @@ TEST_F(Surface, MetalReflectsWhatItsLobeLooksAt) {
         }
         maps.prefiltered.push_back(level);
     }
-    renderer().setIbl(maps);
+    sceneRenderer().setIbl(maps);
     Document document = planeSeenFromAbove();
     document.view.camera.pitchDeg = 20.0f;
     document.view.camera.fovDeg = 1.0f;
@@ -214,7 +214,7 @@ TEST_F(Surface, NormalMapFollowsTheConventionItIsToldToHave) {
 }
 
 TEST_F(Surface, MapsMultiplyTheirNumbersThroughTheirChannel) {
-    renderer().setIbl(uniformIbl(glm::vec3(1.0f)));
+    sceneRenderer().setIbl(uniformIbl(glm::vec3(1.0f)));
     Document document = planeSeenFromAbove();
     Material& m = materialOf(document);
     m.baseColor = {0.9f, 0.8f, 0.7f};
@@ -295,7 +295,7 @@ TEST_F(Surface, TextureTransformMovesTheImageAsGltfSays) {
 }
 
 TEST_F(Surface, MissingMapIsVisible) {
-    renderer().setIbl(uniformIbl(glm::vec3(1.0f)));
+    sceneRenderer().setIbl(uniformIbl(glm::vec3(1.0f)));
     Document document = planeSeenFromAbove();
     materialOf(document).baseColorMap.source = "/nowhere/color.png";
     materialOf(document).baseColorMap.problem = "not found";
@@ -314,7 +314,7 @@ TEST_F(Surface, MissingMapIsVisible) {
 // Numbers that are missing are the material's factors; the base colour that is there stays as it
 // is.
 TEST_F(Surface, MissingDataMapsFallBackToTheirFactors) {
-    renderer().setIbl(uniformIbl(glm::vec3(1.0f)));
+    sceneRenderer().setIbl(uniformIbl(glm::vec3(1.0f)));
     Document document = planeSeenFromAbove();
     const Image whole = draw(document, 32);
     Material& m = materialOf(document);
@@ -381,7 +381,7 @@ TEST_F(Surface, BackFacesShowOnlyWhenDoubleSided) {
 }
 
 TEST_F(Surface, ExposureAndEnvironmentExposureDouble) {
-    renderer().setIbl(uniformIbl(glm::vec3(0.1f)));
+    sceneRenderer().setIbl(uniformIbl(glm::vec3(0.1f)));
     Document document = planeSeenFromAbove();
     document.view.toneMap = ToneMap::Clamp;
     const float before = centerPixel(draw(document)).x;

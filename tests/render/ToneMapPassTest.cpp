@@ -275,7 +275,7 @@ TEST_F(ExposureOfFrames, AdaptationNeedsNoNewScene) {
     frame.camera = bright.view.camera;
     frame.adaptSeconds = 0.0f;
     frame.reuseScene = true; // without effect: the document changed
-    renderer().setDocument(bright);
+    sceneRenderer().setDocument(bright);
     ASSERT_TRUE(renderer().render(frame, 0).ok());
     EXPECT_NEAR(shownLinear(), 1.0f, 1e-3f) << "dazzled: 0.8 × 0.18 / 0.1";
     frame.adaptSeconds = 0.5f;

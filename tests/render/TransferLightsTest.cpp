@@ -375,20 +375,21 @@ TEST_F(TransferLights, TheOtherPicturesLightComesAhead) {
     document.environment.second.source = "second";
     document.environment.second.image = sky(glm::vec3(1.0f), 0.0f);
     document.environment.fade = 0.5f;
-    EXPECT_FALSE(renderer().knowsProjection(document.environment.second.image));
+    EXPECT_FALSE(sceneRenderer().knowsProjection(document.environment.second.image));
     const Image unknown = draw(document, 32, oneSample());
-    Renderer::ProjectionSh coefficients{};
+    SceneRenderer::ProjectionSh coefficients{};
     std::ranges::copy(projectLatLong(*document.environment.second.image, kMaxShOrder, {}),
                       coefficients.begin());
-    renderer().setProjection(document.environment.second.image, coefficients);
-    EXPECT_TRUE(renderer().knowsProjection(document.environment.second.image));
+    sceneRenderer().setProjection(document.environment.second.image, coefficients);
+    EXPECT_TRUE(sceneRenderer().knowsProjection(document.environment.second.image));
     const Image known = draw(document, 32, oneSample());
     EXPECT_GT(worst(unknown, known), 0.05f);
-    const std::vector<glm::vec3> light = renderer().transferLight(2);
+    const std::vector<glm::vec3> light = sceneRenderer().transferLight(2);
     ASSERT_EQ(light.size(), 4u);
     document.environment.fade = 0.0f;
     draw(document, 32, oneSample());
-    EXPECT_NEAR(light[0].x, 0.5f * (renderer().transferLight(2)[0].x + coefficients[0].x), 1e-4f);
+    EXPECT_NEAR(light[0].x, 0.5f * (sceneRenderer().transferLight(2)[0].x + coefficients[0].x),
+                1e-4f);
 }
 
 } // namespace

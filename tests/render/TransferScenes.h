@@ -81,7 +81,7 @@ class LocalLightsTest : public RenderTest {
     void SetUp() override {
         RenderTest::SetUp();
         if (!IsSkipped())
-            renderer().setIbl(blackEnvironment());
+            sceneRenderer().setIbl(blackEnvironment());
     }
     static IblMaps blackEnvironment() {
         IblMaps maps;

@@ -267,7 +267,7 @@ TEST_F(Views, ASheetShowsWhatTheFrameWould) {
                     48};
     draw(document, 48, settings);
     settings.camera = document.view.camera;
-    const auto pictures = renderer().drawSheet(settings, sheet);
+    const auto pictures = SheetRenderer(sceneRenderer()).draw(settings, sheet, renderer());
     ASSERT_TRUE(pictures.ok()) << pictures.error().text();
     ASSERT_EQ(pictures->size(), sheet.kinds.size());
     for (std::size_t i = 0; i < sheet.kinds.size(); ++i) {

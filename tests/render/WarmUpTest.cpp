@@ -184,7 +184,7 @@ TEST_F(WarmUpTest, CoversMapsLightsAndBakedOcclusion) {
     frame.samples = 1;
     draw(document, 16, frame);
     std::size_t surfaces = 0;
-    for (const ProgramKey& key : renderer().programs()) {
+    for (const ProgramKey& key : sceneRenderer().programs()) {
         EXPECT_NE(std::find(known.begin(), known.end(), key), known.end())
             << ::testing::PrintToString(key.files) << ::testing::PrintToString(key.defines);
         surfaces += key.files.back() == "surface.frag" ? 1 : 0;
@@ -216,11 +216,11 @@ TEST_F(WarmUpTest, CoversEveryWayToLight) {
         draw(document, 16, frame);
         ViewSheet sheet{{info.kind}};
         sheet.width = sheet.height = 8;
-        EXPECT_TRUE(renderer().drawSheet(frame, sheet).ok());
+        EXPECT_TRUE(SheetRenderer(sceneRenderer()).draw(frame, sheet, renderer()).ok());
         EXPECT_TRUE(renderer().inspect(8, 8).ok());
     }
     std::size_t lit = 0;
-    for (const ProgramKey& key : renderer().programs()) {
+    for (const ProgramKey& key : sceneRenderer().programs()) {
         EXPECT_NE(std::find(known.begin(), known.end(), key), known.end())
             << ::testing::PrintToString(key.files) << ::testing::PrintToString(key.defines);
         lit += key.files.front() == "relight.comp" ? 1 : 0;
@@ -235,7 +235,7 @@ TEST_F(WarmUpTest, CoversEveryWayToLight) {
         draw(document, 16, frame);
     }
     std::size_t near = 0;
-    for (const ProgramKey& key : renderer().programs()) {
+    for (const ProgramKey& key : sceneRenderer().programs()) {
         if (key.files.size() > 1)
             continue;
         EXPECT_NE(std::find(known.begin(), known.end(), key), known.end())

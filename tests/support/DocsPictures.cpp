@@ -73,7 +73,7 @@ void settle(Session& session, MainWindow& window) {
     const QSize full = viewport.size() * viewport.devicePixelRatioF();
     runUntil(
         [&] {
-            return !session.controller.tasks().busy() && viewport.ibl().maps() &&
+            return !session.controller.tasks().busy() && session.ibl.maps() &&
                    !viewport.waitsForPrograms() && !viewport.compilesPrograms() &&
                    viewport.frameSize() == full;
         },

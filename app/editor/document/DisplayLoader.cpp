@@ -7,7 +7,7 @@ namespace patina::editor {
 DisplayLoader::DisplayLoader(DocumentController& controller, QObject* parent)
     : QObject(parent)
     , m_controller(controller)
-    , m_tasks(1) {
+    , m_tasks(controller.runner()) {
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
         if (!change.target || change.target->scope == Scope::View)
             refresh();
@@ -39,25 +39,32 @@ void DisplayLoader::refresh() {
         return;
     }
 
-    m_tasks.start(
-        QStringLiteral("display"), tr("Reading OpenColorIO's view"),
-        [this, request](const JobContext&) -> BackgroundTasks::Apply {
-            WorkerClient& worker = m_controller.worker();
-            auto menu =
-                std::make_shared<Result<DisplayMenu>>(loadDisplayMenu(worker, request.config));
-            auto transform = std::make_shared<Result<DisplayTransform>>(
-                menu->ok()
-                    ? loadDisplayTransform(worker, request.config, request.display, request.view)
-                    : menu->error());
-            return [this, menu, transform] {
-                m_menu = menu->ok() ? std::optional(menu->value()) : std::nullopt;
-                m_problem.clear();
-                if (transform->ok())
-                    m_transform = std::make_shared<const DisplayTransform>(transform->value());
-                else
-                    fail(transform->error());
-                Q_EMIT changed();
-            };
+    struct Read {
+        Result<DisplayMenu> menu;
+        Result<DisplayTransform> transform;
+    };
+    m_tasks.run(
+        {.tag = "display", .name = tr("Reading OpenColorIO's view").toStdString()},
+        [&worker = m_controller.worker(), request](const JobContext&) {
+            Result<DisplayMenu> menu = loadDisplayMenu(worker, request.config);
+            Result<DisplayTransform> transform =
+                menu ? loadDisplayTransform(worker, request.config, request.display, request.view)
+                     : Result<DisplayTransform>(menu.error());
+            return Read{std::move(menu), std::move(transform)};
+        },
+        [this](Result<Read> read) {
+            if (read && read->menu)
+                m_menu = read->menu.value();
+            else
+                m_menu.reset();
+            m_problem.clear();
+            if (!read)
+                fail(read.error());
+            else if (read->transform)
+                m_transform = std::make_shared<const DisplayTransform>(read->transform.value());
+            else
+                fail(read->transform.error());
+            Q_EMIT changed();
         });
 }
 

@@ -3,9 +3,9 @@
 // through a curve of our own.
 #pragma once
 
-#include "app/editor/document/BackgroundTasks.h"
 #include "app/editor/document/UserNotice.h"
 #include "core/io/DisplayTransform.h"
+#include "core/job/TaskRunner.h"
 
 #include <QObject>
 #include <optional>
@@ -46,7 +46,7 @@ class DisplayLoader : public QObject {
     std::optional<DisplayMenu> m_menu;
     DisplayTransformPtr m_transform;
     QString m_problem;
-    BackgroundTasks m_tasks; // last: ends before what its results are put into
+    TaskGroup m_tasks; // last: ends before what its results are put into
 };
 
 } // namespace patina::editor

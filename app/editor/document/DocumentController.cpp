@@ -15,12 +15,13 @@ QString fromText(std::string_view text) {
 
 } // namespace
 
-DocumentController::DocumentController(WorkerClient& worker, QObject* parent)
+DocumentController::DocumentController(WorkerClient& worker, TaskRunner& runner, QObject* parent)
     : QObject(parent)
     , m_worker(worker)
+    , m_runner(runner)
     , m_undo(m_session)
-    , m_tasks(4) // most of them wait for the worker process or for the disk
-    , m_environment(new EnvironmentResolver(this)) {
+    , m_tasks(runner)
+    , m_environment(new EnvironmentResolver(runner, this)) {
     m_session.observe(this);
     connect(&m_undo, &UndoStack::canRedoChanged, this, &DocumentController::deliverWaiting,
             Qt::QueuedConnection); // not in the middle of a push

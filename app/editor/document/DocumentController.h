@@ -39,8 +39,9 @@ struct SaveOrder;
 class DocumentController : public QObject, private EditObserver {
     Q_OBJECT
   public:
-    // `worker` outlives the controller. The document is empty until newDocument() or openScene().
-    explicit DocumentController(WorkerClient& worker, QObject* parent = nullptr);
+    // `worker` and `runner` outlive the controller. The document is empty until newDocument() or
+    // openScene().
+    DocumentController(WorkerClient& worker, TaskRunner& runner, QObject* parent = nullptr);
     ~DocumentController() override;
 
     [[nodiscard]] const Document& document() const { return m_session.document(); }
@@ -49,6 +50,7 @@ class DocumentController : public QObject, private EditObserver {
     [[nodiscard]] EditSession& session() { return m_session; }
     [[nodiscard]] UndoStack& undoStack() { return m_undo; }
     [[nodiscard]] BackgroundTasks& tasks() { return m_tasks; }
+    [[nodiscard]] TaskRunner& runner() { return m_runner; } // for whoever follows the document
 
     // The project file, empty when it has not been saved yet.
     [[nodiscard]] QString filePath() const { return m_filePath; }
@@ -191,6 +193,7 @@ class DocumentController : public QObject, private EditObserver {
                          bool pristine);
 
     WorkerClient& m_worker;
+    TaskRunner& m_runner;
     EditSession m_session;
     UndoStack m_undo;
     BackgroundTasks m_tasks;

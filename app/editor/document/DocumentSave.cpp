@@ -142,18 +142,18 @@ void DocumentController::saveAs(const QString& file, std::function<void(bool)> d
     order->documentNumber = m_session.documentNumber();
     order->onDisk = fileOnDisk(order->file, false);
     m_saving.emplace_back(m_session.documentNumber(), order->file);
-    m_tasks.enqueue(tr("Saving %1").arg(QFileInfo(file).fileName()),
-                    [this, order](const JobContext&) -> BackgroundTasks::Apply {
-                        auto outcome = std::make_shared<SaveOutcome>();
-                        try {
-                            *outcome = write(m_worker, *order);
-                        } catch (const std::exception& exception) {
-                            outcome->error =
-                                Error{ErrorKind::Internal, "saving failed; the file is as it was",
-                                      toPath(order->file), exception.what()};
-                        }
-                        return [this, order, outcome] { saveEnded(*outcome, *order); };
-                    });
+    m_tasks.enqueue(
+        tr("Saving %1").arg(QFileInfo(file).fileName()),
+        [this, order](const JobContext&) { return write(m_worker, *order); },
+        [this, order](const Result<SaveOutcome>& written) {
+            SaveOutcome outcome;
+            if (written)
+                outcome = *written;
+            else
+                outcome.error = Error{ErrorKind::Internal, "saving failed; the file is as it was",
+                                      toPath(order->file), written.error().detail};
+            saveEnded(outcome, *order);
+        });
 }
 
 void DocumentController::saveEnded(const SaveOutcome& outcome, const SaveOrder& order) {

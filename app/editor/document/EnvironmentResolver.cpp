@@ -1,6 +1,5 @@
 #include "app/editor/document/EnvironmentResolver.h"
 
-#include "core/job/Parallel.h"
 #include "core/light/EnvironmentResample.h"
 #include "core/mix/LightMix.h"
 
@@ -13,17 +12,12 @@ constexpr int kRestMs = 200;
 constexpr std::size_t kKept = 2; // 24 MiB each
 } // namespace
 
-EnvironmentResolver::EnvironmentResolver(QObject* parent)
-    : QObject(parent) {
-    m_pool.setMaxThreadCount(1); // newest wins: a cancelled picture ends quickly
+EnvironmentResolver::EnvironmentResolver(TaskRunner& runner, QObject* parent)
+    : QObject(parent)
+    , m_tasks(runner) {
     m_rest.setSingleShot(true);
     m_rest.setInterval(kRestMs);
     connect(&m_rest, &QTimer::timeout, this, &EnvironmentResolver::refine);
-}
-
-EnvironmentResolver::~EnvironmentResolver() {
-    m_control.cancel();
-    m_pool.waitForDone();
 }
 
 void EnvironmentResolver::reset(const Document& document) {
@@ -50,9 +44,8 @@ bool EnvironmentResolver::update(Document& document) {
 
 // What is under way is not wanted any more.
 void EnvironmentResolver::change() {
-    m_control.cancel();
+    m_tasks.cancelAll();
     m_rest.stop();
-    ++m_request;
 }
 
 bool EnvironmentResolver::updateImage(Environment& environment) {
@@ -106,21 +99,19 @@ ImagePtr EnvironmentResolver::draftOf(const ImagePtr& image) {
 
 // The picture of both follows when that of the first environment is there.
 void EnvironmentResolver::refine() {
-    m_control = JobControl();
-    m_pool.start([this, id = m_request, recipe = m_recipe, blend = m_blend,
-                  ofBoth = !m_imageIsDraft, job = m_control.context()] {
-        lowerThreadPriority();
-        const ImagePtr image = ofBoth ? blendEnvironments(*blend, job)
-                                      : generateEnvironment(recipe, kEnvironmentHeight, job);
-        // The destructor waits for the pool, so `this` is alive.
-        QMetaObject::invokeMethod(
-            this, [this, id, image] { deliver(id, image); }, Qt::QueuedConnection);
-    });
+    m_tasks.run(
+        {.tag = "environment image", .priority = TaskPriority::Low},
+        [recipe = m_recipe, blend = m_blend, ofBoth = !m_imageIsDraft](const JobContext& job) {
+            return ofBoth ? blendEnvironments(*blend, job)
+                          : generateEnvironment(recipe, kEnvironmentHeight, job);
+        },
+        [this](const Result<ImagePtr>& image) {
+            if (image && *image) // else the draft stays
+                deliver(*image);
+        });
 }
 
-void EnvironmentResolver::deliver(quint64 request, const ImagePtr& image) {
-    if (request != m_request || !image)
-        return;
+void EnvironmentResolver::deliver(const ImagePtr& image) {
     if (!m_imageIsDraft) {
         m_blendIsDraft = false;
         m_shown = image;

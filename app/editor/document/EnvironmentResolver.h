@@ -3,12 +3,11 @@
 // follows in the background.
 #pragma once
 
-#include "core/job/JobContext.h"
+#include "core/job/TaskRunner.h"
 #include "core/light/GeneratedEnvironment.h"
 #include "core/mix/EnvironmentBlend.h"
 
 #include <QObject>
-#include <QThreadPool>
 #include <QTimer>
 #include <deque>
 
@@ -17,8 +16,7 @@ namespace patina::editor {
 class EnvironmentResolver : public QObject {
     Q_OBJECT
   public:
-    explicit EnvironmentResolver(QObject* parent = nullptr);
-    ~EnvironmentResolver() override; // cancels and waits
+    explicit EnvironmentResolver(TaskRunner& runner, QObject* parent = nullptr);
 
     // Another document, whose images are as they should be.
     void reset(const Document& document);
@@ -37,7 +35,7 @@ class EnvironmentResolver : public QObject {
     [[nodiscard]] ImagePtr draftOf(const ImagePtr& image);
     void change();
     void refine();
-    void deliver(quint64 request, const ImagePtr& image);
+    void deliver(const ImagePtr& image);
 
     struct Made {
         EnvironmentRecipe recipe;
@@ -46,16 +44,14 @@ class EnvironmentResolver : public QObject {
     struct Draft {
         ImagePtr image, small;
     };
-    QThreadPool m_pool;
-    QTimer m_rest; // until nothing has changed for a moment
-    JobControl m_control;
-    quint64 m_request = 0;
+    QTimer m_rest;              // until nothing has changed for a moment
     EnvironmentRecipe m_recipe; // of the environment's image
     std::deque<Made> m_made;    // the last full pictures, for undo and redo
     std::optional<EnvironmentBlend> m_blend;
     std::deque<Draft> m_drafts;
     ImagePtr m_shown;
     bool m_imageIsDraft = false, m_blendIsDraft = false;
+    TaskGroup m_tasks;
 };
 
 } // namespace patina::editor

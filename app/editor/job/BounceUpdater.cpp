@@ -1,8 +1,7 @@
 #include "app/editor/job/BounceUpdater.h"
 
 #include "app/editor/document/DocumentController.h"
-#include "app/editor/job/JobManager.h"
-#include "app/editor/job/LivePreview.h"
+#include "app/editor/job/FinishedHits.h"
 #include "core/bake/document/DocumentBakeInputs.h"
 #include "core/bake/domain/BakeHash.h"
 #include "core/base/Log.h"
@@ -38,13 +37,13 @@ Value reported(Result<Value> result) {
 
 } // namespace
 
-BounceUpdater::BounceUpdater(DocumentController& controller, JobManager& jobs, QObject* parent)
+BounceUpdater::BounceUpdater(DocumentController& controller, FinishedHits& ended, QObject* parent)
     : QObject(parent)
     , m_controller(controller)
-    , m_jobs(jobs)
-    , m_tracing("hits of a bake")
-    , m_lighting("bounced light", nullptr, LatestJob::Priority::Normal)
-    , m_solving("bounces") {
+    , m_ended(ended)
+    , m_tracing(controller.runner(), "hits of a bake")
+    , m_lighting(controller.runner(), "bounced light", nullptr, TaskPriority::High)
+    , m_solving(controller.runner(), "bounces") {
     m_pause.setSingleShot(true);
     m_pause.setInterval(kPauseMs);
     connect(&m_pause, &QTimer::timeout, this, &BounceUpdater::solve);
@@ -119,9 +118,8 @@ void BounceUpdater::update() {
 void BounceUpdater::trace(const BakeArtifactPtr& artifact, BakeInputs inputs) {
     m_inputs = inputs;
     m_settings = artifact->settings;
-    const std::shared_ptr<LivePreview> preview = m_jobs.preview(); // of a bake that has just ended
     m_tracing.request([this, artifact, inputs = std::move(inputs),
-                       ofBake = preview ? preview->bounceHits() : nullptr](const JobContext& job) {
+                       ofBake = m_ended.take(artifact)](const JobContext& job) {
         const HitSourcePtr found = reported(hitsFor(*artifact, inputs, ofBake, job));
         const bool right = found && hashBakeAlbedo(inputs) == artifact->albedo;
         return LatestJob::Apply([this, artifact, found, right, surfaces = surfacesOf(inputs)] {

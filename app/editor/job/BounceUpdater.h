@@ -21,12 +21,13 @@
 namespace patina::editor {
 
 class DocumentController;
-class JobManager;
+class FinishedHits;
 
 class BounceUpdater : public QObject {
     Q_OBJECT
   public:
-    BounceUpdater(DocumentController& controller, JobManager& jobs, QObject* parent = nullptr);
+    // `ended`: of the bakes that are attached; taken from there.
+    BounceUpdater(DocumentController& controller, FinishedHits& ended, QObject* parent = nullptr);
 
     // Hits are there, and no edit waits for its bounces.
     [[nodiscard]] bool upToDate() const;
@@ -61,8 +62,7 @@ class BounceUpdater : public QObject {
     void forget();
 
     DocumentController& m_controller;
-    JobManager& m_jobs;
-    LatestJob m_tracing, m_lighting, m_solving;
+    FinishedHits& m_ended;
     QTimer m_pause; // of the hand, before all coefficients are solved
 
     BakeInputs m_inputs;                           // what the hits are of, or what is being traced
@@ -77,7 +77,8 @@ class BounceUpdater : public QObject {
     Request m_request;
     BouncedLightPtr m_shown;
     std::vector<BakeSurface> m_shownSurfaces;
-    int m_bounces = 0; // that the view asks for
+    int m_bounces = 0;                          // that the view asks for
+    LatestJob m_tracing, m_lighting, m_solving; // last: they end first
 };
 
 } // namespace patina::editor

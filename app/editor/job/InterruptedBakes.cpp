@@ -2,6 +2,7 @@
 
 #include "core/bake/Bake.h"
 #include "core/bake/domain/BakeOptions.h"
+#include "core/base/FileLock.h"
 #include "core/base/Log.h"
 
 #include <algorithm>
@@ -16,6 +17,11 @@ namespace fs = std::filesystem;
 
 constexpr const char* kExtension = ".checkpoint";
 constexpr std::chrono::hours kForgotten(24 * 30);
+
+// An error while a bake writes it; nothing where the drive lets nobody lock.
+Result<std::optional<FileLock>> hold(const fs::path& checkpoint) {
+    return FileLock::takeWhenFree(checkpoint, std::chrono::milliseconds(0));
+}
 
 bool bounces(const BakeRequest& request) {
     return holdsTransfer(request.kind) && request.prt.transfer == TransferKind::Interreflected;
@@ -47,6 +53,9 @@ std::vector<InterruptedBake> interruptedBakes(const fs::path& folder, const Bake
     std::vector<InterruptedBake> result;
     const auto now = fs::file_time_type::clock::now();
     for (const fs::path& file : files) {
+        const auto lock = hold(file);
+        if (!lock)
+            continue;
         const Result<BakeManifest> manifest = readBakeManifest(file);
         const fs::file_time_type written = fs::last_write_time(file, error);
         if (!manifest || (!error && now - written > kForgotten)) {
@@ -65,6 +74,16 @@ std::vector<InterruptedBake> interruptedBakes(const fs::path& folder, const Bake
     }
     std::ranges::sort(result, std::greater(), &InterruptedBake::written);
     return result;
+}
+
+Result<void> removeCheckpoint(const fs::path& file) {
+    const auto lock = hold(file);
+    if (!lock)
+        return Error{ErrorKind::CannotCreate, "this bake is being computed by another program",
+                     file, lock.error().message};
+    std::error_code gone;
+    fs::remove(file, gone);
+    return {};
 }
 
 } // namespace patina::editor

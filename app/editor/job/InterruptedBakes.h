@@ -23,9 +23,12 @@ struct InterruptedBake {
 [[nodiscard]] std::filesystem::path checkpointFile(const std::filesystem::path& folder,
                                                    const Hash& key);
 
-// Those in `folder` that belong to these inputs. Damaged ones, and those that nobody went on with
-// for a month, are removed.
+// Those in `folder` that belong to these inputs and that no bake writes now, of whichever process.
+// Damaged ones, and those that nobody resumed for a month, are removed.
 [[nodiscard]] std::vector<InterruptedBake> interruptedBakes(const std::filesystem::path& folder,
                                                             const BakeInputs& inputs);
+
+// Errors: CannotCreate when a bake writes it now.
+Result<void> removeCheckpoint(const std::filesystem::path& file);
 
 } // namespace patina::editor

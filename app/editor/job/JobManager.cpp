@@ -1,14 +1,11 @@
 #include "app/editor/job/JobManager.h"
 
 #include "app/editor/document/DocumentController.h"
-#include "app/editor/job/LivePreview.h"
 #include "core/base/Log.h"
 #include "core/job/Parallel.h"
 #include "core/job/ProgressRate.h"
 
-#include <QMetaObject>
 #include <algorithm>
-#include <thread>
 
 namespace patina::editor {
 namespace {
@@ -29,26 +26,20 @@ struct JobManager::Job {
     ProgressRate rate;
     JobProgress lastProgress; // kept once the job has ended
     QString summary;
-    std::thread thread;
 
     [[nodiscard]] bool ended() const { return state >= JobState::Done; }
 };
 
 JobManager::JobManager(DocumentController& controller, QObject* parent)
     : QObject(parent)
-    , m_controller(controller) {
+    , m_controller(controller)
+    , m_tasks(controller.runner()) {
     lowerPoolPriority();
     m_meter.setInterval(kMeterMs);
     connect(&m_meter, &QTimer::timeout, this, &JobManager::measure);
 }
 
-JobManager::~JobManager() {
-    for (const auto& job : m_jobs)
-        job->control.cancel();
-    for (const auto& job : m_jobs)
-        if (job->thread.joinable())
-            job->thread.join();
-}
+JobManager::~JobManager() = default;
 
 quint64 JobManager::start(const QString& title, bool canStop, Work work) {
     Job& job = *m_jobs.emplace_back(std::make_unique<Job>());
@@ -77,23 +68,15 @@ quint64 JobManager::enqueue(const QString& title, JobPriority priority, Prepare 
 void JobManager::begin(Job& job, Work work) {
     job.begun = true;
     job.state = JobState::Running;
-    job.control = JobControl(m_gate); // its clock starts now
-    const JobContext context = job.control.context();
-    job.thread = std::thread([this, id = job.id, context, run = std::move(work)] {
-        lowerThreadPriority();
-        JobOutcome outcome;
-        try {
-            outcome = run(context);
-        } catch (const std::exception& exception) {
-            outcome.error =
-                Error{ErrorKind::Internal, "the job failed unexpectedly", {}, exception.what()};
-        }
-        // The manager joins this thread before it dies, so `this` is alive.
-        QMetaObject::invokeMethod(
-            this,
-            [this, id, result = std::move(outcome)]() mutable { finish(id, std::move(result)); },
-            Qt::QueuedConnection);
-    });
+    job.control =
+        m_tasks.run({.tag = "job " + std::to_string(job.id),
+                     .policy = TaskPolicy::Queue,
+                     .priority = TaskPriority::Job,
+                     .name = job.title.toStdString(),
+                     .gate = m_gate}, // its clock starts now
+                    std::move(work), [this, id = job.id](const Result<JobOutcome>& outcome) {
+                        finish(id, outcome);
+                    });
     m_meter.start();
 }
 
@@ -137,12 +120,11 @@ JobManager::Job* JobManager::find(quint64 id) const {
     return it == m_jobs.end() ? nullptr : it->get();
 }
 
-void JobManager::finish(quint64 id, JobOutcome outcome) {
+void JobManager::finish(quint64 id, const Result<JobOutcome>& outcome) {
     Job* job = find(id);
     if (!job)
         return;
-    job->thread.join();
-    end(*job, outcome);
+    end(*job, outcome ? *outcome : JobOutcome{outcome.error(), {}, {}});
     if (runningCount() == 0)
         m_meter.stop();
     schedule();
@@ -282,13 +264,6 @@ std::vector<JobRecord> JobManager::jobs() const {
 std::optional<JobRecord> JobManager::job(quint64 id) const {
     const Job* found = find(id);
     return found ? std::optional(record(*found)) : std::nullopt;
-}
-
-void JobManager::setPreview(std::shared_ptr<LivePreview> preview) {
-    if (preview == m_preview)
-        return;
-    m_preview = std::move(preview);
-    Q_EMIT previewChanged();
 }
 
 } // namespace patina::editor

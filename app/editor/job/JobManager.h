@@ -1,11 +1,11 @@
-// The bakes and exports that run or wait, each on a thread of its own. Exports start at once; bakes
-// take turns, for the cores are better used by one than shared by two. UI thread only; progress is
-// polled.
+// The bakes and exports that run or wait, each on a thread of its own (TaskPriority::Job). Exports
+// start at once; bakes take turns, for the cores are better used by one than shared by two. UI
+// thread only; progress is polled.
 #pragma once
 
 #include "app/editor/job/JobQueue.h"
 #include "core/base/Result.h"
-#include "core/job/JobContext.h"
+#include "core/job/TaskRunner.h"
 #include "core/job/WorkGate.h"
 
 #include <QObject>
@@ -19,7 +19,6 @@
 namespace patina::editor {
 
 class DocumentController;
-class LivePreview;
 
 enum class JobState { Queued, Running, Paused, Done, Stopped, Cancelled, Failed };
 
@@ -58,7 +57,7 @@ class JobManager : public QObject {
     using Prepare = std::function<Result<Work>()>;
 
     explicit JobManager(DocumentController& controller, QObject* parent = nullptr);
-    ~JobManager() override; // cancels everything and waits
+    ~JobManager() override;
 
     // `work` runs on a low-priority thread and must not touch the document: it gets copies.
     quint64 start(const QString& title, bool canStop, Work work);
@@ -79,20 +78,16 @@ class JobManager : public QObject {
 
     // Closed while a frame is drawn that the user waits for: jobs step aside.
     [[nodiscard]] WorkGate& gate() { return *m_gate; }
-    // What a running bake has found so far; null when no bake runs.
-    [[nodiscard]] std::shared_ptr<LivePreview> preview() const { return m_preview; }
-    void setPreview(std::shared_ptr<LivePreview> preview);
 
   Q_SIGNALS:
-    void jobsChanged();    // one was added, began, rests, goes on or has ended
-    void previewChanged(); // preview() is another one
-    void shuttingDown();   // everything is about to be cancelled: keep what can be gone on from
+    void jobsChanged();  // one was added, began, rests, goes on or has ended
+    void shuttingDown(); // everything is about to be cancelled: keep what can be gone on from
 
   private:
     struct Job;
     void schedule();
     void begin(Job& job, Work work);
-    void finish(quint64 id, JobOutcome outcome);
+    void finish(quint64 id, const Result<JobOutcome>& outcome);
     void end(Job& job, const JobOutcome& outcome);
     void measure();
     [[nodiscard]] JobRecord record(const Job& job) const;
@@ -101,9 +96,9 @@ class JobManager : public QObject {
     DocumentController& m_controller;
     std::shared_ptr<WorkGate> m_gate = std::make_shared<WorkGate>();
     std::vector<std::unique_ptr<Job>> m_jobs;
-    std::shared_ptr<LivePreview> m_preview;
     QTimer m_meter; // rates, while something runs
     quint64 m_nextId = 1;
+    TaskGroup m_tasks; // last: it ends first
 };
 
 } // namespace patina::editor

@@ -1,11 +1,10 @@
 // Work that is asked for again and again while something is dragged: one runs in the background,
-// and of those asked for meanwhile the newest is kept.
+// and of those asked for meanwhile the newest is kept (TaskPolicy::Follow).
 #pragma once
 
-#include "core/job/JobContext.h"
+#include "core/job/TaskRunner.h"
 
 #include <QObject>
-#include <QThreadPool>
 #include <functional>
 
 namespace patina::editor {
@@ -17,30 +16,19 @@ class LatestJob : public QObject {
     using Apply = std::function<void()>;
     using Work = std::function<Apply(const JobContext&)>;
 
-    // Low: whatever else the user does goes first. Normal: what the user is watching, and short.
-    enum class Priority { Low, Normal };
-
-    // `what`, for the log: "light lab".
-    explicit LatestJob(const char* what, QObject* parent = nullptr,
-                       Priority priority = Priority::Low);
-    ~LatestJob() override; // cancels and waits
+    // `what`, for the log: "light lab". Priority: Low, or High for what the user is watching, if it
+    // is short.
+    LatestJob(TaskRunner& runner, const char* what, QObject* parent = nullptr,
+              TaskPriority priority = TaskPriority::Low);
 
     // What runs goes on to its end and is applied, so that results keep coming during a drag.
     void request(Work work);
     void cancel(); // nothing of what was requested is applied any more
-    [[nodiscard]] bool busy() const { return m_running; }
+    [[nodiscard]] bool busy() const { return m_tasks.busy(); }
 
   private:
-    void start(Work work);
-    void finish(quint64 id, const Apply& apply);
-
-    const char* m_what;
-    Priority m_priority;
-    QThreadPool m_pool;
-    JobControl m_control;
-    bool m_running = false;
-    quint64 m_id = 0; // of what runs; results of others are dropped
-    Work m_next;
+    TaskSpec m_spec;
+    TaskGroup m_tasks;
 };
 
 } // namespace patina::editor

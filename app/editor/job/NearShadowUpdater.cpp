@@ -5,8 +5,6 @@
 #include "core/edit/Change.h"
 #include "core/edit/Edit.h"
 
-#include <new>
-
 namespace patina::editor {
 namespace {
 
@@ -18,8 +16,8 @@ constexpr int kPatienceMs = 300; // what is done sooner is not worth a word
 NearShadowUpdater::NearShadowUpdater(DocumentController& controller, QObject* parent)
     : QObject(parent)
     , m_controller(controller)
-    , m_job("shadows of local lights")
-    , m_memory(std::make_shared<NearShadowsPtr>()) {
+    , m_memory(std::make_shared<NearShadowsPtr>())
+    , m_tasks(controller.runner()) {
     m_pause.setSingleShot(true);
     m_pause.setInterval(kPauseMs);
     connect(&m_pause, &QTimer::timeout, this, &NearShadowUpdater::trace);
@@ -76,7 +74,7 @@ void NearShadowUpdater::follow(const Change& change) {
 }
 
 void NearShadowUpdater::forget() {
-    m_job.cancel();
+    m_tasks.cancelAll();
     m_pause.stop();
     m_patience.stop();
     m_traced.reset();
@@ -92,7 +90,7 @@ void NearShadowUpdater::update() {
     // Rays through geometry that is being moved are in vain.
     if (!m_request.empty() && m_shown && !sameScene(m_request, m_shown->request)) {
         if (m_traced && !sameScene(m_request, *m_traced)) {
-            m_job.cancel();
+            m_tasks.cancelAll();
             m_traced.reset();
         }
         m_pause.start();
@@ -104,7 +102,7 @@ void NearShadowUpdater::update() {
 void NearShadowUpdater::trace() {
     m_pause.stop();
     if (m_request.empty() || refused() || (m_shown && m_shown->request == m_request)) {
-        m_job.cancel();
+        m_tasks.cancelAll();
         m_traced.reset();
         if (m_request.empty() || refused())
             show(nullptr);
@@ -117,20 +115,18 @@ void NearShadowUpdater::trace() {
     if (!m_traced)
         m_patience.start();
     m_traced = m_request;
-    m_job.request([this, request = m_request, memory = m_memory,
-                   maxBytes = m_maxBytes](const JobContext& job) -> LatestJob::Apply {
-        Result<NearShadowsPtr> traced = NearShadowsPtr();
-        try {
-            traced = traceNearShadows(request, *memory, maxBytes > 0 ? maxBytes : availableMemory(),
-                                      job);
-        } catch (const std::bad_alloc&) {
-            traced = Error{ErrorKind::Internal, "memory ran out", {}, {}};
-        }
-        if (!traced && traced.error().kind == ErrorKind::Cancelled)
-            return {};
-        if (traced)
-            *memory = *traced;
-        return [this, request, traced] {
+    m_tasks.run(
+        {.tag = "shadows of local lights",
+         .policy = TaskPolicy::Follow,
+         .priority = TaskPriority::Low},
+        [request = m_request, memory = m_memory, maxBytes = m_maxBytes](const JobContext& job) {
+            Result<NearShadowsPtr> traced = traceNearShadows(
+                request, *memory, maxBytes > 0 ? maxBytes : availableMemory(), job);
+            if (traced)
+                *memory = *traced;
+            return traced;
+        },
+        [this, request = m_request](const Result<NearShadowsPtr>& traced) {
             if (m_traced && *m_traced == request)
                 m_traced.reset();
             if (traced)
@@ -141,8 +137,7 @@ void NearShadowUpdater::trace() {
                 m_patience.stop();
                 Q_EMIT activityChanged();
             }
-        };
-    });
+        });
 }
 
 void NearShadowUpdater::refuse(const NearShadowRequest& request, const Error& error) {

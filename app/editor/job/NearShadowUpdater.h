@@ -3,8 +3,8 @@
 // they are done the shadows before stay in the picture, or what the bake's bands know.
 #pragma once
 
-#include "app/editor/job/LatestJob.h"
 #include "core/bake/local/NearShadows.h"
+#include "core/job/TaskRunner.h"
 
 #include <QObject>
 #include <QString>
@@ -50,7 +50,6 @@ class NearShadowUpdater : public QObject {
     [[nodiscard]] bool refused() const; // those that m_wantedNow is
 
     DocumentController& m_controller;
-    LatestJob m_job;
     QTimer m_pause;    // of edits to geometry, before its hierarchy is built anew
     QTimer m_patience; // until the status bar says what goes on
     bool m_wanted = false, m_outdated = true; // of the request below
@@ -60,6 +59,7 @@ class NearShadowUpdater : public QObject {
     std::optional<NearShadowRequest> m_refused; // what could not be had
     NearShadowsPtr m_shown;
     std::shared_ptr<NearShadowsPtr> m_memory; // of the job: what it traced last
+    TaskGroup m_tasks;                        // last: it ends first
 };
 
 } // namespace patina::editor

@@ -1,7 +1,7 @@
 #include "app/editor/panel/AttachedBakes.h"
 
 #include "app/editor/document/DocumentController.h"
-#include "app/editor/job/BakeRunner.h"
+#include "app/editor/job/BakeService.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/TextButton.h"
@@ -63,12 +63,12 @@ QString differenceText(const BakeArtifact& bake, const BakeRequest& wanted) {
 
 } // namespace
 
-AttachedBakes::AttachedBakes(DocumentController& controller, BakeRunner& runner,
+AttachedBakes::AttachedBakes(DocumentController& controller, BakeService& bakes,
                              std::function<BakeRequest(BakeKind)> wanted,
                              std::function<void(const BakeRequest&)> resume, QWidget* parent)
     : QWidget(parent)
     , m_controller(controller)
-    , m_runner(runner)
+    , m_bakes(bakes)
     , m_wanted(std::move(wanted))
     , m_resume(std::move(resume))
     , m_rows(new QVBoxLayout(this)) {
@@ -99,9 +99,9 @@ void AttachedBakes::refresh() {
             addAbsentRow(*bake);
             continue;
         }
-        const Hash albedo = bake->albedo == Hash{} ? Hash{} : m_runner.currentAlbedo();
+        const Hash albedo = bake->albedo == Hash{} ? Hash{} : m_bakes.currentAlbedo();
         const BakeStaleness staleness =
-            bakeStaleness(*bake, document, m_runner.currentInputs(), albedo);
+            bakeStaleness(*bake, document, m_bakes.currentInputs(), albedo);
         if (staleness.stale())
             stale.push_back(madeWith(*bake));
         addRow(*bake, staleness);
@@ -113,7 +113,7 @@ void AttachedBakes::refresh() {
         all->setObjectName(QStringLiteral("rebakeStale"));
         connect(all, &QPushButton::clicked, this, [this, stale] {
             for (const BakeRequest& request : stale)
-                m_runner.start(request);
+                m_bakes.start(request);
         });
         m_rows->addWidget(all);
     }
@@ -158,13 +158,13 @@ void AttachedBakes::addRow(const BakeArtifact& bake, const BakeStaleness& stalen
             tr("Re-bake"), tr("Bakes again with the settings this bake was made with"));
         rebake->setObjectName(QStringLiteral("rebake"));
         connect(rebake, &QPushButton::clicked, this,
-                [this, request = madeWith(bake)] { m_runner.start(request); });
+                [this, request = madeWith(bake)] { m_bakes.start(request); });
         buttons->addWidget(rebake);
     } else if (stopped) {
         QPushButton* resume = makeTextButton(
             tr("Continue"), tr("Casts the remaining rays; the picture keeps this bake meanwhile"));
         resume->setObjectName(QStringLiteral("bakeContinue"));
-        resume->setEnabled(!m_runner.running());
+        resume->setEnabled(!m_bakes.running());
         connect(resume, &QPushButton::clicked, this,
                 [this, request = madeWith(bake)] { m_resume(request); });
         buttons->addWidget(resume);

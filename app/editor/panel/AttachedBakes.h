@@ -12,7 +12,7 @@ class QVBoxLayout;
 
 namespace patina::editor {
 
-class BakeRunner;
+class BakeService;
 class DocumentController;
 
 class AttachedBakes : public QWidget {
@@ -20,7 +20,7 @@ class AttachedBakes : public QWidget {
   public:
     // `wanted`: what the form asks for of a kind; a bake with other settings says so. `resume` goes
     // on with a bake that was stopped.
-    AttachedBakes(DocumentController& controller, BakeRunner& runner,
+    AttachedBakes(DocumentController& controller, BakeService& bakes,
                   std::function<BakeRequest(BakeKind)> wanted,
                   std::function<void(const BakeRequest&)> resume, QWidget* parent = nullptr);
 
@@ -34,7 +34,7 @@ class AttachedBakes : public QWidget {
     QPushButton* removeButton(BakeKind kind);
 
     DocumentController& m_controller;
-    BakeRunner& m_runner;
+    BakeService& m_bakes;
     std::function<BakeRequest(BakeKind)> m_wanted;
     std::function<void(const BakeRequest&)> m_resume;
     QVBoxLayout* m_rows;

@@ -76,11 +76,12 @@ int raysOf(const BakeRequest& request) {
 
 } // namespace
 
-BakePanel::BakePanel(DocumentController& controller, JobManager& jobs, QWidget* parent)
+BakePanel::BakePanel(DocumentController& controller, BakeService& bakes, JobManager& jobs,
+                     QWidget* parent)
     : QWidget(parent)
     , m_controller(controller)
-    , m_jobs(jobs)
-    , m_runner(controller, jobs) {
+    , m_bakes(bakes)
+    , m_jobs(jobs) {
     setObjectName(QStringLiteral("bakePanel"));
     auto* outer = new QVBoxLayout(this);
     outer->setContentsMargins(0, 0, 0, 0);
@@ -106,7 +107,7 @@ BakePanel::BakePanel(DocumentController& controller, JobManager& jobs, QWidget* 
     auto* attached = new Section(tr("Attached bakes"));
     layout->addWidget(attached);
     m_attached = new AttachedBakes(
-        controller, m_runner, [this](BakeKind kind) { return m_form->requestFor(kind); },
+        controller, m_bakes, [this](BakeKind kind) { return m_form->requestFor(kind); },
         [this](const BakeRequest& request) { resume(request); });
     attached->add(m_attached);
 
@@ -119,8 +120,8 @@ BakePanel::BakePanel(DocumentController& controller, JobManager& jobs, QWidget* 
         refreshCost();
         m_attached->refresh();
     });
-    connect(m_start, &QPushButton::clicked, this, [this] { m_runner.start(m_form->request()); });
-    connect(&m_runner, &BakeRunner::stateChanged, this, &BakePanel::refreshState);
+    connect(m_start, &QPushButton::clicked, this, [this] { m_bakes.start(m_form->request()); });
+    connect(&m_bakes, &BakeService::stateChanged, this, &BakePanel::refreshState);
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
         if (change.isAnotherDocument())
             takeSettings();
@@ -138,7 +139,7 @@ void BakePanel::bakeTransfer(bool bounces) {
     if (bounces)
         request.prt.transfer = TransferKind::Interreflected;
     m_form->setRequest(request);
-    m_runner.start(request);
+    m_bakes.start(request);
 }
 
 QWidget* BakePanel::makeLighting() {
@@ -185,7 +186,7 @@ void BakePanel::followBakes() {
 void BakePanel::resume(const BakeRequest& request) {
     m_form->setRequest(request);
     m_form->showKind(request.kind);
-    m_runner.start(request);
+    m_bakes.start(request);
 }
 
 void BakePanel::refreshCost() {
@@ -212,8 +213,8 @@ void BakePanel::refreshCost() {
 }
 
 void BakePanel::refreshState() {
-    m_start->setText(m_runner.running() ? tr("Add to the queue") : tr("Start bake"));
-    if (m_runner.running())
+    m_start->setText(m_bakes.running() ? tr("Add to the queue") : tr("Start bake"));
+    if (m_bakes.running())
         m_poll.start();
     else
         m_poll.stop();
@@ -225,7 +226,7 @@ void BakePanel::refreshState() {
 }
 
 void BakePanel::refreshQueue() {
-    const std::vector<quint64> ids = m_runner.jobIds();
+    const std::vector<quint64> ids = m_bakes.jobIds();
     std::erase_if(m_rows, [&](const auto& row) {
         if (std::ranges::find(ids, row.first) != ids.end())
             return false;
@@ -254,9 +255,9 @@ void BakePanel::pollQueue() {
 
 void BakePanel::refreshInterrupted() {
     retireAll(*m_interrupted);
-    if (m_runner.running())
+    if (m_bakes.running())
         return; // the checkpoint may be the one that is being written
-    for (const InterruptedBake& bake : m_runner.interrupted()) {
+    for (const InterruptedBake& bake : m_bakes.interrupted()) {
         if (m_attached->offers(bake.request))
             continue;
         auto* row = new QWidget;
@@ -281,7 +282,7 @@ void BakePanel::refreshInterrupted() {
         discard->setObjectName(QStringLiteral("bakeDiscard"));
         connect(goOn, &QPushButton::clicked, this,
                 [this, request = bake.request] { resume(request); });
-        connect(discard, &QPushButton::clicked, this, [this, bake] { m_runner.discard(bake); });
+        connect(discard, &QPushButton::clicked, this, [this, bake] { m_bakes.discard(bake); });
         buttons->addWidget(goOn);
         buttons->addWidget(discard);
         layout->addLayout(buttons);
@@ -291,7 +292,7 @@ void BakePanel::refreshInterrupted() {
 
 void BakePanel::refreshLighting() {
     const Document& document = m_controller.document();
-    const bool hasPrt = (m_runner.running() && m_jobs.preview()) || hasTransfer(document);
+    const bool hasPrt = (m_bakes.running() && m_bakes.preview()) || hasTransfer(document);
     m_prt->setEnabled(hasPrt);
     m_prt->setChecked(document.view.lighting == LightingMode::Prt);
     m_ibl->setChecked(document.view.lighting == LightingMode::Ibl);

@@ -2,7 +2,7 @@
 // go on; which bakes are attached and whether they still belong to the scene; the way it is lit.
 #pragma once
 
-#include "app/editor/job/BakeRunner.h"
+#include "app/editor/job/BakeService.h"
 
 #include <QTimer>
 #include <QWidget>
@@ -21,9 +21,9 @@ class JobRow;
 class BakePanel : public QWidget {
     Q_OBJECT
   public:
-    BakePanel(DocumentController& controller, JobManager& jobs, QWidget* parent = nullptr);
+    BakePanel(DocumentController& controller, BakeService& bakes, JobManager& jobs,
+              QWidget* parent = nullptr);
 
-    [[nodiscard]] BakeRunner& runner() { return m_runner; }
     // Starts a bake of radiance transfer per vertex with the form's settings, with bounces where
     // they are asked for; elsewhere a button asks for it.
     void bakeTransfer(bool bounces);
@@ -41,8 +41,8 @@ class BakePanel : public QWidget {
     void resume(const BakeRequest& request);
 
     DocumentController& m_controller;
+    BakeService& m_bakes;
     JobManager& m_jobs;
-    BakeRunner m_runner;
     QTimer m_poll; // progress, while a bake runs
 
     BakeSettingsForm* m_form;

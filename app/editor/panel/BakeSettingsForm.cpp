@@ -1,6 +1,6 @@
 #include "app/editor/panel/BakeSettingsForm.h"
 
-#include "app/editor/job/BakeRunner.h"
+#include "app/editor/job/BakeService.h"
 #include "app/editor/style/Tokens.h"
 #include "core/bake/Bake.h"
 

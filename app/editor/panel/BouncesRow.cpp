@@ -2,6 +2,7 @@
 
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Slider.h"
+#include "core/edit/Edit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,14 +17,6 @@ QString asBakedText(int bounces) {
 }
 
 } // namespace
-
-int bakedBounces(const Document& document) {
-    int bounces = 0;
-    for (const BakeArtifactPtr& bake : document.bakes)
-        if (bake->transfer == TransferKind::Interreflected && holdsTransfer(bake->kind))
-            bounces = std::max(bounces, std::max(bake->bounces, 1));
-    return bounces;
-}
 
 BouncesRow::BouncesRow(const ParameterInfo& info, const RowContext& context)
     : ParameterRow(info, context)

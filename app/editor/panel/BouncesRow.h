@@ -8,9 +8,6 @@ namespace patina::editor {
 class NumberField;
 class Slider;
 
-// How often light bounces in the interreflected bake of the document; 0: there is none.
-[[nodiscard]] int bakedBounces(const Document& document);
-
 class BouncesRow : public ParameterRow {
   public:
     BouncesRow(const ParameterInfo& info, const RowContext& context);

@@ -86,7 +86,9 @@ BrdfLensPanel::BrdfLensPanel(DocumentController& controller, SelectionModel& sel
           this))
     , m_note(new QLabel)
     , m_stack(new QStackedWidget)
-    , m_tiles(new TileArea(kSmallestTile)) {
+    , m_tiles(new TileArea(kSmallestTile))
+    , m_job(controller.runner(), "BRDF lens")
+    , m_ballLight(controller.runner(), "light of the ball") {
     m_note->setObjectName(QStringLiteral("dim"));
     m_note->setAccessibleName(tr("Looked at"));
     m_controls->add(m_comparison->button());
@@ -142,8 +144,8 @@ BrdfLensPanel::~BrdfLensPanel() {
 void BrdfLensPanel::makePlots() {
     m_polar = new PolarPlot(tr("Polar"));
     m_cartesian = new CurvePlot(tr("By angle"));
-    m_space = new LobeView(tr("In space"));
-    m_ball = new LitSphere(tr("On a ball"));
+    m_space = new LobeView(m_controller.runner(), tr("In space"));
+    m_ball = new LitSphere(m_controller.runner(), tr("On a ball"));
     m_distribution = new CurvePlot(tr("D  facing h"));
     m_masking = new CurvePlot(tr("G  not hidden"));
     m_fresnel = new CurvePlot(tr("F  Fresnel"));

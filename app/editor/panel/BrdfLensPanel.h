@@ -88,7 +88,7 @@ class BrdfLensPanel : public QWidget {
     CurvePlot *m_cartesian, *m_distribution, *m_masking, *m_fresnel, *m_albedo;
     LobeView* m_space;
     LitSphere* m_ball;
-    LatestJob m_job{"BRDF lens"}, m_ballLight{"light of the ball"}; // last: they end first
+    LatestJob m_job, m_ballLight; // last: they end first
 };
 
 } // namespace patina::editor

@@ -71,7 +71,7 @@ EnergyPanel::EnergyPanel(DocumentController& controller, SelectionModel& selecti
     : QWidget(parent)
     , m_controller(controller)
     , m_selection(selection)
-    , m_job(new LatestJob("energy of the material", this))
+    , m_job(new LatestJob(controller.runner(), "energy of the material", this))
     , m_ranges(std::make_shared<MapRanges>()) {
     auto* scroll = new PanelScroll;
     auto* bar = new FlowLayout(tokens::kMargin, tokens::kGap / 2);

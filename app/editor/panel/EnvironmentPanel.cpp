@@ -31,44 +31,25 @@ namespace {
 constexpr Target kEnvironment{Scope::Environment, 0};
 constexpr qint64 kStepPauseMs = 700; // a longer pause begins a new undo step
 
-bool applies(const ParameterInfo& info, const Document& document, Id) {
-    const Environment& environment = document.environment;
-    if (info.id == "environment.backgroundColor")
-        return environment.background == BackgroundMode::Color;
-    if (info.id == "environment.backgroundBlur")
-        return environment.background == BackgroundMode::Blurred;
-    if (info.id.starts_with("environment.second") || info.id == "environment.fade")
-        return !environment.second.source.empty();
-    if (info.id.starts_with("environment.sky"))
-        return environment.kind == EnvironmentKind::Sky;
-    if (info.id == "environment.layout")
-        return environment.kind == EnvironmentKind::Image && !isBuiltin(environment.source);
-    if (info.id == "environment.softboxAmbient")
-        return environment.kind == EnvironmentKind::Softboxes;
-    return true;
-}
-
 } // namespace
 
 EnvironmentPanel::EnvironmentPanel(DocumentController& controller, Thumbnails& thumbnails,
                                    QWidget* parent)
     : QWidget(parent)
     , m_controller(controller)
-    , m_previews(new BackgroundTasks(1, this))
     , m_view(new LatLongView)
-    , m_picture(new LatLongPicture(this))
+    , m_picture(new LatLongPicture(controller.runner(), this))
     , m_gallery(new SkyGallery)
     , m_source(new ElidedLabel)
     , m_imageControls(makeImageControls())
     , m_softboxes(new SoftboxList(controller, thumbnails))
-    , m_parameters(
-          new ParameterList(controller, thumbnails,
-                            {Scope::Environment,
-                             [] { return std::optional(kEnvironment); },
-                             // shown above, or by the mixer, in another way
-                             {"environment.kind", "environment.image", "environment.secondImage"},
-                             applies})) {
-    m_gallery->setTasks(*m_previews);
+    , m_parameters(new ParameterList(
+          controller, thumbnails,
+          {Scope::Environment,
+           [] { return std::optional(kEnvironment); },
+           // shown above, or by the mixer, in another way
+           {"environment.kind", "environment.image", "environment.secondImage"}})) {
+    m_gallery->setRunner(controller.runner());
     auto* scroll = new PanelScroll;
     scroll->contents()->addWidget(makeKinds());
     scroll->contents()->addWidget(m_view);

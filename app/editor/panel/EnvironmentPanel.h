@@ -11,7 +11,6 @@ class QToolButton;
 
 namespace patina::editor {
 
-class BackgroundTasks;
 class LatLongPicture;
 class LatLongView;
 class ParameterList;
@@ -47,7 +46,6 @@ class EnvironmentPanel : public QWidget {
     void browse();
 
     DocumentController& m_controller;
-    BackgroundTasks* m_previews; // of its own: opening a document must not end it
     std::array<QToolButton*, 3> m_kinds{};
     LatLongView* m_view;
     LatLongPicture* m_picture;

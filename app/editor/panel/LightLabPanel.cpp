@@ -46,9 +46,11 @@ LightLabPanel::LightLabPanel(DocumentController& controller, IblUpdater& ibl, Pi
     , m_controller(controller)
     , m_ibl(ibl)
     , m_probe(probe)
-    , m_analysisJob(new LatestJob("light lab, analysis", this, LatestJob::Priority::Normal))
-    , m_dfgJob(new LatestJob("light lab, DFG table", this))
-    , m_pictureJob(new LatestJob("light lab, pictures", this, LatestJob::Priority::Normal)) {
+    , m_analysisJob(
+          new LatestJob(controller.runner(), "light lab, analysis", this, TaskPriority::High))
+    , m_dfgJob(new LatestJob(controller.runner(), "light lab, DFG table", this))
+    , m_pictureJob(
+          new LatestJob(controller.runner(), "light lab, pictures", this, TaskPriority::High)) {
     setObjectName(QStringLiteral("lightLabPanel"));
     m_request.setSingleShot(true);
     m_request.setInterval(0); // after the layout, and once for many reasons

@@ -23,41 +23,6 @@
 namespace patina::editor {
 namespace {
 
-// Rows of numbers that lights of this type do not use are hidden.
-bool applies(const ParameterInfo& info, const Document& document, Id id) {
-    const Light& light = *document.light(id);
-    const LightType type = light.type;
-    if (info.id == "light.position")
-        return hasPosition(type);
-    if (info.id == "light.azimuthDeg" || info.id == "light.elevationDeg")
-        return hasDirection(type);
-    if (info.id == "light.rollDeg" || info.id == "light.width" || info.id == "light.height")
-        return type == LightType::Rectangle;
-    if (info.id == "light.range")
-        return hasRange(type);
-    if (info.id == "light.innerConeDeg" || info.id == "light.outerConeDeg")
-        return type == LightType::Spot;
-    if (info.id == "light.radius")
-        return type == LightType::Sphere;
-    if (info.id == "light.castsShadow")
-        return canCastShadow(type);
-    if (info.id == "light.shadowSoftness")
-        return canCastShadow(type);
-    return true;
-}
-
-// Of rows that a switch beside them turns on or off.
-bool works(const ParameterInfo& info, const Document& document, Id id) {
-    const Light& light = *document.light(id);
-    if (info.id == "light.color")
-        return !light.usesTemperature;
-    if (info.id == "light.temperatureK")
-        return light.usesTemperature;
-    if (info.id == "light.shadowSoftness")
-        return light.castsShadow;
-    return true;
-}
-
 constexpr int kNameColumn = 0, kSoloColumn = 1;
 constexpr int kTypeRole = Qt::UserRole + 1; // of the light whose icon an item has
 
@@ -113,11 +78,7 @@ LightsPanel::LightsPanel(DocumentController& controller, SelectionModel& selecti
                                               return std::nullopt;
                                           return Target{Scope::Light, selection.light()};
                                       },
-                                      {"light.enabled", "light.solo"}, // the list has them
-                                      applies,
-                                      false,
-                                      std::nullopt,
-                                      works})) {
+                                      {"light.enabled", "light.solo"}})) { // the list has them
     m_list->setAccessibleName(tr("Lights"));
     m_list->setStatusTip(tr("Tick to switch a light on or to hear it solo, F2 to rename it"));
     m_list->setEditTriggers(QAbstractItemView::EditKeyPressed | QAbstractItemView::DoubleClicked);

@@ -15,22 +15,6 @@
 #include <QVBoxLayout>
 
 namespace patina::editor {
-namespace {
-
-bool applies(const ParameterInfo& info, const Document& document, Id id) {
-    const Material* material = document.material(id);
-    if (info.id == "material.alphaCutoff")
-        return material->alphaMode == AlphaMode::Mask;
-    if (info.id == "material.opacity")
-        return material->alphaMode != AlphaMode::Opaque;
-    if (info.id == "material.diffuseRoughness")
-        return document.model.diffuse == Diffuse::OrenNayar ||
-               document.model.diffuse == Diffuse::Eon;
-    return true;
-}
-
-} // namespace
-
 MaterialPanel::MaterialPanel(DocumentController& controller, SelectionModel& selection,
                              Thumbnails& thumbnails, QWidget* parent)
     : QWidget(parent)
@@ -45,8 +29,7 @@ MaterialPanel::MaterialPanel(DocumentController& controller, SelectionModel& sel
                                               return std::nullopt;
                                           return Target{Scope::Material, selection.material()};
                                       },
-                                      {},
-                                      applies})) {
+                                      {}})) {
     m_choice->setAccessibleName(tr("Material"));
     m_choice->setToolTip(tr("The material that is edited"));
     m_choice->setStatusTip(m_choice->toolTip());

@@ -19,18 +19,6 @@
 namespace patina::editor {
 namespace {
 
-// Rows that would do nothing are hidden.
-bool applies(const ParameterInfo& info, const Document& document, Id) {
-    const Fresnel fresnel = document.model.fresnel;
-    if (info.id == "model.f90")
-        return fresnel == Fresnel::SchlickF90;
-    if (info.id == "model.ior")
-        return fresnel == Fresnel::Dielectric;
-    if (info.id == "model.conductorN" || info.id == "model.conductorK")
-        return fresnel == Fresnel::Conductor;
-    return true;
-}
-
 QPushButton* makeButton(const QString& text, const QString& help) {
     auto* button = new QPushButton(text);
     button->setCheckable(true);
@@ -65,8 +53,7 @@ ModelPanel::ModelPanel(DocumentController& controller, SelectionModel& selection
                                       [] {
                                           return std::optional(Target{Scope::Model, 0});
                                       },
-                                      {},
-                                      applies})) {
+                                      {}})) {
     auto* scroll = new PanelScroll;
     scroll->contents()->addWidget(makePresets());
     scroll->contents()->addWidget(m_furnace);

@@ -98,13 +98,12 @@ void ParameterList::refreshVisibility() {
     const Document& document = m_controller.document();
     if (!target || !targetExists(document, *target))
         return;
-    if (m_spec.works)
-        for (ParameterRow* row : m_rows)
-            row->setWorks(m_spec.works(row->info(), document, target->id));
-    if (!m_spec.applies)
-        return;
+    const auto holds = [&](const Condition* condition) {
+        return condition == nullptr || condition->holds(document, target->id);
+    };
     for (ParameterRow* row : m_rows) {
-        const bool applies = m_spec.applies(row->info(), document, target->id);
+        row->setWorks(holds(row->info().works));
+        const bool applies = holds(row->info().applies);
         if (!applies)
             abandonEdits(*row);
         row->setVisible(applies);

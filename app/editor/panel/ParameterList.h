@@ -16,15 +16,9 @@ struct ParameterListSpec {
     Scope scope = Scope::View;
     std::function<std::optional<Target>()> target; // nothing: no element is selected
     std::vector<std::string_view> without;         // ids that the panel shows in another way
-    // Whether a row makes sense for this element now ("position" only for point lights). Empty:
-    // always.
-    std::function<bool(const ParameterInfo&, const Document&, Id)> applies;
-    bool loneHeading = false; // a lone group has a heading, too
+    bool loneHeading = false;                      // a lone group has a heading, too
     // Of another list of the dock, whose labels stand in the same column.
     std::optional<Scope> alignedWith = std::nullopt;
-    // Whether a row that is shown has an effect now; else it is disabled, so that rows under the
-    // pointer keep their place when a switch beside them is clicked. Empty: always.
-    std::function<bool(const ParameterInfo&, const Document&, Id)> works = {};
 };
 
 class ParameterList : public QWidget {

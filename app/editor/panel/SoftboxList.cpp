@@ -55,7 +55,6 @@ SoftboxList::SoftboxList(DocumentController& controller, Thumbnails& thumbnails,
                                           return Target{Scope::Softbox, m_selected};
                                       },
                                       {"softbox.enabled"}, // the list has it
-                                      {},
                                       false,
                                       Scope::Environment})) {
     m_list->setAccessibleName(tr("Softboxes"));

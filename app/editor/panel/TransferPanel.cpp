@@ -36,7 +36,8 @@ TransferPanel::TransferPanel(DocumentController& controller, PixelProbe& probe,
     , m_probe(probe)
     , m_onSurface(onSurface)
     , m_shadows(shadows)
-    , m_memory(std::make_shared<TransferMemory>()) {
+    , m_memory(std::make_shared<TransferMemory>())
+    , m_job(controller.runner(), "transfer inspector") {
     setObjectName(QStringLiteral("transferPanel"));
     m_message = new QLabel;
     m_message->setWordWrap(true);

@@ -61,7 +61,7 @@ class TransferPanel : public QWidget {
     QComboBox* m_lightBands;
     BandBars* m_bars;
     PictureTile *m_seen, *m_function, *m_sum;
-    LatestJob m_job{"transfer inspector"}; // last: it ends first
+    LatestJob m_job; // last: it ends first
 };
 
 } // namespace patina::editor

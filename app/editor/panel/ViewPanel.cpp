@@ -4,7 +4,6 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/FileKinds.h"
 #include "app/editor/document/ProposedFolder.h"
-#include "app/editor/panel/BouncesRow.h"
 #include "app/editor/panel/ParameterList.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
@@ -31,29 +30,6 @@ namespace {
 constexpr int kCurvePoints = 257;
 constexpr Target kView{Scope::View, 0};
 
-bool applies(const ParameterInfo& info, const Document& document, Id) {
-    const View& view = document.view;
-    const bool photographic = view.toneMap == ToneMap::ReinhardPhotographic;
-    if (info.id == "view.reinhardAutoKey" || info.id == "view.reinhardWhite" ||
-        info.id == "view.reinhardKey")
-        return photographic;
-    if (info.id == "view.exponentialK")
-        return view.toneMap == ToneMap::Exponential;
-    // OpenColorIO's views are made for their display.
-    if (info.id == "view.displayTransfer")
-        return view.toneMap != ToneMap::OpenColorIo;
-    if (info.id == "view.displayGamma")
-        return view.toneMap != ToneMap::OpenColorIo &&
-               view.displayTransfer == DisplayTransfer::Gamma;
-    if (info.id == "view.bounces") // also of the strip's interreflected light
-        return bakedBounces(document) > 0;
-    return true;
-}
-
-bool works(const ParameterInfo& info, const Document& document, Id) {
-    return info.id != "view.reinhardKey" || !document.view.reinhardAutoKey;
-}
-
 // Rows of the view's parameters that belong to camera and lighting, or the others.
 std::vector<std::string_view> rows(bool ofCamera) {
     std::vector<std::string_view> ids;
@@ -68,8 +44,6 @@ ParameterListSpec listWithout(std::vector<std::string_view> ids) {
     spec.scope = Scope::View;
     spec.target = [] { return std::optional(kView); };
     spec.without = std::move(ids);
-    spec.applies = applies;
-    spec.works = works;
     return spec;
 }
 

@@ -1,7 +1,7 @@
 #include "app/editor/viewport/BounceFeed.h"
 
 #include "app/editor/job/BounceUpdater.h"
-#include "render/Renderer.h"
+#include "render/SceneRenderer.h"
 
 namespace patina::editor {
 
@@ -13,7 +13,7 @@ void BounceFeed::setBounces(BounceUpdater& bounces) {
     connect(&bounces, &BounceUpdater::shownChanged, this, &BounceFeed::changed);
 }
 
-void BounceFeed::upload(render::Renderer& renderer) {
+void BounceFeed::upload(render::SceneRenderer& renderer) {
     if (!m_bounces || (m_bounces->shown() == m_uploaded && !m_forgotten))
         return;
     m_forgotten = false;
@@ -26,7 +26,7 @@ void BounceFeed::upload(render::Renderer& renderer) {
         renderer.setBouncedLight(mesh, radiance);
 }
 
-void BounceFeed::endFrame(const render::Renderer& renderer) {
+void BounceFeed::endFrame(const render::SceneRenderer& renderer) {
     if (!m_bounces)
         return;
     if (const int order = m_bounces->lightOrder(); order > 0)

@@ -7,7 +7,7 @@
 #include <QObject>
 
 namespace patina::render {
-class Renderer;
+class SceneRenderer;
 }
 
 namespace patina::editor {
@@ -23,8 +23,8 @@ class BounceFeed : public QObject {
     // The renderer has forgotten what it was given: it is a new one, or has a new bake.
     void restart() { m_forgotten = true; }
     // With the renderer's context current, before a frame: what has come since the last one.
-    void upload(render::Renderer& renderer);
-    void endFrame(const render::Renderer& renderer);
+    void upload(render::SceneRenderer& renderer);
+    void endFrame(const render::SceneRenderer& renderer);
 
   Q_SIGNALS:
     void changed(); // there is something to upload

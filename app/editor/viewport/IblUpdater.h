@@ -4,24 +4,26 @@
 #pragma once
 
 #include "core/image/Image.h"
-#include "core/job/JobContext.h"
+#include "core/job/TaskRunner.h"
 #include "core/light/EnvironmentTexels.h"
 #include "core/light/IblCache.h"
 
 #include <QObject>
-#include <QThreadPool>
-#include <atomic>
 #include <filesystem>
 #include <utility>
 
 namespace patina::editor {
 
+// Computed light outlives the session; the system may empty this folder at any time.
+[[nodiscard]] std::filesystem::path iblCacheFolder();
+
 class IblUpdater : public QObject {
     Q_OBJECT
   public:
     // `cacheFolder`: of IblCache.
-    explicit IblUpdater(const std::filesystem::path& cacheFolder, QObject* parent = nullptr);
-    ~IblUpdater() override; // cancels and waits
+    // Its end waits for what is being written there.
+    IblUpdater(TaskRunner& runner, const std::filesystem::path& cacheFolder,
+               QObject* parent = nullptr);
 
     // Does nothing when `environment` is the one already prepared or under way. Requests that
     // follow each other quickly wait for the small version of the first, so that light keeps
@@ -40,25 +42,31 @@ class IblUpdater : public QObject {
     void ready(); // take() has something, and maps() is of the same
 
   private:
-    void start();
-    void prepare(quint64 request, const ImagePtr& environment, const JobContext& job);
-    void refine(quint64 request, const Hash& key, const ImagePtr& environment,
-                const HalfMipmapsPtr& background, const JobContext& job);
-    void fail(quint64 request, const Error& error);
-    // From the pool to deliver(); null where there is no light. `last`: nothing follows.
-    void post(quint64 request, EnvironmentTexelsPtr texels, std::shared_ptr<const IblMaps> maps,
-              bool last);
-    void deliver(quint64 request, EnvironmentTexelsPtr texels, std::shared_ptr<const IblMaps> maps,
-                 bool last);
+    struct Light { // of an environment, full or small
+        ImagePtr environment;
+        Hash key;
+        HalfMipmapsPtr background;
+        std::shared_ptr<const IblMaps> maps;
+        EnvironmentTexelsPtr texels;
+        bool full = false;
+    };
+    // On a thread of the pool.
+    static Result<Light> first(const IblCache& cache, const ImagePtr& environment,
+                               const JobContext& job);
+    static Result<Light> refined(Light light, const JobContext& job);
+
+    void prepare();
+    void refine(const Light& small);
+    void keep(const Light& full);
+    void deliver(const Light& light);
+    void fail(const Error& error);
 
     IblCache m_cache;
-    QThreadPool m_pool, m_finePool; // first light in no time; full light when nobody is in a hurry
-    JobControl m_control;
     ImagePtr m_environment;
-    std::atomic<quint64> m_request = 0; // the newest
-    bool m_firstUnderWay = false, m_waiting = false, m_finished = false;
+    bool m_finished = false;
     EnvironmentTexelsPtr m_texels; // until it is taken
     std::shared_ptr<const IblMaps> m_maps;
+    TaskGroup m_tasks; // last: it ends before the cache
 };
 
 } // namespace patina::editor

@@ -25,26 +25,6 @@ QString text(std::string_view utf8) {
     return QString::fromUtf8(utf8.data(), static_cast<qsizetype>(utf8.size()));
 }
 
-bool dependsOnLight(ViewKind kind) {
-    switch (kind) {
-    case kViewD:
-    case kViewG:
-    case kViewF:
-    case kViewDGF:
-    case kViewDiffuseLobe:
-    case kViewNoL:
-    case kViewNoH:
-    case kViewVoH:
-    case kViewShadow:
-    case kViewLightArriving:
-    case kViewLightDiffuse:
-    case kViewLightSpecular:
-        return true;
-    default:
-        return false;
-    }
-}
-
 // Names of what is visible, in the colours of shaders/view.frag.
 template <class Things, class Keep>
 void addIdentities(LegendContent& content, const Things& things, Keep keep) {
@@ -157,7 +137,7 @@ LegendContent describeView(const render::ViewSettings& settings, const render::V
         content.unit = text(info.unit);
         describeColors(content, info, document);
     }
-    if (dependsOnLight(choice.kind))
+    if (info.ofChosenLight)
         addLights(content, settings, document);
     return content;
 }

@@ -19,7 +19,8 @@ LobeOnSurface::LobeOnSurface(DocumentController& controller, PixelProbe& probe, 
     : QObject(parent)
     , m_controller(controller)
     , m_probe(probe)
-    , m_tables(std::make_shared<DfgTables>()) {
+    , m_tables(std::make_shared<DfgTables>())
+    , m_job(controller.runner(), "lobe on the surface") {
     m_scale.logarithmic = true;
     // The numbers of the point follow by the probe; the model and the camera are no part of them.
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {

@@ -59,8 +59,8 @@ class LobeOnSurface : public QObject {
     std::optional<Ask> m_asked;
     std::shared_ptr<const render::SurfaceLobe> m_lobe, m_other;
     QString m_problem;
-    std::shared_ptr<DfgTables> m_tables;    // the pool's thread alone uses it
-    LatestJob m_job{"lobe on the surface"}; // last: it ends first
+    std::shared_ptr<DfgTables> m_tables; // the pool's thread alone uses it
+    LatestJob m_job;                     // last: it ends first
 };
 
 } // namespace patina::editor

@@ -1,7 +1,7 @@
 #include "app/editor/viewport/NearShadowFeed.h"
 
 #include "app/editor/job/NearShadowUpdater.h"
-#include "render/Renderer.h"
+#include "render/SceneRenderer.h"
 
 namespace patina::editor {
 
@@ -13,14 +13,14 @@ void NearShadowFeed::setShadows(NearShadowUpdater& shadows) {
     connect(&shadows, &NearShadowUpdater::shownChanged, this, &NearShadowFeed::changed);
 }
 
-void NearShadowFeed::upload(render::Renderer& renderer) {
+void NearShadowFeed::upload(render::SceneRenderer& renderer) {
     if (!m_shadows || m_shadows->shown() == m_uploaded)
         return;
     m_uploaded = m_shadows->shown();
     renderer.setNearShadows(m_uploaded);
 }
 
-void NearShadowFeed::endFrame(render::Renderer& renderer) {
+void NearShadowFeed::endFrame(render::SceneRenderer& renderer) {
     if (m_shadows)
         m_shadows->setWanted(renderer.takeNearShadowUse());
 }

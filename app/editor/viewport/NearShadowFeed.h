@@ -6,7 +6,7 @@
 #include <QObject>
 
 namespace patina::render {
-class Renderer;
+class SceneRenderer;
 }
 
 namespace patina::editor {
@@ -21,8 +21,8 @@ class NearShadowFeed : public QObject {
     void setShadows(NearShadowUpdater& shadows);
     void restart() { m_uploaded = nullptr; } // the renderer is a new one
     // With the renderer's context current, before a frame: what has come since the last one.
-    void upload(render::Renderer& renderer);
-    void endFrame(render::Renderer& renderer);
+    void upload(render::SceneRenderer& renderer);
+    void endFrame(render::SceneRenderer& renderer);
 
   Q_SIGNALS:
     void changed(); // there is something to upload

@@ -1,8 +1,8 @@
 #include "app/editor/viewport/PreviewFeed.h"
 
-#include "app/editor/job/JobManager.h"
+#include "app/editor/job/BakeService.h"
 #include "app/editor/job/LivePreview.h"
-#include "render/Renderer.h"
+#include "render/SceneRenderer.h"
 
 namespace patina::editor {
 namespace {
@@ -22,12 +22,12 @@ PreviewFeed::PreviewFeed(QObject* parent)
     connect(&m_timer, &QTimer::timeout, this, &PreviewFeed::poll);
 }
 
-void PreviewFeed::setJobs(JobManager& jobs) {
-    m_jobs = &jobs;
-    connect(&jobs, &JobManager::previewChanged, this, [this] {
+void PreviewFeed::setBakes(BakeService& bakes) {
+    m_bakes = &bakes;
+    connect(&bakes, &BakeService::previewChanged, this, [this] {
         m_samples = 0;
         m_sinceShown.start();
-        m_pending = m_jobs->preview() != nullptr;
+        m_pending = m_bakes->preview() != nullptr;
         if (m_pending)
             m_timer.start();
         else
@@ -37,14 +37,14 @@ void PreviewFeed::setJobs(JobManager& jobs) {
 }
 
 void PreviewFeed::restart() {
-    if (!m_jobs || !m_jobs->preview())
+    if (!m_bakes || !m_bakes->preview())
         return;
-    m_jobs->preview()->markAllChanged();
+    m_bakes->preview()->markAllChanged();
     m_pending = true;
 }
 
-void PreviewFeed::upload(render::Renderer& renderer) {
-    const std::shared_ptr<LivePreview> preview = m_jobs ? m_jobs->preview() : nullptr;
+void PreviewFeed::upload(render::SceneRenderer& renderer) {
+    const std::shared_ptr<LivePreview> preview = m_bakes ? m_bakes->preview() : nullptr;
     const bool shown = preview && preview->shown();
     if (m_pending && shown) {
         m_pending = false;
@@ -64,7 +64,7 @@ void PreviewFeed::upload(render::Renderer& renderer) {
 
 // Each complete pass is a usable picture; a long one is shown as far as it has come.
 void PreviewFeed::poll() {
-    const std::shared_ptr<LivePreview> preview = m_jobs->preview();
+    const std::shared_ptr<LivePreview> preview = m_bakes->preview();
     if (!preview)
         return;
     if (!preview->shown()) {

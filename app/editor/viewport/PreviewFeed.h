@@ -1,4 +1,4 @@
-// Brings a running bake's results from the job manager into the renderer.
+// Brings a running bake's results into the renderer.
 #pragma once
 
 #include <QElapsedTimer>
@@ -6,25 +6,25 @@
 #include <QTimer>
 
 namespace patina::render {
-class Renderer;
+class SceneRenderer;
 }
 
 namespace patina::editor {
 
-class JobManager;
+class BakeService;
 
 class PreviewFeed : public QObject {
     Q_OBJECT
   public:
     explicit PreviewFeed(QObject* parent = nullptr);
 
-    void setJobs(JobManager& jobs); // whose live preview is shown
+    void setBakes(BakeService& bakes); // whose live preview is shown
     // The renderer is a new one, which knows nothing yet.
     void restart();
     // While the hand moves, frames have little time for what is new.
     void setHandMoves(bool moves) { m_handMoves = moves; }
     // With the renderer's context current: what has come since the last call, or the end of it.
-    void upload(render::Renderer& renderer);
+    void upload(render::SceneRenderer& renderer);
 
   Q_SIGNALS:
     void changed(); // there is something to upload
@@ -32,7 +32,7 @@ class PreviewFeed : public QObject {
   private:
     void poll();
 
-    JobManager* m_jobs = nullptr;
+    BakeService* m_bakes = nullptr;
     QTimer m_timer;
     bool m_shown = false, m_handMoves = false;
     bool m_pending = false; // a new pass is to be uploaded

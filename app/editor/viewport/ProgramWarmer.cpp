@@ -1,9 +1,7 @@
 #include "app/editor/viewport/ProgramWarmer.h"
 
 #include "core/base/Log.h"
-#include "core/job/Parallel.h"
 
-#include <QMetaObject>
 #include <algorithm>
 #include <ctime>
 
@@ -41,17 +39,9 @@ Result<double> warmUp(const Document& document, const FrameKind& frame, const Jo
 
 } // namespace
 
-ProgramWarmer::ProgramWarmer(QObject* parent)
-    : QObject(parent) {
-    m_pool.setMaxThreadCount(1); // a cancelled task ends with the program it compiles
-    m_idlePool.setMaxThreadCount(1);
-}
-
-ProgramWarmer::~ProgramWarmer() {
-    m_control.cancel();
-    m_pool.waitForDone();
-    m_idlePool.waitForDone();
-}
+ProgramWarmer::ProgramWarmer(TaskRunner& runner, QObject* parent)
+    : QObject(parent)
+    , m_tasks(runner) {}
 
 ProgramWarmer::Programs ProgramWarmer::missing(const Document& document,
                                                const FrameKind& frame) const {
@@ -73,92 +63,99 @@ void ProgramWarmer::learn(const Document& document, const FrameKind& frame) {
 
 void ProgramWarmer::request(const Document& document, const std::vector<FrameKind>& frames,
                             Urgency urgency) {
-    Task task{document, {}, !m_verified};
     Programs all;
+    std::deque<std::pair<FrameKind, Programs>> wanted;
     for (const FrameKind& frame : frames)
         if (Programs programs = missing(document, frame); !programs.empty()) {
             all.insert(programs.begin(), programs.end());
-            task.frames.emplace_back(frame, std::move(programs));
+            wanted.emplace_back(frame, std::move(programs));
         }
     const bool coming = m_running && m_urgency >= urgency &&
                         std::includes(m_underWay.begin(), m_underWay.end(), all.begin(), all.end());
     if (all.empty() || coming)
         return;
-    m_control.cancel();
-    m_control = JobControl();
+    m_tasks.cancelAll();
     m_running = true;
     m_urgency = urgency;
     m_underWay = std::move(all);
-    const quint64 id = ++m_id;
-    const bool idle = urgency == Urgency::Idle;
-    (idle ? m_idlePool : m_pool)
-        .start([this, id, idle, task = std::move(task), job = m_control.context()] {
-            if (idle)
-                lowerThreadPriority();
-            work(id, task, job);
+    m_document = std::make_shared<const Document>(document);
+    m_frames = std::move(wanted);
+    m_slowestMs = 0.0;
+    compileNext();
+}
+
+// What was cancelled ends with the program it compiles; the next of this urgency waits for it.
+void ProgramWarmer::compile(const FrameKind& frame, std::function<void(double)> then) {
+    const bool idle = m_urgency == Urgency::Idle;
+    m_tasks.run(
+        {.tag = idle ? "compiling shaders ahead" : "compiling shaders",
+         .policy = TaskPolicy::Follow,
+         .priority = idle ? TaskPriority::Low : TaskPriority::High},
+        [document = m_document, frame](const JobContext& job) {
+            return warmUp(*document, frame, job);
+        },
+        [this, then = std::move(then)](const Result<double>& milliseconds) {
+            if (milliseconds)
+                then(*milliseconds);
+            else
+                end(milliseconds.error());
         });
 }
 
-template <class Apply>
-void ProgramWarmer::post(quint64 id, Apply apply) {
-    // The destructor waits for the pools, so `this` is alive.
-    QMetaObject::invokeMethod(
-        this,
-        [this, id, apply = std::move(apply)]() mutable {
-            if (id == m_id)
-                apply();
-        },
-        Qt::QueuedConnection);
-}
-
-void ProgramWarmer::work(quint64 id, const Task& task, const JobContext& job) {
-    if (job.cancelled())
+void ProgramWarmer::compileNext() {
+    if (m_frames.empty()) {
+        verify();
         return;
-    const Result<void> done = warm(id, task, job);
-    post(id, [this, done] {
-        if (!done && done.error().kind != ErrorKind::Cancelled) {
-            logWarning("Shaders cannot be compiled in the background: {}", done.error().text());
-            m_useless = true;
-            Q_EMIT progressed();
-        }
-        m_running = false;
-        Q_EMIT finished();
+    }
+    const auto [frame, programs] = std::move(m_frames.front());
+    m_frames.pop_front();
+    compile(frame, [this, frame = frame, programs = programs](double milliseconds) {
+        compiled(frame, programs, milliseconds);
     });
 }
 
-Result<void> ProgramWarmer::warm(quint64 id, const Task& task, const JobContext& job) {
-    double sheetMs = 0.0;
-    FrameKind sheet;
-    for (const auto& [frame, programs] : task.frames) {
-        const auto ms = warmUp(task.document, frame, job);
-        if (!ms)
-            return ms.error();
-        // The one that took longest: lighting modes share programs, and one that finds most of its
-        // own compiled would tell nothing.
-        if (frame.output == SurfaceOutput::EightViews && *ms > sheetMs) {
-            sheet = frame;
-            sheetMs = *ms;
-        }
-        post(id, [this, known = programs] {
-            m_known.insert(known.begin(), known.end());
-            Q_EMIT progressed();
-        });
+void ProgramWarmer::compiled(const FrameKind& frame, const Programs& programs,
+                             double milliseconds) {
+    if (frame.output == SurfaceOutput::EightViews && milliseconds > m_slowestMs) {
+        m_slowest = frame;
+        m_slowestMs = milliseconds;
     }
-    if (!task.verify || sheetMs < kCompilingMs)
-        return {};
+    m_known.insert(programs.begin(), programs.end());
+    compileNext(); // before others are told, who may ask for something else
+    Q_EMIT progressed();
+}
+
+void ProgramWarmer::verify() {
+    if (m_verified || m_slowestMs < kCompilingMs) {
+        end(std::nullopt);
+        return;
+    }
     // What was compiled just now should be found by whoever comes next.
-    const auto ms = warmUp(task.document, sheet, job);
-    if (!ms)
-        return ms.error();
-    if (*ms > std::max(0.5 * sheetMs, kCompilingMs))
-        return Error{ErrorKind::CannotCreate,
-                     "the graphics driver keeps no compiled shaders on disk, so that the first "
-                     "frame of a new view, light or model takes a moment. For Mesa, see "
-                     "MESA_SHADER_CACHE_DIR and MESA_SHADER_CACHE_DISABLE.",
-                     {},
-                     {}};
-    post(id, [this] { m_verified = true; });
-    return {};
+    compile(m_slowest, [this](double milliseconds) {
+        if (milliseconds > std::max(0.5 * m_slowestMs, kCompilingMs)) {
+            end(Error{ErrorKind::CannotCreate,
+                      "the graphics driver keeps no compiled shaders on disk, so that the first "
+                      "frame of a new view, light or model takes a moment. For Mesa, see "
+                      "MESA_SHADER_CACHE_DIR and MESA_SHADER_CACHE_DISABLE.",
+                      {},
+                      {}});
+            return;
+        }
+        m_verified = true;
+        end(std::nullopt);
+    });
+}
+
+void ProgramWarmer::end(const std::optional<Error>& error) {
+    m_frames.clear();
+    m_document.reset();
+    if (error && error->kind != ErrorKind::Cancelled) {
+        logWarning("Shaders cannot be compiled in the background: {}", error->text());
+        m_useless = true;
+        Q_EMIT progressed();
+    }
+    m_running = false;
+    Q_EMIT finished();
 }
 
 } // namespace patina::editor

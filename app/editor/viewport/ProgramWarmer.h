@@ -5,14 +5,16 @@
 
 #include "core/base/Result.h"
 #include "core/document/Document.h"
-#include "core/job/JobContext.h"
+#include "core/job/TaskRunner.h"
 #include "render/WarmUp.h"
 
 #include <QObject>
-#include <QThreadPool>
 #include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <set>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,8 +23,7 @@ namespace patina::editor {
 class ProgramWarmer : public QObject {
     Q_OBJECT
   public:
-    explicit ProgramWarmer(QObject* parent = nullptr);
-    ~ProgramWarmer() override; // cancels and waits
+    explicit ProgramWarmer(TaskRunner& runner, QObject* parent = nullptr);
 
     // Whether such frames of the document are drawn without a stall: what they need is compiled, or
     // nothing can be done about it.
@@ -43,29 +44,29 @@ class ProgramWarmer : public QObject {
 
   private:
     using Programs = std::set<std::uint64_t>;
-    struct Task {
-        Document document;
-        std::vector<std::pair<render::FrameKind, Programs>> frames;
-        bool verify = false; // that the driver keeps what it compiles
-    };
     [[nodiscard]] Programs missing(const Document& document, const render::FrameKind& frame) const;
 
-    // On the pool's thread.
-    void work(quint64 id, const Task& task, const JobContext& job);
-    Result<void> warm(quint64 id, const Task& task, const JobContext& job);
-    template <class Apply>
-    void post(quint64 id, Apply apply); // to the UI thread, unless it is overtaken
+    // The frames of the request, one task after the other.
+    void compileNext();
+    void compiled(const render::FrameKind& frame, const Programs& programs, double milliseconds);
+    void verify(); // that the driver keeps what it compiles
+    void compile(const render::FrameKind& frame, std::function<void(double milliseconds)> then);
+    void end(const std::optional<Error>& error);
 
-    QThreadPool m_pool, m_idlePool; // somebody waits; nobody does
-    JobControl m_control;
-    quint64 m_id = 0; // the newest
     bool m_running = false;
     Urgency m_urgency = Urgency::Idle;
     Programs m_underWay;
+    std::shared_ptr<const Document> m_document; // of the request
+    std::deque<std::pair<render::FrameKind, Programs>> m_frames;
+    // Of the frames of eight views, the one that took longest: lighting modes share programs, and
+    // one that finds most of its own compiled would tell nothing.
+    render::FrameKind m_slowest;
+    double m_slowestMs = 0.0;
 
     Programs m_known;
     bool m_verified = false; // the driver keeps what it compiles
     bool m_useless = false;  // no second context, or no cache on disk
+    TaskGroup m_tasks;
 };
 
 } // namespace patina::editor

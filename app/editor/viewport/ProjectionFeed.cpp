@@ -7,11 +7,11 @@
 
 namespace patina::editor {
 
-ProjectionFeed::ProjectionFeed(QObject* parent)
+ProjectionFeed::ProjectionFeed(TaskRunner& runner, QObject* parent)
     : QObject(parent)
-    , m_job("cross-fade", nullptr, LatestJob::Priority::Normal) {}
+    , m_job(runner, "cross-fade", nullptr, TaskPriority::High) {}
 
-void ProjectionFeed::upload(render::Renderer& renderer, const Document& document) {
+void ProjectionFeed::upload(render::SceneRenderer& renderer, const Document& document) {
     const std::vector<EnvironmentPart> parts = environmentParts(document);
     if (parts.size() < 2)
         return;
@@ -30,7 +30,7 @@ void ProjectionFeed::upload(render::Renderer& renderer, const Document& document
             const std::vector<glm::vec3> light = projectLatLong(*image, kMaxShOrder, job);
             if (job.cancelled())
                 return {};
-            auto done = std::make_shared<render::Renderer::ProjectionSh>();
+            auto done = std::make_shared<render::SceneRenderer::ProjectionSh>();
             std::ranges::copy(light, done->begin());
             return [this, image, done] {
                 if (image != m_asked)

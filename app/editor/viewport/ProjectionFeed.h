@@ -4,7 +4,7 @@
 
 #include "app/editor/job/LatestJob.h"
 #include "core/document/Document.h"
-#include "render/Renderer.h"
+#include "render/SceneRenderer.h"
 
 #include <QObject>
 #include <memory>
@@ -14,18 +14,18 @@ namespace patina::editor {
 class ProjectionFeed : public QObject {
     Q_OBJECT
   public:
-    explicit ProjectionFeed(QObject* parent = nullptr);
+    explicit ProjectionFeed(TaskRunner& runner, QObject* parent = nullptr);
 
     // With the renderer's context current, before a frame of the document.
-    void upload(render::Renderer& renderer, const Document& document);
+    void upload(render::SceneRenderer& renderer, const Document& document);
 
   Q_SIGNALS:
     void changed(); // there is something to upload
 
   private:
-    LatestJob m_job;
     ImagePtr m_asked; // under way, or done
-    std::shared_ptr<const render::Renderer::ProjectionSh> m_done;
+    std::shared_ptr<const render::SceneRenderer::ProjectionSh> m_done;
+    LatestJob m_job; // last: it ends first
 };
 
 } // namespace patina::editor

@@ -5,7 +5,7 @@
 
 #include "core/base/Result.h"
 #include "core/image/Image.h"
-#include "render/Renderer.h"
+#include "render/SheetRenderer.h"
 
 #include <QImage>
 #include <QObject>

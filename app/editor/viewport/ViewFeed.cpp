@@ -4,7 +4,7 @@
 #include "app/editor/viewport/ViewGate.h"
 #include "app/editor/viewport/ViewState.h"
 #include "core/edit/ViewReasons.h"
-#include "render/Renderer.h"
+#include "render/ViewRenderer.h"
 
 #include <utility>
 
@@ -62,7 +62,7 @@ ViewSettings ViewFeed::beginFrame(ViewGate& gate) {
     return settings;
 }
 
-void ViewFeed::endFrame(const render::Renderer& renderer) {
+void ViewFeed::endFrame(const render::ViewRenderer& renderer) {
     if (m_views)
         m_views->setMeasuredRanges(renderer.shownRange(), renderer.otherRange());
 }

@@ -8,7 +8,7 @@
 #include <QObject>
 
 namespace patina::render {
-class Renderer;
+class ViewRenderer;
 }
 
 namespace patina::editor {
@@ -33,7 +33,7 @@ class ViewFeed : public QObject {
     [[nodiscard]] const render::ViewSettings& chosen() const { return m_followed; }
     // Whether that frame shows the scene of the frame before, apart from how strong marks are.
     [[nodiscard]] bool sameAsBefore() const { return m_same; }
-    void endFrame(const render::Renderer& renderer);
+    void endFrame(const render::ViewRenderer& renderer);
     void setPreparing(bool preparing); // what is asked for is not shown yet
 
   Q_SIGNALS:

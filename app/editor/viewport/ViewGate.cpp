@@ -18,7 +18,8 @@ constexpr int kLongestWaitMs = 10'000;
 
 ViewGate::ViewGate(DocumentController& controller, QObject* parent)
     : QObject(parent)
-    , m_controller(controller) {
+    , m_controller(controller)
+    , m_warmer(controller.runner()) {
     connect(&m_warmer, &ProgramWarmer::progressed, this, [this] {
         m_known.clear();
         Q_EMIT opened();

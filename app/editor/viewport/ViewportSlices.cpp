@@ -4,7 +4,6 @@
 #include "app/editor/viewport/ViewportWidget.h"
 #include "core/base/Log.h"
 #include "core/document/ToneResponse.h"
-#include "render/Renderer.h"
 
 #include <QElapsedTimer>
 #include <utility>

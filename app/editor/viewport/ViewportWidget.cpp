@@ -10,18 +10,14 @@
 #include "core/job/Parallel.h"
 #include "core/job/WorkGate.h"
 #include "core/mix/LightMix.h"
-#include "render/Renderer.h"
 #include "render/gl/Context.h"
 
-#include <QFile>
 #include <QOpenGLContext>
 #include <QOpenGLExtraFunctions>
 #include <QOpenGLFramebufferObject>
 #include <QOpenGLFunctions>
-#include <QStandardPaths>
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <glm/trigonometric.hpp>
 
 namespace patina::editor {
@@ -34,21 +30,16 @@ constexpr int kAccumulationMs = 16;                 // between frames that are a
 constexpr std::size_t kEnvironmentBytes = 16 << 20; // of textures between frames: some 10 ms
 constexpr int kShaderPollMs = 500;                  // hot reload in developers' builds
 
-// Computed light outlives the session; the system may empty this folder at any time.
-std::filesystem::path iblCacheFolder() {
-    const QString folder = QStandardPaths::writableLocation(QStandardPaths::CacheLocation);
-    return std::filesystem::path(QFile::encodeName(folder).toStdString()) / "ibl";
-}
-
 } // namespace
 
 ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& selection,
-                               QWidget* parent)
+                               IblUpdater& ibl, QWidget* parent)
     : QOpenGLWidget(parent)
     , m_controller(controller)
     , m_selection(selection)
-    , m_ibl(new IblUpdater(iblCacheFolder(), this))
+    , m_ibl(&ibl)
     , m_hand(controller, selection, *this)
+    , m_projections(controller.runner())
     , m_viewFeed(controller)
     , m_gate(controller)
     , m_picker(controller, *this) {
@@ -128,7 +119,7 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
             return;
         makeCurrent();
         QStringList problems;
-        for (const std::string& message : m_renderer->reloadShaders())
+        for (const std::string& message : m_scene->reloadShaders())
             problems << QString::fromStdString(message);
         doneCurrent();
         if (!problems.isEmpty())
@@ -170,8 +161,11 @@ ViewportWidget::~ViewportWidget() {
     releaseGl();
 }
 
+void ViewportWidget::setBakes(BakeService& bakes) {
+    m_preview.setBakes(bakes);
+}
+
 void ViewportWidget::setJobs(JobManager& jobs) {
-    m_preview.setJobs(jobs);
     m_workGate = &jobs.gate();
     connect(this, &QOpenGLWidget::frameSwapped, this, [this] { m_workGate->open(); });
 }
@@ -240,14 +234,16 @@ void ViewportWidget::initializeGL() {
     // them: each program would be compiled anew in every session.
     m_pacing.setAccumulates(m_context->info().software);
     const QByteArray shaderFolder = qgetenv("PATINA_SHADER_DIR");
-    Result<std::unique_ptr<render::Renderer>> created =
-        render::Renderer::create(*m_context, shaderFolder.toStdString());
+    Result<std::unique_ptr<render::SceneRenderer>> created =
+        render::SceneRenderer::create(*m_context, shaderFolder.toStdString());
     if (!created) {
         Q_EMIT contextFailed(QString::fromStdString(created.error().text()));
         return;
     }
-    m_renderer = std::move(created).value();
-    m_renderer->setDocument(m_controller.document());
+    m_scene = std::move(created).value();
+    m_renderer = std::make_unique<render::ViewRenderer>(*m_scene);
+    m_thumbnails = std::make_unique<render::SheetRenderer>(*m_scene);
+    m_scene->setDocument(m_controller.document());
     m_ibl->renew();
     m_environmentTimer.start();
     m_displayPending = true;
@@ -268,7 +264,9 @@ void ViewportWidget::releaseGl() {
     stopSlices();
     m_lastFrameSize = {};
     makeCurrent();
+    m_thumbnails.reset();
     m_renderer.reset();
+    m_scene.reset();
     m_context.reset();
     doneCurrent();
 }
@@ -340,8 +338,8 @@ void ViewportWidget::paintGL() {
     if (const Result<void> drawn = m_renderer->render(frame, defaultFramebufferObject()); !drawn)
         logError("the frame could not be drawn: {}", drawn.error().text());
     m_viewFeed.endFrame(*m_renderer);
-    m_bounces.endFrame(*m_renderer);
-    m_nearShadows.endFrame(*m_renderer);
+    m_bounces.endFrame(*m_scene);
+    m_nearShadows.endFrame(*m_scene);
     gl->glFinish(); // so that the time below is the frame's, not that of the call
 
     const bool drawsScene = complete || (!frame.keepPicture && !frame.reuseScene);
@@ -363,7 +361,7 @@ void ViewportWidget::paintGL() {
         stopSlices();
         // As its own time says: after a slow frame the next one may be fast enough again.
         if (m_pacing.accumulating() &&
-            m_renderer->accumulatedFrames() < render::Renderer::kSteadyFrames)
+            m_renderer->accumulatedFrames() < render::ViewRenderer::kSteadyFrames)
             m_accumulationTimer.start();
         else if (complete && !m_renderer->isCurrent(m_sliced))
             startSlices();
@@ -379,10 +377,10 @@ void ViewportWidget::paintGL() {
 }
 
 void ViewportWidget::bringIn() {
-    m_preview.upload(*m_renderer);
-    m_bounces.upload(*m_renderer);
-    m_nearShadows.upload(*m_renderer);
-    m_projections.upload(*m_renderer, m_controller.document());
+    m_preview.upload(*m_scene);
+    m_bounces.upload(*m_scene);
+    m_nearShadows.upload(*m_scene);
+    m_projections.upload(*m_scene, m_controller.document());
 }
 
 void ViewportWidget::letOthersDraw() {
@@ -421,8 +419,8 @@ void ViewportWidget::feedEnvironment() {
         return; // its making starts this again
     makeCurrent();
     if (EnvironmentTexelsPtr next = m_ibl->take())
-        m_renderer->beginEnvironment(std::move(next));
-    const bool complete = m_renderer->proceedEnvironment(kEnvironmentBytes);
+        m_scene->beginEnvironment(std::move(next));
+    const bool complete = m_scene->proceedEnvironment(kEnvironmentBytes);
     doneCurrent();
     if (!complete) {
         m_environmentTimer.start();
@@ -445,7 +443,7 @@ Result<std::vector<Image>> ViewportWidget::drawSheet(const render::ViewSheet& sh
         frame.camera.fovDeg = glm::degrees(
             2.0f * std::atan(part * std::tan(0.5f * glm::radians(frame.camera.fovDeg))));
     frame.view = m_viewFeed.chosen();
-    Result<std::vector<Image>> drawn = m_renderer->drawSheet(frame, sheet);
+    Result<std::vector<Image>> drawn = m_thumbnails->draw(frame, sheet, *m_renderer);
     m_sliceWaits = true;
     doneCurrent();
     return drawn;
@@ -455,7 +453,7 @@ void ViewportWidget::takeDisplay() {
     if (!m_displayPending || !m_displays)
         return;
     m_displayPending = false;
-    if (const Result<void> set = m_renderer->setDisplay(m_displays->transform()); !set)
+    if (const Result<void> set = m_scene->setDisplay(m_displays->transform()); !set)
         Q_EMIT displayRefused(set.error());
 }
 
@@ -497,7 +495,7 @@ void ViewportWidget::applyChange(const Change& change) {
     // Camera moves affect nothing: the camera travels with each frame.
     if (m_renderer && change.affects != Affects::Nothing) {
         makeCurrent();
-        m_renderer->setDocument(m_controller.document());
+        m_scene->setDocument(m_controller.document());
         doneCurrent();
         if (touches(change.affects, Affects::Bakes))
             m_bounces.restart();

@@ -14,7 +14,9 @@
 #include "app/editor/viewport/ViewportHand.h"
 #include "core/document/Document.h"
 #include "core/math/Camera.h"
-#include "render/Renderer.h"
+#include "render/SceneRenderer.h"
+#include "render/SheetRenderer.h"
+#include "render/ViewRenderer.h"
 
 #include <QElapsedTimer>
 #include <QImage>
@@ -36,6 +38,7 @@ namespace patina::editor {
 class DisplayLoader;
 class DocumentController;
 class IblUpdater;
+class BakeService;
 class JobManager;
 class LobeOnSurface;
 class SelectionModel;
@@ -48,11 +51,13 @@ enum class PictureState { Moving, Refining, Refined };
 class ViewportWidget : public QOpenGLWidget {
     Q_OBJECT
   public:
-    ViewportWidget(DocumentController& controller, SelectionModel& selection,
+    // `ibl`: prepares the light of what is shown.
+    ViewportWidget(DocumentController& controller, SelectionModel& selection, IblUpdater& ibl,
                    QWidget* parent = nullptr);
     ~ViewportWidget() override;
 
-    void setJobs(JobManager& jobs); // whose live preview is shown, and who gives way to frames
+    void setBakes(BakeService& bakes);       // whose live preview is shown
+    void setJobs(JobManager& jobs);          // who give way to frames
     void setBounces(BounceUpdater& bounces); // whose light is shown
     void setNearShadows(NearShadowUpdater& shadows);
     void setDisplays(DisplayLoader& displays); // whose view of OpenColorIO is shown
@@ -66,7 +71,6 @@ class ViewportWidget : public QOpenGLWidget {
     [[nodiscard]] PixelPicker& picker() { return m_picker; }
 
     // The light of the document's environment, for whoever shows it, too.
-    [[nodiscard]] IblUpdater& ibl() { return *m_ibl; }
 
     void frameSelection();                 // the selected mesh, or everything
     void resetCamera();                    // Home: the whole scene from the default side
@@ -156,7 +160,10 @@ class ViewportWidget : public QOpenGLWidget {
     PixelPicker m_picker;
 
     std::unique_ptr<gl::Context> m_context;
-    std::unique_ptr<render::Renderer> m_renderer;
+    // Null until there is a context.
+    std::unique_ptr<render::SceneRenderer> m_scene;
+    std::unique_ptr<render::ViewRenderer> m_renderer; // of what is shown
+    std::unique_ptr<render::SheetRenderer> m_thumbnails;
     bool m_displayPending = true; // m_displays->transform() is not in the renderer yet
     bool m_luminanceWanted = false;
     std::optional<Luminance> m_luminance; // as announced last

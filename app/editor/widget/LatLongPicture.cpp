@@ -9,15 +9,9 @@ namespace {
 constexpr int kAtOnce = 512; // an image this wide is shrunk in about a millisecond
 }
 
-LatLongPicture::LatLongPicture(QObject* parent)
-    : QObject(parent) {
-    m_pool.setMaxThreadCount(1);
-}
-
-LatLongPicture::~LatLongPicture() {
-    m_pool.clear();
-    m_pool.waitForDone();
-}
+LatLongPicture::LatLongPicture(TaskRunner& runner, QObject* parent)
+    : QObject(parent)
+    , m_tasks(runner) {}
 
 void LatLongPicture::show(const ImagePtr& image, float exposureEv, int width) {
     if (!image)
@@ -32,26 +26,23 @@ void LatLongPicture::show(const ImagePtr& image, float exposureEv, int width) {
     }
     m_image = image;
     m_width = width;
-    const quint64 id = ++m_request;
+    m_tasks.cancelAll();
     if (image->width() <= kAtOnce) {
         m_small = std::make_shared<const Image>(shrinkImage(*image, width));
         develop();
         return;
     }
-    m_pool.clear(); // what has not begun is not wanted any more
-    m_pool.start([this, id, image, width] {
-        auto small = std::make_shared<const Image>(shrinkImage(*image, width));
-        // The destructor waits for the pool, so `this` is alive.
-        QMetaObject::invokeMethod(
-            this,
-            [this, id, small] {
-                if (id != m_request)
-                    return;
-                m_small = small;
-                develop();
-            },
-            Qt::QueuedConnection);
-    });
+    m_tasks.run(
+        {.tag = "picture of an environment", .priority = TaskPriority::High},
+        [image, width](const JobContext&) {
+            return std::make_shared<const Image>(shrinkImage(*image, width));
+        },
+        [this](const Result<ImagePtr>& small) {
+            if (!small)
+                return;
+            m_small = *small;
+            develop();
+        });
 }
 
 void LatLongPicture::develop() {

@@ -3,18 +3,17 @@
 #pragma once
 
 #include "core/image/Image.h"
+#include "core/job/TaskRunner.h"
 
 #include <QImage>
 #include <QObject>
-#include <QThreadPool>
 
 namespace patina::editor {
 
 class LatLongPicture : public QObject {
     Q_OBJECT
   public:
-    explicit LatLongPicture(QObject* parent = nullptr);
-    ~LatLongPicture() override; // waits
+    explicit LatLongPicture(TaskRunner& runner, QObject* parent = nullptr);
 
     // `width`: pixels of the screen. A small image is shown at once, a large one when changed()
     // comes; until then the picture stays as it is. The newest wins.
@@ -27,13 +26,12 @@ class LatLongPicture : public QObject {
   private:
     void develop();
 
-    QThreadPool m_pool;
     ImagePtr m_image; // that was asked for
     ImagePtr m_small; // shrunk to at most m_width
     int m_width = 0;
     float m_exposureEv = 0;
-    quint64 m_request = 0;
     QImage m_picture;
+    TaskGroup m_tasks;
 };
 
 } // namespace patina::editor

@@ -12,9 +12,10 @@ namespace {
 constexpr double kGap = 6.0;
 } // namespace
 
-LitSphere::LitSphere(const QString& title, QWidget* parent)
+LitSphere::LitSphere(TaskRunner& runner, const QString& title, QWidget* parent)
     : QWidget(parent)
-    , m_title(title) {
+    , m_title(title)
+    , m_job(runner, "lit ball") {
     m_light.toLight = glm::normalize(glm::vec3(-0.75f, 0.75f, 0.6f));
     setCursor(Qt::OpenHandCursor);
     setAccessibleName(title);

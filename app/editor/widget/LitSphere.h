@@ -20,7 +20,7 @@ class LitSphere : public QWidget {
         std::shared_ptr<const BrdfLens> lens;
     };
 
-    explicit LitSphere(const QString& title, QWidget* parent = nullptr);
+    LitSphere(TaskRunner& runner, const QString& title, QWidget* parent = nullptr);
 
     void setBalls(std::vector<Ball> balls);
     void setEnvironment(std::shared_ptr<const IblMaps> maps, const Environment& environment,
@@ -50,7 +50,7 @@ class LitSphere : public QWidget {
     std::vector<Ball> m_balls;
     SphereLight m_light;
     QImage m_picture;
-    LatestJob m_job{"lit ball"};
+    LatestJob m_job;
 };
 
 } // namespace patina::editor

@@ -17,9 +17,10 @@ constexpr double kLowest = 2.0, kHighest = 90.0; // of the camera: never from be
 constexpr double kGap = 6.0;
 } // namespace
 
-LobeView::LobeView(const QString& title, QWidget* parent)
+LobeView::LobeView(TaskRunner& runner, const QString& title, QWidget* parent)
     : QWidget(parent)
-    , m_title(title) {
+    , m_title(title)
+    , m_job(runner, "lobe in space") {
     setFocusPolicy(Qt::StrongFocus);
     setCursor(Qt::OpenHandCursor);
     setAccessibleName(title);

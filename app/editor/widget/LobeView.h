@@ -20,7 +20,7 @@ class LobeView : public QWidget {
         std::shared_ptr<const LobeMesh> mesh;
     };
 
-    explicit LobeView(const QString& title, QWidget* parent = nullptr);
+    LobeView(TaskRunner& runner, const QString& title, QWidget* parent = nullptr);
 
     void setLobes(std::vector<Lobe> lobes, double incidenceDeg, const QString& peak);
     void setMessage(const QString& message);
@@ -51,7 +51,7 @@ class LobeView : public QWidget {
     LobeCamera m_camera;
     QPointF m_last;
     QImage m_picture;
-    LatestJob m_job{"lobe in space"};
+    LatestJob m_job;
 };
 
 } // namespace patina::editor

@@ -1,6 +1,5 @@
 #include "app/editor/widget/SkyGallery.h"
 
-#include "app/editor/document/BackgroundTasks.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/RecentSkies.h"
 #include "app/editor/widget/Thumbnails.h"
@@ -93,16 +92,28 @@ void SkyGallery::addRecent(const QString& file, const ImagePtr& image) {
     setCurrent(m_current);
     if (!m_tasks || !image)
         return;
-    const auto work = [file, image, button = QPointer(m_recent.front().button)](
-                          const JobContext&) -> BackgroundTasks::Apply {
-        const QImage picture = displayImage(*image, 2 * kPicture.width());
-        return [file, button, picture] {
-            keepSkyPicture(file, picture);
-            if (button)
-                button->setIcon(QPixmap::fromImage(picture));
-        };
-    };
-    m_tasks->start(QStringLiteral("sky:") + file, tr("Preparing previews"), work);
+    makePicture([image] { return image; },
+                [file, button = QPointer(m_recent.front().button)](const QImage& picture) {
+                    keepSkyPicture(file, picture);
+                    if (button)
+                        button->setIcon(QPixmap::fromImage(picture));
+                });
+}
+
+void SkyGallery::makePicture(const std::function<ImagePtr()>& image,
+                             const std::function<void(const QImage&)>& show) {
+    m_tasks->run(
+        {.tag = "previews of environments",
+         .policy = TaskPolicy::Queue,
+         .priority = TaskPriority::Low},
+        [image](const JobContext&) {
+            const ImagePtr found = image();
+            return found ? displayImage(*found, 2 * kPicture.width()) : QImage();
+        },
+        [show](const Result<QImage>& picture) {
+            if (picture && !picture->isNull())
+                show(*picture);
+        });
 }
 
 void SkyGallery::showEvent(QShowEvent* event) {
@@ -115,20 +126,15 @@ void SkyGallery::showEvent(QShowEvent* event) {
 
 void SkyGallery::makePictures() {
     for (const Sky& sky : m_skies) {
-        const auto work = [name = sky.source.mid(8).toStdString(), button = QPointer(sky.button)](
-                              const JobContext& job) -> BackgroundTasks::Apply {
-            if (job.cancelled())
-                return {};
-            const auto image = library::environment(name);
-            if (!image.ok())
-                return {};
-            const QImage picture = displayImage(*image.value(), 2 * kPicture.width());
-            return [button, picture] {
+        makePicture(
+            [name = sky.source.mid(8).toStdString()] {
+                const auto image = library::environment(name);
+                return image ? *image : nullptr;
+            },
+            [button = QPointer(sky.button)](const QImage& picture) {
                 if (button)
                     button->setIcon(QPixmap::fromImage(picture));
-            };
-        };
-        m_tasks->start(QStringLiteral("sky:") + sky.source, tr("Preparing previews"), work);
+            });
     }
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "core/image/Image.h"
+#include "core/job/TaskRunner.h"
 
 #include <QWidget>
+#include <optional>
 #include <vector>
 
 class QGridLayout;
@@ -11,14 +13,12 @@ class QToolButton;
 
 namespace patina::editor {
 
-class BackgroundTasks;
-
 class SkyGallery : public QWidget {
     Q_OBJECT
   public:
     explicit SkyGallery(QWidget* parent = nullptr);
     // Pictures are made the first time the gallery is seen.
-    void setTasks(BackgroundTasks& tasks) { m_tasks = &tasks; }
+    void setRunner(TaskRunner& runner) { m_tasks.emplace(runner); }
     void setCurrent(const QString& source); // "builtin:studio", or a file
     // An environment from a file that lights the scene joins the gallery, now and in later
     // sessions, as the first of kMostRecentSkies (widget/RecentSkies.h).
@@ -37,13 +37,16 @@ class SkyGallery : public QWidget {
     };
     Sky makeSky(const QString& source, const QString& title, const QString& help);
     void makePictures();
+    // A small picture of the image, which follows in the background; null: none.
+    void makePicture(const std::function<ImagePtr()>& image,
+                     const std::function<void(const QImage&)>& show);
     void layOut();
 
-    BackgroundTasks* m_tasks = nullptr;
     bool m_requested = false;
     QString m_current;
     QGridLayout* m_grid;
     std::vector<Sky> m_skies, m_recent; // built in; from files, the newest first
+    std::optional<TaskGroup> m_tasks;
 };
 
 } // namespace patina::editor

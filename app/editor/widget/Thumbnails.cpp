@@ -40,15 +40,9 @@ QImage displayImage(const Image& image, int maxSide, float exposureEv, MapChanne
     return picture;
 }
 
-Thumbnails::Thumbnails(QObject* parent)
-    : QObject(parent) {
-    m_pool.setMaxThreadCount(1); // never in the way of anything else
-}
-
-Thumbnails::~Thumbnails() {
-    m_pool.clear();
-    m_pool.waitForDone();
-}
+Thumbnails::Thumbnails(TaskRunner& runner, QObject* parent)
+    : QObject(parent)
+    , m_tasks(runner) {}
 
 QImage Thumbnails::thumbnail(const ImagePtr& image, int side, MapChannel channel) {
     if (!image)
@@ -60,16 +54,17 @@ QImage Thumbnails::thumbnail(const ImagePtr& image, int side, MapChannel channel
     if (m_entries.size() >= kMaxEntries)
         m_entries.clear();
     m_entries.insert(key, {image, {}});
-    m_pool.start([this, image, key, side, channel] {
-        const QImage picture = displayImage(*image, side, 0.0f, channel);
-        QMetaObject::invokeMethod(
-            this,
-            [this, image, key, picture] {
-                m_entries.insert(key, {image, picture});
-                Q_EMIT ready();
-            },
-            Qt::QueuedConnection);
-    });
+    m_tasks.run(
+        {.tag = "thumbnails", .policy = TaskPolicy::Queue, .priority = TaskPriority::Low},
+        [image, side, channel](const JobContext&) {
+            return displayImage(*image, side, 0.0f, channel);
+        },
+        [this, image, key](const Result<QImage>& picture) {
+            if (!picture)
+                return;
+            m_entries.insert(key, {image, *picture});
+            Q_EMIT ready();
+        });
     return {};
 }
 

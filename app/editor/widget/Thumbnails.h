@@ -2,12 +2,12 @@
 #pragma once
 
 #include "core/image/Image.h"
+#include "core/job/TaskRunner.h"
 #include "core/material/Material.h"
 
 #include <QHash>
 #include <QImage>
 #include <QObject>
-#include <QThreadPool>
 #include <memory>
 
 namespace patina::editor {
@@ -20,8 +20,7 @@ namespace patina::editor {
 class Thumbnails : public QObject {
     Q_OBJECT
   public:
-    explicit Thumbnails(QObject* parent = nullptr);
-    ~Thumbnails() override;
+    explicit Thumbnails(TaskRunner& runner, QObject* parent = nullptr);
 
     // At most `side` pixels; null until ready() comes.
     [[nodiscard]] QImage thumbnail(const ImagePtr& image, int side,
@@ -35,9 +34,9 @@ class Thumbnails : public QObject {
         std::weak_ptr<const Image> image; // an address may be used again when the image is gone
         QImage picture;                   // null while it is being made
     };
-    QThreadPool m_pool;
     using Key = QPair<quintptr, QPair<int, int>>; // address of the image; side and channel
     QHash<Key, Entry> m_entries;
+    TaskGroup m_tasks;
 };
 
 } // namespace patina::editor

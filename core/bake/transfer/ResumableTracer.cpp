@@ -7,6 +7,9 @@
 namespace patina {
 namespace {
 
+// For whoever only looks which checkpoints there are.
+constexpr std::chrono::milliseconds kPatience(200);
+
 Result<PassState> readCheckpoint(const std::filesystem::path& file, const BakeManifest& here,
                                  const TraceRequest& request) {
     const Result<BakeManifest> there = readBakeManifest(file);
@@ -56,7 +59,32 @@ double tracedShare(const PassState& state, std::span<const PointRange> ranges,
 
 } // namespace
 
+void ResumableTracer::hold() {
+    if (m_lock || m_settings.checkpoint.empty())
+        return;
+    auto taken = FileLock::takeWhenFree(m_settings.checkpoint, kPatience);
+    if (!taken) {
+        const Error error{ErrorKind::CannotCreate,
+                          "another program computes this bake and writes its checkpoint",
+                          m_settings.checkpoint, taken.error().message};
+        m_settings.checkpoint.clear();
+        if (m_settings.warn)
+            m_settings.warn(error);
+    } else if (*taken) {
+        m_lock.emplace(std::move(**taken));
+    }
+}
+
+bool ResumableTracer::removeCheckpoint() {
+    hold();
+    m_kept = false;
+    std::error_code ignored;
+    return !m_settings.checkpoint.empty() &&
+           std::filesystem::remove(m_settings.checkpoint, ignored);
+}
+
 Result<std::optional<PassState>> ResumableTracer::trace(const TraceRequest& request) {
+    hold();
     BakeManifest& manifest = m_settings.manifest;
     manifest.points = request.points.size();
     manifest.ranges = request.ranges.size();

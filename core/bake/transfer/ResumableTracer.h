@@ -1,11 +1,14 @@
 // Traces a bake, or one shard of it, so that nothing is lost: keeps a checkpoint every so often,
-// and goes on from one.
+// and goes on from one. While it lives the checkpoint is its own: one that another bake writes, of
+// whichever process, is neither read nor touched; that is a warning, and the bake goes on without.
 #pragma once
 
 #include "core/bake/transfer/BakeCheckpoint.h"
 #include "core/bake/transfer/BakeTracer.h"
+#include "core/base/FileLock.h"
 
 #include <filesystem>
+#include <optional>
 
 namespace patina {
 
@@ -28,6 +31,8 @@ class ResumableTracer : public BakeTracer {
     // another bake; those of writeBakeCheckpoint() for the part.
     Result<std::optional<PassState>> trace(const TraceRequest& request) override;
 
+    // Of which nobody has any more use. False when there is none of this bake.
+    bool removeCheckpoint();
     [[nodiscard]] bool keptCheckpoint() const { return m_kept; } // the file is there, up to date
     [[nodiscard]] int samplesDone() const { return m_samplesDone; }
     [[nodiscard]] int resumedFrom() const { return m_resumedFrom; } // its samplesDone, or -1
@@ -35,7 +40,10 @@ class ResumableTracer : public BakeTracer {
     [[nodiscard]] bool complete() const { return m_complete; }
 
   private:
+    void hold(); // the checkpoint, or there is none from now on
+
     ResumeSettings m_settings;
+    std::optional<FileLock> m_lock; // of the checkpoint; none where nothing can be locked
     bool m_kept = false, m_complete = false;
     int m_resumedFrom = -1, m_samplesDone = 0;
 };

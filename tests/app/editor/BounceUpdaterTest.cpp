@@ -8,6 +8,8 @@
 #include "core/edit/EditSession.h"
 #include "tests/support/Events.h"
 
+#include <QDir>
+#include <QStandardPaths>
 #include <QTest>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -170,15 +172,49 @@ TEST_F(Bounces, ShowAsManyAsTheViewAsksForInAnyLight) {
     EXPECT_EQ(bounces.shown(), nullptr);
 }
 
+// Hits belong to a bake: they are found by it, whoever hears first that it is attached, and whether
+// or not a bake runs then.
 TEST_F(Bounces, TakeTheHitsOfABakeThatHasJustEnded) {
-    const auto preview = std::make_shared<LivePreview>(BakeKind::PrtVertex);
-    preview->begin(bakeInputs(document()), 2, 16);
-    session.jobs.setPreview(preview);
-    controller.attachBake(std::make_shared<const BakeArtifact>(bake(*preview)));
+    LivePreview preview(BakeKind::PrtVertex);
+    preview.begin(bakeInputs(document()), 2, 16);
+    const auto artifact = std::make_shared<const BakeArtifact>(bake(preview));
+    ASSERT_NE(preview.bounceHits(), nullptr);
+    FinishedHits& ended = session.bakes.hits();
+    ended.keep(artifact, preview.bounceHits());
+    EXPECT_EQ(ended.take(std::make_shared<const BakeArtifact>(*artifact)), nullptr)
+        << "not its own";
+    EXPECT_EQ(ended.take(nullptr), nullptr);
+    ASSERT_EQ(session.bakes.preview(), nullptr) << "of old they were looked for there";
+    controller.attachBake(artifact);
     ASSERT_TRUE(ready());
+    EXPECT_EQ(bounces.hits(), preview.bounceHits().get());
+    EXPECT_EQ(ended.take(artifact), nullptr) << "they are large: nobody else keeps them";
+}
+
+TEST_F(Bounces, AreHandedTheHitsOfABakeThatRan) {
+    ASSERT_TRUE(QDir(QStandardPaths::writableLocation(QStandardPaths::CacheLocation) +
+                     QStringLiteral("/bakes"))
+                    .removeRecursively());
+    std::shared_ptr<LivePreview> preview;
+    QObject here;
+    QObject::connect(&session.bakes, &BakeService::previewChanged, &here, [&] {
+        if (session.bakes.preview())
+            preview = session.bakes.preview();
+    });
+    BakeRequest request;
+    request.kind = BakeKind::PrtVertex;
+    request.prt.order = 2;
+    request.prt.samples = 32;
+    request.prt.transfer = TransferKind::Interreflected;
+    request.prt.bounces = 2;
+    request.prt.bounceSamples = 16;
+    session.bakes.start(request);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return session.jobs.runningCount() == 0; }, 60'000));
+    ASSERT_TRUE(ready());
+    EXPECT_EQ(session.bakes.preview(), nullptr);
+    ASSERT_NE(preview, nullptr);
+    ASSERT_NE(preview->bounceHits(), nullptr);
     EXPECT_EQ(bounces.hits(), preview->bounceHits().get());
-    session.jobs.setPreview(nullptr);
-    EXPECT_NE(bounces.hits(), nullptr); // they live on
 }
 
 TEST_F(Bounces, LeaveABakeOfOtherGeometryAlone) {

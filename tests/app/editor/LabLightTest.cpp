@@ -2,6 +2,7 @@
 
 #include "app/editor/panel/LabLight.h"
 #include "app/editor/job/LatestJob.h"
+#include "app/editor/job/UiTasks.h"
 #include "core/image/ColorMap.h"
 #include "core/light/CubeSampling.h"
 #include "core/math/Shading.h"
@@ -271,7 +272,8 @@ TEST(LabDfg, ReadsAsTheShaderDoesAndGrowsUpwards) {
 // --- LatestJob -----------------------------------------------------------------------------------
 
 TEST(LatestJob, KeepsTheNewestOfWhatIsAskedMeanwhile) {
-    LatestJob job("test");
+    TaskRunner runner(postToThisThread());
+    LatestJob job(runner, "test");
     std::atomic<bool> go = false;
     std::vector<int> applied;
     for (int i = 0; i < 5; ++i)
@@ -287,15 +289,18 @@ TEST(LatestJob, KeepsTheNewestOfWhatIsAskedMeanwhile) {
 }
 
 TEST(LatestJob, ACancelledOneAppliesNothingAndTheNextRuns) {
-    LatestJob job("test");
+    TaskRunner runner(postToThisThread());
+    LatestJob job(runner, "test");
     std::vector<int> applied;
-    std::atomic<bool> sawCancel = false;
+    std::atomic<bool> begun = false, sawCancel = false;
     job.request([&](const JobContext& context) -> LatestJob::Apply {
+        begun = true;
         while (!context.cancelled())
             QThread::msleep(1);
         sawCancel = true;
         return [&] { applied.push_back(1); };
     });
+    ASSERT_TRUE(QTest::qWaitFor([&] { return begun.load(); }, 30'000));
     job.cancel();
     EXPECT_FALSE(job.busy());
     job.request(
@@ -306,7 +311,8 @@ TEST(LatestJob, ACancelledOneAppliesNothingAndTheNextRuns) {
 }
 
 TEST(LatestJob, AnExceptionEndsOneRequestOnly) {
-    LatestJob job("test");
+    TaskRunner runner(postToThisThread());
+    LatestJob job(runner, "test");
     bool applied = false;
     job.request([](const JobContext&) -> LatestJob::Apply { throw std::runtime_error("no"); });
     ASSERT_TRUE(QTest::qWaitFor([&] { return !job.busy(); }, 30'000));

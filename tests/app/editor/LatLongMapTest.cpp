@@ -1,6 +1,7 @@
 // The geometry under the lat-long view.
 
 #include "app/editor/widget/LatLongMap.h"
+#include "app/editor/job/UiTasks.h"
 #include "app/editor/viewport/IblUpdater.h"
 #include "core/light/LatLongGrid.h"
 
@@ -108,7 +109,8 @@ ImagePtr evenEnvironment(float radiance) {
 // Requests faster than the work: light keeps coming, and the last one wins.
 TEST(IblUpdater, ADragIsNotStarved) {
     QTemporaryDir cache;
-    IblUpdater updater{std::filesystem::path(cache.path().toStdString())};
+    TaskRunner runner(postToThisThread());
+    IblUpdater updater{runner, std::filesystem::path(cache.path().toStdString())};
     std::vector<float> lights;
     int side = 0;
     QObject::connect(&updater, &IblUpdater::ready, &updater, [&] {

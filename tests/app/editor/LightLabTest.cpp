@@ -28,7 +28,7 @@ struct LightLabTest : testing::Test {
     static void SetUpTestSuite() {
         s_cache = std::make_unique<QTemporaryDir>();
         s_session = std::make_unique<Session>();
-        s_ibl = std::make_unique<IblUpdater>(s_cache->path().toStdString());
+        s_ibl = std::make_unique<IblUpdater>(s_session->tasks, s_cache->path().toStdString());
         QObject::connect(&controller(), &DocumentController::changed, s_ibl.get(),
                          [] { s_ibl->request(document().environment.image); });
         s_panel = std::make_unique<LightLabPanel>(controller(), *s_ibl, s_session->probe);
@@ -358,7 +358,7 @@ TEST_F(LightLabWindowTest, OpensByItsKeysAtAUsefulHeight) {
     ASSERT_TRUE(eventually([&] { return dock->height() >= 240; }));
     EXPECT_GE(window->viewport().height(), 300) << "the viewport stays usable";
     ASSERT_TRUE(eventually([] { return panel().idle() && panel().light().maps; }));
-    EXPECT_EQ(panel().light().maps, window->viewport().ibl().maps()) << "the viewport's own";
+    EXPECT_EQ(panel().light().maps, session->ibl.maps()) << "the viewport's own";
 
     // Behind another tab the keys bring it to the front; in front they close it.
     auto* log = window->findChild<QDockWidget*>(QStringLiteral("log"));
@@ -385,7 +385,7 @@ TEST_F(LightLabWindowTest, OpensByItsKeysAtAUsefulHeight) {
 TEST(LightLabWithoutADocument, SaysThatThereIsNoEnvironment) {
     Session session;
     const QTemporaryDir folder;
-    IblUpdater ibl(folder.path().toStdString());
+    IblUpdater ibl(session.tasks, folder.path().toStdString());
     LightLabPanel panel(session.controller, ibl, session.probe);
     panel.resize(700, 260);
     panel.show();

@@ -2,10 +2,14 @@
 
 #include "tests/app/editor/EditorFixture.h"
 
+#include "app/editor/job/LivePreview.h"
 #include "core/edit/EditSession.h"
+#include "core/scene/DocumentIO.h"
 
+#include <QDir>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QStandardPaths>
 #include <QWindow>
 
 namespace patina::editor {
@@ -81,6 +85,29 @@ TEST_F(QuitTest, UnsavedChangesAskEachTimeUntilTheyAreDiscarded) {
     pressCtrlQ();
     answer(QMessageBox::Discard);
     EXPECT_TRUE(closes());
+}
+
+// Whatever is under way, and however little patience there is for the rest.
+TEST_F(QuitTest, LosesNeitherASaveNorWhatABakeHasComputed) {
+    QDir bakes(QStandardPaths::writableLocation(QStandardPaths::CacheLocation) +
+               QStringLiteral("/bakes"));
+    ASSERT_TRUE(bakes.removeRecursively());
+    m_session.controller.openScene(QStringLiteral("builtin:sphere"));
+    ASSERT_TRUE(settled(m_session));
+    BakeRequest request;
+    request.kind = BakeKind::AoVertex;
+    request.ao.samples = 16384;
+    m_session.bakes.start(request);
+    ASSERT_TRUE(eventually([this] { return m_session.bakes.preview()->samplesDone() > 0; }));
+    const QTemporaryDir folder;
+    const QString first = folder.filePath(QStringLiteral("first.patina"));
+    const QString second = folder.filePath(QStringLiteral("second.patina"));
+    m_session.controller.saveAs(first);
+    m_session.controller.saveAs(second);
+    m_session.shutDown(std::chrono::milliseconds(0)); // as main does
+    EXPECT_TRUE(projectVersion(first.toStdString()));
+    EXPECT_TRUE(projectVersion(second.toStdString())) << "it waited for the first";
+    EXPECT_EQ(bakes.entryList({QStringLiteral("*.checkpoint")}).size(), 1);
 }
 
 } // namespace

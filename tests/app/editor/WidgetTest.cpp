@@ -1,5 +1,6 @@
 // The numeric field, the slider and the colour picker by real mouse and key events.
 
+#include "app/editor/job/UiTasks.h"
 #include "app/editor/widget/ColorConversion.h"
 #include "app/editor/widget/ColorPicker.h"
 #include "app/editor/widget/MapSlotWidget.h"
@@ -365,7 +366,8 @@ TEST(ThumbnailsTest, ShowTheChannelThatIsRead) {
     EXPECT_EQ(displayImage(*packed, 8).pixel(1, 1), qRgb(40, 90, 140));
 
     // In the slot's own picture, which follows the choice of the channel.
-    Thumbnails thumbnails;
+    TaskRunner runner(postToThisThread());
+    Thumbnails thumbnails(runner);
     MapSlotWidget widget(thumbnails, QStringLiteral("Roughness map"), false);
     widget.resize(240, 60);
     MapSlot slot;

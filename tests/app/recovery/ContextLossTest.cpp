@@ -23,7 +23,7 @@ class ContextLoss : public EditorTest {
         QImage before;
         const bool still = eventually([&] {
             if (!viewport.isSettled() || session->controller.tasks().busy() ||
-                viewport.ibl().maps() == nullptr)
+                session->ibl.maps() == nullptr)
                 return false;
             const QImage now = viewport.grabFramebuffer();
             const bool same = !now.isNull() && now == before;

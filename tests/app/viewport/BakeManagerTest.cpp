@@ -12,6 +12,8 @@
 #include "core/bake/document/BakeStaleness.h"
 #include "core/bake/document/DocumentBakeInputs.h"
 #include "core/bake/domain/BakeOptions.h"
+#include "core/base/AtomicFile.h"
+#include "core/base/FileLock.h"
 #include "core/edit/EditSession.h"
 
 #include <QCheckBox>
@@ -250,6 +252,46 @@ TEST_F(BakeManagerTest, AnInterruptedBakeIsOfferedAndGoesOn) {
     EXPECT_TRUE(QDir(cacheFolder()).entryList({QStringLiteral("*.checkpoint")}).isEmpty());
 }
 
+// Another program computes the same bake: its checkpoint is not offered, not continued and not
+// overwritten.
+TEST_F(BakeManagerTest, ACheckpointThatAnotherProgramWritesIsLeftAlone) {
+    rays(512);
+    click("bakeStart");
+    ASSERT_TRUE(traces(0));
+    controller().newDocument(); // interrupts it
+    ASSERT_TRUE(settled(*session));
+    ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
+    const QStringList files = QDir(cacheFolder()).entryList({QStringLiteral("*.checkpoint")});
+    ASSERT_EQ(files.size(), 1);
+    const std::filesystem::path file = (cacheFolder() + u'/' + files.front()).toStdString();
+    const Result<Bytes> before = readFile(file, 1 << 24);
+    ASSERT_TRUE(before.ok());
+
+    std::optional<FileLock> other; // of its bake
+    other.emplace(FileLock::take(file).value());
+    controller().openScene(QStringLiteral("builtin:sphere"));
+    ASSERT_TRUE(settled(*session));
+    EXPECT_EQ(visible<QPushButton>("bakeResume"), nullptr);
+    EXPECT_FALSE(removeCheckpoint(file).ok());
+    std::vector<UserNotice> notices;
+    QObject here;
+    QObject::connect(&controller(), &DocumentController::noticed, &here,
+                     [&](const UserNotice& notice) { notices.push_back(notice); });
+    rays(512);
+    click("bakeStart");
+    ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
+    ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
+    EXPECT_EQ(document().bakes.front()->samplesDone, 512);
+    ASSERT_EQ(notices.size(), 1u);
+    EXPECT_THAT(notices.front().text.toStdString(),
+                HasSubstr("another program computes this bake"));
+    EXPECT_EQ(readFile(file, 1 << 24).value(), *before);
+
+    other.reset(); // it crashed
+    EXPECT_TRUE(removeCheckpoint(file).ok());
+    EXPECT_FALSE(std::filesystem::exists(file));
+}
+
 // The bake that goes on may have been asked for with quite other settings than the form has.
 TEST_F(BakeManagerTest, TheFormFollowsABakeThatIsResumed) {
     rays(512);
@@ -299,7 +341,7 @@ TEST_F(BakeManagerTest, AStoppedBakeSaysAtHowManyRaysAndGoesOn) {
     rays(512);
     click("bakeStart");
     ASSERT_TRUE(eventually(
-        [] { return session->jobs.preview() && session->jobs.preview()->samplesDone() >= 32; }));
+        [] { return session->bakes.preview() && session->bakes.preview()->samplesDone() >= 32; }));
     click("bakeStop");
     // Said at once: keeping takes a moment on large scenes.
     EXPECT_TRUE(job(0).ended() || job(0).stopping);
@@ -343,7 +385,7 @@ TEST_F(BakeManagerTest, AStoppedBakeDoesNotReplaceABetterOne) {
     rays(16384);
     click("bakeStart");
     ASSERT_TRUE(eventually(
-        [] { return session->jobs.preview() && session->jobs.preview()->samplesDone() >= 32; }));
+        [] { return session->bakes.preview() && session->bakes.preview()->samplesDone() >= 32; }));
     click("bakeStop");
     ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
     if (stoppedEarly(*document().bakes.at(0)))
@@ -380,7 +422,7 @@ TEST_F(BakeManagerTest, AFinishedBakeStaysInThePictureUntilTheNextIsDone) {
         if (!window->viewport().isSettled())
             return false;
         const QImage last = std::exchange(before, picture());
-        return window->viewport().ibl().maps() && !window->viewport().waitsForPrograms() &&
+        return session->ibl.maps() && !window->viewport().waitsForPrograms() &&
                difference(last, before) < 0.02;
     }));
 
@@ -389,15 +431,15 @@ TEST_F(BakeManagerTest, AFinishedBakeStaysInThePictureUntilTheNextIsDone) {
     rays(16384);
     click("bakeStart");
     ASSERT_TRUE(eventually(
-        [] { return session->jobs.preview() && session->jobs.preview()->samplesDone() >= 32; }));
+        [] { return session->bakes.preview() && session->bakes.preview()->samplesDone() >= 32; }));
     // Two passes later, and in a frame after them, it would be shown.
-    ASSERT_TRUE(eventually([] { return session->jobs.preview()->samplesDone() >= 96; }));
+    ASSERT_TRUE(eventually([] { return session->bakes.preview()->samplesDone() >= 96; }));
     picture();
-    EXPECT_FALSE(session->jobs.preview()->shown());
+    EXPECT_FALSE(session->bakes.preview()->shown());
     EXPECT_LT(difference(before, picture()), 0.5);
     // Without a bake to keep, what is known so far is shown.
     controller().detachBake(BakeKind::PrtVertex);
-    EXPECT_TRUE(session->jobs.preview()->shown());
+    EXPECT_TRUE(session->bakes.preview()->shown());
     EXPECT_TRUE(eventually([&] { return difference(before, picture()) > 1.0; }))
         << "bounces are missing in it";
     session->jobs.cancelAll();
@@ -408,7 +450,7 @@ TEST_F(BakeManagerTest, CancellingALongBakeAsksAndStoppingIsTheDefault) {
     rays(16384);
     click("bakeStart");
     ASSERT_TRUE(eventually(
-        [] { return session->jobs.preview() && session->jobs.preview()->samplesDone() >= 32; }));
+        [] { return session->bakes.preview() && session->bakes.preview()->samplesDone() >= 32; }));
     JobRow row(session->jobs, job(0), QStringLiteral("test"));
     auto* cancel = row.findChild<QPushButton*>(QStringLiteral("testCancel"));
     const auto question = [&] { return row.findChild<QMessageBox*>(); };

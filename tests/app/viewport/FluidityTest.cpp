@@ -3,7 +3,7 @@
 
 #include "tests/app/editor/EditorFixture.h"
 
-#include "app/editor/job/BakeRunner.h"
+#include "app/editor/job/BakeService.h"
 #include "app/editor/panel/ParameterRow.h"
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/widget/Slider.h"
@@ -95,7 +95,7 @@ TEST_F(FluidityTest, EveryMoveOfADragIsShownAndRestIsSharp) {
 
 TEST_F(FluidityTest, AnEnvironmentArrivesWhileTheButtonIsHeld) {
     openLitSphere();
-    const auto light = [] { return window->viewport().ibl().maps(); };
+    const auto light = [] { return session->ibl.maps(); };
     const auto before = light();
     const auto sky = [] { return viewport().grabFramebuffer().pixel(4, 4); };
     QTest::mousePress(&viewport(), Qt::LeftButton, Qt::NoModifier, center());
@@ -129,8 +129,7 @@ TEST_F(FluidityTest, EveryEditIsShownWhileABakeRunsAndTheBakeIsTheSame) {
     request.prt.samples = 512;
     Slider* slider = roughness();
     ASSERT_NE(slider, nullptr);
-    BakeRunner runner(controller(), session->jobs);
-    runner.start(request, JobPriority::Low);
+    session->bakes.start(request, JobPriority::Low);
     const auto runs = [] { return session->jobs.runningCount() > 0; };
     ASSERT_TRUE(eventually([&] { return session->jobs.jobs().back().progress.workDone > 0.0; }));
     ASSERT_TRUE(runs());

@@ -1,5 +1,6 @@
 // Light in the background: something at once, everything soon, and only of the newest environment.
 #include "app/editor/viewport/IblUpdater.h"
+#include "app/editor/job/UiTasks.h"
 #include "tests/support/TemporaryFolder.h"
 
 #include <QSignalSpy>
@@ -36,9 +37,13 @@ EnvironmentTexelsPtr takeFull(IblUpdater& updater, QSignalSpy& ready) {
     }
 }
 
-TEST(IblUpdater, AnswersSoonThenInFull) {
+struct IblUpdaterTest : ::testing::Test {
+    TaskRunner runner{postToThisThread()};
+};
+
+TEST_F(IblUpdaterTest, AnswersSoonThenInFull) {
     const test::TemporaryFolder folder;
-    IblUpdater updater(folder.path());
+    IblUpdater updater(runner, folder.path());
     QSignalSpy ready(&updater, &IblUpdater::ready);
     EXPECT_EQ(updater.take(), nullptr);
     const ImagePtr image = sky(2.0f);
@@ -63,17 +68,17 @@ TEST(IblUpdater, AnswersSoonThenInFull) {
     EXPECT_NEAR(brightness(*full), 2.0f, 1e-4f);
 }
 
-TEST(IblUpdater, RemembersAcrossSessions) {
+TEST_F(IblUpdaterTest, RemembersAcrossSessions) {
     const test::TemporaryFolder folder;
     EnvironmentTexelsPtr computed;
     {
-        IblUpdater updater(folder.path());
+        IblUpdater updater(runner, folder.path());
         QSignalSpy ready(&updater, &IblUpdater::ready);
         updater.request(sky(3.0f));
         computed = takeFull(updater, ready);
     } // its end waits for the file
     ASSERT_EQ(folder.files().size(), 1u);
-    IblUpdater updater(folder.path());
+    IblUpdater updater(runner, folder.path());
     QSignalSpy ready(&updater, &IblUpdater::ready);
     updater.request(sky(3.0f)); // another image of the same content
     ASSERT_TRUE(ready.wait(30'000));
@@ -84,9 +89,9 @@ TEST(IblUpdater, RemembersAcrossSessions) {
 }
 
 // A new OpenGL context has lost what was taken.
-TEST(IblUpdater, PreparesAgainWhatWasLost) {
+TEST_F(IblUpdaterTest, PreparesAgainWhatWasLost) {
     const test::TemporaryFolder folder;
-    IblUpdater updater(folder.path());
+    IblUpdater updater(runner, folder.path());
     QSignalSpy ready(&updater, &IblUpdater::ready);
     updater.renew(); // nothing was there
     const ImagePtr image = sky(2.0f);
@@ -99,9 +104,9 @@ TEST(IblUpdater, PreparesAgainWhatWasLost) {
     EXPECT_EQ(again->prefiltered.texels, before->prefiltered.texels);
 }
 
-TEST(IblUpdater, TheNewestWins) {
+TEST_F(IblUpdaterTest, TheNewestWins) {
     const test::TemporaryFolder folder;
-    IblUpdater updater(folder.path());
+    IblUpdater updater(runner, folder.path());
     QSignalSpy ready(&updater, &IblUpdater::ready);
     ImagePtr last;
     for (int i = 1; i <= 20; ++i)
@@ -117,10 +122,10 @@ TEST(IblUpdater, TheNewestWins) {
     EXPECT_EQ(takeFull(updater, ready)->image, same);
 }
 
-TEST(IblUpdater, WorksWithoutAFolderToWriteTo) {
+TEST_F(IblUpdaterTest, WorksWithoutAFolderToWriteTo) {
     const test::TemporaryFolder folder;
     std::ofstream(folder / "file") << "in the way";
-    IblUpdater updater(folder.path() / "file" / "cache");
+    IblUpdater updater(runner, folder.path() / "file" / "cache");
     QSignalSpy ready(&updater, &IblUpdater::ready);
     updater.request(sky(1.0f));
     EXPECT_NE(takeFull(updater, ready), nullptr);

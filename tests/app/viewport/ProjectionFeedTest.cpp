@@ -1,6 +1,7 @@
 // Coefficients of both pictures of a cross-fade reach the renderer before there is a picture of
 // both.
 #include "app/editor/viewport/ProjectionFeed.h"
+#include "app/editor/job/UiTasks.h"
 #include "core/math/SphericalHarmonics.h"
 #include "render/gl/Context.h"
 
@@ -24,7 +25,7 @@ struct ProjectionFeedTest : ::testing::Test {
         auto made = gl::Context::createHeadless();
         ASSERT_TRUE(made.ok());
         context = std::move(*made);
-        auto created = render::Renderer::create(*context);
+        auto created = render::SceneRenderer::create(*context);
         ASSERT_TRUE(created.ok());
         renderer = std::move(*created);
         document.environment.image = sky(1.0f);
@@ -40,9 +41,10 @@ struct ProjectionFeedTest : ::testing::Test {
         return renderer->transferLight(2)[0].y / std::sqrt(4.0f * std::numbers::pi_v<float>);
     }
     std::unique_ptr<gl::Context> context;
-    std::unique_ptr<render::Renderer> renderer;
+    std::unique_ptr<render::SceneRenderer> renderer;
     Document document;
-    ProjectionFeed feed;
+    TaskRunner runner{postToThisThread()};
+    ProjectionFeed feed{runner};
     QSignalSpy changed{&feed, &ProjectionFeed::changed};
 };
 

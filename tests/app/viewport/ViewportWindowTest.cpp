@@ -310,7 +310,7 @@ TEST_F(ViewportWindowTest, OrbitingGoesOnWhileABakeRunsAndCancelLeavesNothing) {
     ASSERT_TRUE(eventually([&] { return !bakeRuns(); }));
     EXPECT_FALSE(hasPrt());
     EXPECT_EQ(session->jobs.jobs().back().state, JobState::Cancelled);
-    EXPECT_EQ(session->jobs.preview(), nullptr);
+    EXPECT_EQ(session->bakes.preview(), nullptr);
 }
 
 TEST_F(ViewportWindowTest, ABakeIsAttachedUndoneAndGoesStaleWithTheGeometry) {

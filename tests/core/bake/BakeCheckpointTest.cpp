@@ -8,10 +8,12 @@
 #include "tests/support/TemporaryFolder.h"
 
 #include <atomic>
+#include <csignal>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 namespace fs = std::filesystem;
 using namespace patina;
@@ -177,6 +179,77 @@ TEST_F(BakeCheckpoint, OneThatCannotBeWrittenIsAWarning) {
     EXPECT_FALSE(tracer.keptCheckpoint());
 }
 
+// Another program computes the same bake: its checkpoint is neither read nor touched.
+TEST_F(BakeCheckpoint, OneThatAnotherProcessWritesIsLeftAlone) {
+    const Result<BakeArtifact> whole = bake();
+    ResumeSettings resume;
+    resume.manifest = manifest;
+    resume.checkpoint = folder / "a.checkpoint";
+    resume.everySeconds = 1e-9; // at every range
+    resume.resume = resume.keepOnCancel = true;
+    std::vector<Error> warnings;
+    resume.warn = [&](const Error& error) { warnings.push_back(error); };
+    {
+        JobControl control;
+        CancellingSink sink(control, 2);
+        ResumableTracer tracer(resume);
+        ASSERT_FALSE(bake(&tracer, sink, control.context()).ok());
+        ASSERT_TRUE(tracer.keptCheckpoint());
+    }
+    const Result<Bytes> before = readFile(resume.checkpoint, 1 << 24);
+    ASSERT_TRUE(before.ok());
+
+    // The other process, in the middle of its bake.
+    int ready[2];
+    ASSERT_EQ(::pipe(ready), 0);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const Result<FileLock> held = FileLock::take(resume.checkpoint);
+        const char answer = held.ok() ? 'y' : 'n';
+        if (::write(ready[1], &answer, 1) == 1)
+            ::pause();
+        ::_exit(1);
+    }
+    char answer = 'n';
+    ASSERT_EQ(::read(ready[0], &answer, 1), 1);
+    EXPECT_EQ(answer, 'y');
+    {
+        ResumableTracer tracer(resume);
+        const Result<BakeArtifact> baked = bake(&tracer);
+        ASSERT_TRUE(baked.ok());
+        EXPECT_EQ(*baked, *whole);
+        EXPECT_EQ(tracer.resumedFrom(), -1);
+        EXPECT_FALSE(tracer.keptCheckpoint());
+        EXPECT_FALSE(tracer.removeCheckpoint());
+    }
+    {
+        ResumableTracer tracer(resume); // one that has not begun
+        EXPECT_FALSE(tracer.removeCheckpoint());
+    }
+    ASSERT_EQ(warnings.size(), 2u);
+    EXPECT_THAT(warnings.front().text(), HasSubstr("another program computes this bake"));
+    EXPECT_THAT(warnings.front().text(), HasSubstr(std::to_string(child)));
+    EXPECT_EQ(readFile(resume.checkpoint, 1 << 24).value(), *before);
+
+    // It was killed: whoever comes next resumes what it left.
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    ::close(ready[0]);
+    ::close(ready[1]);
+    ResumableTracer tracer(resume);
+    const Result<BakeArtifact> resumed = bake(&tracer);
+    ASSERT_TRUE(resumed.ok());
+    EXPECT_EQ(*resumed, *whole);
+    EXPECT_GE(tracer.resumedFrom(), 0);
+    EXPECT_EQ(warnings.size(), 2u);
+    // Two bakes of one process are two, too.
+    ResumableTracer second(resume);
+    EXPECT_FALSE(second.removeCheckpoint());
+    EXPECT_EQ(warnings.size(), 3u);
+    EXPECT_TRUE(tracer.removeCheckpoint());
+    EXPECT_FALSE(fs::exists(resume.checkpoint));
+}
+
 // What a bake does with a disk that runs full under it and has room again later. Says on standard
 // error what is wrong; returns how much.
 int writeOntoAFullDisk(const fs::path& folder, BakeManifest manifest) {
@@ -256,9 +329,11 @@ TEST_F(BakeCheckpoint, OtherBakesCheckpointsAreRefused) {
     resume.manifest = manifest;
     resume.checkpoint = folder / "a.checkpoint";
     resume.everySeconds = 1e-9;
-    ResumableTracer first(resume);
-    ASSERT_TRUE(bake(&first).ok());
-    ASSERT_TRUE(first.keptCheckpoint());
+    {
+        ResumableTracer first(resume);
+        ASSERT_TRUE(bake(&first).ok());
+        ASSERT_TRUE(first.keptCheckpoint());
+    }
     resume.resume = true;
     const auto refusal = [&](const BakeManifest& other) {
         ResumeSettings changed = resume;

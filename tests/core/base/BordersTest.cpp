@@ -146,6 +146,17 @@ TEST(Borders, EachLibraryHasOneAdapter) {
     EXPECT_EQ(violations("app", "embree3/|assimp/|OpenImageIO/|(oneapi/)?tbb/"), 0);
 }
 
+// All work of the editor goes through one runner, with one border for exceptions and one end. What
+// reads, writes or computes there is a task (core/job/TaskRunner.h).
+TEST(Borders, TheEditorHasNoThreadsBesideItsRunner) {
+    const std::regex threads("QThreadPool|QRunnable|QtConcurrent|QFutureWatcher|new QThread\\b|"
+                             "QThread::create|std::(j?thread\\b|async\\()");
+    EXPECT_EQ(lines("app/editor", threads, ""), 0);
+    EXPECT_EQ(lines("core", std::regex("std::(j?thread\\b(?!::)|async\\()"),
+                    "core/job/TaskRunner.cpp|core/recovery/RecoveryWriter.h"),
+              0);
+}
+
 // Folders are opened to be synchronised, marks of open projects to be locked; what the kernel makes
 // up, and the decoder's own process, need no care.
 TEST(Borders, FilesAreOpenedForReadingInOnePlace) {

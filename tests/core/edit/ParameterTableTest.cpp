@@ -2,10 +2,14 @@
 #include "core/document/Document.h"
 #include "core/edit/Parameters.h"
 #include "core/material/MaterialInputs.h"
+#include "tests/core/document/RandomDocument.h"
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <gtest/gtest.h>
+#include <map>
+#include <memory>
 #include <set>
 
 using namespace patina;
@@ -236,6 +240,38 @@ TEST(ParameterTable, ChoicesCanBeUnavailable) {
     ::unsetenv("OCIO");
     // Rows that say nothing offer everything.
     EXPECT_EQ(whyUnavailable(*findParameter("view.exposureMode"), document, 1), "");
+}
+
+// A condition that never holds, or always does, would hide a row for ever, or be none.
+TEST(ParameterTable, ConditionsHoldInSomeDocumentsAndSayWhyNotInOthers) {
+    std::map<const Condition*, std::array<int, 2>> met; // not, yes
+    RandomDocument random(5);
+    for (int i = 0; i < 300; ++i) {
+        Document document = random.make();
+        if (i % 2 == 0) {
+            auto bake = std::make_shared<BakeArtifact>();
+            bake->kind = BakeKind::PrtVertex;
+            bake->transfer = TransferKind::Interreflected;
+            document.bakes = {bake};
+        }
+        for (const ParameterInfo& info : parameters())
+            for (const Id id : RandomDocument::idsOf(document, info.scope)) {
+                const auto holds = [&](const Condition* condition) {
+                    const bool now = condition == nullptr || condition->holds(document, id);
+                    if (condition != nullptr)
+                        ++met[condition][now ? 1 : 0];
+                    return now;
+                };
+                const bool applies = holds(info.applies), works = holds(info.works);
+                EXPECT_EQ(whyIdle(info, document, id).empty(), applies && works) << info.id;
+            }
+    }
+    EXPECT_GE(met.size(), 20u);
+    for (const auto& [condition, counts] : met) {
+        EXPECT_GT(counts[0], 0) << condition->otherwise << ": always holds";
+        EXPECT_GT(counts[1], 0) << condition->otherwise << ": never holds";
+        EXPECT_FALSE(condition->otherwise.empty() || condition->otherwise.ends_with('.'));
+    }
 }
 
 // What only a bake knows is offered where there is one.

@@ -3,8 +3,10 @@
 #include "tests/core/document/RandomDocument.h"
 
 #include <chrono>
+#include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 using namespace patina;
 using testing::HasSubstr;
@@ -164,7 +166,6 @@ TEST(ProjectJson, NamesTheKeyThatIsWrong) {
     expectBroken(change("\"openGl\"", "\"vulkan\""), "openGl, directX");
     expectBroken(change("\"openGl\"", "7"), "materials[0].normalConvention");
     expectBroken(change("\"doubleSided\": false", "\"doubleSided\": 0"), "true or false");
-    expectBroken(change("\"doubleSided\": false", "\"sheen\": 1"), "materials[0].sheen");
     expectBroken(change("\"maps/body.png\"", "\"a\\u0000b\""), "materials[0].baseColor.map.source");
     expectBroken(change("\"maps/body.png\"", "\"a%00b\""), "materials[0].baseColor.map.source");
     expectBroken(change("\"channel\": \"rgb\"", "\"channel\": \"x\""), "baseColor.map.channel");
@@ -189,6 +190,54 @@ TEST(ProjectJson, NamesTheKeyThatIsWrong) {
     expectBroken(change("\"version\": 1", "\"version\": 2"), "newer");
     expectBroken(change("\"version\": 1", "\"version\": \"1\""), "version");
     expectBroken(change("\"format\": \"patina\"", "\"format\": \"glTF\""), "format");
+}
+
+// Of a newer project nothing is lost that this version does not know.
+TEST(ProjectJson, UnknownKeysAreKept) {
+    using Json = nlohmann::ordered_json;
+    Document document = small();
+    document.environment.softboxes.emplace_back().id = 8;
+    document.environment.second.source = "/second.hdr";
+    document.nextId = 9;
+    const Json plain = Json::parse(documentToJson(document, kProject));
+    Json newer = plain;
+    // A key of its own in every object, however deep.
+    int objects = 0;
+    const std::function<void(Json&)> extend = [&](Json& json) {
+        for (auto& value : json)
+            if (value.is_structured())
+                extend(value);
+        if (!json.is_object())
+            return;
+        ++objects;
+        json["clearcoat"] = 0.12345678901234567;
+        json["layers \n\u00e4"] = {{"mask", {1, 2.5, objects}}, {"none", nullptr}};
+    };
+    extend(newer);
+    EXPECT_GE(objects, 9);
+    const Result<Document> opened = documentFromJson(newer.dump(), kProject);
+    ASSERT_TRUE(opened.ok()) << opened.error().text();
+    Document known = *opened;
+    known.unknownKeys = {};
+    EXPECT_EQ(documentToJson(known, kProject), documentToJson(document, kProject));
+    EXPECT_EQ(Json::parse(documentToJson(*opened, kProject)), newer);
+    // Once more: nothing is added up.
+    const Result<Document> again = documentFromJson(documentToJson(*opened, kProject), kProject);
+    ASSERT_TRUE(again.ok());
+    EXPECT_EQ(documentToJson(*again, kProject), documentToJson(*opened, kProject));
+
+    // They go with their element, and stay with the others.
+    Document edited = *opened;
+    const Json light = Json::parse(documentToJson(edited, kProject))["lights"][0];
+    EXPECT_TRUE(light.contains("clearcoat"));
+    edited.lights.clear();
+    edited.materials[0].baseColorMap = {};
+    edited.materials[0].metallic = 0.5f;
+    const Json saved = Json::parse(documentToJson(edited, kProject));
+    EXPECT_TRUE(saved["lights"].empty());
+    EXPECT_TRUE(saved["materials"][0]["baseColor.map"].is_null());
+    EXPECT_EQ(saved["materials"][0]["clearcoat"], newer["materials"][0]["clearcoat"]);
+    EXPECT_EQ(saved["clearcoat"], newer["clearcoat"]);
 }
 
 TEST(ProjectJson, RefusesWhatIsNoProject) {

@@ -1,81 +1,42 @@
-// The inside of Renderer: Renderer.cpp draws the picture, RendererViews.cpp the views of its terms.
+// The inside of ViewRenderer: ViewRenderer.cpp draws a frame, ViewRendererSides.cpp what its sides
+// show, ViewRendererSlices.cpp the same in slices, ViewRendererRead.cpp looks at it.
 #pragma once
 
-#include "render/Renderer.h"
+#include "render/SceneRendererImpl.h"
+#include "render/ViewRenderer.h"
 #include "render/pass/AdaptationPass.h"
-#include "render/pass/InspectPass.h"
 #include "render/pass/OverlayPass.h"
-#include "render/pass/PickPass.h"
-#include "render/pass/RelightPass.h"
-#include "render/pass/ScreenPasses.h"
-#include "render/pass/ShadowPass.h"
-#include "render/pass/SheetTargets.h"
-#include "render/pass/SurfacePass.h"
 #include "render/pass/Targets.h"
-#include "render/pass/ViewPass.h"
 #include "render/pass/WirePass.h"
 #include "render/scene/BandSlicer.h"
-#include "render/scene/DrawList.h"
 #include "render/scene/FrameSlicer.h"
-#include "render/scene/GpuScene.h"
 
 namespace patina::render {
-
-// Whether frames show the same radiance or numbers of what has been set, from the same camera.
-[[nodiscard]] bool showSameScene(const FrameSettings& a, const FrameSettings& b);
-// Whether they have the same overlays, over as many pixels.
-[[nodiscard]] bool showSameOverlays(const FrameSettings& a, const FrameSettings& b);
-[[nodiscard]] FrameSettings withOverlaysOf(const FrameSettings& frame, const FrameSettings& other);
-// Whether the picture has fewer pixels than what it is shown on: overlays are drawn over that,
-// then.
-[[nodiscard]] bool isStretched(const FrameSettings& frame);
-
-// OpenGL's rows go from bottom to top. RGBA of floats or bytes.
-void flipRows(Image& image);
 
 // What is left of a frame that is drawn in slices, in this order; up to the wires for each side of
 // a split.
 enum class FrameStage { Scene, Measure, Picture, Wires, Mask, Overlays, Done };
 
-struct Renderer::Impl {
-    Impl(gl::Context& c, const std::filesystem::path& shaderFolder)
-        : context(c)
-        , shaders(c, shaderFolder)
-        , scene(c)
-        , shadows(c, shaders)
-        , relight(c, shaders)
-        , surface(shaders)
-        , adaptation(c, shaders)
-        , screen(c, shaders)
-        , views(c, shaders, screen)
-        , wires(c, shaders, screen)
-        , overlay(c, shaders, screen)
-        , picking(c, shaders)
-        , inspection(c)
-        , frameBlock(c, "frame", sizeof(FrameBlock)) {}
+struct ViewRenderer::Impl {
+    using GlScope = SceneRenderer::Impl::GlScope;
 
-    gl::Context& context;
-    ShaderLibrary shaders;
-    GpuScene scene;
-    ShadowPass shadows;
-    RelightPass relight;
-    SurfacePass surface;
+    explicit Impl(SceneRenderer::Impl& s)
+        : shared(s)
+        , adaptation(s.context, s.shaders)
+        , wires(s.context, s.shaders, s.screen)
+        , overlay(s.context, s.shaders, s.screen) {}
+
+    SceneRenderer::Impl& shared;
     AdaptationPass adaptation;
-    ScreenPasses screen;
-    ViewPass views;
     WirePass wires;
     OverlayPass overlay;
-    PickPass picking;
-    InspectPass inspection;
-    gl::Buffer frameBlock;
     Targets targets;
-    SheetTargets sheet;
     FrameBlock lastBlock; // of the last frame
     FrameSettings lastFrame;
-    int accumulated = 0;         // frames that the last one is the mean of
-    bool sceneIsNew = true;      // something was set since the last frame
-    bool luminanceIsNew = true;  // the last frame's scene has not been measured
-    bool luminanceKnown = false; // some frame has been measured
+    int accumulated = 0;             // frames that the last one is the mean of
+    std::uint64_t drawnRevision = 0; // of the scene that the last frame shows; 0: it shows none
+    bool luminanceIsNew = true;      // the last frame's scene has not been measured
+    bool luminanceKnown = false;     // some frame has been measured
     // What the sides' numbers are shown over; ViewRange of the side that was measured last.
     struct Ranges {
         std::optional<ViewRange> shown, other;
@@ -114,19 +75,22 @@ struct Renderer::Impl {
         BandSlicer& band() { return bands[static_cast<std::size_t>(stage)]; }
     };
     Preparation next;
-    std::uint64_t revision = 0;      // of everything that was set
     std::uint64_t shownRevision = 0; // that the last frame was tone mapped with
     SceneSlice* slice = nullptr;     // what is drawn of the scene; null: all of it
     // What the tiles of a frame cost, by what the last frame shows there.
     std::vector<float> tileCosts;
     Camera tileCamera; // of the frame that they were found for
 
-    void setChanged() {
-        sceneIsNew = true;
-        ++revision;
+    // Something was set since the last frame that such a frame shows.
+    [[nodiscard]] bool sceneIsNew(const FrameSettings& frame) const {
+        return drawnRevision != shared.revision(frame);
+    }
+    // Of everything that such a frame shows, its display included.
+    [[nodiscard]] std::uint64_t revision(const FrameSettings& frame) const {
+        return shared.revision(frame) + shared.displayRevision;
     }
 
-    // --- RendererSlices.cpp
+    // --- ViewRendererSlices.cpp
     [[nodiscard]] bool isBegun(const FrameSettings& frame) const;
     Result<void> beginPreparing(const FrameSettings& frame, double budgetMs, double expectedMs);
     // A slice of the stage it has come to, and on to the stage after where that was the last.
@@ -142,21 +106,8 @@ struct Renderer::Impl {
     void swapWithNext();
     void takePrepared(); // what is shown from now on
     [[nodiscard]] std::vector<float> costsOfTiles(const FrameSettings& frame);
-    // What lies in the slice, or in the whole picture; clip space of the slice, if that is drawn.
-    [[nodiscard]] DrawList visibleItems(const FrameBlock& block, const glm::vec3& eye) const;
-    [[nodiscard]] std::optional<glm::mat4> sliceClip(const FrameBlock& block) const;
 
-    // --- Renderer.cpp
-    [[nodiscard]] FrameBlock packFrame(const FrameSettings& frame);
-    void useFrame(const FrameBlock& block);
-    // How a view of this kind is lit.
-    [[nodiscard]] LightingMode lightingFor(const ViewSettings& view, ViewKind kind) const;
-    [[nodiscard]] SurfaceSettings surfaceSettings(const FrameBlock& block, SurfaceOutput output,
-                                                  LightingMode lighting) const;
-    // The scene with its background into a target of radiance.
-    Result<void> drawPicture(const FrameSettings& frame, const FrameBlock& block,
-                             const gl::Framebuffer& target, SurfaceOutput output,
-                             bool withBackground, ViewKind kind = shading::kViewFinal);
+    // --- ViewRenderer.cpp
     // targets.displayed(), with overlays unless they have been drawn.
     Result<void> show(const FrameSettings& frame, bool overlaysDrawn, unsigned targetFramebuffer);
     Result<void> adapt(const FrameSettings& frame);
@@ -165,24 +116,12 @@ struct Renderer::Impl {
     [[nodiscard]] FrameSettings kept(const FrameSettings& wanted) const;
     [[nodiscard]] bool isDisplayed(const FrameSettings& frame) const; // a kept one: as it would be
     [[nodiscard]] bool wantsLuminance(const FrameSettings& frame) const;
-    [[nodiscard]] static OverlaySettings overlaySettings(const FrameSettings& frame) {
-        return {frame.selectedMesh, frame.selectedLight, frame.lobe.get(), frame.overlayScale};
+    [[nodiscard]] OverlaySettings overlaySettings(const FrameSettings& frame) const {
+        return {frame.selectedMesh, frame.selectedLight, frame.lobe.get(), frame.overlayScale,
+                shared.lookOf(frame)};
     }
-    // While it lives, OpenGL's state is the renderer's: Qt shares the context and leaves its own
-    // behind. Afterwards it is what Qt expects, errors included.
-    class GlScope {
-      public:
-        explicit GlScope(const Impl& renderer, unsigned targetFramebuffer = 0);
-        ~GlScope();
-        GlScope(const GlScope&) = delete;
-        GlScope& operator=(const GlScope&) = delete;
 
-      private:
-        const Impl& m_renderer;
-        unsigned m_targetFramebuffer;
-    };
-
-    // --- RendererViews.cpp
+    // --- ViewRendererSides.cpp
     // What the frame shows, both sides of its limit, into targets.display(). `drawsScene`: else the
     // last frame's radiance or numbers are shown anew.
     Result<void> drawViews(const FrameSettings& frame, bool drawsScene);
@@ -201,19 +140,18 @@ struct Renderer::Impl {
     // The radiance that a side shows, into targets.linear().
     Result<void> drawRadiance(const FrameSettings& frame, const ViewChoice& choice,
                               std::size_t sideIndex);
-    // The numbers of views into a target of floats; anti-aliased where that is multisampled.
-    Result<void> drawNumbers(const FrameSettings& frame, const FrameBlock& block,
-                             const gl::Framebuffer& target, const ViewsBlock& settings,
-                             bool asPicture, SurfaceOutput output,
-                             ViewKind kind = shading::kViewFinal);
-    // Settings of `choices`, eight at most; `halfFloats`: the target is of half floats.
-    [[nodiscard]] ViewsBlock viewsBlock(const ViewSettings& view,
-                                        std::span<const ViewChoice> choices, bool halfFloats) const;
+    // A drawing of the last frame's scene; of the slice where one is drawn.
+    [[nodiscard]] SceneDraw drawingOf(const FrameSettings& frame, const FrameBlock& block,
+                                      const gl::Framebuffer& target, SurfaceOutput output,
+                                      ViewKind kind = shading::kViewFinal) const {
+        return {frame, block, target, output, kind, false, true, slice};
+    }
+
+    // --- ViewRendererRead.cpp
     // The numbers of one view of the last frame, looked at in another way.
-    Result<Image> readNumbers(const ViewSettings& view, const ViewChoice& choice);
-    Result<void> showOnSheet(const FrameSettings& frame, const FrameBlock& block,
-                             const ViewChoice& choice, const gl::Texture& values);
-    Result<ViewRange> rangeFor(const ViewChoice& choice, const gl::Texture& values);
+    Result<Image> readNumbers(const ViewSettings& view, const ViewChoice& choice) const;
+    Result<void> inspectSurface(Inspection& result) const;
+    Result<void> inspectPicture(Inspection& result) const;
 };
 
 } // namespace patina::render

@@ -1,13 +1,12 @@
 // A frame in slices: it is drawn piece by piece into targets of its own, between other work, up to
 // the finished picture with its overlays. Showing it is one copy.
-#include "render/RendererImpl.h"
+#include "render/ViewRendererImpl.h"
 
 #include "core/base/Check.h"
 
 #include <algorithm>
 #include <chrono>
 #include <epoxy/gl.h>
-#include <glm/ext/matrix_transform.hpp>
 #include <utility>
 
 namespace patina::render {
@@ -19,33 +18,13 @@ using Stage = FrameStage;
 // What a tile costs that shows nothing but sky, of what one costs that surfaces fill.
 constexpr float kSkyCost = 0.1f;
 
-// Clip space of the rectangle, and a pixel around it, out of that of the picture.
-glm::mat4 clipOf(const glm::ivec4& rect, int width, int height) {
-    const glm::vec2 size(static_cast<float>(width), static_cast<float>(height));
-    const glm::vec2 low = glm::vec2(rect.x - 1, rect.y - 1) / size;
-    const glm::vec2 extent = glm::vec2(rect.z + 2, rect.w + 2) / size;
-    const glm::vec2 center = 2.0f * low + extent - 1.0f;
-    const glm::mat4 scaled = glm::scale(glm::mat4(1.0f), glm::vec3(1.0f / extent, 1.0f));
-    return glm::translate(scaled, glm::vec3(-center, 0.0f));
-}
-
 } // namespace
 
-std::optional<glm::mat4> Renderer::Impl::sliceClip(const FrameBlock& block) const {
-    if (!slice)
-        return std::nullopt;
-    return clipOf(slice->rect, targets.width(), targets.height()) * block.worldToClip;
+bool ViewRenderer::Impl::isBegun(const FrameSettings& frame) const {
+    return next.begun && next.revision == revision(frame) && showSameScene(next.frame, frame);
 }
 
-DrawList Renderer::Impl::visibleItems(const FrameBlock& block, const glm::vec3& eye) const {
-    return makeDrawList(scene.items(), sliceClip(block).value_or(block.worldToClip), eye);
-}
-
-bool Renderer::Impl::isBegun(const FrameSettings& frame) const {
-    return next.begun && next.revision == revision && showSameScene(next.frame, frame);
-}
-
-bool Renderer::isPrepared(const FrameSettings& frame) const {
+bool ViewRenderer::isPrepared(const FrameSettings& frame) const {
     const Impl& r = *m_impl;
     if (!r.isBegun(frame) || r.next.stage != Stage::Done)
         return false;
@@ -53,13 +32,13 @@ bool Renderer::isPrepared(const FrameSettings& frame) const {
     return r.next.sides.size() > 1 || !r.displaysAnew(frame);
 }
 
-bool Renderer::preparesPicture(const FrameSettings& frame) const {
+bool ViewRenderer::preparesPicture(const FrameSettings& frame) const {
     return m_impl->isBegun(frame) && m_impl->next.stage > Stage::Measure;
 }
 
-bool Renderer::isCurrent(const FrameSettings& frame) const {
+bool ViewRenderer::isCurrent(const FrameSettings& frame) const {
     const Impl& r = *m_impl;
-    if (r.targets.width() == 0 || r.sceneIsNew)
+    if (r.targets.width() == 0 || r.sceneIsNew(frame))
         return false;
     FrameSettings last = r.lastFrame;
     if (!frame.accumulate || accumulatedFrames() == kSteadyFrames)
@@ -70,21 +49,21 @@ bool Renderer::isCurrent(const FrameSettings& frame) const {
            (!frame.accumulate || r.targets.samples() > 1 || accumulatedFrames() == kSteadyFrames);
 }
 
-void Renderer::Impl::swapWithNext() {
+void ViewRenderer::Impl::swapWithNext() {
     std::swap(targets, next.targets);
     std::swap(accumulated, next.accumulated);
     std::swap(lastBlock, next.block);
     std::swap(ranges, next.ranges);
 }
 
-void Renderer::Impl::takePrepared() {
+void ViewRenderer::Impl::takePrepared() {
     std::swap(targets, next.targets);
     accumulated = next.accumulated;
     lastBlock = next.block;
     ranges = next.ranges;
     luminanceIsNew = next.luminanceIsNew;
-    shownRevision = revision;
-    sceneIsNew = false;
+    shownRevision = revision(next.frame);
+    drawnRevision = shared.revision(next.frame);
     next.begun = false;
     next.hasMeans = false;
     if (accumulated == 0 || accumulated >= kSteadyFrames)
@@ -92,7 +71,7 @@ void Renderer::Impl::takePrepared() {
 }
 
 // Tiles where the last frame, which may have other pixels, shows surfaces, and others.
-std::vector<float> Renderer::Impl::costsOfTiles(const FrameSettings& frame) {
+std::vector<float> ViewRenderer::Impl::costsOfTiles(const FrameSettings& frame) {
     const int columns = FrameSlicer::tiles(frame.width), rows = FrameSlicer::tiles(frame.height);
     const auto count = static_cast<std::size_t>(columns * rows);
     if (tileCosts.size() == count && tileCamera == frame.camera)
@@ -128,14 +107,14 @@ std::vector<float> Renderer::Impl::costsOfTiles(const FrameSettings& frame) {
     return tileCosts;
 }
 
-Result<void> Renderer::Impl::beginPreparing(const FrameSettings& frame, double budgetMs,
-                                            double expectedMs) {
-    const bool continues = !sceneIsNew && !next.hasMeans && showSameScene(frame, lastFrame);
-    if (auto sized =
-            next.targets.resize(context, frame.width, frame.height, frame.samples, frame.floats);
+Result<void> ViewRenderer::Impl::beginPreparing(const FrameSettings& frame, double budgetMs,
+                                                double expectedMs) {
+    const bool continues = !sceneIsNew(frame) && !next.hasMeans && showSameScene(frame, lastFrame);
+    if (auto sized = next.targets.resize(shared.context, frame.width, frame.height, frame.samples,
+                                         frame.floats);
         !sized)
         return sized;
-    if (auto done = shadows.update(scene); !done)
+    if (auto done = shared.shadows.update(shared.scene); !done)
         return done;
     const bool accumulates = frame.accumulate && next.targets.samples() == 1;
     next.accumulated =
@@ -145,8 +124,8 @@ Result<void> Renderer::Impl::beginPreparing(const FrameSettings& frame, double b
         next.hasMeans = true;
     }
     next.frame = frame;
-    next.block = packFrame(frame);
-    next.revision = revision;
+    next.block = shared.packFrame(frame);
+    next.revision = revision(frame);
     next.ranges = {};
     next.luminanceIsNew = luminanceIsNew;
     next.hasMask = false;
@@ -155,10 +134,10 @@ Result<void> Renderer::Impl::beginPreparing(const FrameSettings& frame, double b
     next.budgetMs = budgetMs;
     next.expectedMs = expectedMs / static_cast<double>(next.sides.size());
     swapWithNext();
-    useFrame(lastBlock);
+    shared.useFrame(lastBlock);
     Result<void> done = meetLuminance(frame);
     swapWithNext();
-    useFrame(lastBlock);
+    shared.useFrame(lastBlock);
     beginStage(Stage::Scene);
     next.begun = true;
     return done;
@@ -166,7 +145,7 @@ Result<void> Renderer::Impl::beginPreparing(const FrameSettings& frame, double b
 
 // --- Stages --------------------------------------------------------------------------------------
 
-void Renderer::Impl::beginStage(Stage stage) {
+void ViewRenderer::Impl::beginStage(Stage stage) {
     next.stage = stage;
     if (stage == Stage::Picture)
         next.eye = adaptation.revision();
@@ -177,7 +156,7 @@ void Renderer::Impl::beginStage(Stage stage) {
         next.band().begin(next.frame.height);
 }
 
-bool Renderer::Impl::needsStage() const {
+bool ViewRenderer::Impl::needsStage() const {
     const ViewChoice& choice = next.sides[next.side].choice;
     const FrameSettings& frame = next.frame;
     const bool radiance = hasRadiance(frame, choice);
@@ -200,13 +179,13 @@ bool Renderer::Impl::needsStage() const {
 }
 
 // The range of numbers is found, and the outline's mask drawn, in one piece.
-bool Renderer::Impl::hasBands() const {
+bool ViewRenderer::Impl::hasBands() const {
     if (next.stage == Stage::Measure)
         return hasRadiance(next.frame, next.sides[next.side].choice);
     return next.stage != Stage::Mask;
 }
 
-void Renderer::Impl::advanceStage() {
+void ViewRenderer::Impl::advanceStage() {
     do {
         if (next.stage == Stage::Wires && next.side + 1 < next.sides.size()) {
             ++next.side;
@@ -217,12 +196,12 @@ void Renderer::Impl::advanceStage() {
     } while (!needsStage());
 }
 
-bool Renderer::Impl::displaysAnew(const FrameSettings& frame) const {
+bool ViewRenderer::Impl::displaysAnew(const FrameSettings& frame) const {
     return !showSameOverlays(frame, next.frame) ||
-           (needsLuminance(scene.document().view) && next.eye != adaptation.revision());
+           (needsLuminance(shared.lookOf(frame)) && next.eye != adaptation.revision());
 }
 
-void Renderer::Impl::followDisplay(const FrameSettings& frame) {
+void ViewRenderer::Impl::followDisplay(const FrameSettings& frame) {
     if (next.stage < Stage::Picture || !displaysAnew(frame)) {
         next.frame = withOverlaysOf(next.frame, frame);
     } else if (next.sides.size() == 1) {
@@ -232,7 +211,7 @@ void Renderer::Impl::followDisplay(const FrameSettings& frame) {
 }
 
 // Into what is shown: the targets are those of the frame that is prepared.
-Result<void> Renderer::Impl::drawStage(SceneSlice& drawn) {
+Result<void> ViewRenderer::Impl::drawStage(SceneSlice& drawn) {
     const FrameSettings& frame = next.frame;
     const Side& side = next.sides[next.side];
     switch (next.stage) {
@@ -257,26 +236,27 @@ Result<void> Renderer::Impl::drawStage(SceneSlice& drawn) {
         return drawWires(frame, side);
     case Stage::Mask:
         next.hasMask = true;
-        return overlay.drawMask(Canvas::of(targets), scene, overlaySettings(frame));
+        return overlay.drawMask(Canvas::of(targets), shared.scene, overlaySettings(frame));
     case Stage::Overlays:
         adaptation.bind();
         if (!next.hasMask) { // the frame that is shown has drawn its own since
             glDisable(GL_SCISSOR_TEST);
             next.hasMask = true;
-            if (auto done = overlay.drawMask(Canvas::of(targets), scene, overlaySettings(frame));
+            if (auto done =
+                    overlay.drawMask(Canvas::of(targets), shared.scene, overlaySettings(frame));
                 !done)
                 return done;
             glEnable(GL_SCISSOR_TEST);
         }
-        return overlay.drawLines(Canvas::of(targets), targets, scene, lastBlock, frame.camera,
-                                 overlaySettings(frame));
+        return overlay.drawLines(Canvas::of(targets), targets, shared.scene, lastBlock,
+                                 frame.camera, overlaySettings(frame));
     case Stage::Done:
         break;
     }
     return {};
 }
 
-Result<void> Renderer::Impl::prepareSlice() {
+Result<void> ViewRenderer::Impl::prepareSlice() {
     const Clock::time_point begun = Clock::now();
     const bool ofScene = next.stage == Stage::Scene;
     SceneSlice drawn;
@@ -285,7 +265,7 @@ Result<void> Renderer::Impl::prepareSlice() {
     else
         drawn.rect = {0, next.band().first(), next.frame.width, next.band().rows()};
     swapWithNext();
-    useFrame(lastBlock);
+    shared.useFrame(lastBlock);
     if (ofScene || hasBands()) {
         glScissor(drawn.rect.x, drawn.rect.y, drawn.rect.z, drawn.rect.w);
         glEnable(GL_SCISSOR_TEST);
@@ -293,7 +273,7 @@ Result<void> Renderer::Impl::prepareSlice() {
     Result<void> done = drawStage(drawn);
     glDisable(GL_SCISSOR_TEST);
     swapWithNext();
-    useFrame(lastBlock);
+    shared.useFrame(lastBlock);
     glFinish(); // so that the time is the slice's, not that of the calls
     if (!done)
         return done;
@@ -311,14 +291,14 @@ Result<void> Renderer::Impl::prepareSlice() {
     return {};
 }
 
-Result<bool> Renderer::prepare(const FrameSettings& frame, double budgetMs, double expectedMs) {
+Result<bool> ViewRenderer::prepare(const FrameSettings& frame, double budgetMs, double expectedMs) {
     Impl& r = *m_impl;
     if (isPrepared(frame))
         return true;
     const bool begun = r.isBegun(frame);
     if (begun)
         r.followDisplay(frame);
-    const Impl::GlScope scope(r);
+    const Impl::GlScope scope(r.shared);
     Result<void> done = begun ? r.prepareSlice() : r.beginPreparing(frame, budgetMs, expectedMs);
     if (!done) {
         r.next.begun = false;

@@ -1,7 +1,10 @@
-// Bakes of the controller's document as jobs that take turns: shown live where no finished bake
-// shows more, kept in a cache, attached when they are done.
+// Bakes of the controller's document: queued as jobs that take turns, shown live where no finished
+// bake shows more, kept in a cache, attached when they are done. Whoever wants one starts it here
+// and hears of it by signals: button -> start() -> JobManager -> TaskRunner -> attach() ->
+// DocumentController.
 #pragma once
 
+#include "app/editor/job/FinishedHits.h"
 #include "app/editor/job/InterruptedBakes.h"
 #include "app/editor/job/JobManager.h"
 #include "core/bake/document/BakeCache.h"
@@ -12,6 +15,7 @@
 #include <QTimer>
 #include <atomic>
 #include <map>
+#include <memory>
 
 namespace patina {
 struct Change;
@@ -20,17 +24,18 @@ struct Change;
 namespace patina::editor {
 
 class DocumentController;
+class LivePreview;
 
 [[nodiscard]] QString bakeTitle(BakeKind kind); // "Radiance transfer (PRT, per vertex)"
 // Errors (Usage): the bake does not fit into memory now, or not into the file that the project
 // keeps it in; the message says what would.
 Result<void> checkBake(const BakeRequest& request, const BakeInputs& inputs);
 
-class BakeRunner : public QObject {
+class BakeService : public QObject {
     Q_OBJECT
   public:
-    BakeRunner(DocumentController& controller, JobManager& jobs, QObject* parent = nullptr);
-    ~BakeRunner() override; // cancels its jobs; they can be gone on with
+    BakeService(DocumentController& controller, JobManager& jobs, QObject* parent = nullptr);
+    ~BakeService() override; // cancels its jobs; they can be resumed
 
     // Waits for its turn and then bakes what the document is by that time. A bake that does not fit
     // into memory is refused with advice.
@@ -38,8 +43,13 @@ class BakeRunner : public QObject {
     [[nodiscard]] bool running() const { return !m_bakes.empty(); } // one runs or waits
     [[nodiscard]] std::vector<quint64> jobIds() const;              // of those, oldest first
 
-    // Bakes of the present scene that were interrupted, by a crash or a quit; start() goes on with
-    // one of the same settings.
+    // What a running bake has found so far, or else one that is paused; null when there is none.
+    [[nodiscard]] const std::shared_ptr<LivePreview>& preview() const { return m_preview; }
+    // Of the bake that ended last.
+    [[nodiscard]] FinishedHits& hits() { return *m_hits; }
+
+    // Bakes of the present scene that were interrupted, by a crash or a quit, and that no other
+    // program computes now; start() resumes one of the same settings.
     [[nodiscard]] const std::vector<InterruptedBake>& interrupted();
     void discard(const InterruptedBake& bake);
 
@@ -50,30 +60,35 @@ class BakeRunner : public QObject {
   Q_SIGNALS:
     // One was started or has ended, or what bakes depend on has changed.
     void stateChanged();
+    void previewChanged(); // preview() is another one
 
   private:
     struct Bake {
         BakeRequest request;
-        std::shared_ptr<LivePreview> preview; // once it has begun
+        std::shared_ptr<LivePreview> preview;
         // Whether its checkpoint outlives a cancel; read by the job's thread.
-        std::shared_ptr<std::atomic<bool>> resumable = std::make_shared<std::atomic<bool>>(false);
+        std::shared_ptr<std::atomic<bool>> resumable;
+        bool begun = false;
     };
-    Result<JobManager::Work> prepare(const std::shared_ptr<quint64>& id, const Bake& bake);
-    void interrupt(); // cancels all, to be gone on with
+    [[nodiscard]] JobManager::Prepare preparation(const Bake& bake) const;
+    void interrupt(); // cancels all, to be resumed
     void documentChanged(const Change& change);
     void jobsChanged();
     void passView();
     // Decides which running bakes belong into the picture.
     void showPreviews();
     [[nodiscard]] bool showsMore(const LivePreview& preview);
+    void setPreview(std::shared_ptr<LivePreview> preview);
 
     DocumentController& m_controller;
     JobManager& m_jobs;
     std::filesystem::path m_folder;
     BakeCache m_cache;
-    std::map<quint64, Bake> m_bakes; // by job
-    QTimer m_viewTimer;              // while bakes run: where the user looks
-    QTimer m_settled;                // edits of materials come in bursts
+    std::shared_ptr<FinishedHits> m_hits = std::make_shared<FinishedHits>(); // jobs hold it, too
+    std::map<quint64, Bake> m_bakes;                                         // by job
+    std::shared_ptr<LivePreview> m_preview;
+    QTimer m_viewTimer; // while bakes run: where the user looks
+    QTimer m_settled;   // edits of materials come in bursts
     bool m_inputsValid = false, m_albedoValid = false, m_interruptedValid = false;
     std::vector<InterruptedBake> m_interrupted;
     Hash m_inputs, m_albedo;
