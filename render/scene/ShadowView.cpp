@@ -45,8 +45,14 @@ float tanHalf(float degrees) {
     return std::tan(0.5f * glm::radians(degrees));
 }
 
+// Only rectangles have a roll: what another type keeps of one must not turn its map.
+RectangleAxes mapAxes(Light light) {
+    light.rollDeg = 0.0f;
+    return rectangleAxes(light);
+}
+
 ShadowView directionalView(const Light& light, const Bounds& scene, int size) {
-    const RectangleAxes axes = rectangleAxes(light);
+    const RectangleAxes axes = mapAxes(light);
     const glm::vec3 along = -light.directionToLight();
     Range x, y, z;
     for (int i = 0; i < 8; ++i) {
@@ -70,7 +76,7 @@ ShadowView directionalView(const Light& light, const Bounds& scene, int size) {
 }
 
 ShadowView spotView(const Light& light, const Bounds& scene, int size) {
-    const RectangleAxes axes = rectangleAxes(light);
+    const RectangleAxes axes = mapAxes(light);
     const glm::vec3 along = -light.directionToLight();
     const auto distanceOf = [&](const glm::vec3& p) { return glm::dot(along, p - light.position); };
     Range z;
