@@ -75,6 +75,8 @@ FrameSettings ViewRenderer::Impl::kept(const FrameSettings& wanted) const {
     frame.dither = lastFrame.dither;
     frame.transparentBackground = lastFrame.transparentBackground;
     frame.camera = lastFrame.camera;
+    frame.light = lastFrame.light;
+    frame.look = lastFrame.look;
     frame.view = lastFrame.view;
     if (!lastFrame.view.split)
         frame.view.flags = wanted.view.flags;
@@ -88,7 +90,7 @@ bool ViewRenderer::Impl::isDisplayed(const FrameSettings& frame) const {
         return true; // only one of its sides is there to be displayed anew
     const bool eyeRests =
         !needsLuminance(shared.lookOf(frame)) && !(frame.measureLuminance && luminanceIsNew);
-    return eyeRests && shownRevision == revision(frame) && frame.look == lastFrame.look &&
+    return eyeRests && shownRevision == revision(frame) &&
            frame.view.flags == lastFrame.view.flags && showSameOverlays(frame, lastFrame);
 }
 

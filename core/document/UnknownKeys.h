@@ -12,7 +12,7 @@ namespace patina {
 
 class UnknownKeys {
   public:
-    // Key and value, which is JSON text, in the order of the file.
+    // Key and value, which is JSON text, in the order of the keys.
     using Entries = std::vector<std::pair<std::string, std::string>>;
     // By the object they stand in: "" (the project), "view", "view.camera", "environment", "model",
     // "bake.KIND", an element's id, or an object in one of these ("12.baseColor.map").

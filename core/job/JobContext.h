@@ -52,7 +52,7 @@ class JobContext {
 
 class JobControl {
   public:
-    // `gate`: what the work gives way at; null: nowhere.
+    // `gate`: where the work waits for frames; null: nowhere.
     explicit JobControl(std::shared_ptr<const WorkGate> gate = nullptr);
     [[nodiscard]] JobContext context() const { return JobContext(m_state); }
     [[nodiscard]] JobProgress progress() const;

@@ -49,7 +49,7 @@ struct TaskSpec {
     TaskPolicy policy = TaskPolicy::Newest;
     TaskPriority priority = TaskPriority::Normal;
     std::string name = {};                          // in messages; empty: the tag
-    std::shared_ptr<const WorkGate> gate = nullptr; // what the work gives way at
+    std::shared_ptr<const WorkGate> gate = nullptr; // where the work waits for frames
 };
 
 // Threads of the pool. They start when they are needed, and end when they have been idle.

@@ -56,7 +56,7 @@ std::string describe(const Json& json) {
 }
 
 // A key that this version does not know, in an object that is kept by that name
-// (UnknownKeys::ofObject).
+// (UnknownKeys::of()).
 struct UnknownKey {
     std::string parent, path; // where the object stands: "materials[3]", "/materials/3"
     std::string object, key;
@@ -416,17 +416,18 @@ class ProjectReader {
     std::unordered_set<Id> m_materials;
 };
 
-// Their values as they stand in the file: the reader's own numbers have single precision.
+// Their values with all their digits: the reader's own numbers have single precision. Like its
+// objects, these must not take quadratic time (as nlohmann::ordered_json's do).
 UnknownKeys textsOf(const std::vector<UnknownKey>& unknown, const std::string& text) {
     if (unknown.empty())
         return {};
-    const auto root = nlohmann::ordered_json::parse(text);
+    const auto root = nlohmann::json::parse(text);
     UnknownKeys::ByObject byObject;
     for (const UnknownKey& one : unknown) {
-        const auto& object = root.at(nlohmann::ordered_json::json_pointer(one.path));
+        const auto& object = root.at(nlohmann::json::json_pointer(one.path));
         byObject[one.object].emplace_back(
-            one.key, object.at(one.key).dump(-1, ' ', false,
-                                             nlohmann::ordered_json::error_handler_t::replace));
+            one.key,
+            object.at(one.key).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     }
     return UnknownKeys(std::move(byObject));
 }

@@ -46,8 +46,9 @@ struct FrameSettings {
     // Without effect when size, samples or what the scene was given have changed since.
     bool reuseScene = false;
     // Shows the last frame's picture again, whatever has been set since, with overlays, exposure
-    // and tone curve of now: size, camera and view are that frame's, shownWidth and shownHeight
-    // this one's. A split's stays as it was displayed. Without effect before the first frame.
+    // and tone curve of the document as it is now: size, camera, light, look and view are that
+    // frame's, shownWidth and shownHeight this one's. A split's stays as it was displayed. Without
+    // effect before the first frame.
     bool keepPicture = false;
 
     ViewSettings view; // which terms of the shading equation are shown

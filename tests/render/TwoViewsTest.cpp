@@ -278,6 +278,38 @@ TEST_F(TwoViews, OneEnvironmentsEditsLeaveTheOthersPicture) {
     EXPECT_EQ(goesOn([&] { own.look->exposureEv = 2.0f; }), std::pair(true, false));
 }
 
+// Shown again it is that picture still, whatever light and look are wanted by now.
+TEST_F(TwoViews, AKeptPictureKeepsItsLightAndLook) {
+    Document document = scene();
+    sceneRenderer().setDocument(document);
+    sceneRenderer().setEnvironment(prepare(sky(0)));
+    Environment environment;
+    const EnvironmentTexelsPtr light = prepare(sky(1));
+    environment.image = light->image;
+    FrameSettings frame;
+    frame.width = frame.height = 32;
+    frame.samples = 1;
+    frame.camera = document.view.camera;
+    FrameSettings other = frame;
+    other.light = sceneRenderer().addLight(environment);
+    sceneRenderer().setEnvironment(light, other.light);
+    other.look = document.view;
+    other.look->exposureEv = 1.0f;
+    other.look->lighting = LightingMode::Prt;
+    const Picture first = render(renderer(), frame);
+    const glm::vec4 radiance = renderer().inspect(16, 16)->radiance;
+    other.keepPicture = true;
+    EXPECT_EQ(render(renderer(), other), first);
+    EXPECT_EQ(renderer().inspect(16, 16)->radiance, radiance);
+    EXPECT_TRUE(renderer().isCurrent(frame));
+    other.keepPicture = false;
+    EXPECT_FALSE(renderer().isCurrent(other));
+    const Picture now = render(renderer(), other);
+    EXPECT_NE(now, first);
+    ViewRenderer beside(sceneRenderer());
+    EXPECT_EQ(now, render(beside, other));
+}
+
 // Whoever looks at a picture changes nothing of it, nor of another.
 TEST_F(TwoViews, LookingChangesNothing) {
     Document document = scene();

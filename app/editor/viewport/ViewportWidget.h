@@ -57,7 +57,7 @@ class ViewportWidget : public QOpenGLWidget {
     ~ViewportWidget() override;
 
     void setBakes(BakeService& bakes);       // whose live preview is shown
-    void setJobs(JobManager& jobs);          // who give way to frames
+    void setJobs(JobManager& jobs);          // who wait while frames are drawn
     void setBounces(BounceUpdater& bounces); // whose light is shown
     void setNearShadows(NearShadowUpdater& shadows);
     void setDisplays(DisplayLoader& displays); // whose view of OpenColorIO is shown
@@ -69,8 +69,6 @@ class ViewportWidget : public QOpenGLWidget {
     // Thumbnails of views with this viewport's camera, drawn while it rests.
     [[nodiscard]] SheetScheduler& sheets() { return m_sheets; }
     [[nodiscard]] PixelPicker& picker() { return m_picker; }
-
-    // The light of the document's environment, for whoever shows it, too.
 
     void frameSelection();                 // the selected mesh, or everything
     void resetCamera();                    // Home: the whole scene from the default side

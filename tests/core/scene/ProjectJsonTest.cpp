@@ -240,6 +240,21 @@ TEST(ProjectJson, UnknownKeysAreKept) {
     EXPECT_EQ(saved["clearcoat"], newer["clearcoat"]);
 }
 
+// Whose time would be quadratic would take hours.
+TEST(ProjectJson, AMillionUnknownKeysTakeLinearTime) {
+    constexpr int kKeys = 1'000'000;
+    std::string text = documentToJson(small(), kProject), keys;
+    for (int i = 0; i < kKeys; ++i)
+        keys += "\"k" + std::to_string(i) + "\":0,";
+    text.insert(text.find('{') + 1, keys);
+    const Result<Document> opened = documentFromJson(text, kProject);
+    ASSERT_TRUE(opened.ok()) << opened.error().text();
+    const UnknownKeys::Entries* kept = opened->unknownKeys.of("");
+    ASSERT_NE(kept, nullptr);
+    EXPECT_EQ(kept->size(), static_cast<std::size_t>(kKeys));
+    EXPECT_GT(documentToJson(*opened, kProject).size(), keys.size());
+}
+
 TEST(ProjectJson, RefusesWhatIsNoProject) {
     for (const std::string& text :
          {std::string(), std::string("{}"), std::string("[]"), std::string("null"),
