@@ -22,7 +22,7 @@ struct Document {
     Environment environment;
     ShadingModel model;
     View view;
-    std::vector<BakeArtifactPtr> bakes; // at most one of each BakeKind
+    std::vector<BakeArtifactPtr> bakes; // at most one of each BakeKind, in their order
     Id nextId = 1;
     UnknownKeys unknownKeys; // of its project
 

@@ -220,12 +220,12 @@ void replaceLook(Document& document, Id material, const Material& look) {
 
 void attachBake(Document& document, BakeArtifactPtr bake) {
     CHECK(bake != nullptr);
-    for (BakeArtifactPtr& attached : document.bakes)
-        if (attached->kind == bake->kind) {
-            attached = std::move(bake);
-            return;
-        }
-    document.bakes.push_back(std::move(bake));
+    const auto place = std::ranges::find_if(
+        document.bakes, [&](const BakeArtifactPtr& other) { return other->kind >= bake->kind; });
+    if (place != document.bakes.end() && (*place)->kind == bake->kind)
+        *place = std::move(bake);
+    else
+        document.bakes.insert(place, std::move(bake));
 }
 
 bool removeBake(Document& document, BakeKind kind) {

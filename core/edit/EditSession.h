@@ -120,9 +120,10 @@ class EditSession {
     void removeSoftbox(Id softbox);
 
     // --- Bakes -----------------------------------------------------------------------------------
-    // Replaces the one of the same kind; never erases what can be redone.
+    // A bake that has been made, in place of one of its kind: no step, as it takes nothing back of
+    // what the user did, and an hour's rays must not go by an undo of something else.
     void attachBake(BakeArtifactPtr bake);
-    void detachBake(BakeKind kind);
+    void removeBake(BakeKind kind); // a step
 
     // --- What is no step -------------------------------------------------------------------------
     // `after` is `before` with what follows from the rest of the document brought up to date.

@@ -1,5 +1,6 @@
 #include "core/edit/EditStep.h"
 
+#include "core/edit/Edit.h"
 #include "core/material/MaterialInputs.h"
 
 #include <algorithm>
@@ -118,37 +119,20 @@ Change ReplaceElementsStep::swap(Document& document, bool forward) {
             std::nullopt};
 }
 
-SetBakeStep::SetBakeStep(std::string text, BakeKind kind, BakeArtifactPtr bake)
-    : EditStep(std::move(text))
-    , m_kind(kind)
-    , m_other(std::move(bake)) {}
-
-std::size_t SetBakeStep::payloadBytes() const {
-    std::size_t bytes = 0;
-    if (m_other) {
-        for (const VertexBake& bake : m_other->vertices)
-            bytes += bake.values.size() * sizeof(float);
-        for (const TexelBake& bake : m_other->texels)
-            bytes += imageBytes(bake.image);
-    }
-    return bytes;
+std::size_t RemoveBakeStep::payloadBytes() const {
+    return m_removed ? artifactBytes(*m_removed) : 0;
 }
 
-// In the order of their kinds: a bake that comes back takes the place it had.
-Change SetBakeStep::swap(Document& document, bool /*forward*/) {
-    std::vector<BakeArtifactPtr>& bakes = document.bakes;
-    const auto place =
-        std::ranges::find_if(bakes, [this](const auto& bake) { return bake->kind == m_kind; });
-    if (place == bakes.end()) {
-        if (m_other)
-            bakes.insert(std::ranges::find_if(
-                             bakes, [this](const auto& bake) { return bake->kind > m_kind; }),
-                         std::exchange(m_other, nullptr));
-    } else if (m_other) {
-        std::swap(*place, m_other);
-    } else {
-        m_other = *place;
-        bakes.erase(place);
+Change RemoveBakeStep::swap(Document& document, bool forward) {
+    const auto place = std::ranges::find_if(
+        document.bakes, [this](const auto& bake) { return bake->kind == m_kind; });
+    if (forward && place != document.bakes.end()) {
+        m_removed = *place;
+        document.bakes.erase(place);
+    } else if (!forward && m_removed) {
+        if (place == document.bakes.end())
+            attachBake(document, m_removed);
+        m_removed = nullptr;
     }
     return {Affects::Bakes, std::nullopt};
 }

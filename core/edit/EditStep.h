@@ -79,17 +79,19 @@ class ReplaceElementsStep : public EditStep {
     Elements m_before, m_after;
 };
 
-// The bake of one kind: attached, exchanged, removed. Holds what is not attached at the time, so
-// that what follows from later edits (EditSession::renewBake) is kept by undo and redo.
-class SetBakeStep : public EditStep {
+// A bake is taken away. Undone it is there again, unless there is another one of its kind by then:
+// that a bake is finished is no step (EditSession::attachBake), and none is lost to undo.
+class RemoveBakeStep : public EditStep {
   public:
-    SetBakeStep(std::string text, BakeKind kind, BakeArtifactPtr bake); // null: to remove it
+    RemoveBakeStep(std::string text, BakeKind kind)
+        : EditStep(std::move(text))
+        , m_kind(kind) {}
     Change swap(Document& document, bool forward) override;
     [[nodiscard]] std::size_t payloadBytes() const override;
 
   private:
     BakeKind m_kind;
-    BakeArtifactPtr m_other;
+    BakeArtifactPtr m_removed; // while it is away
 };
 
 // The whole document, such as unsaved work on top of what was saved.

@@ -208,14 +208,15 @@ void EditSession::removeSoftbox(Id id) {
 
 void EditSession::attachBake(BakeArtifactPtr bake) {
     CHECK(bake != nullptr);
-    const BakeKind kind = bake->kind;
-    pushOrApply(std::make_unique<SetBakeStep>("Attach Bake", kind, std::move(bake)));
+    patina::attachBake(m_document, std::move(bake));
+    announce({Affects::Bakes, std::nullopt});
+    historyChanged();
 }
 
-void EditSession::detachBake(BakeKind kind) {
+void EditSession::removeBake(BakeKind kind) {
     if (std::ranges::any_of(m_document.bakes,
                             [&](const BakeArtifactPtr& bake) { return bake->kind == kind; }))
-        push(std::make_unique<SetBakeStep>("Remove Bake", kind, nullptr));
+        push(std::make_unique<RemoveBakeStep>("Remove Bake", kind));
 }
 
 } // namespace patina

@@ -140,7 +140,7 @@ void DocumentController::changeLight(const Light& light, DragSession session, co
 }
 
 void DocumentController::attachBake(BakeArtifactPtr artifact) {
-    m_pristine = m_pristine && !m_session.canRedo(); // then it is no step
+    m_pristine = false;
     m_session.attachBake(std::move(artifact));
 }
 

@@ -120,9 +120,9 @@ class DocumentController : public QObject, private EditObserver {
     void editStructure(const QString& undoText, const std::function<void(Document&)>& edit);
 
     // --- Bakes -----------------------------------------------------------------------------------
-    // An undo step, unless there is something to redo, which that would erase; then none.
+    // A bake that has been made: no undo step.
     void attachBake(BakeArtifactPtr artifact);
-    void detachBake(BakeKind kind) { m_session.detachBake(kind); }
+    void removeBake(BakeKind kind) { m_session.removeBake(kind); }
     void renewBake(const BakeArtifactPtr& before, BakeArtifactPtr after) {
         m_session.renewBake(before, std::move(after));
     }
@@ -132,8 +132,8 @@ class DocumentController : public QObject, private EditObserver {
     // empty file: through the environment's, or, where there is none, the default tone curve.
     void setDisplayConfig(const QString& file);
     void setDisplayView(const QString& display, const QString& view); // empty view: the default
-    // For what the user set going that shows in one way only, such as a bake of transfer; a step as
-    // that of attachBake().
+    // For what the user set going that shows in one way only, such as a bake of transfer: a step,
+    // unless there is something to redo, which that would erase; then none.
     void showLighting(LightingMode mode);
     // Navigation is saved with the document, but is neither an undo step nor a modification.
     void setCamera(const Camera& camera) { m_session.setCamera(camera); }

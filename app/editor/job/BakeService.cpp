@@ -10,6 +10,7 @@
 #include "core/bake/document/DocumentBakeInputs.h"
 #include "core/bake/file/BakeFileSize.h"
 #include "core/base/FileLock.h"
+#include "core/document/AbsentBake.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
 
@@ -103,9 +104,12 @@ BakeService::BakeService(DocumentController& controller, JobManager& jobs, QObje
     m_settled.setInterval(kSettleMs);
     m_settled.setSingleShot(true);
     connect(&m_settled, &QTimer::timeout, this, [this] {
+        restoreBakes();
         showPreviews();
         Q_EMIT stateChanged();
     });
+    m_restore.setSingleShot(true);
+    connect(&m_restore, &QTimer::timeout, this, &BakeService::restoreBakes);
 }
 
 BakeService::~BakeService() {
@@ -179,8 +183,11 @@ void BakeService::discard(const InterruptedBake& bake) {
 
 void BakeService::documentChanged(const Change& change) {
     // Another document: what bakes of the last one would come to belongs to nothing here.
-    if (change.isAnotherDocument() && m_controller.undoStack().count() == 0)
-        interrupt();
+    if (change.isAnotherDocument()) {
+        m_store.clear();
+        if (m_controller.undoStack().count() == 0)
+            interrupt();
+    }
 
     const bool bakes =
         touches(change.affects, Affects::Geometry | Affects::Bakes | Affects::Structure);
@@ -188,12 +195,29 @@ void BakeService::documentChanged(const Change& change) {
     const bool material = change.target && change.target->scope == Scope::Material;
     if (bakes || material)
         m_inputsValid = m_albedoValid = m_interruptedValid = false;
+    if (touches(change.affects, Affects::Bakes))
+        keepBakes();
     if (bakes) {
+        m_restore.start(0); // not within the step that is being done
         showPreviews();
         Q_EMIT stateChanged();
     } else if (material) {
         m_settled.start();
     }
+}
+
+void BakeService::keepBakes() {
+    for (const BakeArtifactPtr& bake : m_controller.document().bakes)
+        if (!isAbsent(*bake))
+            m_store.keep(bake);
+}
+
+void BakeService::restoreBakes() {
+    const std::vector<BakeArtifactPtr> attached = m_controller.document().bakes;
+    for (const BakeArtifactPtr& bake : attached)
+        if (!isAbsent(*bake) && bake->inputs != currentInputs())
+            if (BakeArtifactPtr found = m_store.find(bake->kind, currentInputs()))
+                m_controller.renewBake(bake, std::move(found));
 }
 
 // A finished bake of this scene shows more than one that runs: all its rays, fitted to the surface,

@@ -7,6 +7,7 @@
 #include "app/editor/job/FinishedHits.h"
 #include "app/editor/job/InterruptedBakes.h"
 #include "app/editor/job/JobManager.h"
+#include "core/bake/document/ArtifactStore.h"
 #include "core/bake/document/BakeCache.h"
 #include "core/bake/domain/BakeRequest.h"
 
@@ -78,17 +79,23 @@ class BakeService : public QObject {
     // Decides which running bakes belong into the picture.
     void showPreviews();
     [[nodiscard]] bool showsMore(const LivePreview& preview);
+    void keepBakes();
+    // Where undo has led back to other geometry: the bakes that were made of that, if there are
+    // any.
+    void restoreBakes();
     void setPreview(std::shared_ptr<LivePreview> preview);
 
     DocumentController& m_controller;
     JobManager& m_jobs;
     std::filesystem::path m_folder;
-    BakeCache m_cache;
+    BakeCache m_cache;     // on disk, by inputs and settings
+    ArtifactStore m_store; // in memory: what this document has had
     std::shared_ptr<FinishedHits> m_hits = std::make_shared<FinishedHits>(); // jobs hold it, too
     std::map<quint64, Bake> m_bakes;                                         // by job
     std::shared_ptr<LivePreview> m_preview;
     QTimer m_viewTimer; // while bakes run: where the user looks
     QTimer m_settled;   // edits of materials come in bursts
+    QTimer m_restore;
     bool m_inputsValid = false, m_albedoValid = false, m_interruptedValid = false;
     std::vector<InterruptedBake> m_interrupted;
     Hash m_inputs, m_albedo;

@@ -196,7 +196,7 @@ void AttachedBakes::addAbsentRow(const BakeArtifact& bake) {
 
 QPushButton* AttachedBakes::removeButton(BakeKind kind) {
     QPushButton* remove = makeTextButton(tr("Remove"), tr("Detaches this bake from the scene"));
-    connect(remove, &QPushButton::clicked, this, [this, kind] { m_controller.detachBake(kind); });
+    connect(remove, &QPushButton::clicked, this, [this, kind] { m_controller.removeBake(kind); });
     return remove;
 }
 

@@ -5,6 +5,7 @@
 #include "core/image/Image.h"
 #include "core/material/Material.h"
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <string>
@@ -75,5 +76,8 @@ struct BakeArtifact {
 };
 
 using BakeArtifactPtr = std::shared_ptr<const BakeArtifact>;
+
+// What its numbers take in memory.
+[[nodiscard]] std::size_t artifactBytes(const BakeArtifact& bake);
 
 } // namespace patina

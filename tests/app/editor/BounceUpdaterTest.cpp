@@ -168,7 +168,7 @@ TEST_F(Bounces, ShowAsManyAsTheViewAsksForInAnyLight) {
     EXPECT_EQ(bounces.shown(), nullptr);
     controller.setParameter(parameter("view.bounces"), view, 3.0f);
     ASSERT_TRUE(QTest::qWaitFor([&] { return bounces.shown() != nullptr; }, 60'000));
-    controller.detachBake(BakeKind::PrtVertex);
+    controller.removeBake(BakeKind::PrtVertex);
     EXPECT_EQ(bounces.shown(), nullptr);
 }
 
@@ -242,7 +242,7 @@ TEST_F(Bounces, HoldNothingWithoutAnInterreflectedBake) {
     attach();
     ASSERT_TRUE(ready());
     EXPECT_NE(bounces.hits(), nullptr);
-    controller.detachBake(BakeKind::PrtVertex);
+    controller.removeBake(BakeKind::PrtVertex);
     EXPECT_EQ(bounces.hits(), nullptr);
     EXPECT_FALSE(bounces.upToDate());
 }

@@ -198,7 +198,7 @@ std::string SaveModel::step() {
         }
         return arrived("bake followed");
     case 14:
-        controller.detachBake(kind);
+        controller.removeBake(kind);
         return "remove bake";
     case 15:
         controller.showLighting(chance(2) ? LightingMode::Prt : LightingMode::Ibl);

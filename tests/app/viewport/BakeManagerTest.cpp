@@ -207,7 +207,7 @@ TEST_F(BakeManagerTest, WhatWasBakedBeforeComesFromTheCache) {
     click("bakeStart");
     ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
     const BakeArtifactPtr first = document().bakes.front();
-    controller().detachBake(BakeKind::AoVertex);
+    controller().removeBake(BakeKind::AoVertex);
     ASSERT_TRUE(document().bakes.empty());
     click("bakeStart");
     ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
@@ -215,6 +215,35 @@ TEST_F(BakeManagerTest, WhatWasBakedBeforeComesFromTheCache) {
     ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
     EXPECT_EQ(job(1).progress.workDone, 0.0) << "no ray was traced";
     EXPECT_THAT(job(1).summary.toStdString(), HasSubstr("kept from an earlier bake"));
+}
+
+// A bake of other geometry takes its place; back in the old one, by undo or by hand, it is there
+// again, whole, without a job. Undo itself leaves bakes alone.
+TEST_F(BakeManagerTest, TheBakeOfTheGeometryBeforeComesBack) {
+    rays(64);
+    click("bakeStart");
+    ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
+    const BakeArtifactPtr whole = document().bakes.front();
+    const Id mesh = document().meshes.front().id;
+    const QString undoText = controller().undoStack().undoText();
+    controller().addModel(QStringLiteral("builtin:plane"));
+    ASSERT_TRUE(settled(*session));
+    ASSERT_TRUE(eventually([] { return document().meshes.size() == 2; }));
+    EXPECT_EQ(document().bakes.front(), whole) << "stale, but there";
+    click("bakeStart");
+    ASSERT_TRUE(eventually([&] { return document().bakes.front() != whole; }));
+    const BakeArtifactPtr ofBoth = document().bakes.front();
+    controller().undoStack().undo();
+    ASSERT_EQ(document().meshes.size(), 1u);
+    EXPECT_EQ(controller().undoStack().undoText(), undoText);
+    ASSERT_TRUE(eventually([&] { return document().bakes.front() == whole; }));
+    controller().undoStack().redo();
+    ASSERT_TRUE(eventually([&] { return document().bakes.front() == ofBoth; }));
+    controller().removeMesh(document().meshes.back().id == mesh ? document().meshes.front().id
+                                                                : document().meshes.back().id);
+    ASSERT_TRUE(eventually([&] { return document().bakes.front() == whole; }));
+    EXPECT_EQ(session->jobs.runningCount(), 0);
+    EXPECT_FALSE(controller().undoStack().canRedo());
 }
 
 // Another document interrupts a bake; back in the scene it goes on from its checkpoint and comes to
@@ -225,7 +254,7 @@ TEST_F(BakeManagerTest, AnInterruptedBakeIsOfferedAndGoesOn) {
     ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
     const BakeArtifact whole = *document().bakes.front();
     ASSERT_TRUE(QDir(cacheFolder()).removeRecursively());
-    controller().detachBake(BakeKind::AoVertex);
+    controller().removeBake(BakeKind::AoVertex);
     session->jobs.clearFinished();
 
     click("bakeStart");
@@ -438,7 +467,7 @@ TEST_F(BakeManagerTest, AFinishedBakeStaysInThePictureUntilTheNextIsDone) {
     EXPECT_FALSE(session->bakes.preview()->shown());
     EXPECT_LT(difference(before, picture()), 0.5);
     // Without a bake to keep, what is known so far is shown.
-    controller().detachBake(BakeKind::PrtVertex);
+    controller().removeBake(BakeKind::PrtVertex);
     EXPECT_TRUE(session->bakes.preview()->shown());
     EXPECT_TRUE(eventually([&] { return difference(before, picture()) > 1.0; }))
         << "bounces are missing in it";

@@ -140,6 +140,49 @@ TEST_F(EditSessionTest, WhatArrivesByItselfErasesNothing) {
     EXPECT_EQ(session.document().bakes.size(), 1u);
 }
 
+BakeArtifactPtr bakeWith(int samples) {
+    auto bake = std::make_shared<BakeArtifact>();
+    bake->kind = BakeKind::PrtVertex;
+    bake->samplesDone = samples;
+    return bake;
+}
+
+TEST_F(EditSessionTest, AFinishedBakeIsNoStepAndUndoLeavesIt) {
+    session.setParameter(rough, material(), 0.1f);
+    session.setSaved(session.state());
+    const BakeArtifactPtr bake = bakeWith(64);
+    session.attachBake(bake);
+    EXPECT_EQ(session.count(), 1);
+    EXPECT_TRUE(session.isModified());
+    EXPECT_EQ(session.undoText(), "Change Roughness of Gold");
+    session.undo();
+    EXPECT_EQ(roughness(), 0.5f);
+    EXPECT_EQ(findBake(session.document(), BakeKind::PrtVertex), bake);
+}
+
+TEST_F(EditSessionTest, RemovingABakeIsAStep) {
+    const auto attached = [&] { return findBake(session.document(), BakeKind::PrtVertex); };
+    const BakeArtifactPtr first = bakeWith(64), renewed = bakeWith(65), later = bakeWith(128);
+    session.removeBake(BakeKind::PrtVertex);
+    EXPECT_EQ(session.count(), 0) << "there is none";
+    session.attachBake(first);
+    session.renewBake(first, renewed);
+    session.removeBake(BakeKind::PrtVertex);
+    EXPECT_EQ(session.undoText(), "Remove Bake");
+    EXPECT_EQ(attached(), nullptr);
+    session.undo();
+    EXPECT_EQ(attached(), renewed) << "with what followed for it";
+    session.redo();
+    EXPECT_EQ(attached(), nullptr);
+    session.attachBake(later);
+    session.undo();
+    EXPECT_EQ(attached(), later) << "a newer one stays";
+    session.redo();
+    EXPECT_EQ(attached(), nullptr);
+    session.undo();
+    EXPECT_EQ(attached(), later);
+}
+
 TEST_F(EditSessionTest, IdsAreNotGivenTwiceAlsoAfterUndo) {
     std::set<Id> ids;
     for (int i = 0; i < 4; ++i) {
