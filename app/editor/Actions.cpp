@@ -45,7 +45,7 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
                            tr("Show or hide what surrounds and lights the scene")))
     , lightsDock(make(tr("Light&s"), QStringLiteral("light-sun"), {tr("Ctrl+Shift+4")},
                       tr("Show or hide the list of lights")))
-    , viewDock(make(tr("&View"), QStringLiteral("view"), {tr("Ctrl+Shift+5")},
+    , viewDock(make(tr("C&amera"), QStringLiteral("view"), {tr("Ctrl+Shift+5")},
                     tr("Show or hide exposure, tone mapping, display and field of view")))
     , bakeDock(make(tr("Ba&ke"), QStringLiteral("bake"), {tr("Ctrl+Shift+6")},
                     tr("Show or hide the baking of light")))

@@ -23,11 +23,12 @@ FurnaceControls::FurnaceControls(ViewState& views, QWidget* parent)
     m_furnace = addButton(
         tr("Furnace"), tr("Look at the scene in a uniform environment without lights: a material "
                           "that loses and makes nothing cannot be seen in white ones"));
-    m_energy = addButton(tr("Energy View"),
-                         tr("Show in colours how much of the light each pixel returns; more than "
-                            "all of it is marked"));
+    m_furnaceView =
+        addButton(tr("Furnace View"),
+                  tr("Show in colours how much of the light each pixel returns; more than "
+                     "all of it is marked"));
     connect(m_furnace, &QToolButton::clicked, this, &FurnaceControls::setFurnace);
-    connect(m_energy, &QToolButton::clicked, this,
+    connect(m_furnaceView, &QToolButton::clicked, this,
             [this](bool on) { m_views.show(on ? shading::kViewFurnace : shading::kViewFinal); });
     m_colorButton->setAccessibleName(tr("Furnace colour"));
     m_colorButton->setFixedWidth(tokens::kFieldWidth - 2);
@@ -88,7 +89,7 @@ void FurnaceControls::refresh() {
         m_color = *s.furnace / brightest;
     }
     m_furnace->setChecked(s.furnace.has_value());
-    m_energy->setChecked(m_views.shown() == shading::kViewFurnace);
+    m_furnaceView->setChecked(m_views.shown() == shading::kViewFurnace);
     m_colorButton->setColor(m_color);
     m_intensityField->setValue(m_intensity);
 }

@@ -27,7 +27,7 @@ class FurnaceControls : public QWidget {
     void refresh();
 
     ViewState& m_views;
-    QToolButton *m_furnace, *m_energy;
+    QToolButton *m_furnace, *m_furnaceView;
     ColorButton* m_colorButton;
     NumberField* m_intensityField;
     glm::vec3 m_color{1.0f}; // linear sRGB

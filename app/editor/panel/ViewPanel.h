@@ -1,4 +1,4 @@
-// The View dock: exposure, tone mapping with its curve, the display, the camera.
+// The Camera dock: exposure, tone mapping with its curve, the display, the camera.
 #pragma once
 
 #include "core/document/ToneResponse.h"

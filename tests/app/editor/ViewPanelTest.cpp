@@ -1,4 +1,4 @@
-// The View dock and the viewport: operators chosen by the mouse, the eye watched while it adapts,
+// The Camera dock and the viewport: operators chosen by the mouse, the eye watched while it adapts,
 // OpenColorIO by drop, with configurations good and bad.
 
 #include "tests/app/editor/EditorFixture.h"
