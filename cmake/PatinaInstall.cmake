@@ -3,6 +3,8 @@ install(TARGETS patina patina-editor RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
 # Started by the other two, never by hand.
 install(TARGETS patina-model-worker patina-image-worker RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/patina)
 install(FILES resources/patina.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
+# Pictures of models and projects in file managers, which give the output a name that ends with .png.
+install(FILES resources/patina.thumbnailer DESTINATION ${CMAKE_INSTALL_DATADIR}/thumbnailers)
 install(FILES resources/patina-mime.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages
   RENAME patina.xml)
 install(FILES resources/patina.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo
