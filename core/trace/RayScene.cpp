@@ -3,12 +3,11 @@
 #include "core/base/FreedMemory.h"
 #include "core/job/ForkJoin.h"
 #include "core/math/Sampling.h"
+#include "core/trace/Embree.h"
 
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <cstddef>
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <new>
 
@@ -18,18 +17,6 @@
 #endif
 
 namespace patina {
-
-static_assert(sizeof(OcclusionRay) == sizeof(RTCRay) && alignof(OcclusionRay) == alignof(RTCRay));
-static_assert(offsetof(OcclusionRay, minDistance) == offsetof(RTCRay, tnear));
-static_assert(offsetof(OcclusionRay, direction) == offsetof(RTCRay, dir_x));
-static_assert(offsetof(OcclusionRay, maxDistance) == offsetof(RTCRay, tfar));
-static_assert(offsetof(OcclusionRay, flags) == offsetof(RTCRay, flags));
-static_assert(sizeof(ClosestRay) == sizeof(RTCRayHit) && alignof(ClosestRay) == alignof(RTCRayHit));
-static_assert(offsetof(ClosestRay, geometricNormal) == offsetof(RTCRayHit, hit.Ng_x));
-static_assert(offsetof(ClosestRay, u) == offsetof(RTCRayHit, hit.u));
-static_assert(offsetof(ClosestRay, triangle) == offsetof(RTCRayHit, hit.primID));
-static_assert(offsetof(ClosestRay, mesh) == offsetof(RTCRayHit, hit.geomID));
-static_assert(ClosestRay::kNothing == RTC_INVALID_GEOMETRY_ID);
 
 namespace {
 
@@ -91,9 +78,6 @@ struct RayScene::Impl {
 };
 
 namespace {
-
-// Below this many rays Embree's stream code costs more than it saves (measured).
-constexpr std::size_t kMinStream = 32;
 
 // Rays per triangle above which spatial splits pay: they take 0.6 µs per triangle to build and
 // save up to 0.01 µs per ray (measured).
@@ -223,16 +207,7 @@ std::size_t RayScene::occlude(std::span<OcclusionRay> rays) const {
 }
 
 void RayScene::occludeFinite(std::span<OcclusionRay> rays) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    auto* embreeRays = reinterpret_cast<RTCRay*>(rays.data());
-    if (rays.size() >= kMinStream)
-        rtcOccluded1M(m_impl->scene, &context, embreeRays, static_cast<unsigned>(rays.size()),
-                      sizeof(RTCRay));
-    else
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            rtcOccluded1(m_impl->scene, &context, embreeRays + i);
+    embree::occluded(m_impl->scene, rays);
 }
 
 std::size_t RayScene::intersect(std::span<ClosestRay> rays) const {
@@ -245,16 +220,7 @@ std::size_t RayScene::intersect(std::span<ClosestRay> rays) const {
         }
         closest.mesh = closest.triangle = closest.instance = ClosestRay::kNothing;
     }
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    auto* embreeRays = reinterpret_cast<RTCRayHit*>(rays.data());
-    if (rays.size() >= kMinStream)
-        rtcIntersect1M(m_impl->scene, &context, embreeRays, static_cast<unsigned>(rays.size()),
-                       sizeof(RTCRayHit));
-    else
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            rtcIntersect1(m_impl->scene, &context, embreeRays + i);
+    embree::intersect(m_impl->scene, rays);
     return leftOut;
 }
 

@@ -14,7 +14,7 @@
 
 namespace patina {
 
-// A question and its answer. Laid out as Embree's RTCRay, so that streams of rays are not copied.
+// A question and its answer. Laid out as Embree's RTCRay, so that rays are not copied.
 struct alignas(16) OcclusionRay {
     glm::vec3 origin{0.0f}; // scene units (core/trace/BakeGeometry.h)
     float minDistance = 0.0f;
@@ -31,7 +31,7 @@ struct alignas(16) OcclusionRay {
     }
 };
 
-// A question for what is met first, and its answer. Laid out as Embree's RTCRayHit.
+// A question for what is met first, and its answer. Laid out as RTCRayHit of Embree 3.
 struct alignas(16) ClosestRay {
     static constexpr unsigned kNothing = ~0u;
 
