@@ -4,7 +4,7 @@
 #include "app/cli/BakeRun.h"
 #include "core/bake/BakeMemory.h"
 #include "core/bake/file/BakeFileSize.h"
-#include "core/bake/transfer/OcclusionTextures.h"
+#include "core/bake/OcclusionTextures.h"
 
 #include <algorithm>
 #include <fmt/format.h>

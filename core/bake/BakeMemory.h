@@ -27,7 +27,7 @@ struct BakeEstimate {
 Result<void> checkBakeMemory(const BakeRequest& request, const BakeInputs& inputs,
                              std::uint64_t available);
 
-// How many textures of an AoTexel bake fit at a time (core/bake/transfer/OcclusionTextures.h); 0:
+// How many textures of an AoTexel bake fit at a time (core/bake/OcclusionTextures.h); 0:
 // none does.
 [[nodiscard]] std::size_t texturesAtOnce(const BakeRequest& request, const BakeInputs& inputs,
                                          std::uint64_t available);

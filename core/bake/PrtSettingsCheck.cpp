@@ -1,7 +1,6 @@
 #include "core/bake/PrtSettingsCheck.h"
 
 #include "core/bake/bounce/Interreflection.h"
-#include "core/bake/domain/BakeOptions.h"
 #include "core/math/SphericalHarmonics.h"
 
 #include <cmath>
@@ -44,13 +43,6 @@ Result<PassSettings> prtPassSettings(const PrtSettings& settings) {
     passes.method = settings.method;
     passes.tolerance = settings.tolerance;
     return passes;
-}
-
-std::map<std::string, std::string> prtSettingsText(BakeKind kind, const PrtSettings& settings,
-                                                   int samples) {
-    BakeRequest request{kind, {}, settings};
-    request.prt.samples = samples;
-    return settingsText(request);
 }
 
 } // namespace patina

@@ -1,6 +1,5 @@
 #include "core/bake/transfer/AoSettingsCheck.h"
 
-#include "core/bake/domain/BakeOptions.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -24,13 +23,6 @@ Result<PassSettings> aoPassSettings(const AoSettings& settings) {
     passes.maxDistance = settings.maxDistance;
     passes.seed = settings.seed;
     return passes;
-}
-
-std::map<std::string, std::string> aoSettingsText(BakeKind kind, const AoSettings& settings,
-                                                  int samples) {
-    BakeRequest request{kind, settings, {}};
-    request.ao.samples = samples;
-    return settingsText(request);
 }
 
 } // namespace patina

@@ -1,5 +1,6 @@
-#include "core/bake/transfer/OcclusionTextures.h"
+#include "core/bake/OcclusionTextures.h"
 
+#include "core/bake/BakeDomain.h"
 #include "core/bake/domain/BakeHash.h"
 #include "core/bake/transfer/AoSettingsCheck.h"
 #include "core/bake/transfer/BakeTracer.h"
@@ -16,7 +17,8 @@ OcclusionTextures::OcclusionTextures(BakeScene scene, const AoSettings& settings
     : m_scene(std::move(scene))
     , m_settings(settings)
     , m_passes(passes)
-    , m_inputs(hashBakeInputs(inputs))
+    , m_inputs(inputs)
+    , m_hash(hashBakeInputs(inputs))
     , m_materials(materialsInOrder(*m_scene.geometry)) {}
 
 Result<OcclusionTextures> OcclusionTextures::prepare(const BakeInputs& inputs,
@@ -35,28 +37,26 @@ Result<OcclusionTextures> OcclusionTextures::prepare(const BakeInputs& inputs,
 
 Result<BakeArtifact> OcclusionTextures::bakeNext(std::size_t count, const JobContext& job) {
     const std::size_t end = m_next + std::min(count, m_materials.size() - m_next);
-    const Result<TexelLayout> layout =
-        texelLayout(*m_scene.geometry, std::span(m_materials).subspan(m_next, end - m_next),
-                    m_settings.size, job);
-    if (!layout)
-        return layout.error();
+    const Result<BakeDomainPtr> domain =
+        texelDomain(m_inputs, *m_scene.geometry,
+                    std::span(m_materials).subspan(m_next, end - m_next), m_settings.size, job);
+    if (!domain)
+        return domain.error();
+    const std::span<const BakePoint> points = (*domain)->points();
     Result<std::optional<PassState>> traced = tracePoints(
-        nullptr, {m_scene.rays, layout->points, layout->ranges, m_passes, PassCallbacks{}, job});
+        nullptr, {m_scene.rays, points, (*domain)->ranges(), m_passes, PassCallbacks{}, job});
     if (!traced)
         return traced.error();
-    const PassState& state = **traced;
+    PassState& state = **traced;
 
-    BakeArtifact artifact;
-    artifact.kind = BakeKind::AoTexel;
-    artifact.inputs = m_inputs;
-    artifact.settings = aoSettingsText(artifact.kind, m_settings, m_passes.samples);
-    artifact.settings["size"] = std::to_string(m_settings.size);
-    if (const std::string note = layout->note(); !note.empty())
-        artifact.settings["note"] = note;
+    BakeArtifact artifact = describeBake({BakeKind::AoTexel, m_settings, {}}, m_passes);
+    artifact.inputs = m_hash;
+    if (std::string note = (*domain)->note(&m_scene.rays, m_passes, state, job); !note.empty())
+        artifact.settings["note"] = std::move(note);
     noteRays(artifact, state, m_passes, job);
-    for (const MaterialTexels& part : layout->parts)
-        artifact.texels.push_back({part.material, occlusionTexture(*layout, part, state.values)});
-    m_passes.firstPoint += static_cast<std::uint32_t>(layout->points.size());
+    if (Result<void> finished = (*domain)->finish(artifact, m_passes, state, job); !finished)
+        return finished.error();
+    m_passes.firstPoint += static_cast<std::uint32_t>(points.size());
     m_next = end;
     return artifact;
 }

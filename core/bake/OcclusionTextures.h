@@ -27,7 +27,8 @@ class OcclusionTextures {
     BakeScene m_scene;
     AoSettings m_settings;
     PassSettings m_passes;
-    Hash m_inputs;
+    BakeInputs m_inputs;
+    Hash m_hash; // of the inputs
     std::vector<Id> m_materials;
     std::size_t m_next = 0; // material
 };
