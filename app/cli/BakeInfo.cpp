@@ -125,7 +125,7 @@ Result<void> describeBake(Report& report, const std::vector<ImagePart>& parts,
     report.table({}, rows);
 
     rows.clear();
-    for (const auto& [key, value] : artifact.settings) {
+    for (const auto& [key, value] : recordOf(artifact)) {
         json["settings"][key] = value;
         rows.emplace_back(key, value);
     }

@@ -182,8 +182,8 @@ void reportBake(Session& session, const BakeInputs& inputs, const BakeArtifact& 
                       {"texels", texels}};
     json["inputs"] = artifact.inputs.hex();
     json["samplesDone"] = artifact.samplesDone;
-    if (const auto note = artifact.settings.find("note"); note != artifact.settings.end())
-        session.report().warn(note->second);
+    if (!artifact.note.empty())
+        session.report().warn(artifact.note);
 }
 
 Result<void> bakeScene(Session& session, const std::string& scene, const std::string& output,

@@ -3,8 +3,8 @@
 #include "app/cli/BakeOutput.h"
 #include "app/cli/BakeRun.h"
 #include "core/bake/BakeMemory.h"
-#include "core/bake/file/BakeFileSize.h"
 #include "core/bake/OcclusionTextures.h"
+#include "core/bake/file/BakeFileSize.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -55,8 +55,8 @@ Result<void> bakeOcclusionPictures(Session& session, const Document& document,
         summary.kind = group->kind;
         summary.inputs = group->inputs;
         summary.samplesDone = group->samplesDone;
-        if (const auto note = group->settings.find("note"); note != group->settings.end())
-            summary.settings["note"] = note->second; // that of the last which has one
+        if (!group->note.empty())
+            summary.note = group->note; // that of the last which has one
         std::ranges::move(group->texels, std::back_inserter(summary.texels));
     }
     reportBake(session, inputs, summary);

@@ -93,9 +93,7 @@ Result<BakeArtifact> bake(const BakeRequest& request, const BakeInputs& inputs, 
 
     // Values of it. What is not needed any more makes room for what comes.
     noteRays(artifact, passes, *settings, job);
-    if (std::string note = domain.note(scene ? &*scene : nullptr, *settings, passes, job);
-        !note.empty())
-        artifact.settings["note"] = std::move(note);
+    artifact.note = domain.note(scene ? &*scene : nullptr, *settings, passes, job);
     const bool bounces =
         holdsTransfer(request.kind) && request.prt.transfer == TransferKind::Interreflected;
     if (!bounces)

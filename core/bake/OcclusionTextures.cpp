@@ -51,8 +51,7 @@ Result<BakeArtifact> OcclusionTextures::bakeNext(std::size_t count, const JobCon
 
     BakeArtifact artifact = describeBake({BakeKind::AoTexel, m_settings, {}}, m_passes);
     artifact.inputs = m_hash;
-    if (std::string note = (*domain)->note(&m_scene.rays, m_passes, state, job); !note.empty())
-        artifact.settings["note"] = std::move(note);
+    artifact.note = (*domain)->note(&m_scene.rays, m_passes, state, job);
     noteRays(artifact, state, m_passes, job);
     if (Result<void> finished = (*domain)->finish(artifact, m_passes, state, job); !finished)
         return finished.error();

@@ -23,13 +23,13 @@ void noteCoarseMeshes(BakeArtifact& artifact, const BakeInputs& inputs) {
     const double share = coarseShare(inputs, artifact.vertices);
     if (share < kMuch)
         return;
-    std::string& note = artifact.settings["note"];
-    if (!note.empty())
-        note += ' ';
-    note += fmt::format("On {:.1f} % of the surface, triangles are too coarse for its shadows: "
-                        "smaller ones are needed there, or a bake per texel, which has no such "
-                        "limit.",
-                        100.0 * share);
+    if (!artifact.note.empty())
+        artifact.note += ' ';
+    artifact.note +=
+        fmt::format("On {:.1f} % of the surface, triangles are too coarse for its shadows: "
+                    "smaller ones are needed there, or a bake per texel, which has no such "
+                    "limit.",
+                    100.0 * share);
 }
 
 class VertexDomain : public BakeDomain {

@@ -12,6 +12,5 @@ namespace patina {
 
 [[nodiscard]] BakeArtifactPtr absentBake(BakeKind kind, const std::string& file); // absolute path
 [[nodiscard]] bool isAbsent(const BakeArtifact& bake);
-[[nodiscard]] std::string absentFile(const BakeArtifact& bake); // empty when it is not absent
 
 } // namespace patina

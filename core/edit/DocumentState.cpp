@@ -7,10 +7,10 @@ namespace {
 
 // What a bake was made from decides its values, so that these need no look.
 bool sameBake(const BakeArtifactPtr& a, const BakeArtifactPtr& b) {
-    return a == b ||
-           (a->kind == b->kind && a->inputs == b->inputs && a->albedo == b->albedo &&
-            a->settings == b->settings && a->order == b->order && a->transfer == b->transfer &&
-            a->bounces == b->bounces && a->samplesDone == b->samplesDone);
+    return a == b || (a->kind == b->kind && a->inputs == b->inputs && a->albedo == b->albedo &&
+                      a->settings == b->settings && a->order == b->order &&
+                      a->transfer == b->transfer && a->bounces == b->bounces &&
+                      a->samplesDone == b->samplesDone && a->missingFile == b->missingFile);
 }
 
 } // namespace

@@ -59,7 +59,7 @@ void forEachArray(const BakeArtifact& artifact, const Visit& visit) {
 Hash hashBake(const BakeArtifact& artifact) {
     Hasher hasher;
     hasher.value(artifact.kind).value(artifact.inputs).value(artifact.albedo);
-    for (const auto& [name, text] : artifact.settings)
+    for (const auto& [name, text] : recordOf(artifact))
         hasher.text(name).text(text);
     hasher.value(artifact.order).value(artifact.transfer).value(artifact.bounces);
     hasher.value(artifact.samplesDone);
@@ -69,12 +69,6 @@ Hash hashBake(const BakeArtifact& artifact) {
         hasher.value(bake.material).value(bake.side).value(bake.stride);
     forEachArray(artifact, [&](std::span<const std::byte> bytes) { hasher.bytes(bytes); });
     return hasher.finish();
-}
-
-std::uint64_t bakeBytes(const BakeArtifact& artifact) {
-    std::uint64_t total = 0;
-    forEachArray(artifact, [&](std::span<const std::byte> bytes) { total += bytes.size(); });
-    return total;
 }
 
 Result<void> keepBake(const fs::path& folder, const Hash& content, const BakeArtifact& artifact,

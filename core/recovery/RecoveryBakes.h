@@ -14,8 +14,7 @@ namespace patina {
 
 struct Document;
 
-[[nodiscard]] Hash hashBake(const BakeArtifact& artifact);           // reads every value
-[[nodiscard]] std::uint64_t bakeBytes(const BakeArtifact& artifact); // of its values
+[[nodiscard]] Hash hashBake(const BakeArtifact& artifact); // reads every value
 
 // `document`: the one it is attached to. Errors: CannotCreate, Io; Usage when it holds values of
 // meshes or materials that the document has no more.

@@ -332,13 +332,13 @@ void RecoveryWriter::storeBake(std::unique_lock<std::mutex>& lock, const BakeArt
     for (const BakeArtifactPtr& other : snapshot->document.bakes) {
         const auto stored = other ? m_stored.find(other.get()) : m_stored.end();
         if (stored != m_stored.end() && stored->second.leftOut.empty())
-            others += bakeBytes(*other);
+            others += artifactBytes(*other);
     }
     m_bakeTimes[bake->kind] = Clock::now();
     lock.unlock();
 
     StoredBake stored{bake, {}, {}};
-    const std::uint64_t bytes = bakeBytes(*bake);
+    const std::uint64_t bytes = artifactBytes(*bake);
     std::error_code error;
     const fs::space_info space = fs::space(folder.parent_path(), error);
     if (others + bytes > m_settings.maxBakeBytes) {

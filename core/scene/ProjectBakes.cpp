@@ -67,7 +67,7 @@ Result<BakeNames> writeBakes(WorkerClient& worker, const Document& document,
         if (!bake)
             continue;
         if (isAbsent(*bake)) {
-            names[bake->kind] = absentFile(*bake);
+            names[bake->kind] = bake->missingFile;
             continue;
         }
         const Result<Bytes> bytes = encodeBake(worker, *bake, document);

@@ -222,7 +222,7 @@ std::string documentToJson(const Document& document, const fs::path& projectFile
     for (const BakeArtifactPtr& bake : document.bakes)
         if (bake)
             names[bake->kind] = isAbsent(*bake)
-                                    ? absentFile(*bake)
+                                    ? bake->missingFile
                                     : project::bakeFile(projectFile, bake->kind).string();
     return project::projectText(document, projectFile, names);
 }

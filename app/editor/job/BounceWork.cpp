@@ -37,7 +37,7 @@ Result<HitSourcePtr> hitsFor(const BakeArtifact& artifact, const BakeInputs& inp
                              const HitSourcePtr& ofBake, const JobContext& job) {
     if (hashBakeInputs(inputs) != artifact.inputs)
         return HitSourcePtr();
-    PrtSettings settings = requestFromText(artifact.kind, artifact.settings).prt;
+    PrtSettings settings = requestOf(artifact).prt;
     settings.order = artifact.order;
     const Result<HitSettings> rays = hitSettings(settings);
     if (!rays)

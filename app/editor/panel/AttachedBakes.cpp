@@ -35,10 +35,6 @@ QString whatChanged(const BakeStaleness& staleness) {
     return parts.join(QStringLiteral(", "));
 }
 
-BakeRequest madeWith(const BakeArtifact& bake) {
-    return requestFromText(bake.kind, bake.settings);
-}
-
 // "1,024 rays, 3 bounces"
 QString holdsText(const BakeArtifact& bake) {
     QString text = AttachedBakes::tr("%1 rays").arg(QLocale().toString(bake.samplesDone));
@@ -79,7 +75,7 @@ bool AttachedBakes::offers(const BakeRequest& request) const {
     const auto settings = settingsText(normalized(request));
     return std::ranges::any_of(m_controller.document().bakes, [&](const BakeArtifactPtr& bake) {
         return bake->kind == request.kind && stoppedEarly(*bake) &&
-               settingsText(normalized(madeWith(*bake))) == settings;
+               settingsText(normalized(requestOf(*bake))) == settings;
     });
 }
 
@@ -103,7 +99,7 @@ void AttachedBakes::refresh() {
         const BakeStaleness staleness =
             bakeStaleness(*bake, document, m_bakes.currentInputs(), albedo);
         if (staleness.stale())
-            stale.push_back(madeWith(*bake));
+            stale.push_back(requestOf(*bake));
         addRow(*bake, staleness);
     }
     if (stale.size() > 1) {
@@ -140,8 +136,8 @@ void AttachedBakes::addRow(const BakeArtifact& bake, const BakeStaleness& stalen
     if (const QString differs = differenceText(bake, m_wanted(bake.kind)); !differs.isEmpty())
         html += colored(differs.toHtmlEscaped(), tokens::kTextDim);
     // What the user should know of this bake, such as overlapping texture coordinates.
-    if (const auto note = bake.settings.find("note"); note != bake.settings.end())
-        html += colored(QString::fromStdString(note->second).toHtmlEscaped(), tokens::kTextDim);
+    if (!bake.note.empty())
+        html += colored(QString::fromStdString(bake.note).toHtmlEscaped(), tokens::kTextDim);
 
     auto* row = new QWidget;
     auto* layout = new QVBoxLayout(row);
@@ -158,7 +154,7 @@ void AttachedBakes::addRow(const BakeArtifact& bake, const BakeStaleness& stalen
             tr("Re-bake"), tr("Bakes again with the settings this bake was made with"));
         rebake->setObjectName(QStringLiteral("rebake"));
         connect(rebake, &QPushButton::clicked, this,
-                [this, request = madeWith(bake)] { m_bakes.start(request); });
+                [this, request = requestOf(bake)] { m_bakes.start(request); });
         buttons->addWidget(rebake);
     } else if (stopped) {
         QPushButton* resume = makeTextButton(
@@ -166,7 +162,7 @@ void AttachedBakes::addRow(const BakeArtifact& bake, const BakeStaleness& stalen
         resume->setObjectName(QStringLiteral("bakeContinue"));
         resume->setEnabled(!m_bakes.running());
         connect(resume, &QPushButton::clicked, this,
-                [this, request = madeWith(bake)] { m_resume(request); });
+                [this, request = requestOf(bake)] { m_resume(request); });
         buttons->addWidget(resume);
     }
     buttons->addWidget(removeButton(bake.kind));
@@ -176,7 +172,7 @@ void AttachedBakes::addRow(const BakeArtifact& bake, const BakeStaleness& stalen
 
 // A bake whose file could not be read: its reference stays with the scene until it is removed.
 void AttachedBakes::addAbsentRow(const BakeArtifact& bake) {
-    const QFileInfo file(QFile::decodeName(absentFile(bake).c_str()));
+    const QFileInfo file(QFile::decodeName(bake.missingFile.c_str()));
     auto* text = new QLabel(
         QStringLiteral("%1<br><span style='color:%2'>%3</span>")
             .arg(bakeTitle(bake.kind).toHtmlEscaped(), QColor(tokens::kCopper).name(),

@@ -173,14 +173,14 @@ void BakePanel::takeSettings() {
     for (const BakeArtifactPtr& bake : m_controller.document().bakes) {
         m_followed[bake->kind] = bake;
         if (!isAbsent(*bake))
-            m_form->setRequest(requestFromText(bake->kind, bake->settings));
+            m_form->setRequest(requestOf(*bake));
     }
 }
 
 void BakePanel::followBakes() {
     for (const BakeArtifactPtr& bake : m_controller.document().bakes)
         if (std::exchange(m_followed[bake->kind], bake) != bake && !isAbsent(*bake))
-            m_form->follow(requestFromText(bake->kind, bake->settings));
+            m_form->follow(requestOf(*bake));
 }
 
 void BakePanel::resume(const BakeRequest& request) {

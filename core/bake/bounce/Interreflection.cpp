@@ -161,7 +161,7 @@ Result<BakeArtifactPtr> withBounces(const BakeArtifact& artifact, const BakeInpu
         return refused("between texels light is not followed again");
     if (hashBakeInputs(inputs) != artifact.inputs)
         return refused("it is of other geometry, where its rays cannot be traced again");
-    PrtSettings settings = requestFromText(artifact.kind, artifact.settings).prt;
+    PrtSettings settings = requestOf(artifact).prt;
     settings.order = artifact.order;
     settings.bounces = bounces;
     const Result<BakeScene> scene = BakeScene::build(inputs, job);

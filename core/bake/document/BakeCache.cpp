@@ -94,8 +94,9 @@ std::optional<Bytes> encode(const BakeInputs& inputs, const BakeArtifact& artifa
     out.value(artifact.kind);
     out.value(artifact.inputs);
     out.value(artifact.albedo);
-    out.value(static_cast<std::uint32_t>(artifact.settings.size()));
-    for (const auto& [name, text] : artifact.settings) {
+    const auto record = recordOf(artifact);
+    out.value(static_cast<std::uint32_t>(record.size()));
+    for (const auto& [name, text] : record) {
         out.text(name);
         out.text(text);
     }
@@ -137,10 +138,12 @@ std::optional<BakeArtifact> decode(const Bytes& bytes, const BakeInputs& inputs)
     artifact.kind = in.value<BakeKind>();
     artifact.inputs = in.value<Hash>();
     artifact.albedo = in.value<Hash>();
+    std::map<std::string, std::string> record;
     for (auto n = in.value<std::uint32_t>(); n > 0 && in.ok(); --n) {
         std::string name = in.text();
-        artifact.settings[std::move(name)] = in.text();
+        record[std::move(name)] = in.text();
     }
+    setRecord(artifact, std::move(record));
     artifact.order = in.value<int>();
     artifact.transfer = in.value<TransferKind>();
     artifact.bounces = in.value<int>();

@@ -82,13 +82,13 @@ std::vector<SettingDifference> settingDifferences(const BakeArtifact& artifact,
 }
 
 std::optional<StoppedBake> stoppedEarly(const BakeArtifact& artifact) {
-    const BakeRequest request = requestFromText(artifact.kind, artifact.settings);
+    const BakeRequest request = requestOf(artifact);
     const int asked = holdsTransfer(artifact.kind) ? request.prt.samples : request.ao.samples;
     if (!artifact.settings.contains("samples") || artifact.samplesDone >= asked)
         return std::nullopt;
     // Bakes to a tolerance end before their last ray by themselves.
     const bool toTolerance = holdsTransfer(artifact.kind) && request.prt.tolerance > 0.0f;
-    if (toTolerance && !artifact.settings.contains(kStoppedSetting))
+    if (toTolerance && !artifact.stopped)
         return std::nullopt;
     return StoppedBake{artifact.samplesDone, asked};
 }

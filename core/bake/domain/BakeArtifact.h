@@ -63,10 +63,15 @@ struct TexelBake {
 
 struct BakeArtifact {
     BakeKind kind = BakeKind::AoTexel;
-    Hash inputs;                                 // hashBakeInputs() of what it was made from
-    Hash albedo;                                 // of the albedo that bounces rest on, or zero
-    std::map<std::string, std::string> settings; // as text: "samples" → "256" …
-    int order = 0;                               // transfer: SH bands
+    Hash inputs; // hashBakeInputs() of what it was made from
+    Hash albedo; // of the albedo that bounces rest on, or zero
+    // What it was asked for with, as its file states it: "samples" → "256" … (requestOf() of
+    // BakeOptions.h reads it). An older file states less.
+    std::map<std::string, std::string> settings;
+    std::string note;        // what the user should know of it; or empty
+    bool stopped = false;    // by the user, before its last ray
+    std::string missingFile; // core/document/AbsentBake.h; else empty
+    int order = 0;           // transfer: SH bands
     TransferKind transfer = TransferKind::Shadowed;
     int bounces = 0;     // Interreflected: how often light may bounce
     int samplesDone = 0; // rays per element that the values rest on

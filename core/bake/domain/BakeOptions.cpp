@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <optional>
+#include <utility>
 
 namespace patina {
 namespace {
@@ -208,6 +209,10 @@ constexpr std::array kOptions{
         traces},
 };
 
+// No option is called so.
+constexpr const char* kNote = "note";
+constexpr const char* kStopped = "stopped";
+
 std::optional<double> parse(const BakeOption& option, const std::string& text) {
     if (option.type == Type::Toggle) {
         if (text == "true" || text == "false")
@@ -272,6 +277,29 @@ BakeRequest requestFromText(BakeKind kind, const std::map<std::string, std::stri
             if (const std::optional<double> value = parse(option, found->second))
                 option.set(request, *value);
     return request;
+}
+
+BakeRequest requestOf(const BakeArtifact& artifact) {
+    return requestFromText(artifact.kind, artifact.settings);
+}
+
+std::map<std::string, std::string> recordOf(const BakeArtifact& artifact) {
+    std::map<std::string, std::string> record = artifact.settings;
+    if (!artifact.note.empty())
+        record[kNote] = artifact.note;
+    if (artifact.stopped)
+        record[kStopped] = "true";
+    return record;
+}
+
+void setRecord(BakeArtifact& artifact, std::map<std::string, std::string> record) {
+    const auto take = [&](const char* name) {
+        const auto node = record.extract(name);
+        return node ? node.mapped() : std::string();
+    };
+    artifact.note = take(kNote);
+    artifact.stopped = take(kStopped) == "true";
+    artifact.settings = std::move(record);
 }
 
 } // namespace patina

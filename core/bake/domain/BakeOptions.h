@@ -46,5 +46,11 @@ struct BakeOption {
 // The reverse. What is missing, malformed or out of range keeps its default.
 [[nodiscard]] BakeRequest requestFromText(BakeKind kind,
                                           const std::map<std::string, std::string>& settings);
+// What a bake was asked for with.
+[[nodiscard]] BakeRequest requestOf(const BakeArtifact& artifact);
+
+// BakeArtifact::settings, note and stopped, by the names that files know them by.
+[[nodiscard]] std::map<std::string, std::string> recordOf(const BakeArtifact& artifact);
+void setRecord(BakeArtifact& artifact, std::map<std::string, std::string> record);
 
 } // namespace patina

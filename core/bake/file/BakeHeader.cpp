@@ -150,7 +150,7 @@ BakeAttributes headerAttributes(const BakeArtifact& artifact, const BakeFileOpti
     } else {
         attributes[kDefinition] = kAoText;
     }
-    for (const auto& [key, value] : artifact.settings)
+    for (const auto& [key, value] : recordOf(artifact))
         attributes[kSettingPrefix + key] = value;
     return attributes;
 }
@@ -192,9 +192,11 @@ Result<BakeHeader> readBakeHeader(const BakeAttributes& attributes,
     if (header.version > 1)
         if (std::optional<Error> error = readStorage(attributes, header, file))
             return *error;
+    std::map<std::string, std::string> record;
     for (const auto& [key, value] : attributes)
         if (key.starts_with(kSettingPrefix))
-            artifact.settings[key.substr(std::strlen(kSettingPrefix))] = value;
+            record[key.substr(std::strlen(kSettingPrefix))] = value;
+    setRecord(artifact, std::move(record));
     return header;
 }
 

@@ -18,8 +18,8 @@ Result<std::optional<PassState>> passesOrNothing(Result<PassState> state) {
 void noteRays(BakeArtifact& artifact, const PassState& state, const PassSettings& settings,
               const JobContext& job) {
     artifact.samplesDone = state.samplesDone;
-    if (job.stopping() && !settings.unshadowed && state.samplesDone < settings.samples)
-        artifact.settings[kStoppedSetting] = "true";
+    artifact.stopped =
+        job.stopping() && !settings.unshadowed && state.samplesDone < settings.samples;
 }
 
 } // namespace patina

@@ -32,8 +32,6 @@ Result<std::optional<PassState>> tracePoints(BakeTracer* tracer, const TraceRequ
 // The same of a state that is always of all points.
 [[nodiscard]] Result<std::optional<PassState>> passesOrNothing(Result<PassState> state);
 
-// BakeArtifact::settings of a bake that was stopped before its last ray holds "true" under this.
-inline constexpr const char* kStoppedSetting = "stopped";
 // Fills in what the values rest on; called when tracing has ended.
 void noteRays(BakeArtifact& artifact, const PassState& state, const PassSettings& settings,
               const JobContext& job);

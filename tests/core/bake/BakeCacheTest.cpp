@@ -25,7 +25,9 @@ BakeArtifact fullBake(const BakeInputs& inputs) {
     artifact.kind = BakeKind::PrtVertex;
     artifact.inputs = hashBakeInputs(inputs);
     artifact.albedo = {1, 2};
-    artifact.settings = {{"samples", "64"}, {"note", "two\nlines"}, {"empty", ""}};
+    artifact.settings = {{"samples", "64"}, {"empty", ""}};
+    artifact.note = "two\nlines";
+    artifact.stopped = true;
     artifact.order = 2;
     artifact.transfer = TransferKind::Interreflected;
     artifact.bounces = 5;

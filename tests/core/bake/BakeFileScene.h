@@ -38,7 +38,8 @@ inline BakeArtifact randomBake(const Document& document, BakeKind kind, int orde
     BakeArtifact artifact;
     artifact.kind = kind;
     artifact.inputs = hashBakeInputs(bakeInputs(document));
-    artifact.settings = {{"samples", "256"}, {"seed", "4294967295"}, {"note", "a \"note\", 100 %"}};
+    artifact.settings = {{"samples", "256"}, {"seed", "4294967295"}};
+    artifact.note = "a \"note\", 100 %";
     artifact.order = order;
     artifact.samplesDone = 128;
     const bool bounced = transfer == TransferKind::Interreflected;

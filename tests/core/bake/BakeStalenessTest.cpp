@@ -117,7 +117,7 @@ TEST_F(BakeStalenessTest, ABakeThatWasStoppedSaysAtHowManyRays) {
     // Bakes to a tolerance may well be done with fewer.
     bake.settings["tolerance"] = "0.01";
     EXPECT_EQ(stoppedEarly(bake), std::nullopt);
-    bake.settings["stopped"] = "true";
+    bake.stopped = true;
     EXPECT_TRUE(stoppedEarly(bake));
     bake.settings.erase("samples"); // unshadowed transfer casts none
     EXPECT_EQ(stoppedEarly(bake), std::nullopt);

@@ -33,12 +33,8 @@ std::string noteOf(const BakeInputs& inputs, bool fitted = false) {
     TileSink sink;
     const Result<BakeArtifact> transfer = bakePrtVertex(inputs, settings, sink, {});
     const Result<BakeArtifact> visibility = bakeAoVertex(inputs, {.samples = 64}, sink, {});
-    const auto note = [](const BakeArtifact& artifact) {
-        const auto found = artifact.settings.find("note");
-        return found == artifact.settings.end() ? std::string() : found->second;
-    };
-    EXPECT_EQ(note(*transfer), note(*visibility));
-    return note(*transfer);
+    EXPECT_EQ(transfer->note, visibility->note);
+    return transfer->note;
 }
 
 BakeInputs named(BakeInputs inputs, const std::vector<std::string>& names) {

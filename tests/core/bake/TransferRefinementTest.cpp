@@ -65,15 +65,15 @@ TEST(TransferRefinement, IsAdvisedOfCoarseMeshes) {
     EXPECT_LT(share, 0.5);
     EXPECT_LT(coarseShare(inputs, coarse.vertices, 0.02f), share);
     EXPECT_EQ(coarseShare(inputs, coarse.vertices, 10.0f), 0.0);
-    const std::string note = coarse.settings.at("note");
+    const std::string note = coarse.note;
     EXPECT_EQ(note.find(fmt::format("On {:.1f} % of the surface", 100.0 * share)), 0u) << note;
     EXPECT_NE(note.find("too coarse"), std::string::npos);
-    EXPECT_FALSE(bakeWith(64, true).settings.contains("note"));
-    EXPECT_FALSE(bakeWith(128, false).settings.contains("note"));
+    EXPECT_EQ(bakeWith(64, true).note, "");
+    EXPECT_EQ(bakeWith(128, false).note, "");
     BakeInputs flat = sceneOf({planeMesh(4.0, 4)});
     TileSink nobody;
     settings.fitted = true;
-    EXPECT_FALSE(bakePrtVertex(flat, settings, nobody, {})->settings.contains("note"));
+    EXPECT_EQ(bakePrtVertex(flat, settings, nobody, {})->note, "");
 }
 
 TEST(TransferRefinement, EndsAtTheBudget) {
