@@ -25,9 +25,11 @@ class Context {
     // is older than 4.5.
     static Result<std::unique_ptr<Context>> adoptCurrent();
 
-    // Creates a context without any window or X server: EGL surfaceless on Mesa, an EGL device
-    // elsewhere. Current on this thread until destroyed. Error NoOpenGl with what was tried.
-    static Result<std::unique_ptr<Context>> createHeadless();
+    // Creates a context without any window or X server: on a graphics card where there is one
+    // (unless LIBGL_ALWAYS_SOFTWARE says otherwise), else on Mesa's software. `renderer`: only one
+    // of that ContextInfo::renderer will do; empty: any. Current on this thread until destroyed.
+    // Error NoOpenGl with what was tried.
+    static Result<std::unique_ptr<Context>> createHeadless(const std::string& renderer = {});
 
   protected:
     ContextInfo m_info;

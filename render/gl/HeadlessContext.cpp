@@ -1,13 +1,20 @@
 #include "core/base/Log.h"
 #include "render/gl/ContextSetup.h"
 
+#include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <fmt/format.h>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <span>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -102,6 +109,47 @@ Result<std::unique_ptr<Context>> contextOn(EGLDisplay handle) {
     return std::unique_ptr<Context>(std::move(result));
 }
 
+// Somewhere a context may be had.
+struct Candidate {
+    std::string name;
+    std::function<EGLDisplay()> display;
+};
+
+// The best first: graphics cards, then Mesa's surfaceless platform, which on machines with another
+// vendor's driver knows software only, then software by name.
+std::vector<Candidate> candidates() {
+    std::vector<Candidate> cards, software;
+    std::array<EGLDeviceEXT, 16> devices{};
+    EGLint count = 0;
+    if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration"))
+        eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count);
+    // Mesa's variable, which other drivers do not read.
+    const char* always = std::getenv("LIBGL_ALWAYS_SOFTWARE");
+    const bool wantsSoftware = always && (*always == '1' || *always == 't' || *always == 'y');
+    const bool tells = epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_query");
+    for (const EGLDeviceEXT device : std::span(devices).first(static_cast<std::size_t>(count))) {
+        const char* extensions = tells ? eglQueryDeviceStringEXT(device, EGL_EXTENSIONS) : nullptr;
+        const bool isSoftware =
+            extensions &&
+            std::string_view(extensions).find("EGL_MESA_device_software") != std::string_view::npos;
+        std::vector<Candidate>& list = isSoftware ? software : cards;
+        list.push_back({fmt::format("device {}", cards.size() + software.size()), [device] {
+                            return eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device,
+                                                            nullptr);
+                        }});
+    }
+    std::vector<Candidate> all;
+    if (!wantsSoftware)
+        all = std::move(cards);
+    if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
+        all.push_back({"surfaceless", [] {
+                           return eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA,
+                                                           EGL_DEFAULT_DISPLAY, nullptr);
+                       }});
+    std::ranges::move(software, std::back_inserter(all));
+    return all;
+}
+
 bool eglLibraryPresent() {
     void* handle = dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL);
     if (!handle)
@@ -112,7 +160,7 @@ bool eglLibraryPresent() {
 
 } // namespace
 
-Result<std::unique_ptr<Context>> Context::createHeadless() {
+Result<std::unique_ptr<Context>> Context::createHeadless(const std::string& renderer) {
     const auto none = [](std::string detail) {
         return Error{ErrorKind::NoOpenGl,
                      "No OpenGL 4.5 could be started without a display; install Mesa's EGL driver "
@@ -124,24 +172,13 @@ Result<std::unique_ptr<Context>> Context::createHeadless() {
         return none("libEGL.so.1 is missing");
 
     std::string tried;
-    if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
-        auto context = contextOn(
-            eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
-        if (context)
+    for (const Candidate& candidate : candidates()) {
+        auto context = contextOn(candidate.display());
+        if (context && (renderer.empty() || context.value()->info().renderer == renderer))
             return context;
-        tried += "surfaceless: " + context.error().text() + "; ";
-    }
-    if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration")) {
-        std::array<EGLDeviceEXT, 16> devices{};
-        EGLint count = 0;
-        if (eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count))
-            for (EGLint i = 0; i < count; ++i) {
-                auto context = contextOn(eglGetPlatformDisplayEXT(
-                    EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)], nullptr));
-                if (context)
-                    return context;
-                tried += fmt::format("device {}: {}; ", i, context.error().text());
-            }
+        tried += fmt::format("{}: {}; ", candidate.name,
+                             context ? "it is " + context.value()->info().renderer
+                                     : context.error().text());
     }
     return none(tried.empty() ? "EGL offers neither surfaceless contexts nor devices" : tried);
 }

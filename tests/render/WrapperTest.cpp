@@ -208,5 +208,23 @@ TEST(HeadlessContext, ComesAndGoesCleanly) {
     EXPECT_FALSE(Context::adoptCurrent().ok());
 }
 
+TEST(HeadlessContext, OnlyTheRendererThatIsNamedWillDo) {
+    std::string name;
+    {
+        const auto any = Context::createHeadless();
+        ASSERT_TRUE(any.ok()) << any.error().text();
+        name = any.value()->info().renderer;
+    }
+    {
+        const auto named = Context::createHeadless(name);
+        ASSERT_TRUE(named.ok()) << named.error().text();
+        EXPECT_EQ(named.value()->info().renderer, name);
+    }
+    const auto other = Context::createHeadless("no such renderer");
+    ASSERT_FALSE(other.ok());
+    EXPECT_NE(other.error().detail.find(name), std::string::npos) << other.error().detail;
+    EXPECT_FALSE(Context::adoptCurrent().ok()) << "none is left current";
+}
+
 } // namespace
 } // namespace patina::gl

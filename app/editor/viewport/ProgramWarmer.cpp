@@ -24,8 +24,9 @@ constexpr double kCompilingMs = 600.0;
 
 // Milliseconds of drawing such frames in a context of its own, which is gone afterwards: only then
 // everything lies in the cache.
-Result<double> warmUp(const Document& document, const FrameKind& frame, const JobContext& job) {
-    auto context = gl::Context::createHeadless();
+Result<double> warmUp(const Document& document, const FrameKind& frame, const std::string& renderer,
+                      const JobContext& job) {
+    auto context = gl::Context::createHeadless(renderer);
     if (!context)
         return context.error();
     auto made = render::WarmUp::create(**context, document);
@@ -91,8 +92,8 @@ void ProgramWarmer::compile(const FrameKind& frame, std::function<void(double)> 
         {.tag = idle ? "compiling shaders ahead" : "compiling shaders",
          .policy = TaskPolicy::Follow,
          .priority = idle ? TaskPriority::Low : TaskPriority::High},
-        [document = m_document, frame](const JobContext& job) {
-            return warmUp(*document, frame, job);
+        [document = m_document, frame, renderer = m_renderer](const JobContext& job) {
+            return warmUp(*document, frame, renderer, job);
         },
         [this, then = std::move(then)](const Result<double>& milliseconds) {
             if (milliseconds)

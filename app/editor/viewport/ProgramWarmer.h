@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,9 @@ class ProgramWarmer : public QObject {
     Q_OBJECT
   public:
     explicit ProgramWarmer(TaskRunner& runner, QObject* parent = nullptr);
+
+    // ContextInfo::renderer of the window's driver, which alone finds what it has compiled itself.
+    void setRenderer(const std::string& renderer) { m_renderer = renderer; }
 
     // Whether such frames of the document are drawn without a stall: what they need is compiled, or
     // nothing can be done about it.
@@ -53,6 +57,7 @@ class ProgramWarmer : public QObject {
     void compile(const render::FrameKind& frame, std::function<void(double milliseconds)> then);
     void end(const std::optional<Error>& error);
 
+    std::string m_renderer;
     bool m_running = false;
     Urgency m_urgency = Urgency::Idle;
     Programs m_underWay;

@@ -19,6 +19,7 @@ class ViewGate : public QObject {
     Q_OBJECT
   public:
     explicit ViewGate(DocumentController& controller, QObject* parent = nullptr);
+    void setRenderer(const std::string& renderer) { m_warmer.setRenderer(renderer); }
 
     // What the next frame shows of what is wanted.
     [[nodiscard]] render::ViewSettings choose(const render::ViewSettings& wanted);

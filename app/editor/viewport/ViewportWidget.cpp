@@ -233,6 +233,7 @@ void ViewportWidget::initializeGL() {
     // Software OpenGL takes four times as long for four samples in one piece, and keeps no code for
     // them: each program would be compiled anew in every session.
     m_pacing.setAccumulates(m_context->info().software);
+    m_gate.setRenderer(m_context->info().renderer);
     const QByteArray shaderFolder = qgetenv("PATINA_SHADER_DIR");
     Result<std::unique_ptr<render::SceneRenderer>> created =
         render::SceneRenderer::create(*m_context, shaderFolder.toStdString());
