@@ -1,6 +1,7 @@
 #include "app/cli/BakeInfo.h"
 
 #include "core/bake/document/BakeStaleness.h"
+#include "core/bake/domain/BakeOptions.h"
 #include "core/bake/file/BakeHeader.h"
 #include "core/bake/file/BakeTarget.h"
 #include "core/bake/transfer/BakeCheckpoint.h"

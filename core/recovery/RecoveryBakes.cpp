@@ -1,6 +1,7 @@
 #include "core/recovery/RecoveryBakes.h"
 
 #include "core/bake/document/BakeCache.h"
+#include "core/bake/domain/BakeOptions.h"
 #include "core/document/Document.h"
 
 #include <algorithm>

@@ -14,6 +14,7 @@
 #include "core/bake/BakeMemory.h"
 #include "core/bake/document/BakeStaleness.h"
 #include "core/bake/document/DocumentBakeInputs.h"
+#include "core/bake/domain/BakeOptions.h"
 #include "core/document/AbsentBake.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"

@@ -1,5 +1,7 @@
 #include "core/bake/file/BakeHeader.h"
 
+#include "core/bake/domain/BakeOptions.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
