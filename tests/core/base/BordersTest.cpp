@@ -141,9 +141,9 @@ TEST(Borders, EachLibraryHasOneAdapter) {
     EXPECT_EQ(violations("core", "OpenEXR/", "core/codec/image/LuminanceChroma.cpp"), 0);
     EXPECT_EQ(violations("core", "assimp/", "core/codec/model/Assimp(Reader|Materials).cpp"), 0);
     EXPECT_EQ(violations("core", "draco/", "core/codec/model/DracoMesh.cpp"), 0);
-    EXPECT_EQ(violations("core", "embree3/", "core/trace/RayScene.cpp"), 0);
+    EXPECT_EQ(violations("core", "embree[34]/", "core/trace/Embree.h"), 0);
     EXPECT_EQ(violations("core", "(oneapi/)?tbb/", "core/job/Parallel.cpp"), 0);
-    EXPECT_EQ(violations("app", "embree3/|assimp/|OpenImageIO/|(oneapi/)?tbb/"), 0);
+    EXPECT_EQ(violations("app", "embree[34]/|assimp/|OpenImageIO/|(oneapi/)?tbb/"), 0);
 }
 
 // All work of the editor goes through one runner, with one border for exceptions and one end. What

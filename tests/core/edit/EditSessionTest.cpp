@@ -154,7 +154,7 @@ TEST_F(EditSessionTest, AFinishedBakeIsNoStepAndUndoLeavesIt) {
     session.attachBake(bake);
     EXPECT_EQ(session.count(), 1);
     EXPECT_TRUE(session.isModified());
-    EXPECT_EQ(session.undoText(), "Change Roughness of Gold");
+    EXPECT_EQ(session.undoText(), "Change Roughness of Material");
     session.undo();
     EXPECT_EQ(roughness(), 0.5f);
     EXPECT_EQ(findBake(session.document(), BakeKind::PrtVertex), bake);
