@@ -20,6 +20,22 @@ void CommandParser::addRays(CLI::App* command, int& samples, unsigned& seed, con
                       "When interrupted, write what has converged so far");
 }
 
+// Named before the options it sets, so that those have the last word, in whatever order they are
+// given.
+void CommandParser::addPreset(CLI::App* command, std::function<void(const BakePreset&)> apply) {
+    std::vector<std::string> names;
+    for (const BakePreset& preset : bakePresets())
+        names.emplace_back(preset.name);
+    command
+        ->add_option_function<std::string>(
+            "--preset",
+            [apply = std::move(apply)](const std::string& name) { apply(*findBakePreset(name)); },
+            "Rays and side of textures at once, as in the editor; options of their own come first "
+            "(default: good)")
+        ->check(plain(CLI::IsMember(names)))
+        ->type_name(fmt::format("{}", fmt::join(names, "|")));
+}
+
 void CommandParser::addBakes() {
     CLI::App* bake = m_app.add_subcommand("bake", "One bake, without a window");
     bake->require_subcommand(1);
@@ -31,6 +47,10 @@ void CommandParser::addBakes() {
             {"texel", BakeTarget::Texel}, {"vertex", BakeTarget::Vertex}})))
         ->default_str("texel")
         ->type_name("texel|vertex");
+    addPreset(ao, [this](const BakePreset& preset) {
+        m_ao.samples = preset.occlusionSamples;
+        m_ao.size = preset.occlusionSize;
+    });
     ao->add_option("--size", m_ao.size, "Side of the square texture in texels")
         ->check(plain(CLI::Range(1, 16384)))
         ->capture_default_str()
@@ -72,6 +92,9 @@ void CommandParser::addBakePrt(CLI::App& bake) {
     PrtSettings& s = o.settings;
     CLI::App* c = addCommand(bake, "prt", "Diffuse radiance transfer", o);
     addSceneAndOutput(c, o, ".exr; with --shard a part for patina merge");
+    addPreset(c, [&s](const BakePreset& preset) {
+        s = withPreset({BakeKind::PrtVertex, {}, s}, preset).prt;
+    });
     c->add_option("--order", s.order, "Spherical harmonic bands")
         ->check(plain(CLI::Range(1, kMaxShOrder)))
         ->capture_default_str()

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/cli/CommandLine.h"
+#include "core/bake/domain/BakePresets.h"
 
 #include <CLI/App.hpp>
 #include <functional>
@@ -70,6 +71,7 @@ class CommandParser {
     void addBakeIbl(CLI::App& bake);
     void addMerge();
     void addRays(CLI::App* command, int& samples, unsigned& seed, const char* per);
+    void addPreset(CLI::App* command, std::function<void(const BakePreset&)> apply);
     void addLongBake(CLI::App* command, LongBakeOptions& options);
 
     // SceneCommandLine.cpp

@@ -121,6 +121,7 @@ TEST(CommandLine, WrongUsageIsStatus2WithAHint) {
         {{"render", "builtin:nonsense", "-o", "x.png"}, "shader-ball"},
         {{"bake", "ao", "builtin:sphere", "-o", "x.jpg"}, ".png or .exr"},
         {{"bake", "ao", "builtin:sphere", "-o", "x.png", "--target", "vertex"}, ".exr"},
+        {{"bake", "ao", "builtin:sphere", "-o", "x.png", "--preset", "best"}, "draft,good,final"},
         {{"bake", "prt", "builtin:sphere", "-o", "x.exr", "--order", "9"}, "--order"},
         {{"bake", "prt", "builtin:sphere", "-o", "x.png"}, ".exr"},
         {{"export", "builtin:sphere", "-o", "x.obj"}, ".glb or .gltf"},

@@ -410,6 +410,22 @@ TEST_F(Commands, RenderFollowsBouncesOffOtherColors) {
     EXPECT_THAT(texels.json()["warnings"].dump(), HasSubstr("other colours"));
 }
 
+TEST_F(Commands, ABakesPresetSetsWhatIsNotGiven) {
+    const auto rays = [&](std::vector<std::string> more) {
+        std::vector<std::string> command{"bake", "ao", "builtin:plane", "--target", "vertex", "-o",
+                                         m_folder / "ao.exr", "--json"};
+        command.insert(command.end(), more.begin(), more.end());
+        const Outcome run = runPatina(command);
+        EXPECT_EQ(run.status, 0) << run.err;
+        return run.json().at("samplesDone").get<int>();
+    };
+    EXPECT_EQ(rays({"--preset", "draft"}), 64);
+    EXPECT_EQ(rays({"--preset", "draft", "--samples", "32"}), 32);
+    EXPECT_EQ(rays({"--samples", "32", "--preset", "draft"}), 32) << "in any order";
+    EXPECT_EQ(rays({}), 256);
+    EXPECT_EQ(rays({"--preset", "good"}), 256);
+}
+
 // A bake of a scene that was changed since says so.
 TEST_F(Commands, RenderWarnsOfStaleBakes) {
     ASSERT_EQ(runPatina({"bake", "ao", "builtin:shader-ball", "--target", "vertex", "-o",

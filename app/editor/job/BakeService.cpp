@@ -13,9 +13,11 @@
 #include "core/document/AbsentBake.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
+#include "core/job/Parallel.h"
 
 #include <QFile>
 #include <QMetaObject>
+#include <QSettings>
 #include <QStandardPaths>
 #include <utility>
 
@@ -24,6 +26,8 @@ namespace {
 
 constexpr int kViewMs = 250;
 constexpr int kSettleMs = 300;
+constexpr const char* kRate = "bake/raysPerSecond";
+constexpr double kUsualRate = 1e6;     // of a core, before one was measured
 constexpr float kWidestPicture = 2.0f; // the bake sees rather more than the viewport
 
 // Bakes outlive the session; the system may empty this folder at any time.
@@ -95,7 +99,9 @@ BakeService::BakeService(DocumentController& controller, JobManager& jobs, QObje
     , m_controller(controller)
     , m_jobs(jobs)
     , m_folder(bakeFolder())
-    , m_cache(m_folder) {
+    , m_cache(m_folder)
+    , m_raysPerSecond(
+          QSettings().value(QLatin1String(kRate), kUsualRate * threadCount()).toDouble()) {
     connect(&controller, &DocumentController::changed, this, &BakeService::documentChanged);
     connect(&jobs, &JobManager::jobsChanged, this, &BakeService::jobsChanged);
     connect(&jobs, &JobManager::shuttingDown, this, &BakeService::interrupt);
@@ -266,8 +272,10 @@ void BakeService::jobsChanged() {
     setPreview(std::move(shown));
     if (begins)
         passView();
-    if (m_bakes.empty())
+    if (m_bakes.empty()) {
         m_viewTimer.stop();
+        QSettings().setValue(QLatin1String(kRate), m_raysPerSecond);
+    }
     m_interruptedValid = false;
     Q_EMIT stateChanged();
 }
@@ -279,7 +287,19 @@ void BakeService::setPreview(std::shared_ptr<LivePreview> preview) {
     Q_EMIT previewChanged();
 }
 
+double BakeService::expectedSeconds(const BakeRequest& request, const BakeInputs& inputs) const {
+    return static_cast<double>(estimateBake(request, inputs).rays) / m_raysPerSecond;
+}
+
+void BakeService::learnRate() {
+    for (const auto& [id, bake] : m_bakes)
+        if (const std::optional<JobRecord> job = m_jobs.job(id);
+            job && job->state == JobState::Running && job->workPerSecond > 0.0)
+            m_raysPerSecond = job->workPerSecond;
+}
+
 void BakeService::passView() {
+    learnRate();
     const Camera& camera = m_controller.document().view.camera;
     const glm::mat4 projection =
         camera.projectionMatrix(kWidestPicture, m_controller.document().bounds());

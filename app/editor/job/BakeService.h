@@ -54,6 +54,10 @@ class BakeService : public QObject {
     [[nodiscard]] const std::vector<InterruptedBake>& interrupted();
     void discard(const InterruptedBake& bake);
 
+    // How long tracing the rays of a bake will take, by what bakes of this machine took lately.
+    [[nodiscard]] double expectedSeconds(const BakeRequest& request,
+                                         const BakeInputs& inputs) const;
+
     // Hashes of what a bake started now would be made from; kept until the document changes.
     [[nodiscard]] Hash currentInputs();
     [[nodiscard]] Hash currentAlbedo();
@@ -76,6 +80,7 @@ class BakeService : public QObject {
     void documentChanged(const Change& change);
     void jobsChanged();
     void passView();
+    void learnRate();
     // Decides which running bakes belong into the picture.
     void showPreviews();
     [[nodiscard]] bool showsMore(const LivePreview& preview);
@@ -93,6 +98,7 @@ class BakeService : public QObject {
     std::shared_ptr<FinishedHits> m_hits = std::make_shared<FinishedHits>(); // jobs hold it, too
     std::map<quint64, Bake> m_bakes;                                         // by job
     std::shared_ptr<LivePreview> m_preview;
+    double m_raysPerSecond;
     QTimer m_viewTimer; // while bakes run: where the user looks
     QTimer m_settled;   // edits of materials come in bursts
     QTimer m_restore;

@@ -5,6 +5,7 @@
 #include "app/editor/panel/AttachedBakes.h"
 #include "app/editor/panel/BakeSettingsForm.h"
 #include "app/editor/panel/JobRow.h"
+#include "app/editor/panel/JobTexts.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/PanelScroll.h"
@@ -196,6 +197,10 @@ void BakePanel::refreshCost() {
     const BakeEstimate cost = estimateBake(request, inputs);
     const std::uint64_t available = availableMemory();
     const Result<void> fits = checkBake(request, inputs);
+    const auto duration = [&](const BakeRequest& asked) {
+        return tr("about %1").arg(durationText(m_bakes.expectedSeconds(asked, inputs)));
+    };
+    m_form->describePresets(duration);
     m_start->setEnabled(m_controller.document().triangleCount() > 0 && fits.ok());
     if (!fits) {
         m_cost->setText(QStringLiteral("<span style='color:%1'>%2</span>")
@@ -207,7 +212,8 @@ void BakePanel::refreshCost() {
         isPerTexel(request.kind) ? tr("At most %1 texels, %2 rays") : tr("%1 vertices, %2 rays");
     text = text.arg(largeNumber(static_cast<double>(cost.elements)),
                     largeNumber(static_cast<double>(cost.rays)));
-    text += tr("; about %1 of memory").arg(QString::fromStdString(memoryText(cost.bytes)));
+    text += QStringLiteral("; ") + duration(request);
+    text += tr(" and %1 of memory").arg(QString::fromStdString(memoryText(cost.bytes)));
     if (available > 0)
         text += tr(", %1 are free").arg(QString::fromStdString(memoryText(available)));
     m_cost->setText(text);

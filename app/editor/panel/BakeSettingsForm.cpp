@@ -2,6 +2,8 @@
 
 #include "app/editor/job/BakeService.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/FoldButton.h"
+#include "app/editor/widget/TextButton.h"
 #include "core/bake/Bake.h"
 
 #include <QCheckBox>
@@ -9,7 +11,10 @@
 #include <QCoreApplication>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
+#include <QHBoxLayout>
 #include <QLocale>
+#include <QPushButton>
+#include <algorithm>
 #include <limits>
 
 namespace patina::editor {
@@ -35,6 +40,14 @@ void showInCheck(QWidget* field, const BakeOption& /*option*/, double value) {
     static_cast<QCheckBox*>(field)->setChecked(value != 0.0);
 }
 
+// What presets set is no change of the user's.
+bool ofPreset(const BakeOption& option) {
+    return std::ranges::any_of(bakePresets(), [&](const BakePreset& preset) {
+        const BakeRequest usual;
+        return option.get(withPreset(usual, preset)) != option.get(usual);
+    });
+}
+
 } // namespace
 
 BakeSettingsForm::BakeSettingsForm(QWidget* parent)
@@ -56,9 +69,56 @@ BakeSettingsForm::BakeSettingsForm(QWidget* parent)
     m_kind->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     m_form->addRow(m_kind);
     connect(m_kind, &QComboBox::currentIndexChanged, this, &BakeSettingsForm::refresh);
-    for (const BakeOption& option : bakeOptions())
-        m_rows.push_back(makeRow(option));
+    m_form->addRow(m_presetRow = makePresets());
+    for (const bool advanced : {false, true}) {
+        if (advanced)
+            m_form->addRow(makeFold());
+        for (const BakeOption& option : bakeOptions())
+            if (option.advanced == advanced)
+                m_rows.push_back(makeRow(option));
+    }
     refresh();
+}
+
+QWidget* BakeSettingsForm::makePresets() {
+    auto* row = new QWidget;
+    auto* layout = new QHBoxLayout(row);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(1); // parts of one switch
+    for (const BakePreset& preset : bakePresets()) {
+        QPushButton* button =
+            makeTextButton(QCoreApplication::translate("BakePresets", preset.label),
+                           QCoreApplication::translate("BakePresets", preset.help));
+        button->setCheckable(true);
+        button->setObjectName(QStringLiteral("bakePreset-") + QLatin1String(preset.name));
+        connect(button, &QPushButton::clicked, this, [this, &preset] {
+            m_requests[kind()] = withPreset(m_requests[kind()], preset);
+            m_edited.insert(kind());
+            refresh();
+        });
+        layout->addWidget(button, 1);
+        m_presets.emplace_back(&preset, button);
+    }
+    return row;
+}
+
+QWidget* BakeSettingsForm::makeFold() {
+    m_advanced = new FoldButton(tr("Advanced"), QStringLiteral("bake/advancedFolded"));
+    m_advanced->setObjectName(QStringLiteral("bakeAdvanced"));
+    m_advanced->setFolded(m_advanced->remembered(true));
+    connect(m_advanced, &QToolButton::clicked, this, [this] {
+        m_advanced->setFolded(!m_advanced->isFolded());
+        refresh();
+    });
+    return m_advanced;
+}
+
+void BakeSettingsForm::describePresets(const std::function<QString(const BakeRequest&)>& describe) {
+    for (const auto& [preset, button] : m_presets) {
+        const QString label = QCoreApplication::translate("BakePresets", preset->label);
+        const QString more = describe(withPreset(m_requests[kind()], *preset));
+        button->setText(more.isEmpty() ? label : label + QLatin1Char('\n') + more);
+    }
 }
 
 BakeSettingsForm::Row BakeSettingsForm::makeRow(const BakeOption& option) {
@@ -150,12 +210,27 @@ void BakeSettingsForm::edit(const BakeOption& option, double value) {
 void BakeSettingsForm::refresh() {
     m_refreshing = true;
     const BakeRequest& request = m_requests[kind()];
+    const BakeRequest usual{.kind = request.kind};
+    int changed = 0; // of those that may be folded away
     for (const Row& row : m_rows) {
         const bool applies = row.option->applies(request);
-        row.field->setVisible(applies);
-        m_form->labelForField(row.field)->setVisible(applies);
+        const bool shown = applies && !(row.option->advanced && m_advanced->isFolded());
+        row.field->setVisible(shown);
+        m_form->labelForField(row.field)->setVisible(shown);
         row.show(row.field, *row.option, row.option->get(request));
+        changed += applies && row.option->advanced && !ofPreset(*row.option) &&
+                           row.option->get(request) != row.option->get(usual)
+                       ? 1
+                       : 0;
     }
+    m_advanced->setText(changed > 0 ? tr("Advanced (%1 changed)").arg(changed) : tr("Advanced"));
+    const auto textOf = [&](const BakePreset& preset) {
+        return settingsText(withPreset(request, preset));
+    };
+    m_presetRow->setVisible(textOf(bakePresets().front()) != textOf(bakePresets().back()));
+    const BakePreset* chosen = presetOf(request);
+    for (const auto& [preset, button] : m_presets)
+        button->setChecked(preset == chosen);
     m_refreshing = false;
     Q_EMIT changed();
 }

@@ -1,18 +1,24 @@
-// What to bake and how finely: a row for each setting that applies
-// (core/bake/domain/BakeOptions.h), kept for each kind of bake.
+// What to bake and how finely: three presets, a row for each setting that applies
+// (core/bake/domain/BakeOptions.h), the advanced ones folded away. Kept for each kind of bake.
 #pragma once
 
 #include "core/bake/domain/BakeOptions.h"
+#include "core/bake/domain/BakePresets.h"
 
 #include <QWidget>
+#include <functional>
 #include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 class QComboBox;
 class QFormLayout;
+class QPushButton;
 
 namespace patina::editor {
+
+class FoldButton;
 
 class BakeSettingsForm : public QWidget {
     Q_OBJECT
@@ -28,6 +34,8 @@ class BakeSettingsForm : public QWidget {
     // The same, unless the user has changed something since.
     void follow(const BakeRequest& request);
     void showKind(BakeKind kind);
+    // What each preset says below its name, such as how long it takes; empty: nothing.
+    void describePresets(const std::function<QString(const BakeRequest&)>& describe);
 
   Q_SIGNALS:
     void changed();
@@ -41,11 +49,16 @@ class BakeSettingsForm : public QWidget {
     };
     [[nodiscard]] BakeKind kind() const;
     Row makeRow(const BakeOption& option);
+    [[nodiscard]] QWidget* makePresets();
+    [[nodiscard]] QWidget* makeFold();
     void edit(const BakeOption& option, double value);
     void refresh();
 
     QFormLayout* m_form;
     QComboBox* m_kind;
+    QWidget* m_presetRow;
+    std::vector<std::pair<const BakePreset*, QPushButton*>> m_presets;
+    FoldButton* m_advanced;
     std::vector<Row> m_rows;
     std::map<BakeKind, BakeRequest> m_requests;
     std::set<BakeKind> m_edited; // since setRequest()

@@ -40,6 +40,11 @@ bool bounces(const BakeRequest& request) {
     return ofTransfer(request) && request.prt.transfer == TransferKind::Interreflected;
 }
 
+constexpr BakeOption advanced(BakeOption option) {
+    option.advanced = true;
+    return option;
+}
+
 constexpr std::array kOptions{
     BakeOption{"transfer",
                "Transport",
@@ -82,7 +87,7 @@ constexpr std::array kOptions{
                },
                [](BakeRequest& r, double v) { r.prt.samples = r.ao.samples = static_cast<int>(v); },
                traces},
-    BakeOption{
+    advanced(BakeOption{
         "tolerance",
         "Tolerance",
         "Ends early, once the estimated error of the coefficients (root mean square) is this "
@@ -97,7 +102,7 @@ constexpr std::array kOptions{
         [](BakeRequest& r, double v) { r.prt.tolerance = static_cast<float>(v); },
         tracesTransfer,
         true,
-        "Off"},
+        "Off"}),
     BakeOption{"bounces",
                "Bounces",
                "How often light may be reflected on its way",
@@ -110,20 +115,21 @@ constexpr std::array kOptions{
                [](const BakeRequest& r) { return static_cast<double>(r.prt.bounces); },
                [](BakeRequest& r, double v) { r.prt.bounces = static_cast<int>(v); },
                bounces},
-    BakeOption{"bounceSamples",
-               "Bounce rays",
-               "Rays per vertex or texel for the bounces. What those of vertices meet is kept, 8 "
-               "bytes each, so that another albedo needs no new ray",
-               "",
-               Type::Integer,
-               1,
-               65536,
-               kBounceSamples,
-               {},
-               [](const BakeRequest& r) { return static_cast<double>(r.prt.bounceSamples); },
-               [](BakeRequest& r, double v) { r.prt.bounceSamples = static_cast<int>(v); },
-               bounces},
-    BakeOption{
+    advanced(BakeOption{
+        "bounceSamples",
+        "Bounce rays",
+        "Rays per vertex or texel for the bounces. What those of vertices meet is kept, 8 "
+        "bytes each, so that another albedo needs no new ray",
+        "",
+        Type::Integer,
+        1,
+        65536,
+        kBounceSamples,
+        {},
+        [](const BakeRequest& r) { return static_cast<double>(r.prt.bounceSamples); },
+        [](BakeRequest& r, double v) { r.prt.bounceSamples = static_cast<int>(v); },
+        bounces}),
+    advanced(BakeOption{
         "hitBudget",
         "Hit memory",
         "Memory that the hits of the bounce rays may take; a scene that needs more traces "
@@ -137,20 +143,21 @@ constexpr std::array kOptions{
         [](const BakeRequest& r) { return static_cast<double>(r.prt.hitBudget >> 20); },
         [](BakeRequest& r, double v) { r.prt.hitBudget = static_cast<std::uint64_t>(v) << 20; },
         bounces,
-        false},
-    BakeOption{"fitted",
-               "Fit to the surface",
-               "Fits the values at the vertices to the whole surface by least squares, so that "
-               "coarse meshes show shadows in the right place; off: samples at the vertices alone",
-               "",
-               Type::Toggle,
-               0,
-               1,
-               {},
-               {},
-               [](const BakeRequest& r) { return r.prt.fitted ? 1.0 : 0.0; },
-               [](BakeRequest& r, double v) { r.prt.fitted = v != 0.0; },
-               [](const BakeRequest& r) { return r.kind == BakeKind::PrtVertex && traces(r); }},
+        false}),
+    advanced(BakeOption{
+        "fitted",
+        "Fit to the surface",
+        "Fits the values at the vertices to the whole surface by least squares, so that "
+        "coarse meshes show shadows in the right place; off: samples at the vertices alone",
+        "",
+        Type::Toggle,
+        0,
+        1,
+        {},
+        {},
+        [](const BakeRequest& r) { return r.prt.fitted ? 1.0 : 0.0; },
+        [](BakeRequest& r, double v) { r.prt.fitted = v != 0.0; },
+        [](const BakeRequest& r) { return r.kind == BakeKind::PrtVertex && traces(r); }}),
     BakeOption{"size",
                "Size",
                "Side of the square texture that each material gets",
@@ -179,20 +186,21 @@ constexpr std::array kOptions{
                ofOcclusion,
                true,
                "Unlimited"},
-    BakeOption{"method",
-               "Sampling",
-               "How directions are chosen: scrambled Sobol' points are the smoothest; the others "
-               "are there to compare with",
-               "",
-               Type::Choice,
-               0,
-               0,
-               {},
-               kMethods,
-               [](const BakeRequest& r) { return static_cast<double>(r.prt.method); },
-               [](BakeRequest& r, double v) { r.prt.method = static_cast<SampleMethod>(v); },
-               tracesTransfer},
-    BakeOption{
+    advanced(BakeOption{
+        "method",
+        "Sampling",
+        "How directions are chosen: scrambled Sobol' points are the smoothest; the others "
+        "are there to compare with",
+        "",
+        Type::Choice,
+        0,
+        0,
+        {},
+        kMethods,
+        [](const BakeRequest& r) { return static_cast<double>(r.prt.method); },
+        [](BakeRequest& r, double v) { r.prt.method = static_cast<SampleMethod>(v); },
+        tracesTransfer}),
+    advanced(BakeOption{
         "seed",
         "Seed",
         "Another seed gives other noise of the same size; the same seed gives the same bytes",
@@ -206,7 +214,7 @@ constexpr std::array kOptions{
             return static_cast<double>(holdsTransfer(r.kind) ? r.prt.seed : r.ao.seed);
         },
         [](BakeRequest& r, double v) { r.prt.seed = r.ao.seed = static_cast<std::uint32_t>(v); },
-        traces},
+        traces}),
 };
 
 // No option is called so.

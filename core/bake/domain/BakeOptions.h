@@ -33,6 +33,7 @@ struct BakeOption {
     bool (*applies)(const BakeRequest&);
     bool shapesResult = true;  // or only what computing it costs
     const char* zeroText = ""; // Number: shown instead of 0
+    bool advanced = false;     // for those who know why
 };
 
 [[nodiscard]] std::span<const BakeOption> bakeOptions(); // in the order of the panel

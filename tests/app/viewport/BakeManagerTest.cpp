@@ -12,6 +12,7 @@
 #include "core/bake/document/BakeStaleness.h"
 #include "core/bake/document/DocumentBakeInputs.h"
 #include "core/bake/domain/BakeOptions.h"
+#include "core/bake/domain/BakePresets.h"
 #include "core/base/AtomicFile.h"
 #include "core/base/FileLock.h"
 #include "core/edit/EditSession.h"
@@ -23,6 +24,8 @@
 #include <QMessageBox>
 #include <QPushButton>
 #include <QStandardPaths>
+#include <QToolButton>
+#include <string>
 
 namespace patina::editor {
 namespace {
@@ -517,11 +520,52 @@ TEST_F(BakeManagerTest, TimesAreToldAsCoarselyAsTheyMatter) {
     EXPECT_EQ(durationText(3600.0 + 7 * 60 + 59), QStringLiteral("1 h 07 min"));
 }
 
+TEST_F(BakeManagerTest, PresetsSetRaysAndSayHowLongTheyTake) {
+    choose("bakeKind", QStringLiteral("Radiance transfer (PRT, per vertex)"));
+    choose("bakeTransfer", QStringLiteral("Shadowed"));
+    choose("bakeOrder", QStringLiteral("5"));
+    const auto button = [](const char* name) {
+        return visible<QPushButton>((std::string("bakePreset-") + name).c_str());
+    };
+    double before = 0.0;
+    for (const BakePreset& preset : bakePresets()) {
+        ASSERT_NE(button(preset.name), nullptr) << preset.name;
+        button(preset.name)->click();
+        EXPECT_TRUE(button(preset.name)->isChecked());
+        EXPECT_EQ(visible<QComboBox>("bakeSamples")->currentData().toInt(), preset.transferSamples);
+        EXPECT_EQ(visible<QComboBox>("bakeOrder")->currentData().toInt(), 5) << "is left alone";
+        EXPECT_THAT(button(preset.name)->text().toStdString(),
+                    testing::StartsWith(std::string(preset.label) + "\nabout "));
+        BakeRequest request{.kind = BakeKind::PrtVertex};
+        const double seconds =
+            session->bakes.expectedSeconds(withPreset(request, preset), bakeInputs(document()));
+        EXPECT_GT(seconds, before);
+        before = seconds;
+    }
+    rays(128);
+    for (const BakePreset& preset : bakePresets())
+        EXPECT_FALSE(button(preset.name)->isChecked()) << "the rays are of none of them";
+    choose("bakeTransfer", QStringLiteral("Unshadowed"));
+    EXPECT_EQ(button("good"), nullptr) << "casts no ray";
+    choose("bakeTransfer", QStringLiteral("Shadowed"));
+    button("good")->click();
+}
+
 TEST_F(BakeManagerTest, TheFormShowsWhatApplies) {
     choose("bakeKind", QStringLiteral("Radiance transfer (PRT, per vertex)"));
     choose("bakeTransfer", QStringLiteral("Shadowed")); // the form follows the bakes of other tests
     EXPECT_NE(visible<QComboBox>("bakeOrder"), nullptr);
-    EXPECT_NE(visible<QCheckBox>("bakeFitted"), nullptr);
+    auto* advanced = panel().findChild<QToolButton*>(QStringLiteral("bakeAdvanced"));
+    ASSERT_NE(advanced, nullptr);
+    if (visible<QCheckBox>("bakeFitted"))
+        advanced->click();
+    EXPECT_EQ(visible<QCheckBox>("bakeFitted"), nullptr);
+    advanced->click();
+    ASSERT_NE(visible<QCheckBox>("bakeFitted"), nullptr);
+    EXPECT_EQ(advanced->text(), QStringLiteral("Advanced"));
+    visible<QCheckBox>("bakeFitted")->click();
+    EXPECT_EQ(advanced->text(), QStringLiteral("Advanced (1 changed)")) << "told when it is folded";
+    visible<QCheckBox>("bakeFitted")->click();
     EXPECT_EQ(visible<QComboBox>("bakeBounces"), nullptr);
     EXPECT_EQ(visible<QComboBox>("bakeSize"), nullptr);
     choose("bakeTransfer", QStringLiteral("Interreflected"));

@@ -1,4 +1,5 @@
 #include "core/bake/domain/BakeOptions.h"
+#include "core/bake/domain/BakePresets.h"
 
 #include <gtest/gtest.h>
 #include <set>
@@ -85,6 +86,35 @@ TEST(BakeOptions, EachIsNamedAndExplained) {
         EXPECT_EQ(option.type == BakeOption::Type::Choice, !option.choices.empty());
     }
     EXPECT_EQ(findBakeOption("bands"), nullptr);
+}
+
+TEST(BakePresets, SetRaysAndSidesAndNothingElse) {
+    for (const BakeKind kind :
+         {BakeKind::AoTexel, BakeKind::AoVertex, BakeKind::PrtVertex, BakeKind::PrtTexel}) {
+        const BakeRequest request = unusual(kind);
+        EXPECT_EQ(presetOf(request), nullptr);
+        for (const BakePreset& preset : bakePresets()) {
+            const BakeRequest chosen = withPreset(request, preset);
+            EXPECT_EQ(presetOf(chosen), &preset);
+            EXPECT_EQ(findBakePreset(preset.name), &preset);
+            for (const BakeOption& option : bakeOptions()) {
+                const std::string name = option.name;
+                if (name != "samples" && name != "size" && name != "bounceSamples") {
+                    EXPECT_EQ(option.get(chosen), option.get(request)) << name;
+                }
+            }
+        }
+    }
+    EXPECT_EQ(findBakePreset("best"), nullptr);
+}
+
+TEST(BakePresets, TheMiddleOneIsWhatRequestsBeginWith) {
+    for (const BakeKind kind :
+         {BakeKind::AoTexel, BakeKind::AoVertex, BakeKind::PrtVertex, BakeKind::PrtTexel}) {
+        BakeRequest request{.kind = kind};
+        request.prt.transfer = TransferKind::Interreflected;
+        EXPECT_EQ(presetOf(request), &bakePresets()[1]);
+    }
 }
 
 } // namespace
