@@ -1,5 +1,6 @@
 #include "core/mesh/UvCharts.h"
 
+#include "core/job/Parallel.h"
 #include "core/mesh/OverlapGrid.h"
 #include "core/mesh/TriangleAdjacency.h"
 
@@ -39,6 +40,7 @@ class Regions {
         growFromFreeTriangles();
     }
 
+    [[nodiscard]] std::size_t count() const { return m_axis.size(); } // some may be empty
     [[nodiscard]] const std::vector<std::uint32_t>& labels() const { return m_label; }
     [[nodiscard]] const glm::dvec3& axis(std::uint32_t label) const { return m_axis[label]; }
 
@@ -166,6 +168,45 @@ double gridCell(const Mesh& mesh, const std::vector<glm::dvec3>& points,
     return std::max({mean, settings.overlapTolerance, 1.0 / 4096.0});
 }
 
+// Within a region, grows connected charts that leave out what would overlap; what is left out
+// starts further charts. Writes their numbers into `chartOf` of the region's triangles, and returns
+// the triangle that each began with.
+template <class InRegion>
+std::vector<std::uint32_t>
+cutRegion(const Mesh& mesh, const std::vector<glm::dvec3>& points,
+          const std::vector<std::array<std::uint32_t, 3>>& adjacency,
+          const std::vector<std::uint32_t>& triangles, const ChartFrame& frame, OverlapGrid grid,
+          const InRegion& inRegion, std::vector<std::uint32_t>& chartOf) {
+    std::vector<std::uint32_t> seeds;
+    std::queue<std::uint32_t> front;
+    for (const std::uint32_t seed : triangles) {
+        if (chartOf[seed] != kNoLabel)
+            continue;
+        const auto chart = static_cast<std::uint32_t>(seeds.size());
+        seeds.push_back(seed);
+        front.push(seed);
+        while (!front.empty()) {
+            const std::uint32_t t = front.front();
+            front.pop();
+            if (chartOf[t] != kNoLabel)
+                continue;
+            Triangle2 triangle;
+            for (std::size_t corner = 0; corner < 3; ++corner) {
+                const glm::dvec3& point = points[mesh.indices[3 * t + corner]];
+                triangle[corner] = {glm::dot(point, frame.x), glm::dot(point, frame.y)};
+            }
+            if (!grid.add(chart, triangle))
+                continue;
+            chartOf[t] = chart;
+            for (const std::uint32_t neighbour : adjacency[t])
+                if (neighbour != kNoTriangle && inRegion(neighbour) &&
+                    chartOf[neighbour] == kNoLabel)
+                    front.push(neighbour);
+        }
+    }
+    return seeds;
+}
+
 } // namespace
 
 ChartFrame chartFrame(const glm::dvec3& axis) {
@@ -180,40 +221,44 @@ UvCharts cutUvCharts(const Mesh& mesh, const std::vector<glm::dvec3>& points,
     const auto adjacency = triangleAdjacency(mesh);
     Regions regions(mesh, points, adjacency, std::cos(glm::radians(settings.maxDeviationDeg)));
     regions.build();
+    std::vector<std::vector<std::uint32_t>> triangles(regions.count());
+    for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t)
+        triangles[regions.labels()[t]].push_back(t);
 
-    // Within a region, grow connected charts that leave out what would overlap; what is left out
-    // starts further charts.
+    // No chart spans two regions, so that each is cut by itself. Its charts begin with the first
+    // triangle that is left, and are numbered within the region.
     UvCharts charts;
     charts.chartOfTriangle.assign(mesh.triangleCount(), kNoLabel);
-    OverlapGrid grid(gridCell(mesh, points, settings), settings.overlapTolerance);
-    for (std::uint32_t seed = 0; seed < mesh.triangleCount(); ++seed) {
-        if (charts.chartOfTriangle[seed] != kNoLabel)
-            continue;
-        const std::uint32_t region = regions.labels()[seed];
-        const auto chart = static_cast<std::uint32_t>(charts.axes.size());
-        const ChartFrame frame = chartFrame(regions.axis(region));
-        charts.axes.push_back(regions.axis(region));
-        std::queue<std::uint32_t> front;
-        front.push(seed);
-        while (!front.empty()) {
-            const std::uint32_t t = front.front();
-            front.pop();
-            if (charts.chartOfTriangle[t] != kNoLabel)
-                continue;
-            Triangle2 triangle;
-            for (std::size_t corner = 0; corner < 3; ++corner) {
-                const glm::dvec3& point = points[mesh.indices[3 * t + corner]];
-                triangle[corner] = {glm::dot(point, frame.x), glm::dot(point, frame.y)};
-            }
-            if (!grid.add(chart, triangle))
-                continue;
-            charts.chartOfTriangle[t] = chart;
-            for (const std::uint32_t neighbour : adjacency[t])
-                if (neighbour != kNoTriangle && regions.labels()[neighbour] == region &&
-                    charts.chartOfTriangle[neighbour] == kNoLabel)
-                    front.push(neighbour);
-        }
+    std::vector<std::vector<std::uint32_t>> seeds(regions.count()); // of its charts, ascending
+    const double cell = gridCell(mesh, points, settings);
+    parallelFor(JobContext(), regions.count(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t region = begin; region < end; ++region)
+            seeds[region] = cutRegion(
+                mesh, points, adjacency, triangles[region],
+                chartFrame(regions.axis(static_cast<std::uint32_t>(region))),
+                OverlapGrid(cell, settings.overlapTolerance),
+                [&](std::uint32_t t) {
+                    return regions.labels()[t] == static_cast<std::uint32_t>(region);
+                },
+                charts.chartOfTriangle);
+    });
+
+    // Numbered by their first triangles, over all regions.
+    struct Chart {
+        std::uint32_t seed, region;
+    };
+    std::vector<Chart> all;
+    for (std::uint32_t region = 0; region < seeds.size(); ++region)
+        for (const std::uint32_t seed : seeds[region])
+            all.push_back({seed, region});
+    std::ranges::sort(all, {}, &Chart::seed);
+    std::vector<std::vector<std::uint32_t>> numbers(seeds.size());
+    for (std::uint32_t chart = 0; chart < all.size(); ++chart) {
+        numbers[all[chart].region].push_back(chart);
+        charts.axes.push_back(regions.axis(all[chart].region));
     }
+    for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t)
+        charts.chartOfTriangle[t] = numbers[regions.labels()[t]][charts.chartOfTriangle[t]];
     return charts;
 }
 
