@@ -210,20 +210,19 @@ void BakeSettingsForm::edit(const BakeOption& option, double value) {
 void BakeSettingsForm::refresh() {
     m_refreshing = true;
     const BakeRequest& request = m_requests[kind()];
-    const BakeRequest usual{.kind = request.kind};
-    int changed = 0; // of those that may be folded away
+    const BakeRequest usual{request.kind, {}, {}};
+    int unusual = 0; // of those that may be folded away
     for (const Row& row : m_rows) {
         const bool applies = row.option->applies(request);
         const bool shown = applies && !(row.option->advanced && m_advanced->isFolded());
         row.field->setVisible(shown);
         m_form->labelForField(row.field)->setVisible(shown);
         row.show(row.field, *row.option, row.option->get(request));
-        changed += applies && row.option->advanced && !ofPreset(*row.option) &&
-                           row.option->get(request) != row.option->get(usual)
-                       ? 1
-                       : 0;
+        if (applies && row.option->advanced && !ofPreset(*row.option) &&
+            row.option->get(request) != row.option->get(usual))
+            ++unusual;
     }
-    m_advanced->setText(changed > 0 ? tr("Advanced (%1 changed)").arg(changed) : tr("Advanced"));
+    m_advanced->setText(unusual > 0 ? tr("Advanced (%1 changed)").arg(unusual) : tr("Advanced"));
     const auto textOf = [&](const BakePreset& preset) {
         return settingsText(withPreset(request, preset));
     };

@@ -536,7 +536,7 @@ TEST_F(BakeManagerTest, PresetsSetRaysAndSayHowLongTheyTake) {
         EXPECT_EQ(visible<QComboBox>("bakeOrder")->currentData().toInt(), 5) << "is left alone";
         EXPECT_THAT(button(preset.name)->text().toStdString(),
                     testing::StartsWith(std::string(preset.label) + "\nabout "));
-        BakeRequest request{.kind = BakeKind::PrtVertex};
+        const BakeRequest request{BakeKind::PrtVertex, {}, {}};
         const double seconds =
             session->bakes.expectedSeconds(withPreset(request, preset), bakeInputs(document()));
         EXPECT_GT(seconds, before);

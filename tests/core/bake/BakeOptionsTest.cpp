@@ -111,7 +111,7 @@ TEST(BakePresets, SetRaysAndSidesAndNothingElse) {
 TEST(BakePresets, TheMiddleOneIsWhatRequestsBeginWith) {
     for (const BakeKind kind :
          {BakeKind::AoTexel, BakeKind::AoVertex, BakeKind::PrtVertex, BakeKind::PrtTexel}) {
-        BakeRequest request{.kind = kind};
+        BakeRequest request{kind, {}, {}};
         request.prt.transfer = TransferKind::Interreflected;
         EXPECT_EQ(presetOf(request), &bakePresets()[1]);
     }
