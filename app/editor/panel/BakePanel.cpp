@@ -198,7 +198,7 @@ void BakePanel::refreshCost() {
     const std::uint64_t available = availableMemory();
     const Result<void> fits = checkBake(request, inputs);
     const auto duration = [&](const BakeRequest& asked) {
-        return tr("about %1").arg(durationText(m_bakes.expectedSeconds(asked, inputs)));
+        return roughDurationText(m_bakes.expectedSeconds(asked, inputs));
     };
     m_form->describePresets(duration);
     m_start->setEnabled(m_controller.document().triangleCount() > 0 && fits.ok());
@@ -216,6 +216,9 @@ void BakePanel::refreshCost() {
     text += tr(" and %1 of memory").arg(QString::fromStdString(memoryText(cost.bytes)));
     if (available > 0)
         text += tr(", %1 are free").arg(QString::fromStdString(memoryText(available)));
+    // No number is parted from its unit.
+    text.replace(QLatin1String(" MiB"), QStringLiteral("\u00a0MiB"));
+    text.replace(QLatin1String(" GiB"), QStringLiteral("\u00a0GiB"));
     m_cost->setText(text);
 }
 

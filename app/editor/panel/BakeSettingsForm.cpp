@@ -90,6 +90,7 @@ QWidget* BakeSettingsForm::makePresets() {
             makeTextButton(QCoreApplication::translate("BakePresets", preset.label),
                            QCoreApplication::translate("BakePresets", preset.help));
         button->setCheckable(true);
+        button->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred); // all of one width
         button->setObjectName(QStringLiteral("bakePreset-") + QLatin1String(preset.name));
         connect(button, &QPushButton::clicked, this, [this, &preset] {
             m_requests[kind()] = withPreset(m_requests[kind()], preset);

@@ -20,6 +20,20 @@ QString durationText(double seconds) {
     return twoParts(JobManager::tr("%1 h %2 min"), whole / 3600, whole / 60 % 60);
 }
 
+QString roughDurationText(double seconds) {
+    const auto text = [](const QString& unit, double number, int decimals) {
+        return unit.arg(QLocale().toString(number, 'f', decimals));
+    };
+    if (seconds < 10.0)
+        return text(JobManager::tr("about %1 s"), std::max(1.0, std::round(seconds)), 0);
+    if (seconds < 57.5)
+        return text(JobManager::tr("about %1 s"), 5.0 * std::round(seconds / 5.0), 0);
+    if (seconds < 57.5 * 60.0)
+        return text(JobManager::tr("about %1 min"), std::round(seconds / 60.0), 0);
+    const double hours = seconds / 3600.0;
+    return text(JobManager::tr("about %1 h"), hours, hours < 9.95 ? 1 : 0);
+}
+
 QString progressText(const JobRecord& record) {
     QStringList parts;
     parts << JobManager::tr("%1 %").arg(static_cast<int>(record.progress.fraction * 100.0));

@@ -518,6 +518,12 @@ TEST_F(BakeManagerTest, TimesAreToldAsCoarselyAsTheyMatter) {
     EXPECT_EQ(durationText(59.5), QStringLiteral("1 min 00 s"));
     EXPECT_EQ(durationText(3599.0), QStringLiteral("59 min 59 s"));
     EXPECT_EQ(durationText(3600.0 + 7 * 60 + 59), QStringLiteral("1 h 07 min"));
+    EXPECT_EQ(roughDurationText(0.2), QStringLiteral("about 1 s"));
+    EXPECT_EQ(roughDurationText(42.0), QStringLiteral("about 40 s"));
+    EXPECT_EQ(roughDurationText(62.0), QStringLiteral("about 1 min"));
+    EXPECT_EQ(roughDurationText(3400.0), QStringLiteral("about 57 min"));
+    EXPECT_EQ(roughDurationText(5400.0), QStringLiteral("about 1.5 h"));
+    EXPECT_EQ(roughDurationText(36000.0), QStringLiteral("about 10 h"));
 }
 
 TEST_F(BakeManagerTest, PresetsSetRaysAndSayHowLongTheyTake) {
