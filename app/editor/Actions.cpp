@@ -41,7 +41,7 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
                      tr("Show or hide the list of meshes and materials")))
     , materialDock(make(tr("Material"), QStringLiteral("material"), {tr("Ctrl+Shift+2")},
                         tr("Show or hide the parameters of the material")))
-    , environmentDock(make(tr("Envir&onment"), QStringLiteral("environment"), {tr("Ctrl+Shift+3")},
+    , environmentDock(make(tr("En&vironment"), QStringLiteral("environment"), {tr("Ctrl+Shift+3")},
                            tr("Show or hide what surrounds and lights the scene")))
     , lightsDock(make(tr("Light&s"), QStringLiteral("light-sun"), {tr("Ctrl+Shift+4")},
                       tr("Show or hide the list of lights")))

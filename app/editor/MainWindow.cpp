@@ -272,7 +272,7 @@ void MainWindow::makeMenus() {
     QMenu* view = menuBar()->addMenu(tr("&View"));
     view->addActions({a.frame, a.home, a.overlays});
     view->addSeparator();
-    m_looks->fillMenu(*view->addMenu(tr("Look &At")));
+    m_looks->fillMenu(*view->addMenu(tr("L&ook At")));
     view->addSeparator();
     view->addActions({a.lightingIbl, a.lightingPrt});
     view->addSeparator();

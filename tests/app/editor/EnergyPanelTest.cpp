@@ -229,7 +229,7 @@ TEST_F(EnergyTest, TheFurnaceIsOneClickAndNoEdit) {
     const int before = undoCount();
     const Document untouched = document();
     auto* furnace = find<QToolButton>(*panel, QStringLiteral("Furnace"));
-    auto* energy = find<QToolButton>(*panel, QStringLiteral("Energy View"));
+    auto* energy = find<QToolButton>(*panel, QStringLiteral("Furnace View"));
     QTest::mouseClick(furnace, Qt::LeftButton);
     ASSERT_TRUE(session->views.settings().furnace);
     EXPECT_EQ(*session->views.settings().furnace, glm::vec3(1.0f));
