@@ -42,9 +42,56 @@ int reducedSide(int side) {
     return std::has_single_bit(static_cast<unsigned>(side)) ? kReducedSide : kReducedSide - 1;
 }
 
+using Size = std::pair<int, int>;
+
+Size sizeOf(const Image& image) {
+    return {image.width(), image.height()};
+}
+
+ImagePtr reduced(const Image& image, const Size& size) {
+    return std::make_shared<const Image>(size.first, size.second, image.channels(), image.type(),
+                                         image.encoding());
+}
+
 ImagePtr reduced(const Image& image) {
-    return std::make_shared<const Image>(reducedSide(image.width()), reducedSide(image.height()),
-                                         image.channels(), image.type(), image.encoding());
+    return reduced(image, {reducedSide(image.width()), reducedSide(image.height())});
+}
+
+// The maps of a material with as few texels as compile to the same programs: those that share an
+// image still do, and sizes that differ still differ, as maps of one size may be packed.
+void reduceMaps(Material& material) {
+    std::map<Size, Size> sizes; // few: one for each map at most
+    const auto isTaken = [&](const Size& size) {
+        return std::ranges::any_of(sizes, [&](const auto& of) { return of.second == size; });
+    };
+    const auto grown = [](int side) { // a power of two or not, as it was
+        return std::has_single_bit(static_cast<unsigned>(side)) ? 2 * side : side + 2;
+    };
+    const auto isSmall = [](const Size& size) {
+        return std::max(size.first, size.second) <= kReducedSide;
+    };
+    for (const bool small : {true, false}) // what stays as it is comes first
+        forEachMap(material, [&](const MapSlot& map) {
+            if (!map.image || isSmall(sizeOf(*map.image)) != small)
+                return;
+            const auto [width, height] = sizeOf(*map.image);
+            if (sizes.contains({width, height}))
+                return;
+            Size size{reducedSide(width), reducedSide(height)};
+            while (isTaken(size))
+                size = width > kReducedSide ? Size{grown(size.first), size.second}
+                                            : Size{size.first, grown(size.second)};
+            sizes[{width, height}] = size;
+        });
+    std::map<ImagePtr, ImagePtr> images;
+    forEachMap(material, [&](MapSlot& map) {
+        if (!map.image)
+            return;
+        ImagePtr& image = images[map.image];
+        if (!image)
+            image = reduced(*map.image, sizes.at(sizeOf(*map.image)));
+        map.image = image;
+    });
 }
 
 SurfaceSettings settingsOf(const Document& document, const FrameKind& frame) {
@@ -249,16 +296,8 @@ Document warmUpScene(const Document& document) {
         scene.meshes.push_back(std::move(mesh));
     }
     std::erase_if(scene.materials, [&](const Material& m) { return !materials.contains(m.id); });
-    std::map<ImagePtr, ImagePtr> images; // maps that share an image still do
     for (Material& material : scene.materials)
-        forEachMap(material, [&](MapSlot& map) {
-            if (!map.image)
-                return;
-            ImagePtr& image = images[map.image];
-            if (!image)
-                image = reduced(*map.image);
-            map.image = image;
-        });
+        reduceMaps(material);
     for (BakeArtifactPtr& bake : scene.bakes)
         bake = reducedBake(*bake, meshes);
     Camera camera; // in front

@@ -41,7 +41,7 @@ struct FrameKind {
                                                           const FrameKind& frame);
 
 // A document that is drawn with the programs of `document` at next to no cost: for each of them a
-// square with its material, side by side along x, the maps reduced to 4 × 4 texels.
+// square with its material, side by side along x, the maps reduced to few texels.
 [[nodiscard]] Document warmUpScene(const Document& document);
 
 class WarmUp {

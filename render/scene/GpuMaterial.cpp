@@ -1,7 +1,7 @@
 #include "render/scene/GpuMaterial.h"
 
 #include "core/material/MapUv.h"
-#include "render/scene/TextureCache.h"
+#include "render/scene/MapFetches.h"
 #include "render/shader/GeneratedShaders.h"
 
 #include <glm/geometric.hpp>
@@ -28,22 +28,6 @@ glm::vec4 channelWeights(MapChannel channel) {
     return {-1, 0, 0, 0};
 }
 
-// Of a map of numbers, which reads one channel: its index; Rgb means red.
-unsigned channelIndex(MapChannel channel) {
-    switch (channel) {
-    case MapChannel::Rgb:
-    case MapChannel::R:
-        return 0;
-    case MapChannel::G:
-        return 1;
-    case MapChannel::B:
-        return 2;
-    case MapChannel::A:
-        return 3;
-    }
-    return 0;
-}
-
 MapBlock packMap(const MapSlot& map) {
     return {uvMatrix(map), glm::vec4(map.uvOffset, 0, 0), channelWeights(map.channel)};
 }
@@ -68,22 +52,6 @@ glm::vec4 normalBasis(const MapSlot& map) {
 
 bool missing(const MapSlot& map) {
     return map.assigned() && !map.image;
-}
-
-bool sameTexels(const MapSlot& a, const MapSlot& b) {
-    return a.image && a.image == b.image && a.uvScale == b.uvScale && a.uvOffset == b.uvOffset &&
-           a.uvRotationDeg == b.uvRotationDeg;
-}
-
-// The input whose texel it reads: the first number with the same ones.
-MaterialInput texelOwner(const Material& m, const MaterialInputInfo& info) {
-    for (const MaterialInputInfo& earlier : kMaterialInputs) {
-        if (earlier.input == info.input)
-            break;
-        if (earlier.role == InputRole::Number && sameTexels(m.*earlier.map, m.*info.map))
-            return earlier.input;
-    }
-    return info.input;
 }
 
 // How much of the surface the pattern covers: all of it in place of a base colour that is missing.
@@ -114,13 +82,15 @@ MaterialBlock packMaterial(const Material& m) {
     return block;
 }
 
-SurfaceFeatures materialFeatures(const Material& m) {
+static SurfaceFeatures featuresOf(const Material& m,
+                                  const PerInput<std::optional<MapFetch>>& fetches) {
     SurfaceFeatures result;
     unsigned& features = result.flags;
     for (const MaterialInputInfo& info : kMaterialInputs) {
-        const MapSlot& map = m.*info.map;
-        if (!map.image)
+        const std::optional<MapFetch>& fetch = fetches[info.input];
+        if (!fetch)
             continue;
+        const MapSlot& map = m.*info.map;
         if (moved(map))
             features |= HasMovedMaps;
         if (info.role == InputRole::Color && map.channel != MapChannel::Rgb)
@@ -128,8 +98,8 @@ SurfaceFeatures materialFeatures(const Material& m) {
         MapUse& use = result.maps[info.input];
         use.used = true;
         if (readsOneChannel(info)) {
-            use.channel = static_cast<std::uint8_t>(channelIndex(map.channel));
-            use.texelOf = static_cast<std::uint8_t>(texelOwner(m, info));
+            use.channel = static_cast<std::uint8_t>(fetch->channel);
+            use.texelOf = static_cast<std::uint8_t>(fetch->owner);
         }
     }
     if (m.alphaMode == AlphaMode::Mask)
@@ -143,6 +113,10 @@ SurfaceFeatures materialFeatures(const Material& m) {
     return result;
 }
 
+SurfaceFeatures materialFeatures(const Material& m) {
+    return featuresOf(m, mapFetches(m));
+}
+
 SurfaceFeatures coverageFeatures(const SurfaceFeatures& features) {
     SurfaceFeatures result;
     if (!features.has(AlphaMasked))
@@ -152,17 +126,8 @@ SurfaceFeatures coverageFeatures(const SurfaceFeatures& features) {
     return result;
 }
 
-std::set<ImagePtr> materialImages(const Material& material) {
-    std::set<ImagePtr> images;
-    forEachMap(material, [&](const MapSlot& map) {
-        if (map.image)
-            images.insert(map.image);
-    });
-    return images;
-}
-
 void bindMap(const GpuMaterial& material, MaterialInput input) {
-    if (const gl::Texture* texture = material.maps[input])
+    if (const TexturePtr& texture = material.maps[input])
         texture->bind(mapUnit(input));
 }
 
@@ -172,11 +137,13 @@ void updateGpuMaterial(gl::Context& context, TextureCache& textures, const Mater
     if (gpu.block.empty())
         gpu.block = gl::Buffer(context, "material", sizeof(MaterialBlock));
     gpu.block.writeValue(gpu.values);
+    const auto fetches = mapFetches(material);
     for (const MaterialInputInfo& info : kMaterialInputs) {
-        const ImagePtr& image = (material.*info.map).image;
-        gpu.maps[info.input] = image ? textures.texture(image) : nullptr;
+        const std::optional<MapFetch>& fetch = fetches[info.input];
+        const bool owns = fetch && fetch->owner == info.input;
+        gpu.maps[info.input] = owns ? textures.texture(fetch->texture) : nullptr;
     }
-    gpu.features = materialFeatures(material);
+    gpu.features = featuresOf(material, fetches);
     gpu.alphaMode = material.alphaMode;
     gpu.doubleSided = material.doubleSided;
 }

@@ -4,15 +4,12 @@
 
 #include "core/material/MaterialInputs.h"
 #include "render/gl/Buffer.h"
-#include "render/gl/Texture.h"
 #include "render/scene/Blocks.h"
+#include "render/scene/TextureCache.h"
 
 #include <cstdint>
-#include <set>
 
 namespace patina::render {
-
-class TextureCache;
 
 // Bits of a surface variant; the names of the defines are in render/pass/SurfacePass.cpp. What most
 // materials do not need, and every uniform that is not read, counts: software OpenGL gathers each
@@ -42,8 +39,8 @@ inline constexpr int kSurfaceFeatureCount = 18;
 // How a variant reads the map of an input.
 struct MapUse {
     bool used = false;
-    // Of an input that reads one channel: which, R G B A; and the input whose texel it is, itself
-    // or an earlier one whose map is the same image at the same place.
+    // Of an input that reads one channel: which of its texture, R G B A; and the input whose texel
+    // that is (MapFetch::owner).
     std::uint8_t channel = 0;
     std::uint8_t texelOf = 0;
     friend auto operator<=>(const MapUse&, const MapUse&) = default;
@@ -62,7 +59,7 @@ struct SurfaceFeatures {
 struct GpuMaterial {
     MaterialBlock values;
     gl::Buffer block;
-    PerInput<const gl::Texture*> maps; // null: none; owned by the cache
+    PerInput<TexturePtr> maps; // of the inputs that own a fetch; null: none
     SurfaceFeatures features;
     AlphaMode alphaMode = AlphaMode::Opaque;
     bool doubleSided = false;
@@ -72,12 +69,12 @@ struct GpuMaterial {
 [[nodiscard]] MaterialBlock packMaterial(const Material& material);
 // Which maps are usable, shared, missing; no OpenGL.
 [[nodiscard]] SurfaceFeatures materialFeatures(const Material& material);
-[[nodiscard]] std::set<ImagePtr> materialImages(const Material& material);
 
-// Binds the texture of the input's map, if there is one, to its unit.
+// Binds the texture that the input owns, if there is one, to its unit.
 void bindMap(const GpuMaterial& material, MaterialInput input);
 
-// Rewrites `gpu` after an edit, creating the block on first use.
+// Rewrites `gpu` after an edit, creating the block on first use. Textures that it showed before,
+// and that nobody else shows, are gone then.
 void updateGpuMaterial(gl::Context& context, TextureCache& textures, const Material& material,
                        GpuMaterial& gpu);
 

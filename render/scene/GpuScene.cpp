@@ -12,6 +12,7 @@
 #include <cstring>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -86,9 +87,8 @@ Dirty GpuScene::update(const Document& document) {
         m_visibility.update(m_document);
         if (m_transfer.update(m_document))
             clearBouncedLight(); // it rests on what was there before
-    }
-    if (dirty.bakes || dirty.images)
         updateTexelBakes();
+    }
     if (dirty.casters)
         ++m_shapeRevision;
     if (dirty.places) {
@@ -169,8 +169,13 @@ void GpuScene::updateMeshes() {
 }
 
 void GpuScene::updateMaterials(const Dirty& dirty) {
-    for (const Id id : dirty.materials)
-        updateGpuMaterial(m_context, m_textures, *m_document.material(id), m_materials[id]);
+    // Until all are renewed, what they showed is held: a map that one hands to another stays.
+    std::vector<PerInput<TexturePtr>> shown;
+    for (const Id id : dirty.materials) {
+        GpuMaterial& material = m_materials[id];
+        shown.push_back(material.maps);
+        updateGpuMaterial(m_context, m_textures, *m_document.material(id), material);
+    }
     if (!dirty.materialSet)
         return;
     std::set<Id> ids{kFallbackMaterial};
@@ -180,18 +185,13 @@ void GpuScene::updateMaterials(const Dirty& dirty) {
 }
 
 void GpuScene::updateTexelBakes() {
-    std::set<ImagePtr> used;
-    for (const Material& material : m_document.materials)
-        used.merge(materialImages(material));
-    m_texelBakes.clear();
+    std::map<Id, TexturePtr> textures;
     for (const BakeArtifactPtr& bake : m_document.bakes)
         if (bake->kind == BakeKind::AoTexel)
             for (const TexelBake& texels : bake->texels)
-                if (texels.image) {
-                    m_texelBakes[texels.material] = m_textures.texture(texels.image);
-                    used.insert(texels.image);
-                }
-    m_textures.keepOnly(used);
+                if (texels.image)
+                    textures[texels.material] = m_textures.texture(texels.image);
+    m_texelBakes = std::move(textures); // only now: what both hold is not uploaded again
 }
 
 void GpuScene::rebuildItems() {
@@ -255,7 +255,7 @@ void GpuScene::attachBakes(DrawItem& item) {
     if (const auto live = m_texelPreviews.find(item.materialId); live != m_texelPreviews.end())
         item.texelAo = &live->second;
     else if (const auto baked = m_texelBakes.find(item.materialId); baked != m_texelBakes.end())
-        item.texelAo = baked->second;
+        item.texelAo = baked->second.get();
 }
 
 void GpuScene::previewVertices(BakeKind kind, Id mesh, int stride, std::span<const float> values) {

@@ -145,7 +145,7 @@ class GpuScene {
     std::map<Id, LitElements> m_lit, m_litTexels; // by mesh, by material
     std::map<Id, gl::Buffer> m_texelPlaces;       // by material, of the present geometry
     std::map<Id, gl::Texture> m_texelPreviews;    // by material
-    std::map<Id, const gl::Texture*> m_texelBakes;
+    std::map<Id, TexturePtr> m_texelBakes;
     std::vector<DrawItem> m_items;
     std::uint64_t m_shapeRevision = 0, m_placeRevision = 0, m_rebuilds = 0;
     Bounds m_bounds;

@@ -44,20 +44,20 @@ std::string maps() {
         if (readsOneChannel(info))
             text += fmt::format("    float {};\n", info.id);
     text += "};\nMapNumbers mapNumbers(vec2 uv) {\n    MapNumbers numbers;\n";
-    for (const MaterialInputInfo& info : kMaterialInputs) {
-        if (!readsOneChannel(info))
-            continue;
-        const std::string define = inputDefine(info);
-        text += fmt::format("#ifdef FETCH_{0}\n"
-                            "    vec4 {1} = texture(u_{2}Texture, mapUv(u_{2}Map, uv));\n"
-                            "#endif\n"
-                            "#ifdef {0}_TEXEL\n"
-                            "    numbers.{2} = {0}_TEXEL;\n"
-                            "#else\n"
-                            "    numbers.{2} = 1.0;\n"
-                            "#endif\n",
-                            define, texelName(info), info.id);
-    }
+    for (const MaterialInputInfo& info : kMaterialInputs)
+        if (readsOneChannel(info))
+            text += fmt::format("#ifdef FETCH_{0}\n"
+                                "    vec4 {1} = texture(u_{2}Texture, mapUv(u_{2}Map, uv));\n"
+                                "#endif\n",
+                                inputDefine(info), texelName(info), info.id);
+    for (const MaterialInputInfo& info : kMaterialInputs)
+        if (readsOneChannel(info))
+            text += fmt::format("#ifdef {0}_TEXEL\n"
+                                "    numbers.{1} = {0}_TEXEL;\n"
+                                "#else\n"
+                                "    numbers.{1} = 1.0;\n"
+                                "#endif\n",
+                                inputDefine(info), info.id);
     return text + "    return numbers;\n}\n";
 }
 

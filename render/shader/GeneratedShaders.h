@@ -27,7 +27,7 @@ static_assert(kFirstMapUnit + kMaterialInputCount <= 80);
 // "PERCEPTUAL_ROUGHNESS": HAS_…_MAP where there is a map; of an input that reads one channel,
 // …_TEXEL is that channel, and FETCH_… is defined where its texture is read for that.
 [[nodiscard]] std::string inputDefine(const MaterialInputInfo& info);
-// "metallicTexel", which METALLIC_TEXEL and those that share the image refer to.
+// "metallicTexel", which METALLIC_TEXEL and those that share the fetch refer to.
 [[nodiscard]] std::string texelName(const MaterialInputInfo& info);
 
 [[nodiscard]] std::optional<std::string> generatedShader(std::string_view name);

@@ -63,27 +63,6 @@ TEST(DrawListTest, OpaqueFromTheFrontBlendedFromTheBack) {
     EXPECT_EQ(ids(list.blended), (std::vector<Id>{2, 6, 4}));
 }
 
-TEST(MaterialPacking, SharedImagesAreFetchedOnce) {
-    const ImagePtr orm =
-        makeImage(1, 1, 3, PixelType::U8, ColorEncoding::Data, [](int, int, int) { return 0.5f; });
-    Material m;
-    m.metallicMap.image = m.perceptualRoughnessMap.image = m.occlusionMap.image = orm;
-    const auto ownerOf = [&](MaterialInput input) {
-        return static_cast<MaterialInput>(materialFeatures(m).maps[input].texelOf);
-    };
-    const auto kRoughness = MaterialInput::PerceptualRoughness;
-    EXPECT_EQ(ownerOf(kRoughness), MaterialInput::Metallic);
-    EXPECT_EQ(ownerOf(MaterialInput::Occlusion), MaterialInput::Metallic);
-    m.perceptualRoughnessMap.uvScale.x = 2.0f;
-    EXPECT_EQ(ownerOf(kRoughness), kRoughness) << "another place in the same image";
-    m.occlusionMap.image =
-        makeImage(1, 1, 3, PixelType::U8, ColorEncoding::Data, [](int, int, int) { return 0.5f; });
-    EXPECT_EQ(ownerOf(MaterialInput::Occlusion), MaterialInput::Occlusion)
-        << "another image of the same content";
-    m.occlusionMap = m.perceptualRoughnessMap;
-    EXPECT_EQ(ownerOf(MaterialInput::Occlusion), kRoughness);
-}
-
 class GpuSceneTest : public gl::GlTest {};
 
 TEST_F(GpuSceneTest, UploadsEachPayloadOnceAndDropsWhatIsUnused) {
