@@ -1,7 +1,5 @@
 #include "core/document/Dirty.h"
 
-#include "core/material/MaterialInputs.h"
-
 #include <algorithm>
 #include <tuple>
 #include <unordered_map>
@@ -21,12 +19,6 @@ bool cutsAlike(const Material& a, const Material& b) {
         return false;
     return a.alphaMode != AlphaMode::Mask || std::tie(a.opacity, a.alphaCutoff, a.baseColorMap) ==
                                                  std::tie(b.opacity, b.alphaCutoff, b.baseColorMap);
-}
-
-bool sameImages(const Material& a, const Material& b) {
-    return std::all_of(kMaterialInputs.begin(), kMaterialInputs.end(), [&](const auto& info) {
-        return (a.*info.map).image == (b.*info.map).image;
-    });
 }
 
 class Materials {
@@ -66,7 +58,6 @@ std::unordered_set<Id> compareMaterials(const Document& before, const Materials&
         const Material &old = known.shown(id), &shown = now.shown(id);
         if (!cutsAlike(old, shown))
             otherHoles.insert(id);
-        dirty.images |= !sameImages(old, shown);
         dirty.places |= old.doubleSided != shown.doubleSided;
     };
     for (const Material& material : after.materials) {
@@ -109,7 +100,7 @@ bool sameView(const View& before, const View& after) {
 
 bool Dirty::any() const {
     return model || lights || environment || view || bakes || instances || casters || places ||
-           images || materialSet || !materials.empty();
+           materialSet || !materials.empty();
 }
 
 Dirty dirtyBetween(const Document& before, const Document& after) {

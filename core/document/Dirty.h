@@ -20,7 +20,6 @@ struct Dirty {
     bool instances = false;   // meshes, where they stand, in which material, whether they are seen
     bool casters = false;     // what shadow maps show: shapes, and the holes cut into them
     bool places = false;      // where texels of bakes lie on the surfaces
-    bool images = false;      // of materials' maps
     bool materialSet = false; // materials were added or removed
     // Those that are new or have other values, in the order of the later document.
     std::vector<Id> materials;
