@@ -6,9 +6,11 @@
 #include "render/ViewRenderer.h"
 #include "render/scene/DfgTextures.h"
 #include "render/scene/EnvironmentLight.h"
+#include "render/scene/TextureCache.h"
 
 #include <benchmark/benchmark.h>
 #include <chrono>
+#include <epoxy/gl.h>
 #include <memory>
 
 namespace patina::render {
@@ -139,6 +141,48 @@ void uploadEnvironment(benchmark::State& state) {
     }
 }
 BENCHMARK(uploadEnvironment)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+// Three maps of numbers, 4096 × 4096 in 8 bits, at the moment a material takes them: as three
+// textures (false) or packed into one, with mipmaps. Channels: of each image; files hold 1 or 3.
+void uploadMaps(benchmark::State& state, bool packed) {
+    auto context = gl::Context::createHeadless();
+    if (!context) {
+        state.SkipWithError("no OpenGL 4.5");
+        return;
+    }
+    std::vector<ImageChannel> maps;
+    for (int i = 0; i < 3; ++i) {
+        Image image(4096, 4096, static_cast<int>(state.range(0)), PixelType::U8,
+                    ColorEncoding::Data);
+        for (std::size_t k = 0; k < image.u8().size(); ++k) // pages that are there
+            image.u8()[k] = static_cast<std::uint8_t>(k * 37 + static_cast<std::size_t>(i));
+        maps.push_back({std::make_shared<const Image>(std::move(image)), 0});
+    }
+    for (auto _ : state) {
+        std::vector<gl::Texture> textures;
+        if (packed)
+            textures.push_back(makePackedTexture(**context, maps));
+        else
+            for (const ImageChannel& map : maps)
+                textures.push_back(makeTexture(**context, *map.image));
+        glFinish();
+        benchmark::DoNotOptimize(textures);
+    }
+}
+BENCHMARK_CAPTURE(uploadMaps, apart, false)
+    ->ArgName("channels")
+    ->Arg(1)
+    ->Arg(3)
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(uploadMaps, packed, true)
+    ->ArgName("channels")
+    ->Arg(1)
+    ->Arg(3)
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 
 // The same preparation on the thread that computes: background, and the atlas of the light.
 void prepareTexels(benchmark::State& state) {

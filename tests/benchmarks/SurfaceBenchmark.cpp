@@ -1,7 +1,8 @@
 // What light costs in the surface pass: 1280 × 720, one sample, five maps of 1024², image-based
 // light and four lights, against the yardstick: the same pass with irradiance, reflection and
 // lights replaced by a constant. The table says what each term costs: the time of the whole pass
-// less the time without the term.
+// less the time without the term; and what packing is worth: metallic, roughness and occlusion maps
+// in one texture against the same maps in textures of their own.
 //
 // Times are processor time of all threads (llvmpipe draws on them). Every variant is drawn once per
 // round, so that a busy machine disturbs all alike; the table holds minima.
@@ -92,7 +93,22 @@ struct Variant {
     const char* name;
     std::vector<std::string> defines;
     std::function<void(Document&)> edit;
+    bool mapsApart = false;
 };
+
+// Every map in a texture of its own, as if none could be packed.
+GpuMaterial withMapsApart(gl::Context& context, TextureCache& textures, const Material& material) {
+    GpuMaterial gpu;
+    updateGpuMaterial(context, textures, material, gpu);
+    for (const MaterialInputInfo& info : kMaterialInputs) {
+        Material alone;
+        alone.*info.map = material.*info.map;
+        gpu.features.maps[info.input] = materialFeatures(alone).maps[info.input];
+        if (const ImagePtr& image = (material.*info.map).image)
+            gpu.maps[info.input] = textures.texture(image);
+    }
+    return gpu;
+}
 
 void withoutLights(Document& document) {
     document.lights.clear();
@@ -108,6 +124,7 @@ std::vector<Variant> variants() {
         {"yardstick: constant light",
          {"CONSTANT_IRRADIANCE", "CONSTANT_REFLECTION"},
          withoutLights},
+        {"maps apart", {}, nullptr, true},
         {"irradiance (SH)", {"CONSTANT_IRRADIANCE"}, nullptr},
         {"reflection (prefiltered cube)", {"CONSTANT_REFLECTION"}, nullptr},
         {"reflectance (DFG table)", {"CONSTANT_DFG"}, nullptr},
@@ -127,15 +144,27 @@ struct Study {
     Study(gl::Context& context, ShaderLibrary& shaders, const Variant& variant, Document document,
           const IblMaps& ibl)
         : scene(context)
+        , textures(context)
         , pass(shaders, variant.defines)
         , frameBlock(context, "frame", sizeof(FrameBlock)) {
         if (variant.edit)
             variant.edit(document);
         scene.update(document);
         scene.light().setIbl(ibl);
+        items = scene.items();
+        if (variant.mapsApart) {
+            apart = withMapsApart(context, textures, document.materials.front());
+            for (DrawItem& item : items)
+                item.material = &apart;
+        }
     }
+    Study(const Study&) = delete; // items point into it
+    Study& operator=(const Study&) = delete;
 
     GpuScene scene;
+    TextureCache textures;
+    GpuMaterial apart;
+    std::vector<DrawItem> items;
     SurfacePass pass;
     gl::Buffer frameBlock;
     double milliseconds = std::numeric_limits<double>::max();
@@ -153,7 +182,7 @@ struct Study {
         scene.fill(block, kDocumentLight, View().reflectionMix);
         frameBlock.writeValue(block);
         frameBlock.bindUniform(kFrameBinding);
-        const DrawList list = makeDrawList(scene.items(), block.worldToClip, camera.position());
+        const DrawList list = makeDrawList(items, block.worldToClip, camera.position());
         targets.scene().bind();
         targets.scene().clearColor(0, 0, 0, 1);
         targets.scene().clearDepth(1.0f);
@@ -197,18 +226,21 @@ void surfaceTerms(benchmark::State& state, const char* model) {
         for (const auto& study : studies)
             study->draw(targets);
 
-    const double all = studies[0]->milliseconds, constant = studies[1]->milliseconds;
+    const double all = studies[0]->milliseconds, constant = studies[1]->milliseconds,
+                 apart = studies[2]->milliseconds;
     std::printf("\n%s on %s, CPU ms\n", model, (*context)->info().renderer.c_str());
     const std::vector<Variant> names = variants();
     for (std::size_t i = 0; i < studies.size(); ++i)
-        if (i < 2)
+        if (i < 3)
             std::printf("  %-30s %7.1f\n", names[i].name, studies[i]->milliseconds);
         else
             std::printf("  %-30s %+7.1f\n", names[i].name, all - studies[i]->milliseconds);
-    std::printf("  ratio %.2f\n", all / constant);
+    std::printf("  to constant light %.2f, to maps apart %.2f\n", all / constant, all / apart);
     state.counters["ratio"] = all / constant;
+    state.counters["packed_to_apart"] = all / apart;
     state.counters["everything_ms"] = all;
     state.counters["constant_ms"] = constant;
+    state.counters["apart_ms"] = apart;
 }
 
 // Transfer of order 5 on 100,000 vertices, lit anew, against what image-based light costs a frame:
