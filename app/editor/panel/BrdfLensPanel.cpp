@@ -24,6 +24,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/trigonometric.hpp>
 
 namespace patina::editor {
@@ -37,6 +38,10 @@ std::vector<QPointF> toPoints(const LensCurves::Curve& curve) {
     for (const glm::vec2& point : curve)
         points.emplace_back(static_cast<double>(point.x), static_cast<double>(point.y));
     return points;
+}
+
+PlotAxis angleAxis(const QString& name, double min = 0.0) {
+    return {name, QStringLiteral("°"), min, 90.0, 30.0};
 }
 
 bool hasMaps(const Material& material) {
@@ -150,38 +155,34 @@ void BrdfLensPanel::makePlots() {
     m_masking = new CurvePlot(tr("G  not hidden"));
     m_fresnel = new CurvePlot(tr("F  Fresnel"));
     m_albedo = new CurvePlot(tr("Albedo"));
-    for (QWidget* plot : {static_cast<QWidget*>(m_polar), static_cast<QWidget*>(m_cartesian),
-                          static_cast<QWidget*>(m_space), static_cast<QWidget*>(m_ball),
-                          static_cast<QWidget*>(m_distribution), static_cast<QWidget*>(m_masking),
-                          static_cast<QWidget*>(m_fresnel), static_cast<QWidget*>(m_albedo)})
+    for (QWidget* plot : std::initializer_list<QWidget*>{
+             m_polar, m_cartesian, m_space, m_ball, m_distribution, m_masking, m_fresnel, m_albedo})
         m_tiles->add(plot);
-    const auto describe = [](QWidget* plot, const QString& help) {
-        plot->setAccessibleDescription(help);
-        plot->setStatusTip(help);
-    };
-    describe(m_cartesian, tr("How much of the light at θᵢ is reflected to viewers at θₒ, in the "
-                             "plane of incidence; positive angles lie opposite the light"));
-    describe(m_distribution, tr("D: how many facets of the surface face the half vector, which "
-                                "leans θₕ from the normal"));
-    describe(m_masking, tr("G: the share of facets that neither light nor viewer finds hidden, the "
-                           "viewer at θₒ opposite the light"));
-    describe(m_fresnel, tr("F: the reflectance of a facet that light meets at ∠(v,h)"));
-    describe(m_albedo, tr("The share of light from all sides that comes back to a viewer at θₒ: "
-                          "scattered once, with energy compensation, and as the exact integral"));
+    m_cartesian->setHelp(tr("How much of the light at θᵢ is reflected to viewers at θₒ, in the "
+                            "plane of incidence; positive angles lie opposite the light"));
+    m_distribution->setHelp(tr(
+        "D: how many facets of the surface face the half vector, which leans θₕ from the normal"));
+    m_masking->setHelp(tr("G: the share of facets that neither light nor viewer finds hidden, the "
+                          "viewer at θₒ opposite the light"));
+    m_fresnel->setHelp(tr("F: the reflectance of a facet that light meets at ∠(v,h)"));
+    m_albedo->setHelp(tr("The share of light from all sides that comes back to a viewer at θₒ: "
+                         "scattered once, with energy compensation, and as the exact integral"));
     connect(m_polar, &PolarPlot::incidenceDragged, m_controls, &LensControls::setIncidence);
-    connect(m_polar, &PolarPlot::probed, this, &BrdfLensPanel::probe);
-    connect(m_cartesian, &CurvePlot::probed, this, &BrdfLensPanel::probe);
-    connect(m_masking, &CurvePlot::probed, this, &BrdfLensPanel::probe);
-    connect(m_albedo, &CurvePlot::probed, this, &BrdfLensPanel::probe);
+    // What is read in one plot, as the viewer's angle, is shown in all; where the pointer is, the
+    // place stays what it is.
+    const auto follow = [this](CurvePlot* plot, const std::function<double(double)>& viewer) {
+        connect(plot, &CurvePlot::probed, this,
+                [this, plot, viewer](const std::optional<QPointF>& place) {
+                    probe(place ? std::optional(viewer(place->x())) : std::nullopt);
+                    plot->setProbe(place);
+                });
+    };
+    for (CurvePlot* plot : {static_cast<CurvePlot*>(m_polar), m_cartesian, m_masking, m_albedo})
+        follow(plot, [](double angle) { return angle; });
     // h stands in the middle between the light at -θi and the viewer.
-    connect(m_distribution, &CurvePlot::probed, this, [this](std::optional<double> half) {
-        probe(half ? std::optional(m_controls->incidence() + 2.0 * *half) : half);
-        m_distribution->setProbe(half);
-    });
-    connect(m_fresnel, &CurvePlot::probed, this, [this](std::optional<double> difference) {
-        probe(difference ? std::optional(2.0 * *difference - m_controls->incidence()) : difference);
-        m_fresnel->setProbe(difference);
-    });
+    follow(m_distribution, [this](double half) { return m_controls->incidence() + 2.0 * half; });
+    follow(m_fresnel,
+           [this](double difference) { return 2.0 * difference - m_controls->incidence(); });
 }
 
 void BrdfLensPanel::showPage() {
@@ -373,35 +374,21 @@ void BrdfLensPanel::showCurves(const Looks& looks) {
     m_polar->setQuantity(quantity, sr);
     m_polar->setCurves(curvesOf(&LensCurves::lobe), static_cast<double>(m_result.peak),
                        scale.logarithmic, static_cast<double>(kLobeDecades));
-    m_cartesian->setAxes({QStringLiteral("θₒ"), quantity, QStringLiteral("°"), sr, -90, 90, 30,
-                          scale.logarithmic, std::nullopt});
-    m_cartesian->setMarker(incidence, tr("mirror"));
-    m_cartesian->setCurves(curvesOf(&LensCurves::lobe));
-    m_distribution->setAxes({QStringLiteral("θₕ"), QStringLiteral("D"), QStringLiteral("°"), sr, 0,
-                             90, 30, scale.logarithmic, std::nullopt});
-    m_distribution->setCurves(curvesOf(&LensCurves::distribution));
-    m_masking->setAxes({QStringLiteral("θₒ"),
-                        QStringLiteral("G"),
-                        QStringLiteral("°"),
-                        {},
-                        0,
-                        90,
-                        30,
-                        false,
-                        1.0});
-    m_masking->setMarker(incidence, tr("mirror"));
-    m_masking->setCurves(curvesOf(&LensCurves::masking));
-    m_fresnel->setAxes({QStringLiteral("∠(v,h)"),
-                        QStringLiteral("F"),
-                        QStringLiteral("°"),
-                        {},
-                        0,
-                        90,
-                        30,
-                        false,
-                        1.0});
-    m_fresnel->setMarker(incidence, tr("mirror"));
-    m_fresnel->setCurves(curvesOf(&LensCurves::fresnel));
+    PlotAxis reflected{quantity, sr}, facets{QStringLiteral("D"), sr};
+    reflected.logarithmic = facets.logarithmic = scale.logarithmic;
+    const auto show = [&](CurvePlot& plot, const PlotAxis& x, const PlotAxis& y,
+                          LensCurves::Curve LensCurves::*member, std::optional<double> yMax) {
+        plot.setAxes(x, y, yMax);
+        plot.setCurves(curvesOf(member));
+    };
+    show(*m_cartesian, angleAxis(QStringLiteral("θₒ"), -90.0), reflected, &LensCurves::lobe, {});
+    show(*m_distribution, angleAxis(QStringLiteral("θₕ")), facets, &LensCurves::distribution, {});
+    show(*m_masking, angleAxis(QStringLiteral("θₒ")), {QStringLiteral("G"), {}},
+         &LensCurves::masking, 1.0);
+    show(*m_fresnel, angleAxis(QStringLiteral("∠(v,h)")), {QStringLiteral("F"), {}},
+         &LensCurves::fresnel, 1.0);
+    for (CurvePlot* plot : {m_cartesian, m_masking, m_fresnel})
+        plot->setMarker(incidence, tr("mirror"));
 }
 
 void BrdfLensPanel::showAlbedo(const Looks& looks) {
@@ -416,8 +403,7 @@ void BrdfLensPanel::showAlbedo(const Looks& looks) {
         curves.push_back(
             {looks[i].slot, CurveShape::Dots, prefix + tr("exact, as set"), toPoints(of.exact)});
     }
-    m_albedo->setAxes(
-        {QStringLiteral("θₒ"), tr("share"), QStringLiteral("°"), {}, 0, 90, 30, false, 1.0});
+    m_albedo->setAxes(angleAxis(QStringLiteral("θₒ")), {tr("share"), {}}, 1.0);
     m_albedo->setKey({{CurveShape::Line, tr("compensated")},
                       {CurveShape::Thin, tr("single scatter")},
                       {CurveShape::Dots, tr("exact, as set")}});
@@ -425,18 +411,20 @@ void BrdfLensPanel::showAlbedo(const Looks& looks) {
 }
 
 void BrdfLensPanel::probe(std::optional<double> viewerDeg) {
-    m_polar->setProbe(viewerDeg);
-    m_cartesian->setProbe(viewerDeg);
+    const auto at = [](std::optional<double> degrees) {
+        return degrees ? std::optional(QPointF(*degrees, 0.0)) : std::nullopt;
+    };
+    const double incidence = m_controls->incidence();
+    m_polar->setProbe(at(viewerDeg));
+    m_cartesian->setProbe(at(viewerDeg));
     // Their axes begin at the normal.
-    const std::optional<double> away = viewerDeg && *viewerDeg >= 0.0 ? viewerDeg : std::nullopt;
-    m_masking->setProbe(away);
-    m_albedo->setProbe(viewerDeg ? std::optional(std::abs(*viewerDeg)) : std::nullopt);
-    m_distribution->setProbe(
-        viewerDeg ? std::optional(std::abs(*viewerDeg - m_controls->incidence()) / 2.0)
-                  : std::nullopt);
-    m_fresnel->setProbe(viewerDeg
-                            ? std::optional(std::abs(*viewerDeg + m_controls->incidence()) / 2.0)
-                            : std::nullopt);
+    m_masking->setProbe(viewerDeg && *viewerDeg >= 0.0 ? at(viewerDeg) : std::nullopt);
+    const auto show = [&](CurvePlot& plot, const std::function<double(double)>& angle) {
+        plot.setProbe(viewerDeg ? at(std::abs(angle(*viewerDeg))) : std::nullopt);
+    };
+    show(*m_albedo, [](double viewer) { return viewer; });
+    show(*m_distribution, [&](double viewer) { return (viewer - incidence) / 2.0; });
+    show(*m_fresnel, [&](double viewer) { return (viewer + incidence) / 2.0; });
 }
 
 } // namespace patina::editor

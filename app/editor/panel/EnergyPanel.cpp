@@ -81,23 +81,11 @@ EnergyPanel::EnergyPanel(DocumentController& controller, SelectionModel& selecti
     bar->addWidget(m_legend);
     scroll->contents()->addLayout(bar);
 
-    m_byRoughness = new EnergyPlot(tr("By roughness"), 1.0);
-    m_byRoughness->setAxes(
-        {tr("roughness"), {}, {}, QStringLiteral(" %"), 0.0, 1.0, 0.25, false, 100.0});
-    m_byRoughness->setStatusTip(tr("Energy returned by roughness, at the chosen angle"));
-    m_byAngle = new EnergyPlot(tr("By angle"), 90.0);
-    m_byAngle->setAxes({tr("angle"),
-                        {},
-                        QStringLiteral("°"),
-                        QStringLiteral(" %"),
-                        0.0,
-                        90.0,
-                        30.0,
-                        false,
-                        100.0});
-    m_byAngle->setStatusTip(
-        tr("Energy returned by the angle of view, at the material's roughness; press to choose the "
-           "angle of the other plot"));
+    m_byRoughness = new EnergyPlot(tr("By roughness"), {tr("roughness"), {}, 0.0, 1.0, 0.25});
+    m_byRoughness->setHelp(tr("Energy returned by roughness, at the chosen angle"));
+    m_byAngle = new EnergyPlot(tr("By angle"), {tr("angle"), QStringLiteral("°"), 0.0, 90.0, 30.0});
+    m_byAngle->setHelp(tr("Energy returned by the angle of view, at the material's roughness; "
+                          "press to choose the angle of the other plot"));
     connect(m_byAngle, &EnergyPlot::picked, this, &EnergyPanel::setAngle);
     m_map = new EnergyMap;
     connect(m_map, &EnergyMap::anglePicked, this, &EnergyPanel::setAngle);
@@ -198,8 +186,7 @@ void EnergyPanel::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
     const int most = std::max(kLeastPlot, height() - tokens::kRowHeight - 3 * tokens::kGap -
                                               2 * tokens::kMargin);
-    for (QWidget* plot : {static_cast<QWidget*>(m_byRoughness), static_cast<QWidget*>(m_byAngle),
-                          static_cast<QWidget*>(m_map)})
+    for (QWidget* plot : std::initializer_list<QWidget*>{m_byRoughness, m_byAngle, m_map})
         plot->setMaximumHeight(most);
 }
 

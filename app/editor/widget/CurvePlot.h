@@ -1,10 +1,8 @@
-// Curves over an angle: axes with units, linear or logarithmic, a marker, and a probe that reads
-// the values out under the pointer.
+// Curves over an angle or any other number: linear or logarithmic, with a marker.
 #pragma once
 
-#include "app/editor/widget/PlotStyle.h"
+#include "app/editor/widget/PlotFrame.h"
 
-#include <QWidget>
 #include <optional>
 #include <vector>
 
@@ -19,65 +17,48 @@ struct PlotCurve {
     std::vector<QPointF> points; // x ascending
 };
 
-struct PlotAxes {
-    QString xName, yName; // "θo", "f_r"
-    QString xUnit, yUnit; // "°", " sr⁻¹"; stands behind numbers in the readout
-    double xMin = 0, xMax = 90, xStep = 30;
-    bool logarithmic = false;   // of y
-    std::optional<double> yMax; // fixed, from 0; otherwise what the curves need
-};
+[[nodiscard]] QPen curvePen(CurveShape shape, int look);
 
-class CurvePlot : public QWidget {
+class CurvePlot : public PlotFrame {
     Q_OBJECT
   public:
-    explicit CurvePlot(const QString& title, QWidget* parent = nullptr);
+    explicit CurvePlot(const QString& title, QWidget* parent = nullptr,
+                       Press press = Press::Nothing);
 
-    void setTitle(const QString& title);
-    void setAxes(const PlotAxes& axes);
+    // `yMax`: fixed, from 0; otherwise what the curves need.
+    void setAxes(const PlotAxis& x, const PlotAxis& y, std::optional<double> yMax = {});
     void setCurves(std::vector<PlotCurve> curves);
-    void setMessage(const QString& message); // in place of curves; empty: none
     // What the shapes of curves stand for, explained in the plot; empty: nothing to explain.
     void setKey(std::vector<std::pair<CurveShape, QString>> key);
-    // An angle of its own (the mirror direction); one that a pointer, here or in another plot, is
-    // at.
-    void setMarker(std::optional<double> x, const QString& label);
-    void setProbe(std::optional<double> x);
+    void setMarker(std::optional<double> x,
+                   const QString& label); // e.g. the mirror direction
 
     [[nodiscard]] const std::vector<PlotCurve>& curves() const { return m_curves; }
-    [[nodiscard]] QPointF position(double x, double y) const; // where a value is painted
-    // What the readout says at an angle, a line for each curve.
+    // The readout's lines at x, one for each curve.
     [[nodiscard]] QStringList readout(double x) const;
-    [[nodiscard]] QString message() const { return m_message; }
-
-    [[nodiscard]] QSize sizeHint() const override;
-    [[nodiscard]] QSize minimumSizeHint() const override;
-
-  Q_SIGNALS:
-    void probed(std::optional<double> x); // by the pointer; nothing when it has left
+    [[nodiscard]] std::vector<PlotValue> valuesAt(const QPointF& place) const override;
 
   protected:
-    void paintEvent(QPaintEvent* event) override;
-    void mouseMoveEvent(QMouseEvent* event) override;
-    void leaveEvent(QEvent* event) override;
+    [[nodiscard]] bool hasValues() const override { return !m_curves.empty(); }
+    [[nodiscard]] std::vector<QPointF> places() const override; // of the first curve's points
+    [[nodiscard]] QPointF startPlace() const override;          // the marker, if there is one
+    void paintValues(QPainter& painter) const override;
+    void paintProbe(QPainter& painter, const QPointF& place) const override;
+    [[nodiscard]] virtual QColor colorOf(const PlotCurve& curve) const; // of dots on it
+    void paintDots(QPainter& painter, double x) const;                  // on the curves
+    virtual void paintCurve(QPainter& painter, const PlotCurve& curve) const;
+    // The line through the curve's points, broken where a value is not finite.
+    [[nodiscard]] QPainterPath pathOf(const PlotCurve& curve) const;
 
   private:
-    [[nodiscard]] QRectF area() const;
-    [[nodiscard]] std::vector<double> yTicks() const;
     void fitRange();
-    void paintAxes(QPainter& painter) const;
-    void paintAxisNames(QPainter& painter) const;
-    void paintWords(QPainter& painter, const QPointF& at, const QString& words) const;
-    void paintCurve(QPainter& painter, const PlotCurve& curve) const;
+    void paintMarker(QPainter& painter) const;
     void paintKey(QPainter& painter) const;
-    void paintProbe(QPainter& painter) const;
 
     std::vector<std::pair<CurveShape, QString>> m_key;
-    QString m_title, m_message, m_markerLabel;
-    PlotAxes m_axes;
+    QString m_markerLabel;
     std::vector<PlotCurve> m_curves;
-    std::optional<double> m_marker, m_probe;
-    bool m_hovered = false;
-    double m_yMin = 0, m_yMax = 1;
+    std::optional<double> m_marker, m_yMax;
 };
 
 } // namespace patina::editor

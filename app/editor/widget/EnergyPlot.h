@@ -9,8 +9,7 @@ namespace patina::editor {
 class EnergyPlot : public CurvePlot {
     Q_OBJECT
   public:
-    // Over 0…`xMax`.
-    EnergyPlot(const QString& title, double xMax, QWidget* parent = nullptr);
+    EnergyPlot(const QString& title, const PlotAxis& x, QWidget* parent = nullptr);
 
     void setBand(double low, double high); // equal: none
     // The curve that counts meets the marker in a dot.
@@ -20,14 +19,11 @@ class EnergyPlot : public CurvePlot {
     void picked(double x);
 
   protected:
-    void paintEvent(QPaintEvent* event) override;
-    void mousePressEvent(QMouseEvent* event) override;
-    void mouseMoveEvent(QMouseEvent* event) override;
+    void paintValues(QPainter& painter) const override;
+    bool pick(const QPointF& place, Qt::KeyboardModifiers modifiers) override;
 
   private:
-    void pick(const QPointF& at);
-
-    double m_xMax, m_low = 0, m_high = 0;
+    double m_low = 0, m_high = 0;
     QPointF m_dot;
 };
 

@@ -24,13 +24,12 @@ std::vector<QPointF> averageReturn(const ShadingModel& model) {
 } // namespace
 
 FurnacePlot::FurnacePlot(QWidget* parent)
-    : EnergyPlot(tr("White metal"), 1.0, parent) {
+    : EnergyPlot(tr("White metal"), {tr("roughness"), {}, 0.0, 1.0, 0.5}, parent) {
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     setFixedHeight(kHeight);
-    setToolTip(tr("How much of the light around it a white metal gives back, by roughness. "
-                  "Anything below 100 % is light that the model loses."));
+    setHelp(tr("How much of the light around it a white metal gives back, by roughness. Anything "
+               "below 100 % is light that the model loses."));
     setAccessibleName(tr("White furnace"));
-    setAxes({tr("roughness"), {}, {}, QStringLiteral(" %"), 0.0, 1.0, 0.5, false, 100.0});
     m_curve.points = averageReturn(m_model);
     refresh();
 }
@@ -71,7 +70,7 @@ void FurnacePlot::refresh() {
     setTitle(text());
     setMarker(static_cast<double>(m_roughness), {});
     setDot(static_cast<double>(m_roughness), 100.0 * static_cast<double>(returned(m_roughness)));
-    setAccessibleDescription(text());
+    setDescription(text());
 }
 
 } // namespace patina::editor

@@ -8,15 +8,6 @@ namespace patina::editor {
 namespace {
 constexpr int kSample = 18; // a line's length
 constexpr int kGap = 5;
-
-QPen samplePen(const PlotCurve& curve) {
-    if (curve.shape != CurveShape::Thin)
-        return plotPen(curve.look);
-    QPen pen(plotColor(curve.look), 1.0, Qt::CustomDashLine);
-    pen.setDashPattern({2.0, 4.0});
-    return pen;
-}
-
 } // namespace
 
 PlotLegend::PlotLegend(QWidget* parent)
@@ -47,7 +38,7 @@ void PlotLegend::paintEvent(QPaintEvent*) {
     painter.setRenderHint(QPainter::Antialiasing);
     int x = 0;
     for (const PlotCurve& curve : m_curves) {
-        painter.setPen(samplePen(curve));
+        painter.setPen(curvePen(curve.shape, curve.look));
         const double y = height() / 2.0;
         painter.drawLine(QPointF(x, y), QPointF(x + kSample, y));
         x += kSample + kGap;

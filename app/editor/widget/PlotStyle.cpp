@@ -54,6 +54,8 @@ QPointF plotPoint(const std::vector<QPointF>& curve, double x) {
         return curve.front();
     if (after == curve.end())
         return curve.back();
+    if (after->x() == x)
+        return *after; // whatever is before it, which may be no number
     const QPointF a = *(after - 1), b = *after;
     const double t = b.x() > a.x() ? (x - a.x()) / (b.x() - a.x()) : 0.0;
     return {x, a.y() + t * (b.y() - a.y())};
@@ -77,6 +79,10 @@ std::vector<double> roundSteps(double min, double max, int count) {
 }
 
 QString plotNumber(double value, int digits) {
+    if (std::isnan(value))
+        return QStringLiteral("–");
+    if (std::isinf(value))
+        return value < 0.0 ? QStringLiteral("−∞") : QStringLiteral("∞");
     if (value == 0.0)
         return QStringLiteral("0");
     const double size = std::abs(value);
@@ -112,6 +118,7 @@ void paintReadout(QPainter& painter, const QRectF& area, const QPointF& at, cons
     for (const ReadoutRow& row : rows)
         width =
             std::max(width, metrics.horizontalAdvance(row.text) + (row.look >= 0 ? kSample : 0.0));
+    width = std::min(width, area.width() - 2.0 * kPad - 1.0);
     const double line = std::ceil(metrics.height());
     const QSizeF size(std::ceil(width) + 2 * kPad,
                       line * static_cast<double>(rows.size() + 1) + 2 * kPad);
@@ -128,7 +135,10 @@ void paintReadout(QPainter& painter, const QRectF& area, const QPointF& at, cons
     painter.drawRoundedRect(box, tokens::kRadius, tokens::kRadius);
     double y = box.top() + kPad + metrics.ascent();
     painter.setPen(QColor(tokens::kTextDim));
-    painter.drawText(QPointF(box.left() + kPad, y), title);
+    const auto fitting = [&](const QString& text, double room) {
+        return metrics.elidedText(text, Qt::ElideMiddle, room + 1.0); // the number stays
+    };
+    painter.drawText(QPointF(box.left() + kPad, y), fitting(title, std::ceil(width)));
     for (const ReadoutRow& row : rows) {
         y += line;
         double x = box.left() + kPad;
@@ -139,7 +149,7 @@ void paintReadout(QPainter& painter, const QRectF& area, const QPointF& at, cons
             x += kSample;
         }
         painter.setPen(QColor(tokens::kText));
-        painter.drawText(QPointF(x, y), row.text);
+        painter.drawText(QPointF(x, y), fitting(row.text, box.right() - kPad - x));
     }
 }
 

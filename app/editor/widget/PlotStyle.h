@@ -15,6 +15,7 @@ namespace patina::editor {
 // Curves that are compared differ in colour and in dash. The colours are Okabe and Ito's, which
 // people with any colour vision can tell apart ("Color Universal Design", 2008).
 inline constexpr int kPlotLooks = 4;
+inline constexpr QRgb kPlotSun = 0xfffff0b8; // of the light under the lens
 [[nodiscard]] QColor plotColor(int look);
 [[nodiscard]] Qt::PenStyle plotDash(int look);
 [[nodiscard]] QPen plotPen(int look, double width = 1.8);
@@ -24,7 +25,8 @@ inline constexpr int kPlotLooks = 4;
 
 // Round steps, about `count` of them; ascending, all inside.
 [[nodiscard]] std::vector<double> roundSteps(double min, double max, int count);
-// Significant digits: "0.25", "1 230"; two at most of what needs a power, "4.1·10⁻⁵".
+// Significant digits: "0.25", "1 230"; two at most of what needs a power, "4.1·10⁻⁵"; "∞", and "–"
+// for what is no number.
 [[nodiscard]] QString plotNumber(double value, int digits = 3);
 
 struct ReadoutRow {

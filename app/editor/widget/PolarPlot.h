@@ -1,16 +1,12 @@
 // Lobes in the plane of incidence: how much light goes in which direction. The light is dragged
-// around the point, the pointer reads values out.
+// around the point; Return brings it to the cursor, Alt with an arrow moves it.
 #pragma once
 
 #include "app/editor/widget/CurvePlot.h"
 
-#include <QWidget>
-#include <optional>
-#include <vector>
-
 namespace patina::editor {
 
-class PolarPlot : public QWidget {
+class PolarPlot : public CurvePlot {
     Q_OBJECT
   public:
     explicit PolarPlot(const QString& title, QWidget* parent = nullptr);
@@ -20,29 +16,24 @@ class PolarPlot : public QWidget {
     void setCurves(std::vector<PlotCurve> curves, double peak, bool logarithmic, double decades);
     void setQuantity(const QString& name, const QString& unit);
     void setIncidence(double degrees); // of the light, 0…90
-    void setProbe(std::optional<double> degrees);
-    void setMessage(const QString& message);
 
     [[nodiscard]] double incidence() const { return m_incidence; }
-    [[nodiscard]] QPointF position(double degrees, double value) const;
+    [[nodiscard]] QPointF pointOf(const QPointF& place) const override; // degrees, value
+    [[nodiscard]] std::optional<QPointF> placeAt(const QPointF& point) const override;
     [[nodiscard]] QPointF lightPosition() const; // of the handle
-    [[nodiscard]] QStringList readout(double degrees) const;
-    [[nodiscard]] QString message() const { return m_message; }
-
-    [[nodiscard]] QSize sizeHint() const override;
-    [[nodiscard]] QSize minimumSizeHint() const override;
 
   Q_SIGNALS:
-    void probed(std::optional<double> degrees);
     void incidenceDragged(double degrees);
 
   protected:
-    void paintEvent(QPaintEvent* event) override;
-    void mousePressEvent(QMouseEvent* event) override;
-    void mouseMoveEvent(QMouseEvent* event) override;
-    void mouseReleaseEvent(QMouseEvent* event) override;
-    void leaveEvent(QEvent* event) override;
-    void keyPressEvent(QKeyEvent* event) override;
+    [[nodiscard]] QRectF area() const override;
+    [[nodiscard]] QPointF startPlace() const override;
+    [[nodiscard]] QPointF readoutPoint(const QPointF& place) const override;
+    bool pick(const QPointF& place, Qt::KeyboardModifiers modifiers) override;
+    bool moveHandle(const QPointF& way) override;
+    void paintValues(QPainter& painter) const override;
+    void paintProbe(QPainter& painter, const QPointF& place) const override;
+    void paintCurve(QPainter& painter, const PlotCurve& curve) const override;
 
   private:
     struct Dial {
@@ -52,16 +43,12 @@ class PolarPlot : public QWidget {
     [[nodiscard]] Dial dial() const;
     [[nodiscard]] double radiusOf(double value) const; // 0…1
     [[nodiscard]] QPointF onDial(double degrees, double radius) const;
-    [[nodiscard]] double angleAt(const QPointF& point) const; // -90…90
+    [[nodiscard]] std::vector<double> rings() const; // values, from the rim inwards
     void paintDial(QPainter& painter) const;
     void paintLight(QPainter& painter) const;
-    void paintProbe(QPainter& painter) const;
 
-    QString m_title, m_message, m_name, m_unit;
-    std::vector<PlotCurve> m_curves;
     double m_peak = 1, m_decades = 4, m_incidence = 45;
-    bool m_logarithmic = false, m_dragging = false, m_hovered = false;
-    std::optional<double> m_probe;
+    bool m_logarithmic = false;
 };
 
 } // namespace patina::editor

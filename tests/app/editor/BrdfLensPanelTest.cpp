@@ -126,9 +126,9 @@ TEST_F(BrdfLensPanelTest, PlotsFollowTheMouseAndTheKeyboard) {
 
     polar().setFocus();
     const double before = panel->controls().incidence();
-    QTest::keyClick(&polar(), Qt::Key_Right);
+    QTest::keyClick(&polar(), Qt::Key_Right, Qt::AltModifier);
     EXPECT_NEAR(panel->controls().incidence(), before - 1.0, 1e-9);
-    QTest::keyClick(&polar(), Qt::Key_Left, Qt::ShiftModifier);
+    QTest::keyClick(&polar(), Qt::Key_Left, Qt::AltModifier | Qt::ControlModifier);
     EXPECT_NEAR(panel->controls().incidence(), before + 9.0, 1e-9);
 
     // The slider, and a number that is typed.
