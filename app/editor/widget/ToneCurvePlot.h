@@ -2,13 +2,11 @@
 // value upwards, and where the picture's average lies.
 #pragma once
 
-#include <QWidget>
-#include <optional>
-#include <vector>
+#include "app/editor/widget/CurvePlot.h"
 
 namespace patina::editor {
 
-class ToneCurvePlot : public QWidget {
+class ToneCurvePlot : public CurvePlot {
     Q_OBJECT
   public:
     static constexpr int kStops = 8; // to either side
@@ -20,24 +18,20 @@ class ToneCurvePlot : public QWidget {
     // Exposed log-average luminance in stops above middle grey; nothing: not known.
     void setAverage(std::optional<double> stops);
 
-    [[nodiscard]] double valueAt(double stops) const; // of the curve
+    [[nodiscard]] double valueAt(double stops) const; // of the curve, 0…1
     [[nodiscard]] std::optional<double> average() const { return m_average; }
-    // Where a point of the plot is painted.
+    // Where a point of the plot, of a value in 0…1, is painted.
     [[nodiscard]] QPointF position(double stops, double value) const;
 
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override;
 
   protected:
-    void paintEvent(QPaintEvent* event) override;
-    bool event(QEvent* event) override; // the tool tip reads the curve under the pointer
+    void paintValues(QPainter& painter) const override;
+    [[nodiscard]] QColor colorOf(const PlotCurve& curve) const override;
+    void paintCurve(QPainter& painter, const PlotCurve& curve) const override;
 
   private:
-    [[nodiscard]] QRectF plotArea() const;
-    void paintGrid(QPainter& painter) const;
-    void paintCurve(QPainter& painter) const;
-    void paintAverage(QPainter& painter) const;
-
     std::vector<float> m_values;
     std::optional<double> m_average;
 };
