@@ -246,8 +246,8 @@ void EnergyPanel::refresh() {
     if (!m_study) {
         m_loss->setText(tr("Select a material to weigh what it does with light."));
         const QString nothing = tr("No material is selected");
-        m_byRoughness->setMessage(nothing);
-        m_byAngle->setMessage(nothing);
+        for (PlotFrame* plot : std::initializer_list<PlotFrame*>{m_byRoughness, m_byAngle, m_map})
+            plot->setMessage(nothing);
         return;
     }
     refreshLedger();
@@ -348,6 +348,7 @@ void EnergyPanel::refreshPlots() {
     values.reserve(study.map.size());
     for (const glm::vec3& total : study.map)
         values.push_back(channelOf(glm::dvec3(total), c));
+    m_map->setMessage({});
     m_map->setValues(std::move(values), EnergyStudy::kMapSize);
     m_map->setPlace(low, roughness, high, m_angleDeg);
 }
