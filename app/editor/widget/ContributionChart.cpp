@@ -3,11 +3,6 @@
 #include "app/editor/style/Tokens.h"
 #include "core/math/Shading.h"
 
-#include <QFontDatabase>
-#include <QHelpEvent>
-#include <QMouseEvent>
-#include <QPainter>
-#include <QToolTip>
 #include <algorithm>
 #include <cmath>
 
@@ -27,13 +22,6 @@ QColor barColor(const glm::vec3& radiance) {
                             0.12f + 0.83f * encoded.z);
 }
 
-QString numbers(const glm::vec3& c) {
-    return QStringLiteral("%1  %2  %3")
-        .arg(QString::fromStdString(render::numberText(c.x)),
-             QString::fromStdString(render::numberText(c.y)),
-             QString::fromStdString(render::numberText(c.z)));
-}
-
 float positive(float x) {
     return x > 0.0f && std::isfinite(x) ? x : 0.0f;
 }
@@ -41,11 +29,12 @@ float positive(float x) {
 } // namespace
 
 ContributionChart::ContributionChart(QWidget* parent)
-    : QWidget(parent) {
+    : PlotFrame({}, Cursor::Up, Press::Once, parent) {
     setObjectName(QStringLiteral("contributions"));
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     setAccessibleName(tr("Contributions"));
     setStatusTip(tr("What the light of this pixel is made of; click a bar to see its formula"));
+    setContributions({});
 }
 
 void ContributionChart::setContributions(std::vector<render::Contribution> parts) {
@@ -60,10 +49,11 @@ void ContributionChart::setContributions(std::vector<render::Contribution> parts
                         QString::fromStdString(
                             render::numberText(shading::luminance(part.radiance)));
     }
-    setAccessibleDescription(sentence.join(QStringLiteral(", ")));
+    setAxes({{tr("radiance"), tr(" cd/m²"), 0.0, std::max(double{largest()}, 1e-9)},
+             {tr("contribution"), {}, static_cast<double>(m_parts.size()), 0.0, 1.0, false, true}});
+    setDescription(sentence.join(QStringLiteral(", ")));
     if (grows)
         updateGeometry();
-    update();
 }
 
 void ContributionChart::setChannels(bool channels) {
@@ -89,7 +79,7 @@ void ContributionChart::changeEvent(QEvent* event) {
     QWidget::changeEvent(event);
 }
 
-QRectF ContributionChart::barArea() const {
+QRectF ContributionChart::area() const {
     const QFontMetricsF metrics(font());
     double label = metrics.horizontalAdvance(tr("Sum"));
     for (const render::Contribution& part : m_parts)
@@ -106,6 +96,11 @@ int ContributionChart::rowAt(const QPoint& position) const {
     return position.y() >= kPad && row <= static_cast<int>(m_parts.size()) ? row : -1;
 }
 
+std::optional<QPointF> ContributionChart::placeAt(const QPointF& point) const {
+    const int index = rowAt(point.toPoint());
+    return index < 0 ? std::nullopt : std::optional(QPointF(0.0, index));
+}
+
 float ContributionChart::largest() const {
     if (!m_channels)
         return positive(shading::luminance(m_sum));
@@ -120,26 +115,56 @@ QString ContributionChart::shareText(const glm::vec3& radiance) const {
         .arg(whole > 0.0f ? qRound(100.0f * part / whole) : 0, 3);
 }
 
-void ContributionChart::paintRow(QPainter& painter, int row, const QString& label,
-                                 const glm::vec3& begin, const render::Contribution& part,
-                                 const QString& number) const {
-    const QRectF area = barArea();
-    const double top = kPad + double(row) * rowHeight(), height = rowHeight();
+render::Contribution ContributionChart::row(int index) const {
+    if (index >= 0 && index < static_cast<int>(m_parts.size()))
+        return m_parts[static_cast<std::size_t>(index)];
+    return {"sum", tr("Sum").toStdString(), m_sum, glm::vec3(0.0f), true};
+}
+
+QString ContributionChart::placeText(const QPointF& place) const {
+    return QString::fromStdString(row(static_cast<int>(place.y())).label);
+}
+
+std::vector<PlotValue> ContributionChart::valuesAt(const QPointF& place) const {
+    const render::Contribution part = row(static_cast<int>(place.y()));
+    const auto numbers = [](const glm::vec3& c) {
+        return std::vector{double{c.x}, double{c.y}, double{c.z}};
+    };
+    std::vector<PlotValue> values{{{}, numbers(part.radiance)}};
+    if (part.specular != glm::vec3(0.0f))
+        values.push_back({tr("of it specular"), numbers(part.specular)});
+    if (!part.on)
+        values.push_back({tr("switched off"), {}});
+    return values;
+}
+
+bool ContributionChart::pick(const QPointF& place, Qt::KeyboardModifiers) {
+    Q_EMIT chosen(QString::fromStdString(row(static_cast<int>(place.y())).key));
+    return true;
+}
+
+// --- Painting ------------------------------------------------------------------------------------
+
+void ContributionChart::paintRow(QPainter& painter, int index, const glm::vec3& begin) const {
+    const render::Contribution part = row(index);
+    const QRectF bars = area();
+    const double top = kPad + double(index) * rowHeight(), height = rowHeight();
     const QFontMetricsF metrics(painter.font());
+    const double wide = bars.left() - 2 * kPad;
     painter.setPen(part.on ? QColor(tokens::kText) : QColor(tokens::kTextOff));
-    painter.drawText(QRectF(kPad, top, area.left() - 2 * kPad, height),
-                     Qt::AlignLeft | Qt::AlignVCenter,
-                     metrics.elidedText(label, Qt::ElideRight, area.left() - 2 * kPad));
-    painter.drawText(QRectF(area.right() + kPad, top, width() - area.right() - 2 * kPad, height),
-                     Qt::AlignRight | Qt::AlignVCenter, number);
+    painter.drawText(QRectF(kPad, top, wide, height), Qt::AlignLeft | Qt::AlignVCenter,
+                     metrics.elidedText(QString::fromStdString(part.label), Qt::ElideRight, wide));
+    painter.drawText(QRectF(bars.right() + kPad, top, width() - bars.right() - 2 * kPad, height),
+                     Qt::AlignRight | Qt::AlignVCenter,
+                     part.on ? shareText(part.radiance) : tr("off"));
 
     const float whole = largest();
     if (!part.on || whole <= 0.0f)
         return;
     const auto bar = [&](double y, double thickness, float from, float length, const QColor& color,
                          bool hatched) {
-        const double scale = area.width() / static_cast<double>(whole);
-        const double x = area.left() + scale * static_cast<double>(positive(from));
+        const double scale = bars.width() / static_cast<double>(whole);
+        const double x = bars.left() + scale * static_cast<double>(positive(from));
         const double w = scale * static_cast<double>(positive(length));
         // Whatever there is can be seen.
         const QRectF shape(x, y, w > 0.0 ? std::max(w, 1.0) : 0.0, thickness);
@@ -165,62 +190,32 @@ void ContributionChart::paintRow(QPainter& painter, int row, const QString& labe
     }
 }
 
-void ContributionChart::paintEvent(QPaintEvent*) {
-    QPainter painter(this);
-    painter.setRenderHint(QPainter::Antialiasing);
-    painter.setPen(Qt::NoPen);
-    painter.setBrush(QColor(tokens::kWell));
-    painter.drawRoundedRect(rect(), tokens::kRadius, tokens::kRadius);
+void ContributionChart::paintValues(QPainter& painter) const {
     painter.setRenderHint(QPainter::Antialiasing, false);
-    const QRectF area = barArea();
+    painter.setFont(font());
+    const QRectF bars = area();
     const auto count = static_cast<int>(m_parts.size());
     painter.setPen(QColor(tokens::kLine));
-    painter.drawLine(QPointF(area.left(), area.top()), QPointF(area.left(), area.bottom()));
+    painter.drawLine(bars.topLeft(), bars.bottomLeft());
     const double sumTop = kPad + double(count) * rowHeight();
     painter.drawLine(QPointF(kPad, sumTop), QPointF(width() - kPad, sumTop));
-
     glm::vec3 begin(0.0f);
-    for (int row = 0; row < count; ++row) {
-        const render::Contribution& part = m_parts[static_cast<std::size_t>(row)];
-        paintRow(painter, row, QString::fromStdString(part.label), begin, part,
-                 part.on ? shareText(part.radiance) : tr("off"));
+    for (int index = 0; index < count; ++index) {
+        const render::Contribution& part = m_parts[static_cast<std::size_t>(index)];
+        paintRow(painter, index, begin);
         if (part.on)
             begin += part.radiance;
     }
-    paintRow(painter, count, tr("Sum"), glm::vec3(0.0f), {"sum", {}, m_sum, glm::vec3(0.0f), true},
-             shareText(m_sum));
+    paintRow(painter, count, glm::vec3(0.0f));
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setFont(plotFont(font()));
 }
 
-void ContributionChart::mouseReleaseEvent(QMouseEvent* event) {
-    const int row = rowAt(event->pos());
-    if (row >= 0 && rect().contains(event->pos()))
-        Q_EMIT chosen(row < static_cast<int>(m_parts.size())
-                          ? QString::fromStdString(m_parts[static_cast<std::size_t>(row)].key)
-                          : QStringLiteral("sum"));
-}
-
-bool ContributionChart::event(QEvent* event) {
-    if (event->type() != QEvent::ToolTip)
-        return QWidget::event(event);
-    const auto* help = static_cast<QHelpEvent*>(event);
-    const int row = rowAt(help->pos());
-    if (row < 0) {
-        QToolTip::hideText();
-        return true;
-    }
-    if (row == static_cast<int>(m_parts.size())) {
-        QToolTip::showText(help->globalPos(), tr("Sum: %1 cd/m²").arg(numbers(m_sum)), this);
-        return true;
-    }
-    const render::Contribution& part = m_parts[static_cast<std::size_t>(row)];
-    QString text = QString::fromStdString(part.label) +
-                   QStringLiteral(": %1 cd/m²").arg(numbers(part.radiance));
-    if (part.specular != glm::vec3(0.0f))
-        text += tr("\nof it specular: %1").arg(numbers(part.specular));
-    if (!part.on)
-        text += tr("\nswitched off");
-    QToolTip::showText(help->globalPos(), text, this);
-    return true;
+void ContributionChart::paintProbe(QPainter& painter, const QPointF& place) const {
+    QColor band(tokens::kText);
+    band.setAlpha(22);
+    painter.fillRect(
+        QRectF(kPad / 2.0, kPad + place.y() * rowHeight(), width() - kPad, rowHeight()), band);
 }
 
 } // namespace patina::editor
