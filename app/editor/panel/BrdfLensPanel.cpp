@@ -349,12 +349,13 @@ void BrdfLensPanel::showResult(const LensResult& result, const Looks& looks) {
     std::vector<LobeView::Lobe> lobes;
     std::vector<LitSphere::Ball> balls;
     for (std::size_t i = 0; i < looks.size(); ++i) {
-        lobes.push_back({looks[i].slot, looks[i].name,
-                         std::make_shared<const LobeMesh>(result.curves[i].mesh)});
-        balls.push_back({looks[i].slot, looks[i].name, result.curves[i].lens});
+        lobes.push_back({{looks[i].slot, looks[i].name},
+                         std::make_shared<const LobeMesh>(result.curves[i].mesh),
+                         result.curves[i].lens});
+        balls.push_back({{looks[i].slot, looks[i].name}, result.curves[i].lens});
     }
     m_space->setLobes(std::move(lobes), glm::degrees(static_cast<double>(result.request.incidence)),
-                      tr("peak %1 sr⁻¹").arg(plotNumber(static_cast<double>(result.peak))));
+                      result.request.scale, double{result.peak});
     m_ball->setBalls(std::move(balls));
 }
 

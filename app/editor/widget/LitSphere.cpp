@@ -1,39 +1,45 @@
 #include "app/editor/widget/LitSphere.h"
 
 #include "app/editor/style/Tokens.h"
-#include "app/editor/widget/PlotStyle.h"
 
-#include <QMouseEvent>
 #include <algorithm>
 #include <cmath>
 
 namespace patina::editor {
 namespace {
-constexpr double kGap = 6.0;
+
+constexpr double kStep = 0.05;  // of the highlight, with the keys
+constexpr float kRim = 0.9995f; // seen at grazing angles, never from behind
+
+QPointF within(const QPointF& place, double radius) {
+    const double length = std::hypot(place.x(), place.y());
+    return place * std::min(1.0, radius / std::max(length, 1e-6));
+}
+
+glm::vec3 normalAt(const QPointF& place) {
+    const QPointF inside = within(place, double{kRim});
+    const glm::vec2 at(static_cast<float>(inside.x()), static_cast<float>(inside.y()));
+    return {at, std::sqrt(std::max(1.0f - glm::dot(at, at), 0.0f))};
+}
+
 } // namespace
 
 LitSphere::LitSphere(TaskRunner& runner, const QString& title, QWidget* parent)
-    : QWidget(parent)
-    , m_title(title)
-    , m_job(runner, "lit ball") {
+    : PictureFrame(runner, "lit ball", title, Press::Drags, parent) {
+    setHelp(tr("The material on a ball, under one light of 3 lux and the scene's environment. Drag "
+               "the highlight to move the light."));
+    setAxes({{QStringLiteral("x"), {}, -1.0, 1.0},
+             {QStringLiteral("y"), {}, -1.0, 1.0},
+             {tr("luminance"), tr(" cd/m²")}});
+    // The highlight stands where the normal halves the angle between light and viewer.
     m_light.toLight = glm::normalize(glm::vec3(-0.75f, 0.75f, 0.6f));
-    setCursor(Qt::OpenHandCursor);
-    setAccessibleName(title);
-    setAccessibleDescription(tr("The material on a ball, under one light of 3 lux and the scene's "
-                                "environment. Drag the highlight to move the light."));
-    setStatusTip(accessibleDescription());
-}
-
-QSize LitSphere::sizeHint() const {
-    return {260, 200};
-}
-QSize LitSphere::minimumSizeHint() const {
-    return {140, 110};
+    const glm::vec3 half = glm::normalize(m_light.toLight + glm::vec3(0.0f, 0.0f, 1.0f));
+    m_highlight = {double{half.x}, double{half.y}};
 }
 
 void LitSphere::setBalls(std::vector<Ball> balls) {
     m_balls = std::move(balls);
-    draw();
+    setLooks({m_balls.begin(), m_balls.end()});
 }
 
 void LitSphere::setEnvironment(std::shared_ptr<const IblMaps> maps, const Environment& environment,
@@ -45,21 +51,31 @@ void LitSphere::setEnvironment(std::shared_ptr<const IblMaps> maps, const Enviro
     draw();
 }
 
-void LitSphere::setMessage(const QString& message) {
-    m_message = message;
-    update();
+// --- The light -----------------------------------------------------------------------------------
+
+void LitSphere::setHighlight(const QPointF& place) {
+    m_highlight = within(place, 0.95);
+    const glm::vec3 half = normalAt(m_highlight);
+    m_light.toLight = 2.0f * half.z * half - glm::vec3(0.0f, 0.0f, 1.0f);
+    draw();
 }
 
-QRectF LitSphere::area() const {
-    return QRectF(rect()).adjusted(kGap, plotTitleHeight(font()), -kGap, -kGap);
+bool LitSphere::pick(const QPointF& place, Qt::KeyboardModifiers) {
+    setHighlight(place);
+    return true;
 }
 
-// The largest square of each cell, below the name where there are several; `unit` pixels each.
-std::vector<QRectF> LitSphere::squares(const QRectF& area, double unit) const {
+bool LitSphere::moveHandle(const QPointF& way) {
+    setHighlight(m_highlight + kStep * way);
+    return true;
+}
+
+// --- Places --------------------------------------------------------------------------------------
+
+std::vector<QRectF> LitSphere::cells(const QRectF& area, double unit) const {
     std::vector<QRectF> squares;
-    const double name =
-        m_balls.size() > 1 ? std::ceil(QFontMetricsF(plotFont(font())).height()) * unit : 0.0;
-    for (const QRectF& cell : plotCells(area, static_cast<int>(m_balls.size()), kGap * unit)) {
+    const double name = nameHeight() * unit;
+    for (const QRectF& cell : PictureFrame::cells(area, unit)) {
         const double side = std::floor(std::min(cell.width(), cell.height() - name));
         squares.emplace_back(cell.center().x() - side / 2,
                              cell.top() + name + (cell.height() - name - side) / 2, side, side);
@@ -67,86 +83,50 @@ std::vector<QRectF> LitSphere::squares(const QRectF& area, double unit) const {
     return squares;
 }
 
-void LitSphere::draw() {
-    if (!isVisible() || m_balls.empty())
-        return;
-    const double ratio = devicePixelRatioF();
-    const QSizeF size = area().size() * ratio;
-    m_job.request([this, balls = m_balls, light = m_light, ratio, size,
-                   places = squares(QRectF(QPointF(), size), ratio)](const JobContext&) {
-        QImage picture(size.toSize(), QImage::Format_ARGB32_Premultiplied);
-        picture.fill(Qt::transparent);
-        QPainter painter(&picture);
-        for (std::size_t i = 0; i < balls.size(); ++i)
-            painter.drawImage(
-                places[i].topLeft(),
-                spherePicture(*balls[i].lens, light, static_cast<int>(places[i].width())));
-        painter.end();
-        picture.setDevicePixelRatio(ratio);
-        return [this, picture] {
-            m_picture = picture;
-            update();
-        };
+QPointF LitSphere::pointOf(const QPointF& place) const {
+    const std::vector<QRectF> squares = PictureFrame::cells();
+    if (squares.empty())
+        return {};
+    return squares.front().center() +
+           squares.front().width() / 2.0 * QPointF(place.x(), -place.y());
+}
+
+std::optional<QPointF> LitSphere::placeAt(const QPointF& point) const {
+    const int cell = cellAt(point);
+    if (cell < 0)
+        return std::nullopt;
+    const QRectF square = PictureFrame::cells()[static_cast<std::size_t>(cell)];
+    const QPointF way = (point - square.center()) / (square.width() / 2.0);
+    return within({way.x(), -way.y()}, 1.0);
+}
+
+QPointF LitSphere::allowed(const QPointF& place) const {
+    const double widest = std::sqrt(std::max(1.0 - place.y() * place.y(), 0.0));
+    const double told = std::floor(1000.0 * widest) / 1000.0; // so that steps lead back
+    return {std::clamp(place.x(), -told, told), place.y()};
+}
+
+std::vector<PlotValue> LitSphere::valuesAt(const QPointF& place) const {
+    const glm::vec3 n = normalAt(place);
+    return looked([&](std::size_t i) {
+        return double{shading::luminance(sphereRadiance(*m_balls[i].lens, m_light, n))};
     });
 }
 
-void LitSphere::paintEvent(QPaintEvent*) {
-    QPainter painter(this);
-    painter.setRenderHint(QPainter::Antialiasing);
-    paintPlotWell(painter, rect(), m_title);
-    painter.setFont(plotFont(font()));
-    if (!m_message.isEmpty()) {
-        paintPlotMessage(painter, rect(), m_message);
-        return;
-    }
-    painter.drawImage(area().topLeft(), m_picture);
-    if (m_balls.size() < 2)
-        return;
-    const QFontMetricsF metrics(painter.font());
-    const std::vector<QRectF> places = squares(area(), 1.0);
-    for (std::size_t i = 0; i < m_balls.size(); ++i) {
-        painter.setPen(plotColor(m_balls[i].look));
-        const QRectF name(places[i].left(), places[i].top() - metrics.height() - 1.0,
-                          places[i].width(), metrics.height());
-        painter.drawText(name, Qt::AlignCenter,
-                         metrics.elidedText(m_balls[i].name, Qt::ElideRight, name.width()));
-    }
+// --- Painting ------------------------------------------------------------------------------------
+
+PictureFrame::Draw LitSphere::drawer() const {
+    return [balls = m_balls, light = m_light](QPainter& painter, std::size_t index,
+                                              const QRectF& cell, double) {
+        painter.drawImage(cell.topLeft(),
+                          spherePicture(*balls[index].lens, light, static_cast<int>(cell.width())));
+    };
 }
 
-void LitSphere::resizeEvent(QResizeEvent*) {
-    draw();
-}
-
-void LitSphere::showEvent(QShowEvent*) {
-    draw();
-}
-
-void LitSphere::mousePressEvent(QMouseEvent* event) {
-    if (event->button() == Qt::LeftButton)
-        dragTo(event->position());
-}
-
-void LitSphere::mouseMoveEvent(QMouseEvent* event) {
-    if (event->buttons() & Qt::LeftButton)
-        dragTo(event->position());
-}
-
-// The highlight stands where the normal halves the angle between light and viewer.
-void LitSphere::dragTo(const QPointF& point) {
-    const std::vector<QRectF> places = squares(area(), 1.0);
-    if (places.empty())
-        return;
-    const auto nearest =
-        std::min_element(places.begin(), places.end(), [&](const QRectF& a, const QRectF& b) {
-            const QPointF toA = a.center() - point, toB = b.center() - point;
-            return QPointF::dotProduct(toA, toA) < QPointF::dotProduct(toB, toB);
-        });
-    const QPointF way = (point - nearest->center()) / (nearest->width() / 2.0);
-    glm::vec2 at(static_cast<float>(way.x()), static_cast<float>(-way.y()));
-    at *= std::min(1.0f, 0.95f / std::max(glm::length(at), 1e-6f));
-    const glm::vec3 h(at, std::sqrt(1.0f - glm::dot(at, at)));
-    m_light.toLight = 2.0f * h.z * h - glm::vec3(0.0f, 0.0f, 1.0f);
-    draw();
+void LitSphere::paintProbe(QPainter& painter, const QPointF& place) const {
+    const QPointF way = pointOf(place) - pointOf({});
+    for (const QRectF& square : PictureFrame::cells())
+        paintCross(painter, square.center() + way);
 }
 
 } // namespace patina::editor

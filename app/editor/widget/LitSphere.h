@@ -2,21 +2,15 @@
 // its highlight.
 #pragma once
 
-#include "app/editor/job/LatestJob.h"
+#include "app/editor/widget/PictureFrame.h"
 #include "app/editor/widget/SpherePicture.h"
-
-#include <QImage>
-#include <QWidget>
-#include <vector>
 
 namespace patina::editor {
 
-class LitSphere : public QWidget {
+class LitSphere : public PictureFrame {
     Q_OBJECT
   public:
-    struct Ball {
-        int look = 0; // colour: PlotStyle.h
-        QString name;
+    struct Ball : Look {
         std::shared_ptr<const BrdfLens> lens;
     };
 
@@ -25,32 +19,30 @@ class LitSphere : public QWidget {
     void setBalls(std::vector<Ball> balls);
     void setEnvironment(std::shared_ptr<const IblMaps> maps, const Environment& environment,
                         const View& view);
-    void setMessage(const QString& message);
 
     [[nodiscard]] const SphereLight& light() const { return m_light; }
-    [[nodiscard]] QImage picture() const { return m_picture; } // made in the background
-    [[nodiscard]] bool upToDate() const { return !m_job.busy(); }
-    [[nodiscard]] QSize sizeHint() const override;
-    [[nodiscard]] QSize minimumSizeHint() const override;
+    // A place is a point of each ball as it is seen, -1…1 to the right and upwards.
+    [[nodiscard]] QPointF pointOf(const QPointF& place) const override; // on the first
+    [[nodiscard]] std::optional<QPointF> placeAt(const QPointF& point) const override;
+    [[nodiscard]] std::vector<PlotValue> valuesAt(const QPointF& place) const override;
 
   protected:
-    void paintEvent(QPaintEvent* event) override;
-    void resizeEvent(QResizeEvent* event) override;
-    void showEvent(QShowEvent* event) override;
-    void mousePressEvent(QMouseEvent* event) override;
-    void mouseMoveEvent(QMouseEvent* event) override;
+    [[nodiscard]] Draw drawer() const override;
+    // The largest square of each cell, below the name where there are several.
+    [[nodiscard]] std::vector<QRectF> cells(const QRectF& area, double unit) const override;
+    [[nodiscard]] double nameTop() const override { return -nameHeight(); }
+    [[nodiscard]] QPointF startPlace() const override { return m_highlight; }
+    [[nodiscard]] QPointF allowed(const QPointF& place) const override; // on the ball
+    bool pick(const QPointF& place, Qt::KeyboardModifiers modifiers) override;
+    bool moveHandle(const QPointF& way) override;
+    void paintProbe(QPainter& painter, const QPointF& place) const override;
 
   private:
-    [[nodiscard]] QRectF area() const;
-    [[nodiscard]] std::vector<QRectF> squares(const QRectF& area, double unit) const;
-    void dragTo(const QPointF& point);
-    void draw();
+    void setHighlight(const QPointF& place);
 
-    QString m_title, m_message;
     std::vector<Ball> m_balls;
     SphereLight m_light;
-    QImage m_picture;
-    LatestJob m_job;
+    QPointF m_highlight;
 };
 
 } // namespace patina::editor

@@ -1,6 +1,7 @@
 #include "app/editor/widget/LobePicture.h"
 
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/PlotStyle.h"
 
 #include <QPainter>
 #include <QPainterPath>
@@ -15,14 +16,13 @@ namespace patina::editor {
 namespace {
 
 constexpr int kOversampling = 2; // edges are smooth after shrinking
-constexpr QRgb kSun = 0xfffff0b8;
 
 struct Projection {
     glm::vec3 right, up, toCamera;
     float scale;
     glm::vec2 origin;
 
-    Projection(const LobeCamera& camera, QSize pixels) {
+    Projection(const LobeCamera& camera, const QSizeF& pixels) {
         const auto yaw = static_cast<float>(glm::radians(camera.yawDeg));
         const auto elevation = static_cast<float>(glm::radians(camera.elevationDeg));
         toCamera = {std::sin(yaw) * std::cos(elevation), -std::cos(yaw) * std::cos(elevation),
@@ -149,7 +149,7 @@ void paintDisc(QPainter& painter, const Projection& view, QColor ring, double st
 
 void paintLight(QPainter& painter, const Projection& view, const glm::vec3& light, double stroke) {
     const QPointF from = view.point(light), to = view.point(glm::vec3(0.0f));
-    const QColor sun(kSun);
+    const QColor sun(kPlotSun);
     painter.setPen(QPen(sun, 1.6 * stroke));
     painter.drawLine(from, to);
     const QPointF way = to - from;
@@ -195,6 +195,35 @@ QImage lobePicture(const LobeMesh& mesh, const LobeCamera& camera, float inciden
         paintLight(painter, view, light, stroke);
     painter.end();
     return picture.scaled(pixels, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+}
+
+QPointF lobePoint(const LobeCamera& camera, const QSizeF& size, const glm::vec3& p) {
+    return Projection(camera, size).point(p);
+}
+
+std::optional<glm::vec3> lobeHit(const LobeMesh& mesh, const LobeCamera& camera, const QSizeF& size,
+                                 const QPointF& point) {
+    const Projection view(camera, size);
+    const glm::vec2 at(static_cast<float>(point.x()), static_cast<float>(point.y()));
+    std::optional<glm::vec3> nearest;
+    for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+        const glm::vec3 &p = mesh.positions[mesh.triangles[i]],
+                        &q = mesh.positions[mesh.triangles[i + 1]],
+                        &r = mesh.positions[mesh.triangles[i + 2]];
+        const glm::vec2 a(view(p)), ab = glm::vec2(view(q)) - a, ac = glm::vec2(view(r)) - a;
+        const float twiceArea = ab.x * ac.y - ab.y * ac.x;
+        if (std::abs(twiceArea) < 1e-9f)
+            continue;
+        const glm::vec2 way = at - a;
+        const float u = (way.x * ac.y - way.y * ac.x) / twiceArea;
+        const float v = (ab.x * way.y - ab.y * way.x) / twiceArea;
+        if (u < 0.0f || v < 0.0f || u + v > 1.0f)
+            continue;
+        const glm::vec3 hit = p + u * (q - p) + v * (r - p);
+        if (!nearest || glm::dot(hit, view.toCamera) > glm::dot(*nearest, view.toCamera))
+            nearest = hit;
+    }
+    return nearest;
 }
 
 } // namespace patina::editor

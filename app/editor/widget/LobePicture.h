@@ -6,6 +6,7 @@
 
 #include <QColor>
 #include <QImage>
+#include <optional>
 
 namespace patina::editor {
 
@@ -20,5 +21,11 @@ struct LobeCamera {
 // width 1.
 [[nodiscard]] QImage lobePicture(const LobeMesh& mesh, const LobeCamera& camera, float incidenceRad,
                                  QSize pixels, QColor ring, double ratio);
+
+// Where a point of the lobe's space lies in a picture of `size`, and the nearest point of the lobe
+// at a point of the picture; nothing beside it.
+[[nodiscard]] QPointF lobePoint(const LobeCamera& camera, const QSizeF& size, const glm::vec3& p);
+[[nodiscard]] std::optional<glm::vec3> lobeHit(const LobeMesh& mesh, const LobeCamera& camera,
+                                               const QSizeF& size, const QPointF& point);
 
 } // namespace patina::editor

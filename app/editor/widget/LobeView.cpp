@@ -1,10 +1,5 @@
 #include "app/editor/widget/LobeView.h"
 
-#include "app/editor/style/FocusRing.h"
-#include "app/editor/style/Tokens.h"
-#include "app/editor/widget/PlotStyle.h"
-
-#include <QKeyEvent>
 #include <QMouseEvent>
 #include <algorithm>
 #include <cmath>
@@ -12,112 +7,103 @@
 
 namespace patina::editor {
 namespace {
-constexpr double kDegreesPerPixel = 0.6;
-constexpr double kLowest = 2.0, kHighest = 90.0; // of the camera: never from below
-constexpr double kGap = 6.0;
+
+constexpr double kDegreesPerPixel = 0.6, kDegreesPerKey = 5.0;
+constexpr double kLowest = 2.0,
+                 kHighest = 90.0; // of the camera: never from below
+
+glm::vec3 directionOf(const QPointF& place) {
+    const auto azimuth = static_cast<float>(glm::radians(place.x()));
+    const auto theta = static_cast<float>(glm::radians(place.y()));
+    return {std::sin(theta) * std::cos(azimuth), std::sin(theta) * std::sin(azimuth),
+            std::cos(theta)};
+}
+
 } // namespace
 
 LobeView::LobeView(TaskRunner& runner, const QString& title, QWidget* parent)
-    : QWidget(parent)
-    , m_title(title)
-    , m_job(runner, "lobe in space") {
-    setFocusPolicy(Qt::StrongFocus);
-    setCursor(Qt::OpenHandCursor);
-    setAccessibleName(title);
-    setAccessibleDescription(
-        tr("The lobe in space. Drag to look from another side, double-click to go back."));
-    setStatusTip(accessibleDescription());
+    : PictureFrame(runner, "lobe in space", title, Press::Drags, parent) {
+    setHelp(tr("The lobe in space. Drag to look from another side, double-click to go back."));
+    setAxes({{QStringLiteral("φ"), QStringLiteral("°"), -180.0, 180.0},
+             {QStringLiteral("θₒ"), QStringLiteral("°"), 0.0, 90.0},
+             {QStringLiteral("fᵣ"), QStringLiteral(" sr⁻¹")}});
 }
 
-QSize LobeView::sizeHint() const {
-    return {260, 200};
-}
-QSize LobeView::minimumSizeHint() const {
-    return {140, 110};
-}
-
-void LobeView::setLobes(std::vector<Lobe> lobes, double incidenceDeg, const QString& peak) {
+void LobeView::setLobes(std::vector<Lobe> lobes, double incidenceDeg, const LobeScale& scale,
+                        double peak) {
     m_lobes = std::move(lobes);
     m_incidenceDeg = incidenceDeg;
+    m_scale = scale;
     m_peak = peak;
-    draw();
+    m_axes[2].name = scale.cosine ? QStringLiteral("fᵣ·cos θₒ") : QStringLiteral("fᵣ");
+    setLooks({m_lobes.begin(), m_lobes.end()});
 }
 
-void LobeView::setMessage(const QString& message) {
-    m_message = message;
-    update();
+QString LobeView::corner() const {
+    return tr("peak %1").arg(m_axes[2].number(m_peak));
 }
 
-QRectF LobeView::area() const {
-    return QRectF(rect()).adjusted(kGap, plotTitleHeight(font()), -kGap, -kGap);
+// --- Places --------------------------------------------------------------------------------------
+
+double LobeView::valueAt(std::size_t lobe, const QPointF& place) const {
+    const glm::vec3 l = lensDirection(static_cast<float>(-glm::radians(m_incidenceDeg)));
+    const glm::vec3 v = directionOf(place);
+    return double{
+        lobeValue(m_lobes[lobe].lens->brdf(l, v, m_scale.lobe), std::max(v.z, 0.0f), m_scale)};
 }
 
-void LobeView::draw() {
-    if (!isVisible() || m_lobes.empty())
-        return;
-    const double ratio = devicePixelRatioF();
-    const QRectF all = area();
-    m_job.request([this, lobes = m_lobes, camera = m_camera, ratio, all,
-                   incidence =
-                       static_cast<float>(glm::radians(m_incidenceDeg))](const JobContext&) {
-        QImage picture((all.size() * ratio).toSize(), QImage::Format_ARGB32_Premultiplied);
-        picture.fill(Qt::transparent);
-        QPainter painter(&picture);
-        const std::vector<QRectF> cells = plotCells(QRectF(QPointF(), all.size() * ratio),
-                                                    static_cast<int>(lobes.size()), kGap * ratio);
-        for (std::size_t i = 0; i < lobes.size(); ++i)
-            painter.drawImage(cells[i].topLeft(), lobePicture(*lobes[i].mesh, camera, incidence,
-                                                              cells[i].size().toSize(),
-                                                              plotColor(lobes[i].look), ratio));
-        painter.end();
-        picture.setDevicePixelRatio(ratio);
-        return [this, picture] {
-            m_picture = picture;
-            update();
-        };
-    });
+QPointF LobeView::pointOn(std::size_t lobe, const QPointF& place) const {
+    const QRectF cell = cells()[lobe];
+    const float radius =
+        lobeRadius(static_cast<float>(valueAt(lobe, place)), static_cast<float>(m_peak), m_scale);
+    return cell.topLeft() + lobePoint(m_camera, cell.size(), radius * directionOf(place));
 }
 
-void LobeView::paintEvent(QPaintEvent*) {
-    QPainter painter(this);
-    painter.setRenderHint(QPainter::Antialiasing);
-    paintPlotWell(painter, rect(), m_title);
-    const double title = QFontMetricsF(font()).horizontalAdvance(m_title) + 20.0;
-    painter.setFont(plotFont(font()));
-    if (!m_message.isEmpty()) {
-        paintPlotMessage(painter, rect(), m_message);
-        return;
-    }
-    painter.drawImage(area().topLeft(), m_picture);
-    const QFontMetricsF metrics(painter.font());
-    painter.setPen(QColor(tokens::kTextDim));
-    const double w = metrics.horizontalAdvance(m_peak);
-    if (width() - 8.0 - w > title)
-        painter.drawText(QPointF(width() - 8.0 - w, 5.0 + QFontMetricsF(font()).ascent()), m_peak);
-    if (m_lobes.size() > 1) {
-        const std::vector<QRectF> cells = plotCells(area(), static_cast<int>(m_lobes.size()), kGap);
-        for (std::size_t i = 0; i < m_lobes.size(); ++i) {
-            painter.setPen(plotColor(m_lobes[i].look));
-            painter.drawText(
-                cells[i].adjusted(2, 0, -2, 0), Qt::AlignHCenter | Qt::AlignTop,
-                metrics.elidedText(m_lobes[i].name, Qt::ElideRight, cells[i].width() - 4.0));
-        }
-    }
-    if (hasFocus()) {
-        painter.setPen(QColor(tokens::kFocus));
-        painter.setBrush(Qt::NoBrush);
-        painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), tokens::kRadius,
-                                tokens::kRadius);
-    }
+QPointF LobeView::pointOf(const QPointF& place) const {
+    return m_lobes.empty() ? QPointF() : pointOn(0, place);
 }
 
-void LobeView::resizeEvent(QResizeEvent*) {
-    draw();
+// Where the pointer meets a lobe.
+std::optional<QPointF> LobeView::placeAt(const QPointF& point) const {
+    const int index = cellAt(point);
+    if (index < 0)
+        return std::nullopt;
+    const QRectF cell = cells()[static_cast<std::size_t>(index)];
+    const auto hit = lobeHit(*m_lobes[static_cast<std::size_t>(index)].mesh, m_camera, cell.size(),
+                             point - cell.topLeft());
+    if (!hit)
+        return std::nullopt;
+    const glm::dvec3 d = glm::normalize(glm::dvec3(*hit));
+    return QPointF(m_axes[0].rounded(glm::degrees(std::atan2(d.y, d.x))),
+                   m_axes[1].rounded(glm::degrees(std::acos(std::clamp(d.z, -1.0, 1.0)))));
 }
 
-void LobeView::showEvent(QShowEvent*) {
-    draw();
+QPointF LobeView::startPlace() const {
+    return {0.0, m_axes[1].rounded(m_incidenceDeg)}; // the mirror direction
 }
+
+std::vector<PlotValue> LobeView::valuesAt(const QPointF& place) const {
+    return looked([&](std::size_t i) { return valueAt(i, place); });
+}
+
+// --- Painting ------------------------------------------------------------------------------------
+
+PictureFrame::Draw LobeView::drawer() const {
+    return [lobes = m_lobes, camera = m_camera,
+            incidence = static_cast<float>(glm::radians(m_incidenceDeg))](
+               QPainter& painter, std::size_t index, const QRectF& cell, double ratio) {
+        painter.drawImage(cell.topLeft(),
+                          lobePicture(*lobes[index].mesh, camera, incidence, cell.size().toSize(),
+                                      plotColor(lobes[index].look), ratio));
+    };
+}
+
+void LobeView::paintProbe(QPainter& painter, const QPointF& place) const {
+    for (std::size_t i = 0; i < m_lobes.size(); ++i)
+        paintCross(painter, pointOn(i, place));
+}
+
+// --- The camera ----------------------------------------------------------------------------------
 
 void LobeView::orbit(double yawDeg, double elevationDeg) {
     m_camera.yawDeg = std::remainder(m_camera.yawDeg + yawDeg, 360.0);
@@ -125,37 +111,28 @@ void LobeView::orbit(double yawDeg, double elevationDeg) {
     draw();
 }
 
+bool LobeView::moveHandle(const QPointF& way) {
+    orbit(-kDegreesPerKey * way.x(), kDegreesPerKey * way.y());
+    return true;
+}
+
 void LobeView::mousePressEvent(QMouseEvent* event) {
     m_last = event->position();
+    PictureFrame::mousePressEvent(event);
 }
 
 void LobeView::mouseMoveEvent(QMouseEvent* event) {
-    if (!(event->buttons() & Qt::LeftButton))
-        return;
-    const QPointF way = event->position() - m_last;
-    m_last = event->position();
-    orbit(-way.x() * kDegreesPerPixel, way.y() * kDegreesPerPixel);
+    if (event->buttons().testFlag(Qt::LeftButton)) {
+        const QPointF way = event->position() - m_last;
+        m_last = event->position();
+        orbit(-way.x() * kDegreesPerPixel, way.y() * kDegreesPerPixel);
+    }
+    PictureFrame::mouseMoveEvent(event);
 }
 
 void LobeView::mouseDoubleClickEvent(QMouseEvent*) {
     m_camera = {};
     draw();
-}
-
-void LobeView::keyPressEvent(QKeyEvent* event) {
-    constexpr double kStep = 5.0;
-    switch (event->key()) {
-    case Qt::Key_Left:
-        return orbit(kStep, 0);
-    case Qt::Key_Right:
-        return orbit(-kStep, 0);
-    case Qt::Key_Up:
-        return orbit(0, kStep);
-    case Qt::Key_Down:
-        return orbit(0, -kStep);
-    default:
-        QWidget::keyPressEvent(event);
-    }
 }
 
 } // namespace patina::editor

@@ -1,57 +1,53 @@
 // Lobes in space, one for each compared look side by side; dragging orbits all of them.
 #pragma once
 
-#include "app/editor/job/LatestJob.h"
 #include "app/editor/widget/LobePicture.h"
+#include "app/editor/widget/PictureFrame.h"
 
-#include <QImage>
-#include <QWidget>
 #include <memory>
-#include <vector>
 
 namespace patina::editor {
 
-class LobeView : public QWidget {
+class LobeView : public PictureFrame {
     Q_OBJECT
   public:
-    struct Lobe {
-        int look = 0; // colour: PlotStyle.h
-        QString name;
+    struct Lobe : Look {
         std::shared_ptr<const LobeMesh> mesh;
+        std::shared_ptr<const BrdfLens> lens; // that it is of
     };
 
     LobeView(TaskRunner& runner, const QString& title, QWidget* parent = nullptr);
 
-    void setLobes(std::vector<Lobe> lobes, double incidenceDeg, const QString& peak);
-    void setMessage(const QString& message);
+    // `peak`: the value that lies 1 from the point, > 0.
+    void setLobes(std::vector<Lobe> lobes, double incidenceDeg, const LobeScale& scale,
+                  double peak);
 
     [[nodiscard]] const LobeCamera& camera() const { return m_camera; }
-    [[nodiscard]] QImage picture() const { return m_picture; } // all lobes; made in the background
-    [[nodiscard]] bool upToDate() const { return !m_job.busy(); }
-    [[nodiscard]] QSize sizeHint() const override;
-    [[nodiscard]] QSize minimumSizeHint() const override;
+    // A place is a direction: degrees about the normal, 0 in the mirror direction, and from it.
+    [[nodiscard]] QPointF pointOf(const QPointF& place) const override; // on the first lobe
+    [[nodiscard]] std::optional<QPointF> placeAt(const QPointF& point) const override;
+    [[nodiscard]] std::vector<PlotValue> valuesAt(const QPointF& place) const override;
+    [[nodiscard]] double valueAt(std::size_t lobe, const QPointF& place) const;
 
   protected:
-    void paintEvent(QPaintEvent* event) override;
-    void resizeEvent(QResizeEvent* event) override;
-    void showEvent(QShowEvent* event) override;
+    [[nodiscard]] Draw drawer() const override;
+    [[nodiscard]] QPointF startPlace() const override;
+    [[nodiscard]] QString corner() const override;
+    bool moveHandle(const QPointF& way) override;
+    void paintProbe(QPainter& painter, const QPointF& place) const override;
     void mousePressEvent(QMouseEvent* event) override;
     void mouseMoveEvent(QMouseEvent* event) override;
     void mouseDoubleClickEvent(QMouseEvent* event) override;
-    void keyPressEvent(QKeyEvent* event) override;
 
   private:
-    [[nodiscard]] QRectF area() const;
     void orbit(double yawDeg, double elevationDeg);
-    void draw();
+    [[nodiscard]] QPointF pointOn(std::size_t lobe, const QPointF& place) const;
 
-    QString m_title, m_message, m_peak;
     std::vector<Lobe> m_lobes;
-    double m_incidenceDeg = 45;
+    double m_incidenceDeg = 45, m_peak = 1;
+    LobeScale m_scale;
     LobeCamera m_camera;
     QPointF m_last;
-    QImage m_picture;
-    LatestJob m_job;
 };
 
 } // namespace patina::editor
