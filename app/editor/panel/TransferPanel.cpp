@@ -73,9 +73,10 @@ TransferPanel::TransferPanel(DocumentController& controller, PixelProbe& probe,
     header->addWidget(m_lightBands, 0, Qt::AlignTop);
 
     m_bars = new BandBars;
-    m_function = new PictureTile(tr("Transfer of every direction"));
-    m_seen = new PictureTile(tr("Environment"));
-    m_sum = new PictureTile({});
+    const PlotAxis radiance{tr("radiance"), tr(" cd/m²")};
+    m_function = new PictureTile(tr("Transfer of every direction"), {tr("transfer"), {}});
+    m_seen = new PictureTile(tr("Environment"), radiance);
+    m_sum = new PictureTile({}, radiance);
     auto* tiles = new TileArea({168, 124});
     const QList<QWidget*> all = {m_bars, m_function, m_seen, m_sum};
     for (QWidget* tile : all)
@@ -214,19 +215,32 @@ void TransferPanel::show(std::shared_ptr<const TransferStudy> study, const QStri
              ? QString()
              : tr("   ·   %1 of it directly from local lights, by rays instead of bands")
                    .arg(numbers(s.local))));
+    const auto transferAt = [transfer = s.transfer, bands = m_bars->bands()](const glm::vec3& d) {
+        return std::vector{double{transfer.towards(d, bands)}};
+    };
+    const auto lightOf = [lab = s.lab](LabView view) {
+        return [lab, view](const glm::vec3& d) {
+            const glm::vec3 v = lab.value(view, d).value_or(glm::vec3(0.0f));
+            return std::vector{double{v.x}, double{v.y}, double{v.z}};
+        };
+    };
     m_function->setPicture(s.function,
                            s.negativeShare > 0.0
                                ? tr("rings below zero (magenta) on %1 % of the sphere, to %2")
                                      .arg(plotNumber(100.0 * s.negativeShare), plotNumber(s.lowest))
-                               : tr("nowhere below zero"));
-    m_seen->setPicture(s.seen, s.rays > 0
-                                   ? tr("dark: hidden from the point, by %1 rays").arg(s.rays)
-                                   : tr("darkened by the transfer; pin the point to trace rays"));
+                               : tr("nowhere below zero"),
+                           transferAt);
+    m_seen->setPicture(s.seen,
+                       s.rays > 0 ? tr("dark: hidden from the point, by %1 rays").arg(s.rays)
+                                  : tr("darkened by the transfer; pin the point to trace rays"),
+                       lightOf({LabKind::Environment, 0}));
     m_sum->setTitle(tr("Environment in %1").arg(m_lightBands->currentText()));
+    m_sum->setAccessibleName(m_sum->title());
     m_sum->setPicture(s.sum,
                       s.lightLowest < 0.0f
                           ? tr("lowest %1, below zero magenta").arg(plotNumber(s.lightLowest))
-                          : tr("nowhere below zero"));
+                          : tr("nowhere below zero"),
+                      lightOf({LabKind::Harmonics, m_lightBands->currentData().toInt()}));
 }
 
 } // namespace patina::editor

@@ -133,6 +133,7 @@ std::shared_ptr<const TransferStudy> studyTransfer(const Document& document, con
         return nullptr;
     LabLight lab{memory.analysis, nullptr, mix.rotationDeg};
     lab.setScale(mix.scale);
+    study->lab = lab;
 
     // Environment and lights as coefficients, and what each band of them adds.
     const int order = transfer->order;

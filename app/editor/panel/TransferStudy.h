@@ -49,6 +49,7 @@ struct TransferStudy {
     QImage function;                     // the transfer, below zero magenta
     QImage sum;                          // environment in lightBands bands, below zero magenta
     float lightLowest = 0.0f;            // of that sum
+    LabLight lab;                        // what these pictures of the environment show
     std::shared_ptr<const render::SurfaceLobe> lobe;
 };
 

@@ -1,51 +1,55 @@
 #include "app/editor/widget/PictureTile.h"
 
 #include "app/editor/style/Tokens.h"
-#include "app/editor/widget/PlotStyle.h"
-
-#include <QPainter>
 
 namespace patina::editor {
+namespace {
+constexpr int kWrapped = Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap;
+} // namespace
 
-PictureTile::PictureTile(const QString& title, QWidget* parent)
-    : QWidget(parent)
-    , m_title(title) {
-    setAccessibleName(title);
+PictureTile::PictureTile(const QString& title, const PlotAxis& quantity, QWidget* parent)
+    : PlotFrame(title, Cursor::Both, Press::Nothing, parent) {
+    setAxes(directionAxes(quantity));
 }
 
-void PictureTile::setTitle(const QString& title) {
-    m_title = title;
-    setAccessibleName(title);
-    update();
-}
-
-void PictureTile::setPicture(const QImage& picture, const QString& note) {
+void PictureTile::setPicture(const QImage& picture, const QString& note, Reader reader) {
     m_picture = picture;
     m_note = note;
-    setAccessibleDescription(note);
-    setToolTip(note);
+    m_reader = std::move(reader);
+    setDescription(note);
+    setStatusTip(note);
     update();
 }
 
-void PictureTile::paintEvent(QPaintEvent*) {
-    QPainter painter(this);
-    painter.setRenderHint(QPainter::SmoothPixmapTransform);
-    paintPlotWell(painter, rect(), m_title);
-    const QFont small = plotFont(font());
-    const QFontMetricsF metrics(small);
-    constexpr int kWrapped = Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap;
-    const double width = this->width() - 12;
-    const double lines = metrics.boundingRect(QRectF(0, 0, width, 1e4), kWrapped, m_note).height();
-    const QRectF below(6, height() - lines - 4, width, lines + 1);
-    const QRectF area = QRectF(rect()).adjusted(6, plotTitleHeight(font()) + 2, -6, -lines - 7);
-    if (!m_picture.isNull() && area.height() > 0) {
-        const QSizeF size = QSizeF(m_picture.size()).scaled(area.size(), Qt::KeepAspectRatio);
-        painter.drawImage(QRectF(area.center() - QPointF(size.width(), size.height()) / 2, size),
-                          m_picture);
-    }
-    painter.setFont(small);
+// --- Places --------------------------------------------------------------------------------------
+
+QRectF PictureTile::noteArea() const {
+    const double wide = width() - 12;
+    const double lines = QFontMetricsF(plotFont(font()))
+                             .boundingRect(QRectF(0, 0, wide, 1e4), kWrapped, m_note)
+                             .height();
+    return {6, height() - lines - 4, wide, lines + 1};
+}
+
+QRectF PictureTile::area() const {
+    const double top = plotTitleHeight(font()) + 2;
+    const QRectF room(6, top, width() - 12, std::max(noteArea().top() - 3 - top, 1.0));
+    const QSizeF size = QSizeF(m_picture.size()).scaled(room.size(), Qt::KeepAspectRatio);
+    return {room.center() - QPointF(size.width(), size.height()) / 2, size};
+}
+
+std::optional<QPointF> PictureTile::placeAt(const QPointF& point) const {
+    return area().contains(point) ? PlotFrame::placeAt(point) : std::nullopt;
+}
+
+std::vector<PlotValue> PictureTile::valuesAt(const QPointF& place) const {
+    return {{{}, m_reader(directionAt(place))}};
+}
+
+void PictureTile::paintValues(QPainter& painter) const {
+    painter.drawImage(area(), m_picture);
     painter.setPen(QColor(tokens::kTextDim));
-    painter.drawText(below, kWrapped, m_note);
+    painter.drawText(noteArea(), kWrapped, m_note);
 }
 
 } // namespace patina::editor
