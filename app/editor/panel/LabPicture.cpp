@@ -1,7 +1,7 @@
 #include "app/editor/panel/LabPicture.h"
 
-#include "app/editor/style/FocusRing.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/DirectionAxes.h"
 #include "core/image/ColorMap.h"
 #include "core/light/Environment.h"
 #include "core/light/EnvironmentMapping.h"
@@ -18,15 +18,8 @@ namespace {
 
 constexpr int kPad = 4;       // around a thumbnail
 constexpr double kMark = 4.5; // radius
-constexpr int kLegend = 12;   // width of the colour bar
 constexpr double kLabelPad = 6;
 constexpr int kFinest = 4096; // pixels that a picture's positions are counted in
-
-QFont smallFont(const QFont& font) {
-    QFont small = font;
-    small.setPointSizeF(font.pointSizeF() * 0.85);
-    return small;
-}
 
 EnvironmentMapping mappingOf(LabView view) {
     const bool cube = view.kind == LabKind::Faces;
@@ -48,7 +41,7 @@ QRectF windowOf(LabView view, const EnvironmentMapping& mapping) {
 // A word on a picture, readable on anything.
 void paintLabel(QPainter& painter, const QString& text, const QPointF& topLeft) {
     painter.save();
-    painter.setFont(smallFont(painter.font()));
+    painter.setFont(plotFont(painter.font()));
     const QFontMetricsF metrics(painter.font());
     const QRectF label(topLeft,
                        QSizeF(metrics.horizontalAdvance(text) + kLabelPad, metrics.height()));
@@ -60,61 +53,72 @@ void paintLabel(QPainter& painter, const QString& text, const QPointF& topLeft) 
     painter.restore();
 }
 
-QString number(double value) {
-    QString text = QString::number(value, 'g', 3);
-    return text.replace(QLatin1Char('-'), QStringLiteral("−"));
-}
-
 } // namespace
 
 LabPicture::LabPicture(LabView view, Role role, QWidget* parent)
-    : QWidget(parent)
+    : PlotFrame({}, Cursor::Both, Press::Once, parent)
     , m_view(view)
     , m_role(role) {
-    setMouseTracking(true);
+    setEmptyText(tr("Computing…"));
+    fitAxes();
     if (role == Role::Thumbnail) {
         QSizePolicy policy(QSizePolicy::Preferred, QSizePolicy::Preferred);
         policy.setHeightForWidth(true);
         setSizePolicy(policy);
         setFocusPolicy(Qt::ClickFocus);
-        setCursor(Qt::PointingHandCursor);
+        QWidget::setCursor(Qt::PointingHandCursor);
     } else {
         setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
-        setCursor(Qt::CrossCursor);
+        QWidget::setCursor(Qt::CrossCursor);
     }
+    connect(this, &PlotFrame::probed, this, [this](const std::optional<QPointF>& place) {
+        Q_EMIT pointed(place ? std::optional(labPlace(*place)) : std::nullopt);
+    });
+}
+
+void LabPicture::fitAxes() {
+    if (m_view.isTable())
+        setAxes({{tr("N·V"), {}}, {tr("perceptual roughness"), {}}, {tr("value"), {}}});
+    else
+        setAxes(directionAxes(m_view.isIrradiance() ? PlotAxis{tr("irradiance"), tr(" lx")}
+                                                    : PlotAxis{tr("radiance"), tr(" cd/m²")}));
 }
 
 void LabPicture::setView(LabView view) {
     m_view = view;
     m_picture = {};
-    m_pointer.reset();
+    setProbe(std::nullopt);
     m_lowest.reset();
-    update();
+    fitAxes();
 }
 
 void LabPicture::setCaption(const QString& title, const QString& detail, const QString& warning) {
-    if (title == m_title && detail == m_detail && warning == m_warning)
+    if (title == m_caption && detail == m_detail && warning == m_warning)
         return;
-    m_title = title;
+    m_caption = title;
     m_detail = detail;
     m_warning = warning;
     describe();
     update();
 }
 
-void LabPicture::setMessage(const QString& message) {
-    if (message == m_message)
+void LabPicture::setReason(const QString& message) {
+    if (message == m_reason)
         return;
-    m_message = message;
+    m_reason = message;
+    setMessage(message);
     describe();
-    update();
+}
+
+void LabPicture::setReader(Reader reader) {
+    m_reader = std::move(reader);
 }
 
 void LabPicture::describe() {
-    setAccessibleName(m_role == Role::Stage ? tr("Enlarged: %1").arg(m_title) : m_title);
-    QStringList parts{m_detail, m_warning, m_message};
+    setAccessibleName(m_role == Role::Stage ? tr("Enlarged: %1").arg(m_caption) : m_caption);
+    QStringList parts{m_detail, m_warning, m_reason};
     parts.removeAll(QString());
-    setAccessibleDescription(parts.join(QStringLiteral(", ")));
+    setDescription(parts.join(QStringLiteral(", ")));
 }
 
 void LabPicture::setPicture(const QImage& picture) {
@@ -123,7 +127,8 @@ void LabPicture::setPicture(const QImage& picture) {
 }
 
 void LabPicture::setColorRange(const glm::vec2& range) {
-    m_range = range;
+    m_axes[2].min = double{range.x};
+    m_axes[2].max = double{range.y};
     update();
 }
 
@@ -135,10 +140,7 @@ void LabPicture::setSelected(bool selected) {
 }
 
 void LabPicture::setPointer(const std::optional<LabPlace>& place) {
-    if (place == m_pointer)
-        return;
-    m_pointer = place;
-    update();
+    setProbe(place ? std::optional(placeOf(*place)) : std::nullopt);
 }
 
 void LabPicture::setPicked(const std::optional<LabPlace>& place, const QString& label) {
@@ -159,7 +161,7 @@ void LabPicture::setLowest(const std::optional<glm::vec3>& direction) {
 // --- Geometry ------------------------------------------------------------------------------------
 
 int LabPicture::captionHeight() const {
-    const int line = QFontMetrics(smallFont(font())).height();
+    const int line = QFontMetrics(plotFont(font())).height();
     if (m_role == Role::Stage)
         return fontMetrics().height() + 4;
     // The sums of harmonics may have a third line: all have room for it, so that rows stay even.
@@ -179,10 +181,9 @@ QRectF LabPicture::pictureArea() const {
     double aspect = m_view.isTable() || m_view.isFace() ? 1.0 : m_view.isCross() ? 4.0 / 3.0 : 2.0;
     if (m_view.isTable() && m_role == Role::Stage) {
         // Left: the axis' name and numbers; right: the legend and its numbers; below: the axis.
-        const QFontMetricsF metrics(smallFont(font()));
+        const QFontMetricsF metrics(plotFont(font()));
         const double numbers = metrics.horizontalAdvance(QStringLiteral("0.75")) + 6;
-        area.adjust(metrics.height() + numbers, 4, -(kLegend + 10 + numbers),
-                    -2 * metrics.height() - 2);
+        area.adjust(metrics.height() + numbers, 4, -scaleWidth() - 12.0, -2 * metrics.height() - 2);
         aspect = std::clamp(area.width() / std::max(1.0, area.height()), 0.8, 1.6);
     }
     double width = std::min(area.width(), area.height() * aspect);
@@ -239,6 +240,36 @@ std::optional<LabPlace> LabPicture::place(const QPointF& position) const {
     return place;
 }
 
+QPointF LabPicture::placeOf(const LabPlace& place) const {
+    const QPointF exact = m_view.isTable()
+                              ? QPointF(double{place.NoV}, double{place.perceptualRoughness})
+                              : editor::placeOf(glm::dvec3(place.direction));
+    return {m_axes[0].rounded(exact.x()), m_axes[1].rounded(exact.y())};
+}
+
+LabPlace LabPicture::labPlace(const QPointF& place) const {
+    if (!m_view.isTable())
+        return {directionAt(place), 0.0f, 0.0f};
+    return {glm::vec3(0.0f), static_cast<float>(place.x()), static_cast<float>(place.y())};
+}
+
+QPointF LabPicture::pointOf(const QPointF& at) const {
+    return position(labPlace(at));
+}
+
+std::optional<QPointF> LabPicture::placeAt(const QPointF& point) const {
+    const std::optional<LabPlace> at = place(point);
+    return at ? std::optional(placeOf(*at)) : std::nullopt;
+}
+
+std::vector<PlotValue> LabPicture::valuesAt(const QPointF& at) const {
+    return m_reader ? m_reader(labPlace(at)) : std::vector<PlotValue>();
+}
+
+QString LabPicture::placeText(const QPointF& at) const {
+    return m_view.isTable() ? PlotFrame::placeText(at) : directionText(at);
+}
+
 QColor LabPicture::colorAt(const LabPlace& place) const {
     if (m_picture.isNull())
         return tokens::kWell;
@@ -271,19 +302,26 @@ void LabPicture::resizeEvent(QResizeEvent*) {
 }
 
 void LabPicture::mousePressEvent(QMouseEvent* event) {
-    if (event->button() != Qt::LeftButton)
-        return;
-    if (m_role == Role::Thumbnail) {
+    if (m_role == Role::Stage)
+        PlotFrame::mousePressEvent(event);
+    else if (event->button() == Qt::LeftButton)
         Q_EMIT chosen();
-    } else if (m_view.isFace()) {
+}
+
+// Of the stage: a face opens, or all are shown again.
+bool LabPicture::pick(const QPointF& place, Qt::KeyboardModifiers) {
+    if (m_view.isFace()) {
         Q_EMIT faceChosen(0);
-    } else if (m_view.isCross()) {
-        const QPointF at = (event->position() - pictureArea().topLeft()) / pictureArea().width();
-        for (int face = 1; face <= 6; ++face)
-            if (static_cast<int>(std::floor(4 * at.x())) == labFace(face).column &&
-                static_cast<int>(std::floor(4 * at.y())) == labFace(face).row)
-                Q_EMIT faceChosen(face);
+        return true;
     }
+    if (!m_view.isCross())
+        return false;
+    const QPointF at = (pointOf(place) - pictureArea().topLeft()) / pictureArea().width();
+    for (int face = 1; face <= 6; ++face)
+        if (static_cast<int>(std::floor(4 * at.x())) == labFace(face).column &&
+            static_cast<int>(std::floor(4 * at.y())) == labFace(face).row)
+            Q_EMIT faceChosen(face);
+    return true;
 }
 
 void LabPicture::mouseMoveEvent(QMouseEvent* event) {
@@ -291,16 +329,25 @@ void LabPicture::mouseMoveEvent(QMouseEvent* event) {
         m_hovered = true;
         update();
     }
-    Q_EMIT pointed(place(event->position()));
+    PlotFrame::mouseMoveEvent(event);
 }
 
-void LabPicture::leaveEvent(QEvent*) {
+void LabPicture::leaveEvent(QEvent* event) {
     m_hovered = false;
     update();
-    Q_EMIT pointed(std::nullopt);
+    PlotFrame::leaveEvent(event);
 }
 
+void LabPicture::focusInEvent(QFocusEvent* event) {
+    if (m_role == Role::Stage)
+        PlotFrame::focusInEvent(event);
+    update();
+}
+
+// A thumbnail is one of a sheet: the arrows go to its neighbours.
 void LabPicture::keyPressEvent(QKeyEvent* event) {
+    if (m_role == Role::Stage)
+        return PlotFrame::keyPressEvent(event);
     switch (event->key()) {
     case Qt::Key_Left:
     case Qt::Key_Up:
@@ -319,53 +366,52 @@ void LabPicture::keyPressEvent(QKeyEvent* event) {
     }
 }
 
-void LabPicture::focusInEvent(QFocusEvent*) {
-    update();
-}
-void LabPicture::focusOutEvent(QFocusEvent*) {
-    update();
-}
-
 // --- Painting ------------------------------------------------------------------------------------
 
-void LabPicture::paintEvent(QPaintEvent*) {
-    QPainter painter(this);
-    painter.setRenderHints(QPainter::Antialiasing | QPainter::SmoothPixmapTransform);
-    if (m_role == Role::Thumbnail && (m_selected || m_hovered)) {
-        painter.setPen(m_selected && hasFocus() ? QPen(QColor(tokens::kFocus), 1)
-                                                : QPen(Qt::NoPen));
-        painter.setBrush(QColor(m_selected ? tokens::kAccentDeep : tokens::kRaised));
-        painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), tokens::kRadius,
-                                tokens::kRadius);
-    }
-    const QRectF area = pictureArea();
+void LabPicture::paintGround(QPainter& painter) const {
+    if (m_role != Role::Thumbnail || !(m_selected || m_hovered))
+        return;
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(QColor(m_selected ? tokens::kAccentDeep : tokens::kRaised));
+    painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), tokens::kRadius,
+                            tokens::kRadius);
+}
+
+void LabPicture::paintMessage(QPainter& painter, const QString& message) const {
+    const QRectF shown = pictureArea();
+    painter.fillRect(shown, QColor(tokens::kWell));
+    painter.setFont(font());
+    if (m_role == Role::Stage)
+        paintPlotMessage(painter, shown, message);
+    paintCaption(painter);
+}
+
+void LabPicture::paintValues(QPainter& painter) const {
+    const QRectF shown = pictureArea();
     painter.save();
     if (!m_view.isCross()) {
         QPainterPath frame;
-        frame.addRoundedRect(area, 2, 2);
+        frame.addRoundedRect(shown, 2, 2);
         painter.setClipPath(frame);
     }
-    if (m_picture.isNull() || !m_message.isEmpty()) {
-        painter.fillRect(area, QColor(tokens::kWell));
-        if (m_role == Role::Stage) {
-            painter.setPen(QColor(tokens::kTextDim));
-            painter.drawText(area.adjusted(8, 8, -8, -8), Qt::AlignCenter | Qt::TextWordWrap,
-                             m_message.isEmpty() ? tr("Computing…") : m_message);
-        }
-    } else {
-        painter.drawImage(area, m_picture);
-    }
+    painter.drawImage(shown, m_picture);
     painter.restore();
-    if (m_message.isEmpty()) {
-        if (m_view.isCross())
-            paintCross(painter);
-        else if (m_view.isTable())
-            paintAxes(painter);
-        else if (!m_view.isFace())
-            paintHorizon(painter);
-        paintMarks(painter);
-    }
+    painter.setFont(font());
+    if (m_view.isCross())
+        paintCross(painter);
+    else if (m_view.isTable())
+        paintTable(painter);
+    else if (!m_view.isFace())
+        paintHorizon(painter);
+    paintMarks(painter);
     paintCaption(painter);
+    painter.setFont(plotFont(font()));
+}
+
+void LabPicture::paintProbe(QPainter& painter, const QPointF& place) const {
+    const QPointF at = pointOf(place);
+    if (pictureArea().adjusted(-1, -1, 1, 1).contains(at))
+        PlotFrame::paintCross(painter, at, m_role == Role::Thumbnail ? 4.0 : 7.0);
 }
 
 void LabPicture::paintCaption(QPainter& painter) const {
@@ -379,7 +425,7 @@ void LabPicture::paintCaption(QPainter& painter) const {
         const QFontMetrics titleMetrics(bold);
         const int height = titleMetrics.height();
         double x = 0;
-        const QString title = titleMetrics.elidedText(m_title, Qt::ElideRight, width());
+        const QString title = titleMetrics.elidedText(m_caption, Qt::ElideRight, width());
         painter.drawText(QRectF(x, 0, width(), height), Qt::AlignLeft | Qt::AlignVCenter, title);
         x += titleMetrics.horizontalAdvance(title) + 10;
         painter.setFont(font());
@@ -396,11 +442,11 @@ void LabPicture::paintCaption(QPainter& painter) const {
         }
         return;
     }
-    painter.setFont(smallFont(font()));
+    painter.setFont(plotFont(font()));
     const QFontMetrics metrics(painter.font());
     QRectF line(kPad, height() - kPad - captionHeight() + 2, width() - 2 * kPad, metrics.height());
     for (const auto& [text, color] :
-         {std::pair(m_title, QColor(tokens::kText)), std::pair(m_detail, dim),
+         {std::pair(m_caption, QColor(tokens::kText)), std::pair(m_detail, dim),
           std::pair(m_warning, QColor(tokens::kCopper))}) {
         painter.setPen(color);
         painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter,
@@ -433,7 +479,7 @@ void LabPicture::paintHorizon(QPainter& painter) const {
     painter.drawLine(QPointF(area.left(), y), QPointF(area.right(), y));
     if (m_role == Role::Thumbnail)
         return;
-    const QFontMetricsF metrics(smallFont(font()));
+    const QFontMetricsF metrics(plotFont(font()));
     const char* names[] = {"+Z", "−X", "−Z", "+X", "+Z"};
     for (int quarter = 0; quarter <= 4; ++quarter) {
         const QString name = QString::fromUtf8(names[quarter]);
@@ -445,14 +491,14 @@ void LabPicture::paintHorizon(QPainter& painter) const {
     }
 }
 
-void LabPicture::paintAxes(QPainter& painter) const {
+void LabPicture::paintTable(QPainter& painter) const {
     const QRectF area = pictureArea();
     painter.setBrush(Qt::NoBrush);
     painter.setPen(QPen(QColor(tokens::kLine), 1));
     painter.drawRect(area);
     if (m_role == Role::Thumbnail)
         return;
-    painter.setFont(smallFont(font()));
+    painter.setFont(plotFont(font()));
     const QFontMetricsF metrics(painter.font());
     painter.setPen(QColor(tokens::kTextDim));
     const bool roomy = area.height() > 5 * metrics.height();
@@ -472,33 +518,19 @@ void LabPicture::paintAxes(QPainter& painter) const {
     }
     painter.drawText(
         QRectF(area.left(), area.bottom() + 2 + metrics.height(), area.width(), metrics.height()),
-        Qt::AlignHCenter, tr("N·V"));
+        Qt::AlignHCenter, m_axes[0].name);
     painter.save();
     painter.translate(area.left() - metrics.horizontalAdvance(QStringLiteral("0.75")) - 8,
                       area.center().y());
     painter.rotate(-90);
     painter.drawText(QRectF(-90, -metrics.height(), 180, metrics.height()), Qt::AlignHCenter,
-                     tr("perceptual roughness"));
+                     m_axes[1].name);
     painter.restore();
 
-    // The legend: which colour is which value.
-    const QRectF bar(area.right() + 10, area.top(), kLegend, area.height());
-    QLinearGradient gradient(bar.bottomLeft(), bar.topLeft());
-    for (int i = 0; i <= 16; ++i) {
-        const glm::vec3 color = mapColor(ColorMap::Sequential, static_cast<float>(i) / 16.0f);
-        gradient.setColorAt(i / 16.0, QColor::fromRgbF(color.x, color.y, color.z));
-    }
-    painter.fillRect(bar, gradient);
-    for (int i = 0; i <= 2; ++i) {
-        const double value =
-            static_cast<double>(glm::mix(m_range.x, m_range.y, 0.5f * static_cast<float>(i)));
-        const double y = bar.bottom() - 0.5 * i * bar.height();
-        painter.drawText(QRectF(bar.right() + 4,
-                                std::clamp(y - 0.5 * metrics.height(), bar.top() - 2,
-                                           bar.bottom() - metrics.height() + 2),
-                                60, metrics.height()),
-                         Qt::AlignLeft | Qt::AlignVCenter, number(value));
-    }
+    paintScale(painter, [](double share) {
+        const glm::vec3 color = mapColor(ColorMap::Sequential, static_cast<float>(share));
+        return QColor::fromRgbF(color.x, color.y, color.z);
+    });
 }
 
 void LabPicture::paintMarks(QPainter& painter) const {
@@ -515,23 +547,13 @@ void LabPicture::paintMarks(QPainter& painter) const {
         paintLabel(painter, tr("magenta: below zero"), pictureArea().topLeft() + QPointF(4, 4));
     if (m_lowest)
         ring(position({*m_lowest, 0, 0}), small ? 3.0 : kMark, QColor(tokens::kCopper));
-    if (m_pointer && shown.contains(position(*m_pointer))) {
-        const QPointF at = position(*m_pointer);
-        const double arm = small ? 4.0 : 7.0;
-        for (const auto& [color, width] :
-             {std::pair(QColor(0, 0, 0, 170), 3.0), std::pair(QColor(255, 255, 255, 230), 1.2)}) {
-            painter.setPen(QPen(color, width));
-            painter.drawLine(at - QPointF(arm, 0), at + QPointF(arm, 0));
-            painter.drawLine(at - QPointF(0, arm), at + QPointF(0, arm));
-        }
-    }
     if (!m_picked || !shown.contains(position(*m_picked)))
         return;
     const QPointF at = position(*m_picked);
     ring(at, small ? 3.5 : kMark + 1, QColor(tokens::kAccent));
     if (small || m_pickedLabel.isEmpty())
         return;
-    painter.setFont(smallFont(font()));
+    painter.setFont(plotFont(font()));
     const QFontMetricsF metrics(painter.font());
     QRectF label(0, 0, metrics.horizontalAdvance(m_pickedLabel) + 10, metrics.height() + 4);
     const QRectF area = pictureArea();

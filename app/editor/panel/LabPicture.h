@@ -3,11 +3,10 @@
 #pragma once
 
 #include "app/editor/panel/LabLight.h"
+#include "app/editor/widget/PlotFrame.h"
 
-#include <QPointF>
-#include <QWidget>
+#include <functional>
 #include <optional>
-#include <vector>
 
 namespace patina::editor {
 
@@ -19,7 +18,7 @@ struct LabPlace {
     friend bool operator==(const LabPlace&, const LabPlace&) = default;
 };
 
-class LabPicture : public QWidget {
+class LabPicture : public PlotFrame {
     Q_OBJECT
   public:
     enum class Role { Thumbnail, Stage };
@@ -30,11 +29,14 @@ class LabPicture : public QWidget {
 
     // `detail` stands below or beside the title; `warning` too, in copper.
     void setCaption(const QString& title, const QString& detail, const QString& warning = {});
-    [[nodiscard]] QString title() const { return m_title; }
+    [[nodiscard]] QString title() const { return m_caption; }
     [[nodiscard]] QString detail() const { return m_detail; }
     [[nodiscard]] QString warning() const { return m_warning; }
-    void setMessage(const QString& message); // in place of a picture; empty: none
-    void setPicture(const QImage& picture);  // stretched over pictureArea()
+    void setReason(const QString& message); // why there is no picture; empty: there is one
+    // The values at a place; none while they are not known.
+    using Reader = std::function<std::vector<PlotValue>(const LabPlace&)>;
+    void setReader(Reader reader);
+    void setPicture(const QImage& picture); // stretched over pictureArea()
     [[nodiscard]] const QImage& picture() const { return m_picture; }
     void setColorRange(const glm::vec2& range); // of the DFG table's legend
     void setSelected(bool selected);
@@ -52,9 +54,15 @@ class LabPicture : public QWidget {
     // Outside of pictureArea() when it is on another face.
     [[nodiscard]] QPointF position(const LabPlace& place) const;
     [[nodiscard]] std::optional<LabPlace> place(const QPointF& position) const;
+    // The same as places of the frame: azimuth and elevation, or N·V and roughness.
+    [[nodiscard]] QPointF pointOf(const QPointF& place) const override;
+    [[nodiscard]] std::optional<QPointF> placeAt(const QPointF& point) const override;
+    [[nodiscard]] LabPlace labPlace(const QPointF& place) const;
+    [[nodiscard]] std::vector<PlotValue> valuesAt(const QPointF& place) const override;
     [[nodiscard]] QColor colorAt(const LabPlace& place) const; // of the picture
 
     [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize minimumSizeHint() const override { return {}; } // as the layout has it
     [[nodiscard]] bool hasHeightForWidth() const override { return true; }
     [[nodiscard]] int heightForWidth(int width) const override;
 
@@ -66,32 +74,41 @@ class LabPicture : public QWidget {
     void resized();
 
   protected:
-    void paintEvent(QPaintEvent* event) override;
+    [[nodiscard]] bool hasValues() const override { return !m_picture.isNull(); }
+    [[nodiscard]] QString placeText(const QPointF& place) const override;
+    [[nodiscard]] QRectF area() const override { return pictureArea(); }
+    [[nodiscard]] bool boxesReadout() const override { return m_role == Role::Stage; }
+    bool pick(const QPointF& place, Qt::KeyboardModifiers modifiers) override;
+    void paintGround(QPainter& painter) const override;
+    void paintMessage(QPainter& painter, const QString& message) const override;
+    void paintValues(QPainter& painter) const override;
+    void paintProbe(QPainter& painter, const QPointF& place) const override;
     void resizeEvent(QResizeEvent* event) override;
     void mousePressEvent(QMouseEvent* event) override;
     void mouseMoveEvent(QMouseEvent* event) override;
     void leaveEvent(QEvent* event) override;
-    void keyPressEvent(QKeyEvent* event) override;
     void focusInEvent(QFocusEvent* event) override;
-    void focusOutEvent(QFocusEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
 
   private:
     [[nodiscard]] int captionHeight() const;
     [[nodiscard]] QRectF box() const; // without the caption
+    [[nodiscard]] QPointF placeOf(const LabPlace& place) const;
+    void fitAxes(); // to the view
     void describe();
     void paintCaption(QPainter& painter) const;
     void paintCross(QPainter& painter) const;
     void paintHorizon(QPainter& painter) const;
-    void paintAxes(QPainter& painter) const;
+    void paintTable(QPainter& painter) const; // its axes
     void paintMarks(QPainter& painter) const;
 
     LabView m_view;
     Role m_role;
-    QString m_title, m_detail, m_warning, m_message, m_pickedLabel;
+    QString m_caption, m_detail, m_warning, m_reason, m_pickedLabel;
     QImage m_picture;
-    glm::vec2 m_range{0.0f, 1.0f};
     bool m_selected = false, m_hovered = false;
-    std::optional<LabPlace> m_pointer, m_picked;
+    Reader m_reader;
+    std::optional<LabPlace> m_picked;
     std::optional<glm::vec3> m_lowest;
 };
 

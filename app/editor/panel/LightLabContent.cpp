@@ -170,7 +170,7 @@ void LightLabPanel::refreshCaptions() {
             c.detail = labNumber(static_cast<double>(
                 m_dfg->value(picked->NoV, picked->perceptualRoughness)[view.index]));
         widget->setCaption(c.title, c.detail, c.warning);
-        widget->setMessage(message(view));
+        widget->setReason(message(view));
         std::optional<glm::vec3> lowest;
         if (view.kind == LabKind::Harmonics && !c.warning.isEmpty())
             lowest = shading::rotateY(
@@ -246,6 +246,12 @@ void LightLabPanel::refreshPicked() {
         mark(cell.widget);
     mark(m_stage);
     refreshCaptions();
+}
+
+std::optional<glm::vec3> LightLabPanel::valueAt(LabView view, const LabPlace& place) const {
+    if (!view.isTable())
+        return m_light.value(view, place.direction);
+    return m_dfg ? std::optional(m_dfg->value(place.NoV, place.perceptualRoughness)) : std::nullopt;
 }
 
 void LightLabPanel::point(LabPicture* from, const std::optional<LabPlace>& place) {

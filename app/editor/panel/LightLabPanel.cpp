@@ -233,6 +233,17 @@ void LightLabPanel::connectPicture(LabPicture* widget) {
     connect(widget, &LabPicture::resized, this, [this] { m_request.start(); });
     connect(widget, &LabPicture::pointed, this,
             [this, widget](const std::optional<LabPlace>& place) { point(widget, place); });
+    widget->setReader([this, widget](const LabPlace& place) {
+        std::vector<PlotValue> values;
+        const std::optional<glm::vec3> v = valueAt(widget->view(), place);
+        if (v && widget->view().isTable())
+            values = {{tr("A"), {double{v->x}}},
+                      {tr("B"), {double{v->y}}},
+                      {tr("mean direction"), {double{v->z}}}};
+        else if (v)
+            values = {{{}, {double{v->x}, double{v->y}, double{v->z}}}};
+        return values;
+    });
 }
 
 LabPicture* LightLabPanel::picture(LabView view) const {

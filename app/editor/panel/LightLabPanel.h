@@ -88,6 +88,8 @@ class LightLabPanel : public QWidget {
     void requestPictures();
     void refreshCaptions();
     void refreshPicked();
+    // Of a picture, as numbers; nothing while it is not computed.
+    [[nodiscard]] std::optional<glm::vec3> valueAt(LabView view, const LabPlace& place) const;
     void point(LabPicture* from, const std::optional<LabPlace>& place);
 
     [[nodiscard]] QString message(LabView view) const; // why there is no picture
