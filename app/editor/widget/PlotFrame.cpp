@@ -232,7 +232,7 @@ PlotReadout PlotFrame::readoutAt(const QPointF& place) const {
                               ? QString()
                               : numbers.join(QStringLiteral("  ")) + valueAxis().unit};
         parts.removeAll(QString());
-        readout.rows.push_back({value.look, parts.join(QStringLiteral("  "))});
+        readout.rows.push_back({value.look, parts.join(QStringLiteral("  ")), value.name.size()});
     }
     return readout;
 }

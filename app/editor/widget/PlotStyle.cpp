@@ -135,10 +135,8 @@ void paintReadout(QPainter& painter, const QRectF& area, const QPointF& at, cons
     painter.drawRoundedRect(box, tokens::kRadius, tokens::kRadius);
     double y = box.top() + kPad + metrics.ascent();
     painter.setPen(QColor(tokens::kTextDim));
-    const auto fitting = [&](const QString& text, double room) {
-        return metrics.elidedText(text, Qt::ElideMiddle, room + 1.0); // the number stays
-    };
-    painter.drawText(QPointF(box.left() + kPad, y), fitting(title, std::ceil(width)));
+    painter.drawText(QPointF(box.left() + kPad, y),
+                     metrics.elidedText(title, Qt::ElideRight, std::ceil(width) + 1.0));
     for (const ReadoutRow& row : rows) {
         y += line;
         double x = box.left() + kPad;
@@ -149,7 +147,12 @@ void paintReadout(QPainter& painter, const QRectF& area, const QPointF& at, cons
             x += kSample;
         }
         painter.setPen(QColor(tokens::kText));
-        painter.drawText(QPointF(x, y), fitting(row.text, box.right() - kPad - x));
+        // A number is never cut in two.
+        const QString value = row.text.mid(row.name);
+        const double room = box.right() - kPad - x - metrics.horizontalAdvance(value) + 1.0;
+        painter.drawText(QPointF(x, y), metrics.elidedText(row.text.left(row.name), Qt::ElideRight,
+                                                           std::max(room, 0.0)) +
+                                            value);
     }
 }
 

@@ -32,6 +32,7 @@ inline constexpr QRgb kPlotSun = 0xfffff0b8; // of the light under the lens
 struct ReadoutRow {
     int look = -1; // whose sample line stands before it; -1: none
     QString text;
+    qsizetype name = 0; // characters at its beginning that are shortened where room is scarce
 };
 // Beside `at`, inside `area`.
 void paintReadout(QPainter& painter, const QRectF& area, const QPointF& at, const QString& title,
