@@ -329,6 +329,9 @@ int main(int argc, char* argv[]) {
     QApplication::setApplicationName(QStringLiteral("PatinaDocs"));
     applyStyle(application);
     const QDir folder(QString::fromLocal8Bit(argv[1]));
+    // A bake that is kept from the last time would be shown as done at once.
+    QDir(QStandardPaths::writableLocation(QStandardPaths::CacheLocation) + QStringLiteral("/bakes"))
+        .removeRecursively();
 
     Session session;
     MainWindow window(session);
@@ -412,6 +415,7 @@ int main(int argc, char* argv[]) {
                    jobs.back().progress.fraction > 0.3;
         },
         60'000);
+    settle(300); // both docks tell how far it is
     ok &= save(window, folder.filePath(QStringLiteral("bake.png")));
     runUntil([&] { return session.jobs.runningCount() == 0; }, 300'000);
     jobsDock->hide();
