@@ -412,8 +412,8 @@ TEST_F(Commands, RenderFollowsBouncesOffOtherColors) {
 
 TEST_F(Commands, ABakesPresetSetsWhatIsNotGiven) {
     const auto rays = [&](std::vector<std::string> more) {
-        std::vector<std::string> command{"bake", "ao", "builtin:plane", "--target", "vertex", "-o",
-                                         m_folder / "ao.exr", "--json"};
+        std::vector<std::string> command{"bake",   "ao", "builtin:plane",     "--target",
+                                         "vertex", "-o", m_folder / "ao.exr", "--json"};
         command.insert(command.end(), more.begin(), more.end());
         const Outcome run = runPatina(command);
         EXPECT_EQ(run.status, 0) << run.err;

@@ -1,6 +1,5 @@
 #include "core/bake/transfer/AoSettingsCheck.h"
 
-
 #include <cmath>
 #include <fmt/format.h>
 
