@@ -49,7 +49,8 @@ std::uint64_t SceneRenderer::Impl::revision(const FrameSettings& frame) const {
 void SceneRenderer::setDocument(const Document& document) {
     Impl& r = *m_impl;
     const auto solos = [](const Document& d) {
-        return std::tuple(anySolo(d), d.environment.solo, d.environment.second.solo);
+        const Environment* second = d.secondEnvironment();
+        return std::tuple(anySolo(d), d.environment().solo, second && second->solo);
     };
     const auto before = solos(r.scene.document());
     Dirty dirty = r.scene.update(document);
@@ -276,7 +277,6 @@ Result<void> SceneRenderer::Impl::drawPicture(const SceneDraw& draw) {
     const FrameSettings& frame = draw.frame;
     if (auto done = relight.update(scene, relightSettings(frame, draw.kind), draw.block); !done)
         return done;
-    const Environment& environment = scene.environment(frame.light);
     SurfaceSettings settings = surfaceSettings(frame, draw.block, draw.output, draw.kind);
     settings.floats = draw.floats;
     if (frame.coarse)
@@ -294,12 +294,13 @@ Result<void> SceneRenderer::Impl::drawPicture(const SceneDraw& draw) {
 
     draw.target.bind();
     const std::optional<glm::vec3>& furnace = frame.view.furnace;
-    const BackgroundMode background = furnace ? BackgroundMode::Color : environment.background;
+    const View& look = lookOf(frame);
+    const BackgroundMode background = furnace ? BackgroundMode::Color : look.background;
     const bool transparent =
         !draw.withBackground || frame.transparentBackground || background == BackgroundMode::Off;
     const glm::vec3 clear = transparent || background != BackgroundMode::Color ? glm::vec3(0.0f)
                             : furnace                                          ? *furnace
-                                      : environment.backgroundColor;
+                                      : look.backgroundColor;
     if (settings.triangles.first == 0) {
         draw.target.clearColor(clear.r, clear.g, clear.b, transparent ? 0.0f : 1.0f);
         draw.target.clearDepth(1.0f);
@@ -312,8 +313,8 @@ Result<void> SceneRenderer::Impl::drawPicture(const SceneDraw& draw) {
     if (triangles.end() <= opaque)
         return {};
     if (!transparent && triangles.first <= opaque)
-        if (auto done = screen.drawSky(scene.light(frame.light), background,
-                                       environment.backgroundBlur, settings.floats);
+        if (auto done = screen.drawSky(scene.light(frame.light), background, look.backgroundBlur,
+                                       settings.floats);
             !done)
             return done;
     const std::uint64_t first = std::max(triangles.first, opaque);
@@ -383,7 +384,12 @@ bool SceneRenderer::Impl::isEmpty(const FrameSettings& frame, ViewKind kind) con
     if (frame.light == kDocumentLight && !frame.look)
         return !whyEmpty(kind, scene.document(), frame.view.light).empty();
     Document shown = scene.document();
-    shown.environment = scene.environment(frame.light);
+    if (frame.light != kDocumentLight) { // it lights alone
+        Environment& environment = shown.environments.emplace_back(scene.environment(frame.light));
+        environment.id = shown.mix.first = shown.takeId();
+        environment.solo = scene.document().environment().solo;
+        shown.mix.second = 0;
+    }
     shown.view = lookOf(frame);
     return !whyEmpty(kind, shown, frame.view.light).empty();
 }

@@ -304,8 +304,8 @@ Document warmUpScene(const Document& document) {
     camera.yawDeg = camera.pitchDeg = 0.0f;
     const auto aspect = static_cast<float>(std::max(scene.meshes.size(), std::size_t{1}));
     scene.view.camera = frameBounds(camera, scene.bounds(), aspect);
-    scene.environment.image = nullptr;
-    scene.environment.fileImage = nullptr;
+    scene.environment().image = nullptr;
+    scene.environment().fileImage = nullptr;
     return scene;
 }
 

@@ -106,12 +106,12 @@ Result<void> run(Session& session, const BakeIblOptions& options) {
         openEnvironmentFor(session, options.environment, options.environmentLayout);
     if (!document)
         return document.error();
-    if (document->environment.image == nullptr) // a sky or softboxes, not finished
+    if (document->environment().image == nullptr) // a sky or softboxes, not finished
         return Error{ErrorKind::Cancelled, "the bake was cancelled", {}, {}};
     // What a project mixes (tint, fade, a second picture) is baked in; what it mutes is not asked
     // for.
     const Environment environment =
-        mixedEnvironment(*document, session.job()).value_or(document->environment);
+        mixedEnvironment(*document, session.job()).value_or(document->environment());
     session.beginPhase();
     const Image oriented =
         orientEnvironment(*environment.image, environment.rotationDeg, environment.exposureEv);

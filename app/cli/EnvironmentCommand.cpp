@@ -53,7 +53,7 @@ Result<void> run(Session& session, const EnvironmentOptions& options) {
         openEnvironmentFor(session, options.environment, options.environmentLayout);
     if (!document)
         return document.error();
-    Environment environment = document->environment;
+    Environment environment = document->environment();
     if (options.bands > 0)
         environment.image = std::make_shared<const Image>(bandsOf(session, environment, options));
     if (session.job().cancelled())

@@ -6,6 +6,7 @@
 #include "core/bake/transfer/BakeCheckpoint.h"
 #include "core/base/ById.h"
 #include "core/document/AbsentBake.h"
+#include "core/document/EnvironmentTitle.h"
 #include "core/document/Source.h"
 #include "core/edit/Parameters.h"
 #include "core/io/ImageIO.h"
@@ -164,8 +165,25 @@ void describeScene(Report& report, const OpenedScene& scene) {
     if (!lights.empty())
         report.table(fmt::format("Lights ({})", lights.size()), lights);
     if (scene.isProject) {
-        json["environment"] = environmentName(document.environment);
-        report.table("Environment", {{environmentName(document.environment), ""}});
+        json["environment"] = environmentName(document.environment());
+        Rows environments;
+        for (const Environment& environment : document.environments) {
+            const bool first = environment.id == document.mix.first;
+            const bool second = environment.id == document.mix.second;
+            json["environments"].push_back({{"name", environmentTitle(environment)},
+                                            {"shows", environmentName(environment)},
+                                            {"first", first},
+                                            {"second", second}});
+            environments.emplace_back(environmentTitle(environment),
+                                      environmentName(environment) +
+                                          (first && document.environments.size() > 1
+                                               ? ", lights the scene"
+                                           : second ? ", to fade to"
+                                                    : ""));
+        }
+        report.table(environments.size() > 1 ? fmt::format("Environments ({})", environments.size())
+                                             : "Environment",
+                     environments);
     }
     Rows bakes;
     for (const BakeArtifactPtr& bake : document.bakes) {

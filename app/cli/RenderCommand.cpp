@@ -105,21 +105,21 @@ Result<void> applyView(Session& session, const RenderOptions& options, Document&
         if (Result<void> offered = checkOffered(document, "view.toneMap"); !offered)
             return offered;
 
-    Environment& environment = document.environment;
+    View& view = document.view;
     if (options.background == "visible")
-        environment.background = BackgroundMode::Environment;
+        view.background = BackgroundMode::Environment;
     else if (options.background == "blurred")
-        environment.background = BackgroundMode::Blurred;
+        view.background = BackgroundMode::Blurred;
     else if (options.background == "transparent" || options.background == "off")
-        environment.background = BackgroundMode::Off;
+        view.background = BackgroundMode::Off;
     else if (!options.background.empty()) {
-        environment.background = BackgroundMode::Color;
+        view.background = BackgroundMode::Color;
         if (Result<void> result = set("environment.backgroundColor", options.background); !result)
             return usage(fmt::format("--background wants visible, blurred, transparent or a "
                                      "colour as R,G,B or #rrggbb, not \"{}\"",
                                      options.background));
     }
-    frame.transparentBackground = environment.background == BackgroundMode::Off;
+    frame.transparentBackground = view.background == BackgroundMode::Off;
     if (Result<void> offered = checkOffered(document, "view.lighting"); !offered)
         return offered;
     return {};
@@ -386,7 +386,7 @@ Result<void> run(Session& session, const RenderOptions& options) {
     if (!camera)
         return camera.error();
     document->view.camera = frame->camera = *camera;
-    json["settings"]["environment"] = environmentName(document->environment);
+    json["settings"]["environment"] = environmentName(document->environment());
     json["settings"]["camera"] = {
         {"yawDeg", camera->yawDeg},
         {"pitchDeg", camera->pitchDeg},

@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
+#include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <unistd.h>
@@ -39,10 +41,9 @@ Result<std::pair<std::string, std::string>> splitAssignment(const std::string& t
     return std::pair{text.substr(0, equals), text.substr(equals + 1)};
 }
 
-Result<void> setEnvironment(Session& session, Document& document, const std::string& source,
+Result<void> setEnvironment(Session& session, Environment& environment, const std::string& source,
                             EnvironmentLayout layout) {
     std::vector<Notice> notices;
-    Environment& environment = document.environment;
     const std::string normalized = normalizeSource(source);
     Result<ImagePtr> image =
         loadEnvironmentImage(session.worker(), normalized, notices, layout, session.job());
@@ -58,21 +59,40 @@ Result<void> setEnvironment(Session& session, Document& document, const std::str
     return {};
 }
 
-Result<void> setSecondEnvironment(Session& session, Document& document, const ParameterInfo& info,
-                                  const std::string& source) {
-    MapSlot slot;
-    if (!source.empty()) {
-        std::vector<Notice> notices;
-        slot.source = normalizeSource(source);
-        Result<ImagePtr> image = loadEnvironmentImage(session.worker(), slot.source, notices,
-                                                      EnvironmentLayout::Automatic, session.job());
-        if (!image)
-            return image.error();
-        for (const Notice& notice : notices)
-            session.report().add(notice);
-        slot.image = *std::move(image);
+// No parameter of its own: the image of the second environment.
+constexpr std::string_view kSecondImage = "environment.secondImage";
+
+// To fade to, in an environment of its own where there is none;
+// no image takes the second one out of the mix.
+Result<void> setSecondImage(Session& session, Document& document, const std::string& source) {
+    const ParameterInfo& second = *findParameter("environment.second");
+    const auto apply = [&](Id id) {
+        for (const ParameterEdit& edit :
+             editsFor(document, second, {Scope::Environment, 0}, static_cast<int>(id)))
+            edit.info->set(document, 0, edit.value);
+    };
+    if (source.empty()) {
+        apply(0);
+        return {};
     }
-    info.set(document, 0, slot);
+    Environment environment;
+    if (const Environment* existing = document.secondEnvironment())
+        environment = *existing;
+    if (Result<void> set =
+            setEnvironment(session, environment, source, EnvironmentLayout::Automatic);
+        !set)
+        return set;
+    if (Environment* existing = document.secondEnvironment()) {
+        *existing = std::move(environment);
+        return {};
+    }
+    const Id id = addEnvironment(document, std::move(environment));
+    if (id == 0)
+        return Error{ErrorKind::Usage,
+                     fmt::format("a scene holds at most {} environments", kMaxEnvironments),
+                     {},
+                     {}};
+    apply(id);
     return {};
 }
 
@@ -84,6 +104,14 @@ Result<void> setAll(Document& document, const ParameterSelection& selection,
             if (Result<Change> change = applyParameter(document, *edit.info, target, edit.value);
                 !change)
                 return change.error();
+    return {};
+}
+
+Result<void> forEachEnvironment(Document& document, const ParameterSelection& selection,
+                                const std::function<Result<void>(Environment&)>& set) {
+    for (const Target& target : selection.targets)
+        if (Result<void> done = set(*document.environment(target.id)); !done)
+            return done;
     return {};
 }
 
@@ -111,34 +139,41 @@ std::string environmentName(const Environment& environment) {
 
 Result<void> setParameter(Session& session, Document& document, const std::string& name,
                           const std::string& value) {
+    if (name == kSecondImage)
+        return setSecondImage(session, document, value);
     Result<ParameterSelection> selection = selectParameter(document, name);
     if (!selection)
         return selection.error();
-    Result<ParameterValue> parsed = parseParameterValue(*selection->info, value);
+    Result<ParameterValue> parsed = parseParameterValue(*selection->info, value, document);
     if (!parsed)
         return parsed.error();
     if (const MapSlot* slot = std::get_if<MapSlot>(&*parsed)) {
-        if (selection->info->id == "environment.secondImage")
-            return setSecondEnvironment(session, document, *selection->info, slot->source);
-        if (selection->info->scope == Scope::Environment)
-            return setEnvironment(session, document, slot->source, EnvironmentLayout::Automatic);
-        return setMap(session, document, *selection, *slot);
+        if (selection->info->scope != Scope::Environment)
+            return setMap(session, document, *selection, *slot);
+        return forEachEnvironment(document, *selection, [&](Environment& environment) {
+            return setEnvironment(session, environment, slot->source, EnvironmentLayout::Automatic);
+        });
     }
     // The file is read anew: what it shows depends on its layout.
-    if (selection->info->id == "environment.layout") {
-        const Environment before = document.environment;
-        Result<void> set = setEnvironment(session, document, before.source,
-                                          static_cast<EnvironmentLayout>(std::get<int>(*parsed)));
-        if (before.kind != EnvironmentKind::Image) { // something else goes on lighting the scene
-            document.environment.kind = before.kind;
-            document.environment.image = before.image;
-        }
-        return set;
-    }
+    if (selection->info->id == "environment.layout")
+        return forEachEnvironment(document, *selection, [&](Environment& environment) {
+            const Environment before = environment;
+            Result<void> set =
+                setEnvironment(session, environment, before.source,
+                               static_cast<EnvironmentLayout>(std::get<int>(*parsed)));
+            if (before.kind !=
+                EnvironmentKind::Image) { // something else goes on lighting the scene
+                environment.kind = before.kind;
+                environment.image = before.image;
+            }
+            return set;
+        });
     return setAll(document, *selection, *parsed);
 }
 
 Result<void> checkOffered(const Document& document, const std::string& name) {
+    if (name == kSecondImage)
+        return {};
     const Result<ParameterSelection> selection = selectParameter(document, name);
     if (!selection)
         return selection.error();
@@ -175,6 +210,8 @@ namespace {
 // layout of an environment last: naming an image starts it anew, and what was given should win.
 // Where none of the elements that it was set in has a use for it now.
 void warnIfIdle(Session& session, const Document& document, const std::string& name) {
+    if (name == kSecondImage)
+        return;
     const Result<ParameterSelection> selection = selectParameter(document, name);
     if (!selection)
         return;
@@ -189,7 +226,9 @@ void warnIfIdle(Session& session, const Document& document, const std::string& n
 }
 
 Result<void> applySets(Session& session, Document& document, const std::vector<std::string>& sets) {
-    const EnvironmentRecipe before = environmentRecipe(document.environment);
+    std::map<Id, EnvironmentRecipe> before;
+    for (const Environment& environment : document.environments)
+        before[environment.id] = environmentRecipe(environment);
     std::vector<std::pair<std::string, std::string>> assignments;
     for (const std::string& text : sets) {
         Result<std::pair<std::string, std::string>> assignment = splitAssignment(text);
@@ -202,6 +241,9 @@ Result<void> applySets(Session& session, Document& document, const std::vector<s
                           [](const auto& a) { return a.first.ends_with(".map"); });
     std::stable_partition(assignments.begin(), assignments.end(),
                           [](const auto& a) { return a.first != "environment.layout"; });
+    // A second environment first of all: others are set in it.
+    std::stable_partition(assignments.begin(), assignments.end(),
+                          [](const auto& a) { return a.first == kSecondImage; });
     for (const auto& [name, value] : assignments)
         if (Result<void> set = setParameter(session, document, name, value); !set)
             return set.error();
@@ -211,8 +253,9 @@ Result<void> applySets(Session& session, Document& document, const std::vector<s
             return offered.error();
     for (const auto& [name, value] : assignments)
         warnIfIdle(session, document, name);
-    if (environmentRecipe(document.environment) != before)
-        resolveEnvironment(document.environment, session.job());
+    for (Environment& environment : document.environments)
+        if (environmentRecipe(environment) != before[environment.id])
+            resolveEnvironment(environment, session.job());
     resolveBlend(document, session.job());
     return {};
 }
@@ -232,8 +275,9 @@ Result<Document> openSceneFor(Session& session, SceneRequest& request) {
         if (!layout)
             return layout.error();
         const std::string source =
-            request.environment.empty() ? document.environment.source : request.environment;
-        if (Result<void> set = setEnvironment(session, document, source, *layout); !set)
+            request.environment.empty() ? document.environment().source : request.environment;
+        if (Result<void> set = setEnvironment(session, document.environment(), source, *layout);
+            !set)
             return set.error();
     }
 
@@ -268,19 +312,22 @@ Result<Document> openEnvironmentFor(Session& session, const std::string& source,
         if (!opened)
             return opened.error();
         session.report().add(*opened);
-        document.environment = opened->document.environment;
+        document.environments = opened->document.environments;
+        document.mix = opened->document.mix;
+        document.nextId = opened->document.nextId;
         document.model = opened->document.model;
-        if (document.environment.kind == EnvironmentKind::Image &&
-            !document.environment.problem.empty())
+        if (document.environment().kind == EnvironmentKind::Image &&
+            !document.environment().problem.empty())
             return Error{ErrorKind::InputMissing,
-                         "its environment cannot be read: " + document.environment.problem,
+                         "its environment cannot be read: " + document.environment().problem,
                          source,
                          {}};
-    } else if (Result<void> set = setEnvironment(session, document, source, *layout); !set) {
+    } else if (Result<void> set = setEnvironment(session, document.environment(), source, *layout);
+               !set) {
         return set.error();
     }
     for (const std::string& text : session.options().sets)
-        if (!text.starts_with("environment.") && !text.starts_with("softbox") &&
+        if (!text.starts_with("environment") && !text.starts_with("softbox") &&
             !text.starts_with("model."))
             return Error{ErrorKind::Usage,
                          fmt::format("\"{}\" changes nothing here; set parameters of environment, "

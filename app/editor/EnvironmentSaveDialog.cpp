@@ -114,7 +114,7 @@ EnvironmentSaveSettings EnvironmentSaveDialog::settings() const {
 }
 
 void EnvironmentSaveDialog::layoutChosen() {
-    const ImagePtr& image = m_controller.document().environment.image;
+    const ImagePtr& image = m_controller.document().environment().image;
     const auto layout = static_cast<EnvironmentLayout>(m_layout->currentData().toInt());
     m_size->setSingleStep(layout == EnvironmentLayout::LatLong ? 2 : 1);
     m_size->setValue(environmentSaveSize(layout, image ? image->width() : kSmallestSize));
@@ -127,7 +127,7 @@ void EnvironmentSaveDialog::refresh() {
                          (wanted.layout == EnvironmentLayout::LatLong ||
                           wanted.layout == EnvironmentLayout::VerticalStrip));
     const auto files = environmentOutputs(settings());
-    const bool possible = files.ok() && m_controller.document().environment.image != nullptr;
+    const bool possible = files.ok() && m_controller.document().environment().image != nullptr;
     bool overwrites = false;
     QString summary;
     if (possible) {
@@ -156,7 +156,7 @@ void EnvironmentSaveDialog::refresh() {
 
 void EnvironmentSaveDialog::run() {
     // The job works on a snapshot: editing goes on meanwhile.
-    Environment environment = m_controller.document().environment;
+    Environment environment = m_controller.document().environment();
     if (!m_asShown->isChecked()) {
         environment.rotationDeg = 0.0f;
         environment.exposureEv = 0.0f;

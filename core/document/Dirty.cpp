@@ -90,6 +90,21 @@ bool sameInstance(const MeshInstance& a, const MeshInstance& b) {
     return a.id == b.id && a.material == b.material && shape(a) == shape(b);
 }
 
+bool sameEnvironment(const Environment& before, const Environment& after) {
+    if (before.name == after.name)
+        return before == after;
+    Environment renamed = before;
+    renamed.name = after.name;
+    return renamed == after;
+}
+
+// Of the environments, those alone that light the scene are asked for.
+bool sameLight(const Document& before, const Document& after) {
+    const Environment *a = before.secondEnvironment(), *b = after.secondEnvironment();
+    return before.mix == after.mix && sameEnvironment(before.environment(), after.environment()) &&
+           (a == nullptr) == (b == nullptr) && (a == nullptr || sameEnvironment(*a, *b));
+}
+
 bool sameView(const View& before, const View& after) {
     View moved = before;
     moved.camera = after.camera;
@@ -107,7 +122,7 @@ Dirty dirtyBetween(const Document& before, const Document& after) {
     Dirty dirty;
     dirty.model = before.model != after.model;
     dirty.lights = before.lights != after.lights;
-    dirty.environment = before.environment != after.environment;
+    dirty.environment = !sameLight(before, after);
     dirty.view = !sameView(before.view, after.view);
     dirty.bakes = before.bakes != after.bakes;
     const Materials known(before), now(after);

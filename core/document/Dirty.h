@@ -9,13 +9,13 @@
 
 namespace patina {
 
-// The camera, and names and sources of meshes and materials' names are left out: a scene is the
-// same whatever they are.
+// The camera, names, sources of meshes and environments that light nothing are left out: a scene is
+// the same whatever they are.
 struct Dirty {
     bool model = false;       // of shading
     bool lights = false;      // any of them
-    bool environment = false; // its picture, or how it lights the scene
-    bool view = false;        // exposure, tone mapping, lighting mode
+    bool environment = false; // what lights the scene: the pictures of the mix, or their share
+    bool view = false;        // exposure, tone mapping, lighting mode, background
     bool bakes = false;       // others are attached
     bool instances = false;   // meshes, where they stand, in which material, whether they are seen
     bool casters = false;     // what shadow maps show: shapes, and the holes cut into them

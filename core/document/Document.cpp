@@ -1,6 +1,9 @@
 #include "core/document/Document.h"
 
+#include "core/base/Check.h"
+
 #include <algorithm>
+#include <utility>
 
 namespace patina {
 namespace {
@@ -14,6 +17,11 @@ auto* findById(Elements& elements, Id id) {
 
 } // namespace
 
+Document::Document() {
+    Environment& first = environments.emplace_back();
+    mix.first = first.id = takeId();
+}
+
 const Material* Document::material(Id id) const {
     return findById(materials, id);
 }
@@ -26,11 +34,34 @@ const Light* Document::light(Id id) const {
 Light* Document::light(Id id) {
     return findById(lights, id);
 }
+const Environment& Document::environment() const {
+    const Environment* first = findById(environments, mix.first);
+    CHECK(first != nullptr);
+    return *first;
+}
+Environment& Document::environment() {
+    return const_cast<Environment&>(std::as_const(*this).environment());
+}
+const Environment* Document::secondEnvironment() const {
+    return mix.second == 0 ? nullptr : findById(environments, mix.second);
+}
+Environment* Document::secondEnvironment() {
+    return mix.second == 0 ? nullptr : findById(environments, mix.second);
+}
+const Environment* Document::environment(Id id) const {
+    return id == 0 ? &environment() : findById(environments, id);
+}
+Environment* Document::environment(Id id) {
+    return id == 0 ? &environment() : findById(environments, id);
+}
 const Softbox* Document::softbox(Id id) const {
-    return findById(environment.softboxes, id);
+    for (const Environment& environment : environments)
+        if (const Softbox* found = findById(environment.softboxes, id))
+            return found;
+    return nullptr;
 }
 Softbox* Document::softbox(Id id) {
-    return findById(environment.softboxes, id);
+    return const_cast<Softbox*>(std::as_const(*this).softbox(id));
 }
 const MeshInstance* Document::mesh(Id id) const {
     return findById(meshes, id);

@@ -16,10 +16,13 @@
 namespace patina {
 
 struct Document {
+    Document(); // with one environment, which lights the scene
+
     std::vector<MeshInstance> meshes;
     std::vector<Material> materials;
     std::vector<Light> lights;
-    Environment environment;
+    std::vector<Environment> environments; // never none
+    EnvironmentMix mix;
     ShadingModel model;
     View view;
     std::vector<BakeArtifactPtr> bakes; // at most one of each BakeKind, in their order
@@ -31,7 +34,15 @@ struct Document {
     [[nodiscard]] Material* material(Id id);
     [[nodiscard]] const Light* light(Id id) const;
     [[nodiscard]] Light* light(Id id);
-    [[nodiscard]] const Softbox* softbox(Id id) const;
+    // The one that lights the scene, the first of the mix.
+    [[nodiscard]] const Environment& environment() const;
+    [[nodiscard]] Environment& environment();
+    // The other one of the mix; null: there is none.
+    [[nodiscard]] const Environment* secondEnvironment() const;
+    [[nodiscard]] Environment* secondEnvironment();
+    [[nodiscard]] const Environment* environment(Id id) const; // 0: the one that lights the scene
+    [[nodiscard]] Environment* environment(Id id);
+    [[nodiscard]] const Softbox* softbox(Id id) const; // of any environment
     [[nodiscard]] Softbox* softbox(Id id);
     [[nodiscard]] const MeshInstance* mesh(Id id) const;
     [[nodiscard]] MeshInstance* mesh(Id id);

@@ -1,4 +1,4 @@
-// How the scene is looked at: camera, exposure, tone mapping, lighting mode.
+// How the scene is looked at: camera, exposure, tone mapping, lighting mode, background.
 #pragma once
 
 #include "core/math/Camera.h"
@@ -18,6 +18,8 @@ enum class ToneMap {
     OpenColorIo // display and view of the configuration; only when there is one
 };
 enum class ExposureMode { Fixed, Automatic };
+// What is seen behind the scene.
+enum class BackgroundMode { Environment, Blurred, Color, Off };
 enum class DisplayTransfer { Srgb, Gamma };
 // How the environment lights the scene, from one directional light to everything that a bake knows.
 enum class LightingMode {
@@ -43,7 +45,10 @@ struct View {
     std::string ocioConfig;            // file; empty: $OCIO
     std::string ocioDisplay, ocioView; // empty: the configuration's defaults
     LightingMode lighting = LightingMode::Ibl;
-    int bounces = 0;            // Prt: how often light may bounce; 0: as often as the bake says
+    int bounces = 0; // Prt: how often light may bounce; 0: as often as the bake says
+    BackgroundMode background = BackgroundMode::Environment;
+    float backgroundBlur = 0.5f; // Blurred: perceptual roughness of the level that is shown
+    glm::vec3 backgroundColor{0.05f};
     float reflectionMix = 0.5f; // 0 diffuse light only … 0.5 both in full … 1 reflections only
     friend bool operator==(const View&, const View&) = default;
 };

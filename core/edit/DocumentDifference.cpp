@@ -1,5 +1,7 @@
 #include "core/edit/DocumentDifference.h"
 
+#include "core/document/EnvironmentTitle.h"
+#include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
 
 #include <fmt/format.h>
@@ -19,9 +21,12 @@ std::string shown(const ParameterInfo& info, const ParameterValue& value,
     }
     if (info.type == ParameterType::Bool)
         return std::get<bool>(value) ? "on" : "off";
-    if (info.type == ParameterType::Reference)
-        if (const Material* material = document.material(static_cast<Id>(std::get<int>(value))))
-            return material->name;
+    if (info.type == ParameterType::Reference) {
+        const Id id = static_cast<Id>(std::get<int>(value));
+        const std::string name = id == 0 ? "none" : nameOf(document, {info.refersTo, id});
+        if (!name.empty())
+            return name;
+    }
     if (info.type == ParameterType::Map) {
         const std::string& source = std::get<MapSlot>(value).source;
         return source.empty() ? "none" : source;
@@ -44,15 +49,17 @@ class Comparison {
         : m_before(before)
         , m_after(after) {}
 
-    void single(Scope scope, const std::string& name) { values(scope, 0, name); }
+    void single(Scope scope, const std::string& name, bool ofScene = false) {
+        values(scope, 0, name, ofScene);
+    }
 
     template <class Elements>
     void list(Scope scope, const std::string& kind, const Elements& before, const Elements& after) {
         std::map<Id, std::string> names, gone;
         for (const auto& element : before)
-            gone[element.id] = element.name;
+            gone[element.id] = titleOf(element);
         for (const auto& element : after) {
-            const std::string name = fmt::format("{} {}", kind, element.name);
+            const std::string name = fmt::format("{} {}", kind, titleOf(element));
             if (gone.erase(element.id) > 0)
                 values(scope, element.id, name);
             else
@@ -65,9 +72,14 @@ class Comparison {
     std::vector<DocumentDifference> found;
 
   private:
-    void values(Scope scope, Id id, const std::string& element) {
+    static std::string titleOf(const auto& element) { return element.name; }
+    static std::string titleOf(const Environment& environment) {
+        return environmentTitle(environment);
+    }
+
+    void values(Scope scope, Id id, const std::string& element, bool ofScene = false) {
         for (const ParameterInfo& info : parameters()) {
-            if (info.scope != scope)
+            if (info.scope != scope || info.ofScene != ofScene)
                 continue;
             const ParameterValue before = withoutPayload(info.get(m_before, id));
             const ParameterValue after = withoutPayload(info.get(m_after, id));
@@ -88,6 +100,13 @@ class Comparison {
     const Document& m_after;
 };
 
+std::vector<Softbox> softboxesOf(const Document& document) {
+    std::vector<Softbox> all;
+    for (const Environment& environment : document.environments)
+        all.insert(all.end(), environment.softboxes.begin(), environment.softboxes.end());
+    return all;
+}
+
 } // namespace
 
 std::vector<DocumentDifference> differences(const Document& before, const Document& after) {
@@ -95,9 +114,9 @@ std::vector<DocumentDifference> differences(const Document& before, const Docume
     comparison.list(Scope::Mesh, "Mesh", before.meshes, after.meshes);
     comparison.list(Scope::Material, "Material", before.materials, after.materials);
     comparison.list(Scope::Light, "Light", before.lights, after.lights);
-    comparison.single(Scope::Environment, "Environment");
-    comparison.list(Scope::Softbox, "Softbox", before.environment.softboxes,
-                    after.environment.softboxes);
+    comparison.single(Scope::Environment, "Scene", true);
+    comparison.list(Scope::Environment, "Environment", before.environments, after.environments);
+    comparison.list(Scope::Softbox, "Softbox", softboxesOf(before), softboxesOf(after));
     comparison.single(Scope::Model, "Shading model");
     comparison.single(Scope::View, "View");
     if (before.view.camera != after.view.camera)

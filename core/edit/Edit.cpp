@@ -2,6 +2,7 @@
 
 #include "core/base/Check.h"
 #include "core/document/AbsentBake.h"
+#include "core/document/EnvironmentTitle.h"
 #include "core/edit/ResetValue.h"
 
 #include <algorithm>
@@ -19,11 +20,18 @@ std::string baseName(const std::string& name) {
     return name.substr(0, last);
 }
 
+std::string titleOf(const auto& element) {
+    return element.name;
+}
+std::string titleOf(const Environment& environment) {
+    return environmentTitle(environment);
+}
+
 template <class Elements>
 std::string uniqueName(const Elements& elements, const std::string& name) {
     const auto taken = [&](const std::string& candidate) {
         return std::any_of(elements.begin(), elements.end(),
-                           [&](const auto& element) { return element.name == candidate; });
+                           [&](const auto& element) { return titleOf(element) == candidate; });
     };
     std::string candidate = name;
     for (int number = 2; taken(candidate); ++number)
@@ -69,6 +77,7 @@ bool targetExists(const Document& document, const Target& target) {
     case Scope::Softbox:
         return document.softbox(target.id) != nullptr;
     case Scope::Environment:
+        return document.environment(target.id) != nullptr;
     case Scope::Model:
     case Scope::View:
         return target.id == 0;
@@ -76,8 +85,45 @@ bool targetExists(const Document& document, const Target& target) {
     return false;
 }
 
+std::string nameOf(const Document& document, const Target& target) {
+    switch (target.scope) {
+    case Scope::Mesh:
+        if (const MeshInstance* mesh = document.mesh(target.id))
+            return mesh->name;
+        break;
+    case Scope::Material:
+        if (const Material* material = document.material(target.id))
+            return material->name;
+        break;
+    case Scope::Light:
+        if (const Light* light = document.light(target.id))
+            return light->name;
+        break;
+    case Scope::Softbox:
+        if (const Softbox* softbox = document.softbox(target.id))
+            return softbox->name;
+        break;
+    case Scope::Environment:
+        if (const Environment* environment = document.environment(target.id))
+            return environmentTitle(*environment);
+        break;
+    case Scope::Model:
+    case Scope::View:
+        break;
+    }
+    return {};
+}
+
 Change changeFor(const ParameterInfo& info, const Target& target) {
     return {info.affects, target};
+}
+
+bool leadsSomewhere(const Document& document, const ParameterInfo& info,
+                    const ParameterValue& value) {
+    if (info.type != ParameterType::Reference)
+        return true;
+    const Id id = static_cast<Id>(std::get<int>(value));
+    return id == 0 ? info.mayBeNone : targetExists(document, {info.refersTo, id});
 }
 
 Result<Change> applyParameter(Document& document, const ParameterInfo& info, const Target& target,
@@ -89,15 +135,12 @@ Result<Change> applyParameter(Document& document, const ParameterInfo& info, con
             {},
             {}};
     const ParameterValue clamped = clampToRange(info, value);
-    if (info.type == ParameterType::Reference) {
-        const Id id = static_cast<Id>(std::get<int>(clamped));
-        if (id != 0 && document.material(id) == nullptr)
-            return Error{
-                ErrorKind::Usage,
-                fmt::format("{} cannot be set: there is no material with the id {}", info.id, id),
-                {},
-                {}};
-    }
+    if (!leadsSomewhere(document, info, clamped))
+        return Error{ErrorKind::Usage,
+                     fmt::format("{} cannot be set: there is no {} with the id {}", info.id,
+                                 scopeName(info.refersTo), std::get<int>(clamped)),
+                     {},
+                     {}};
     info.set(document, target.id, clamped);
     return changeFor(info, target);
 }
@@ -151,7 +194,7 @@ std::string uniqueMeshName(const Document& document, const std::string& name) {
 }
 
 std::string uniqueSoftboxName(const Document& document, const std::string& name) {
-    return uniqueName(document.environment.softboxes, name);
+    return uniqueName(document.environment().softboxes, name);
 }
 
 Id addMaterial(Document& document, Material material) {
@@ -173,20 +216,74 @@ Id duplicateLight(Document& document, Id light) {
     return duplicate(document, document.lights, light);
 }
 
+namespace {
+
+void takeIds(Document& document, Environment& environment) {
+    environment.id = document.takeId();
+    for (Softbox& softbox : environment.softboxes)
+        softbox.id = document.takeId();
+}
+
+} // namespace
+
+Id addEnvironment(Document& document, Environment environment) {
+    if (document.environments.size() >= kMaxEnvironments)
+        return 0;
+    takeIds(document, environment);
+    if (!environment.name.empty())
+        environment.name = uniqueName(document.environments, environment.name);
+    return document.environments.emplace_back(std::move(environment)).id;
+}
+
+Id duplicateEnvironment(Document& document, Id environment) {
+    if (document.environments.size() >= kMaxEnvironments)
+        return 0;
+    const auto original = findIn(document.environments, environment);
+    CHECK(original != document.environments.end());
+    Environment copy = *original;
+    takeIds(document, copy);
+    copy.name = uniqueName(document.environments, environmentTitle(copy));
+    return document.environments.insert(std::next(original), std::move(copy))->id;
+}
+
+bool removeEnvironment(Document& document, Id environment) {
+    const auto found = findIn(document.environments, environment);
+    if (found == document.environments.end() || document.environments.size() == 1)
+        return false;
+    EnvironmentMix& mix = document.mix;
+    if (mix.first == environment) {
+        const auto next = std::next(found);
+        const Id neighbour = next != document.environments.end() ? next->id : std::prev(found)->id;
+        mix.first = mix.second != 0 ? mix.second : neighbour;
+        mix.second = 0;
+    } else if (mix.second == environment) {
+        mix.second = 0;
+    }
+    document.environments.erase(found);
+    return true;
+}
+
 Id addSoftbox(Document& document, Softbox softbox) {
-    if (document.environment.softboxes.size() >= kMaxSoftboxes)
+    if (document.environment().softboxes.size() >= kMaxSoftboxes)
         return 0;
     softbox.id = document.takeId();
     softbox.name = uniqueSoftboxName(document, softbox.name);
-    return document.environment.softboxes.emplace_back(std::move(softbox)).id;
+    return document.environment().softboxes.emplace_back(std::move(softbox)).id;
 }
 Id duplicateSoftbox(Document& document, Id softbox) {
-    if (document.environment.softboxes.size() >= kMaxSoftboxes)
+    const auto holder =
+        std::ranges::find_if(document.environments, [&](const Environment& environment) {
+            return findIn(environment.softboxes, softbox) != environment.softboxes.end();
+        });
+    CHECK(holder != document.environments.end());
+    if (holder->softboxes.size() >= kMaxSoftboxes)
         return 0;
-    return duplicate(document, document.environment.softboxes, softbox);
+    return duplicate(document, holder->softboxes, softbox);
 }
 bool removeSoftbox(Document& document, Id softbox) {
-    return removeFrom(document.environment.softboxes, softbox);
+    return std::ranges::any_of(document.environments, [&](Environment& environment) {
+        return removeFrom(environment.softboxes, softbox);
+    });
 }
 
 bool removeMaterial(Document& document, Id material) {

@@ -13,6 +13,13 @@
 namespace patina {
 
 [[nodiscard]] bool targetExists(const Document& document, const Target& target);
+// The name of a mesh, material, light or softbox, the title of an environment; empty where it has
+// none.
+[[nodiscard]] std::string nameOf(const Document& document, const Target& target);
+
+// Whether a value of a Reference leads somewhere, or may lead nowhere; true of all other values.
+[[nodiscard]] bool leadsSomewhere(const Document& document, const ParameterInfo& info,
+                                  const ParameterValue& value);
 
 // What setting the parameter means for views of the document.
 [[nodiscard]] Change changeFor(const ParameterInfo& info, const Target& target);
@@ -54,9 +61,20 @@ Id duplicateMaterial(Document& document, Id material);
 Id duplicateLight(Document& document, Id light);
 
 // More are neither made nor read.
+inline constexpr std::size_t kMaxEnvironments = 64;
+// Below the others, with ids of its own (its softboxes too); it may have no name. 0 when there are
+// kMaxEnvironments. The mix stays as it is.
+Id addEnvironment(Document& document, Environment environment);
+// Directly below the original, which must exist.
+Id duplicateEnvironment(Document& document, Id environment);
+// False when it does not exist or is the only one. Where it was the first of the mix its second
+// one, or a neighbour, becomes it.
+bool removeEnvironment(Document& document, Id environment);
+
 inline constexpr std::size_t kMaxSoftboxes = 256;
-// Like lights; 0 when there are kMaxSoftboxes. The environment's image follows with
-// resolveEnvironment(), as after each edit of what it is generated from.
+// Added to the environment that lights the scene. Like lights; 0 when it has kMaxSoftboxes. The
+// environment's image follows with resolveEnvironment(), as after each edit of what it is generated
+// from.
 Id addSoftbox(Document& document, Softbox softbox);
 Id duplicateSoftbox(Document& document, Id softbox);
 bool removeSoftbox(Document& document, Id softbox);

@@ -190,7 +190,9 @@ void EditSession::setParameter(const ParameterInfo& info, const Target& target,
     CHECK(info.scope == target.scope);
     if (!targetExists(m_document, target))
         return;
-    const std::string name = nameOf(m_document, target);
+    const bool isOnlyOne =
+        info.ofScene || (info.scope == Scope::Environment && m_document.environments.size() == 1);
+    const std::string name = isOnlyOne ? std::string() : nameOf(m_document, target);
     const std::string text = name.empty() ? fmt::format("Change {}", info.label)
                                           : fmt::format("Change {} of {}", info.label, name);
     const std::vector<ParameterEdit> edits = editsFor(m_document, info, target, value);
@@ -207,6 +209,8 @@ void EditSession::setDiffering(const Target& target, const std::vector<Parameter
     std::vector<ParameterEdit> after;
     for (const ParameterEdit& edit : edits) {
         ParameterValue value = clampToRange(*edit.info, edit.value);
+        if (!leadsSomewhere(m_document, *edit.info, value))
+            return;
         if (value != edit.info->get(m_document, target.id))
             after.push_back({edit.info, std::move(value)});
     }
@@ -223,6 +227,8 @@ void EditSession::setParameters(const Target& target, const std::vector<Paramete
     bool differs = false;
     for (const ParameterEdit& edit : edits) {
         after.push_back({edit.info, clampToRange(*edit.info, edit.value)});
+        if (!leadsSomewhere(m_document, *edit.info, after.back().value))
+            return;
         differs = differs || after.back().value != edit.info->get(m_document, target.id);
     }
     if (differs)
@@ -248,15 +254,18 @@ void EditSession::setCamera(const Camera& camera) {
     announce({Affects::Nothing, Target{Scope::View, 0}});
 }
 
-void EditSession::setEnvironmentImage(const ImagePtr& image) {
-    m_document.environment.image = image;
+void EditSession::setEnvironmentImage(Id environment, const ImagePtr& image) {
+    Environment* made = m_document.environment(environment);
+    if (!made)
+        return;
+    made->image = image;
     if (m_observer)
         m_observer->derive(m_document);
     announce({Affects::EnvironmentMap, Target{Scope::Environment, 0}});
 }
 
 void EditSession::setBlendedImage(const ImagePtr& image) {
-    m_document.environment.blended = image;
+    m_document.mix.blended = image;
     announce({Affects::EnvironmentMap, Target{Scope::Environment, 0}});
 }
 

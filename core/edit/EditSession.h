@@ -85,7 +85,9 @@ class EditSession {
     // What `edits` pushes becomes one step.
     void group(const std::string& text, const std::function<void()>& edits);
 
-    // --- Parameters: clamped to their hard range; equal values make no step ----------------------
+    // --- Parameters: clamped to their hard range; equal values make no step, nor do references
+    // that lead nowhere
+    // --------------------------------------------------------------------------------
     [[nodiscard]] DragSession newDragSession() { return ++m_lastSession; }
     void setParameter(const ParameterInfo& info, const Target& target, const ParameterValue& value,
                       DragSession session = 0);
@@ -99,8 +101,8 @@ class EditSession {
                       const std::string& text, DragSession session = 0);
 
     // --- Structure -------------------------------------------------------------------------------
-    // Any edit of the lists of meshes, materials, lights and softboxes (core/edit/Edit.h) as one
-    // step. Ids are never given twice, also after undo.
+    // Any edit of the lists of meshes, materials, lights and environments and of the mix
+    // (core/edit/Edit.h) as one step. Ids are never given twice, also after undo.
     void editStructure(const std::string& text, const std::function<void(Document&)>& edit);
     void rename(const Target& target, std::string_view name); // not to nothing
     Id addLight(LightType type); // as bright at the scene's centre as any other type
@@ -114,6 +116,13 @@ class EditSession {
     void assignMaterial(Id mesh, Id material);
     void setMeshVisible(Id mesh, bool visible);
     void removeMesh(Id mesh);
+    // Environments light the scene when they are added; 0: there are too many, or none to copy.
+    Id addEnvironment(const Environment& environment, const std::string& text);
+    Id addSecondEnvironment(const Environment& environment, const std::string& text); // to fade to
+    Id duplicateEnvironment(Id environment);
+    void removeEnvironment(Id environment); // the last one stays
+    void lightWith(Id environment);         // it becomes the first of the mix
+    // Of the environment that lights the scene.
     void setSoftboxes(const std::string& text, const std::vector<Softbox>& softboxes);
     Id addSoftbox(float azimuthDeg, float elevationDeg); // 0: there are too many
     Id duplicateSoftbox(Id softbox);                     // beside the original
@@ -131,8 +140,9 @@ class EditSession {
     void renewBake(const BakeArtifactPtr& before, BakeArtifactPtr after);
     // Navigation is saved with the document, but is no modification.
     void setCamera(const Camera& camera);
-    // Pictures that follow from the document, made by others (Environment::image, ::blended).
-    void setEnvironmentImage(const ImagePtr& image);
+    // Pictures that follow from the document, made by others (Environment::image, of the one with
+    // this id where it is still there; EnvironmentMix::blended).
+    void setEnvironmentImage(Id environment, const ImagePtr& image);
     void setBlendedImage(const ImagePtr& image);
 
   private:
@@ -156,9 +166,6 @@ class EditSession {
     DocumentState m_saved;
     Id m_firstFreeId = 1;
 };
-
-// The name of a mesh, material, light or softbox; empty where it has none.
-[[nodiscard]] std::string nameOf(const Document& document, const Target& target);
 
 // A parameter that is known to be in the table.
 [[nodiscard]] const ParameterInfo& parameter(std::string_view id);

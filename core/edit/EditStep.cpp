@@ -1,6 +1,7 @@
 #include "core/edit/EditStep.h"
 
 #include "core/edit/Edit.h"
+#include "core/light/GeneratedEnvironment.h"
 #include "core/material/MaterialInputs.h"
 
 #include <algorithm>
@@ -30,6 +31,10 @@ std::map<const void*, std::size_t> payloads(const Elements& elements) {
             if (map.image)
                 result[map.image.get()] = imageBytes(map.image);
         });
+    for (const Environment& environment : elements.environments)
+        for (const ImagePtr* image : {&environment.image, &environment.fileImage})
+            if (*image)
+                result[image->get()] = imageBytes(*image);
     return result;
 }
 
@@ -93,8 +98,8 @@ Change SetParametersStep::swap(Document& document, bool forward) {
 
 ReplaceElementsStep::ReplaceElementsStep(std::string text, const Document& before, Elements after)
     : EditStep(std::move(text))
-    , m_before{before.meshes, before.materials, before.lights, before.environment.softboxes,
-               before.nextId}
+    , m_before{before.meshes,       before.materials, before.lights,
+               before.environments, before.mix,       before.nextId}
     , m_after(std::move(after)) {}
 
 std::size_t ReplaceElementsStep::payloadBytes() const {
@@ -110,10 +115,20 @@ std::size_t ReplaceElementsStep::payloadBytes() const {
 
 Change ReplaceElementsStep::swap(Document& document, bool forward) {
     const Elements& elements = forward ? m_after : m_before;
+    const std::vector<Environment> shown = std::move(document.environments);
+    const ImagePtr blended = document.mix.blended;
     document.meshes = elements.meshes;
     document.materials = elements.materials;
     document.lights = elements.lights;
-    document.environment.softboxes = elements.softboxes;
+    document.environments = elements.environments;
+    document.mix = elements.mix;
+    // What was made for the state that goes (a finer picture) serves where the recipe is the same.
+    document.mix.blended = blended;
+    for (const Environment& before : shown)
+        if (Environment* environment = document.environment(before.id);
+            environment && before.kind != EnvironmentKind::Image &&
+            environmentRecipe(*environment) == environmentRecipe(before))
+            environment->image = before.image;
     document.nextId = elements.nextId;
     return {Affects::Structure | Affects::Geometry | Affects::Picture | Affects::Bakes,
             std::nullopt};

@@ -64,11 +64,12 @@ struct Elements {
     std::vector<MeshInstance> meshes;
     std::vector<Material> materials;
     std::vector<Light> lights;
-    std::vector<Softbox> softboxes;
+    std::vector<Environment> environments;
+    EnvironmentMix mix;
     Id nextId = 1;
 };
 
-// Meshes, materials, lights and softboxes as a whole: added, removed, exchanged.
+// Meshes, materials, lights and environments as a whole: added, removed, exchanged.
 class ReplaceElementsStep : public EditStep {
   public:
     ReplaceElementsStep(std::string text, const Document& before, Elements after);

@@ -1,6 +1,7 @@
 // The part of EditSession that adds, removes and names elements.
 
 #include "core/base/Check.h"
+#include "core/document/EnvironmentTitle.h"
 #include "core/document/LightPlacement.h"
 #include "core/edit/EditSession.h"
 #include "core/edit/ResetValue.h"
@@ -35,32 +36,6 @@ NewLight newLight(LightType type) {
 
 } // namespace
 
-std::string nameOf(const Document& document, const Target& target) {
-    switch (target.scope) {
-    case Scope::Mesh:
-        if (const MeshInstance* mesh = document.mesh(target.id))
-            return mesh->name;
-        break;
-    case Scope::Material:
-        if (const Material* material = document.material(target.id))
-            return material->name;
-        break;
-    case Scope::Light:
-        if (const Light* light = document.light(target.id))
-            return light->name;
-        break;
-    case Scope::Softbox:
-        if (const Softbox* softbox = document.softbox(target.id))
-            return softbox->name;
-        break;
-    case Scope::Environment:
-    case Scope::Model:
-    case Scope::View:
-        break;
-    }
-    return {};
-}
-
 void EditSession::resetParameter(const ParameterInfo& info, const Target& target) {
     if (targetExists(m_document, target))
         setParameter(info, target, resetValue(m_document, info, target));
@@ -76,11 +51,12 @@ void EditSession::editStructure(const std::string& text,
     push(std::make_unique<ReplaceElementsStep>(
         text, m_document,
         Elements{std::move(copy.meshes), std::move(copy.materials), std::move(copy.lights),
-                 std::move(copy.environment.softboxes), copy.nextId}));
+                 std::move(copy.environments), copy.mix, copy.nextId}));
 }
 
 void EditSession::rename(const Target& target, std::string_view name) {
-    if (name.empty() || !targetExists(m_document, target))
+    const bool mayBeEmpty = target.scope == Scope::Environment; // then called by what it shows
+    if ((name.empty() && !mayBeEmpty) || !targetExists(m_document, target))
         return;
     const ParameterInfo* info = findParameter(fmt::format("{}.name", scopeName(target.scope)));
     if (info)
@@ -161,18 +137,78 @@ void EditSession::removeMesh(Id id) {
                       [id](Document& document) { patina::removeMesh(document, id); });
 }
 
+// --- Environments --------------------------------------------------------------------------------
+
+Id EditSession::addEnvironment(const Environment& environment, const std::string& text) {
+    if (m_document.environments.size() >= kMaxEnvironments)
+        return 0;
+    Id id = 0;
+    editStructure(text, [&](Document& document) {
+        id = patina::addEnvironment(document, environment);
+        document.mix.first = id;
+    });
+    return id;
+}
+
+Id EditSession::addSecondEnvironment(const Environment& environment, const std::string& text) {
+    if (m_document.environments.size() >= kMaxEnvironments)
+        return 0;
+    Id id = 0;
+    editStructure(text, [&](Document& document) {
+        id = patina::addEnvironment(document, environment);
+        const ParameterInfo& second = parameter("environment.second");
+        for (const ParameterEdit& edit :
+             editsFor(document, second, {Scope::Environment, 0}, static_cast<int>(id)))
+            edit.info->set(document, 0, edit.value);
+    });
+    return id;
+}
+
+Id EditSession::duplicateEnvironment(Id original) {
+    const Environment* environment = m_document.environment(original);
+    if (!environment || m_document.environments.size() >= kMaxEnvironments)
+        return 0;
+    Id id = 0;
+    editStructure(fmt::format("Duplicate {}", environmentTitle(*environment)),
+                  [&, found = environment->id](Document& document) {
+                      id = patina::duplicateEnvironment(document, found);
+                      document.mix.first = id;
+                  });
+    return id;
+}
+
+void EditSession::removeEnvironment(Id id) {
+    const Environment* environment = m_document.environment(id);
+    if (environment && m_document.environments.size() > 1)
+        editStructure(fmt::format("Remove {}", environmentTitle(*environment)),
+                      [found = environment->id](Document& document) {
+                          patina::removeEnvironment(document, found);
+                      });
+}
+
+void EditSession::lightWith(Id id) {
+    const Environment* environment = m_document.environment(id);
+    if (!environment)
+        return;
+    const Target scene{Scope::Environment, 0};
+    setDiffering(scene,
+                 editsFor(m_document, parameter("environment.first"), scene,
+                          static_cast<int>(environment->id)),
+                 fmt::format("Light with {}", environmentTitle(*environment)));
+}
+
 // --- Softboxes -----------------------------------------------------------------------------------
 
 void EditSession::setSoftboxes(const std::string& text, const std::vector<Softbox>& softboxes) {
     editStructure(text, [&](Document& document) {
-        document.environment.softboxes.clear();
+        document.environment().softboxes.clear();
         for (const Softbox& softbox : softboxes)
             patina::addSoftbox(document, softbox);
     });
 }
 
 Id EditSession::addSoftbox(float azimuthDeg, float elevationDeg) {
-    if (m_document.environment.softboxes.size() >= kMaxSoftboxes)
+    if (m_document.environment().softboxes.size() >= kMaxSoftboxes)
         return 0;
     Softbox softbox;
     softbox.azimuthDeg = azimuthDeg;
@@ -185,11 +221,13 @@ Id EditSession::addSoftbox(float azimuthDeg, float elevationDeg) {
 
 Id EditSession::duplicateSoftbox(Id original) {
     const Softbox* softbox = m_document.softbox(original);
-    if (!softbox || m_document.environment.softboxes.size() >= kMaxSoftboxes)
+    if (!softbox)
         return 0;
     Id id = 0;
     editStructure(fmt::format("Duplicate {}", softbox->name), [&](Document& document) {
         id = patina::duplicateSoftbox(document, original);
+        if (id == 0)
+            return;
         // Beside the original, where it is seen. Azimuths wrap at 180°.
         Softbox& copy = *document.softbox(id);
         const ParameterInfo& azimuth = parameter("softbox.azimuthDeg");

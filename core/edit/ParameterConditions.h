@@ -33,12 +33,12 @@ bool fresnelIs(const Document& document, Id) {
     return document.model.fresnel == F;
 }
 template <EnvironmentKind Kind>
-bool environmentIs(const Document& document, Id) {
-    return document.environment.kind == Kind;
+bool environmentIs(const Document& document, Id id) {
+    return document.environment(id)->kind == Kind;
 }
 template <BackgroundMode Mode>
 bool backgroundIs(const Document& document, Id) {
-    return document.environment.background == Mode;
+    return document.view.background == Mode;
 }
 template <ToneMap Curve>
 bool toneMapIs(const Document& document, Id) {
@@ -58,14 +58,14 @@ inline constexpr Condition kInSky{environmentIs<EnvironmentKind::Sky>,
 inline constexpr Condition kInSoftboxes{environmentIs<EnvironmentKind::Softboxes>,
                                         "the environment has no softboxes (environment.kind)"};
 inline constexpr Condition kInImageFile{
-    [](const Document& document, Id) {
-        const Environment& environment = document.environment;
+    [](const Document& document, Id id) {
+        const Environment& environment = *document.environment(id);
         return environment.kind == EnvironmentKind::Image && !isBuiltin(environment.source);
     },
     "only an image from a file has a layout (environment.image)"};
 inline constexpr Condition kWithSecond{
-    [](const Document& document, Id) { return !document.environment.second.source.empty(); },
-    "there is no second environment (environment.secondImage)"};
+    [](const Document& document, Id) { return document.secondEnvironment() != nullptr; },
+    "there is no second environment (environment.second)"};
 inline constexpr Condition kBlurred{backgroundIs<BackgroundMode::Blurred>,
                                     "the background is not blurred (environment.background)"};
 inline constexpr Condition kColored{backgroundIs<BackgroundMode::Color>,

@@ -75,7 +75,8 @@ and, without the part before the first dot, in project files. This page is writt
 `patina parameters --markdown`; the table itself is `core/edit/Parameters.cpp`.
 
 A name alone means every material, light or mesh: `material.metallic`. One is chosen by its name in
-brackets: `material[Body].metallic`, `light[Sun].intensity`. Colours are linear sRGB, unless written
+brackets: `material[Body].metallic`, `light[Sun].intensity`. Of environments a name alone means the one that
+lights the scene, `environment.secondRotationDeg` is the second one's. Colours are linear sRGB, unless written
 `#rrggbb`. Values outside the range are refused.
 )";
 

@@ -1,9 +1,11 @@
 // Finding parameters and elements by the names that scripts use.
 #include "core/base/Utf8.h"
 #include "core/document/Document.h"
+#include "core/document/EnvironmentTitle.h"
 #include "core/edit/Parameters.h"
 
 #include <algorithm>
+#include <cctype>
 #include <fmt/format.h>
 #include <numeric>
 #include <utility>
@@ -58,11 +60,18 @@ Error unknown(std::string_view kind, std::string_view typed, std::vector<std::st
             {}};
 }
 
+const std::string& nameOfElement(const auto& element) {
+    return element.name;
+}
+std::string nameOfElement(const Environment& environment) {
+    return environmentTitle(environment);
+}
+
 template <class Elements>
 void addTargets(const Elements& elements, Scope scope, const std::string_view* name,
                 std::vector<Target>& targets) {
     for (const auto& element : elements)
-        if (name == nullptr || element.name == *name)
+        if (name == nullptr || nameOfElement(element) == *name)
             targets.push_back({scope, element.id});
 }
 
@@ -70,7 +79,7 @@ template <class Elements>
 std::vector<std::string> namesOf(const Elements& elements) {
     std::vector<std::string> names;
     for (const auto& element : elements)
-        names.push_back(element.name);
+        names.push_back(nameOfElement(element));
     return names;
 }
 
@@ -83,8 +92,9 @@ std::vector<std::string> elementNames(const Document& document, Scope scope) {
     case Scope::Mesh:
         return namesOf(document.meshes);
     case Scope::Softbox:
-        return namesOf(document.environment.softboxes);
+        return namesOf(document.environment().softboxes);
     case Scope::Environment:
+        return namesOf(document.environments);
     case Scope::Model:
     case Scope::View:
         break;
@@ -106,9 +116,14 @@ std::vector<Target> findTargets(const Document& document, Scope scope,
         addTargets(document.meshes, scope, name, targets);
         break;
     case Scope::Softbox:
-        addTargets(document.environment.softboxes, scope, name, targets);
+        addTargets(document.environment().softboxes, scope, name, targets);
         break;
     case Scope::Environment:
+        if (name != nullptr)
+            addTargets(document.environments, scope, name, targets);
+        else // the one that lights the scene
+            targets.push_back({scope, 0});
+        break;
     case Scope::Model:
     case Scope::View:
         targets.push_back({scope, 0});
@@ -117,7 +132,22 @@ std::vector<Target> findTargets(const Document& document, Scope scope,
     return targets;
 }
 
+// "environment.secondRotationDeg" is environment.rotationDeg of the second one.
+const ParameterInfo* ofSecond(std::string_view name) {
+    constexpr std::string_view kPrefix = "environment.second";
+    if (!name.starts_with(kPrefix) || name.size() == kPrefix.size())
+        return nullptr;
+    std::string rest(name.substr(kPrefix.size()));
+    rest[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(rest[0])));
+    const ParameterInfo* info = findParameter("environment." + rest);
+    return info && !info->ofScene ? info : nullptr;
+}
+
 } // namespace
+
+std::vector<Target> targetsNamed(const Document& document, Scope scope, std::string_view name) {
+    return findTargets(document, scope, &name);
+}
 
 Result<ParameterSelection> selectParameter(const Document& document, std::string_view name) {
     // "light[Sun].intensity": what stands in brackets is the element's name, and may itself hold
@@ -134,6 +164,17 @@ Result<ParameterSelection> selectParameter(const Document& document, std::string
     }
 
     const ParameterInfo* info = findParameter(parameterName);
+    if (info == nullptr && !named)
+        if (const ParameterInfo* second = ofSecond(parameterName)) {
+            if (document.secondEnvironment() == nullptr)
+                return Error{ErrorKind::Usage,
+                             fmt::format("{} changes nothing: the scene has no second environment; "
+                                         "set environment.second first",
+                                         parameterName),
+                             {},
+                             {}};
+            return ParameterSelection{second, {{Scope::Environment, document.mix.second}}};
+        }
     if (info == nullptr) {
         std::vector<std::string> names;
         for (const ParameterInfo& parameter : parameters())
@@ -143,13 +184,13 @@ Result<ParameterSelection> selectParameter(const Document& document, std::string
     }
 
     const std::string_view kind = scopeName(info->scope);
-    const bool single = info->scope == Scope::Environment || info->scope == Scope::View ||
-                        info->scope == Scope::Model;
+    const bool single = info->ofScene || info->scope == Scope::View || info->scope == Scope::Model;
     if (named && single)
-        return Error{ErrorKind::Usage,
-                     fmt::format("there is only one {}; write {}", kind, info->id),
-                     {},
-                     {}};
+        return Error{
+            ErrorKind::Usage,
+            fmt::format("{} is one for the whole scene; write it without brackets", info->id),
+            {},
+            {}};
     ParameterSelection selection{
         info, findTargets(document, info->scope, named ? &elementName : nullptr)};
     if (!selection.targets.empty())

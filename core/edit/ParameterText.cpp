@@ -3,6 +3,7 @@
 #include "core/base/Utf8.h"
 #include "core/document/Document.h"
 #include "core/document/Source.h"
+#include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
 #include "core/image/Srgb.h"
 
@@ -181,7 +182,8 @@ std::string describeExpected(const ParameterInfo& info) {
     case ParameterType::Map:
         return "an image file or builtin:NAME";
     case ParameterType::Reference:
-        return "a material of the scene";
+        return fmt::format("{} {} of the scene", info.refersTo == Scope::Material ? "a" : "an",
+                           scopeName(info.refersTo));
     }
     CHECK(false);
     return {};
@@ -203,17 +205,15 @@ Result<ParameterValue> parseParameterValue(const ParameterInfo& info, std::strin
                                            const Document& document) {
     if (info.type != ParameterType::Reference)
         return parseParameterValue(info, text);
-    for (const Material& material : document.materials)
-        if (material.name == text)
-            return ParameterValue(static_cast<int>(material.id));
+    for (const Target& named : targetsNamed(document, info.refersTo, text))
+        return ParameterValue(static_cast<int>(named.id));
     Result<ParameterValue> value = parseParameterValue(info, text);
     if (!value)
         return value;
-    const Id id = static_cast<Id>(std::get<int>(*value));
-    if (id != 0 && document.material(id) == nullptr)
+    if (!leadsSomewhere(document, info, *value))
         return Error{ErrorKind::Usage,
                      fmt::format("{} expects {}; there is none with the name or number \"{}\"",
-                                 info.id, describeExpected(info), id),
+                                 info.id, describeExpected(info), std::get<int>(*value)),
                      {},
                      {}};
     return value;

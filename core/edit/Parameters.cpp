@@ -51,8 +51,16 @@ template <>
 struct ElementOf<Environment> {
     static constexpr Scope kScope = Scope::Environment;
     template <class Doc>
+    static auto* find(Doc& document, Id id) {
+        return document.environment(id);
+    }
+};
+template <>
+struct ElementOf<EnvironmentMix> {
+    static constexpr Scope kScope = Scope::Environment;
+    template <class Doc>
     static auto* find(Doc& document, Id) {
-        return &document.environment;
+        return &document.mix;
     }
 };
 template <>
@@ -130,41 +138,26 @@ void setMember(Document& document, Id id, const ParameterValue& value) {
 }
 
 // The environment's image is a map to the user, although it is stored without a map's adjustments.
-ParameterValue getEnvironmentImage(const Document& document, Id) {
+ParameterValue getEnvironmentImage(const Document& document, Id id) {
+    const Environment* environment = document.environment(id);
+    CHECK(environment != nullptr);
     MapSlot slot;
-    slot.source = document.environment.source;
-    slot.image = document.environment.fileImage;
-    slot.problem = document.environment.problem;
+    slot.source = environment->source;
+    slot.image = environment->fileImage;
+    slot.problem = environment->problem;
     return slot;
 }
 
-void setEnvironmentImage(Document& document, Id, const ParameterValue& value) {
+void setEnvironmentImage(Document& document, Id id, const ParameterValue& value) {
     CHECK(std::holds_alternative<MapSlot>(value));
     const MapSlot& slot = std::get<MapSlot>(value);
-    document.environment.source = slot.source;
-    document.environment.fileImage = slot.image;
-    if (document.environment.kind == EnvironmentKind::Image)
-        document.environment.image = slot.image;
-    document.environment.problem = slot.problem;
-}
-
-// The second environment's likewise.
-ParameterValue getSecondImage(const Document& document, Id) {
-    const SecondEnvironment& second = document.environment.second;
-    MapSlot slot;
-    slot.source = second.source;
-    slot.image = second.image;
-    slot.problem = second.problem;
-    return slot;
-}
-
-void setSecondImage(Document& document, Id, const ParameterValue& value) {
-    CHECK(std::holds_alternative<MapSlot>(value));
-    const MapSlot& slot = std::get<MapSlot>(value);
-    SecondEnvironment& second = document.environment.second;
-    second.source = slot.source;
-    second.image = slot.image;
-    second.problem = slot.problem;
+    Environment* environment = document.environment(id);
+    CHECK(environment != nullptr);
+    environment->source = slot.source;
+    environment->fileImage = slot.image;
+    if (environment->kind == EnvironmentKind::Image)
+        environment->image = slot.image;
+    environment->problem = slot.problem;
 }
 
 std::string_view lightIntensityUnit(const Document& document, Id id) {
@@ -172,6 +165,11 @@ std::string_view lightIntensityUnit(const Document& document, Id id) {
 }
 
 // --- Rows ---
+
+constexpr auto kPicture = Affects::Picture;
+constexpr auto kGeometry = Affects::Geometry | Affects::Bakes;
+constexpr auto kEnvironment = Affects::EnvironmentMap;
+constexpr auto kSwitch = Affects::Picture | Affects::Structure; // lists show what is on
 
 using Text = std::string_view;
 
@@ -309,19 +307,38 @@ constexpr auto inputRowsOf() {
         std::make_index_sequence<static_cast<std::size_t>(kCount)>());
 }
 
-template <auto Get, auto Set>
 constexpr ParameterInfo environmentImage(Text id, Text label, Text group, Text help) {
     auto info = row<Path<&Environment::source>>(ParameterType::Map, id, label, group, help,
                                                 Affects::Picture | Affects::EnvironmentMap);
     info.mapEncoding = ColorEncoding::Srgb;
-    info.get = Get;
-    info.set = Set;
+    info.get = &getEnvironmentImage;
+    info.set = &setEnvironmentImage;
     return info;
 }
 
 template <auto... Members>
 constexpr ParameterInfo reference(Text id, Text label, Text group, Text help, Affects affects) {
     return row<Path<Members...>>(ParameterType::Reference, id, label, group, help, affects);
+}
+
+// How the scene uses its environments, whichever of them is edited.
+constexpr ParameterInfo ofScene(ParameterInfo info) {
+    info.scope = Scope::Environment;
+    info.ofScene = true;
+    return info;
+}
+
+constexpr ParameterInfo notNone(ParameterInfo info) {
+    info.mayBeNone = false;
+    return info;
+}
+
+// One of the environments.
+template <auto... Members>
+constexpr ParameterInfo environmentReference(Text id, Text label, Text group, Text help) {
+    auto info = reference<Members...>(id, label, group, help, kSwitch | kEnvironment);
+    info.refersTo = Scope::Environment;
+    return ofScene(info);
 }
 
 constexpr ParameterInfo offered(std::string (*unavailable)(const Document&, int),
@@ -353,6 +370,28 @@ std::vector<ParameterEdit> lightTypeEdits(const Document& document, Id id,
                                   document.bounds()));
 }
 
+// The environment that lights the scene and the second one change places where one takes the
+// other's.
+std::vector<ParameterEdit> firstEnvironmentEdits(const Document& document, Id,
+                                                 const ParameterValue& first) {
+    std::vector<ParameterEdit> edits{{findParameter("environment.first"), first}};
+    if (document.mix.second != 0 && static_cast<int>(document.mix.second) == std::get<int>(first))
+        edits.push_back(
+            {findParameter("environment.second"), static_cast<int>(document.mix.first)});
+    return edits;
+}
+
+// A second one is seen at once, and the first is not lost for it.
+std::vector<ParameterEdit> secondEnvironmentEdits(const Document& document, Id,
+                                                  const ParameterValue& second) {
+    const int id = std::get<int>(second);
+    const bool same = static_cast<Id>(id) == document.mix.first;
+    std::vector<ParameterEdit> edits{{findParameter("environment.second"), same ? 0 : id}};
+    if (id != 0 && !same && document.mix.second == 0 && document.mix.fade == 0.0f)
+        edits.push_back({findParameter("environment.fade"), 0.5f});
+    return edits;
+}
+
 constexpr ParameterInfo withEdits(std::vector<ParameterEdit> (*onSet)(const Document&, Id,
                                                                       const ParameterValue&),
                                   ParameterInfo info) {
@@ -380,16 +419,13 @@ constexpr ParameterInfo whileHolds(const Condition& works, ParameterInfo info) {
 
 // --- The table ---
 
-constexpr auto kPicture = Affects::Picture;
-constexpr auto kGeometry = Affects::Geometry | Affects::Bakes;
-constexpr auto kEnvironment = Affects::EnvironmentMap;
-constexpr auto kSwitch = Affects::Picture | Affects::Structure; // lists show what is on
 constexpr Text kSoloHelp = "While any light or environment is solo, everything else is off, as on "
                            "a mixing desk.";
 
 using M = Material;
 using E = Environment;
-using E2 = SecondEnvironment;
+using X = EnvironmentMix;
+using V = View;
 using S = ShadingModel;
 using L = Light;
 using B = Softbox;
@@ -418,8 +454,9 @@ constexpr auto kParameters = joined(
     only(kInCutOut, number<&M::alphaCutoff>("material.alphaCutoff", "Alpha cutoff", "Transparency", kUnit, kUnit, 3, "", "In cut-out mode, points of lower opacity than this are left out.")),
     flag<&M::doubleSided>("material.doubleSided", "Double-sided", "Transparency", "Shows the back of thin surfaces such as leaves and cloth, with their normal turned to the viewer.", kPicture | Affects::Bakes),
 
+    text<&E::name>("environment.name", "Name", "Image", "What the environment is called in lists and scripts; without a name it is called by what it shows."),
     choice<&E::kind>("environment.kind", "Kind", "Image", kEnvironmentKinds, "What surrounds and lights the model: an image, a computed clear sky, or softboxes in a dark room.", kEnvironment),
-    environmentImage<getEnvironmentImage, setEnvironmentImage>("environment.image", "Image", "Image", "Image of the environment that lights the scene."),
+    environmentImage("environment.image", "Image", "Image", "Image of the environment that lights the scene."),
     only(kInImageFile, choice<&E::layout>("environment.layout", "Layout", "Image", kEnvironmentLayouts, "How the file shows the environment; automatic guesses it from the file, choose another one when the guess is wrong.", Affects::Picture | Affects::EnvironmentMap)),
     only(kInSky, angle<&E::sky, &Sky::sunAzimuthDeg>("environment.skySunAzimuthDeg", "Sun azimuth", "Sky", "The compass direction of the sun; 0 is the model's front, positive values turn towards +X.", kEnvironment)),
     only(kInSky, number<&E::sky, &Sky::sunElevationDeg>("environment.skySunElevationDeg", "Sun elevation", "Sky", {0.0f, 90.0f}, {0.0f, 90.0f}, 1, "°", "How high the sun stands: 0 is sunset, 90 is overhead.", kEnvironment)),
@@ -433,16 +470,12 @@ constexpr auto kParameters = joined(
     flag<&E::enabled>("environment.enabled", "On", "Mix", "Switches the light of the environment, and its picture, on or off.", kSwitch),
     flag<&E::solo>("environment.solo", "Solo", "Mix", kSoloHelp, kSwitch),
     color<&E::tint>("environment.tint", "Tint", "Mix", "Colours the light of the environment like a filter in front of it."),
-    environmentImage<getSecondImage, setSecondImage>("environment.secondImage", "Second image", "Mix", "Image of another environment that the light can be faded to."),
-    only(kWithSecond, angle<&E::second, &E2::rotationDeg>("environment.secondRotationDeg", "Second rotation", "Mix", "Turns the second environment about the vertical axis, counter-clockwise seen from above.")),
-    only(kWithSecond, number<&E::second, &E2::exposureEv>("environment.secondExposureEv", "Second brightness", "Mix", {-6.0f, 6.0f}, {-24.0f, 24.0f}, 2, "EV", "Brightens the second environment; each step doubles its light.")),
-    only(kWithSecond, flag<&E::second, &E2::enabled>("environment.secondEnabled", "Second on", "Mix", "Switches the light of the second environment, and its picture, on or off.", kSwitch)),
-    only(kWithSecond, flag<&E::second, &E2::solo>("environment.secondSolo", "Second solo", "Mix", kSoloHelp, kSwitch)),
-    only(kWithSecond, color<&E::second, &E2::tint>("environment.secondTint", "Second tint", "Mix", "Colours the light of the second environment like a filter in front of it.")),
-    only(kWithSecond, number<&E::fade>("environment.fade", "Cross-fade", "Mix", kUnit, kUnit, 3, "", "Fades from this environment at 0 to the second one at 1, between them to a mix of the light of both; of no effect without a second image.")),
-    choice<&E::background>("environment.background", "Background", "Background", kBackgrounds, "What is seen behind the model; the light on it stays the same."),
-    only(kBlurred, number<&E::backgroundBlur>("environment.backgroundBlur", "Background blur", "Background", kUnit, kUnit, 2, "", "How far out of focus the environment behind the model is.")),
-    only(kColored, color<&E::backgroundColor>("environment.backgroundColor", "Background colour", "Background", "Colour behind the model when the background is a colour.")),
+    notNone(withEdits(firstEnvironmentEdits, environmentReference<&X::first>("environment.first", "Environment", "Mix", "Which of the environments lights the scene."))),
+    withEdits(secondEnvironmentEdits, environmentReference<&X::second>("environment.second", "Second environment", "Mix", "Another one of the environments, that the light can be faded to.")),
+    ofScene(only(kWithSecond, number<&X::fade>("environment.fade", "Cross-fade", "Mix", kUnit, kUnit, 3, "", "Fades from the environment at 0 to the second one at 1, between them to a mix of the light of both; of no effect without a second one."))),
+    ofScene(choice<&V::background>("environment.background", "Background", "Background", kBackgrounds, "What is seen behind the model; the light on it stays the same.")),
+    ofScene(only(kBlurred, number<&V::backgroundBlur>("environment.backgroundBlur", "Background blur", "Background", kUnit, kUnit, 2, "", "How far out of focus the environment behind the model is."))),
+    ofScene(only(kColored, color<&V::backgroundColor>("environment.backgroundColor", "Background colour", "Background", "Colour behind the model when the background is a colour."))),
 
     text<&B::name>("softbox.name", "Name", "Softbox", "What the softbox is called in lists and scripts."),
     flag<&B::enabled>("softbox.enabled", "On", "Softbox", "Switches the softbox on or off.", kEnvironment),
@@ -546,12 +579,12 @@ ParameterValue ParameterInfo::defaultValue() const {
         document.meshes.emplace_back().id = only;
         break;
     case Scope::Softbox:
-        document.environment.softboxes.emplace_back().id = only;
+        document.environment().softboxes.emplace_back().id = only;
         break;
     case Scope::Environment:
     case Scope::Model:
     case Scope::View:
-        break;
+        return get(document, 0);
     }
     return get(document, only);
 }

@@ -37,14 +37,15 @@ constexpr bool touches(Affects value, Affects part) {
 }
 
 enum class Scope { Material, Light, Environment, View, Mesh, Softbox, Model };
-// Reference: the id of a material of the same document, 0 for none.
+// Reference: the id of an element of the same document, 0 for none.
 enum class ParameterType { Bool, Float, Color, Vector, Choice, Text, Map, Reference };
 
 // The value of any parameter: Bool; Float; Color and Vector; Choice (index) and Reference (id);
 // Text; Map.
 using ParameterValue = std::variant<bool, float, glm::vec3, int, std::string, MapSlot>;
 
-// Whose parameter: environment, view and model have one element, id 0.
+// Whose parameter. View and model have one element, id 0; of environments 0 is the one that lights
+// the scene.
 struct Target {
     Scope scope = Scope::View;
     Id id = 0;
@@ -81,6 +82,11 @@ struct ParameterInfo {
     Affects affects = Affects::Picture;
     ColorEncoding mapEncoding = ColorEncoding::Data; // Map: how integer files are read
     MapChannel mapChannel = MapChannel::Rgb;         // Map: what is read when nothing else is said
+    // Reference: of what; a material, or an environment.
+    Scope refersTo = Scope::Material;
+    bool mayBeNone = true; // Reference: 0 is a value
+    // Of the scene, whichever element of its scope is edited: how it uses its environments.
+    bool ofScene = false;
     bool wraps = false; // an angle: values beyond the hard range come in at its other end
 
     // Access to the element that `target` names; get() requires that it exists.
@@ -145,8 +151,14 @@ parseParameterValue(const ParameterInfo& info, std::string_view text, const Docu
 [[nodiscard]] std::string formatParameterValue(const ParameterInfo& info,
                                                const ParameterValue& value);
 
+// The elements of a scope with this name; none of view and model, which have none.
+[[nodiscard]] std::vector<Target> targetsNamed(const Document& document, Scope scope,
+                                               std::string_view name);
+
 // "material.metallic" (all materials), "material[Body].metallic" (by name), "light[Sun].intensity".
-// Usage error when nothing is selected, with the nearest names that exist.
+// "environment.rotationDeg" is that of the environment that lights the scene,
+// "environment.secondRotationDeg" of the second one of the mix, "environment[Studio].rotationDeg"
+// of one by name. Usage error when nothing is selected, with the nearest names that exist.
 struct ParameterSelection {
     const ParameterInfo* info = nullptr;
     std::vector<Target> targets;

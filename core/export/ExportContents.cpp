@@ -105,7 +105,7 @@ void addLight(const Light& light, ExportContents& contents) {
 }
 
 void addEnvironment(const Document& document, ExportContents& contents) {
-    const Environment& environment = document.environment;
+    const Environment& environment = document.environment();
     const bool missing = environment.kind == EnvironmentKind::Image && !environment.problem.empty();
     if (environment.image == nullptr || missing) {
         contents.warnings.emplace_back(

@@ -1,4 +1,4 @@
-// Light from all around, as plain values: a picture, a sky or softboxes.
+// Light from all around, as plain values: a picture, a sky or softboxes; and the mix of two.
 #pragma once
 
 #include "core/base/Id.h"
@@ -24,7 +24,6 @@ enum class EnvironmentLayout {
 };
 
 enum class EnvironmentKind { Image, Sky, Softboxes };
-enum class BackgroundMode { Environment, Blurred, Color, Off };
 
 // An analytic clear sky with a sun.
 struct Sky {
@@ -52,22 +51,11 @@ struct Softbox {
     friend bool operator==(const Softbox&, const Softbox&) = default;
 };
 
-// Another picture of an environment, to fade to. Conventions of Environment, where it is a part.
-struct SecondEnvironment {
-    std::string source;  // absolute path or builtin:NAME; empty: there is none
-    ImagePtr image;      // of the file; null where there is none
-    std::string problem; // why it could not be read; there is then no image
-    bool enabled = true;
-    bool solo = false;
-    float rotationDeg = 0.0f;
-    float exposureEv = 0.0f;
-    glm::vec3 tint{1.0f}; // linear sRGB
-    friend bool operator==(const SecondEnvironment&, const SecondEnvironment&) = default;
-};
-
 // A lat-long environment: the centre of the image is -Z, its top +Y, u grows to the right as seen
 // from inside: u = 0.5 + atan2(x, -z) / 2pi, v = acos(y) / pi.
 struct Environment {
+    Id id = 0;
+    std::string name; // empty: called by what it shows (environmentTitle())
     EnvironmentKind kind = EnvironmentKind::Image;
     std::string source = "builtin:studio";                   // Image: absolute path or builtin:NAME
     EnvironmentLayout layout = EnvironmentLayout::Automatic; // Image: of the file
@@ -84,13 +72,16 @@ struct Environment {
     bool enabled = true;      // off: its light is not in the scene, nor is it seen
     bool solo = false;        // as of a light
     glm::vec3 tint{1.0f};     // linear sRGB, multiplies radiance
-    SecondEnvironment second;
-    float fade = 0.0f; // 0: only this one … 1: only the second; shares of their light (LightMix.h)
-    ImagePtr blended;  // one picture of both where both light the scene (EnvironmentBlend.h)
-    BackgroundMode background = BackgroundMode::Environment;
-    float backgroundBlur = 0.5f; // Blurred: perceptual roughness of the level that is shown
-    glm::vec3 backgroundColor{0.05f};
     friend bool operator==(const Environment&, const Environment&) = default;
+};
+
+// Which environments of a document light its scene.
+struct EnvironmentMix {
+    Id first = 0;      // always one of them
+    Id second = 0;     // another one, to fade to; 0: none
+    float fade = 0.0f; // 0: only the first … 1: only the second; shares of their light (LightMix.h)
+    ImagePtr blended; // one picture of both where both light the scene (EnvironmentBlend.h)
+    friend bool operator==(const EnvironmentMix&, const EnvironmentMix&) = default;
 };
 
 } // namespace patina

@@ -58,10 +58,7 @@ std::optional<Environment> mixedEnvironment(const Document& document, const JobC
     const std::vector<EnvironmentPart> parts = environmentParts(document);
     if (parts.empty())
         return std::nullopt;
-    Environment mixed = document.environment;
-    mixed.second = {};
-    mixed.fade = 0.0f;
-    mixed.blended = nullptr;
+    Environment mixed = document.environment();
     mixed.tint = glm::vec3(1.0f);
     const EnvironmentPart& part = parts.front();
     const bool both = parts.size() == 2;
@@ -79,8 +76,9 @@ std::optional<Environment> mixedEnvironment(const Document& document, const JobC
             texels[i] *= part.scale[static_cast<glm::length_t>(i % 3)];
         mixed.image = std::make_shared<const Image>(std::move(image));
         if (part.role == EnvironmentPart::Role::Second) {
-            mixed.source = document.environment.second.source;
-            mixed.kind = EnvironmentKind::Image;
+            const Environment& second = *document.secondEnvironment();
+            mixed.source = second.source;
+            mixed.kind = second.kind;
         }
     }
     mixed.rotationDeg = part.rotationDeg;
@@ -90,7 +88,7 @@ std::optional<Environment> mixedEnvironment(const Document& document, const JobC
 
 void resolveBlend(Document& document, const JobContext& job) {
     const std::optional<EnvironmentBlend> blend = environmentBlend(document);
-    document.environment.blended = blend ? blendEnvironments(*blend, job) : nullptr;
+    document.mix.blended = blend ? blendEnvironments(*blend, job) : nullptr;
 }
 
 } // namespace patina

@@ -28,7 +28,7 @@ struct EnvironmentBlend {
 [[nodiscard]] std::optional<Environment> mixedEnvironment(const Document& document,
                                                           const JobContext& job = {});
 
-// Makes environment.blended what the mix asks for, or null.
+// Makes mix.blended what the mix asks for, or null.
 void resolveBlend(Document& document, const JobContext& job = {});
 
 } // namespace patina

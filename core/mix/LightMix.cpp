@@ -6,8 +6,8 @@
 namespace patina {
 
 bool anySolo(const Document& document) {
-    const Environment& environment = document.environment;
-    return environment.solo || (!environment.second.source.empty() && environment.second.solo) ||
+    const Environment* second = document.secondEnvironment();
+    return document.environment().solo || (second && second->solo) ||
            std::any_of(document.lights.begin(), document.lights.end(),
                        [](const Light& light) { return light.solo; });
 }
@@ -28,60 +28,74 @@ std::vector<const Light*> activeLights(const Document& document) {
 namespace {
 
 // What its radiance is multiplied by; zero: it takes no part.
-template <class Part>
-glm::vec3 scaleOf(const Document& document, const Part& environment, bool solo, float share) {
+glm::vec3 scaleOf(const Document& document, const Environment& environment, bool solo,
+                  float share) {
     if (!environment.enabled || (!solo && anySolo(document)))
         return glm::vec3(0.0f);
     return environment.tint * (share * std::exp2(environment.exposureEv));
 }
 
 // Where the cross-fade stands: one environment alone is shown in full.
-float effectiveFade(const Document& document, const Environment& first) {
-    if (!first.second.image)
-        return 0.0f;
-    const bool solo = document.environment.solo;
-    if (solo != document.environment.second.solo)
+float effectiveFade(const Document& document) {
+    const Environment* second = document.secondEnvironment();
+    if (!second || !second->image || !second->problem.empty())
+        return 0.0f; // a grey that stands in is nothing to fade to
+    const bool solo = document.environment().solo;
+    if (solo != second->solo)
         return solo ? 0.0f : 1.0f;
-    return first.fade;
+    return document.mix.fade;
+}
+
+void addPart(std::vector<EnvironmentPart>& parts, EnvironmentPart::Role role,
+             const Environment& environment, const glm::vec3& scale) {
+    if (environment.image && scale != glm::vec3(0.0f))
+        parts.push_back({role, environment.image, environment.rotationDeg, scale});
+}
+
+// The one part, or what stands where there is none: without a picture a grey one, which is mixed
+// all the same.
+EnvironmentPart onlyPart(const std::vector<EnvironmentPart>& parts, const Environment& first,
+                         const glm::vec3& scale) {
+    if (!parts.empty())
+        return parts.front();
+    return {EnvironmentPart::Role::First, first.image, first.rotationDeg, scale};
 }
 
 } // namespace
 
-std::vector<EnvironmentPart> environmentParts(const Document& document, const Environment& first) {
-    const SecondEnvironment& second = first.second;
+std::vector<EnvironmentPart> environmentParts(const Document& document,
+                                              const Environment& environment) {
     std::vector<EnvironmentPart> parts;
-    const auto add = [&](EnvironmentPart::Role role, const auto& environment, bool solo,
-                         float share) {
-        const glm::vec3 scale = scaleOf(document, environment, solo, share);
-        if (environment.image && scale != glm::vec3(0.0f))
-            parts.push_back({role, environment.image, environment.rotationDeg, scale});
-    };
-    const float fade = effectiveFade(document, first);
-    add(EnvironmentPart::Role::First, first, document.environment.solo, 1.0f - fade);
-    if (second.image)
-        add(EnvironmentPart::Role::Second, second, document.environment.second.solo, fade);
+    addPart(parts, EnvironmentPart::Role::First, environment,
+            scaleOf(document, environment, document.environment().solo, 1.0f));
     return parts;
 }
 
 std::vector<EnvironmentPart> environmentParts(const Document& document) {
-    return environmentParts(document, document.environment);
+    const Environment& first = document.environment();
+    const float fade = effectiveFade(document);
+    std::vector<EnvironmentPart> parts;
+    addPart(parts, EnvironmentPart::Role::First, first,
+            scaleOf(document, first, first.solo, 1.0f - fade));
+    if (const Environment* second = document.secondEnvironment())
+        addPart(parts, EnvironmentPart::Role::Second, *second,
+                scaleOf(document, *second, second->solo, fade));
+    return parts;
 }
 
 EnvironmentPart shownEnvironment(const Document& document, const Environment& environment) {
-    const std::vector<EnvironmentPart> parts = environmentParts(document, environment);
-    if (parts.size() == 2 && environment.blended)
-        return {EnvironmentPart::Role::Both, environment.blended, environment.rotationDeg,
-                glm::vec3(1.0f)};
-    if (!parts.empty())
-        return parts.front();
-    // Without a picture a grey one stands in, which is mixed all the same.
-    return {EnvironmentPart::Role::First, environment.image, environment.rotationDeg,
-            scaleOf(document, environment, document.environment.solo,
-                    1.0f - effectiveFade(document, environment))};
+    return onlyPart(environmentParts(document, environment), environment,
+                    scaleOf(document, environment, document.environment().solo, 1.0f));
 }
 
 EnvironmentPart shownEnvironment(const Document& document) {
-    return shownEnvironment(document, document.environment);
+    const std::vector<EnvironmentPart> parts = environmentParts(document);
+    const Environment& first = document.environment();
+    if (parts.size() == 2 && document.mix.blended)
+        return {EnvironmentPart::Role::Both, document.mix.blended, first.rotationDeg,
+                glm::vec3(1.0f)};
+    return onlyPart(parts, first,
+                    scaleOf(document, first, first.solo, 1.0f - effectiveFade(document)));
 }
 
 } // namespace patina

@@ -30,7 +30,8 @@ struct EnvironmentPart {
 // up; the cross-fade weighs the first by 1 - fade, the second by fade, as long as there is a second
 // one with an image and not one alone is solo, which is in full. At most two, the first one first.
 [[nodiscard]] std::vector<EnvironmentPart> environmentParts(const Document& document);
-// With `environment` in place of the document's own; which one is solo the document says.
+// With `environment` alone in place of the document's; whether another one or a light is solo, and
+// it itself is, the document says.
 [[nodiscard]] std::vector<EnvironmentPart> environmentParts(const Document& document,
                                                             const Environment& environment);
 

@@ -7,6 +7,7 @@
 #include "core/scene/ProjectPath.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -240,7 +241,7 @@ ParameterValue readParameter(const ParameterInfo& info, const Node& node,
 void readParameters(ObjectReader& object, Document& document, Scope scope, Id id,
                     const std::string& element, Reading& reading) {
     for (const ParameterInfo& info : parameters())
-        if (info.scope == scope)
+        if (info.scope == scope && (!info.ofScene || id == 0))
             if (const auto node = object.find(keyOf(info)))
                 info.set(document, id, readParameter(info, *node, element, reading));
 }
@@ -260,7 +261,7 @@ class ProjectReader {
         static_cast<void>(root.find("format"));
         static_cast<void>(root.find("version"));
         readView(root.require("view"));
-        readEnvironment(root.require("environment"));
+        readEnvironments(root);
         if (const auto model =
                 root.find("model")) // absent in projects of before it could be chosen
             readModel(*model);
@@ -275,6 +276,7 @@ class ProjectReader {
                 m_project.bakes.push_back(readBake(node));
         const Node nextId = root.require("nextId");
         document().nextId = static_cast<Id>(readInteger(nextId, 1, kMaxId));
+        giveIds();
         if (!m_ids.empty() && *m_ids.rbegin() >= document().nextId)
             fail(nextId,
                  fmt::format("larger than every id, the largest being {}", *m_ids.rbegin()));
@@ -331,22 +333,89 @@ class ProjectReader {
                        "1e-6 to 1e9)");
     }
 
-    void readEnvironment(const Node& node) {
+    // The environment that lights the scene stands alone, the others in a list.
+    void readEnvironments(ObjectReader& root) {
+        const Node node = root.require("environment");
         ObjectReader object(node);
+        Environment& first = document().environments.front();
+        // Absent, as are the others, in projects of before there were several.
+        const bool hasId = object.find("id").has_value();
+        first.id = document().mix.first = hasId ? readId(object) : 0;
         readParameters(object, document(), Scope::Environment, 0, "environment", m_reading);
+        if (document().mix.first != first.id)
+            fail(object.require("first"), "the id of the environment beside it");
+        readSoftboxes(object, first);
+        std::size_t position = 0;
+        if (const auto place = object.find("position"))
+            position = static_cast<std::size_t>(readInteger(*place, 0, kMaxEnvironments - 1));
+        if (const auto others = root.find("environments"))
+            for (const Node& other : readList(*others, kMaxEnvironments - 1))
+                document().environments.push_back(readEnvironment(other));
+        readSecondOfBefore(object);
+        object.keepUnknownKeys("environment", m_reading.unknown);
+        auto& all = document().environments;
+        std::rotate(all.begin(), all.begin() + 1,
+                    all.begin() + static_cast<std::ptrdiff_t>(std::min(position, all.size() - 1)) +
+                        1);
+        const Id second = document().mix.second;
+        if (second != 0 && (second == document().mix.first || !document().environment(second)))
+            fail(object.require("second"), "the id of another environment in this project");
+    }
+
+    Environment readEnvironment(const Node& node) {
+        ObjectReader object(node);
+        Document scratch;
+        Environment& environment = scratch.environments.front();
+        const Id id = environment.id = scratch.mix.first = readId(object);
+        readElement(object, scratch, Scope::Environment, id, m_reading);
+        readSoftboxes(object, environment);
+        object.keepUnknownKeys(std::to_string(id), m_reading.unknown);
+        return std::move(environment);
+    }
+
+    void readSoftboxes(ObjectReader& object, Environment& environment) {
         if (const auto softboxes = object.find("softboxes"))
             for (const Node& softbox : readList(*softboxes, kMaxSoftboxes))
-                document().environment.softboxes.push_back(readSoftbox(softbox));
-        object.keepUnknownKeys("environment", m_reading.unknown);
+                environment.softboxes.push_back(readSoftbox(softbox));
+    }
+
+    // Projects of before there were several environments hold a second one as keys of the first:
+    // "secondImage", "secondTint" and so on. Without an image there was none.
+    void readSecondOfBefore(ObjectReader& object) {
+        Document scratch;
+        for (const ParameterInfo& info : parameters()) {
+            if (info.scope != Scope::Environment || info.ofScene)
+                continue;
+            std::string key = keyOf(info);
+            key[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(key[0])));
+            if (const auto node = object.find("second" + key))
+                info.set(scratch, 0, readParameter(info, *node, "environment", m_reading));
+        }
+        Environment& second = scratch.environment();
+        if (second.source.empty() || !object.find("secondImage"))
+            return;
+        second.id = 0;
+        document().environments.push_back(std::move(second));
+    }
+
+    // Environments of projects of before they had any.
+    void giveIds() {
+        for (Environment& environment : document().environments) {
+            if (environment.id != 0)
+                continue;
+            const bool isFirst = document().mix.first == 0;
+            environment.id = document().takeId();
+            (isFirst ? document().mix.first : document().mix.second) = environment.id;
+        }
     }
 
     Softbox readSoftbox(const Node& node) {
         ObjectReader object(node);
         Document scratch;
-        const Id id = scratch.environment.softboxes.emplace_back().id = readId(object);
+        const Id id = scratch.environment().softboxes.emplace_back().id = readId(object);
         readElement(object, scratch, Scope::Softbox, id, m_reading);
         object.keepUnknownKeys(std::to_string(id), m_reading.unknown);
-        return std::move(scratch.environment.softboxes.front());
+        return std::move(scratch.environment().softboxes.front());
     }
 
     void readModel(const Node& node) {

@@ -116,7 +116,7 @@ struct Writing {
 void addParameters(Json& json, const Document& holder, Scope scope, Id id,
                    const std::string& element, const Writing& writing) {
     for (const ParameterInfo& info : parameters())
-        if (info.scope == scope) {
+        if (info.scope == scope && (!info.ofScene || id == 0)) {
             const std::string key = project::keyOf(info);
             Json& value = json[key] = parameterToJson(
                 info, clampToRange(info, info.get(holder, id)), writing.projectFile);
@@ -146,8 +146,22 @@ Json lightToJson(const Light& light, const Writing& writing) {
 
 Json softboxToJson(const Softbox& softbox, const Writing& writing) {
     Document scratch;
-    scratch.environment.softboxes.push_back(softbox);
+    scratch.environment().softboxes.push_back(softbox);
     return elementToJson(scratch, Scope::Softbox, softbox.id, writing);
+}
+
+Json environmentToJson(const Environment& environment, const Writing& writing) {
+    Document scratch;
+    scratch.environments.front() = environment;
+    scratch.mix.first = environment.id;
+    Json json = elementToJson(scratch, Scope::Environment, environment.id, writing);
+    Json& softboxes = json["softboxes"] = Json::array();
+    for (const Softbox& softbox : environment.softboxes) {
+        Json one = softboxToJson(softbox, writing);
+        addKept(one, writing.document, std::to_string(softbox.id));
+        softboxes.push_back(std::move(one));
+    }
+    return json;
 }
 
 Json meshToJson(const MeshInstance& mesh, const Writing& writing) {
@@ -250,9 +264,25 @@ std::string project::projectText(const Document& document, const fs::path& proje
     view["camera"] = cameraToJson(document.view.camera);
     addKept(view["camera"], document, "view.camera");
     addKept(view, document, "view");
+    // The environment that lights the scene stands alone, as before there were others.
     Json& environment = addWhole("environment", Scope::Environment);
-    addList(environment, "softboxes", document.environment.softboxes, softboxToJson);
+    environment["id"] = document.environment().id;
+    addList(environment, "softboxes", document.environment().softboxes, softboxToJson);
+    const auto& all = document.environments;
+    const auto isFirst = [&](const Environment& one) { return one.id == document.mix.first; };
+    if (all.size() > 1)
+        environment["position"] = std::ranges::find_if(all, isFirst) - all.begin();
     addKept(environment, document, "environment");
+    if (all.size() > 1) {
+        Json& others = json["environments"] = Json::array();
+        for (const Environment& other : all) {
+            if (isFirst(other))
+                continue;
+            Json one = environmentToJson(other, writing);
+            addKept(one, document, std::to_string(other.id));
+            others.push_back(std::move(one));
+        }
+    }
     addKept(addWhole("model", Scope::Model), document, "model");
 
     addList(json, "materials", document.materials, materialToJson);

@@ -234,30 +234,12 @@ void SceneLoader::loadMaps(std::span<Material> materials) {
 }
 
 void SceneLoader::loadEnvironments(Document& document) {
-    Environment& environment = document.environment;
-    if (!environment.fileImage)
-        loadEnvironmentFile(environment);
-    resolveEnvironment(environment, m_job);
-    if (!environment.second.source.empty() && !environment.second.image)
-        loadSecondEnvironment(environment.second);
-    resolveBlend(document, m_job);
-}
-
-void SceneLoader::loadSecondEnvironment(SecondEnvironment& second) {
-    m_job.setActivity("reading " + fileName(second.source));
-    Result<ImagePtr> image = readEnvironmentImage(m_worker, second.source,
-                                                  EnvironmentLayout::Automatic, m_notices, m_job);
-    if (image.ok()) {
-        second.image = *std::move(image);
-        second.problem.clear();
-        return;
+    for (Environment& environment : document.environments) {
+        if (!environment.fileImage)
+            loadEnvironmentFile(environment);
+        resolveEnvironment(environment, m_job);
     }
-    second.problem = image.error().message;
-    if (image.error().kind == ErrorKind::InputMissing)
-        addMissing(second.source);
-    addNotice("the second environment cannot be read: " + image.error().message +
-                  "; the cross-fade leaves it out",
-              second.source);
+    resolveBlend(document, m_job);
 }
 
 void SceneLoader::loadEnvironmentFile(Environment& environment) {

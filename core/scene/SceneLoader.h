@@ -57,7 +57,6 @@ class SceneLoader {
   private:
     Result<Model> readModel(const std::string& source);
     void loadEnvironmentFile(Environment& environment);
-    void loadSecondEnvironment(SecondEnvironment& second);
 
     WorkerClient* m_worker;
     JobContext m_job;

@@ -137,7 +137,7 @@ const EnvironmentLight& GpuScene::light(LightId light) const {
 
 const Environment& GpuScene::environment(LightId light) const {
     if (light == kDocumentLight)
-        return m_document.environment;
+        return m_document.environment();
     const auto found = m_otherLights.find(light);
     CHECK(found != m_otherLights.end());
     return found->second.environment;
@@ -385,8 +385,10 @@ std::vector<Id> GpuScene::nearShareLights() const {
 }
 
 std::vector<glm::vec3> GpuScene::transferLight(LightId id, int order) const {
-    std::vector<glm::vec3> sum =
-        light(id).transferLight(environmentParts(m_document, environment(id)), order);
+    std::vector<glm::vec3> sum = light(id).transferLight(
+        id == kDocumentLight ? environmentParts(m_document)
+                             : environmentParts(m_document, environment(id)),
+        order);
     addDistantLights(m_document, order, sum);
     return sum;
 }

@@ -172,14 +172,13 @@ glm::vec3 viewDirection(const Inspection& pixel, const Document& document) {
 } // namespace
 
 ExplainedSection explainBackground(const Inspection& pixel, const Document& document) {
-    const Environment& environment = document.environment;
     const EnvironmentPart shown = shownEnvironment(document);
     ExplainedSection section{"background", "Background", {}, {}};
     const auto add = [&](ExplainedValue value) { section.values.push_back(std::move(value)); };
     const glm::vec3 picture =
         pixel.radiance.w > 0.0f ? glm::vec3(pixel.radiance) / pixel.radiance.w : glm::vec3(0.0f);
     const glm::vec3 direction = viewDirection(pixel, document);
-    switch (environment.background) {
+    switch (document.view.background) {
     case BackgroundMode::Color:
         add(words("kind", "Shows", "a colour"));
         break;
@@ -189,8 +188,8 @@ ExplainedSection explainBackground(const Inspection& pixel, const Document& docu
     case BackgroundMode::Environment:
     case BackgroundMode::Blurred:
         add(words("kind", "Shows",
-                  environment.background == BackgroundMode::Blurred ? "the environment, blurred"
-                                                                    : "the environment"));
+                  document.view.background == BackgroundMode::Blurred ? "the environment, blurred"
+                                                                      : "the environment"));
         add(vector3("direction", "Direction", "d", direction));
         addEnvironmentPosition(section.values, shown, direction);
         if (shown.image) {

@@ -388,9 +388,9 @@ TEST_F(BakeIbl, DoesNotDependOnTheThreadCount) {
 
 TEST_F(BakeIbl, BakesTheEnvironmentOfAProject) {
     Document document = startDocument();
-    document.environment.source = m_folder / "linear.exr";
-    document.environment.rotationDeg = 90;
-    document.environment.exposureEv = 1;
+    document.environment().source = m_folder / "linear.exr";
+    document.environment().rotationDeg = 90;
+    document.environment().exposureEv = 1;
     ASSERT_TRUE(saveProject(m_worker, document, m_folder / "scene.patina").ok());
     const Outcome outcome = bake(m_folder / "scene.patina", "out", {"--format", "ktx2"});
     ASSERT_EQ(outcome.status, 0) << outcome.err;

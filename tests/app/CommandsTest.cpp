@@ -112,7 +112,31 @@ TEST_F(Commands, WhatIsSetInVainIsTold) {
                 HasSubstr("material.alphaCutoff has no effect: only cut-out materials have it"));
     EXPECT_THAT(warnings({"material.alphaCutoff=0.3", "material.alphaMode=mask"}),
                 testing::Not(HasSubstr("no effect")));
-    EXPECT_THAT(warnings({"environment.fade=0.5"}), HasSubstr("environment.secondImage"));
+    EXPECT_THAT(warnings({"environment.fade=0.5"}), HasSubstr("environment.second"));
+}
+
+TEST_F(Commands, ASecondEnvironmentIsSetByNameOrAsTheSecond) {
+    const auto environmentOf = [&](const std::vector<std::string>& sets) {
+        std::vector<std::string> arguments{
+            "environment", "builtin:studio", "-o",    m_folder / "mixed.exr",
+            "--layout",    "lat-long",       "--json"};
+        for (const std::string& set : sets)
+            arguments.insert(arguments.end(), {"--set", set});
+        const Outcome written = runPatina(arguments);
+        EXPECT_EQ(written.status, 0) << written.err;
+        EXPECT_FALSE(written.json().contains("warnings")) << written.out;
+    };
+    environmentOf({"environment.secondRotationDeg=30", "environment.fade=0.25",
+                   "environment.secondImage=builtin:night", "environment[Night].tint=1,0,0"});
+    environmentOf({"environment.secondImage=builtin:night", "environment.first=Night"});
+    for (const char* wrong :
+         {"environment[Nowhere].tint=1,0,0", "environment.first=Nowhere", "environment.first=0",
+          "environment[Studio].fade=1", "environment.secondTint=1,0,0"}) {
+        const Outcome refused = runPatina(
+            {"environment", "builtin:studio", "-o", m_folder / "none.exr", "--set", wrong});
+        EXPECT_EQ(refused.status, 2) << wrong;
+        EXPECT_FALSE(std::filesystem::exists(m_folder / "none.exr"));
+    }
 }
 
 TEST_F(Commands, InfoReadsTheExportedModelBack) {

@@ -42,8 +42,8 @@ class LocalShadows : public testing::Test {
         d.meshes[1].transform = glm::translate(glm::mat4(1.0f), {-0.22f, 0.25f, 0.0f}) *
                                 glm::rotate(glm::mat4(1.0f), 1.5707963f, {0, 0, 1}) *
                                 glm::scale(glm::mat4(1.0f), {0.25f, 1.0f, 0.6f});
-        d.environment.enabled = false;
-        d.environment.background = BackgroundMode::Color;
+        d.environment().enabled = false;
+        d.view.background = BackgroundMode::Color;
         d.view.reflectionMix = 0.0f; // diffuse light alone
         d.view.camera = {{0, 0, 0}, 0.0f, 89.0f, 5.0f, 25.0f};
         Light& light = d.lights.emplace_back();

@@ -37,11 +37,11 @@ std::unique_ptr<Stage> makeStage(bool withIbl) {
     stage->renderer = std::make_unique<ViewRenderer>(*stage->scene);
     stage->document = startDocument();
     stage->scene->setDocument(stage->document);
-    if (withIbl && stage->document.environment.image) {
-        const auto maps = computeIbl(*stage->document.environment.image, {}, JobContext());
+    if (withIbl && stage->document.environment().image) {
+        const auto maps = computeIbl(*stage->document.environment().image, {}, JobContext());
         if (!maps)
             return nullptr;
-        const ImagePtr& image = stage->document.environment.image;
+        const ImagePtr& image = stage->document.environment().image;
         stage->scene->setEnvironment(std::make_shared<const EnvironmentTexels>(
             makeEnvironmentTexels(image, *maps, *makeBackground(*image, JobContext()))));
     } else {
@@ -125,7 +125,7 @@ void uploadEnvironment(benchmark::State& state) {
         state.SkipWithError("no OpenGL 4.5");
         return;
     }
-    const ImagePtr& image = stage->document.environment.image;
+    const ImagePtr& image = stage->document.environment().image;
     const auto maps = computeIbl(*image, {}, JobContext());
     const HalfMipmapsPtr background = *makeBackground(*image, JobContext());
     const EnvironmentTexels texels = makeEnvironmentTexels(image, *maps, background);
@@ -187,7 +187,7 @@ BENCHMARK_CAPTURE(uploadMaps, packed, true)
 // The same preparation on the thread that computes: background, and the atlas of the light.
 void prepareTexels(benchmark::State& state) {
     const Document document = startDocument();
-    const ImagePtr& image = document.environment.image;
+    const ImagePtr& image = document.environment().image;
     const auto maps = computeIbl(*image, {}, JobContext());
     for (auto _ : state)
         benchmark::DoNotOptimize(

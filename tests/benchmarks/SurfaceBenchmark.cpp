@@ -82,7 +82,7 @@ Document litDocument(const char* model) {
         mesh.material = material.id;
         document.meshes.push_back(mesh);
     }
-    document.environment.image = library::environment("studio").value();
+    document.environment().image = library::environment("studio").value();
     document.lights = {pointLight({2, 3, 2}), pointLight({-2, 2, 1}), directionalLight(40),
                        directionalLight(-120)};
     return document;
@@ -206,7 +206,7 @@ void surfaceTerms(benchmark::State& state, const char* model) {
         return;
     }
     const Document document = litDocument(model);
-    const auto ibl = computeIbl(*document.environment.image, {}, JobContext());
+    const auto ibl = computeIbl(*document.environment().image, {}, JobContext());
     ShaderLibrary shaders(**context, {});
     Targets targets;
     if (!ibl || !targets.resize(**context, kWidth, kHeight, 1)) {
@@ -253,7 +253,7 @@ void relightVertices(benchmark::State& state) {
         return;
     }
     Document document = litDocument("torus-knot");
-    const auto ibl = computeIbl(*document.environment.image, {}, JobContext());
+    const auto ibl = computeIbl(*document.environment().image, {}, JobContext());
     ShaderLibrary shaders(**context, {});
     Targets targets;
     if (!ibl || !targets.resize(**context, kWidth, kHeight, 1)) {
@@ -288,7 +288,7 @@ void relightVertices(benchmark::State& state) {
     gl::Buffer block(**context, "frame", sizeof(FrameBlock));
     FrameBlock frame;
     const auto turn = [&](const std::vector<Light>& lights) {
-        document.environment.rotationDeg += 1.0f;
+        document.environment().rotationDeg += 1.0f;
         document.lights = lights;
         scene.update(document);
         frame = FrameBlock();

@@ -29,9 +29,9 @@ class RenderedTransfer : public RenderTest {
         m_document = std::move(opened->document);
         for (Material& material : m_document.materials)
             material.emissive = glm::vec3(0.0f);
-        m_document.environment.image = *library::environment("studio");
-        m_document.environment.rotationDeg = kTurnedDeg;
-        m_document.environment.background = BackgroundMode::Off;
+        m_document.environment().image = *library::environment("studio");
+        m_document.environment().rotationDeg = kTurnedDeg;
+        m_document.view.background = BackgroundMode::Off;
         Camera& camera = m_document.view.camera;
         camera.yawDeg = 8.0f;
         camera.pitchDeg = 3.0f;
@@ -40,7 +40,7 @@ class RenderedTransfer : public RenderTest {
         setIblOf(m_document);
         m_scene.emplace(*ReferenceScene::create(m_document));
         m_places = m_scene->look(camera, kSide, kSide);
-        const Image turned = orientEnvironment(*m_document.environment.image, kTurnedDeg, 0.0f);
+        const Image turned = orientEnvironment(*m_document.environment().image, kTurnedDeg, 0.0f);
         const ReferenceLight light(std::make_shared<const Image>(turned));
         for (const glm::dvec3& c : light.coefficients())
             m_light.emplace_back(c);

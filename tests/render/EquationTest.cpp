@@ -103,8 +103,8 @@ class Equations : public RenderTest {
         small.transform = glm::scale(glm::translate(glm::mat4(1.0f), glm::vec3(0.9f, 0.8f, 1.1f)),
                                      glm::vec3(0.25f));
         document.meshes.push_back(small);
-        document.environment.background = BackgroundMode::Color;
-        document.environment.backgroundColor = glm::vec3(0.0f);
+        document.view.background = BackgroundMode::Color;
+        document.view.backgroundColor = glm::vec3(0.0f);
         return document;
     }
 
@@ -167,12 +167,12 @@ TEST_F(Equations, TermsAddUpToThePictureForFiveMaterialsInThreeEnvironments) {
         const auto image = library::environment(sky);
         ASSERT_TRUE(image.ok());
         Document first = scene({});
-        first.environment.image = *image;
+        first.environment().image = *image;
         setIblOf(first);
         for (const Material& material : fiveMaterials())
             for (const bool lit : {false, true}) {
                 Document document = scene(material);
-                document.environment.image = *image;
+                document.environment().image = *image;
                 if (lit)
                     document.lights = lights(document);
                 const Image picture = drawNew(document);
@@ -197,14 +197,14 @@ TEST_F(Equations, TermsAddUpToThePictureForFiveMaterialsInThreeEnvironments) {
 TEST_F(Equations, TermsAndFactorsAddUpUnderTransfer) {
     const Equation sum = *equationOf(kViewFinal, {});
     Document lit = scene({});
-    lit.environment.image = *library::environment("studio");
+    lit.environment().image = *library::environment("studio");
     setIblOf(lit);
     const std::vector<Material> materials = fiveMaterials();
     for (const LightingMode mode :
          {LightingMode::Unshadowed, LightingMode::Shadowed, LightingMode::Prt})
         for (const std::size_t i : {0u, 3u, 4u}) {
             Document document = scene(materials[i]);
-            document.environment.image = lit.environment.image;
+            document.environment().image = lit.environment().image;
             document.lights = lights(document);
             document.view.lighting = mode;
             document.bakes = {openBake(document, 4, 0.3f)};
@@ -247,7 +247,7 @@ TEST_F(Equations, SwitchedOffTermsAreMissingInTheSum) {
     Document document = scene(fiveMaterials()[4]);
     document.materials[0].alphaMode = AlphaMode::Opaque;
     document.lights = lights(document);
-    document.environment.image = *library::environment("studio");
+    document.environment().image = *library::environment("studio");
     setIblOf(document);
     for (std::size_t off = 0; off < kTermCount; ++off) {
         ViewSettings look;
@@ -278,7 +278,7 @@ std::vector<ShadingModel> models() {
 
 TEST_F(Equations, FactorsMultiplyToTheirTerms) {
     Document document = scene({});
-    document.environment.image = *library::environment("studio");
+    document.environment().image = *library::environment("studio");
     setIblOf(document);
     const std::vector<Material> materials = fiveMaterials();
     float worst = 0.0f;

@@ -60,12 +60,12 @@ void addLights(Document& document) {
 
 Document litScene() {
     Document document = makeScene(makeSphere(20));
-    document.environment.image = makeEnvironment(32, [](const glm::vec3& d) {
+    document.environment().image = makeEnvironment(32, [](const glm::vec3& d) {
         return glm::vec3(0.4f + 0.3f * d.y, 0.5f + 0.2f * d.x, 0.8f + 0.5f * d.z);
     });
-    document.environment.background = BackgroundMode::Environment;
-    document.environment.rotationDeg = 25.0f;
-    document.environment.exposureEv = 0.5f;
+    document.view.background = BackgroundMode::Environment;
+    document.environment().rotationDeg = 25.0f;
+    document.environment().exposureEv = 0.5f;
     document.view.camera.distance = 4.2f;
     addLights(document);
     return document;
@@ -521,8 +521,8 @@ TEST_F(Explanations, NameEachOfSixtyFourLights) {
 
 TEST_F(Explanations, ExplainTheBackground) {
     Document document = litScene();
-    document.environment.exposureEv = 1.0f;
-    document.environment.rotationDeg = 90.0f;
+    document.environment().exposureEv = 1.0f;
+    document.environment().rotationDeg = 90.0f;
     setIblOf(document);
     draw(document, kSize, oneSample());
     const Inspection pixel = inspect(2, 3);
@@ -549,7 +549,7 @@ TEST_F(Explanations, ExplainTheBackground) {
     EXPECT_TRUE(explanation.agrees());
     EXPECT_THAT(toText(explanation), HasSubstr("background"));
 
-    document.environment.background = BackgroundMode::Off;
+    document.view.background = BackgroundMode::Off;
     draw(document, kSize, oneSample());
     EXPECT_THAT(toText(explain(inspect(2, 3), document)), HasSubstr("transparent"));
 }

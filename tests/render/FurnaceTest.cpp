@@ -18,7 +18,7 @@ class Furnace : public RenderTest {
     void SetUp() override {
         RenderTest::SetUp();
         m_document = makeScene(makeSphere(160));
-        m_document.environment.image = makeEnvironment(16, [](auto) { return glm::vec3(1.0f); });
+        m_document.environment().image = makeEnvironment(16, [](auto) { return glm::vec3(1.0f); });
         setIblOf(m_document);
         material().baseColor = glm::vec3(1.0f);
         material().metallic = 1.0f;

@@ -39,8 +39,8 @@ ImagePtr daylight() {
 
 Document daylightScene(const MeshPtr& mesh) {
     Document document = makeScene(mesh);
-    document.environment.image = daylight();
-    document.environment.background = BackgroundMode::Blurred;
+    document.environment().image = daylight();
+    document.view.background = BackgroundMode::Blurred;
     return document;
 }
 
@@ -81,7 +81,7 @@ TEST_F(Golden, MetalAndRoughness) {
 
 TEST_F(Golden, MapsAndLights) {
     Document document = daylightScene(makeSphere());
-    document.environment.exposureEv = -2.0f;
+    document.environment().exposureEv = -2.0f;
     Material& m = document.materials[0];
     m.baseColor = glm::vec3(1.0f);
     m.baseColorMap.image =
@@ -126,8 +126,8 @@ TEST_F(Golden, MapsAndLights) {
 
 TEST_F(Golden, TurnedSkyInAMirror) {
     Document document = daylightScene(makeSphere());
-    document.environment.background = BackgroundMode::Environment;
-    document.environment.rotationDeg = 120.0f;
+    document.view.background = BackgroundMode::Environment;
+    document.environment().rotationDeg = 120.0f;
     document.materials[0].metallic = 1.0f;
     document.materials[0].baseColor = glm::vec3(1.0f);
     document.materials[0].perceptualRoughness = 0.0f;
@@ -183,7 +183,7 @@ TEST_F(Golden, Overlays) {
 // Two bodies on a ground, under little other light.
 Document stage() {
     Document document = daylightScene(makeSphere());
-    document.environment.exposureEv = -4.0f;
+    document.environment().exposureEv = -4.0f;
     document.meshes[0].transform = at(-0.7f, 0.5f, 0.0f, 0.5f);
     document.materials[0].metallic = 1.0f;
     document.materials[0].baseColor = {0.95f, 0.9f, 0.85f};

@@ -136,7 +136,7 @@ TEST_F(GpuSceneTest, ADragUploadsNoMoreThanWhatItChanges) {
     EXPECT_EQ(cost([&] { document.materials[0].name = "Another"; }), free);
     // Numbers that are read for each frame.
     EXPECT_EQ(cost([&] { document.lights[0].intensity = 7.0f; }), free);
-    EXPECT_EQ(cost([&] { document.environment.fade = 0.3f; }), free);
+    EXPECT_EQ(cost([&] { document.mix.fade = 0.3f; }), free);
     EXPECT_EQ(cost([&] { document.view.exposureEv = 1.0f; }), free);
     EXPECT_EQ(cost([&] { document.model.f90 = 0.5f; }), std::tuple(sizeof(ModelBlock), 0u, 0u));
     EXPECT_EQ(cost([&] { document.meshes[3].transform[3].x = 1.0f; }),

@@ -8,6 +8,7 @@
 #include "tests/core/document/RandomDocument.h"
 #include "tests/render/RenderTest.h"
 #include "tests/render/TransferScenes.h"
+#include "tests/support/SecondEnvironment.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -100,11 +101,11 @@ class Incremental : public RenderTest {
             light.intensity = 2.0f;
             addLight(document, light);
         }
-        document.environment.image = m_environments[0]->image;
-        document.environment.second.image = m_environments[1]->image;
-        document.environment.second.source = "/second.hdr";
-        document.environment.blended = m_environments[2]->image;
-        document.environment.softboxes.emplace_back().id = document.takeId();
+        test::addSecond(document, "/second.hdr", m_environments[1]->image);
+        test::addSecond(document, "/third.hdr", m_environments[2]->image);
+        document.environment().image = m_environments[0]->image;
+        document.mix.blended = m_environments[2]->image;
+        document.environment().softboxes.emplace_back().id = document.takeId();
         document.view.camera.pitchDeg = 35.0f;
         document.view.camera.distance = 7.0f;
         document.bakes = {openBake(document, 3, 0.2f)};
@@ -280,8 +281,15 @@ TEST_F(Incremental, AnyOrderOfStructuralEditsDrawsLikeAFreshScene) {
         [&] { document.bakes = {texelBake()}; },
         [&] { document.bakes.clear(); },
         [&] { document.view.lighting = static_cast<LightingMode>(random.below(6)); },
-        [&] { document.environment.image = any(m_environments)->image; },
-        [&] { document.environment.fade = random.below(2) == 0 ? 0.0f : 0.5f; },
+        [&] { document.environment().image = any(m_environments)->image; },
+        [&] { document.mix.fade = random.below(2) == 0 ? 0.0f : 0.5f; },
+        [&] { document.mix.first = any(document.environments).id; },
+        [&] {
+            document.mix.second = random.below(3) == 0 ? 0 : any(document.environments).id;
+            if (document.mix.second == document.mix.first)
+                document.mix.second = 0;
+        },
+        [&] { std::ranges::reverse(document.environments); },
         [&] { document = any(history); },
     };
     for (int i = 0; i < edits; ++i) {

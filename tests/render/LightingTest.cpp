@@ -36,7 +36,7 @@ IblMaps dominantLightOnly(const glm::vec3& toLight, const glm::vec3& E) {
 Document matte() {
     Document document = makeScene(makePlane());
     document.view.camera = cameraAbove();
-    document.environment.background = BackgroundMode::Off;
+    document.view.background = BackgroundMode::Off;
     document.materials[0].metallic = 0.0f;
     return document;
 }
@@ -127,7 +127,7 @@ IblMaps lively() {
 
 Document ball() {
     Document document = makeScene(makeSphere(64));
-    document.environment.background = BackgroundMode::Off;
+    document.view.background = BackgroundMode::Off;
     document.materials[0].metallic = 0.0f;
     document.materials[0].baseColor = glm::vec3(1.0f);
     document.view.reflectionMix = 0.0f;
@@ -166,8 +166,8 @@ TEST_F(Lighting, UnshadowedNeedsNoBake) {
     Document document = ball();
     document.meshes[0].transform = glm::mat4(0.0f, 0.0f, -1.0f, 0.0f, 0.0f, 2.0f, 0.0f, 0.0f, 1.0f,
                                              0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f);
-    document.environment.rotationDeg = 35.0f;
-    document.environment.exposureEv = 0.5f;
+    document.environment().rotationDeg = 35.0f;
+    document.environment().exposureEv = 0.5f;
     document.view.lighting = LightingMode::Unshadowed;
     const Image open = draw(document);
     // The transfer is in world space: that of the turned and stretched normals.
@@ -292,7 +292,7 @@ TEST_F(Lighting, StillLightCostsNothing) {
         scene.update(document);
         return done(LightingMode::Shadowed);
     };
-    document.environment.exposureEv = 1.0f;
+    document.environment().exposureEv = 1.0f;
     EXPECT_EQ(edited(), count);
     EXPECT_EQ(done(LightingMode::Shadowed), 0u);
     Light lamp;
@@ -307,7 +307,7 @@ TEST_F(Lighting, StillLightCostsNothing) {
     EXPECT_EQ(done(LightingMode::Shadowed), 0u);
     // What is near is kept while the environment changes.
     EXPECT_EQ(relight.nearElementsDone(), count);
-    document.environment.exposureEv = 2.0f;
+    document.environment().exposureEv = 2.0f;
     EXPECT_EQ(edited(), count);
     EXPECT_EQ(relight.nearElementsDone(), count);
     document.lights[0].position.x += 0.5f;
@@ -404,7 +404,7 @@ TEST(ConeOcclusion, FollowsWhatIsVisible) {
 
 TEST_F(Lighting, PixelsUnderTransferAddUp) {
     Document document = makeScene(makeSphere(48));
-    document.environment.image = makeEnvironment(64, [](const glm::vec3& d) {
+    document.environment().image = makeEnvironment(64, [](const glm::vec3& d) {
         return glm::vec3(1.0f + d.x, 1.0f + 0.5f * d.y, 1.0f + d.z * d.x);
     });
     setIblOf(document);

@@ -25,7 +25,7 @@ class ManyLightsTest : public RenderTest {
     // A ball on a plane, without an environment.
     static Document ballOnPlane() {
         Document document = makeScene(gridPlane(8));
-        document.environment.background = BackgroundMode::Off;
+        document.view.background = BackgroundMode::Off;
         document.materials[0].metallic = 0.3f;
         document.view.camera.yawDeg = 30.0f;
         document.view.camera.pitchDeg = 50.0f;

@@ -26,7 +26,7 @@ class NearShadowsTest : public LocalLightsTest {
         Document document = makeScene(gridPlane(cells));
         document.view.camera = cameraAbove();
         document.view.reflectionMix = 0.0f; // diffuse light alone
-        document.environment.background = BackgroundMode::Off;
+        document.view.background = BackgroundMode::Off;
         document.materials[0].metallic = 0.0f;
         document.materials[0].baseColor = glm::vec3(1.0f);
         MeshInstance wall;

@@ -272,8 +272,8 @@ class OpenColorIoInFrames : public RenderTest {};
 // Until the view is there, and when the driver refuses it, the default curve is shown.
 TEST_F(OpenColorIoInFrames, TheDefaultStandsIn) {
     Document document = makeScene(makeSphere(8));
-    document.environment.background = BackgroundMode::Color;
-    document.environment.backgroundColor = glm::vec3(0.5f, 0.3f, 0.1f);
+    document.view.background = BackgroundMode::Color;
+    document.view.backgroundColor = glm::vec3(0.5f, 0.3f, 0.1f);
     document.meshes[0].visible = false;
     draw(document);
     const glm::vec4 neutral = centerPixel(renderer().readDisplayed());

@@ -65,9 +65,9 @@ Document makeScene(const MeshPtr& mesh) {
     instance.material = 2;
     document.meshes.push_back(instance);
     document.nextId = 3;
-    document.environment.source.clear();
-    document.environment.background = BackgroundMode::Color;
-    document.environment.backgroundColor = glm::vec3(0.0f);
+    document.environment().source.clear();
+    document.view.background = BackgroundMode::Color;
+    document.view.backgroundColor = glm::vec3(0.0f);
     document.view.camera.yawDeg = 0.0f;
     document.view.camera.pitchDeg = 0.0f;
     document.view.camera.distance = 5.0f;
@@ -151,9 +151,9 @@ Image RenderTest::draw(const Document& document, int size, const FrameSettings& 
 
 void RenderTest::setIblOf(const Document& document) {
     const auto maps =
-        computeIbl(*document.environment.image, {.cubeSize = 32, .levels = 5}, JobContext());
+        computeIbl(*document.environment().image, {.cubeSize = 32, .levels = 5}, JobContext());
     ASSERT_TRUE(maps.ok()) << maps.error().text();
-    setBackground(document.environment.image, *maps);
+    setBackground(document.environment().image, *maps);
 }
 
 void RenderTest::setBackground(const ImagePtr& image, const IblMaps& light) {

@@ -44,7 +44,7 @@ class RenderTest : public gl::GlTest {
 
     // Draws with the document's camera and returns the linear picture.
     Image draw(const Document& document, int size = 64, const FrameSettings& settings = {});
-    // Computes and sets the image-based light of document.environment.image, and its background.
+    // Computes and sets the image-based light of document.environment().image, and its background.
     void setIblOf(const Document& document);
     void setBackground(const ImagePtr& image, const IblMaps& light);
 

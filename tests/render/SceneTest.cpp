@@ -34,21 +34,21 @@ TEST_F(Scene, EnvironmentRotatesCounterClockwiseSeenFromAbove) {
         glm::vec3 at;
     } cases[] = {{0.0f, {0, 0, -1}}, {90.0f, {-1, 0, 0}}, {-90.0f, {1, 0, 0}}, {180.0f, {0, 0, 1}}};
     Document document = makeScene(makeSphere());
-    document.environment.image = spot({0, 0, -1});
-    document.environment.background = BackgroundMode::Environment;
+    document.environment().image = spot({0, 0, -1});
+    document.view.background = BackgroundMode::Environment;
     Material& m = document.materials[0];
     setIblOf(document);
     for (const auto& c : cases) {
         SCOPED_TRACE(c.rotationDeg);
-        document.environment.rotationDeg = c.rotationDeg;
+        document.environment().rotationDeg = c.rotationDeg;
 
         // Background: look away from the sphere, straight at the spot.
         document.meshes[0].visible = false;
         document.view.camera.yawDeg = yawTowards(-c.at);
         EXPECT_NEAR(centerPixel(draw(document)).x, 10.0f, 0.1f);
-        document.environment.background = BackgroundMode::Blurred;
+        document.view.background = BackgroundMode::Blurred;
         EXPECT_GT(centerPixel(draw(document)).x, 2.0f);
-        document.environment.background = BackgroundMode::Environment;
+        document.view.background = BackgroundMode::Environment;
         document.view.camera.yawDeg = yawTowards(c.at);
         EXPECT_EQ(centerPixel(draw(document)).x, 0.0f);
 
@@ -70,20 +70,20 @@ TEST_F(Scene, EnvironmentRotatesCounterClockwiseSeenFromAbove) {
 
 TEST_F(Scene, BackgroundIsAsBlurredAsAskedOrOff) {
     Document document = makeScene(makeSphere());
-    document.environment.image = spot({0, 0, -1});
+    document.environment().image = spot({0, 0, -1});
     document.meshes[0].visible = false;
     document.view.camera.yawDeg = yawTowards({0, 0, 1});
     setIblOf(document);
-    document.environment.background = BackgroundMode::Blurred;
+    document.view.background = BackgroundMode::Blurred;
     float last = 11.0f; // the more blurred, the darker the middle of the spot
     for (const float blur : {0.0f, 0.5f, 1.0f}) {
-        document.environment.backgroundBlur = blur;
+        document.view.backgroundBlur = blur;
         const glm::vec4 middle = centerPixel(draw(document));
         EXPECT_LT(middle.x, last - 1.0f) << blur;
         EXPECT_EQ(middle.w, 1.0f);
         last = middle.x;
     }
-    document.environment.background = BackgroundMode::Off;
+    document.view.background = BackgroundMode::Off;
     EXPECT_EQ(centerPixel(draw(document)), glm::vec4(0.0f));
 }
 
@@ -126,7 +126,7 @@ TEST_F(Scene, BackgroundHasNoSeamAndMatchesTheImage) {
         return glm::vec3(0.5f + 0.5f * d.x, 0.5f + 0.5f * d.y, 0.5f + 0.5f * d.z);
     };
     setBackground(makeEnvironment(256, sky), uniformIbl(glm::vec3(0.0f)));
-    document.environment.background = BackgroundMode::Environment;
+    document.view.background = BackgroundMode::Environment;
     document.view.camera.yawDeg = 180.0f; // looks along +Z
     document.view.camera.fovDeg = 60.0f;
     const Image image = draw(document, 128);
@@ -161,11 +161,11 @@ std::vector<float> unshadowedTransfer(const Mesh& mesh, int order) {
 
 TEST_F(Scene, PrtWithUnshadowedTransferIsTheIrradianceLighting) {
     Document document = makeScene(makeSphere(64));
-    document.environment.image = makeEnvironment(64, [](const glm::vec3& d) {
+    document.environment().image = makeEnvironment(64, [](const glm::vec3& d) {
         return glm::vec3(1.0f + d.x, 1.0f + 0.5f * d.y, 1.0f + d.z * d.x);
     });
-    document.environment.rotationDeg = 35.0f;
-    document.environment.exposureEv = 0.5f;
+    document.environment().rotationDeg = 35.0f;
+    document.environment().exposureEv = 0.5f;
     document.materials[0].perceptualRoughness = 0.8f;
     setIblOf(document);
     FrameSettings settings;
@@ -350,7 +350,7 @@ TEST_F(Scene, SmallChangesReachThePicture) {
     EXPECT_GT(redraw(), brighter);
     document.lights[0].enabled = false;
     EXPECT_EQ(redraw(), brighter);
-    document.environment.backgroundColor = glm::vec3(0.5f);
+    document.view.backgroundColor = glm::vec3(0.5f);
     document.meshes.clear();
     EXPECT_EQ(redraw(), 0.5f);
 }

@@ -21,8 +21,8 @@ class Slices : public RenderTest {
         RenderTest::SetUp();
         m_document = makeScene(makeSphere(160)); // more triangles than a slice has at least
         m_document.materials[0].baseColor = {0.8f, 0.3f, 0.2f};
-        m_document.environment.background = BackgroundMode::Environment;
-        m_document.environment.image = makeEnvironment(32, [](const glm::vec3& d) {
+        m_document.view.background = BackgroundMode::Environment;
+        m_document.environment().image = makeEnvironment(32, [](const glm::vec3& d) {
             return glm::vec3(0.6f + 0.4f * d.y, 0.5f, 0.5f - 0.4f * d.x);
         });
         Material glass = m_document.materials[0];

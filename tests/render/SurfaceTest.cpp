@@ -65,7 +65,7 @@ TEST_F(Surface, WhiteDielectricInAWhiteFurnaceDisappears) {
         Document document = makeScene(makeSphere());
         materialOf(document).baseColor = glm::vec3(1.0f);
         materialOf(document).perceptualRoughness = perceptualRoughness;
-        document.environment.background = BackgroundMode::Environment;
+        document.view.background = BackgroundMode::Environment;
         const Image image = draw(document);
         float low = 10.0f, high = 0.0f;
         for (const float value : image.f32()) {
@@ -336,7 +336,7 @@ TEST_F(Surface, AlphaModesCutAndBlend) {
     m.emissive = glm::vec3(2.0f);
     m.baseColor = glm::vec3(0.0f);
     m.opacity = 0.25f;
-    document.environment.backgroundColor = {0.0f, 1.0f, 0.0f};
+    document.view.backgroundColor = {0.0f, 1.0f, 0.0f};
     m.alphaMode = AlphaMode::Opaque;
     EXPECT_NEAR(centerPixel(draw(document)).x, 2.0f, 1e-3f);
     m.alphaMode = AlphaMode::Mask;
@@ -392,7 +392,7 @@ TEST_F(Surface, ExposureAndEnvironmentExposureDouble) {
     document.view.exposureEv = 1.0f;
     EXPECT_EQ(centerPixel(draw(document)).x, before) << "exposure belongs to the display";
     EXPECT_NEAR(displayedLinear() / displayedBefore, 2.0f, 0.05f);
-    document.environment.exposureEv = 1.0f;
+    document.environment().exposureEv = 1.0f;
     EXPECT_NEAR(centerPixel(draw(document)).x, 2.0f * before, 1e-3f * before);
     // Reinhard of a grey: L / (1 + L).
     document.view.toneMap = ToneMap::Reinhard;

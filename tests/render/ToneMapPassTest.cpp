@@ -208,8 +208,8 @@ class ExposureOfFrames : public RenderTest {
     static Document background(float radiance) {
         Document document = makeScene(makeSphere(8));
         document.meshes[0].visible = false;
-        document.environment.background = BackgroundMode::Color;
-        document.environment.backgroundColor = glm::vec3(radiance);
+        document.view.background = BackgroundMode::Color;
+        document.view.backgroundColor = glm::vec3(radiance);
         document.view.exposureMode = ExposureMode::Automatic;
         document.view.toneMap = ToneMap::Clamp;
         return document;
@@ -243,7 +243,7 @@ TEST_F(ExposureOfFrames, AutomaticExposureMetersTheModelAndNotTheBackground) {
             document.meshes[0].visible = true;
             document.materials[0].baseColor = glm::vec3(0.0f);
             document.materials[0].emissive = glm::vec3(kRadiance);
-            document.environment.enabled = false;
+            document.environment().enabled = false;
             FrameSettings frame;
             frame.samples = samples;
             draw(document, 64, frame);

@@ -5,6 +5,7 @@
 #include "core/mix/EnvironmentBlend.h"
 #include "core/mix/LightMix.h"
 #include "tests/render/TransferScenes.h"
+#include "tests/support/SecondEnvironment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +25,7 @@ class TransferLights : public LocalLightsTest {
     static Document ground(int cells = 1) {
         Document document = makeScene(cells == 1 ? makePlane() : gridPlane(cells));
         document.view.camera = cameraAbove();
-        document.environment.background = BackgroundMode::Off;
+        document.view.background = BackgroundMode::Off;
         document.materials[0].metallic = 0.0f;
         document.materials[0].baseColor = glm::vec3(1.0f);
         document.view.lighting = LightingMode::Shadowed;
@@ -267,11 +268,11 @@ ImagePtr sky(const glm::vec3& colour, float lamp) {
 
 Document ballUnderTransfer() {
     Document document = makeScene(makeSphere(32));
-    document.environment.background = BackgroundMode::Off;
+    document.view.background = BackgroundMode::Off;
     document.materials[0].metallic = 0.0f;
     document.materials[0].baseColor = glm::vec3(0.8f);
-    document.environment.image = sky({0.4f, 0.5f, 0.6f}, 3.0f);
-    document.environment.rotationDeg = 40.0f;
+    document.environment().image = sky({0.4f, 0.5f, 0.6f}, 3.0f);
+    document.environment().rotationDeg = 40.0f;
     document.bakes = {openBake(document, 5, 0.25f)};
     document.view.lighting = LightingMode::Prt;
     return document;
@@ -292,9 +293,9 @@ TEST_F(TransferLights, TheMixerActsLinearly) {
             EXPECT_NEAR(a[c], b[c], 1e-4f * std::max(a[c], 1.0f));
     };
     const glm::vec3 all = E();
-    document.environment.solo = true;
+    document.environment().solo = true;
     const glm::vec3 environment = E();
-    document.environment.solo = false;
+    document.environment().solo = false;
     glm::vec3 sum = environment;
     std::vector<glm::vec3> alone;
     for (Light& light : document.lights) {
@@ -316,28 +317,26 @@ TEST_F(TransferLights, TheMixerActsLinearly) {
         close(E(), all - alone[i]);
         document.lights[i].enabled = true;
     }
-    document.environment.enabled = false;
+    document.environment().enabled = false;
     close(E(), all - environment);
-    document.environment.enabled = true;
-    document.environment.tint = {0.0f, 0.5f, 1.0f};
-    document.environment.exposureEv = -1.0f;
-    close(E(), all - environment + 0.5f * document.environment.tint * environment);
+    document.environment().enabled = true;
+    document.environment().tint = {0.0f, 0.5f, 1.0f};
+    document.environment().exposureEv = -1.0f;
+    close(E(), all - environment + 0.5f * document.environment().tint * environment);
 }
 
 TEST_F(TransferLights, CrossFadeIsTheMixOfBothPictures) {
     Document document = ballUnderTransfer();
-    Environment& first = document.environment;
-    first.second.source = "second";
-    first.second.image = sky({0.9f, 0.3f, 0.1f}, 0.0f);
-    first.second.rotationDeg = -70.0f;
-    first.second.exposureEv = 0.5f;
+    Environment& second = test::addSecond(document, "second", sky({0.9f, 0.3f, 0.1f}, 0.0f));
+    second.rotationDeg = -70.0f;
+    second.exposureEv = 0.5f;
     const auto shown = [&](float fade, bool prepares) {
-        first.fade = fade;
+        document.mix.fade = fade;
         resolveBlend(document);
         if (prepares) {
             const Image& image = *shownEnvironment(document).image;
             Document lit = document;
-            lit.environment.image = std::make_shared<const Image>(image);
+            lit.environment().image = std::make_shared<const Image>(image);
             const auto maps = computeIbl(image, {}, {});
             EXPECT_TRUE(maps.ok());
             setBackground(shownEnvironment(document).image, *maps);
@@ -372,21 +371,19 @@ TEST_F(TransferLights, TheOtherPicturesLightComesAhead) {
     setIblOf(document);
     document.view.reflectionMix = 0.0f;
     const Image before = draw(document, 32, oneSample());
-    document.environment.second.source = "second";
-    document.environment.second.image = sky(glm::vec3(1.0f), 0.0f);
-    document.environment.fade = 0.5f;
-    EXPECT_FALSE(sceneRenderer().knowsProjection(document.environment.second.image));
+    const ImagePtr second = test::addSecond(document, "second", sky(glm::vec3(1.0f), 0.0f)).image;
+    document.mix.fade = 0.5f;
+    EXPECT_FALSE(sceneRenderer().knowsProjection(second));
     const Image unknown = draw(document, 32, oneSample());
     SceneRenderer::ProjectionSh coefficients{};
-    std::ranges::copy(projectLatLong(*document.environment.second.image, kMaxShOrder, {}),
-                      coefficients.begin());
-    sceneRenderer().setProjection(document.environment.second.image, coefficients);
-    EXPECT_TRUE(sceneRenderer().knowsProjection(document.environment.second.image));
+    std::ranges::copy(projectLatLong(*second, kMaxShOrder, {}), coefficients.begin());
+    sceneRenderer().setProjection(second, coefficients);
+    EXPECT_TRUE(sceneRenderer().knowsProjection(second));
     const Image known = draw(document, 32, oneSample());
     EXPECT_GT(worst(unknown, known), 0.05f);
     const std::vector<glm::vec3> light = sceneRenderer().transferLight(2);
     ASSERT_EQ(light.size(), 4u);
-    document.environment.fade = 0.0f;
+    document.mix.fade = 0.0f;
     draw(document, 32, oneSample());
     EXPECT_NEAR(light[0].x, 0.5f * (sceneRenderer().transferLight(2)[0].x + coefficients[0].x),
                 1e-4f);

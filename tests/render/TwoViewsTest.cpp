@@ -58,7 +58,7 @@ class TwoViews : public RenderTest {
             document.lights.push_back(light);
         }
         document.bakes = {openBake(document, 3, 0.2f)};
-        document.environment.background = BackgroundMode::Environment;
+        document.view.background = BackgroundMode::Environment;
         document.view.camera.pitchDeg = 35.0f;
         document.view.camera.distance = 7.0f;
         return document;
@@ -106,9 +106,10 @@ TEST_F(TwoViews, EachIsItsSinglePictureByteForByte) {
         cell.environment.image = cell.light->image;
         cell.environment.rotationDeg = 70.0f * static_cast<float>(i);
         cell.environment.exposureEv = 0.3f * static_cast<float>(i);
-        cell.environment.background = i == 2   ? BackgroundMode::Blurred
-                                      : i == 3 ? BackgroundMode::Color
-                                               : BackgroundMode::Environment;
+        cell.environment.id = document.mix.first;
+        cell.look.background = i == 2   ? BackgroundMode::Blurred
+                               : i == 3 ? BackgroundMode::Color
+                                        : BackgroundMode::Environment;
         cell.look.lighting = lighting;
         cell.look.toneMap = i % 2 == 0 ? ToneMap::PbrNeutral : ToneMap::AgX;
         cell.look.exposureMode = i == 1 ? ExposureMode::Automatic : ExposureMode::Fixed;
@@ -125,13 +126,13 @@ TEST_F(TwoViews, EachIsItsSinglePictureByteForByte) {
     std::vector<Picture> expected;
     for (const Cell& cell : cells) {
         Document single = document;
-        single.environment = cell.environment;
+        single.environment() = cell.environment;
         single.view = cell.look;
         expected.push_back(alone(single, cell.light, cell.frame));
     }
 
     // The first is the document's own.
-    document.environment = cells[0].environment;
+    document.environment() = cells[0].environment;
     document.view = cells[0].look;
     sceneRenderer().setDocument(document);
     sceneRenderer().setEnvironment(cells[0].light);
@@ -183,7 +184,7 @@ TEST_F(TwoViews, AFrameOfSlicesIsItsOwn) {
 TEST_F(TwoViews, ASecondViewUploadsAndDrawsNothingOfTheSceneAgain) {
     Document document = scene();
     const EnvironmentTexelsPtr light = prepare(sky(0));
-    document.environment.image = light->image;
+    document.environment().image = light->image;
     document.view.lighting = LightingMode::Prt;
     sceneRenderer().setDocument(document);
     sceneRenderer().setEnvironment(light);
@@ -210,7 +211,7 @@ TEST_F(TwoViews, ASecondViewUploadsAndDrawsNothingOfTheSceneAgain) {
 
     // Another environment of the same texels, turned: its textures are shared, surfaces under
     // transfer are lit once.
-    Environment turned = document.environment;
+    Environment turned = document.environment();
     turned.rotationDeg = 90.0f;
     const std::uint64_t bytes = gl::uploadedBytes();
     frame.light = sceneRenderer().addLight(turned);
@@ -262,12 +263,12 @@ TEST_F(TwoViews, OneEnvironmentsEditsLeaveTheOthersPicture) {
         });
     };
     EXPECT_EQ(goesOn([] {}), std::pair(true, true));
-    EXPECT_EQ(editDocument([&] { document.environment.rotationDeg = 10.0f; }),
+    EXPECT_EQ(editDocument([&] { document.environment().rotationDeg = 10.0f; }),
               std::pair(false, true));
     EXPECT_EQ(editDocument([&] { document.view.exposureEv = 1.0f; }), std::pair(false, true));
     EXPECT_EQ(editDocument([&] { document.materials[0].metallic = 0.5f; }),
               std::pair(false, false));
-    EXPECT_EQ(editDocument([&] { document.environment.solo = true; }), std::pair(false, false))
+    EXPECT_EQ(editDocument([&] { document.environment().solo = true; }), std::pair(false, false))
         << "lights go out";
     environment.exposureEv = 1.0f;
     EXPECT_EQ(goesOn([&] { sceneRenderer().changeLight(own.light, environment); }),
@@ -315,7 +316,7 @@ TEST_F(TwoViews, LookingChangesNothing) {
     Document document = scene();
     document.view.exposureMode = ExposureMode::Automatic;
     const EnvironmentTexelsPtr light = prepare(sky(0));
-    document.environment.image = light->image;
+    document.environment().image = light->image;
     const auto picture = [&](bool looks) {
         auto made = SceneRenderer::create(context());
         EXPECT_TRUE(made.ok());

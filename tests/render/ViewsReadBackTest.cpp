@@ -70,7 +70,7 @@ TEST_F(ViewsReadBack, EqualsTheSharedFunctionsAtRandomPixels) {
     material.perceptualRoughnessMap.image =
         makeImage(96, 96, 1, PixelType::U8, ColorEncoding::Data,
                   [&](int x, int y, int) { return waves(y, x, 1); });
-    document.environment.image = makeEnvironment(64, [](const glm::vec3& d) {
+    document.environment().image = makeEnvironment(64, [](const glm::vec3& d) {
         return glm::vec3(0.6f + 0.5f * d.x, 0.7f + 0.6f * d.y * d.y, 0.8f + 0.7f * d.z) +
                (d.y > 0.9f ? glm::vec3(8.0f) : glm::vec3(0.0f));
     });
@@ -81,9 +81,9 @@ TEST_F(ViewsReadBack, EqualsTheSharedFunctionsAtRandomPixels) {
     sun.elevationDeg = 40.0f;
     document.lights.push_back(sun);
 
-    const auto maps = computeIbl(*document.environment.image, {}, JobContext());
+    const auto maps = computeIbl(*document.environment().image, {}, JobContext());
     ASSERT_TRUE(maps.ok());
-    setBackground(document.environment.image, *maps);
+    setBackground(document.environment().image, *maps);
     const CubeAtlas atlas = makeCubeAtlas(maps->prefiltered);
     const Image dfg =
         computeDfgTable(128, Distribution::GGX, Visibility::SmithCorrelated, DfgTexels::ToTheEnds);

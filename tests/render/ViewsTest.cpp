@@ -28,10 +28,10 @@ class Views : public RenderTest {
         m.metallic = 0.4f;
         m.perceptualRoughness = 0.45f;
         m.emissive = {0.02f, 0.03f, 0.05f};
-        document.environment.image = makeEnvironment(32, [](const glm::vec3& d) {
+        document.environment().image = makeEnvironment(32, [](const glm::vec3& d) {
             return glm::vec3(0.4f + 0.3f * d.y, 0.5f + 0.2f * d.x, 0.8f + 0.5f * d.z);
         });
-        document.environment.background = BackgroundMode::Environment;
+        document.view.background = BackgroundMode::Environment;
         Light sun;
         sun.id = document.takeId();
         sun.type = LightType::Directional;
@@ -222,7 +222,7 @@ TEST_F(Views, AWhiteBodyWithOcclusionVanishesInTheFurnace) {
     Image dark(2, 2, 3, PixelType::U8, ColorEncoding::Data);
     std::fill(dark.u8().begin(), dark.u8().end(), std::uint8_t{40});
     document.materials[0].occlusionMap.image = std::make_shared<const Image>(dark);
-    document.environment.image = makeEnvironment(8, [](auto) { return glm::vec3(0.5f); });
+    document.environment().image = makeEnvironment(8, [](auto) { return glm::vec3(0.5f); });
     setIblOf(document);
     FrameSettings settings = oneSample();
     settings.view.furnace = glm::vec3(0.5f, 0.25f, 1.0f);

@@ -43,7 +43,7 @@ TEST(SurfacePrograms, AreTheSameForWhatIsDrawnTheSame) {
     Document other = document;
     other.materials[0].baseColor = {1, 0, 0};
     other.view.camera.yawDeg += 10.0f;
-    other.environment.exposureEv = 1.0f;
+    other.environment().exposureEv = 1.0f;
     EXPECT_EQ(surfacePrograms(other, kPicture), programs);
     other.meshes[2].visible = false;
     EXPECT_EQ(surfacePrograms(other, kPicture).size(), 1u);

@@ -100,7 +100,8 @@ void raiseDock(const MainWindow& window, const QString& name) {
 
 // The sums of harmonics of the sunset, which has something for every band.
 bool saveLightLab(Session& session, MainWindow& window, const QString& file) {
-    const QString before = QString::fromStdString(session.controller.document().environment.source);
+    const QString before =
+        QString::fromStdString(session.controller.document().environment().source);
     session.controller.setEnvironment(QStringLiteral("builtin:night"));
     window.actions().lightLab->trigger();
     auto* lab = window.findChild<LightLabPanel*>();
@@ -360,7 +361,7 @@ int main(int argc, char* argv[]) {
 
     session.controller.setEnvironmentKind(patina::EnvironmentKind::Softboxes);
     window.findChild<SoftboxList*>()->select(
-        session.controller.document().environment.softboxes.front().id);
+        session.controller.document().environment().softboxes.front().id);
     settle(6000);
     settle(session, window);
     ok &= save(window, folder.filePath(QStringLiteral("softboxes.png")));

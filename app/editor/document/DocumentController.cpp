@@ -1,6 +1,7 @@
 #include "app/editor/document/DocumentController.h"
 
 #include "app/editor/document/EnvironmentResolver.h"
+#include "core/document/EnvironmentTitle.h"
 #include "core/edit/ResetValue.h"
 #include "core/library/SoftboxRigs.h"
 
@@ -26,7 +27,9 @@ DocumentController::DocumentController(WorkerClient& worker, TaskRunner& runner,
     connect(&m_undo, &UndoStack::canRedoChanged, this, &DocumentController::deliverWaiting,
             Qt::QueuedConnection); // not in the middle of a push
     connect(m_environment, &EnvironmentResolver::refined, this,
-            [this](const ImagePtr& image) { m_session.setEnvironmentImage(image); });
+            [this](Id environment, const ImagePtr& image) {
+                m_session.setEnvironmentImage(environment, image);
+            });
     connect(m_environment, &EnvironmentResolver::blended, this,
             [this](const ImagePtr& image) { m_session.setBlendedImage(image); });
     connect(&m_tasks, &BackgroundTasks::failed, this,
@@ -106,9 +109,9 @@ void DocumentController::setParameter(const ParameterInfo& info, Target target,
                                       const ParameterValue& value, DragSession session) {
     // What a file shows depends on its layout: it is read anew.
     if (info.id == "environment.layout") {
-        const Environment& environment = document().environment;
-        if (ParameterValue(static_cast<int>(environment.layout)) != value)
-            readEnvironment(QString::fromStdString(environment.source),
+        const Environment* environment = document().environment(target.id);
+        if (environment && ParameterValue(static_cast<int>(environment->layout)) != value)
+            readEnvironment(QString::fromStdString(environment->source),
                             static_cast<EnvironmentLayout>(std::get<int>(value)),
                             tr("Change %1").arg(fromText(info.label)));
         return;
@@ -154,17 +157,38 @@ void DocumentController::showLighting(LightingMode mode) {
         std::vector<ParameterEdit>{{&info, static_cast<int>(mode)}}, 0));
 }
 
+// --- Several environments ------------------------------------------------------------------------
+
+void DocumentController::addEnvironment(EnvironmentKind kind) {
+    Environment environment;
+    environment.kind = kind;
+    environment.source.clear();
+    if (kind == EnvironmentKind::Softboxes) // a dark room would look like a fault
+        environment.softboxes = library::softboxRigs().front().softboxes;
+    m_session.addEnvironment(environment, fmt::format("Add {}", environmentTitle(environment)));
+}
+
+void DocumentController::fadeTo(Id environment) {
+    const Target scene{Scope::Environment, 0};
+    m_session.setDiffering(
+        scene,
+        editsFor(document(), parameter("environment.second"), scene, static_cast<int>(environment)),
+        environment == 0
+            ? "Fade to Nothing"
+            : fmt::format("Fade to {}", nameOf(document(), {Scope::Environment, environment})));
+}
+
 // --- Generated environments ----------------------------------------------------------------------
 
 void DocumentController::setEnvironmentKind(EnvironmentKind kind) {
-    if (kind == document().environment.kind)
+    if (kind == document().environment().kind)
         return;
     const ParameterInfo& info = parameter("environment.kind");
     const std::string text =
         fmt::format("Light with {}", info.choiceLabels[static_cast<std::size_t>(kind)]);
     m_session.group(text, [&] {
         // A dark room would look like a fault: the first rig comes along, in the same step.
-        if (kind == EnvironmentKind::Softboxes && document().environment.softboxes.empty())
+        if (kind == EnvironmentKind::Softboxes && document().environment().softboxes.empty())
             setSoftboxRig(library::softboxRigs().front());
         m_session.setDiffering({Scope::Environment, 0}, {{&info, static_cast<int>(kind)}}, text);
     });

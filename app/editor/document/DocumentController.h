@@ -89,7 +89,15 @@ class DocumentController : public QObject, private EditObserver {
     void setMap(const ParameterInfo& map, Target target, const QString& source);
     void clearMap(const ParameterInfo& map, Target target);
     void setEnvironment(const QString& source); // a file or "builtin:NAME"; its layout is guessed
-    void setSecondEnvironment(const QString& source); // to fade to; the same
+    // Another environment of the scene, as a step: it lights the scene, or is the one to fade to. A
+    // file or "builtin:NAME" that one of them shows already is not added again.
+    enum class EnvironmentUse { Light, FadeTo };
+    void addEnvironment(const QString& source, EnvironmentUse use);
+    void addEnvironment(EnvironmentKind kind); // a sky or softboxes, to light the scene
+    void duplicateEnvironment(Id environment) { m_session.duplicateEnvironment(environment); }
+    void removeEnvironment(Id environment) { m_session.removeEnvironment(environment); }
+    void lightWith(Id environment) { m_session.lightWith(environment); }
+    void fadeTo(Id environment); // 0: to none
 
     // --- Generated environments: the image follows each edit, a draft first --------------------
     void setEnvironmentKind(EnvironmentKind kind);        // Softboxes without one get the first rig

@@ -20,7 +20,7 @@ namespace patina::editor {
 namespace {
 
 const QString environmentTask = QStringLiteral("environment");
-const QString secondEnvironmentTask = QStringLiteral("second environment");
+const QString addedEnvironmentTask = QStringLiteral("added environment");
 
 // How a source is called in messages: "teapot.obj", "Shader Ball".
 QString shortName(const QString& source) {
@@ -55,13 +55,25 @@ void appendScene(Document& document, const Document& part) {
         addLight(document, light);
 }
 
-// A model brings only the lights of its file; the environment and lights of the scene before stay.
+// A model brings only the lights of its file; environments, background and lights of the scene
+// before stay.
 void keepLight(Document& opened, const Document& before) {
-    if (!before.environment.image)
+    if (!before.environment().image)
         return; // nothing was open
-    opened.environment = before.environment;
-    for (Softbox& softbox : opened.environment.softboxes)
-        softbox.id = opened.takeId();
+    opened.environments = before.environments;
+    opened.mix = before.mix;
+    for (Environment& environment : opened.environments) {
+        const Id old = std::exchange(environment.id, opened.takeId());
+        if (old == before.mix.first)
+            opened.mix.first = environment.id;
+        if (old == before.mix.second)
+            opened.mix.second = environment.id;
+        for (Softbox& softbox : environment.softboxes)
+            softbox.id = opened.takeId();
+    }
+    opened.view.background = before.view.background;
+    opened.view.backgroundBlur = before.view.backgroundBlur;
+    opened.view.backgroundColor = before.view.backgroundColor;
     const std::vector<Light> own = std::exchange(opened.lights, {});
     for (const std::vector<Light>* lights : {&before.lights, &own})
         for (const Light& light : *lights)
@@ -75,7 +87,7 @@ void DocumentController::replaceDocument(Document document, const QString& fileP
     // Results that were on their way belong to elements of the document that goes; only the light
     // stays with a model that is opened in it.
     const bool model = filePath.isEmpty() && !pristine;
-    m_tasks.cancelAll(model ? QStringList{environmentTask, secondEnvironmentTask} : QStringList());
+    m_tasks.cancelAll(model ? QStringList{environmentTask, addedEnvironmentTask} : QStringList());
     m_waiting.clear();
     m_environment->reset(document);
     m_filePath = filePath;
@@ -244,29 +256,46 @@ void DocumentController::setEnvironment(const QString& source) {
                     tr("Light with %1").arg(shortName(source)));
 }
 
-void DocumentController::setSecondEnvironment(const QString& source) {
+void DocumentController::addEnvironment(const QString& source, EnvironmentUse use) {
+    const std::string name = normalizeSource(source.toStdString());
+    const auto known = std::ranges::find_if(document().environments, [&](const Environment& e) {
+        return e.kind == EnvironmentKind::Image && e.source == name && e.problem.empty();
+    });
+    const Id first = document().mix.first;
+    if (known != document().environments.end() &&
+        (use == EnvironmentUse::Light || known->id != first)) {
+        use == EnvironmentUse::Light ? lightWith(known->id) : fadeTo(known->id);
+        return;
+    }
     const QString title = shortName(source);
     m_tasks.start(
-        secondEnvironmentTask, tr("Reading %1").arg(title),
-        [this, source, title, begun = begun()](const JobContext& job) -> BackgroundTasks::Apply {
-            const std::string name = normalizeSource(source.toStdString());
+        addedEnvironmentTask, tr("Reading %1").arg(title),
+        [this, name, title, use, begun = begun()](const JobContext& job) -> BackgroundTasks::Apply {
             auto notices = std::make_shared<std::vector<Notice>>();
             auto image = std::make_shared<Result<ImagePtr>>(
                 loadEnvironmentImage(m_worker, name, *notices, EnvironmentLayout::Automatic, job));
-            return [this, title, name, begun, notices, image] {
+            return [this, title, name, use, begun, notices, image] {
                 if (!image->ok()) {
                     Q_EMIT noticed(UserNotice::fromError(image->error()));
                     return;
                 }
-                MapSlot slot;
-                slot.source = name;
-                slot.image = image->value();
-                deliver(begun, title, [this, title, slot] {
-                    std::vector<ParameterEdit> edits{{&parameter("environment.secondImage"), slot}};
-                    // A new one is seen at once, and the first is not lost for it.
-                    if (document().environment.second.source.empty())
-                        edits.push_back({&parameter("environment.fade"), 0.5f});
-                    pushParameters({Scope::Environment, 0}, edits, tr("Fade to %1").arg(title));
+                Environment environment;
+                environment.source = name;
+                environment.image = environment.fileImage = image->value();
+                deliver(begun, title, [this, title, use, environment] {
+                    const Id added =
+                        use == EnvironmentUse::Light
+                            ? m_session.addEnvironment(environment,
+                                                       tr("Add %1").arg(title).toStdString())
+                            : m_session.addSecondEnvironment(
+                                  environment, tr("Fade to %1").arg(title).toStdString());
+                    if (added == 0)
+                        Q_EMIT noticed({NoticeKind::Warning,
+                                        tr("%1 was not added: a scene holds at most %2 "
+                                           "environments. Remove one first.")
+                                            .arg(title)
+                                            .arg(kMaxEnvironments),
+                                        {}});
                 });
                 const UserNotice notice = UserNotice::fromImport(title, *notices, {});
                 if (!notice.text.isEmpty())
@@ -280,14 +309,17 @@ void DocumentController::readEnvironment(const QString& source, EnvironmentLayou
     const QString title = shortName(source);
     m_tasks.start(
         environmentTask, tr("Reading %1").arg(title),
-        [this, source, layout, title, undoText,
+        [this, source, layout, title, undoText, asked = document().mix.first,
+         scene = m_session.documentNumber(),
          begun = begun()](const JobContext& job) -> BackgroundTasks::Apply {
             const std::string name = normalizeSource(source.toStdString());
             auto notices = std::make_shared<std::vector<Notice>>();
             auto image = std::make_shared<Result<ImagePtr>>(
                 loadEnvironmentImage(m_worker, name, *notices, layout, job));
-            return [this, title, name, layout, undoText, begun, notices, image] {
-                const Target environment{Scope::Environment, 0};
+            return [this, title, name, layout, undoText, asked, scene, begun, notices, image] {
+                // A model that was opened meanwhile keeps the light, under other ids.
+                const Target environment{Scope::Environment,
+                                         scene == m_session.documentNumber() ? asked : 0};
                 if (!image->ok()) {
                     Q_EMIT noticed(UserNotice::fromError(image->error()));
                     Q_EMIT changed(
@@ -298,6 +330,8 @@ void DocumentController::readEnvironment(const QString& source, EnvironmentLayou
                 sky.source = name;
                 sky.image = image->value();
                 deliver(begun, title, [this, environment, sky, layout, undoText] {
+                    if (!targetExists(document(), environment))
+                        return; // removed meanwhile
                     pushParameters(
                         environment,
                         {{&parameter("environment.kind"), static_cast<int>(EnvironmentKind::Image)},

@@ -22,24 +22,46 @@ EnvironmentResolver::EnvironmentResolver(TaskRunner& runner, QObject* parent)
 
 void EnvironmentResolver::reset(const Document& document) {
     change(); // what is under way belongs to the document that goes
-    m_recipe = environmentRecipe(document.environment);
+    m_known.clear();
+    for (const Environment& environment : document.environments)
+        m_known[environment.id] = {environmentRecipe(environment), false};
+    m_first = document.mix.first;
     m_blend = environmentBlend(document);
     m_shown = shownEnvironment(document).image;
-    m_imageIsDraft = m_blendIsDraft = false;
+    m_blendIsDraft = false;
     m_made.clear();
     m_drafts.clear();
 }
 
 bool EnvironmentResolver::update(Document& document) {
-    const bool imageChanged = updateImage(document.environment);
+    const bool imageChanged = updateImages(document);
     const bool blendChanged = updateBlend(document);
     if (imageChanged || blendChanged) {
         change();
-        if (m_imageIsDraft || m_blendIsDraft)
+        if (m_blendIsDraft || nextDraft() != 0)
             m_rest.start();
     }
     ImagePtr shown = shownEnvironment(document).image;
     return std::exchange(m_shown, shown) != shown;
+}
+
+bool EnvironmentResolver::updateImages(Document& document) {
+    m_first = document.mix.first;
+    std::erase_if(m_known,
+                  [&](const auto& known) { return document.environment(known.first) == nullptr; });
+    bool changed = false;
+    for (Environment& environment : document.environments)
+        changed |= updateImage(environment);
+    return changed;
+}
+
+// The one that lights the scene first.
+Id EnvironmentResolver::nextDraft() const {
+    if (const auto first = m_known.find(m_first); first != m_known.end() && first->second.isDraft)
+        return m_first;
+    const auto draft =
+        std::ranges::find_if(m_known, [](const auto& known) { return known.second.isDraft; });
+    return draft == m_known.end() ? 0 : draft->first;
 }
 
 // What is under way is not wanted any more.
@@ -50,17 +72,23 @@ void EnvironmentResolver::change() {
 
 bool EnvironmentResolver::updateImage(Environment& environment) {
     EnvironmentRecipe recipe = environmentRecipe(environment);
-    if (recipe == m_recipe)
+    const auto found = m_known.find(environment.id);
+    if (found == m_known.end() && environment.image &&
+        (recipe.kind == EnvironmentKind::Image ||
+         environment.image->height() == kEnvironmentHeight)) {
+        m_known[environment.id] = {std::move(recipe), false}; // it came with its picture
         return false;
-    m_recipe = std::move(recipe);
-    m_imageIsDraft = false;
+    }
+    if (found != m_known.end() && recipe == found->second.recipe)
+        return false;
+    Known& known = m_known[environment.id] = {std::move(recipe), false};
     ImagePtr image = environment.fileImage;
-    if (m_recipe.kind != EnvironmentKind::Image) {
+    if (known.recipe.kind != EnvironmentKind::Image) {
         const auto made = std::find_if(m_made.begin(), m_made.end(),
-                                       [&](const Made& m) { return m.recipe == m_recipe; });
-        m_imageIsDraft = made == m_made.end();
-        image =
-            m_imageIsDraft ? generateEnvironment(m_recipe, kDraftEnvironmentHeight) : made->image;
+                                       [&](const Made& m) { return m.recipe == known.recipe; });
+        known.isDraft = made == m_made.end();
+        image = known.isDraft ? generateEnvironment(known.recipe, kDraftEnvironmentHeight)
+                              : made->image;
     }
     if (image)
         environment.image = std::move(image);
@@ -73,12 +101,12 @@ bool EnvironmentResolver::updateBlend(Document& document) {
         return false;
     m_blend = std::move(blend);
     m_blendIsDraft = m_blend.has_value();
-    document.environment.blended = nullptr;
+    document.mix.blended = nullptr;
     if (m_blend) {
         EnvironmentBlend small = *m_blend;
         small.first = draftOf(small.first);
         small.second = draftOf(small.second);
-        document.environment.blended = blendEnvironments(small);
+        document.mix.blended = blendEnvironments(small);
     }
     return true;
 }
@@ -97,32 +125,39 @@ ImagePtr EnvironmentResolver::draftOf(const ImagePtr& image) {
     return m_drafts.back().small;
 }
 
-// The picture of both follows when that of the first environment is there.
+// The picture of both follows when those of the environments are there.
 void EnvironmentResolver::refine() {
+    const Id environment = nextDraft();
+    if (environment == 0 && !m_blendIsDraft)
+        return;
     m_tasks.run(
         {.tag = "environment image", .priority = TaskPriority::Low},
-        [recipe = m_recipe, blend = m_blend, ofBoth = !m_imageIsDraft](const JobContext& job) {
+        [recipe = environment == 0 ? EnvironmentRecipe() : m_known.at(environment).recipe,
+         blend = m_blend, ofBoth = environment == 0](const JobContext& job) {
             return ofBoth ? blendEnvironments(*blend, job)
                           : generateEnvironment(recipe, kEnvironmentHeight, job);
         },
-        [this](const Result<ImagePtr>& image) {
+        [this, environment](const Result<ImagePtr>& image) {
             if (image && *image) // else the draft stays
-                deliver(*image);
+                deliver(environment, *image);
         });
 }
 
-void EnvironmentResolver::deliver(const ImagePtr& image) {
-    if (!m_imageIsDraft) {
+void EnvironmentResolver::deliver(Id environment, const ImagePtr& image) {
+    if (environment == 0) {
         m_blendIsDraft = false;
         m_shown = image;
         Q_EMIT blended(image);
         return;
     }
-    m_imageIsDraft = false;
-    m_made.push_back({m_recipe, image});
+    Known& known = m_known.at(environment);
+    known.isDraft = false;
+    m_made.push_back({known.recipe, image});
     if (m_made.size() > kKept)
         m_made.pop_front();
-    Q_EMIT refined(image);
+    Q_EMIT refined(environment, image);
+    if (!m_rest.isActive() && (m_blendIsDraft || nextDraft() != 0))
+        m_rest.start();
 }
 
 } // namespace patina::editor

@@ -1,6 +1,6 @@
-// Keeps a document's environment image what its kind asks for, and the picture of two environments
-// what the mix asks for: while they are edited a draft is made at once, and the full picture
-// follows in the background.
+// Keeps the images of a document's environments what their kinds ask for, and the picture of two
+// environments what the mix asks for: while they are edited a draft is made at once, and the full
+// picture follows in the background.
 #pragma once
 
 #include "core/job/TaskRunner.h"
@@ -10,6 +10,7 @@
 #include <QObject>
 #include <QTimer>
 #include <deque>
+#include <map>
 
 namespace patina::editor {
 
@@ -20,23 +21,29 @@ class EnvironmentResolver : public QObject {
 
     // Another document, whose images are as they should be.
     void reset(const Document& document);
-    // After an edit: gives the environment its images, in a few milliseconds. Whether another one
-    // than before is shown.
+    // After an edit: gives the environments their images, in a few milliseconds. Whether another
+    // one than before is shown.
     bool update(Document& document);
 
   Q_SIGNALS:
-    // The full picture for what update() saw last: of the first environment, or of both.
-    void refined(const patina::ImagePtr& image);
+    // The full picture for what update() saw last: of one environment, or of both that are mixed.
+    void refined(patina::Id environment, const patina::ImagePtr& image);
     void blended(const patina::ImagePtr& image);
 
   private:
+    bool updateImages(Document& document);
     bool updateImage(Environment& environment);
     bool updateBlend(Document& document);
     [[nodiscard]] ImagePtr draftOf(const ImagePtr& image);
     void change();
     void refine();
-    void deliver(const ImagePtr& image);
+    void deliver(Id environment, const ImagePtr& image);
+    [[nodiscard]] Id nextDraft() const; // that is to be made in full; 0: none
 
+    struct Known {
+        EnvironmentRecipe recipe; // of the environment's image
+        bool isDraft = false;
+    };
     struct Made {
         EnvironmentRecipe recipe;
         ImagePtr image;
@@ -44,13 +51,14 @@ class EnvironmentResolver : public QObject {
     struct Draft {
         ImagePtr image, small;
     };
-    QTimer m_rest;              // until nothing has changed for a moment
-    EnvironmentRecipe m_recipe; // of the environment's image
-    std::deque<Made> m_made;    // the last full pictures, for undo and redo
+    QTimer m_rest;               // until nothing has changed for a moment
+    std::map<Id, Known> m_known; // of all environments
+    Id m_first = 0;              // that lights the scene
+    std::deque<Made> m_made;     // the last full pictures, for undo and redo
     std::optional<EnvironmentBlend> m_blend;
     std::deque<Draft> m_drafts;
     ImagePtr m_shown;
-    bool m_imageIsDraft = false, m_blendIsDraft = false;
+    bool m_blendIsDraft = false;
     TaskGroup m_tasks;
 };
 

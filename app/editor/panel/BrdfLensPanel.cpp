@@ -316,8 +316,8 @@ void BrdfLensPanel::refreshEnvironment() {
     if (!isVisible())
         return;
     const Document& document = m_controller.document();
-    m_ball->setEnvironment(m_maps, document.environment, document.view);
-    const ImagePtr image = document.environment.image;
+    m_ball->setEnvironment(m_maps, document.environment(), document.view);
+    const ImagePtr image = document.environment().image;
     if (!image || image == m_environment)
         return;
     m_environment = image;
@@ -328,7 +328,7 @@ void BrdfLensPanel::refreshEnvironment() {
         return [this, made = std::make_shared<const IblMaps>(std::move(*maps))] {
             m_maps = made;
             const Document& now = m_controller.document();
-            m_ball->setEnvironment(m_maps, now.environment, now.view);
+            m_ball->setEnvironment(m_maps, now.environment(), now.view);
         };
     });
 }

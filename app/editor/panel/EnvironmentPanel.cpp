@@ -2,6 +2,7 @@
 
 #include "app/editor/document/FileKinds.h"
 #include "app/editor/document/ProposedFolder.h"
+#include "app/editor/panel/EnvironmentList.h"
 #include "app/editor/panel/ParameterList.h"
 #include "app/editor/panel/SoftboxList.h"
 #include "app/editor/style/Icons.h"
@@ -43,14 +44,14 @@ EnvironmentPanel::EnvironmentPanel(DocumentController& controller, Thumbnails& t
     , m_source(new ElidedLabel)
     , m_imageControls(makeImageControls())
     , m_softboxes(new SoftboxList(controller, thumbnails))
-    , m_parameters(new ParameterList(
-          controller, thumbnails,
-          {Scope::Environment,
-           [] { return std::optional(kEnvironment); },
-           // shown above, or by the mixer, in another way
-           {"environment.kind", "environment.image", "environment.secondImage"}})) {
+    , m_parameters(new ParameterList(controller, thumbnails,
+                                     {Scope::Environment,
+                                      [] { return std::optional(kEnvironment); },
+                                      // shown above, or by the mixer, in another way
+                                      {"environment.kind", "environment.image"}})) {
     m_gallery->setRunner(controller.runner());
     auto* scroll = new PanelScroll;
+    scroll->contents()->addWidget(new EnvironmentList(controller));
     scroll->contents()->addWidget(makeKinds());
     scroll->contents()->addWidget(m_view);
     scroll->contents()->addWidget(m_imageControls);
@@ -202,7 +203,7 @@ void EnvironmentPanel::cancelDrag() {
 }
 
 void EnvironmentPanel::refresh() {
-    const Environment& environment = m_controller.document().environment;
+    const Environment& environment = m_controller.document().environment();
     for (std::size_t i = 0; i < m_kinds.size(); ++i)
         m_kinds[i]->setChecked(i == static_cast<std::size_t>(environment.kind));
     m_imageControls->setVisible(environment.kind == EnvironmentKind::Image);
@@ -226,7 +227,7 @@ void EnvironmentPanel::refresh() {
 void EnvironmentPanel::refreshPicture() {
     if (!isVisible())
         return; // made when it is seen
-    const Environment& environment = m_controller.document().environment;
+    const Environment& environment = m_controller.document().environment();
     m_picture->show(environment.image, environment.exposureEv,
                     std::max(64, qRound(m_view->width() * m_view->devicePixelRatioF())));
 }

@@ -157,7 +157,7 @@ void LightLabPanel::requestPictures() {
 QString LightLabPanel::message(LabView view) const {
     if (view.isTable())
         return {};
-    if (!m_controller.document().environment.image)
+    if (!m_controller.document().environment().image)
         return tr("There is no environment.");
     return {};
 }
@@ -190,7 +190,7 @@ void LightLabPanel::refreshCaptions() {
     apply(m_stage, true);
 
     QStringList notes;
-    if (!m_controller.document().environment.problem.empty())
+    if (!m_controller.document().environment().problem.empty())
         notes << tr("A neutral grey stands in for the environment.");
     if (m_controller.document().view.toneMap == ToneMap::OpenColorIo)
         notes << tr("Shown through PBR Neutral: OpenColorIO runs in the viewport only.");

@@ -2,15 +2,14 @@
 
 #include "app/editor/document/FileKinds.h"
 #include "app/editor/document/ProposedFolder.h"
+#include "app/editor/panel/EnvironmentList.h"
 #include "app/editor/panel/ParameterRow.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/LightIcon.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/EditControl.h"
-#include "app/editor/widget/MapSlotWidget.h"
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Slider.h"
-#include "core/document/Source.h"
 #include "core/edit/EditSession.h"
 #include "core/library/Library.h"
 #include "core/math/Shading.h"
@@ -31,38 +30,15 @@
 namespace patina::editor {
 namespace {
 
-constexpr Target kEnvironment{Scope::Environment, 0};
-constexpr qint64 kStepPauseMs = 700; // a longer pause begins a new undo step
+constexpr Target kScene{Scope::Environment, 0}; // of the cross-fade
+constexpr qint64 kStepPauseMs = 700;            // a longer pause begins a new undo step
 
-QString titleOf(const Environment& environment) {
-    switch (environment.kind) {
-    case EnvironmentKind::Sky:
-        return MixerPanel::tr("Sky");
-    case EnvironmentKind::Softboxes:
-        return MixerPanel::tr("Softboxes");
-    case EnvironmentKind::Image:
-        break;
-    }
-    return MapSlotWidget::sourceTitle(environment.source);
-}
-
-bool hasSecond(const Document& document) {
-    return !document.environment.second.source.empty();
-}
-
-const MixerChannel& firstEnvironment() {
-    static const MixerChannel channel{
-        kEnvironment, &parameter("environment.exposureEv"), &parameter("environment.tint"),
-        &parameter("environment.enabled"), &parameter("environment.solo")};
-    return channel;
-}
-
-const MixerChannel& secondEnvironment() {
-    static const MixerChannel channel{kEnvironment, &parameter("environment.secondExposureEv"),
-                                      &parameter("environment.secondTint"),
-                                      &parameter("environment.secondEnabled"),
-                                      &parameter("environment.secondSolo")};
-    return channel;
+MixerChannel channelOf(const Environment& environment) {
+    return {{Scope::Environment, environment.id},
+            &parameter("environment.exposureEv"),
+            &parameter("environment.tint"),
+            &parameter("environment.enabled"),
+            &parameter("environment.solo")};
 }
 
 void describe(QWidget* widget, const QString& name, const QString& help) {
@@ -138,7 +114,7 @@ QWidget* MixerPanel::makeFade() {
                  .arg(toQString(fade.help)));
     const auto begin = [this] { m_session = m_controller.newDragSession(); };
     const auto drag = [this, &fade](double value) {
-        m_controller.setParameter(fade, kEnvironment, static_cast<float>(value), m_session);
+        m_controller.setParameter(fade, kScene, static_cast<float>(value), m_session);
     };
     connect(m_fade, &Slider::dragStarted, this, begin);
     connect(m_fade, &Slider::dragged, this, drag);
@@ -149,10 +125,10 @@ QWidget* MixerPanel::makeFade() {
         if (m_stepSession == 0 || now - m_lastStepMs > kStepPauseMs)
             m_stepSession = m_controller.newDragSession();
         m_lastStepMs = now;
-        m_controller.setParameter(fade, kEnvironment, static_cast<float>(value), m_stepSession);
+        m_controller.setParameter(fade, kScene, static_cast<float>(value), m_stepSession);
     });
     connect(m_fadeField, &NumberField::edited, this, [this, &fade](double value) {
-        m_controller.setParameter(fade, kEnvironment, static_cast<float>(value));
+        m_controller.setParameter(fade, kScene, static_cast<float>(value));
         refresh();
     });
     return box;
@@ -172,19 +148,36 @@ QWidget* MixerPanel::makeSecondSource() {
 
 void MixerPanel::fillSources(QMenu& menu) {
     menu.clear();
+    const Document& document = m_controller.document();
+    // The scene's other environments first, the one that is faded to ticked.
+    for (const Environment& environment : document.environments) {
+        if (environment.id == document.mix.first)
+            continue;
+        const Id id = environment.id;
+        QAction* action = menu.addAction(EnvironmentList::titleOf(environment));
+        action->setCheckable(true);
+        action->setChecked(id == document.mix.second);
+        action->setStatusTip(tr("Fade to this environment of the scene"));
+        connect(action, &QAction::triggered, this, [this, id] { m_controller.fadeTo(id); });
+    }
+    if (document.environments.size() > 1)
+        menu.addSeparator();
+    QMenu* add = document.environments.size() > 1 ? menu.addMenu(tr("&Add Environment")) : &menu;
     for (const library::Entry& entry : library::environments()) {
         const QString source = QStringLiteral("builtin:") + QString::fromStdString(entry.name);
-        QAction* action = menu.addAction(QString::fromStdString(entry.title));
+        QAction* action = add->addAction(QString::fromStdString(entry.title));
         action->setStatusTip(QString::fromStdString(entry.help));
-        connect(action, &QAction::triggered, this,
-                [this, source] { m_controller.setSecondEnvironment(source); });
+        connect(action, &QAction::triggered, this, [this, source] { fadeToSource(source); });
     }
-    menu.addSeparator();
-    connect(menu.addAction(tr("Open &Image…")), &QAction::triggered, this, &MixerPanel::openSecond);
-    if (hasSecond(m_controller.document()))
-        connect(menu.addAction(tr("&Remove")), &QAction::triggered, this, [this] {
-            m_controller.clearMap(parameter("environment.secondImage"), kEnvironment);
-        });
+    add->addSeparator();
+    connect(add->addAction(tr("Open &Image…")), &QAction::triggered, this, &MixerPanel::openSecond);
+    if (document.mix.second != 0)
+        connect(menu.addAction(tr("&None")), &QAction::triggered, this,
+                [this] { m_controller.fadeTo(0); });
+}
+
+void MixerPanel::fadeToSource(const QString& source) {
+    m_controller.addEnvironment(source, DocumentController::EnvironmentUse::FadeTo);
 }
 
 void MixerPanel::openSecond() {
@@ -194,16 +187,16 @@ void MixerPanel::openSecond() {
     if (file.isEmpty())
         return;
     rememberFolder(m_controller, key, file);
-    m_controller.setSecondEnvironment(file);
+    fadeToSource(file);
 }
 
 // --- The channels --------------------------------------------------------------------------------
 
 std::vector<MixerChannel> MixerPanel::channels() const {
     const Document& document = m_controller.document();
-    std::vector<MixerChannel> channels{firstEnvironment()};
-    if (hasSecond(document))
-        channels.push_back(secondEnvironment());
+    std::vector<MixerChannel> channels{channelOf(document.environment())};
+    if (const Environment* second = document.secondEnvironment())
+        channels.push_back(channelOf(*second));
     for (const Light& light : document.lights)
         channels.push_back({{Scope::Light, light.id},
                             &parameter("light.gainEv"),
@@ -259,35 +252,32 @@ void MixerPanel::refresh() {
         rebuild();
     for (MixerStrip* strip : m_channels)
         refreshStrip(*strip);
-    const bool second = hasSecond(document);
+    const Environment* second = document.secondEnvironment();
     if (!second)
         for (QWidget* control : {static_cast<QWidget*>(m_fade), static_cast<QWidget*>(m_fadeField)})
             abandonEdits(*control);
-    m_add->setText(
-        second ? QFontMetrics(m_add->font())
-                     .elidedText(MapSlotWidget::sourceTitle(document.environment.second.source),
-                                 Qt::ElideMiddle, 110)
-               : tr("Add Environment"));
-    m_fade->setEnabled(second);
-    m_fadeField->setEnabled(second);
-    m_fade->setValue(document.environment.fade);
-    m_fadeField->setValue(document.environment.fade);
+    m_add->setText(second ? QFontMetrics(m_add->font())
+                                .elidedText(EnvironmentList::titleOf(*second), Qt::ElideMiddle, 110)
+                          : tr("Add Environment"));
+    m_fade->setEnabled(second != nullptr);
+    m_fadeField->setEnabled(second != nullptr);
+    m_fade->setValue(document.mix.fade);
+    m_fadeField->setValue(document.mix.fade);
 }
 
 void MixerPanel::refreshStrip(MixerStrip& strip) {
     const Document& document = m_controller.document();
-    const Environment& environment = document.environment;
     if (strip.channel().target.scope == Scope::Light) {
         const Light& light = *document.light(strip.channel().target.id);
         strip.setName(QString::fromStdString(light.name), lightIcon(light.type));
         strip.refresh(lightLevel(document, light), isActive(document, light));
         return;
     }
-    const bool first = strip.channel() == firstEnvironment();
-    strip.setName(first ? titleOf(environment)
-                        : MapSlotWidget::sourceTitle(environment.second.source),
+    const Id id = strip.channel().target.id;
+    strip.setName(EnvironmentList::titleOf(*document.environment(id)),
                   QStringLiteral("environment"));
-    const auto role = first ? EnvironmentPart::Role::First : EnvironmentPart::Role::Second;
+    const auto role =
+        id == document.mix.first ? EnvironmentPart::Role::First : EnvironmentPart::Role::Second;
     float lux = 0.0f;
     for (const EnvironmentPart& part : environmentParts(document))
         if (part.role == role)

@@ -33,6 +33,7 @@ class MixerPanel : public QWidget {
     QWidget* makeSecondSource();
     void fillSources(QMenu& menu);
     void openSecond();
+    void fadeToSource(const QString& source);
     void rebuild();
     void refresh();
     void refreshStrip(MixerStrip& strip);

@@ -4,6 +4,7 @@
 #include "app/editor/panel/ParameterList.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/ListButton.h"
 #include "core/edit/EditSession.h"
 #include "core/library/SoftboxRigs.h"
 
@@ -24,29 +25,14 @@ Id idOf(const QListWidgetItem& item) {
     return item.data(Qt::UserRole).toUInt();
 }
 
-QToolButton* makeButton(const QString& iconName, const QString& text, const QString& tip) {
-    auto* button = new QToolButton;
-    button->setIcon(icon(iconName));
-    if (!text.isEmpty()) {
-        button->setObjectName(QStringLiteral("raised"));
-        button->setText(text);
-        button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-    }
-    button->setToolTip(tip);
-    button->setStatusTip(tip);
-    button->setAccessibleName(tip);
-    button->setFocusPolicy(Qt::TabFocus);
-    return button;
-}
-
 } // namespace
 
 SoftboxList::SoftboxList(DocumentController& controller, Thumbnails& thumbnails, QWidget* parent)
     : QWidget(parent)
     , m_controller(controller)
     , m_list(new QListWidget)
-    , m_duplicate(makeButton(QStringLiteral("duplicate"), {}, tr("Duplicate the softbox")))
-    , m_remove(makeButton(QStringLiteral("remove"), {}, tr("Remove the softbox")))
+    , m_duplicate(makeListButton(QStringLiteral("duplicate"), {}, tr("Duplicate the softbox")))
+    , m_remove(makeListButton(QStringLiteral("remove"), {}, tr("Remove the softbox")))
     , m_parameters(new ParameterList(controller, thumbnails,
                                      {Scope::Softbox,
                                       [this]() -> std::optional<Target> {
@@ -96,9 +82,9 @@ SoftboxList::SoftboxList(DocumentController& controller, Thumbnails& thumbnails,
 
 QWidget* SoftboxList::makeButtons() {
     auto* add =
-        makeButton(QStringLiteral("add"), tr("Add"), tr("Add a softbox in front of the model"));
-    auto* rigs = makeButton(QStringLiteral("library"), tr("Rigs"),
-                            tr("Set up an arrangement of softboxes in place of these"));
+        makeListButton(QStringLiteral("add"), tr("Add"), tr("Add a softbox in front of the model"));
+    auto* rigs = makeListButton(QStringLiteral("library"), tr("Rigs"),
+                                tr("Set up an arrangement of softboxes in place of these"));
     rigs->setPopupMode(QToolButton::InstantPopup);
     auto* menu = new QMenu(rigs);
     menu->setToolTipsVisible(true);
@@ -140,12 +126,12 @@ void SoftboxList::select(Id softbox) {
 }
 
 void SoftboxList::selectFirst() {
-    const std::vector<Softbox>& softboxes = m_controller.document().environment.softboxes;
+    const std::vector<Softbox>& softboxes = m_controller.document().environment().softboxes;
     select(softboxes.empty() ? 0 : softboxes.front().id);
 }
 
 void SoftboxList::remove(Id softbox) {
-    const std::vector<Softbox>& softboxes = m_controller.document().environment.softboxes;
+    const std::vector<Softbox>& softboxes = m_controller.document().environment().softboxes;
     const auto found = std::ranges::find(softboxes, softbox, &Softbox::id);
     if (found == softboxes.end())
         return;
@@ -177,7 +163,7 @@ QListWidgetItem* SoftboxList::placed(Id softbox, int row) {
 }
 
 void SoftboxList::refresh() {
-    const std::vector<Softbox>& softboxes = m_controller.document().environment.softboxes;
+    const std::vector<Softbox>& softboxes = m_controller.document().environment().softboxes;
     if (!m_controller.document().softbox(m_selected) && m_selected != 0) {
         m_selected = 0;
         Q_EMIT selectionChanged();

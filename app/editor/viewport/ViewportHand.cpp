@@ -89,7 +89,7 @@ void ViewportHand::setCamera(const Camera& camera) {
 
 void ViewportHand::turnEnvironment(float pixels) {
     const ParameterInfo* rotation = findParameter("environment.rotationDeg");
-    const float now = m_controller.document().environment.rotationDeg;
+    const float now = m_controller.document().environment().rotationDeg;
     // The environment follows the pointer: dragging right rotates it right.
     const float next = std::remainder(now + kTurnDegrees * pixels, 360.0f);
     m_controller.setParameter(*rotation, Target{Scope::Environment, 0}, next, m_turnSession);

@@ -267,8 +267,8 @@ TEST_F(Controller, EveryEditIsThatOfTheCommandLine) {
             controller.setParameter(info, target, value);
             Document edited = document();
             // Pictures that are derived come by themselves.
-            edited.environment.image = expected.environment.image;
-            edited.environment.blended = expected.environment.blended;
+            edited.environment().image = expected.environment().image;
+            edited.mix.blended = expected.mix.blended;
             ASSERT_EQ(edited, expected) << "value " << i;
         }
     }
@@ -314,7 +314,7 @@ TEST_F(Controller, WhatWasAskedForBeforeAModelIsOpenedDoesNotKeepItOut) {
     controller.openScene(QStringLiteral("builtin:sphere"));
     settle();
     EXPECT_EQ(controller.displayName(), QStringLiteral("Sphere"));
-    EXPECT_EQ(document().environment.source, "builtin:sunset");
+    EXPECT_EQ(document().environment().source, "builtin:sunset");
     EXPECT_LE(undo().count(), 1); // the light's own step, where the model was there before it
     EXPECT_TRUE(notices.empty());
 }
@@ -329,7 +329,7 @@ TEST_F(Controller, ALightThatIsReadMoreSlowlyThanTheModelIsNotLost) {
     controller.openScene(QStringLiteral("builtin:sphere"));
     settle();
     EXPECT_EQ(controller.displayName(), QStringLiteral("Sphere"));
-    EXPECT_EQ(document().environment.source, sky.toStdString());
+    EXPECT_EQ(document().environment().source, sky.toStdString());
     EXPECT_TRUE(notices.empty());
 }
 
@@ -377,7 +377,7 @@ TEST_F(Controller, SavedAndOpenedAgainItIsTheSame) {
     ASSERT_EQ(document().meshes.size(), saved.meshes.size());
     for (std::size_t i = 0; i < saved.meshes.size(); ++i)
         EXPECT_EQ(*document().meshes[i].mesh, *saved.meshes[i].mesh) << saved.meshes[i].name;
-    EXPECT_EQ(*document().environment.image, *saved.environment.image);
+    EXPECT_EQ(*document().environment().image, *saved.environment().image);
     EXPECT_EQ(*document().materials.front().baseColorMap.image,
               *saved.materials.front().baseColorMap.image);
 }

@@ -30,7 +30,7 @@ struct EnvironmentFiles : EditorTest {
     std::filesystem::path write(const char* name, EnvironmentLayout layout) {
         const EnvironmentSaveSettings settings{path(name).toStdString(), layout, 64, false};
         const auto written =
-            saveEnvironment(controller().worker(), document().environment, settings);
+            saveEnvironment(controller().worker(), document().environment(), settings);
         EXPECT_TRUE(written.ok());
         return settings.output;
     }
@@ -41,31 +41,31 @@ TEST_F(EnvironmentFiles, ChangingTheLayoutReadsTheFileAnewAsOneStep) {
     controller().setEnvironment(path("ball.exr"));
     ASSERT_TRUE(settled(*session));
     ASSERT_EQ(undoCount(), 1);
-    const ImagePtr angular = document().environment.image;
+    const ImagePtr angular = document().environment().image;
 
     const ParameterInfo& layout = parameter("environment.layout");
     controller().setParameter(layout, {Scope::Environment, 0},
                               static_cast<int>(EnvironmentLayout::MirrorBall));
     ASSERT_TRUE(settled(*session));
     EXPECT_EQ(undoCount(), 2);
-    EXPECT_EQ(document().environment.layout, EnvironmentLayout::MirrorBall);
-    EXPECT_NE(*document().environment.image, *angular);
+    EXPECT_EQ(document().environment().layout, EnvironmentLayout::MirrorBall);
+    EXPECT_NE(*document().environment().image, *angular);
     controller().undoStack().undo();
-    EXPECT_EQ(document().environment.layout, EnvironmentLayout::Automatic);
-    EXPECT_EQ(document().environment.image, angular);
+    EXPECT_EQ(document().environment().layout, EnvironmentLayout::Automatic);
+    EXPECT_EQ(document().environment().image, angular);
     controller().undoStack().redo();
-    EXPECT_EQ(document().environment.layout, EnvironmentLayout::MirrorBall);
+    EXPECT_EQ(document().environment().layout, EnvironmentLayout::MirrorBall);
 
     // A layout that does not fit changes nothing and is explained.
     controller().setParameter(layout, {Scope::Environment, 0},
                               static_cast<int>(EnvironmentLayout::HorizontalCross));
     ASSERT_TRUE(settled(*session));
-    EXPECT_EQ(document().environment.layout, EnvironmentLayout::MirrorBall);
+    EXPECT_EQ(document().environment().layout, EnvironmentLayout::MirrorBall);
     EXPECT_EQ(undoCount(), 2);
     // The next file is guessed again.
     controller().setEnvironment(QStringLiteral("builtin:sunset"));
     ASSERT_TRUE(settled(*session));
-    EXPECT_EQ(document().environment.layout, EnvironmentLayout::Automatic);
+    EXPECT_EQ(document().environment().layout, EnvironmentLayout::Automatic);
 }
 
 TEST_F(EnvironmentFiles, TheDialogWritesWhatItSays) {
@@ -108,9 +108,9 @@ TEST_F(EnvironmentFiles, TheDialogWritesWhatItSays) {
 
     controller().setEnvironment(path("sky_px.hdr"));
     ASSERT_TRUE(settled(*session));
-    EXPECT_EQ(document().environment.source, path("sky_px.hdr").toStdString());
-    EXPECT_EQ(document().environment.image->width(), 128);
-    EXPECT_TRUE(document().environment.problem.empty());
+    EXPECT_EQ(document().environment().source, path("sky_px.hdr").toStdString());
+    EXPECT_EQ(document().environment().image->width(), 128);
+    EXPECT_TRUE(document().environment().problem.empty());
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "tests/app/editor/EditorFixture.h"
 
+#include "app/editor/panel/EnvironmentList.h"
 #include "app/editor/panel/EnvironmentPanel.h"
 #include "app/editor/panel/ParameterList.h"
 #include "app/editor/panel/SoftboxList.h"
@@ -39,7 +40,7 @@ struct EnvironmentPanelTest : EditorTest {
     }
     static EnvironmentPanel& panel() { return *alone; }
     static LatLongView& view() { return *panel().view(); }
-    static const Environment& environment() { return document().environment; }
+    static const Environment& environment() { return document().environment(); }
     static const Softbox& softbox(std::size_t index) { return environment().softboxes.at(index); }
 
     void SetUp() override {
@@ -58,7 +59,7 @@ struct EnvironmentPanelTest : EditorTest {
         choose("Softboxes");
         Id id = 0;
         controller().editStructure(QStringLiteral("one"), [&](Document& edited) {
-            edited.environment.softboxes.clear();
+            edited.environment().softboxes.clear();
             id = patina::addSoftbox(edited, softbox);
         });
         panel().softboxes()->select(id);
@@ -66,6 +67,7 @@ struct EnvironmentPanelTest : EditorTest {
         QApplication::processEvents();
         return id;
     }
+    static QString tr(const char* text) { return QString::fromUtf8(text); }
     static QPoint pointOf(double azimuthDeg, double elevationDeg) {
         return view().map().point(directionFromAngles(azimuthDeg, elevationDeg)).toPoint();
     }
@@ -467,4 +469,98 @@ TEST_F(EnvironmentPanelTest, EnvironmentsFromFilesJoinTheGallery) {
 }
 
 } // namespace
+// Several environments: the list appears with the second, a click lights the scene with another.
+TEST_F(EnvironmentPanelTest, TheSceneHoldsSeveralEnvironments) {
+    EnvironmentList& environments = *panel().findChild<EnvironmentList*>();
+    QListWidget& list = *environments.list();
+    const auto add = [&](const char* what) {
+        auto* button = find<QToolButton>(environments,
+                                         tr("Add an environment that the scene can be lit with"));
+        for (QAction* action : button->menu()->actions())
+            if (action->text().remove(QLatin1Char('&')) == tr(what)) {
+                action->trigger();
+                return eventually([] { return !controller().tasks().busy(); });
+            }
+        return false;
+    };
+    auto* remove = find<QToolButton>(environments, tr("Remove the environment"));
+    auto* duplicate = find<QToolButton>(environments, tr("Duplicate the environment"));
+    EXPECT_TRUE(list.isHidden());
+    EXPECT_FALSE(remove->isEnabled());
+    const Environment before = environment();
+
+    ASSERT_TRUE(add("Night"));
+    ASSERT_FALSE(list.isHidden());
+    ASSERT_EQ(list.count(), 2);
+    EXPECT_EQ(list.currentRow(), 1);
+    EXPECT_EQ(list.item(1)->text(), tr("Night"));
+    EXPECT_EQ(environment().source, "builtin:night");
+    ASSERT_TRUE(add("Sky"));
+    EXPECT_EQ(environment().kind, EnvironmentKind::Sky);
+    EXPECT_NE(environment().image, nullptr) << "a draft at once";
+    EXPECT_TRUE(eventually([] { return environment().image->height() == kEnvironmentHeight; }))
+        << "then the full picture";
+    const ImagePtr sky = environment().image;
+    if (const QString shots = qEnvironmentVariable("PATINA_SCREENSHOTS"); !shots.isEmpty())
+        panel().grab().save(shots + QStringLiteral("/environment-list.png"));
+
+    // What is edited is the current one's.
+    view().setFocus();
+    QTest::keyClick(&view(), Qt::Key_Right);
+    EXPECT_NE(environment().sky, Sky()) << "the sun moved";
+    EXPECT_TRUE(eventually([&] {
+        return environment().image != sky && environment().image->height() == kEnvironmentHeight;
+    }));
+    const Sky moved = environment().sky;
+    QTest::mouseClick(list.viewport(), Qt::LeftButton, {},
+                      list.visualItemRect(list.item(0)).center());
+    EXPECT_EQ(environment(), before);
+    EXPECT_EQ(controller().undoStack().undoText(), tr("Light with %1").arg(list.item(0)->text()));
+    EXPECT_EQ(document().environments[2].sky, moved);
+
+    // Its name: typed, then taken away again.
+    controller().rename({Scope::Environment, before.id}, tr("Cold light"));
+    EXPECT_EQ(list.item(0)->text(), tr("Cold light"));
+    list.item(0)->setText({});
+    EXPECT_EQ(document().environment().name, "");
+    EXPECT_EQ(list.item(0)->text(), EnvironmentList::titleOf(before));
+
+    // The same picture is not added twice.
+    const int steps = controller().undoStack().count();
+    ASSERT_TRUE(add("Night"));
+    EXPECT_EQ(list.count(), 3);
+    EXPECT_EQ(environment().source, "builtin:night");
+    EXPECT_EQ(controller().undoStack().count(), steps + 1);
+
+    QTest::mouseClick(duplicate, Qt::LeftButton);
+    EXPECT_EQ(list.count(), 4);
+    EXPECT_EQ(list.currentRow(), 2);
+    EXPECT_NE(list.item(2)->text(), list.item(1)->text());
+    for (int left = 3; left >= 1; --left) {
+        QTest::mouseClick(remove, Qt::LeftButton);
+        EXPECT_EQ(list.count(), left);
+    }
+    EXPECT_FALSE(remove->isEnabled());
+    EXPECT_TRUE(list.isHidden());
+    while (controller().undoStack().canUndo())
+        controller().undoStack().undo();
+    EXPECT_EQ(document().environments.size(), 1u);
+    EXPECT_EQ(environment(), before);
+    EXPECT_TRUE(list.isHidden());
+}
+
+// A picture that is read when its environment is no longer the one that lights goes where it was
+// asked for.
+TEST_F(EnvironmentPanelTest, AReadPictureGoesToTheEnvironmentItWasAskedFor) {
+    const Id studio = document().mix.first;
+    controller().addEnvironment(EnvironmentKind::Sky);
+    const Id sky = document().mix.first;
+    controller().lightWith(studio);
+    controller().setEnvironment(QStringLiteral("builtin:night"));
+    controller().lightWith(sky);
+    ASSERT_TRUE(eventually([] { return !controller().tasks().busy(); }));
+    EXPECT_EQ(document().environment(studio)->source, "builtin:night");
+    EXPECT_EQ(document().environment(sky)->kind, EnvironmentKind::Sky);
+}
+
 } // namespace patina::editor

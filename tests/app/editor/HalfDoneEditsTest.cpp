@@ -190,7 +190,7 @@ TEST_F(HalfDoneEdits, OtherElementsGetNothing) {
     }
     controller().setEnvironmentKind(EnvironmentKind::Softboxes);
     auto* softboxes = window->findChild<SoftboxList*>();
-    const Id one = document().environment.softboxes.at(0).id;
+    const Id one = document().environment().softboxes.at(0).id;
     const Id other = controller().duplicateSoftbox(one);
     softboxes->select(one);
     dock("environment");
@@ -227,7 +227,8 @@ TEST_F(HalfDoneEdits, TilingOfOneMapIsNotThatOfTheNext) {
 
 // Numbers mean other elements in another document.
 TEST_F(HalfDoneEdits, ASceneThatIsOpenedGetsNothing) {
-    controller().setSecondEnvironment(QStringLiteral("builtin:sunset"));
+    controller().addEnvironment(QStringLiteral("builtin:sunset"),
+                                DocumentController::EnvironmentUse::FadeTo);
     ASSERT_TRUE(settled(*session));
     int fields = 0;
     for (const char* name : {"material", "lights", "environment", "view", "model", "mixer"}) {
@@ -329,7 +330,7 @@ TEST_F(HalfDoneEdits, ANameInTheTreeOrOfASoftboxStaysWithItsElement) {
     controller().setEnvironmentKind(EnvironmentKind::Softboxes);
     dock("environment");
     auto* softboxes = window->findChild<SoftboxList*>();
-    const Id one = document().environment.softboxes.at(0).id;
+    const Id one = document().environment().softboxes.at(0).id;
     const Id other = controller().duplicateSoftbox(one);
     softboxes->select(other);
     QListWidget* list = softboxes->list();

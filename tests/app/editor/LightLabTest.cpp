@@ -30,7 +30,7 @@ struct LightLabTest : testing::Test {
         s_session = std::make_unique<Session>();
         s_ibl = std::make_unique<IblUpdater>(s_session->tasks, s_cache->path().toStdString());
         QObject::connect(&controller(), &DocumentController::changed, s_ibl.get(),
-                         [] { s_ibl->request(document().environment.image); });
+                         [] { s_ibl->request(document().environment().image); });
         s_panel = std::make_unique<LightLabPanel>(controller(), *s_ibl, s_session->probe);
     }
     static void TearDownTestSuite() {
@@ -60,7 +60,7 @@ struct LightLabTest : testing::Test {
     static bool drawn() {
         return eventually([] {
             return panel().idle() && panel().light().analysis &&
-                   panel().light().analysis->environment == document().environment.image &&
+                   panel().light().analysis->environment == document().environment().image &&
                    s_ibl->finished() && panel().light().maps == s_ibl->maps() && panel().dfg() &&
                    !panel().stage()->picture().isNull();
         });
@@ -212,7 +212,7 @@ TEST_F(LightLabTest, FollowsWhileTheEnvironmentIsDragged) {
     }
     ASSERT_TRUE(drawn());
     EXPECT_EQ(undoCount(), 1);
-    EXPECT_EQ(panel().light().rotationDeg, document().environment.rotationDeg);
+    EXPECT_EQ(panel().light().rotationDeg, document().environment().rotationDeg);
     EXPECT_EQ(picture.picture(), labPicture(panel().light(), picture.view(), picture.pictureSize(),
                                             LabTone(document().view, {}, 0.0f), {}));
     EXPECT_EQ(panel().picture({LabKind::Harmonics, 8})->detail(), error)
@@ -226,7 +226,7 @@ TEST_F(LightLabTest, FollowsTheSunOfASky) {
     set("environment.skySunElevationDeg", 5.0f);
     ASSERT_TRUE(eventually([&] {
         return panel().light().analysis != noon && panel().light().analysis &&
-               panel().light().analysis->environment == document().environment.image;
+               panel().light().analysis->environment == document().environment().image;
     }));
     ASSERT_TRUE(drawn());
     EXPECT_THAT(panel().picture({LabKind::Harmonics, 8})->warning().toStdString(),
@@ -390,7 +390,7 @@ TEST(LightLabWithoutADocument, SaysThatThereIsNoEnvironment) {
     panel.resize(700, 260);
     panel.show();
     ASSERT_TRUE(QTest::qWaitForWindowExposed(&panel, 60'000));
-    ASSERT_EQ(session.controller.document().environment.image, nullptr);
+    ASSERT_EQ(session.controller.document().environment().image, nullptr);
     ASSERT_TRUE(eventually([&] { return panel.idle() && panel.dfg(); }));
     EXPECT_THAT(panel.stage()->accessibleDescription().toStdString(),
                 HasSubstr("There is no environment."));

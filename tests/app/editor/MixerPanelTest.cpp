@@ -9,6 +9,7 @@
 #include "core/mix/LightMix.h"
 #include "tests/app/editor/EditorFixture.h"
 #include "tests/support/Events.h"
+#include "tests/support/SecondEnvironment.h"
 
 #include <QLabel>
 #include <QMenu>
@@ -48,9 +49,11 @@ struct MixerPanelTest : ::testing::Test {
     }
     static QString tr(const char* text) { return QString::fromUtf8(text); }
     void addSecond() {
-        controller().setSecondEnvironment(QStringLiteral("builtin:sunset"));
+        controller().addEnvironment(QStringLiteral("builtin:sunset"),
+                                    DocumentController::EnvironmentUse::FadeTo);
         ASSERT_TRUE(eventually([this] { return !controller().tasks().busy(); }));
-        ASSERT_NE(document().environment.second.image, nullptr);
+        ASSERT_NE(document().secondEnvironment(), nullptr);
+        ASSERT_NE(document().secondEnvironment()->image, nullptr);
     }
     void keep(const QString& name) {
         const QString target = qEnvironmentVariable("PATINA_SCREENSHOTS");
@@ -142,48 +145,50 @@ TEST_F(MixerPanelTest, EnvironmentsAreFadedAndTheLightFollows) {
     ASSERT_TRUE(named<NumberField>(tr("Cross-fade")).isEnabled());
     EXPECT_EQ(panel.findChildren<Fader*>().size(), 3);
     // It is seen at once, beside the first one; taking it back is one step.
-    EXPECT_EQ(document().environment.fade, 0.5f);
+    EXPECT_EQ(document().mix.fade, 0.5f);
     EXPECT_NE(level("Sunset"), tr("dark"));
     controller().undoStack().undo();
-    EXPECT_EQ(document().environment.fade, 0.0f);
-    EXPECT_TRUE(document().environment.second.source.empty());
+    EXPECT_EQ(document().mix.fade, 0.0f);
+    EXPECT_EQ(document().environments.size(), 1u);
+    EXPECT_EQ(document().mix.second, 0u);
     controller().undoStack().redo();
     controller().setParameter(parameter("environment.fade"), {Scope::Environment, 0}, 0.0f);
-    EXPECT_EQ(shownEnvironment(document()).image, document().environment.image);
+    EXPECT_EQ(shownEnvironment(document()).image, document().environment().image);
     EXPECT_EQ(level("Sunset"), tr("dark")); // faded out
     // Solo, it is there however it is faded.
-    controller().setParameter(parameter("environment.secondSolo"), {Scope::Environment, 0}, true);
+    const Target second{Scope::Environment, document().mix.second};
+    controller().setParameter(parameter("environment.solo"), second, true);
     EXPECT_NE(level("Sunset"), tr("dark"));
-    EXPECT_EQ(shownEnvironment(document()).image, document().environment.second.image);
-    controller().setParameter(parameter("environment.secondSolo"), {Scope::Environment, 0}, false);
+    EXPECT_EQ(shownEnvironment(document()).image, document().secondEnvironment()->image);
+    controller().setParameter(parameter("environment.solo"), second, false);
     Slider& fade = named<Slider>(tr("Cross-fade"));
     const int steps = controller().undoStack().count();
     QTest::mousePress(&fade, Qt::LeftButton, {}, QPoint(fade.handleX(), fade.height() / 2));
     QTest::mouseMove(&fade, QPoint(fade.width() / 2, fade.height() / 2));
     QTest::mouseRelease(&fade, Qt::LeftButton, {}, QPoint(fade.width() / 2, fade.height() / 2));
-    EXPECT_NEAR(document().environment.fade, 0.5f, 0.02f);
+    EXPECT_NEAR(document().mix.fade, 0.5f, 0.02f);
     EXPECT_EQ(controller().undoStack().count(), steps + 1);
     // At once a draft of both, then the full picture.
-    ASSERT_NE(document().environment.blended, nullptr);
-    EXPECT_EQ(shownEnvironment(document()).image, document().environment.blended);
-    EXPECT_LE(document().environment.blended->height(), 256);
+    ASSERT_NE(document().mix.blended, nullptr);
+    EXPECT_EQ(shownEnvironment(document()).image, document().mix.blended);
+    EXPECT_LE(document().mix.blended->height(), 256);
     EXPECT_NE(level("Sunset"), tr("dark"));
     EXPECT_TRUE(eventually([this] {
-        const ImagePtr& blended = document().environment.blended;
-        return blended && blended->height() == document().environment.image->height();
+        const ImagePtr& blended = document().mix.blended;
+        return blended && blended->height() == document().environment().image->height();
     }));
     keep(QStringLiteral("mixer.png"));
     // Gain of the second, then away with it: everything is as before.
     fader("Sunset").setFocus();
     QTest::keyClick(&fader("Sunset"), Qt::Key_PageUp);
-    EXPECT_FLOAT_EQ(document().environment.second.exposureEv, 1.0f);
-    controller().clearMap(parameter("environment.secondImage"), {Scope::Environment, 0});
+    EXPECT_FLOAT_EQ(document().secondEnvironment()->exposureEv, 1.0f);
+    controller().fadeTo(0);
     EXPECT_EQ(panel.findChildren<Fader*>().size(), 2);
-    EXPECT_EQ(document().environment.blended, nullptr);
-    EXPECT_EQ(shownEnvironment(document()).image, document().environment.image);
+    EXPECT_EQ(document().mix.blended, nullptr);
+    EXPECT_EQ(shownEnvironment(document()).image, document().environment().image);
     while (controller().undoStack().canUndo())
         controller().undoStack().undo();
-    EXPECT_EQ(document().environment.second, SecondEnvironment());
+    EXPECT_EQ(document().environments.size(), 1u);
 }
 
 TEST_F(MixerPanelTest, ChannelsFollowTheDocument) {

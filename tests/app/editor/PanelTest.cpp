@@ -180,8 +180,8 @@ TEST_F(PanelTest, RowsShowTheSelectedMaterialOnly) {
 TEST_F(PanelTest, EveryParameterOfAPanelHasARow) {
     for (const ParameterInfo& info : parameters()) {
         if (info.scope == Scope::Mesh || info.type == ParameterType::Text ||
-            info.id == "environment.kind" || info.id == "environment.image" ||
-            info.id == "environment.secondImage" || info.id == "light.enabled" ||
+            info.type == ParameterType::Reference || info.id == "environment.kind" ||
+            info.id == "environment.image" || info.id == "light.enabled" ||
             info.id == "light.solo" || info.id == "softbox.enabled")
             continue; // in the tree, the lists, the gallery and the buttons
         ParameterRow& found = row(info.id);
@@ -583,7 +583,7 @@ TEST_F(PanelTest, TheGalleryLightsTheScene) {
     EXPECT_FALSE(sunset->isChecked());
     sunset->click();
     ASSERT_TRUE(settled(*session));
-    EXPECT_EQ(document().environment.source, "builtin:sunset");
+    EXPECT_EQ(document().environment().source, "builtin:sunset");
     EXPECT_TRUE(sunset->isChecked());
     EXPECT_EQ(undoCount(), 1);
     controller().undoStack().undo();

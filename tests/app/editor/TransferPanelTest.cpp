@@ -134,9 +134,10 @@ TEST_F(TransferPanelTest, ShowsThePinnedPointBandByBand) {
 // A cross-fade meets the point as exactly the mix of both environments' light.
 TEST_F(TransferPanelTest, FollowsTheMixOfTwoEnvironments) {
     controller().attachBake(openBake());
-    controller().setSecondEnvironment(QStringLiteral("builtin:sunset"));
+    controller().addEnvironment(QStringLiteral("builtin:sunset"),
+                                DocumentController::EnvironmentUse::FadeTo);
     ASSERT_TRUE(eventually(
-        [] { return !controller().tasks().busy() && document().environment.second.image; }));
+        [] { return !controller().tasks().busy() && document().secondEnvironment() != nullptr; }));
     pin();
     std::vector<glm::vec3> last;
     const auto at = [&](float fade) {

@@ -145,14 +145,14 @@ TEST_F(WindowTest, AModelIsOpenedInTheLightThatIsThere) {
     controller().setEnvironment(QStringLiteral("builtin:sunset"));
     ASSERT_TRUE(settled(*session));
     controller().addLight(LightType::Spot);
-    const Environment environment = document().environment;
+    const Environment environment = document().environment();
     const Light light = document().lights[0];
     controller().saveAs(folder.filePath(QStringLiteral("light.patina"))); // nothing to ask about
     ASSERT_TRUE(settled(*session));
     window->files().open(writeObj(QStringLiteral("wedge.obj")));
     ASSERT_TRUE(settled(*session));
     ASSERT_EQ(document().meshes.size(), 1u);
-    EXPECT_EQ(document().environment, environment);
+    EXPECT_EQ(document().environment(), environment);
     ASSERT_EQ(document().lights.size(), 1u);
     EXPECT_EQ(document().lights[0].position, light.position);
     EXPECT_EQ(document().lights[0].name, light.name);
@@ -164,7 +164,7 @@ TEST_F(WindowTest, AModelIsOpenedInTheLightThatIsThere) {
     ASSERT_TRUE(settled(*session));
     window->files().open(project);
     ASSERT_TRUE(settled(*session));
-    EXPECT_EQ(document().environment.source, "builtin:sunset");
+    EXPECT_EQ(document().environment().source, "builtin:sunset");
 }
 
 // Where the model or the project lies, its maps and exports lie, too, until one goes elsewhere.
@@ -291,9 +291,9 @@ TEST_F(WindowTest, AnEnvironmentDroppedLightsTheScene) {
     hdr.close();
     dropOnWindow({hdr.fileName()});
     ASSERT_TRUE(settled(*session));
-    EXPECT_EQ(document().environment.source, hdr.fileName().toStdString());
-    ASSERT_NE(document().environment.image, nullptr);
-    EXPECT_EQ(document().environment.image->type(), PixelType::F32);
+    EXPECT_EQ(document().environment().source, hdr.fileName().toStdString());
+    ASSERT_NE(document().environment().image, nullptr);
+    EXPECT_EQ(document().environment().image->type(), PixelType::F32);
 }
 
 TEST_F(WindowTest, ABrokenFileIsANoticeAndNothingIsLost) {

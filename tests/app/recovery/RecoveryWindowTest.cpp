@@ -111,7 +111,7 @@ TEST_F(RecoveryWindow, TheLastStateOfADragIsKept) {
     const auto kept =
         documentFromJson(found.works[0].record.project, found.works[0].record.projectFile());
     ASSERT_TRUE(kept.ok());
-    EXPECT_EQ(kept->environment.rotationDeg, 40.0f);
+    EXPECT_EQ(kept->environment().rotationDeg, 40.0f);
     EXPECT_EQ(found.works[0].record.steps, 1);
 }
 
@@ -181,7 +181,7 @@ TEST_F(RecoveryWindow, RecoversComparesAndLeavesTheSavedFileAlone) {
     shoot(QStringLiteral("recovery-compare"));
 
     press(*dialog(), QStringLiteral("Recover"));
-    ASSERT_TRUE(eventually([&] { return document().environment.rotationDeg == 50.0f; }));
+    ASSERT_TRUE(eventually([&] { return document().environment().rotationDeg == 50.0f; }));
     EXPECT_TRUE(controller().isModified());
     EXPECT_EQ(controller().filePath().toStdString(), file.string());
     EXPECT_EQ(controller().displayName(), name);
@@ -189,9 +189,9 @@ TEST_F(RecoveryWindow, RecoversComparesAndLeavesTheSavedFileAlone) {
     EXPECT_EQ(hashFile(file), before);
     controller().undoStack().undo();
     EXPECT_FALSE(controller().isModified()) << "what was saved lies below";
-    EXPECT_EQ(document().environment.rotationDeg, 0.0f);
+    EXPECT_EQ(document().environment().rotationDeg, 0.0f);
     controller().undoStack().redo();
-    EXPECT_EQ(document().environment.rotationDeg, 50.0f);
+    EXPECT_EQ(document().environment().rotationDeg, 50.0f);
     // And it is kept on, in the folder where it was.
     ASSERT_TRUE(recovery->keeper().keepNow());
     recovery.reset();
@@ -207,7 +207,7 @@ TEST_F(RecoveryWindow, AFileThatWasChangedMeanwhileIsNotTheOneThatCtrlSWrites) {
     recovery->offer();
     ASSERT_NE(dialog(), nullptr);
     press(*dialog(), QStringLiteral("Recover"));
-    ASSERT_TRUE(eventually([&] { return document().environment.rotationDeg == 60.0f; }));
+    ASSERT_TRUE(eventually([&] { return document().environment().rotationDeg == 60.0f; }));
     EXPECT_TRUE(controller().filePath().isEmpty());
     EXPECT_TRUE(controller().isModified());
 }
@@ -258,7 +258,7 @@ TEST_F(RecoveryWindow, TheLogoutOfTheSessionKeepsTheNewestState) {
     ASSERT_TRUE(record.ok()) << record.error().text();
     const auto kept = documentFromJson(record->project, record->projectFile());
     ASSERT_TRUE(kept.ok()) << kept.error().text();
-    EXPECT_EQ(kept->environment.rotationDeg, 90.0f);
+    EXPECT_EQ(kept->environment().rotationDeg, 90.0f);
 }
 
 } // namespace

@@ -115,7 +115,7 @@ TEST_F(FluidityTest, AnEnvironmentArrivesWhileTheButtonIsHeld) {
         EXPECT_NE(state, PictureState::Refined);
     QTest::mouseRelease(&viewport(), Qt::LeftButton, Qt::NoModifier, center());
     ASSERT_TRUE(settled(*session));
-    EXPECT_EQ(document().environment.source, "builtin:sunset");
+    EXPECT_EQ(document().environment().source, "builtin:sunset");
 }
 
 // An orbit and a slider's drag, while a bake runs at low priority: each step has its frame, and the

@@ -4,6 +4,7 @@
 #include "app/editor/job/UiTasks.h"
 #include "core/math/SphericalHarmonics.h"
 #include "render/gl/Context.h"
+#include "tests/support/SecondEnvironment.h"
 
 #include <QSignalSpy>
 #include <cmath>
@@ -28,9 +29,8 @@ struct ProjectionFeedTest : ::testing::Test {
         auto created = render::SceneRenderer::create(*context);
         ASSERT_TRUE(created.ok());
         renderer = std::move(*created);
-        document.environment.image = sky(1.0f);
-        document.environment.second.source = "second";
-        document.environment.second.image = sky(3.0f);
+        test::addSecond(document, "second", sky(3.0f));
+        document.environment().image = sky(1.0f);
     }
     void upload() {
         renderer->setDocument(document);
@@ -49,10 +49,10 @@ struct ProjectionFeedTest : ::testing::Test {
 };
 
 TEST_F(ProjectionFeedTest, KeepsLightLinearBetweenEnvironments) {
-    Environment& e = document.environment;
+    Environment& e = document.environment();
     upload();
     EXPECT_FALSE(renderer->knowsProjection(e.image)) << "nothing fades: nothing is asked for";
-    e.fade = 0.5f;
+    document.mix.fade = 0.5f;
     for (const int done : {1, 2}) {
         upload();
         ASSERT_TRUE(changed.wait(30'000));
@@ -60,10 +60,10 @@ TEST_F(ProjectionFeedTest, KeepsLightLinearBetweenEnvironments) {
     }
     upload();
     EXPECT_TRUE(renderer->knowsProjection(e.image));
-    EXPECT_TRUE(renderer->knowsProjection(e.second.image));
-    EXPECT_EQ(e.blended, nullptr) << "no picture of both was needed";
+    EXPECT_TRUE(renderer->knowsProjection(document.secondEnvironment()->image));
+    EXPECT_EQ(document.mix.blended, nullptr) << "no picture of both was needed";
     for (const float fade : {0.25f, 0.5f, 0.9f}) {
-        e.fade = fade;
+        document.mix.fade = fade;
         upload();
         EXPECT_NEAR(brightness(), (1.0f - fade) * 1.0f + fade * 3.0f, 1e-4f) << fade;
     }
@@ -71,12 +71,12 @@ TEST_F(ProjectionFeedTest, KeepsLightLinearBetweenEnvironments) {
 }
 
 TEST_F(ProjectionFeedTest, FollowsAPictureThatIsReplaced) {
-    Environment& e = document.environment;
-    e.fade = 0.5f;
+    Environment& e = document.environment();
+    document.mix.fade = 0.5f;
     upload();
     e.image = sky(2.0f); // while the first one is under way
     for (int i = 0; i < 4 && !(renderer->knowsProjection(e.image) &&
-                               renderer->knowsProjection(e.second.image));
+                               renderer->knowsProjection(document.secondEnvironment()->image));
          ++i) {
         upload();
         changed.wait(5'000);

@@ -105,10 +105,10 @@ TEST_F(ViewportWindowTest, FlyingNeedsTheRightButtonAndLettersStayShortcutsOther
 
 TEST_F(ViewportWindowTest, ShiftRightDragTurnsTheEnvironmentInOneUndoStep) {
     drag(Qt::RightButton, Qt::ShiftModifier, {50, 0});
-    EXPECT_GT(document().environment.rotationDeg, 5.0f);
+    EXPECT_GT(document().environment().rotationDeg, 5.0f);
     EXPECT_EQ(undoCount(), 1);
     controller().undoStack().undo();
-    EXPECT_EQ(document().environment.rotationDeg, 0.0f);
+    EXPECT_EQ(document().environment().rotationDeg, 0.0f);
 }
 
 // --- Lights, by real events ---
@@ -243,7 +243,7 @@ TEST_F(LightGizmoWindowTest, CtrlRightDragTurnsTheSelectedLightOrElseTheEnvironm
     drag(Qt::RightButton, Qt::ControlModifier, {50, -20});
     EXPECT_GT(document().light(id)->azimuthDeg, before.azimuthDeg + 5.0f);
     EXPECT_GT(document().light(id)->elevationDeg, before.elevationDeg);
-    EXPECT_EQ(document().environment.rotationDeg, 0.0f);
+    EXPECT_EQ(document().environment().rotationDeg, 0.0f);
     EXPECT_EQ(undoCount(), steps + 1);
     EXPECT_EQ(camera(), seen);
     keepPicture("light-turned.png");
@@ -252,7 +252,7 @@ TEST_F(LightGizmoWindowTest, CtrlRightDragTurnsTheSelectedLightOrElseTheEnvironm
     const Light turned = *document().light(id);
     drag(Qt::RightButton, Qt::ControlModifier, {50, 0});
     EXPECT_EQ(*document().light(id), turned);
-    EXPECT_GT(document().environment.rotationDeg, 5.0f);
+    EXPECT_GT(document().environment().rotationDeg, 5.0f);
     EXPECT_EQ(undoCount(), steps + 2);
 }
 

@@ -84,7 +84,7 @@ TEST(Dirty, EachPartHasItsBit) {
     EXPECT_THAT(after([](Document& d) { d.model.f90 = 0.5f; }), ElementsAre("model"));
     EXPECT_THAT(after([](Document& d) { d.lights[0].intensity = 9.0f; }), ElementsAre("lights"));
     EXPECT_THAT(after([](Document& d) { d.lights.clear(); }), ElementsAre("lights"));
-    EXPECT_THAT(after([](Document& d) { d.environment.fade = 0.3f; }), ElementsAre("environment"));
+    EXPECT_THAT(after([](Document& d) { d.mix.fade = 0.3f; }), ElementsAre("environment"));
     EXPECT_THAT(after([](Document& d) { d.view.exposureEv = 1.0f; }), ElementsAre("view"));
     EXPECT_THAT(after([](Document& d) { d.bakes = {std::make_shared<const BakeArtifact>()}; }),
                 ElementsAre("bakes"));
@@ -135,25 +135,45 @@ TEST(Dirty, ShadowsFollowShapesAndHoles) {
     EXPECT_THAT(bits(dirtyBetween(holes, gone)), ElementsAre("casters", "materialSet"));
 }
 
+TEST(Dirty, EnvironmentsThatLightNothingAreNotAskedFor) {
+    Document before = scene();
+    Environment& other = before.environments.emplace_back();
+    other.id = before.takeId();
+    Document after = before;
+    after.environments.back().rotationDeg = 30.0f;
+    after.environments.back().name = "Night";
+    EXPECT_FALSE(dirtyBetween(before, after).any());
+    after.mix.second = after.environments.back().id;
+    EXPECT_THAT(bits(dirtyBetween(before, after)), ElementsAre("environment"));
+    Document turned = after;
+    turned.environments.back().rotationDeg = 60.0f;
+    EXPECT_THAT(bits(dirtyBetween(after, turned)), ElementsAre("environment"));
+    turned = after;
+    turned.environments.back().name = "Evening";
+    std::ranges::reverse(turned.environments);
+    EXPECT_FALSE(dirtyBetween(after, turned).any());
+}
+
 // A parameter that no bit stands for would be edited without a picture of it.
 TEST(Dirty, EveryParameterOfPicturesHasABit) {
     RandomDocument random(3);
     for (const ParameterInfo& info : parameters()) {
         const Document before = [&] {
             Document document = scene();
-            document.environment.softboxes.emplace_back().id = document.takeId();
+            document.environment().softboxes.emplace_back().id = document.takeId();
+            document.environments.emplace_back().id = document.takeId();
             return document;
         }();
         const Id id = info.scope == Scope::Material  ? 3
                       : info.scope == Scope::Mesh    ? 1
                       : info.scope == Scope::Light   ? 5
-                      : info.scope == Scope::Softbox ? before.environment.softboxes.front().id
+                      : info.scope == Scope::Softbox ? before.environment().softboxes.front().id
                                                      : 0;
         Document changed = before;
         for (int i = 0; i < 100 && info.get(changed, id) == info.get(before, id); ++i)
             (void)applyParameter(changed, info, {info.scope, id}, random.value(info, before));
-        const bool isInPictures =
-            info.id != "material.name" && info.id != "mesh.name" && info.id != "view.fovDeg";
+        const bool isInPictures = info.id != "material.name" && info.id != "mesh.name" &&
+                                  info.id != "environment.name" && info.id != "view.fovDeg";
         EXPECT_EQ(dirtyBetween(before, changed).any(), isInPictures) << info.id;
     }
 }

@@ -22,7 +22,7 @@ class RandomDocument {
 
     Document make() {
         Document document;
-        document.nextId = 1 + below(1000);
+        document.nextId += static_cast<Id>(below(1000));
         for (std::size_t i = below(5); i > 0; --i) {
             skipIds(document);
             document.materials.emplace_back().id = document.takeId();
@@ -31,9 +31,14 @@ class RandomDocument {
             skipIds(document);
             document.lights.emplace_back().id = document.takeId();
         }
+        for (std::size_t i = below(3); i > 0; --i) {
+            skipIds(document);
+            document.environments.emplace_back().id = document.takeId();
+        }
         for (std::size_t i = below(4); i > 0; --i) {
             skipIds(document);
-            document.environment.softboxes.emplace_back().id = document.takeId();
+            document.environments[below(document.environments.size())].softboxes.emplace_back().id =
+                document.takeId();
         }
         for (std::size_t i = below(6); i > 0; --i) {
             MeshInstance& mesh = document.meshes.emplace_back();
@@ -51,6 +56,8 @@ class RandomDocument {
         for (const ParameterInfo& info : parameters())
             for (const Id id : idsOf(document, info.scope))
                 info.set(document, id, value(info, document));
+        if (document.mix.second == document.mix.first)
+            document.mix.second = 0;
         return document;
     }
 
@@ -87,6 +94,11 @@ class RandomDocument {
         case ParameterType::Map:
             return map(info.scope == Scope::Material);
         case ParameterType::Reference:
+            if (info.refersTo == Scope::Environment)
+                return info.mayBeNone && below(2) == 0
+                           ? 0
+                           : static_cast<int>(
+                                 document.environments[below(document.environments.size())].id);
             return document.materials.empty() || below(4) == 0
                        ? 0
                        : static_cast<int>(document.materials[below(document.materials.size())].id);
@@ -112,9 +124,13 @@ class RandomDocument {
             collect(document.meshes);
             break;
         case Scope::Softbox:
-            collect(document.environment.softboxes);
+            for (const Environment& environment : document.environments)
+                collect(environment.softboxes);
             break;
         case Scope::Environment:
+            ids.push_back(0);
+            collect(document.environments);
+            break;
         case Scope::Model:
         case Scope::View:
             ids.push_back(0);

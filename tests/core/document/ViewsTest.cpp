@@ -106,14 +106,14 @@ TEST(Views, ApplyOnlyWhereTheSceneHasWhatTheyNeed) {
     EXPECT_EQ(inapplicable(document), sum({rest, kOfLights, kOfBakes}));
 
     // No environment: switched off, or black.
-    document.environment.enabled = false;
+    document.environment().enabled = false;
     EXPECT_EQ(inapplicable(document),
               sum({rest, kOfLights, kOfBakes, kOfEnvironments, {"unshadowed"}}));
-    document.environment.enabled = true;
-    document.environment.tint = glm::vec3(0.0f);
+    document.environment().enabled = true;
+    document.environment().tint = glm::vec3(0.0f);
     EXPECT_EQ(inapplicable(document),
               sum({rest, kOfLights, kOfBakes, kOfEnvironments, {"unshadowed"}}));
-    document.environment.tint = glm::vec3(1.0f);
+    document.environment().tint = glm::vec3(1.0f);
 
     // An area light has no single direction, and casts no shadow.
     Light panel, sun;

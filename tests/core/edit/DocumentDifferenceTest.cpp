@@ -22,18 +22,19 @@ TEST(DocumentDifference, NamesElementValueAndBothNumbers) {
     Document after = before;
     after.materials.front().name = "Gold";
     after.materials.front().perceptualRoughness = 0.25f;
-    after.environment.rotationDeg = 30.0f;
+    after.environment().rotationDeg = 30.0f;
     const std::string material = "Material Gold";
     EXPECT_THAT(
         differences(before, after),
-        ElementsAre(DocumentDifference{material, "Name", before.materials.front().name, "Gold"},
-                    ::testing::AllOf(::testing::Field(&DocumentDifference::element, material),
-                                     ::testing::Field(&DocumentDifference::value,
-                                                      ::testing::HasSubstr("oughness")),
-                                     ::testing::Field(&DocumentDifference::after, "0.25")),
-                    ::testing::AllOf(::testing::Field(&DocumentDifference::element, "Environment"),
-                                     ::testing::Field(&DocumentDifference::before, "0"),
-                                     ::testing::Field(&DocumentDifference::after, "30"))));
+        ElementsAre(
+            DocumentDifference{material, "Name", before.materials.front().name, "Gold"},
+            ::testing::AllOf(
+                ::testing::Field(&DocumentDifference::element, material),
+                ::testing::Field(&DocumentDifference::value, ::testing::HasSubstr("oughness")),
+                ::testing::Field(&DocumentDifference::after, "0.25")),
+            ::testing::AllOf(::testing::Field(&DocumentDifference::element, "Environment Studio"),
+                             ::testing::Field(&DocumentDifference::before, "0"),
+                             ::testing::Field(&DocumentDifference::after, "30"))));
 }
 
 TEST(DocumentDifference, ElementsThatOnlyOneHasAreOneLineEach) {

@@ -2,6 +2,7 @@
 
 #include "core/edit/EditSession.h"
 
+#include "core/document/EnvironmentTitle.h"
 #include "core/image/Image.h"
 #include "tests/core/document/RandomDocument.h"
 
@@ -17,7 +18,7 @@ struct Observer : EditObserver {
         if (!follow)
             return Affects::Nothing;
         // Stands for whatever is derived from the document.
-        document.environment.backgroundBlur = document.environment.rotationDeg / 360.0f;
+        document.view.backgroundBlur = document.environment().rotationDeg / 360.0f;
         return Affects::EnvironmentMap;
     }
     void documentChanged(const Change& change) override { changes.push_back(change); }
@@ -215,11 +216,11 @@ TEST_F(EditSessionTest, AGroupIsOneStep) {
 TEST_F(EditSessionTest, WhatFollowsFromAnEditIsThereWhenItIsTold) {
     observer.follow = true;
     session.setParameter(parameter("environment.rotationDeg"), {Scope::Environment, 0}, 90.0f);
-    EXPECT_EQ(session.document().environment.backgroundBlur, 0.25f);
+    EXPECT_EQ(session.document().view.backgroundBlur, 0.25f);
     ASSERT_EQ(observer.changes.size(), 1u);
     EXPECT_TRUE(touches(observer.changes[0].affects, Affects::EnvironmentMap));
     session.undo();
-    EXPECT_EQ(session.document().environment.backgroundBlur, 0.0f);
+    EXPECT_EQ(session.document().view.backgroundBlur, 0.0f);
 }
 
 TEST_F(EditSessionTest, ModifiedMeansOtherThanWhatWasSaved) {
@@ -262,6 +263,80 @@ TEST_F(EditSessionTest, StepsEndAtTheirLimits) {
 }
 
 // A walk over every kind of edit, there and back.
+TEST_F(EditSessionTest, EnvironmentsAreAddedChosenMixedAndRemoved) {
+    const auto& document = session.document();
+    const Id studio = document.mix.first;
+    Environment sky;
+    sky.kind = EnvironmentKind::Sky;
+    sky.softboxes.resize(1);
+    const Id added = session.addEnvironment(sky, "Add Sky");
+    EXPECT_EQ(document.mix.first, added) << "it lights the scene";
+    EXPECT_EQ(document.environment().kind, EnvironmentKind::Sky);
+    EXPECT_NE(document.environment().softboxes[0].id, 0u);
+    session.lightWith(studio);
+    EXPECT_EQ(document.mix.first, studio);
+    EXPECT_EQ(session.undoText(), "Light with Studio");
+
+    // The one to fade to; it and the first change places where one takes the other's.
+    const ParameterInfo& second = parameter("environment.second");
+    const Target scene{Scope::Environment, 0};
+    session.setParameter(second, scene, static_cast<int>(added));
+    EXPECT_EQ(document.mix.second, added);
+    EXPECT_EQ(document.mix.fade, 0.5f) << "seen at once";
+    session.lightWith(added);
+    EXPECT_EQ(document.mix.first, added);
+    EXPECT_EQ(document.mix.second, studio);
+    session.setParameter(second, scene, static_cast<int>(added));
+    EXPECT_EQ(document.mix.second, 0u) << "nothing fades to itself";
+    session.undo();
+    session.setParameter(second, scene, 4711);
+    EXPECT_EQ(document.mix.second, studio) << "there is none of that number";
+    session.setParameter(parameter("environment.first"), scene, 0);
+    EXPECT_EQ(document.mix.first, added);
+
+    const int steps = session.index();
+    session.removeEnvironment(added);
+    EXPECT_EQ(document.mix.first, studio);
+    EXPECT_EQ(document.mix.second, 0u);
+    session.removeEnvironment(studio);
+    EXPECT_EQ(document.environments.size(), 1u) << "the last one stays";
+    EXPECT_EQ(session.count(), steps + 1);
+    session.goTo(0);
+    EXPECT_EQ(document.environments.size(), 1u);
+    EXPECT_EQ(document.mix.first, studio);
+    session.goTo(steps);
+    EXPECT_EQ(document.mix.second, studio);
+
+    for (int i = 0; i < 100; ++i)
+        session.duplicateEnvironment(added);
+    EXPECT_EQ(document.environments.size(), kMaxEnvironments);
+    std::set<std::string> titles;
+    for (const Environment& environment : document.environments)
+        titles.insert(environmentTitle(environment));
+    EXPECT_EQ(titles.size(), kMaxEnvironments) << "each has a name of its own";
+}
+
+// The picture that was made of an environment meanwhile is not lost by an undo of something else.
+TEST_F(EditSessionTest, StepsOfTheListsKeepTheFinestPictures) {
+    const Id sky = [&] {
+        Environment environment;
+        environment.kind = EnvironmentKind::Sky;
+        return session.addEnvironment(environment, "Add Sky");
+    }();
+    const Id light = session.addLight(LightType::Point);
+    const auto fine = std::make_shared<const Image>(8, 4, 3, PixelType::F32, ColorEncoding::Data);
+    session.setEnvironmentImage(sky, fine);
+    session.setBlendedImage(fine);
+    session.undo();
+    EXPECT_EQ(session.document().environment(sky)->image, fine);
+    EXPECT_EQ(session.document().mix.blended, fine);
+    session.redo();
+    EXPECT_EQ(session.document().environment(sky)->image, fine);
+    EXPECT_NE(session.document().light(light), nullptr);
+    session.setEnvironmentImage(4711, nullptr); // there is none of that number
+    EXPECT_EQ(session.document().environment(sky)->image, fine);
+}
+
 TEST_F(EditSessionTest, RandomEditsThenUndoAllIsTheInitialDocument) {
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
         SCOPED_TRACE("replay with seed " + std::to_string(seed));
@@ -273,7 +348,7 @@ TEST_F(EditSessionTest, RandomEditsThenUndoAllIsTheInitialDocument) {
             return ids.empty() ? Id{0} : ids[random.below(ids.size())];
         };
         for (int edit = 0; edit < 200; ++edit) {
-            switch (random.below(14)) {
+            switch (random.below(18)) {
             case 0:
                 session.addLight(static_cast<LightType>(random.below(5)));
                 break;
@@ -301,6 +376,18 @@ TEST_F(EditSessionTest, RandomEditsThenUndoAllIsTheInitialDocument) {
                 break;
             case 8:
                 session.removeSoftbox(any(Scope::Softbox));
+                break;
+            case 9:
+                session.duplicateEnvironment(any(Scope::Environment));
+                break;
+            case 10:
+                session.removeEnvironment(any(Scope::Environment));
+                break;
+            case 11:
+                session.lightWith(any(Scope::Environment));
+                break;
+            case 12:
+                session.addSecondEnvironment(Environment(), "Fade");
                 break;
             default: {
                 const auto table = parameters();

@@ -26,7 +26,7 @@ std::set<Id> allIds(const Document& document) {
     collect(document.materials);
     collect(document.lights);
     collect(document.meshes);
-    collect(document.environment.softboxes);
+    collect(document.environment().softboxes);
     EXPECT_EQ(ids.size(), count) << "ids are not unique";
     return ids;
 }
@@ -49,7 +49,7 @@ TEST(Edit, RandomEditsKeepThePromisesOfADocument) {
                 return elements.empty() ? Id{0} : elements[random.below(elements.size())].id;
             };
             const Id material = pick(document.materials), light = pick(document.lights),
-                     mesh = pick(document.meshes), softbox = pick(document.environment.softboxes);
+                     mesh = pick(document.meshes), softbox = pick(document.environment().softboxes);
             switch (random.below(11)) {
             case 0:
                 addMaterial(document, {});
@@ -166,14 +166,14 @@ TEST(Edit, SoftboxesAreNamedDuplicatedAndLimited) {
     const Id first = addSoftbox(document, key), second = duplicateSoftbox(document, first);
     EXPECT_EQ(document.softbox(second)->name, "Key 2");
     EXPECT_EQ(document.softbox(second)->widthDeg, 77.0f);
-    EXPECT_EQ(document.environment.softboxes[1].id, second);
+    EXPECT_EQ(document.environment().softboxes[1].id, second);
     EXPECT_TRUE(removeSoftbox(document, first));
     EXPECT_FALSE(removeSoftbox(document, first));
-    while (document.environment.softboxes.size() < kMaxSoftboxes)
+    while (document.environment().softboxes.size() < kMaxSoftboxes)
         ASSERT_NE(addSoftbox(document, {}), 0u);
     EXPECT_EQ(addSoftbox(document, {}), 0u);
     EXPECT_EQ(duplicateSoftbox(document, second), 0u);
-    EXPECT_EQ(document.environment.softboxes.size(), kMaxSoftboxes);
+    EXPECT_EQ(document.environment().softboxes.size(), kMaxSoftboxes);
 }
 
 TEST(Edit, MeshesOfARemovedMaterialTakeAnother) {

@@ -1,4 +1,5 @@
 #include "core/document/Document.h"
+#include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
 
 #include <gmock/gmock.h>
@@ -41,11 +42,11 @@ std::string refusal(const Document& document, const std::string& name) {
 
 TEST(ParameterSelection, ANameAloneMeansEveryElement) {
     const Document document = scene();
-    EXPECT_EQ(targets(document, "material.metallic"), (std::vector<Target>{{Scope::Material, 1},
-                                                                           {Scope::Material, 2},
+    EXPECT_EQ(targets(document, "material.metallic"), (std::vector<Target>{{Scope::Material, 2},
                                                                            {Scope::Material, 3},
-                                                                           {Scope::Material, 4}}));
-    EXPECT_EQ(targets(document, "light.intensity"), (std::vector<Target>{{Scope::Light, 5}}));
+                                                                           {Scope::Material, 4},
+                                                                           {Scope::Material, 5}}));
+    EXPECT_EQ(targets(document, "light.intensity"), (std::vector<Target>{{Scope::Light, 6}}));
     EXPECT_EQ(targets(document, "view.toneMap"), (std::vector<Target>{{Scope::View, 0}}));
     EXPECT_EQ(targets(document, "environment.rotationDeg"),
               (std::vector<Target>{{Scope::Environment, 0}}));
@@ -54,14 +55,38 @@ TEST(ParameterSelection, ANameAloneMeansEveryElement) {
 TEST(ParameterSelection, BracketsChooseByName) {
     const Document document = scene();
     EXPECT_EQ(targets(document, "material[Body].metallic"),
-              (std::vector<Target>{{Scope::Material, 1}, {Scope::Material, 3}}));
+              (std::vector<Target>{{Scope::Material, 2}, {Scope::Material, 4}}));
     EXPECT_EQ(targets(document, "material[Glass].baseColor.map"),
-              (std::vector<Target>{{Scope::Material, 2}}));
+              (std::vector<Target>{{Scope::Material, 3}}));
     EXPECT_EQ(targets(document, "material[odd].[name].x].opacity"),
-              (std::vector<Target>{{Scope::Material, 4}}));
-    EXPECT_EQ(targets(document, "light[Sun].intensity"), (std::vector<Target>{{Scope::Light, 5}}));
+              (std::vector<Target>{{Scope::Material, 5}}));
+    EXPECT_EQ(targets(document, "light[Sun].intensity"), (std::vector<Target>{{Scope::Light, 6}}));
     EXPECT_EQ(selectParameter(document, "material[Body].roughness")->info,
               findParameter("material.perceptualRoughness"));
+}
+
+// Of environments a name alone means the one that lights the scene.
+TEST(ParameterSelection, EnvironmentsAreFoundByTitleAndByTheirPlaceInTheMix) {
+    Document document = scene();
+    const Id first = document.mix.first;
+    EXPECT_THAT(refusal(document, "environment.secondTint"), HasSubstr("environment.second"));
+    Environment night;
+    night.source = "builtin:night";
+    const Id second = document.mix.second = addEnvironment(document, night);
+    EXPECT_EQ(targets(document, "environment.tint"),
+              (std::vector<Target>{{Scope::Environment, 0}}));
+    EXPECT_EQ(targets(document, "environment.secondTint"),
+              (std::vector<Target>{{Scope::Environment, second}}));
+    EXPECT_EQ(targets(document, "environment[Night].skySunScale"),
+              (std::vector<Target>{{Scope::Environment, second}}));
+    document.environments[1].name = "Evening";
+    EXPECT_EQ(targets(document, "environment[Evening].rotationDeg"),
+              (std::vector<Target>{{Scope::Environment, second}}));
+    EXPECT_EQ(targets(document, "environment[Studio].rotationDeg"),
+              (std::vector<Target>{{Scope::Environment, first}}));
+    EXPECT_THAT(refusal(document, "environment[Night].tint"), HasSubstr("Evening"));
+    EXPECT_THAT(refusal(document, "environment[Evening].fade"), HasSubstr("without brackets"));
+    EXPECT_THAT(refusal(document, "environment.secondFade"), HasSubstr("no parameter"));
 }
 
 TEST(ParameterSelection, UnknownNamesSuggestTheNearest) {

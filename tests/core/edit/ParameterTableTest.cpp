@@ -17,15 +17,33 @@ using namespace patina;
 namespace {
 
 // A document with two elements of each kind, so that a write to the wrong one is seen.
+constexpr Id kOtherReference = 7;
+
 Document twoOfEach() {
     Document document;
     for (int i = 0; i < 2; ++i) {
         document.materials.emplace_back().id = document.takeId();
         document.lights.emplace_back().id = document.takeId();
         document.meshes.emplace_back().id = document.takeId();
-        document.environment.softboxes.emplace_back().id = document.takeId();
+        document.environment().softboxes.emplace_back().id = document.takeId();
     }
+    document.environments.emplace_back().id = kOtherReference;
     return document;
+}
+
+Id firstOf(const Document& document, Scope scope) {
+    switch (scope) {
+    case Scope::Material:
+        return document.materials[0].id;
+    case Scope::Light:
+        return document.lights[0].id;
+    case Scope::Mesh:
+        return document.meshes[0].id;
+    case Scope::Softbox:
+        return document.environment().softboxes[0].id;
+    default:
+        return 0;
+    }
 }
 
 Id secondOf(const Document& document, Scope scope) {
@@ -37,7 +55,9 @@ Id secondOf(const Document& document, Scope scope) {
     case Scope::Mesh:
         return document.meshes[1].id;
     case Scope::Softbox:
-        return document.environment.softboxes[1].id;
+        return document.environment().softboxes[1].id;
+    case Scope::Environment:
+        return document.environments[1].id;
     default:
         return 0;
     }
@@ -67,7 +87,7 @@ ParameterValue otherValue(const ParameterInfo& info) {
         return slot;
     }
     case ParameterType::Reference:
-        return 7;
+        return static_cast<int>(kOtherReference);
     }
     return false;
 }
@@ -123,7 +143,8 @@ TEST(ParameterTable, HoldsTheFixedNames) {
                              "environment.softboxAmbient",
                              "environment.rotationDeg",
                              "environment.exposureEv",
-                             "environment.secondImage",
+                             "environment.first",
+                             "environment.second",
                              "environment.fade",
                              "light.gainEv",
                              "view.exposureEv",
@@ -168,7 +189,12 @@ TEST(ParameterTable, SetReachesOneElementAndGetReadsItBack) {
         EXPECT_EQ(info.get(after, id), value) << info.id;
         EXPECT_FALSE(after == before) << info.id;
 
-        // No other parameter of any element has moved.
+        // No other parameter of any element has moved, nor this one of the other element.
+        if (id != 0 && !info.ofScene) {
+            EXPECT_EQ(info.get(after, firstOf(after, info.scope)),
+                      info.get(before, firstOf(before, info.scope)))
+                << info.id;
+        }
         for (const ParameterInfo& other : parameters()) {
             if (&other == &info)
                 continue;
@@ -213,12 +239,12 @@ TEST(ParameterTable, RowsReachTheMembersTheyName) {
     EXPECT_EQ(document.view.camera.fovDeg, 50.0f);
     EXPECT_EQ(document.view.exposureEv, 1.0f);
     EXPECT_EQ(document.view.toneMap, ToneMap::Clamp);
-    EXPECT_EQ(document.environment.exposureEv, -2.0f);
-    EXPECT_EQ(document.environment.background, BackgroundMode::Color);
+    EXPECT_EQ(document.environment().exposureEv, -2.0f);
+    EXPECT_EQ(document.view.background, BackgroundMode::Color);
     EXPECT_EQ(document.lights[1].type, LightType::Point);
     EXPECT_EQ(document.lights[1].elevationDeg, 10.0f);
     EXPECT_EQ(document.meshes[1].material, material);
-    EXPECT_EQ(document.environment.source, "/sky.hdr");
+    EXPECT_EQ(document.environment().source, "/sky.hdr");
 }
 
 // OpenColorIO's views are offered where there is a configuration, by file or by environment.
@@ -311,8 +337,7 @@ TEST(ParameterTable, MapsBelongToTheirNumbersAndCarryTheColourPolicy) {
         if (info.type != ParameterType::Map)
             continue;
         const bool isColor = info.id == "material.baseColor.map" ||
-                             info.id == "material.emissive.map" || info.id == "environment.image" ||
-                             info.id == "environment.secondImage";
+                             info.id == "material.emissive.map" || info.id == "environment.image";
         EXPECT_EQ(info.mapEncoding, isColor ? ColorEncoding::Srgb : ColorEncoding::Data) << info.id;
         EXPECT_TRUE(touches(info.affects, Affects::Picture)) << info.id;
     }

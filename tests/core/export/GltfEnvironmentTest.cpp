@@ -34,7 +34,7 @@ class GltfEnvironmentFile : public testing::Test {
   protected:
     GltfEnvironmentFile() {
         addSquare(m_document, 0);
-        m_document.environment.source = "/skies/linear.exr";
+        m_document.environment().source = "/skies/linear.exr";
     }
 
     ExportSettings settings(const std::string& name) const {
@@ -119,7 +119,7 @@ class GltfEnvironmentFile : public testing::Test {
 } // namespace
 
 TEST_F(GltfEnvironmentFile, ReconstructsTheFilteredRadiance) {
-    m_document.environment.image = latLong(linearRadiance);
+    m_document.environment().image = latLong(linearRadiance);
     for (const char* name : {"scene.glb", "scene.gltf"}) {
         exportAndRead(name);
         EXPECT_EQ(m_light["intensity"], 1.0);
@@ -136,7 +136,7 @@ TEST_F(GltfEnvironmentFile, ReconstructsTheFilteredRadiance) {
 }
 
 TEST_F(GltfEnvironmentFile, IrradianceIsInOrthonormalHarmonics) {
-    m_document.environment.image = latLong(linearRadiance);
+    m_document.environment().image = latLong(linearRadiance);
     exportAndRead("scene.glb");
     const Json& e = m_light["irradianceCoefficients"];
     ASSERT_EQ(e.size(), 9u);
@@ -154,7 +154,7 @@ TEST_F(GltfEnvironmentFile, IrradianceIsInOrthonormalHarmonics) {
 }
 
 TEST_F(GltfEnvironmentFile, AWhiteSkyIsTheAnchor) {
-    m_document.environment.image = latLong([](const glm::dvec3&) { return glm::dvec3(1.0); });
+    m_document.environment().image = latLong([](const glm::dvec3&) { return glm::dvec3(1.0); });
     exportAndRead("scene.glb");
     EXPECT_EQ(m_light["intensity"], 1.0); // always written
     EXPECT_THAT(m_light["rotation"], ElementsAre(0.0, 0.0, 0.0, 1.0));
@@ -166,9 +166,9 @@ TEST_F(GltfEnvironmentFile, AWhiteSkyIsTheAnchor) {
 }
 
 TEST_F(GltfEnvironmentFile, TurnAndBrightnessAreTheLightsOwn) {
-    m_document.environment.image = latLong(linearRadiance);
-    m_document.environment.rotationDeg = 90.0f;
-    m_document.environment.exposureEv = 3.0f;
+    m_document.environment().image = latLong(linearRadiance);
+    m_document.environment().rotationDeg = 90.0f;
+    m_document.environment().exposureEv = 3.0f;
     exportAndRead("scene.glb");
     EXPECT_EQ(m_light["intensity"], 8.0);
     // About +Y, counter-clockwise from above: (0, sin 45°, 0, cos 45°)
@@ -180,7 +180,8 @@ TEST_F(GltfEnvironmentFile, TurnAndBrightnessAreTheLightsOwn) {
 
 // Photometric images have thousands of units; 8 bits hold them around the mean.
 TEST_F(GltfEnvironmentFile, UnusualScalesGoIntoTheIntensity) {
-    m_document.environment.image = latLong([](const glm::dvec3& d) { return 8000.0 + 4000.0 * d; });
+    m_document.environment().image =
+        latLong([](const glm::dvec3& d) { return 8000.0 + 4000.0 * d; });
     exportAndRead("scene.glb");
     EXPECT_EQ(m_light["intensity"], 8192.0);
     EXPECT_LT(worstError(0, 8000.0, 4000.0), 0.011 * 12000.0);
@@ -189,7 +190,7 @@ TEST_F(GltfEnvironmentFile, UnusualScalesGoIntoTheIntensity) {
 }
 
 TEST_F(GltfEnvironmentFile, ThePlanNamesItAndWarnsOfTheSun) {
-    m_document.environment.image = latLong([](const glm::dvec3&) { return glm::dvec3(1.0); });
+    m_document.environment().image = latLong([](const glm::dvec3&) { return glm::dvec3(1.0); });
     ExportPlan plan = planExport(m_document, settings("scene.gltf"));
     ASSERT_EQ(plan.files.size(), 3u);
     EXPECT_EQ(plan.files[2].path, (m_folder / "scene.bin").string() + "#environment");
@@ -199,27 +200,27 @@ TEST_F(GltfEnvironmentFile, ThePlanNamesItAndWarnsOfTheSun) {
     EXPECT_EQ(planExport(m_document, settings("scene.glb")).files[1].path,
               (m_folder / "scene.glb").string() + "#environment");
 
-    m_document.environment.image =
+    m_document.environment().image =
         latLong([](const glm::dvec3& d) { return glm::dvec3(d.y > 0.999 ? 3000.0 : 1.0); });
     EXPECT_THAT(planExport(m_document, settings("scene.glb")).warnings,
                 ElementsAre(HasSubstr("brighter")));
 
-    m_document.environment.problem = "gone";
+    m_document.environment().problem = "gone";
     EXPECT_EQ(planExport(m_document, settings("scene.glb")).files.size(), 1u);
-    m_document.environment.kind = EnvironmentKind::Sky; // needs no file
+    m_document.environment().kind = EnvironmentKind::Sky; // needs no file
     EXPECT_EQ(planExport(m_document, settings("scene.glb")).files.size(), 2u);
-    m_document.environment.image = nullptr;
+    m_document.environment().image = nullptr;
     plan = planExport(m_document, settings("scene.glb"));
     EXPECT_EQ(plan.files.size(), 1u);
     EXPECT_THAT(plan.warnings, ElementsAre(HasSubstr("missing")));
-    m_document.environment.image = latLong([](const glm::dvec3&) { return glm::dvec3(1.0); });
+    m_document.environment().image = latLong([](const glm::dvec3&) { return glm::dvec3(1.0); });
     ExportSettings without = settings("scene.glb");
     without.includeEnvironment = false;
     EXPECT_EQ(planExport(m_document, without).files.size(), 1u);
 }
 
 TEST_F(GltfEnvironmentFile, OurImportTakesTheModelWithoutAWord) {
-    m_document.environment.image = latLong([](const glm::dvec3&) { return glm::dvec3(1.0); });
+    m_document.environment().image = latLong([](const glm::dvec3&) { return glm::dvec3(1.0); });
     exportAndRead("scene.glb");
     const Result<ImportedModel> model = importModel(m_worker, m_folder / "scene.glb");
     ASSERT_TRUE(model.ok()) << model.error().text();
@@ -227,7 +228,7 @@ TEST_F(GltfEnvironmentFile, OurImportTakesTheModelWithoutAWord) {
 }
 
 TEST_F(GltfEnvironmentFile, ACancelWritesNothing) {
-    m_document.environment.image = latLong([](const glm::dvec3&) { return glm::dvec3(1.0); });
+    m_document.environment().image = latLong([](const glm::dvec3&) { return glm::dvec3(1.0); });
     JobControl job;
     job.cancel();
     const auto result = runExport(m_worker, m_document,

@@ -42,9 +42,9 @@ Scene makeScene(int order, bool bounced, bool colored) {
     auto sky = std::make_shared<Image>(16, 8, 3, PixelType::F32, ColorEncoding::Linear);
     for (float& value : sky->f32())
         value = 0.5f + number();
-    document.environment.image = document.environment.fileImage = sky;
-    document.environment.rotationDeg = 90.0f; // four of the sixteen columns
-    document.environment.exposureEv = 1.0f;
+    document.environment().image = document.environment().fileImage = sky;
+    document.environment().rotationDeg = 90.0f; // four of the sixteen columns
+    document.environment().exposureEv = 1.0f;
 
     scene.bake.kind = BakeKind::PrtVertex;
     scene.bake.order = order;
@@ -120,7 +120,7 @@ TEST_P(TransferExport, DotProductsOfTheFilesAreOurs) {
     ASSERT_EQ(light["coefficients"].size(), std::size_t(used * used));
     // The sky turned and exposed as pixels, not as coefficients.
     const std::vector<glm::vec3> ours = projectLatLong(
-        orientEnvironment(*scene.document.environment.image, 90.0f, 1.0f), used, JobContext());
+        orientEnvironment(*scene.document.environment().image, 90.0f, 1.0f), used, JobContext());
 
     ASSERT_EQ(glb.root["meshes"].size(), 2u); // one mesh, but light of its own for each place
     for (std::size_t m = 0; m < 2; ++m) {

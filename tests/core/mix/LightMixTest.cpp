@@ -7,6 +7,7 @@
 #include "core/math/SphericalHarmonics.h"
 #include "core/mix/EnvironmentBlend.h"
 #include "core/scene/DocumentIO.h"
+#include "tests/support/SecondEnvironment.h"
 
 #include <cmath>
 #include <glm/trigonometric.hpp>
@@ -32,48 +33,49 @@ ImagePtr picture(int width, float base, int lampX, int lampY) {
 class LightMix : public testing::Test {
   protected:
     LightMix() {
-        Environment& e = document.environment;
+        Environment& other =
+            test::addSecond(document, "/tmp/second.hdr", picture(64, 0.03f, 40, 20));
+        other.rotationDeg = 75.0f; // 45° and 8 of 64 pixels further
+        other.exposureEv = -1.0f;
+        other.tint = {0.2f, 0.4f, 0.8f};
+        Environment& e = document.environment();
         e.image = e.fileImage = picture(64, 0.01f, 10, 9);
         e.rotationDeg = 30.0f;
         e.exposureEv = 1.0f;
         e.tint = {1.0f, 0.5f, 0.25f};
-        e.second.source = "/tmp/second.hdr";
-        e.second.image = picture(64, 0.03f, 40, 20);
-        e.second.rotationDeg = 75.0f; // 45° and 8 of 64 pixels further
-        e.second.exposureEv = -1.0f;
-        e.second.tint = {0.2f, 0.4f, 0.8f};
         document.lights.resize(2);
     }
+    Environment& other() { return *document.secondEnvironment(); }
     Document document;
 };
 
 TEST_F(LightMix, TheFadeSharesTheLightOut) {
-    Environment& e = document.environment;
+    Environment& e = document.environment();
     ASSERT_EQ(environmentParts(document).size(), 1u); // fade 0
     EXPECT_EQ(environmentParts(document)[0],
               (EnvironmentPart{Role::First, e.image, 30.0f, {2.0f, 1.0f, 0.5f}}));
-    e.fade = 0.25f;
+    document.mix.fade = 0.25f;
     ASSERT_EQ(environmentParts(document).size(), 2u);
     EXPECT_EQ(environmentParts(document)[0],
               (EnvironmentPart{Role::First, e.image, 30.0f, {1.5f, 0.75f, 0.375f}}));
     const EnvironmentPart second = environmentParts(document)[1];
     EXPECT_EQ(second.role, Role::Second);
-    EXPECT_EQ(second.image, e.second.image);
+    EXPECT_EQ(second.image, other().image);
     EXPECT_EQ(second.rotationDeg, 75.0f);
     for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(second.scale[c], 0.25f * 0.5f * e.second.tint[c], 1e-7f);
-    e.fade = 1.0f;
+        EXPECT_NEAR(second.scale[c], 0.25f * 0.5f * other().tint[c], 1e-7f);
+    document.mix.fade = 1.0f;
     ASSERT_EQ(environmentParts(document).size(), 1u);
     EXPECT_EQ(environmentParts(document)[0].role, Role::Second);
-    e.second.image = nullptr; // nothing to fade to
+    other().image = nullptr; // nothing to fade to
     ASSERT_EQ(environmentParts(document).size(), 1u);
     EXPECT_EQ(environmentParts(document)[0],
               (EnvironmentPart{Role::First, e.image, 30.0f, {2.0f, 1.0f, 0.5f}}));
 }
 
 TEST_F(LightMix, SoloAndMuteAreOfOneDeskForLightsAndEnvironments) {
-    Environment& e = document.environment;
-    e.fade = 0.5f;
+    Environment& e = document.environment();
+    document.mix.fade = 0.5f;
     document.lights[1].solo = true;
     EXPECT_TRUE(anySolo(document));
     EXPECT_FALSE(isActive(document, document.lights[0]));
@@ -83,7 +85,7 @@ TEST_F(LightMix, SoloAndMuteAreOfOneDeskForLightsAndEnvironments) {
     EXPECT_EQ(shownEnvironment(document).image, e.image); // no picture is prepared for nothing
 
     document.lights[1].solo = false;
-    e.second.solo = true;
+    other().solo = true;
     EXPECT_FALSE(isActive(document, document.lights[0]));
     ASSERT_EQ(environmentParts(document).size(), 1u);
     EXPECT_EQ(environmentParts(document)[0].role, Role::Second);
@@ -91,33 +93,34 @@ TEST_F(LightMix, SoloAndMuteAreOfOneDeskForLightsAndEnvironments) {
     EXPECT_EQ(environmentParts(document).size(), 2u);
     e.enabled = false; // muted and solo: silent
     EXPECT_EQ(environmentParts(document).size(), 1u);
-    e.second.enabled = false;
+    other().enabled = false;
     EXPECT_TRUE(environmentParts(document).empty());
 
     // What is solo is there in full, wherever the cross-fade stands.
-    e.enabled = e.second.enabled = true;
+    e.enabled = other().enabled = true;
     for (const bool second : {false, true})
         for (const float fade : {0.0f, 0.3f, 1.0f}) {
-            e.fade = fade;
+            document.mix.fade = fade;
             e.solo = !second;
-            e.second.solo = second;
+            other().solo = second;
             ASSERT_EQ(environmentParts(document).size(), 1u) << fade;
             const EnvironmentPart part = environmentParts(document)[0];
             EXPECT_EQ(part.role, second ? Role::Second : Role::First);
-            EXPECT_EQ(part.scale, second ? 0.5f * e.second.tint : 2.0f * e.tint) << fade;
+            EXPECT_EQ(part.scale, second ? 0.5f * other().tint : 2.0f * e.tint) << fade;
             EXPECT_EQ(shownEnvironment(document), part);
         }
-    e.fade = 0.25f;
-    e.solo = e.second.solo = true; // both: as without
+    document.mix.fade = 0.25f;
+    e.solo = other().solo = true; // both: as without
     EXPECT_EQ(environmentParts(document).size(), 2u);
-    e.solo = e.second.solo = false;
+    e.solo = other().solo = false;
     document.lights[0].solo = true;
     EXPECT_TRUE(environmentParts(document).empty());
     document.lights[0].solo = false;
 
-    // A second environment that was taken away takes its solo along.
-    e = Environment();
-    e.second.solo = true;
+    // A second environment that was taken out of the mix takes its solo along.
+    other().solo = true;
+    EXPECT_TRUE(anySolo(document));
+    document.mix.second = 0;
     EXPECT_FALSE(anySolo(document));
     EXPECT_TRUE(isActive(document, document.lights[0]));
 }
@@ -144,18 +147,17 @@ TEST_F(LightMix, GainAndTintMultiplyTheLightOnTopOfItsOwnColour) {
 
 // The picture of both has the sum of their light: each turned and scaled, by coefficients.
 TEST_F(LightMix, TheBlendedPictureIsTheSumOfTheParts) {
-    Environment& e = document.environment;
     for (const float turn : {75.0f, 77.7f}) {
         for (const int secondWidth : {64, 32}) {
             SCOPED_TRACE(turn);
             SCOPED_TRACE(secondWidth);
-            e.second.image = picture(secondWidth, 0.03f, 20, 11);
-            e.second.rotationDeg = turn;
-            e.fade = 0.4f;
+            other().image = picture(secondWidth, 0.03f, 20, 11);
+            other().rotationDeg = turn;
+            document.mix.fade = 0.4f;
             resolveBlend(document);
             const EnvironmentPart shown = shownEnvironment(document);
             ASSERT_EQ(shown.role, Role::Both);
-            ASSERT_EQ(shown.image, e.blended);
+            ASSERT_EQ(shown.image, document.mix.blended);
             EXPECT_EQ(shown.image->width(), 64);
             const auto coefficients = [](const EnvironmentPart& part) {
                 std::vector<glm::vec3> c = projectLatLong(*part.image, 4);
@@ -178,25 +180,22 @@ TEST_F(LightMix, TheBlendedPictureIsTheSumOfTheParts) {
                         << i << ' ' << c;
         }
     }
-    e.fade = 0.0f;
+    document.mix.fade = 0.0f;
     resolveBlend(document);
-    EXPECT_EQ(e.blended, nullptr);
+    EXPECT_EQ(document.mix.blended, nullptr);
     EXPECT_EQ(shownEnvironment(document).role, Role::First);
 }
 
 // For files that know of no mix: a single environment that lights the scene alike.
 TEST_F(LightMix, BecomesASingleEnvironment) {
-    Environment& e = document.environment;
+    Environment& e = document.environment();
     const auto single = [&](float fade) {
-        e.fade = fade;
+        document.mix.fade = fade;
         const std::optional<Environment> mixed = mixedEnvironment(document);
         EXPECT_TRUE(mixed.has_value());
-        Document alone = document;
-        alone.environment = mixed.value_or(Environment());
-        EXPECT_EQ(alone.environment.second, SecondEnvironment());
-        EXPECT_EQ(alone.environment.tint, glm::vec3(1.0f));
-        EXPECT_EQ(alone.environment.blended, nullptr);
-        return alone.environment;
+        const Environment alone = mixed.value_or(Environment());
+        EXPECT_EQ(alone.tint, glm::vec3(1.0f));
+        return alone;
     };
     const auto texel = [](const Environment& from, int x, int y, int c) {
         return from.image->f32()[static_cast<std::size_t>(3 * (y * 64 + x) + c)] *
@@ -214,7 +213,7 @@ TEST_F(LightMix, BecomesASingleEnvironment) {
     for (const auto& [x, y] : {std::pair(10, 9), std::pair(40, 20), std::pair(0, 0)})
         for (int c = 0; c < 3; ++c) {
             EXPECT_FLOAT_EQ(texel(a, x, y, c), scaled(e.image, x, y, c, first[c]));
-            EXPECT_FLOAT_EQ(texel(b, x, y, c), scaled(e.second.image, x, y, c, second[c]));
+            EXPECT_FLOAT_EQ(texel(b, x, y, c), scaled(other().image, x, y, c, second[c]));
         }
     // The second stands 45° and 8 of 64 pixels further: of the two lamps each is where it was seen.
     const auto sum = [&](int c) {
@@ -229,7 +228,7 @@ TEST_F(LightMix, BecomesASingleEnvironment) {
         for (int y = 0; y < 32; ++y)
             for (int x = 0; x < 64; ++x)
                 expected += static_cast<double>(scaled(e.image, x, y, c, 0.75f * first[c]) +
-                                                scaled(e.second.image, x, y, c, 0.25f * second[c]));
+                                                scaled(other().image, x, y, c, 0.25f * second[c]));
         EXPECT_NEAR(sum(c), expected, 1e-4 * expected) << c;
         EXPECT_GT(texel(both, 10, 9, c), 40.0f * 0.75f * first[c]);
     }
@@ -241,7 +240,7 @@ TEST_F(LightMix, BecomesASingleEnvironment) {
     EXPECT_EQ(plain.exposureEv, 1.0f);
     e.enabled = false;
     EXPECT_EQ(mixedEnvironment(document), std::nullopt);
-    e.fade = 0.5f;
+    document.mix.fade = 0.5f;
     EXPECT_EQ(mixedEnvironment(document)->source, "/tmp/second.hdr") << "the other one is still on";
     e.enabled = true;
     JobControl control;
@@ -250,12 +249,12 @@ TEST_F(LightMix, BecomesASingleEnvironment) {
 }
 
 TEST_F(LightMix, ProjectsKeepTheMix) {
-    Environment& e = document.environment;
-    e.fade = 0.375f;
+    Environment& e = document.environment();
+    document.mix.fade = 0.375f;
     e.solo = true;
     e.enabled = false;
-    e.second.enabled = false;
-    e.second.solo = true;
+    other().enabled = false;
+    other().solo = true;
     Document& d = document;
     d.lights.clear();
     Light light;
@@ -265,13 +264,14 @@ TEST_F(LightMix, ProjectsKeepTheMix) {
     const Result<Document> read =
         documentFromJson(documentToJson(d, "/tmp/a.patina"), "/tmp/a.patina");
     ASSERT_TRUE(read.ok()) << read.error().text();
-    SecondEnvironment expected = e.second;
-    expected.image = nullptr; // read from its file when the project is opened
-    EXPECT_EQ(read->environment.second, expected);
-    EXPECT_EQ(read->environment.fade, 0.375f);
-    EXPECT_TRUE(read->environment.solo);
-    EXPECT_FALSE(read->environment.enabled);
-    EXPECT_EQ(read->environment.tint, e.tint);
+    Environment expected = other();
+    expected.image = expected.fileImage = nullptr; // read from its file with the project
+    ASSERT_NE(read->secondEnvironment(), nullptr);
+    EXPECT_EQ(*read->secondEnvironment(), expected);
+    EXPECT_EQ(read->mix.fade, 0.375f);
+    EXPECT_TRUE(read->environment().solo);
+    EXPECT_FALSE(read->environment().enabled);
+    EXPECT_EQ(read->environment().tint, e.tint);
     EXPECT_EQ(read->lights[0].gainEv, 1.25f);
     EXPECT_EQ(read->lights[0].tint, light.tint);
 }

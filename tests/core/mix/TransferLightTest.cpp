@@ -6,6 +6,7 @@
 #include "core/math/ShWindow.h"
 #include "core/math/Shading.h"
 #include "core/mix/EnvironmentBlend.h"
+#include "tests/support/SecondEnvironment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -137,14 +138,13 @@ TEST_F(TransferLight, HoldsTheDirectionalLightsOfTheMix) {
 }
 
 TEST_F(TransferLight, EnvironmentsAreTurnedScaledAndFadedExactly) {
-    Environment& e = document.environment;
+    Environment& other = test::addSecond(document, "/b.hdr", picture(20));
+    other.rotationDeg = -120.0f;
+    other.exposureEv = 2.0f;
+    Environment& e = document.environment();
     e.image = picture(3);
     e.rotationDeg = 33.3f;
     e.tint = {1.0f, 0.5f, 0.25f};
-    e.second.source = "/b.hdr";
-    e.second.image = picture(20);
-    e.second.rotationDeg = -120.0f;
-    e.second.exposureEv = 2.0f;
     const std::vector<glm::vec3> first = light(6);
     // Rotating the environment rotates what arrives with them.
     const auto still = projectLatLong(*e.image, 6);
@@ -154,9 +154,9 @@ TEST_F(TransferLight, EnvironmentsAreTurnedScaledAndFadedExactly) {
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(irradiance(first, n)[c], e.tint[c] * irradiance(still, before)[c], 1e-4f);
 
-    e.fade = 1.0f;
+    document.mix.fade = 1.0f;
     const std::vector<glm::vec3> second = light(6);
-    e.fade = 0.3f;
+    document.mix.fade = 0.3f;
     const std::vector<glm::vec3> both = light(6);
     for (std::size_t i = 0; i < both.size(); ++i)
         for (int c = 0; c < 3; ++c)
@@ -165,12 +165,12 @@ TEST_F(TransferLight, EnvironmentsAreTurnedScaledAndFadedExactly) {
 
     // While the second's coefficients are not known, the picture that is shown has them.
     resolveBlend(document);
-    unknown = e.second.image;
+    unknown = other.image;
     const std::vector<glm::vec3> shown = light(6);
     for (std::size_t i = 0; i < both.size(); ++i)
         EXPECT_NEAR(shown[i].x, both[i].x, 5e-3f * both[0].x) << i;
     unknown = e.image;
-    e.blended = nullptr;
+    document.mix.blended = nullptr;
     for (const glm::vec3& c : light(6))
         EXPECT_EQ(c, glm::vec3(0.0f));
 }

@@ -71,7 +71,7 @@ class RecoveryWriterTest : public ::testing::Test {
 TEST_F(RecoveryWriterTest, TheNewestStateComesBack) {
     auto writer = makeWriter();
     for (int i = 1; i <= 50; ++i) {
-        document.environment.rotationDeg = static_cast<float>(i);
+        document.environment().rotationDeg = static_cast<float>(i);
         writer->keep(snapshot());
     }
     ASSERT_TRUE(writer->flush(kLong));
@@ -101,7 +101,7 @@ TEST_F(RecoveryWriterTest, ABakeThatIsOnlyInMemoryIsKeptAndWrittenOnce) {
     auto writer = makeWriter();
     writer->keep(snapshot());
     ASSERT_TRUE(writer->flush(kLong));
-    document.environment.rotationDeg = 12.0f;
+    document.environment().rotationDeg = 12.0f;
     writer->keep(snapshot());
     ASSERT_TRUE(writer->flush(kLong));
     writer.reset();
@@ -116,7 +116,7 @@ TEST_F(RecoveryWriterTest, ABakeThatIsOnlyInMemoryIsKeptAndWrittenOnce) {
     const Document back = recovered(works.works[0]);
     ASSERT_THAT(back.bakes, SizeIs(1));
     EXPECT_EQ(*back.bakes[0], *document.bakes[0]);
-    EXPECT_EQ(back.environment.rotationDeg, 12.0f);
+    EXPECT_EQ(back.environment().rotationDeg, 12.0f);
 }
 
 TEST_F(RecoveryWriterTest, ABakeOfAHiddenMeshIsKeptToo) {
@@ -177,7 +177,7 @@ TEST_F(RecoveryWriterTest, ABakeOfTheSavedProjectIsNotWrittenAgainAndComesFromTh
     const Hash before = hashFile(file);
     auto writer = makeWriter();
     writer->setSavedFile(file);
-    document.environment.rotationDeg = 5.0f;
+    document.environment().rotationDeg = 5.0f;
     RecoverySnapshot unsaved = snapshot(file);
     unsaved.savedBakes = document.bakes;
     writer->keep(std::move(unsaved));
@@ -190,7 +190,7 @@ TEST_F(RecoveryWriterTest, ABakeOfTheSavedProjectIsNotWrittenAgainAndComesFromTh
     const Document back = recovered(works.works[0]);
     ASSERT_THAT(back.bakes, SizeIs(1));
     EXPECT_EQ(back.bakes[0]->vertices, document.bakes[0]->vertices);
-    EXPECT_EQ(back.environment.rotationDeg, 5.0f);
+    EXPECT_EQ(back.environment().rotationDeg, 5.0f);
     EXPECT_EQ(hashFile(file), before) << "the user's file is the user's";
     files.write("scene.patina", std::string_view("changed by somebody else"));
     EXPECT_FALSE(savedFileUnchanged(works.works[0].record));
@@ -219,7 +219,7 @@ TEST_F(RecoveryWriterTest, RecoveredWorkGoesOnInItsFolder) {
     {
         AbandonedWorks works = found();
         ASSERT_THAT(works.works, SizeIs(1));
-        document.environment.rotationDeg = 77.0f;
+        document.environment().rotationDeg = 77.0f;
         writer->keep(snapshot());
         writer->adopt(std::move(works.works[0].session));
     }
@@ -228,7 +228,7 @@ TEST_F(RecoveryWriterTest, RecoveredWorkGoesOnInItsFolder) {
     writer.reset();
     const AbandonedWorks works = found();
     ASSERT_THAT(works.works, SizeIs(1)) << "not twice";
-    EXPECT_EQ(recovered(works.works[0]).environment.rotationDeg, 77.0f);
+    EXPECT_EQ(recovered(works.works[0]).environment().rotationDeg, 77.0f);
 }
 
 } // namespace

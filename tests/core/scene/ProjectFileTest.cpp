@@ -35,7 +35,7 @@ void expectSameDocument(const Document& a, const Document& b) {
                 expectSameImage(std::get<MapSlot>(info.get(a, material.id)).image,
                                 std::get<MapSlot>(info.get(b, material.id)).image,
                                 material.name + std::string(info.id));
-    expectSameImage(a.environment.image, b.environment.image, "environment");
+    expectSameImage(a.environment().image, b.environment().image, "environment");
     ASSERT_EQ(a.bakes.size(), b.bakes.size());
     for (std::size_t i = 0; i < a.bakes.size(); ++i) {
         EXPECT_EQ(a.bakes[i]->kind, b.bakes[i]->kind);
@@ -68,10 +68,10 @@ TEST_F(ProjectFile, TheStartDocumentComesBack) {
 
 TEST_F(ProjectFile, AModelWithMapsComesBackAlsoFromAnotherFolder) {
     Document document = open(writeModel("here/models")).document;
-    document.environment.source = writeImage("here/sky.png", 4, 2, {9, 9, 9});
+    document.environment().source = writeImage("here/sky.png", 4, 2, {9, 9, 9});
     std::vector<Notice> notices;
-    document.environment.image =
-        *loadEnvironmentImage(m_worker, document.environment.source, notices);
+    document.environment().image =
+        *loadEnvironmentImage(m_worker, document.environment().source, notices);
     saveTo(document, m_folder / "here/p.patina");
     expectSameDocument(open((m_folder / "here/p.patina").string()).document, document);
 
@@ -80,8 +80,8 @@ TEST_F(ProjectFile, AModelWithMapsComesBackAlsoFromAnotherFolder) {
     EXPECT_EQ(moved.missingFiles.size(), 1u); // lost.png, which never was
     ASSERT_EQ(moved.document.meshes.size(), 2u);
     EXPECT_EQ(moved.document.triangleCount(), 2u);
-    EXPECT_EQ(moved.document.environment.source, (m_folder / "there/sky.png").string());
-    EXPECT_TRUE(moved.document.environment.problem.empty());
+    EXPECT_EQ(moved.document.environment().source, (m_folder / "there/sky.png").string());
+    EXPECT_TRUE(moved.document.environment().problem.empty());
 }
 
 TEST_F(ProjectFile, EmbeddedImagesAreReadFromTheirModel) {
@@ -139,38 +139,38 @@ TEST_F(ProjectFile, AModelThatLostPartsKeepsTheirPlaces) {
 
 TEST_F(ProjectFile, AMissingEnvironmentIsReplacedByGreyAndKept) {
     Document document = startDocument();
-    document.environment.source = (m_folder / "gone.hdr").string();
+    document.environment().source = (m_folder / "gone.hdr").string();
     saveTo(document, m_folder / "p.patina");
     const OpenedScene opened = open((m_folder / "p.patina").string());
-    EXPECT_EQ(opened.document.environment.source, document.environment.source);
-    EXPECT_FALSE(opened.document.environment.problem.empty());
-    ASSERT_NE(opened.document.environment.image, nullptr);
-    EXPECT_EQ(opened.document.environment.image->linear(3, 3), glm::vec4(0.5f, 0.5f, 0.5f, 1.0f));
-    EXPECT_EQ(opened.missingFiles, (std::vector<std::string>{document.environment.source}));
+    EXPECT_EQ(opened.document.environment().source, document.environment().source);
+    EXPECT_FALSE(opened.document.environment().problem.empty());
+    ASSERT_NE(opened.document.environment().image, nullptr);
+    EXPECT_EQ(opened.document.environment().image->linear(3, 3), glm::vec4(0.5f, 0.5f, 0.5f, 1.0f));
+    EXPECT_EQ(opened.missingFiles, (std::vector<std::string>{document.environment().source}));
 }
 
 TEST_F(ProjectFile, GeneratedEnvironmentsAreMadeAgain) {
     Document document = startDocument();
-    document.environment.kind = EnvironmentKind::Sky;
-    document.environment.sky.sunElevationDeg = 12.5f;
-    resolveEnvironment(document.environment);
+    document.environment().kind = EnvironmentKind::Sky;
+    document.environment().sky.sunElevationDeg = 12.5f;
+    resolveEnvironment(document.environment());
     const std::filesystem::path file = m_folder / "p.patina";
     saveTo(document, file);
     Document opened = open(file.string()).document;
     expectSameDocument(opened, document);
-    expectSameImage(opened.environment.fileImage, document.environment.fileImage, "studio");
+    expectSameImage(opened.environment().fileImage, document.environment().fileImage, "studio");
 
-    opened.environment.kind = EnvironmentKind::Softboxes;
+    opened.environment().kind = EnvironmentKind::Softboxes;
     Softbox key;
     key.azimuthDeg = -30.0f;
     key.color = {1.0f, 0.5f, 0.25f};
     addSoftbox(opened, key);
-    resolveEnvironment(opened.environment);
+    resolveEnvironment(opened.environment());
     saveTo(opened, file);
     const std::string before = *readTextFile(file, 1 << 20);
     const Document again = open(file.string()).document;
     expectSameDocument(again, opened);
-    EXPECT_FALSE(*again.environment.image == *document.environment.image);
+    EXPECT_FALSE(*again.environment().image == *document.environment().image);
     saveTo(again, file);
     EXPECT_EQ(*readTextFile(file, 1 << 20), before);
 }

@@ -1,12 +1,17 @@
 // The project's text: nothing is lost, nothing is believed.
+#include "core/edit/Edit.h"
 #include "core/scene/DocumentIO.h"
 #include "tests/core/document/RandomDocument.h"
+#include "tests/support/SecondEnvironment.h"
 
 #include <chrono>
+#include <fstream>
 #include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 
 using namespace patina;
 using testing::HasSubstr;
@@ -170,15 +175,19 @@ TEST(ProjectJson, NamesTheKeyThatIsWrong) {
     expectBroken(change("\"maps/body.png\"", "\"a%00b\""), "materials[0].baseColor.map.source");
     expectBroken(change("\"channel\": \"rgb\"", "\"channel\": \"x\""), "baseColor.map.channel");
     expectBroken(change("\"uvScale\": [1.0, 1.0]", "\"uvScale\": 1"), "baseColor.map.uvScale");
-    expectBroken(change("\"id\": 1", "\"id\": 0"), "materials[0].id");
-    expectBroken(change("\"id\": 1", "\"id\": 2.5"), "materials[0].id");
-    expectBroken(change("\"id\": 1", "\"id\": 18446744073709551615"), "materials[0].id");
-    expectBroken(change("\"id\": 1", "\"id\": -1"), "materials[0].id");
-    expectBroken(change("\"id\": 2", "\"id\": 1"), "lights[0].id");
-    expectBroken(change("\"nextId\": 4", "\"nextId\": 3"), "nextId");
-    expectBroken(change("\"nextId\": 4", "\"nextId\": 4294967295"), "nextId");
-    expectBroken(change("\"material\": 1", "\"material\": 2"), "meshes[0].material");
-    expectBroken(change("\"material\": 1", "\"material\": -7"), "meshes[0].material");
+    expectBroken(change("\"id\": 2", "\"id\": 0"), "materials[0].id");
+    expectBroken(change("\"id\": 2", "\"id\": 2.5"), "materials[0].id");
+    expectBroken(change("\"id\": 2", "\"id\": 18446744073709551615"), "materials[0].id");
+    expectBroken(change("\"id\": 2", "\"id\": -1"), "materials[0].id");
+    expectBroken(change("\"id\": 3", "\"id\": 2"), "lights[0].id");
+    expectBroken(change("\"id\": 1", "\"id\": 0"), "environment.id");
+    expectBroken(change("\"first\": 1", "\"first\": 2"), "environment.first");
+    expectBroken(change("\"second\": 0", "\"second\": 1"), "environment.second");
+    expectBroken(change("\"second\": 0", "\"second\": 2"), "environment.second");
+    expectBroken(change("\"nextId\": 5", "\"nextId\": 4"), "nextId");
+    expectBroken(change("\"nextId\": 5", "\"nextId\": 4294967295"), "nextId");
+    expectBroken(change("\"material\": 2", "\"material\": 3"), "meshes[0].material");
+    expectBroken(change("\"material\": 2", "\"material\": -7"), "meshes[0].material");
     expectBroken(change("\"sourceIndex\": 0", "\"sourceIndex\": 1e3"), "meshes[0].sourceIndex");
     expectBroken(change("\"transform\": [1.0,", "\"transform\": ["), "meshes[0].transform");
     expectBroken(change("\"distance\": 4.0", "\"distance\": 0"), "view.camera");
@@ -192,13 +201,80 @@ TEST(ProjectJson, NamesTheKeyThatIsWrong) {
     expectBroken(change("\"format\": \"patina\"", "\"format\": \"glTF\""), "format");
 }
 
+// Written by the last build in which a scene had one environment and the picture of a second.
+TEST(ProjectJson, ProjectsOfBeforeThereWereSeveralEnvironmentsOpen) {
+    std::ifstream file(PATINA_SOURCE_DIR
+                       "/tests/core/scene/data/before-several-environments.patina");
+    const std::string json(std::istreambuf_iterator<char>(file), {});
+    const Result<Document> read = documentFromJson(json, kProject);
+    ASSERT_TRUE(read.ok()) << read.error().text();
+    EXPECT_TRUE(read->unknownKeys == UnknownKeys()) << "all of it is known";
+    ASSERT_EQ(read->environments.size(), 2u);
+    const Environment& first = read->environment();
+    EXPECT_EQ(first.source, "/home/artist/skies/harbour.hdr");
+    EXPECT_EQ(first.rotationDeg, 30.0f);
+    EXPECT_EQ(first.exposureEv, 1.0f);
+    EXPECT_EQ(first.tint, glm::vec3(1.0f, 0.5f, 0.25f));
+    EXPECT_FALSE(first.solo);
+    ASSERT_EQ(first.softboxes.size(), 1u);
+    EXPECT_EQ(first.softboxes[0].name, "Key");
+    const Environment* second = read->secondEnvironment();
+    ASSERT_NE(second, nullptr);
+    EXPECT_EQ(second->source, "builtin:night");
+    EXPECT_EQ(second->rotationDeg, 75.0f);
+    EXPECT_EQ(second->exposureEv, -1.0f);
+    EXPECT_EQ(second->tint, glm::vec3(0.2f, 0.4f, 0.8f));
+    EXPECT_TRUE(second->solo);
+    EXPECT_EQ(read->mix.fade, 0.375f);
+    EXPECT_EQ(read->view.background, BackgroundMode::Color);
+    EXPECT_EQ(read->view.backgroundBlur, 0.25f);
+    EXPECT_EQ(read->view.backgroundColor, glm::vec3(0.1f, 0.2f, 0.3f));
+    std::set<Id> ids;
+    for (const Environment& environment : read->environments)
+        EXPECT_TRUE(ids.insert(environment.id).second);
+    for (const Light& light : read->lights)
+        EXPECT_TRUE(ids.insert(light.id).second);
+    // Saved by this build it is read again as it is.
+    const Result<Document> again = documentFromJson(documentToJson(*read, kProject), kProject);
+    ASSERT_TRUE(again.ok()) << again.error().text();
+    EXPECT_TRUE(*again == *read);
+}
+
+TEST(ProjectJson, EnvironmentsKeepTheirOrderAndTheirPlaceInTheMix) {
+    Document document = small();
+    for (const char* name : {"A", "B", "C"}) {
+        Environment environment;
+        environment.name = name;
+        environment.rotationDeg = static_cast<float>(name[0]);
+        environment.softboxes.resize(2);
+        addEnvironment(document, environment);
+    }
+    for (const std::size_t first : {0u, 2u, 3u})
+        for (const std::size_t second : {0u, 1u, 3u}) {
+            document.mix.first = document.environments[first].id;
+            document.mix.second = second == first ? 0 : document.environments[second].id;
+            const Result<Document> read =
+                documentFromJson(documentToJson(document, kProject), kProject);
+            ASSERT_TRUE(read.ok()) << read.error().text();
+            EXPECT_TRUE(*read == document) << first << ' ' << second;
+        }
+    // More than there can be, and one without an id.
+    std::string json = documentToJson(document, kProject);
+    const std::size_t at = json.find("\"environments\": [") + 17;
+    std::string many;
+    for (int i = 0; i < 64; ++i)
+        many += "{},";
+    expectBroken(json.substr(0, at) + many + json.substr(at), "67 elements");
+    expectBroken(json.substr(0, at) + "{}," + json.substr(at), "environments[0].id");
+}
+
 // Of a newer project nothing is lost that this version does not know.
 TEST(ProjectJson, UnknownKeysAreKept) {
     using Json = nlohmann::ordered_json;
     Document document = small();
-    document.environment.softboxes.emplace_back().id = 8;
-    document.environment.second.source = "/second.hdr";
+    document.environment().softboxes.emplace_back().id = 8;
     document.nextId = 9;
+    test::addSecond(document, "/second.hdr", nullptr);
     const Json plain = Json::parse(documentToJson(document, kProject));
     Json newer = plain;
     // A key of its own in every object, however deep.

@@ -16,8 +16,8 @@ void expectResolved(const Document& document) {
         EXPECT_NE(document.material(mesh.material), nullptr) << mesh.name;
         EXPECT_LT(mesh.id, document.nextId);
     }
-    ASSERT_NE(document.environment.image, nullptr);
-    const Image& environment = *document.environment.image;
+    ASSERT_NE(document.environment().image, nullptr);
+    const Image& environment = *document.environment().image;
     EXPECT_EQ(environment.type(), PixelType::F32);
     EXPECT_EQ(environment.channels(), 3);
     EXPECT_EQ(environment.width(), 2 * environment.height());
@@ -30,7 +30,7 @@ TEST(StartDocument, IsTheShaderBallUnderTheStudioSky) {
     expectResolved(document);
     EXPECT_GE(document.meshes.size(), 2u);
     EXPECT_GT(document.triangleCount(), 1000u);
-    EXPECT_EQ(document.environment.source, "builtin:studio");
+    EXPECT_EQ(document.environment().source, "builtin:studio");
     for (const MeshInstance& mesh : document.meshes)
         EXPECT_EQ(mesh.source, "builtin:shader-ball");
     // The ball looks like something: it has maps, and every map that is named is there.
