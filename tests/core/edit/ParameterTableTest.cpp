@@ -40,7 +40,7 @@ Id firstOf(const Document& document, Scope scope) {
     case Scope::Mesh:
         return document.meshes[0].id;
     case Scope::Softbox:
-        return document.environment().softboxes[0].id;
+        return document.environments[0].softboxes[0].id;
     default:
         return 0;
     }
@@ -55,7 +55,7 @@ Id secondOf(const Document& document, Scope scope) {
     case Scope::Mesh:
         return document.meshes[1].id;
     case Scope::Softbox:
-        return document.environment().softboxes[1].id;
+        return document.environments[0].softboxes[1].id;
     case Scope::Environment:
         return document.environments[1].id;
     default:
