@@ -41,6 +41,7 @@ EnvironmentList::EnvironmentList(DocumentController& controller, QWidget* parent
     , m_duplicate(makeListButton(QStringLiteral("duplicate"), {}, tr("Duplicate the environment")))
     , m_remove(makeListButton(QStringLiteral("remove"), {}, tr("Remove the environment"))) {
     m_list->setAccessibleName(tr("Environments of the scene"));
+    m_list->setIconSize({16, 16});
     m_list->setStatusTip(tr("Choose the environment that lights the scene, F2 to rename it"));
     m_list->setEditTriggers(QAbstractItemView::EditKeyPressed | QAbstractItemView::DoubleClicked);
 
@@ -163,7 +164,7 @@ void EnvironmentList::refresh() {
                          : environment.id == document.mix.first
                              ? tr("The environment that lights the scene")
                              : tr("Light the scene with it"));
-        item->setIcon(second ? icon(QStringLiteral("mixer")) : QIcon());
+        item->setIcon(icon(second ? QStringLiteral("mixer") : QStringLiteral("environment")));
         if (environment.id == document.mix.first)
             current = row;
     }

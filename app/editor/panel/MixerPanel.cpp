@@ -258,7 +258,8 @@ void MixerPanel::refresh() {
             abandonEdits(*control);
     m_add->setText(second ? QFontMetrics(m_add->font())
                                 .elidedText(EnvironmentList::titleOf(*second), Qt::ElideMiddle, 110)
-                          : tr("Add Environment"));
+                   : document.environments.size() > 1 ? tr("Choose Environment")
+                                                      : tr("Add Environment"));
     m_fade->setEnabled(second != nullptr);
     m_fadeField->setEnabled(second != nullptr);
     m_fade->setValue(document.mix.fade);

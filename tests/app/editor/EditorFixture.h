@@ -18,7 +18,7 @@ namespace patina::editor {
 // Processes events until `condition` holds; false after a minute (a busy machine needs time).
 template <class Condition>
 [[nodiscard]] bool eventually(Condition condition) {
-    return QTest::qWaitFor(condition, 60'000);
+    return QTest::qWaitFor(condition, 120'000);
 }
 
 inline bool settled(Session& session) {
