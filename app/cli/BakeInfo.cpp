@@ -3,7 +3,9 @@
 #include "core/bake/document/BakeStaleness.h"
 #include "core/bake/domain/BakeOptions.h"
 #include "core/bake/file/BakeHeader.h"
+#include "core/bake/file/BakeParts.h"
 #include "core/bake/file/BakeTarget.h"
+#include "core/bake/study/TransferStatistics.h"
 #include "core/bake/transfer/BakeCheckpoint.h"
 
 #include <algorithm>
@@ -37,7 +39,27 @@ std::string storageText(const BakeFileOptions& options) {
     return fmt::format("{} bits, a step for each band", options.bits);
 }
 
-std::pair<Json, std::string> describePart(const ImagePart& part, const BakeHeader& header) {
+// How the elements of a part see the sky, and what each band holds: "statistics".
+std::string describeStatistics(const BakeElements& elements, int order, Json& json) {
+    const TransferStatistics s = transferStatistics(elements.values, elements.bounced, order);
+    json["statistics"] = {{"elements", s.elements},
+                          {"dark", s.dark},
+                          {"skyVisibility",
+                           {{"lowest", s.lowestVisibility},
+                            {"mean", s.meanVisibility},
+                            {"highest", s.highestVisibility}}},
+                          {"bandShares", s.bandShares}};
+    std::string text = fmt::format("; sky visibility {:.1f} to {:.1f} %, {:.1f} % in the mean; "
+                                   "bands hold",
+                                   100.0f * s.lowestVisibility, 100.0f * s.highestVisibility,
+                                   100.0 * s.meanVisibility);
+    for (const double share : s.bandShares)
+        text += fmt::format(" {:.3g}", 100.0 * share);
+    return text + " % of the squares";
+}
+
+Result<std::pair<Json, std::string>> describePart(const ImagePart& part, const BakeHeader& header,
+                                                  const std::filesystem::path& file) {
     const std::string* target = findAttribute(part.attributes, kTargetAttribute);
     Json json = {{"target", target != nullptr ? *target : part.name}};
     std::string text;
@@ -66,7 +88,14 @@ std::pair<Json, std::string> describePart(const ImagePart& part, const BakeHeade
         json["storageError"] = *error;
         text += "; stored with " + *error;
     }
-    return {std::move(json), std::move(text)};
+    // A bake of which nothing was left when it was saved has a part without a target.
+    if (holdsTransfer(header.artifact.kind) && target != nullptr) {
+        const Result<BakeElements> elements = elementsFromPart(part, header, file);
+        if (!elements)
+            return elements.error();
+        text += describeStatistics(*elements, header.artifact.order, json);
+    }
+    return std::pair(std::move(json), std::move(text));
 }
 
 } // namespace
@@ -136,7 +165,10 @@ Result<void> describeBake(Report& report, const std::vector<ImagePart>& parts,
     for (const ImagePart& part : parts) {
         if (!sameHeader(parts.front().attributes, part.attributes))
             return damagedBake(file, "its parts do not belong together");
-        auto [entry, text] = describePart(part, *header);
+        Result<std::pair<Json, std::string>> described = describePart(part, *header, file);
+        if (!described)
+            return described.error();
+        auto& [entry, text] = *described;
         rows.emplace_back(entry["target"].get<std::string>(), std::move(text));
         json["parts"].push_back(std::move(entry));
     }

@@ -1,6 +1,8 @@
 #include "app/cli/BakeInfo.h"
 #include "app/cli/Commands.h"
+#include "app/cli/LightInfo.h"
 #include "app/cli/SceneSetup.h"
+#include "app/cli/Vectors.h"
 #include "core/bake/file/BakeHeader.h"
 #include "core/bake/file/BakePacking.h"
 #include "core/bake/transfer/BakeCheckpoint.h"
@@ -14,6 +16,7 @@
 #include "core/library/Library.h"
 #include "core/light/Lights.h"
 #include "core/material/MaterialInputs.h"
+#include "core/mix/EnvironmentBlend.h"
 #include "core/mix/LightMix.h"
 #include "core/scene/EnvironmentFile.h"
 #include "core/scene/Scene.h"
@@ -31,10 +34,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Rows = std::vector<std::pair<std::string, std::string>>;
-
-Json vectorJson(const glm::vec3& v) {
-    return {v.x, v.y, v.z};
-}
 
 void listBuiltins(Report& report) {
     const auto list = [&](const char* key, const char* title,
@@ -216,14 +215,20 @@ std::optional<EnvironmentPicture> environmentOf(Session& session, const std::str
     return *std::move(picture);
 }
 
-// Images, environments and bakes: everything that is pixels.
-Result<void> describeImage(Session& session, const std::string& file) {
+Error noLight(const std::string& file) {
+    return {ErrorKind::Usage, "--light is for environments and projects", file, {}};
+}
+
+// Images, environments and bakes: everything that is pixels. `light`: it must be an environment.
+Result<void> describeImage(Session& session, const std::string& file, bool light) {
     Result<ImageInfo> info = inspectImage(session.worker(), file);
     if (!info)
         return info.error();
     const bool bake = isBakeFile(info->attributes);
     const std::optional<EnvironmentPicture> environment =
         bake ? std::nullopt : environmentOf(session, file, *info);
+    if (light && !environment)
+        return noLight(file);
     const char* kind = bake ? "bake" : environment ? "environment" : "image";
     Report& report = session.report();
     Json& json = report.json();
@@ -285,6 +290,12 @@ bool isScene(const std::string& file) {
            std::find(models.begin(), models.end(), extension) != models.end();
 }
 
+Result<void> describeLightOfFile(Session& session, const std::string& file,
+                                 const std::optional<glm::vec3>& direction) {
+    const Result<Document> document = openEnvironmentFor(session, file);
+    return document ? describeLight(session, *document, direction) : document.error();
+}
+
 bool isBuiltinEnvironment(const std::string& name) {
     const std::vector<library::Entry>& all = library::environments();
     return std::any_of(all.begin(), all.end(), [&](auto& entry) { return entry.name == name; });
@@ -295,11 +306,11 @@ bool isBuiltinEnvironment(const std::string& name) {
 Result<void> run(Session& session, const InfoOptions& options) {
     Report& report = session.report();
     report.json()["settings"] = {{"file", options.file}};
-    if (options.file == "builtin:list") {
-        listBuiltins(report);
-        return {};
-    }
-    if (isBuiltin(options.file) && isBuiltinEnvironment(builtinName(options.file))) {
+    const Result<std::optional<glm::vec3>> direction = parseDirection(options.direction);
+    if (!direction)
+        return direction.error();
+    const bool builtin = isBuiltin(options.file);
+    if (builtin && isBuiltinEnvironment(builtinName(options.file))) {
         Result<ImagePtr> image = library::environment(builtinName(options.file));
         if (!image)
             return image.error();
@@ -309,19 +320,33 @@ Result<void> run(Session& session, const InfoOptions& options) {
         report.table({}, {{"kind", "environment"},
                           {"layout", std::string(layoutLabel(EnvironmentLayout::LatLong))},
                           {"size", imageText(**image)}});
+        return options.light ? describeLightOfFile(session, options.file, *direction)
+                             : Result<void>();
+    }
+    const bool checkpoint = !builtin && looksLikeCheckpoint(options.file);
+    if (!builtin && !checkpoint && !isScene(options.file)) {
+        const Result<void> described = describeImage(session, options.file, options.light);
+        return described && options.light ? describeLightOfFile(session, options.file, *direction)
+                                          : described;
+    }
+    if (options.light && extensionOf(options.file) != ".patina")
+        return noLight(options.file);
+    if (options.file == "builtin:list") {
+        listBuiltins(report);
         return {};
     }
-    if (!isBuiltin(options.file) && looksLikeCheckpoint(options.file))
+    if (checkpoint)
         return describeUnfinishedBake(report, options.file);
-    if (!isBuiltin(options.file) && !isScene(options.file))
-        return describeImage(session, options.file);
 
     Result<OpenedScene> scene = openScene(session.worker(), options.file, session.job());
     if (!scene)
         return scene.error();
     report.add(*scene);
     describeScene(report, *scene);
-    return {};
+    if (!options.light)
+        return {};
+    resolveBlend(scene->document, session.job());
+    return describeLight(session, scene->document, *direction);
 }
 
 } // namespace patina::cli

@@ -1,5 +1,7 @@
 #include "app/cli/InspectPixel.h"
 
+#include "app/cli/TransferInfo.h"
+#include "core/math/Shading.h"
 #include "render/ViewRenderer.h"
 #include "render/view/Explanation.h"
 
@@ -31,7 +33,8 @@ Result<std::optional<glm::ivec2>> parsePixel(const std::string& text,
 }
 
 Result<void> explainPixel(Session& session, render::ViewRenderer& renderer,
-                          const Document& document, const glm::ivec2& pixel) {
+                          const Document& document, const NearShadowsPtr& shadows,
+                          const glm::ivec2& pixel) {
     const Result<render::Inspection> inspection = renderer.inspect(pixel.x, pixel.y);
     if (!inspection)
         return inspection.error();
@@ -40,7 +43,10 @@ Result<void> explainPixel(Session& session, render::ViewRenderer& renderer,
     std::string text = toText(explanation);
     text.pop_back(); // line() ends the last line
     session.report().line(text);
-    return {};
+    if (!inspection->onSurface())
+        return {};
+    return describeTransfer(session, document, shadows, inspection->mesh,
+                            glm::vec3(inspection->value(shading::kRecordPosition)));
 }
 
 } // namespace patina::cli

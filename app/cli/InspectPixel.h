@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/cli/Session.h"
+#include "core/bake/local/NearShadows.h"
 #include "core/document/Document.h"
 
 #include <glm/vec2.hpp>
@@ -20,8 +21,9 @@ Result<std::optional<glm::ivec2>> parsePixel(const std::string& text,
                                              const render::FrameSettings& frame);
 
 // Prints the explanation of a pixel of the renderer's last frame, or puts it into the report as
-// "inspection".
+// "inspection"; where a surface is, with what a transfer bake has there. `shadows`: of the frame.
 Result<void> explainPixel(Session& session, render::ViewRenderer& renderer,
-                          const Document& document, const glm::ivec2& pixel);
+                          const Document& document, const NearShadowsPtr& shadows,
+                          const glm::ivec2& pixel);
 
 } // namespace patina::cli

@@ -26,6 +26,8 @@ struct CommonOptions {
 
 struct InfoOptions {
     std::string file;
+    bool light = false;    // of an environment or a project's: what the Light lab shows
+    std::string direction; // AZIMUTH,ELEVATION that light is looked up in; empty: none
 };
 
 struct RenderOptions {

@@ -1,19 +1,19 @@
 #include "app/cli/Commands.h"
 #include "app/cli/InspectPixel.h"
 #include "app/cli/LocalShadows.h"
+#include "app/cli/Numbers.h"
+#include "app/cli/PreparedLight.h"
 #include "app/cli/RenderViews.h"
 #include "app/cli/SceneSetup.h"
 #include "core/bake/bounce/Interreflection.h"
 #include "core/bake/document/BakeStaleness.h"
 #include "core/bake/document/DocumentBakeInputs.h"
 #include "core/bake/domain/BakeHash.h"
-#include "core/base/Log.h"
 #include "core/document/Lighting.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
 #include "core/io/DisplayTransform.h"
 #include "core/io/ImageIO.h"
-#include "core/light/IblCache.h"
 #include "core/mix/LightMix.h"
 #include "render/SceneRenderer.h"
 #include "render/ViewRenderer.h"
@@ -21,8 +21,6 @@
 #include "render/scene/LightBlocks.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cstdlib>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -33,22 +31,6 @@ namespace {
 
 Error usage(std::string message) {
     return {ErrorKind::Usage, std::move(message), {}, {}};
-}
-
-// Numbers between separators; false when anything else is there.
-template <class Number>
-bool parseNumbers(std::string_view text, char separator, std::vector<Number>& numbers) {
-    while (true) {
-        const std::string_view part = text.substr(0, text.find(separator));
-        Number number{};
-        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
-        if (error != std::errc() || end != part.data() + part.size())
-            return false;
-        numbers.push_back(number);
-        if (part.size() == text.size())
-            return true;
-        text.remove_prefix(part.size() + 1);
-    }
 }
 
 Result<render::FrameSettings> frameSettings(const RenderOptions& options) {
@@ -204,24 +186,6 @@ Result<DisplayTransformPtr> openDisplay(Session& session, const View& view) {
     return std::make_shared<const DisplayTransform>(std::move(*display));
 }
 
-// Of the folder PATINA_LIGHT_CACHE, where one is named, or else computed, and kept there.
-Result<IblMaps> lightOf(const Image& environment, const JobContext& job) {
-    // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody changes them
-    const char* folder = std::getenv("PATINA_LIGHT_CACHE");
-    if (folder == nullptr || *folder == '\0')
-        return computeIbl(environment, {}, job);
-    const IblCache cache(folder);
-    const Hash key = IblCache::key(environment, {});
-    if (std::optional<IblMaps> found = cache.find(key))
-        return std::move(*found);
-    Result<IblMaps> computed = computeIbl(environment, {}, job);
-    if (computed)
-        if (const Result<void> stored = cache.store(key, *computed); !stored)
-            logWarning("The light of this environment could not be kept for next time: {}",
-                       stored.error().text());
-    return computed;
-}
-
 // The document and its light on the GPU; the context lives as long as they.
 struct Prepared {
     std::unique_ptr<gl::Context> context;
@@ -255,7 +219,7 @@ Result<Prepared> prepare(Session& session, const Document& document,
     session.beginPhase();
     session.job().setActivity("preparing light");
     if (const ImagePtr image = lit ? shownEnvironment(document).image : nullptr) {
-        Result<IblMaps> ibl = lightOf(*image, session.job());
+        Result<IblMaps> ibl = prepareLight(*image, session.job());
         if (!ibl)
             return ibl.error();
         Result<HalfMipmapsPtr> background = makeBackground(*image, session.job());
@@ -427,7 +391,8 @@ Result<void> run(Session& session, const RenderOptions& options) {
             !written)
             return written;
     if (*inspected)
-        if (Result<void> done = explainPixel(session, renderer, *document, **inspected); !done)
+        if (Result<void> done = explainPixel(session, renderer, *document, *shadows, **inspected);
+            !done)
             return done;
     json["counts"] = {{"meshes", document->meshes.size()},
                       {"triangles", document->triangleCount()}};

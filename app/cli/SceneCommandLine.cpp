@@ -14,6 +14,16 @@ void CommandParser::addInfo() {
     command->add_option("FILE", m_info.file, "File, builtin:NAME or builtin:list")
         ->required()
         ->type_name("");
+    CLI::Option* light = command->add_flag(
+        "--light", m_info.light,
+        "Also the Light lab's numbers of an environment, or of a project's: dominant light, what "
+        "1 to 8 bands of spherical harmonics hold, prefiltered levels, error of irradiance");
+    command
+        ->add_option("--direction", m_info.direction,
+                     "Also the light that is looked up in a direction, in degrees: azimuth 0 is "
+                     "+Z, 90 is +X, elevation 90 is up")
+        ->needs(light)
+        ->type_name("AZIMUTH,ELEVATION");
     addOutside(command);
 }
 

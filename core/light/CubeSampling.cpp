@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <numbers>
 
 namespace patina {
@@ -35,6 +36,12 @@ glm::vec3 sampleCube(const CubeLevel& level, const glm::vec3& direction) {
            (cubeTexel(level, at.face, column, row + 1) * (1.0f - fx) +
             cubeTexel(level, at.face, column + 1, row + 1) * fx) *
                fy;
+}
+
+glm::vec3 sampleCubes(const CubeLevel& first, const CubeLevel& second, float share,
+                      const glm::vec3& direction) {
+    const glm::vec3 value = sampleCube(first, direction);
+    return share > 0.0f ? glm::mix(value, sampleCube(second, direction), share) : value;
 }
 
 Image latLongFromCube(const CubeLevel& level, const JobContext& job) {

@@ -14,6 +14,10 @@ namespace patina {
 // `direction` need not be normalised.
 [[nodiscard]] glm::vec3 sampleCube(const CubeLevel& level, const glm::vec3& direction);
 
+// Both mixed, `share` 0…1 of the second: the levels of a LevelPair.
+[[nodiscard]] glm::vec3 sampleCubes(const CubeLevel& first, const CubeLevel& second, float share,
+                                    const glm::vec3& direction);
+
 // 4 size × 2 size, F32, 3 channels, conventions of patina::Environment. Four samples per pixel,
 // where the pixels are about as large as the cube's texels. Meaningless after a cancel.
 [[nodiscard]] Image latLongFromCube(const CubeLevel& level, const JobContext& job);

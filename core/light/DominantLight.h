@@ -18,4 +18,10 @@ struct DominantLight {
 //     E = <E(n), max(0, n·l)> / <max(0, n·l), max(0, n·l)> = 3 / 2π Σ A_l E_lm Y_lm(l).
 [[nodiscard]] DominantLight dominantLight(std::span<const glm::vec3, 9> irradianceSh);
 
+// How much an environment is like one directional light: |∫ L(l) l dl| / ∫ L(l) dl of its
+// luminance, the length of the mean direction that light comes from. 0 of light that is alike from
+// opposite sides, 1 of a single direction; 0 of a black one. With A_0 = pi and A_1 = 2pi/3 that is
+// sqrt(3)/2 |(E_1-1, E_10, E_11)| / E_00.
+[[nodiscard]] float directionality(std::span<const glm::vec3, 9> irradianceSh);
+
 } // namespace patina

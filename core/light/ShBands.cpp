@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
 
@@ -186,6 +187,16 @@ ShBands computeShBands(const Image& environment, const JobContext& job) {
              (static_cast<float>(lowestRow[l]) + 0.5f) / static_cast<float>(height)});
     }
     return bands;
+}
+
+double bandEnergy(std::span<const glm::vec3> coefficients, int l) {
+    CHECK(l >= 0 && static_cast<std::size_t>(shCount(l + 1)) <= coefficients.size());
+    double sum = 0.0;
+    for (int i = shCount(l); i < shCount(l + 1); ++i) {
+        const glm::dvec3 c(coefficients[static_cast<std::size_t>(i)]);
+        sum += glm::dot(c, c);
+    }
+    return sum / 3.0 / (4.0 * kPi);
 }
 
 glm::vec3 shSum(std::span<const glm::vec3> coefficients, int order, const glm::vec3& direction) {

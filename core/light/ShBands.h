@@ -33,6 +33,11 @@ struct ShBands {
 // Deterministic. Meaningless after a cancel.
 [[nodiscard]] ShBands computeShBands(const Image& environment, const JobContext& job = {});
 
+// Mean over the sphere and over R, G, B of the square of what band l alone adds to radiance, by
+// Parseval's theorem: Σ_m mean(c_lm²) / 4pi. Of all bands together it is the square of the rms, and
+// of those from n on that of rmse for sums[n - 1].
+[[nodiscard]] double bandEnergy(std::span<const glm::vec3> coefficients, int l);
+
 // Σ c_i Y_i(direction) over the first `order` bands; negative where the sum is.
 [[nodiscard]] glm::vec3 shSum(std::span<const glm::vec3> coefficients, int order,
                               const glm::vec3& direction);

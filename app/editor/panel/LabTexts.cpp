@@ -8,8 +8,6 @@
 namespace patina::editor {
 namespace {
 
-constexpr float kBelowZero = 1e-3f; // of the RMS: smaller dips are rounding
-
 QString tr(const char* text) {
     return QCoreApplication::translate("LightLab", text);
 }
@@ -56,7 +54,7 @@ std::vector<LabSection> labSections() {
         sections[0].views.push_back({kind, 0});
     for (int bands = 1; bands <= kMaxShOrder; ++bands)
         sections[1].views.push_back({LabKind::Harmonics, bands});
-    for (int level = 0; level < kLabLevels; ++level)
+    for (int level = 0; level < kRoughnessSteps; ++level)
         sections[2].views.push_back({LabKind::Prefiltered, level});
     for (int channel = 0; channel < 3; ++channel)
         sections[3].views.push_back({LabKind::Dfg, channel});
@@ -65,42 +63,42 @@ std::vector<LabSection> labSections() {
 
 LabCaption labCaption(LabView view, bool whole, const LabLight& light, double irradianceError) {
     LabCaption c;
+    const EnvironmentLookup& lookup = light.lookup;
     const auto faces = [&](std::size_t level) {
-        return tr("%1 × %1").arg(light.maps->prefiltered[level].size);
+        return tr("%1 × %1").arg(lookup.maps->prefiltered[level].size);
     };
     const bool draft =
-        light.maps && static_cast<int>(light.maps->prefiltered.size()) < IblSettings().levels;
+        lookup.maps && static_cast<int>(lookup.maps->prefiltered.size()) < IblSettings().levels;
     switch (view.kind) {
     case LabKind::Environment: {
         c.title = tr("Environment");
         QStringList parts;
-        if (light.analysis)
+        if (lookup.analysis)
             parts << tr("%1 × %2")
-                         .arg(light.analysis->environment->width())
-                         .arg(light.analysis->environment->height());
-        if (light.rotationDeg != 0.0f && !whole)
+                         .arg(lookup.analysis->environment->width())
+                         .arg(lookup.analysis->environment->height());
+        if (lookup.rotationDeg != 0.0f && !whole)
             parts.clear(); // room for one of both
-        if (light.rotationDeg != 0.0f)
-            parts << tr("rotated %1°").arg(labFixed(static_cast<double>(light.rotationDeg), 1));
-        if (whole && light.analysis)
-            parts << tr("RMS %1").arg(
-                labNumber(light.analysis->bands.rms * static_cast<double>(light.scale)));
+        if (lookup.rotationDeg != 0.0f)
+            parts << tr("rotated %1°").arg(labFixed(static_cast<double>(lookup.rotationDeg), 1));
+        if (whole && lookup.analysis)
+            parts << tr("RMS %1").arg(labNumber(lookup.rms()));
         c.detail = parts.join(QStringLiteral(" · "));
         break;
     }
     case LabKind::Faces:
         c.title = view.isFace() ? tr("Face %1").arg(QString::fromUtf8(labFace(view.index).name))
                                 : tr("Cube faces");
-        if (light.maps)
+        if (lookup.maps)
             c.detail = view.isFace() ? tr("%1 texels, click for all faces").arg(faces(0))
                        : whole       ? tr("%1 texels each, click one").arg(faces(0))
                                      : tr("%1 each").arg(faces(0));
         break;
     case LabKind::Irradiance:
         c.title = whole ? tr("Irradiance from 9 coefficients") : tr("Irradiance, SH 9");
-        if (light.maps)
+        if (lookup.maps)
             c.detail = tr("%1 % off").arg(labFixed(100.0 * irradianceError, 1));
-        if (whole && light.maps)
+        if (whole && lookup.maps)
             c.detail = tr("as surfaces take it, %1 % RMS from the exact one, shown over π")
                            .arg(labFixed(100.0 * irradianceError, 1));
         break;
@@ -112,27 +110,24 @@ LabCaption labCaption(LabView view, bool whole, const LabLight& light, double ir
     case LabKind::Harmonics: {
         const int n = view.index;
         c.title = n == 1 ? tr("1 band") : tr("%1 bands").arg(n);
-        if (!light.analysis)
+        if (!lookup.analysis)
             break;
-        const ShBands& bands = light.analysis->bands;
-        const ShBandSum& sum = bands.sums[static_cast<std::size_t>(n - 1)];
-        const auto scale = static_cast<double>(light.scale);
-        c.detail = tr("RMSE %1").arg(fourDigits(scale * sum.rmse));
+        const BandSumError sum = lookup.bandSumError(n);
+        c.detail = tr("RMSE %1").arg(fourDigits(sum.rmse));
         if (whole)
-            c.detail =
-                tr("%1, %2 % of the light's RMS; %3")
-                    .arg(c.detail, labFixed(bands.rms > 0 ? 100.0 * sum.rmse / bands.rms : 0, 2),
-                         n == 1 ? tr("1 coefficient") : tr("%1 coefficients").arg(n * n));
-        if (static_cast<double>(sum.lowest) < -static_cast<double>(kBelowZero) * bands.rms)
-            c.warning = tr("lowest %1").arg(labNumber(scale * static_cast<double>(sum.lowest)));
+            c.detail = tr("%1, %2 % of the light's RMS; %3")
+                           .arg(c.detail, labFixed(100.0 * sum.share, 2),
+                                n == 1 ? tr("1 coefficient") : tr("%1 coefficients").arg(n * n));
+        if (sum.belowZero)
+            c.warning = tr("lowest %1").arg(labNumber(sum.lowest));
         break;
     }
     case LabKind::Prefiltered: {
-        const float r = labRoughness(view.index);
+        const float r = roughnessStep(view.index);
         c.title = tr("Roughness %1").arg(labFixed(static_cast<double>(r), 2));
-        if (!light.maps)
+        if (!lookup.maps)
             break;
-        const LevelPair levels = levelsOf(*light.maps, r);
+        const LevelPair levels = levelsOf(*lookup.maps, r);
         c.detail = faces(levels.first);
         if (whole)
             c.detail =

@@ -7,6 +7,7 @@
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/PixelProbe.h"
 #include "app/editor/widget/ElidedLabel.h"
+#include "core/light/DfgLookup.h"
 #include "core/light/LatLongGrid.h"
 #include "core/math/Shading.h"
 #include "core/mix/LightMix.h"
@@ -39,23 +40,27 @@ void LightLabPanel::refreshLight() {
     if (!m_seen)
         return; // when it is seen
     const EnvironmentPart environment = shownEnvironment(m_controller.document());
-    m_light.rotationDeg = environment.rotationDeg;
-    m_light.setScale(environment.scale);
+    m_light.lookup.rotationDeg = environment.rotationDeg;
+    m_light.lookup.setScale(environment.scale);
     if (environment.image != m_image) {
         m_image = environment.image;
         if (!m_image) {
             m_analysisJob->cancel();
-            m_light.analysis = nullptr;
+            m_light.lookup.analysis = nullptr;
+            m_light.reductions = nullptr;
         } else {
             m_analysisJob->request(
                 [this, image = m_image](const JobContext& job) -> LatestJob::Apply {
-                    LabAnalysisPtr analysis = analyseLight(image, job);
-                    if (!analysis)
+                    const EnvironmentAnalysisPtr analysis = analyseEnvironment(image, job);
+                    const LabReductionsPtr reductions =
+                        analysis ? reduceForPictures(*analysis, job) : nullptr;
+                    if (!reductions)
                         return {};
-                    return [this, analysis] {
+                    return [this, analysis, reductions] {
                         if (!m_image)
                             return;
-                        m_light.analysis = analysis;
+                        m_light.lookup.analysis = analysis;
+                        m_light.reductions = reductions;
                         invalidate();
                     };
                 });
@@ -65,10 +70,10 @@ void LightLabPanel::refreshLight() {
 }
 
 void LightLabPanel::refreshMaps() {
-    if (!m_seen || m_light.maps == m_ibl.maps())
+    if (!m_seen || m_light.lookup.maps == m_ibl.maps())
         return;
-    m_light.maps = m_ibl.maps();
-    m_irradianceError = m_light.maps ? LabLight::irradianceError(*m_light.maps) : 0.0;
+    m_light.lookup.maps = m_ibl.maps();
+    m_irradianceError = m_light.lookup.maps ? irradianceError(*m_light.lookup.maps) : 0.0;
     invalidate();
 }
 
@@ -168,15 +173,12 @@ void LightLabPanel::refreshCaptions() {
         LabCaption c = labCaption(view, whole, m_light, m_irradianceError);
         if (const auto& picked = widget->picked(); view.isTable() && !whole && picked && m_dfg)
             c.detail = labNumber(static_cast<double>(
-                m_dfg->value(picked->NoV, picked->perceptualRoughness)[view.index]));
+                lookUpDfg(m_dfg->table, picked->NoV, picked->perceptualRoughness)[view.index]));
         widget->setCaption(c.title, c.detail, c.warning);
         widget->setReason(message(view));
         std::optional<glm::vec3> lowest;
         if (view.kind == LabKind::Harmonics && !c.warning.isEmpty())
-            lowest = shading::rotateY(
-                m_light.analysis->bands.sums[static_cast<std::size_t>(view.index - 1)]
-                    .lowestDirection,
-                glm::radians(m_light.rotationDeg));
+            lowest = m_light.lookup.bandSumError(view.index).lowestDirection;
         widget->setLowest(lowest);
         if (!whole) {
             const LabCaption full = labCaption(view, true, m_light, m_irradianceError);
@@ -219,7 +221,7 @@ void LightLabPanel::refreshPicked() {
                                      labFixed(static_cast<double>(place.perceptualRoughness), 3));
             if (m_dfg)
                 label += tr(" = %1").arg(labNumber(static_cast<double>(
-                    m_dfg->value(place.NoV, place.perceptualRoughness)[view.index])));
+                    lookUpDfg(m_dfg->table, place.NoV, place.perceptualRoughness)[view.index])));
             widget->setPicked(place, label);
             return;
         }
@@ -251,7 +253,8 @@ void LightLabPanel::refreshPicked() {
 std::optional<glm::vec3> LightLabPanel::valueAt(LabView view, const LabPlace& place) const {
     if (!view.isTable())
         return m_light.value(view, place.direction);
-    return m_dfg ? std::optional(m_dfg->value(place.NoV, place.perceptualRoughness)) : std::nullopt;
+    return m_dfg ? std::optional(lookUpDfg(m_dfg->table, place.NoV, place.perceptualRoughness))
+                 : std::nullopt;
 }
 
 void LightLabPanel::point(LabPicture* from, const std::optional<LabPlace>& place) {
@@ -273,7 +276,7 @@ void LightLabPanel::point(LabPicture* from, const std::optional<LabPlace>& place
                              .arg(labFixed(static_cast<double>(place->NoV), 3),
                                   labFixed(static_cast<double>(place->perceptualRoughness), 3)));
         if (m_dfg) {
-            const glm::vec3 v = m_dfg->value(place->NoV, place->perceptualRoughness);
+            const glm::vec3 v = lookUpDfg(m_dfg->table, place->NoV, place->perceptualRoughness);
             m_what->setText(tr("A %1, B %2, mean direction %3")
                                 .arg(labFixed(static_cast<double>(v.x), 4),
                                      labFixed(static_cast<double>(v.y), 4),

@@ -2,6 +2,7 @@
 // cube, irradiance, sums of harmonics, prefiltered levels and the DFG table. One picture is large.
 #pragma once
 
+#include "app/editor/panel/LabDrawing.h"
 #include "app/editor/panel/LabPicture.h"
 
 #include <QTimer>

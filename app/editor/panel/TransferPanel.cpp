@@ -36,7 +36,7 @@ TransferPanel::TransferPanel(DocumentController& controller, PixelProbe& probe,
     , m_probe(probe)
     , m_onSurface(onSurface)
     , m_shadows(shadows)
-    , m_memory(std::make_shared<TransferMemory>())
+    , m_memory(std::make_shared<TransferPicturesMemory>())
     , m_job(controller.runner(), "transfer inspector") {
     setObjectName(QStringLiteral("transferPanel"));
     m_message = new QLabel;
@@ -122,19 +122,16 @@ void TransferPanel::showEvent(QShowEvent* event) {
 
 void TransferPanel::hideEvent(QHideEvent* event) {
     m_probe.removeListener();
-    m_asked.reset();
+    m_requested.reset();
     m_job.cancel();
     m_onSurface.setOther(nullptr);
     QWidget::hideEvent(event);
 }
 
-std::optional<TransferAsk> TransferPanel::ask(QString& problem) const {
-    const Document& document = m_controller.document();
-    TransferAsk ask;
-    ask.bake = findBake(document, BakeKind::PrtVertex);
-    if (!ask.bake)
-        ask.bake = findBake(document, BakeKind::PrtTexel);
-    if (!ask.bake) {
+std::optional<TransferPicturesRequest> TransferPanel::request(QString& problem) const {
+    TransferPicturesRequest request;
+    TransferRequest& study = request.study = transferRequest(m_controller.document());
+    if (!study.bake) {
         problem = tr("There is no radiance transfer yet.");
         return std::nullopt;
     }
@@ -144,33 +141,28 @@ std::optional<TransferAsk> TransferPanel::ask(QString& problem) const {
                      "pins a point.");
         return std::nullopt;
     }
-    ask.environment = shownEnvironment(document);
-    if (!ask.environment.image) {
+    if (!study.environment.image) {
         problem = tr("The environment has no picture.");
         return std::nullopt;
     }
-    ask.parts = environmentParts(document);
-    for (const Light& light : document.lights)
-        if (isActive(document, light))
-            ask.lights.push_back(light);
-    ask.shadows = m_shadows.shown();
-    ask.mesh = at->mesh;
-    ask.position = glm::vec3(at->value(shading::kRecordPosition));
-    ask.traced = m_probe.pin().has_value();
-    ask.bands = m_bars->bands();
-    ask.lightBands = m_lightBands->currentData().toInt();
-    return ask;
+    study.shadows = m_shadows.shown();
+    study.mesh = at->mesh;
+    study.position = glm::vec3(at->value(shading::kRecordPosition));
+    study.traced = m_probe.pin().has_value();
+    study.bands = m_bars->bands();
+    request.lightBands = m_lightBands->currentData().toInt();
+    return request;
 }
 
 void TransferPanel::refresh() {
     if (!isVisible())
         return;
     QString problem;
-    const std::optional<TransferAsk> wanted = ask(problem);
+    const std::optional<TransferPicturesRequest> wanted = request(problem);
     // Each frame says anew what lies under the pointer.
-    if (wanted && wanted == m_asked)
+    if (wanted && wanted == m_requested)
         return;
-    m_asked = wanted;
+    m_requested = wanted;
     if (!wanted) {
         m_job.cancel();
         show(nullptr, problem);
@@ -179,32 +171,37 @@ void TransferPanel::refresh() {
     m_job.request([this, wanted = *wanted, document = m_controller.document(),
                    luminance = m_probe.shown()->luminance,
                    memory = m_memory](const JobContext& job) -> LatestJob::Apply {
-        const auto study = studyTransfer(document, wanted, luminance, *memory, job);
-        if (!study)
+        Result<TransferPictures> drawn = drawTransfer(document, wanted, luminance, *memory, job);
+        if (!drawn && drawn.error().kind == ErrorKind::Cancelled)
             return {};
-        return [this, study] { show(study->problem.isEmpty() ? study : nullptr, study->problem); };
+        if (!drawn)
+            return [this] {
+                show(nullptr, tr("The bake has no values for this mesh; bake it again."));
+            };
+        return [this, pictures = std::make_shared<const TransferPictures>(*std::move(drawn))] {
+            show(pictures, {});
+        };
     });
 }
 
-void TransferPanel::show(std::shared_ptr<const TransferStudy> study, const QString& problem) {
-    m_study = std::move(study);
+void TransferPanel::show(std::shared_ptr<const TransferPictures> pictures, const QString& problem) {
+    m_shown = std::move(pictures);
     m_message->setText(problem);
     m_bake->setVisible(!hasTransfer(m_controller.document()));
-    m_pages->setCurrentIndex(m_study ? 1 : 0);
-    m_onSurface.setOther(m_study ? m_study->lobe : nullptr);
-    if (!m_study)
+    m_pages->setCurrentIndex(m_shown ? 1 : 0);
+    m_onSurface.setOther(m_shown ? m_shown->lobe : nullptr);
+    if (!m_shown)
         return;
-    const TransferStudy& s = *m_study;
+    const TransferPictures& p = *m_shown;
+    const TransferStudy& s = p.study;
     QStringList shares;
     for (const glm::vec3& band : s.byBand)
         shares << plotNumber(shading::luminance(band), 2);
     std::vector<float> coefficients;
-    for (std::size_t i = 0; i < s.transfer.direct.size(); ++i) {
-        const glm::vec3 c = s.transfer.coefficient(i);
-        coefficients.push_back((c.x + c.y + c.z) / 3.0f);
-    }
+    for (std::size_t i = 0; i < s.transfer.direct.size(); ++i)
+        coefficients.push_back(s.transfer.meanCoefficient(i));
     m_bars->setCoefficients(std::move(coefficients), shares);
-    const glm::vec3 whole = s.radiance + s.local;
+    const glm::vec3 whole = s.all();
     const bool negative = std::min({whole.x, whole.y, whole.z}) < 0.0f;
     m_numbers->setText(
         tr("Light of a white surface: %1%2   ·   sky visibility %3 %   ·   %4")
@@ -218,27 +215,28 @@ void TransferPanel::show(std::shared_ptr<const TransferStudy> study, const QStri
     const auto transferAt = [transfer = s.transfer, bands = m_bars->bands()](const glm::vec3& d) {
         return std::vector{double{transfer.towards(d, bands)}};
     };
-    const auto lightOf = [lab = s.lab](LabView view) {
+    const auto lightOf = [lab = p.lab](LabView view) {
         return [lab, view](const glm::vec3& d) {
             const glm::vec3 v = lab.value(view, d).value_or(glm::vec3(0.0f));
             return std::vector{double{v.x}, double{v.y}, double{v.z}};
         };
     };
-    m_function->setPicture(s.function,
-                           s.negativeShare > 0.0
-                               ? tr("rings below zero (magenta) on %1 % of the sphere, to %2")
-                                     .arg(plotNumber(100.0 * s.negativeShare), plotNumber(s.lowest))
-                               : tr("nowhere below zero"),
-                           transferAt);
-    m_seen->setPicture(s.seen,
-                       s.rays > 0 ? tr("dark: hidden from the point, by %1 rays").arg(s.rays)
+    m_function->setPicture(
+        p.function,
+        s.function.negativeShare > 0.0
+            ? tr("rings below zero (magenta) on %1 % of the sphere, to %2")
+                  .arg(plotNumber(100.0 * s.function.negativeShare), plotNumber(s.function.lowest))
+            : tr("nowhere below zero"),
+        transferAt);
+    m_seen->setPicture(p.seen,
+                       p.rays > 0 ? tr("dark: hidden from the point, by %1 rays").arg(p.rays)
                                   : tr("darkened by the transfer; pin the point to trace rays"),
                        lightOf({LabKind::Environment, 0}));
     m_sum->setTitle(tr("Environment in %1").arg(m_lightBands->currentText()));
     m_sum->setAccessibleName(m_sum->title());
-    m_sum->setPicture(s.sum,
-                      s.lightLowest < 0.0f
-                          ? tr("lowest %1, below zero magenta").arg(plotNumber(s.lightLowest))
+    m_sum->setPicture(p.sum,
+                      p.lightLowest < 0.0f
+                          ? tr("lowest %1, below zero magenta").arg(plotNumber(p.lightLowest))
                           : tr("nowhere below zero"),
                       lightOf({LabKind::Harmonics, m_lightBands->currentData().toInt()}));
 }

@@ -3,9 +3,10 @@
 #pragma once
 
 #include "app/editor/job/LatestJob.h"
-#include "app/editor/panel/TransferStudy.h"
+#include "app/editor/panel/TransferPictures.h"
 
 #include <QWidget>
+#include <optional>
 
 class QComboBox;
 class QLabel;
@@ -29,7 +30,7 @@ class TransferPanel : public QWidget {
     ~TransferPanel() override;
 
     // Null: nothing to show, message() says why.
-    [[nodiscard]] std::shared_ptr<const TransferStudy> study() const { return m_study; }
+    [[nodiscard]] std::shared_ptr<const TransferPictures> pictures() const { return m_shown; }
     [[nodiscard]] QString message() const;
     [[nodiscard]] bool upToDate() const { return !m_job.busy(); }
     [[nodiscard]] QSize sizeHint() const override { return {780, 280}; }
@@ -43,17 +44,17 @@ class TransferPanel : public QWidget {
     void hideEvent(QHideEvent* event) override;
 
   private:
-    void refresh(); // asks for a new study, when someone sees it
-    [[nodiscard]] std::optional<TransferAsk> ask(QString& problem) const;
-    void show(std::shared_ptr<const TransferStudy> study, const QString& problem);
+    void refresh(); // requests new pictures, when someone sees it
+    [[nodiscard]] std::optional<TransferPicturesRequest> request(QString& problem) const;
+    void show(std::shared_ptr<const TransferPictures> pictures, const QString& problem);
 
     DocumentController& m_controller;
     PixelProbe& m_probe;
     LobeOnSurface& m_onSurface;
     const NearShadowUpdater& m_shadows;
-    std::optional<TransferAsk> m_asked;
-    std::shared_ptr<const TransferStudy> m_study;
-    std::shared_ptr<TransferMemory> m_memory; // the pool's thread alone uses it
+    std::optional<TransferPicturesRequest> m_requested;
+    std::shared_ptr<const TransferPictures> m_shown;
+    std::shared_ptr<TransferPicturesMemory> m_memory; // the pool's thread alone uses it
 
     QStackedWidget* m_pages;
     QLabel *m_message, *m_numbers;

@@ -40,6 +40,10 @@ struct PointTransfer {
     [[nodiscard]] glm::vec3 coefficient(std::size_t i) const { // T_i + B_i
         return bounced.empty() ? glm::vec3(direct[i]) : direct[i] + bounced[i];
     }
+    [[nodiscard]] float meanCoefficient(std::size_t i) const { // of red, green and blue
+        const glm::vec3 c = coefficient(i);
+        return (c.x + c.y + c.z) / 3.0f;
+    }
     // Σ over the bands whose bit is set of light_i (T_i + B_i): exit radiance of albedo 1.
     [[nodiscard]] glm::vec3 radiance(const std::vector<glm::vec3>& light, unsigned bands) const;
     // Of B_i alone, by way of other surfaces.

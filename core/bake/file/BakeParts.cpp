@@ -2,8 +2,6 @@
 
 #include "core/bake/document/DocumentBakeInputs.h"
 #include "core/bake/domain/BakeHash.h"
-#include "core/bake/file/BakeChannels.h"
-#include "core/bake/file/BakeHeader.h"
 #include "core/bake/file/BakeSource.h"
 #include "core/bake/file/BakeTarget.h"
 #include "core/base/Check.h"
@@ -99,7 +97,6 @@ struct Reader {
     const std::filesystem::path& file;
     const BakeTargets& targets;
 
-    [[nodiscard]] bool transfer() const { return holdsTransfer(header.artifact.kind); }
     [[nodiscard]] Error damaged(const std::string& what) const { return damagedBake(file, what); }
     [[nodiscard]] Error misfit(const std::string& why) const {
         return {ErrorKind::InputBroken,
@@ -109,33 +106,6 @@ struct Reader {
     }
 };
 
-Result<BakeElements> readElements(const Reader& reader, const ImagePart& part, std::size_t count) {
-    const int order = reader.transfer() ? reader.header.artifact.order : 0;
-    const auto bands = static_cast<std::size_t>(order);
-    BakeSteps steps;
-    if (reader.header.options.storage == BakeStorage::Quantised) {
-        auto values = floatsAttribute(part.attributes, kStepsOfValues, bands);
-        auto bounced = floatsAttribute(part.attributes, kStepsOfBounced, bands);
-        if (!values || (hasBounced(part.image) && !bounced))
-            return reader.damaged("the steps of its quantised numbers are missing");
-        steps.values = *std::move(values);
-        if (bounced)
-            steps.bounced = *std::move(bounced);
-    }
-    std::optional<BakeElements> elements = elementsFromImage(part.image, order, count, steps);
-    if (!elements)
-        return reader.damaged("elements or channels are missing, or are not those of its kind");
-    if (reader.transfer() && elements->bounced.empty() &&
-        reader.header.artifact.transfer == TransferKind::Interreflected)
-        return reader.damaged("the channels of its bounces are missing");
-    if (!plausible(*elements, reader.transfer()))
-        return reader.damaged("a value is out of range");
-    const std::string* hash = findAttribute(part.attributes, kContentHash);
-    if (reader.header.version > 1 && (hash == nullptr || *hash != hashContent(part).hex()))
-        return reader.damaged("it was changed after it had been written");
-    return *std::move(elements);
-}
-
 Result<VertexBake> readVertices(const Reader& reader, const ImagePart& part) {
     if (const std::string why = meshMismatch(reader.targets, part.attributes); !why.empty())
         return reader.misfit(why);
@@ -144,7 +114,7 @@ Result<VertexBake> readVertices(const Reader& reader, const ImagePart& part) {
     const auto count = numberAttribute(part.attributes, kVertexCountAttribute, 1, 1ll << 32);
     if (!count || static_cast<std::size_t>(*count) != mesh.mesh->vertexCount())
         return reader.damaged("the number of vertices is wrong");
-    Result<BakeElements> e = readElements(reader, part, static_cast<std::size_t>(*count));
+    Result<BakeElements> e = elementsFromPart(part, reader.header, reader.file);
     if (!e)
         return e.error();
     return VertexBake{
@@ -163,13 +133,12 @@ Result<TexelBake> readTexels(const Reader& reader, const ImagePart& part) {
     const int side = part.image.width();
     if (side != part.image.height())
         return reader.damaged("the texture is not square");
-    Result<BakeElements> e =
-        readElements(reader, part, static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+    Result<BakeElements> e = elementsFromPart(part, reader.header, reader.file);
     if (!e)
         return e.error();
     TexelBake bake;
     bake.material = reader.targets.document().materials[*target].id;
-    if (!reader.transfer()) {
+    if (!holdsTransfer(reader.header.artifact.kind)) {
         auto image = std::make_shared<Image>(side, side, 1, PixelType::F32, ColorEncoding::Data);
         std::copy(e->values.begin(), e->values.end(), image->f32().begin());
         bake.image = std::move(image);
@@ -275,6 +244,43 @@ Result<BakeArtifact> bakeFromParts(const std::vector<ImagePart>& parts, const Do
             return damagedBake(file, "two parts have the same target");
     }
     return artifact;
+}
+
+Result<BakeElements> elementsFromPart(const ImagePart& part, const BakeHeader& header,
+                                      const std::filesystem::path& file) {
+    const bool transfer = holdsTransfer(header.artifact.kind);
+    const int order = transfer ? header.artifact.order : 0;
+    auto count = static_cast<std::size_t>(part.image.width()) *
+                 static_cast<std::size_t>(part.image.height());
+    if (!isPerTexel(header.artifact.kind)) {
+        const auto vertices = numberAttribute(part.attributes, kVertexCountAttribute, 1, 1ll << 32);
+        if (!vertices)
+            return damagedBake(file, "the number of vertices is wrong");
+        count = static_cast<std::size_t>(*vertices);
+    }
+    const auto bands = static_cast<std::size_t>(order);
+    BakeSteps steps;
+    if (header.options.storage == BakeStorage::Quantised) {
+        auto values = floatsAttribute(part.attributes, kStepsOfValues, bands);
+        auto bounced = floatsAttribute(part.attributes, kStepsOfBounced, bands);
+        if (!values || (hasBounced(part.image) && !bounced))
+            return damagedBake(file, "the steps of its quantised numbers are missing");
+        steps.values = *std::move(values);
+        if (bounced)
+            steps.bounced = *std::move(bounced);
+    }
+    std::optional<BakeElements> elements = elementsFromImage(part.image, order, count, steps);
+    if (!elements)
+        return damagedBake(file, "elements or channels are missing, or are not those of its kind");
+    if (transfer && elements->bounced.empty() &&
+        header.artifact.transfer == TransferKind::Interreflected)
+        return damagedBake(file, "the channels of its bounces are missing");
+    if (!plausible(*elements, transfer))
+        return damagedBake(file, "a value is out of range");
+    const std::string* hash = findAttribute(part.attributes, kContentHash);
+    if (header.version > 1 && (hash == nullptr || *hash != hashContent(part).hex()))
+        return damagedBake(file, "it was changed after it had been written");
+    return *std::move(elements);
 }
 
 } // namespace patina

@@ -4,6 +4,8 @@
 
 #include "core/bake/domain/BakeArtifact.h"
 #include "core/bake/domain/BakeStorage.h"
+#include "core/bake/file/BakeChannels.h"
+#include "core/bake/file/BakeHeader.h"
 #include "core/base/Result.h"
 #include "core/io/ImageIO.h"
 
@@ -27,5 +29,10 @@ inline constexpr int kMaxBakeRow = 4096; // vertices per image row
 // version, damaged, of other geometry (saying what differs).
 Result<BakeArtifact> bakeFromParts(const std::vector<ImagePart>& parts, const Document& document,
                                    const std::filesystem::path& file);
+
+// The numbers of one part, without the document. `header`: readBakeHeader() of its attributes.
+// Errors (InputBroken, naming `file`): damaged.
+Result<BakeElements> elementsFromPart(const ImagePart& part, const BakeHeader& header,
+                                      const std::filesystem::path& file);
 
 } // namespace patina

@@ -7,6 +7,7 @@
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Slider.h"
+#include "core/light/DfgLookup.h"
 #include "core/light/LatLongGrid.h"
 #include "core/math/Shading.h"
 
@@ -59,10 +60,10 @@ struct LightLabTest : testing::Test {
     static LightLabPanel& panel() { return *s_panel; }
     static bool drawn() {
         return eventually([] {
-            return panel().idle() && panel().light().analysis &&
-                   panel().light().analysis->environment == document().environment().image &&
-                   s_ibl->finished() && panel().light().maps == s_ibl->maps() && panel().dfg() &&
-                   !panel().stage()->picture().isNull();
+            return panel().idle() && panel().light().lookup.analysis &&
+                   panel().light().lookup.analysis->environment == document().environment().image &&
+                   s_ibl->finished() && panel().light().lookup.maps == s_ibl->maps() &&
+                   panel().dfg() && !panel().stage()->picture().isNull();
         });
     }
     static void showSection(const char* name) {
@@ -161,7 +162,7 @@ TEST_F(LightLabTest, ThePointerReadsDirectionAndLight) {
     hover(stage, {area.left() + 0.25 * area.width(), area.bottom() - 0.75 * area.height()});
     EXPECT_THAT(panel().readout().front().toStdString(),
                 HasSubstr("N·V 0.250, perceptual roughness 0.750"));
-    const double scale = static_cast<double>(panel().dfg()->value(0.25f, 0.75f).x);
+    const double scale = static_cast<double>(lookUpDfg(panel().dfg()->table, 0.25f, 0.75f).x);
     EXPECT_THAT(panel().readout().back().toStdString(),
                 HasSubstr(QString::number(scale, 'f', 4).left(5).toStdString()));
 }
@@ -212,7 +213,7 @@ TEST_F(LightLabTest, FollowsWhileTheEnvironmentIsDragged) {
     }
     ASSERT_TRUE(drawn());
     EXPECT_EQ(undoCount(), 1);
-    EXPECT_EQ(panel().light().rotationDeg, document().environment().rotationDeg);
+    EXPECT_EQ(panel().light().lookup.rotationDeg, document().environment().rotationDeg);
     EXPECT_EQ(picture.picture(), labPicture(panel().light(), picture.view(), picture.pictureSize(),
                                             LabTone(document().view, {}, 0.0f), {}));
     EXPECT_EQ(panel().picture({LabKind::Harmonics, 8})->detail(), error)
@@ -222,11 +223,11 @@ TEST_F(LightLabTest, FollowsWhileTheEnvironmentIsDragged) {
 TEST_F(LightLabTest, FollowsTheSunOfASky) {
     controller().setEnvironmentKind(EnvironmentKind::Sky);
     ASSERT_TRUE(drawn());
-    const LabAnalysisPtr noon = panel().light().analysis;
+    const EnvironmentAnalysisPtr noon = panel().light().lookup.analysis;
     set("environment.skySunElevationDeg", 5.0f);
     ASSERT_TRUE(eventually([&] {
-        return panel().light().analysis != noon && panel().light().analysis &&
-               panel().light().analysis->environment == document().environment().image;
+        return panel().light().lookup.analysis != noon && panel().light().lookup.analysis &&
+               panel().light().lookup.analysis->environment == document().environment().image;
     }));
     ASSERT_TRUE(drawn());
     EXPECT_THAT(panel().picture({LabKind::Harmonics, 8})->warning().toStdString(),
@@ -277,8 +278,8 @@ TEST_F(LightLabTest, ThePickedPixelIsMarkedWhereItsLightComesFrom) {
     const QPointF at = stage.position(*stage.picked());
     EXPECT_NEAR((at.x() - area.left()) / area.width(), 0.62, 1e-6);
     EXPECT_NEAR((area.bottom() - at.y()) / area.height(), 0.35, 1e-6) << "roughness grows upwards";
-    const QString bias =
-        QString::number(static_cast<double>(panel().dfg()->value(0.62f, 0.35f).y), 'g', 3);
+    const QString bias = QString::number(
+        static_cast<double>(lookUpDfg(panel().dfg()->table, 0.62f, 0.35f).y), 'g', 3);
     EXPECT_EQ(stage.pickedLabel(), QStringLiteral("(0.620, 0.350) = %1").arg(bias));
     EXPECT_EQ(panel().picture({LabKind::Dfg, 1})->detail(), bias);
     keep(QStringLiteral("light-lab-picked.png"), panel());
@@ -306,15 +307,15 @@ TEST_F(LightLabTest, ThePickedPixelIsMarkedWhereItsLightComesFrom) {
 TEST_F(LightLabTest, TheTableIsTheModels) {
     showSection("DFG");
     const QImage before = panel().picture({LabKind::Dfg, 0})->picture();
-    const glm::vec3 ggx = panel().dfg()->value(0.3f, 0.8f);
+    const glm::vec3 ggx = lookUpDfg(panel().dfg()->table, 0.3f, 0.8f);
     set("model.distribution", static_cast<int>(Distribution::BlinnPhong));
     ASSERT_TRUE(eventually([&] {
         return panel().idle() && panel().picture({LabKind::Dfg, 0})->picture() != before;
     }));
     const glm::dvec3 exact =
         integrateDfg(0.3f, 0.8f, Distribution::BlinnPhong, Visibility::SmithCorrelated);
-    EXPECT_NEAR(panel().dfg()->value(0.3f, 0.8f).x, exact.x, 3e-3);
-    EXPECT_GT(glm::distance(panel().dfg()->value(0.3f, 0.8f), ggx), 1e-3f);
+    EXPECT_NEAR(lookUpDfg(panel().dfg()->table, 0.3f, 0.8f).x, exact.x, 3e-3);
+    EXPECT_GT(glm::distance(lookUpDfg(panel().dfg()->table, 0.3f, 0.8f), ggx), 1e-3f);
 }
 
 TEST_F(LightLabTest, APictureOfOnePixel) {
@@ -324,10 +325,10 @@ TEST_F(LightLabTest, APictureOfOnePixel) {
     ASSERT_TRUE(file.open(QIODevice::WriteOnly));
     file.write("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x80"); // 1/2
     file.close();
-    const LabAnalysisPtr before = panel().light().analysis;
+    const EnvironmentAnalysisPtr before = panel().light().lookup.analysis;
     controller().setEnvironment(path);
     ASSERT_TRUE(settled(*s_session));
-    ASSERT_TRUE(eventually([&] { return panel().light().analysis != before; }));
+    ASSERT_TRUE(eventually([&] { return panel().light().lookup.analysis != before; }));
     ASSERT_TRUE(drawn());
     for (const LabView view : {LabView{LabKind::Harmonics, 8}, LabView{LabKind::Prefiltered, 3}})
         EXPECT_NEAR(panel().light().value(view, {0, 1, 0})->x, 0.5f, 1e-5f);
@@ -348,7 +349,7 @@ TEST_F(LightLabWindowTest, OpensByItsKeysAtAUsefulHeight) {
     window->resize(1440, 900);
     window->resetLayout();
     ASSERT_FALSE(panel().isVisible());
-    EXPECT_EQ(panel().light().analysis, nullptr) << "nothing is computed for nobody";
+    EXPECT_EQ(panel().light().lookup.analysis, nullptr) << "nothing is computed for nobody";
     EXPECT_FALSE(session->probe.wanted());
     pressKeys();
     ASSERT_TRUE(eventually([] { return panel().isVisible(); }));
@@ -357,8 +358,8 @@ TEST_F(LightLabWindowTest, OpensByItsKeysAtAUsefulHeight) {
     auto* dock = window->findChild<QDockWidget*>(QStringLiteral("lightLab"));
     ASSERT_TRUE(eventually([&] { return dock->height() >= 240; }));
     EXPECT_GE(window->viewport().height(), 300) << "the viewport stays usable";
-    ASSERT_TRUE(eventually([] { return panel().idle() && panel().light().maps; }));
-    EXPECT_EQ(panel().light().maps, session->ibl.maps()) << "the viewport's own";
+    ASSERT_TRUE(eventually([] { return panel().idle() && panel().light().lookup.maps; }));
+    EXPECT_EQ(panel().light().lookup.maps, session->ibl.maps()) << "the viewport's own";
 
     // Behind another tab the keys bring it to the front; in front they close it.
     auto* log = window->findChild<QDockWidget*>(QStringLiteral("log"));
@@ -367,10 +368,10 @@ TEST_F(LightLabWindowTest, OpensByItsKeysAtAUsefulHeight) {
     log->raise();
     ASSERT_TRUE(eventually([] { return !window->actions().lightLab->isChecked(); }));
     EXPECT_FALSE(session->probe.wanted());
-    const float before = panel().light().rotationDeg;
+    const float before = panel().light().lookup.rotationDeg;
     controller().setParameter(*findParameter("environment.rotationDeg"), {Scope::Environment, 0},
                               50.0f);
-    EXPECT_EQ(panel().light().rotationDeg, before) << "nobody sees it";
+    EXPECT_EQ(panel().light().lookup.rotationDeg, before) << "nobody sees it";
     controller().undoStack().undo();
     controller().undoStack().clear();
     pressKeys();

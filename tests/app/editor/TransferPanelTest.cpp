@@ -74,7 +74,7 @@ struct TransferPanelTest : EditorTest {
         at.values[shading::kViewShadingNormal] = glm::vec4(normal, 0.0f);
         session->probe.setPin(at);
     }
-    static bool studied() { return panel().upToDate() && panel().study() != nullptr; }
+    static bool studied() { return panel().upToDate() && panel().pictures() != nullptr; }
     static void keep(const QString& name) {
         const QString target = qEnvironmentVariable("PATINA_SCREENSHOTS");
         if (target.isEmpty())
@@ -90,15 +90,17 @@ TEST_F(TransferPanelTest, TellsWhatIsMissing) {
     EXPECT_TRUE(
         eventually([] { return panel().message().contains(QStringLiteral("no radiance")); }));
     controller().attachBake(openBake());
-    EXPECT_TRUE(eventually(
-        [] { return panel().message().contains(QStringLiteral("Point at")) || panel().study(); }));
+    EXPECT_TRUE(eventually([] {
+        return panel().message().contains(QStringLiteral("Point at")) || panel().pictures();
+    }));
 }
 
 TEST_F(TransferPanelTest, ShowsThePinnedPointBandByBand) {
     controller().attachBake(openBake());
     pin();
-    ASSERT_TRUE(eventually([] { return studied() && panel().study()->rays > 0; }));
-    const TransferStudy& all = *panel().study();
+    ASSERT_TRUE(eventually([] { return studied() && panel().pictures()->rays > 0; }));
+    const TransferPictures& shown = *panel().pictures();
+    const TransferStudy& all = shown.study;
     EXPECT_NEAR(all.visibility, 1.0f, 0.02f) << "nothing is in the way";
     ASSERT_EQ(all.byBand.size(), 3u);
     glm::vec3 sum(0.0f);
@@ -106,28 +108,33 @@ TEST_F(TransferPanelTest, ShowsThePinnedPointBandByBand) {
         sum += band;
     EXPECT_LT(glm::distance(sum, all.radiance), 1e-4f * glm::length(sum));
     // Three bands of a clamped cosine are 3/32 + z/2 + 15/32 z² over pi, lowest at z = -8/15.
-    EXPECT_NEAR(all.lowest * std::numbers::pi_v<float>, 3.0f / 32.0f - 2.0f / 15.0f, 0.01f);
-    EXPECT_GT(all.highest, 0.25f);
+    EXPECT_NEAR(all.function.lowest * std::numbers::pi_v<float>, 3.0f / 32.0f - 2.0f / 15.0f,
+                0.01f);
+    EXPECT_GT(all.function.highest, 0.25f);
     ASSERT_NE(session->lobe.lobe(), nullptr);
-    EXPECT_EQ(session->lobe.lobe(), all.lobe);
+    EXPECT_EQ(session->lobe.lobe(), shown.lobe);
     keep(QStringLiteral("transfer.png"));
 
     auto* bars = panel().findChild<BandBars*>();
     const glm::vec3 whole = all.radiance, first = all.byBand[1];
     QTest::mouseClick(bars, Qt::LeftButton, {}, bars->bandArea(1).center().toPoint());
-    ASSERT_TRUE(eventually([&] { return studied() && panel().study()->radiance != whole; }));
-    EXPECT_LT(glm::distance(panel().study()->radiance + first, whole), 1e-4f * glm::length(whole));
+    ASSERT_TRUE(
+        eventually([&] { return studied() && panel().pictures()->study.radiance != whole; }));
+    EXPECT_LT(glm::distance(panel().pictures()->study.radiance + first, whole),
+              1e-4f * glm::length(whole));
     QTest::mouseClick(bars, Qt::LeftButton, Qt::ShiftModifier,
                       bars->bandArea(1).center().toPoint());
     ASSERT_TRUE(eventually([&] {
-        return studied() && glm::distance(panel().study()->radiance, first) < 1e-5f;
+        return studied() && glm::distance(panel().pictures()->study.radiance, first) < 1e-5f;
     })) << "band 1 alone";
-    EXPECT_NEAR(panel().study()->negativeShare, 0.5, 0.01) << "half of band 1 is below zero";
+    EXPECT_NEAR(panel().pictures()->study.function.negativeShare, 0.5, 0.01)
+        << "half of band 1 is below zero";
     keep(QStringLiteral("transfer-solo.png"));
     bars->setFocus();
     QTest::keyClick(bars, Qt::Key_Right);                    // to band 1
     QTest::keyClick(bars, Qt::Key_Space, Qt::ShiftModifier); // all again
-    ASSERT_TRUE(eventually([&] { return studied() && panel().study()->radiance == whole; }));
+    ASSERT_TRUE(
+        eventually([&] { return studied() && panel().pictures()->study.radiance == whole; }));
     EXPECT_EQ(undoCount(), 0) << "a bake that is made is no step; looking is no edit";
 }
 
@@ -144,10 +151,10 @@ TEST_F(TransferPanelTest, FollowsTheMixOfTwoEnvironments) {
         controller().setParameter(*findParameter("environment.fade"), {Scope::Environment, 0},
                                   fade);
         EXPECT_TRUE(eventually([&] {
-            return studied() && panel().study()->light.size() == 9 &&
-                   panel().study()->light != last;
+            return studied() && panel().pictures()->study.light.size() == 9 &&
+                   panel().pictures()->study.light != last;
         })) << fade;
-        last = panel().study()->light;
+        last = panel().pictures()->study.light;
         return last;
     };
     const auto first = at(0.0f), half = at(0.25f), second = at(1.0f);
@@ -167,8 +174,8 @@ TEST_F(TransferPanelTest, ShowsTheEnvironmentInAnyNumberOfBands) {
     QImage last;
     for (int i = 0; i < choice->count(); ++i) {
         choice->setCurrentIndex(i);
-        ASSERT_TRUE(eventually([&] { return studied() && panel().study()->sum != last; })) << i;
-        last = panel().study()->sum;
+        ASSERT_TRUE(eventually([&] { return studied() && panel().pictures()->sum != last; })) << i;
+        last = panel().pictures()->sum;
     }
     EXPECT_EQ(choice->count(), 8);
 }
@@ -179,17 +186,18 @@ TEST_F(TransferPanelTest, AddsLocalLightsAsThePictureHasThem) {
     controller().setParameter(parameter("view.lighting"), {Scope::View, 0},
                               static_cast<int>(LightingMode::Shadowed));
     pin();
-    ASSERT_TRUE(eventually([] { return studied() && panel().study()->rays > 0; }));
-    const glm::vec3 before = panel().study()->radiance;
-    EXPECT_EQ(panel().study()->tracedLights, 0u);
+    ASSERT_TRUE(eventually([] { return studied() && panel().pictures()->rays > 0; }));
+    const glm::vec3 before = panel().pictures()->study.radiance;
+    EXPECT_EQ(panel().pictures()->study.tracedLights, 0u);
     controller().addLight(LightType::Point);
     Light light = document().lights.back();
     light.position = document().view.camera.position();
     controller().changeLight(light, 0, QStringLiteral("move"));
     ASSERT_TRUE(eventually([] {
-        return session->nearShadows.upToDate() && studied() && panel().study()->tracedLights == 1;
+        return session->nearShadows.upToDate() && studied() &&
+               panel().pictures()->study.tracedLights == 1;
     }));
-    const TransferStudy& study = *panel().study();
+    const TransferStudy& study = panel().pictures()->study;
     EXPECT_LT(glm::distance(study.radiance, before), 1e-5f * glm::length(before));
     const glm::vec3 place(session->probe.pin()->value(shading::kRecordPosition));
     const NearLightAt at =

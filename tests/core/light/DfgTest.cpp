@@ -1,5 +1,6 @@
 // The DFG table against exact integrals, and what is built on it: energy compensation and the
 // lookup along the lobe's mean direction.
+#include "core/light/DfgLookup.h"
 #include "core/light/DfgTable.h"
 
 #include "core/job/Parallel.h"
@@ -391,6 +392,21 @@ TEST(Dfg, TableHoldsTheIntegralsAtItsTexels) {
     const Image many = computeDfgTable(32);
     const ThreadLimit one(1);
     EXPECT_EQ(computeDfgTable(32), many);
+}
+
+TEST(Dfg, IsLookedUpAsTheShaderDoes) {
+    const Image table = computeDfgTable();
+    for (const glm::ivec2 at : {glm::ivec2(0, 0), {127, 5}, {64, 100}}) {
+        const glm::vec3 value = lookUpDfg(table, (static_cast<float>(at.x) + 0.5f) / 128.0f,
+                                          (static_cast<float>(at.y) + 0.5f) / 128.0f);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(value[c], table.sample(at.x, at.y, c), 1e-5f);
+    }
+    const glm::dvec3 exact = integrateDfg(0.62f, 0.35f);
+    const glm::vec3 looked = lookUpDfg(table, 0.62f, 0.35f);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(looked[c], exact[c], 2e-3) << c;
+    EXPECT_EQ(lookUpDfg(table, -1.0f, 2.0f).x, table.sample(0, 127, 0)) << "held at the border";
 }
 
 } // namespace

@@ -42,6 +42,23 @@ TEST(DominantLight, AUniformEnvironmentLightsFromAbove) {
     const DominantLight light = dominantLight(even);
     EXPECT_EQ(light.toLight, glm::vec3(0.0f, 1.0f, 0.0f));
     EXPECT_NEAR(light.irradiance.y, 1.5f * std::numbers::pi_v<float>, 1e-4f);
+    EXPECT_EQ(directionality(even), 0.0f);
+}
+
+// One direction is all of it; two alike opposite each other are none, at right angles sqrt(1/2).
+TEST(DominantLight, DirectionalityIsTheLengthOfTheMeanDirection) {
+    const Coefficients one = directional({0.6f, 0.0f, -0.8f}, {2.0f, 1.0f, 3.0f});
+    EXPECT_NEAR(directionality(one), 1.0f, 1e-5f);
+    const auto both = [&](const glm::vec3& other) {
+        Coefficients sum = one;
+        const Coefficients more = directional(other, {2.0f, 1.0f, 3.0f});
+        for (std::size_t i = 0; i < 9; ++i)
+            sum[i] += more[i];
+        return directionality(sum);
+    };
+    EXPECT_NEAR(both({-0.6f, 0.0f, 0.8f}), 0.0f, 1e-5f);
+    EXPECT_NEAR(both({0.8f, 0.0f, 0.6f}), std::sqrt(0.5f), 1e-5f);
+    EXPECT_EQ(directionality(Coefficients{}), 0.0f);
 }
 
 TEST(DominantLight, BrighterLightWinsAndNothingIsNegative) {

@@ -61,6 +61,21 @@ TEST(ShBands, ACosineNeedsTwo) {
     }
 }
 
+// Parseval: what a band holds is what its sum comes closer by.
+TEST(ShBands, EnergiesOfTheBandsAddUpToTheEnvironment) {
+    const ShBands bands = computeShBands(latLong(512, 256, [](const glm::vec3& d) {
+        return glm::vec3(d.x > 0.2f ? 3.0f : 0.5f, 1.0f, 2.0f + d.y * d.z);
+    }));
+    double held = 0.0;
+    for (int l = 0; l < kMaxShOrder; ++l) {
+        held += bandEnergy(bands.coefficients, l);
+        const double rmse = bands.sums[static_cast<std::size_t>(l)].rmse;
+        EXPECT_NEAR(held + rmse * rmse, bands.rms * bands.rms, 1e-3 * bands.rms * bands.rms) << l;
+    }
+    // Means of 1.5, 1 and 2: a cap beyond x = 0.2 is 0.4 of the sphere.
+    EXPECT_NEAR(bandEnergy(bands.coefficients, 0), (1.5 * 1.5 + 1.0 + 4.0) / 3.0, 1e-2);
+}
+
 TEST(ShBands, HalfASphereByItsClosedForm) {
     // L = 1 above the horizon: bands hold pi, 3pi/4, 0, 7pi/64, 0, 11pi/256 … of its energy 2pi,
     // because ∫_0^1 P_l = 1/2, 1/2, 0, -1/8, 0, 1/16, 0, -5/128 and c_l² = pi (2l+1) (∫ P_l)².

@@ -1,0 +1,29 @@
+#include "app/cli/PreparedLight.h"
+
+#include "core/base/Log.h"
+#include "core/light/IblCache.h"
+
+#include <cstdlib>
+#include <optional>
+#include <utility>
+
+namespace patina::cli {
+
+Result<IblMaps> prepareLight(const Image& environment, const JobContext& job) {
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): nobody changes them
+    const char* folder = std::getenv("PATINA_LIGHT_CACHE");
+    if (folder == nullptr || *folder == '\0')
+        return computeIbl(environment, {}, job);
+    const IblCache cache(folder);
+    const Hash key = IblCache::key(environment, {});
+    if (std::optional<IblMaps> found = cache.find(key))
+        return std::move(*found);
+    Result<IblMaps> computed = computeIbl(environment, {}, job);
+    if (computed)
+        if (const Result<void> stored = cache.store(key, *computed); !stored)
+            logWarning("The light of this environment could not be kept for next time: {}",
+                       stored.error().text());
+    return computed;
+}
+
+} // namespace patina::cli
