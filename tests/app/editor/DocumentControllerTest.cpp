@@ -210,6 +210,14 @@ std::string randomEdit(DocumentController& controller, std::mt19937& random) {
     return std::string(info.id);
 }
 
+// Pictures that are derived come by themselves, and are made anew.
+Document withoutDerived(Document document) {
+    for (Environment& environment : document.environments)
+        environment.image = nullptr;
+    document.mix.blended = nullptr;
+    return document;
+}
+
 TEST_F(Controller, RandomEditsThenUndoAllIsTheInitialDocument) {
     for (unsigned seed = 1; seed <= 8; ++seed) {
         SCOPED_TRACE("replay with seed " + std::to_string(seed));
@@ -236,10 +244,10 @@ TEST_F(Controller, RandomEditsThenUndoAllIsTheInitialDocument) {
         const Document after = document();
         while (undo().canUndo())
             undo().undo();
-        ASSERT_EQ(document(), before) << history;
+        ASSERT_EQ(withoutDerived(document()), withoutDerived(before)) << history;
         while (undo().canRedo())
             undo().redo();
-        ASSERT_EQ(document(), after) << history;
+        ASSERT_EQ(withoutDerived(document()), withoutDerived(after)) << history;
     }
 }
 
@@ -265,11 +273,7 @@ TEST_F(Controller, EveryEditIsThatOfTheCommandLine) {
             for (const ParameterEdit& edit : editsFor(expected, info, target, value))
                 ASSERT_TRUE(applyParameter(expected, *edit.info, target, edit.value));
             controller.setParameter(info, target, value);
-            Document edited = document();
-            // Pictures that are derived come by themselves.
-            edited.environment().image = expected.environment().image;
-            edited.mix.blended = expected.mix.blended;
-            ASSERT_EQ(edited, expected) << "value " << i;
+            ASSERT_EQ(withoutDerived(document()), withoutDerived(expected)) << "value " << i;
         }
     }
 }

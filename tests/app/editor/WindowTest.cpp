@@ -145,14 +145,29 @@ TEST_F(WindowTest, AModelIsOpenedInTheLightThatIsThere) {
     controller().setEnvironment(QStringLiteral("builtin:sunset"));
     ASSERT_TRUE(settled(*session));
     controller().addLight(LightType::Spot);
-    const Environment environment = document().environment();
+    controller().addEnvironment(EnvironmentKind::Sky);
+    controller().fadeTo(document().environments[0].id);
+    controller().setParameter(parameter("environment.background"), {Scope::Environment, 0},
+                              static_cast<int>(BackgroundMode::Off));
+    const std::vector<Environment> environments = document().environments;
     const Light light = document().lights[0];
     controller().saveAs(folder.filePath(QStringLiteral("light.patina"))); // nothing to ask about
     ASSERT_TRUE(settled(*session));
     window->files().open(writeObj(QStringLiteral("wedge.obj")));
     ASSERT_TRUE(settled(*session));
     ASSERT_EQ(document().meshes.size(), 1u);
-    EXPECT_EQ(document().environment(), environment);
+    // They have other ids, and are the same for all else.
+    ASSERT_EQ(document().environments.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        Environment expected = environments[i];
+        expected.id = document().environments[i].id;
+        expected.image = document().environments[i].image; // the sky's may have been refined
+        EXPECT_EQ(document().environments[i], expected);
+    }
+    EXPECT_EQ(document().mix.first, document().environments[1].id);
+    EXPECT_EQ(document().mix.second, document().environments[0].id);
+    EXPECT_EQ(document().mix.fade, 0.5f);
+    EXPECT_EQ(document().view.background, BackgroundMode::Off);
     ASSERT_EQ(document().lights.size(), 1u);
     EXPECT_EQ(document().lights[0].position, light.position);
     EXPECT_EQ(document().lights[0].name, light.name);
@@ -164,7 +179,8 @@ TEST_F(WindowTest, AModelIsOpenedInTheLightThatIsThere) {
     ASSERT_TRUE(settled(*session));
     window->files().open(project);
     ASSERT_TRUE(settled(*session));
-    EXPECT_EQ(document().environment().source, "builtin:sunset");
+    EXPECT_EQ(document().environment().kind, EnvironmentKind::Sky);
+    EXPECT_EQ(document().secondEnvironment()->source, "builtin:sunset");
 }
 
 // Where the model or the project lies, its maps and exports lie, too, until one goes elsewhere.
