@@ -111,7 +111,7 @@ void DocumentController::setParameter(const ParameterInfo& info, Target target,
     if (info.id == "environment.layout") {
         const Environment* environment = document().environment(target.id);
         if (environment && ParameterValue(static_cast<int>(environment->layout)) != value)
-            readEnvironment(QString::fromStdString(environment->source),
+            readEnvironment(environment->id, QString::fromStdString(environment->source),
                             static_cast<EnvironmentLayout>(std::get<int>(value)),
                             tr("Change %1").arg(fromText(info.label)));
         return;
@@ -174,7 +174,7 @@ void DocumentController::fadeTo(Id environment) {
         scene,
         editsFor(document(), parameter("environment.second"), scene, static_cast<int>(environment)),
         environment == 0
-            ? "Fade to Nothing"
+            ? "End Cross-Fade"
             : fmt::format("Fade to {}", nameOf(document(), {Scope::Environment, environment})));
 }
 

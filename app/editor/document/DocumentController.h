@@ -189,7 +189,8 @@ class DocumentController : public QObject, private EditObserver {
     // Now, or when the user agrees to lose what was edited since `begun`.
     void replaceWhenAllowed(const DocumentState& begun, const QString& name,
                             std::function<void()> replace);
-    void readEnvironment(const QString& source, EnvironmentLayout layout, const QString& undoText);
+    void readEnvironment(Id environment, const QString& source, EnvironmentLayout layout,
+                         const QString& undoText);
     void takeOpened(OpenedScene opened, const QString& scene, const QString& name,
                     const std::optional<Hash>& version);
     // m_filePath is open here, and held this when it was read.

@@ -252,7 +252,7 @@ void DocumentController::clearMap(const ParameterInfo& map, Target target) {
 }
 
 void DocumentController::setEnvironment(const QString& source) {
-    readEnvironment(source, EnvironmentLayout::Automatic,
+    readEnvironment(document().mix.first, source, EnvironmentLayout::Automatic,
                     tr("Light with %1").arg(shortName(source)));
 }
 
@@ -304,13 +304,12 @@ void DocumentController::addEnvironment(const QString& source, EnvironmentUse us
         });
 }
 
-void DocumentController::readEnvironment(const QString& source, EnvironmentLayout layout,
+void DocumentController::readEnvironment(Id asked, const QString& source, EnvironmentLayout layout,
                                          const QString& undoText) {
     const QString title = shortName(source);
     m_tasks.start(
         environmentTask, tr("Reading %1").arg(title),
-        [this, source, layout, title, undoText, asked = document().mix.first,
-         scene = m_session.documentNumber(),
+        [this, source, layout, title, undoText, asked, scene = m_session.documentNumber(),
          begun = begun()](const JobContext& job) -> BackgroundTasks::Apply {
             const std::string name = normalizeSource(source.toStdString());
             auto notices = std::make_shared<std::vector<Notice>>();

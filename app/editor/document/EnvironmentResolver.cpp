@@ -150,12 +150,14 @@ void EnvironmentResolver::deliver(Id environment, const ImagePtr& image) {
         Q_EMIT blended(image);
         return;
     }
-    Known& known = m_known.at(environment);
-    known.isDraft = false;
-    m_made.push_back({known.recipe, image});
-    if (m_made.size() > kKept)
-        m_made.pop_front();
-    Q_EMIT refined(environment, image);
+    const auto known = m_known.find(environment);
+    if (known != m_known.end()) { // it was not removed meanwhile
+        known->second.isDraft = false;
+        m_made.push_back({known->second.recipe, image});
+        if (m_made.size() > kKept)
+            m_made.pop_front();
+        Q_EMIT refined(environment, image);
+    }
     if (!m_rest.isActive() && (m_blendIsDraft || nextDraft() != 0))
         m_rest.start();
 }

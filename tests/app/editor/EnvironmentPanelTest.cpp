@@ -549,6 +549,29 @@ TEST_F(EnvironmentPanelTest, TheSceneHoldsSeveralEnvironments) {
     EXPECT_TRUE(list.isHidden());
 }
 
+// Its full picture is still under way when it is removed.
+TEST_F(EnvironmentPanelTest, AnEnvironmentIsRemovedWhileItsPictureIsMade) {
+    const Id studio = document().mix.first;
+    controller().addEnvironment(EnvironmentKind::Sky);
+    const Id sky = document().mix.first;
+    controller().addEnvironment(EnvironmentKind::Softboxes);
+    const Id boxes = document().mix.first;
+    QTest::qWait(260); // the full picture of the softboxes has begun
+    controller().removeEnvironment(boxes);
+    EXPECT_EQ(document().mix.first, sky);
+    const auto isFull = [](Id id) {
+        const ImagePtr& image = document().environment(id)->image;
+        return image && image->height() == kEnvironmentHeight;
+    };
+    EXPECT_TRUE(eventually([&] { return isFull(sky); })) << "the other one is still made";
+    controller().removeEnvironment(sky);
+    EXPECT_EQ(document().mix.first, studio);
+    controller().undoStack().undo();
+    controller().undoStack().undo();
+    EXPECT_EQ(document().mix.first, boxes);
+    EXPECT_TRUE(eventually([&] { return isFull(boxes); }));
+}
+
 // A picture that is read when its environment is no longer the one that lights goes where it was
 // asked for.
 TEST_F(EnvironmentPanelTest, AReadPictureGoesToTheEnvironmentItWasAskedFor) {
