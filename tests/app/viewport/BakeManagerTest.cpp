@@ -409,7 +409,7 @@ TEST_F(BakeManagerTest, AStoppedBakeSaysAtHowManyRaysAndGoesOn) {
 }
 
 TEST_F(BakeManagerTest, AStoppedBakeDoesNotReplaceABetterOne) {
-    rays(64);
+    rays(1024);
     click("bakeStart");
     ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
     const BakeArtifactPtr better = document().bakes[0];
@@ -420,9 +420,11 @@ TEST_F(BakeManagerTest, AStoppedBakeDoesNotReplaceABetterOne) {
         [] { return session->bakes.preview() && session->bakes.preview()->samplesDone() >= 32; }));
     click("bakeStop");
     ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
-    if (stoppedEarly(*document().bakes.at(0)))
-        GTEST_FAIL() << "the better one was replaced";
-    if (document().bakes[0] == better) { // else the machine was faster than the click
+    // A machine that was faster than the click has more rays, and may replace it.
+    if (const auto stopped = stoppedEarly(*document().bakes.at(0))) {
+        EXPECT_GT(stopped->done, 1024) << "the better one was replaced";
+    }
+    if (document().bakes[0] == better) {
         EXPECT_TRUE(eventually([] { return visible<QPushButton>("bakeResume") != nullptr; }));
     }
 }
