@@ -62,17 +62,11 @@ Result<void> setEnvironment(Session& session, Environment& environment, const st
 // No parameter of its own: the image of the second environment.
 constexpr std::string_view kSecondImage = "environment.secondImage";
 
-// To fade to, in an environment of its own where there is none;
-// no image takes the second one out of the mix.
+// To fade to, in an environment of its own where there is none; no image takes the second one out
+// of the mix.
 Result<void> setSecondImage(Session& session, Document& document, const std::string& source) {
-    const ParameterInfo& second = *findParameter("environment.second");
-    const auto apply = [&](Id id) {
-        for (const ParameterEdit& edit :
-             editsFor(document, second, {Scope::Environment, 0}, static_cast<int>(id)))
-            edit.info->set(document, 0, edit.value);
-    };
     if (source.empty()) {
-        apply(0);
+        fadeTo(document, 0);
         return {};
     }
     Environment environment;
@@ -92,7 +86,7 @@ Result<void> setSecondImage(Session& session, Document& document, const std::str
                      fmt::format("a scene holds at most {} environments", kMaxEnvironments),
                      {},
                      {}};
-    apply(id);
+    fadeTo(document, id);
     return {};
 }
 
@@ -161,8 +155,8 @@ Result<void> setParameter(Session& session, Document& document, const std::strin
             Result<void> set =
                 setEnvironment(session, environment, before.source,
                                static_cast<EnvironmentLayout>(std::get<int>(*parsed)));
-            if (before.kind !=
-                EnvironmentKind::Image) { // something else goes on lighting the scene
+            // Something else goes on lighting the scene.
+            if (before.kind != EnvironmentKind::Image) {
                 environment.kind = before.kind;
                 environment.image = before.image;
             }

@@ -42,10 +42,12 @@ class Materials {
     std::unordered_map<Id, const Material*> m_byId;
 };
 
-bool sameMaterial(const Material& before, const Material& after) {
+// Of materials and environments: names are in no picture.
+template <class Element>
+bool sameButName(const Element& before, const Element& after) {
     if (before.name == after.name)
         return before == after;
-    Material renamed = before;
+    Element renamed = before;
     renamed.name = after.name;
     return renamed == after;
 }
@@ -63,7 +65,7 @@ std::unordered_set<Id> compareMaterials(const Document& before, const Materials&
     for (const Material& material : after.materials) {
         const Material* old = known.find(material.id);
         dirty.materialSet |= old == nullptr;
-        if (old != nullptr && sameMaterial(*old, material))
+        if (old != nullptr && sameButName(*old, material))
             continue;
         dirty.materials.push_back(material.id);
         compare(material.id);
@@ -90,19 +92,11 @@ bool sameInstance(const MeshInstance& a, const MeshInstance& b) {
     return a.id == b.id && a.material == b.material && shape(a) == shape(b);
 }
 
-bool sameEnvironment(const Environment& before, const Environment& after) {
-    if (before.name == after.name)
-        return before == after;
-    Environment renamed = before;
-    renamed.name = after.name;
-    return renamed == after;
-}
-
 // Of the environments, those alone that light the scene are asked for.
 bool sameLight(const Document& before, const Document& after) {
     const Environment *a = before.secondEnvironment(), *b = after.secondEnvironment();
-    return before.mix == after.mix && sameEnvironment(before.environment(), after.environment()) &&
-           (a == nullptr) == (b == nullptr) && (a == nullptr || sameEnvironment(*a, *b));
+    return before.mix == after.mix && sameButName(before.environment(), after.environment()) &&
+           (a == nullptr) == (b == nullptr) && (a == nullptr || sameButName(*a, *b));
 }
 
 bool sameView(const View& before, const View& after) {

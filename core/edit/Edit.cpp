@@ -246,6 +246,13 @@ Id duplicateEnvironment(Document& document, Id environment) {
     return document.environments.insert(std::next(original), std::move(copy))->id;
 }
 
+void fadeTo(Document& document, Id environment) {
+    const Target scene{Scope::Environment, 0};
+    for (const ParameterEdit& edit : editsFor(document, *findParameter("environment.second"), scene,
+                                              static_cast<int>(environment)))
+        edit.info->set(document, scene.id, edit.value);
+}
+
 bool removeEnvironment(Document& document, Id environment) {
     const auto found = findIn(document.environments, environment);
     if (found == document.environments.end() || document.environments.size() == 1)

@@ -67,6 +67,8 @@ inline constexpr std::size_t kMaxEnvironments = 64;
 Id addEnvironment(Document& document, Environment environment);
 // Directly below the original, which must exist.
 Id duplicateEnvironment(Document& document, Id environment);
+// Makes it the second of the mix, with what follows as when a user chooses it; 0: there is none.
+void fadeTo(Document& document, Id environment);
 // False when it does not exist or is the only one. Where it was the first of the mix its second
 // one, or a neighbour, becomes it.
 bool removeEnvironment(Document& document, Id environment);

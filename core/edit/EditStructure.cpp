@@ -156,10 +156,7 @@ Id EditSession::addSecondEnvironment(const Environment& environment, const std::
     Id id = 0;
     editStructure(text, [&](Document& document) {
         id = patina::addEnvironment(document, environment);
-        const ParameterInfo& second = parameter("environment.second");
-        for (const ParameterEdit& edit :
-             editsFor(document, second, {Scope::Environment, 0}, static_cast<int>(id)))
-            edit.info->set(document, 0, edit.value);
+        fadeTo(document, id);
     });
     return id;
 }

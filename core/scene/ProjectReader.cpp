@@ -351,7 +351,8 @@ class ProjectReader {
         if (const auto others = root.find("environments"))
             for (const Node& other : readList(*others, kMaxEnvironments - 1))
                 document().environments.push_back(readEnvironment(other));
-        readSecondOfBefore(object);
+        if (!hasId)
+            readSecondOfBefore(object);
         object.keepUnknownKeys("environment", m_reading.unknown);
         auto& all = document().environments;
         std::rotate(all.begin(), all.begin() + 1,

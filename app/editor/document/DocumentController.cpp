@@ -160,9 +160,14 @@ void DocumentController::showLighting(LightingMode mode) {
 // --- Several environments ------------------------------------------------------------------------
 
 void DocumentController::addEnvironment(EnvironmentKind kind) {
+    const Environment& lit = document().environment();
     Environment environment;
     environment.kind = kind;
-    environment.source.clear();
+    // What it shows when it is made an image.
+    environment.source = lit.source;
+    environment.layout = lit.layout;
+    environment.fileImage = lit.fileImage;
+    environment.problem = lit.problem;
     if (kind == EnvironmentKind::Softboxes) // a dark room would look like a fault
         environment.softboxes = library::softboxRigs().front().softboxes;
     m_session.addEnvironment(environment, fmt::format("Add {}", environmentTitle(environment)));

@@ -512,6 +512,11 @@ TEST_F(EnvironmentPanelTest, TheSceneHoldsSeveralEnvironments) {
         return environment().image != sky && environment().image->height() == kEnvironmentHeight;
     }));
     const Sky moved = environment().sky;
+    choose("Image");
+    EXPECT_EQ(environment().source, "builtin:night") << "what lit the scene when it was added";
+    EXPECT_EQ(environment().image, environment().fileImage);
+    ASSERT_NE(environment().image, nullptr);
+    controller().undoStack().undo();
     QTest::mouseClick(list.viewport(), Qt::LeftButton, {},
                       list.visualItemRect(list.item(0)).center());
     EXPECT_EQ(environment(), before);
