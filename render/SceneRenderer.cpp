@@ -1,3 +1,5 @@
+#include "core/document/ViewChoices.h"
+#include "core/light/Light.h"
 #include "render/SceneRendererImpl.h"
 
 #include "core/base/Check.h"

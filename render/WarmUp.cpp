@@ -4,6 +4,7 @@
 #include "core/base/Hash.h"
 #include "core/document/Lighting.h"
 #include "core/edit/Edit.h"
+#include "core/light/Light.h"
 #include "core/material/MaterialInputs.h"
 #include "render/pass/SurfacePass.h"
 #include "render/scene/LightBlocks.h"

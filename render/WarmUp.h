@@ -22,7 +22,7 @@ namespace patina::render {
 // lit.
 struct FrameKind {
     SurfaceOutput output = SurfaceOutput::Picture;
-    LightingMode lighting = LightingMode::Ibl;
+    LightingMode lighting{};
     friend auto operator<=>(const FrameKind&, const FrameKind&) = default;
 };
 

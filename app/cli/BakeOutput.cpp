@@ -3,6 +3,7 @@
 #include "app/cli/SceneSetup.h"
 #include "core/bake/file/BakeIO.h"
 #include "core/io/ImageIO.h"
+#include "core/material/Material.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,7 @@
 #include "app/cli/Commands.h"
 #include "app/cli/SceneSetup.h"
 #include "core/export/Export.h"
+#include "core/material/Material.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

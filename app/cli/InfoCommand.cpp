@@ -14,6 +14,7 @@
 #include "core/io/ImageIO.h"
 #include "core/io/MeshImport.h"
 #include "core/library/Library.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "core/material/MaterialInputs.h"
 #include "core/mix/EnvironmentBlend.h"

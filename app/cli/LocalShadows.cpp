@@ -5,6 +5,7 @@
 #include "core/bake/BakeMemory.h"
 #include "core/document/Lighting.h"
 #include "core/edit/Edit.h"
+#include "core/light/Light.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -10,6 +10,7 @@
 #include "core/bake/document/DocumentBakeInputs.h"
 #include "core/bake/domain/BakeHash.h"
 #include "core/document/Lighting.h"
+#include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
 #include "core/io/DisplayTransform.h"

@@ -3,6 +3,7 @@
 #include "core/edit/Edit.h"
 #include "core/edit/ViewReasons.h"
 #include "core/image/TextRaster.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "core/mix/LightMix.h"
 

@@ -37,8 +37,10 @@
 #include "app/editor/widget/MessageBar.h"
 #include "app/editor/widget/NoticeArea.h"
 #include "core/base/Log.h"
+#include "core/document/ViewChoices.h"
 #include "core/edit/EditSession.h"
 #include "core/library/Library.h"
+#include "core/light/Light.h"
 
 #include <QCloseEvent>
 #include <QDockWidget>

@@ -6,6 +6,7 @@
 #include "app/editor/RecoveryDialog.h"
 #include "app/editor/Session.h"
 #include "app/editor/viewport/ViewportWidget.h"
+#include "core/edit/EditSteps.h"
 #include "core/recovery/RecoveryLoader.h"
 
 #include <QAction>

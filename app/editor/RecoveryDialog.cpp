@@ -5,6 +5,8 @@
 #include "core/base/AtomicFile.h"
 #include "core/base/Limits.h"
 #include "core/edit/DocumentDifference.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/scene/DocumentIO.h"
 
 #include <QDateTime>

@@ -3,6 +3,7 @@
 #include "app/editor/Actions.h"
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/viewport/ViewState.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "core/mix/LightMix.h"
 

@@ -3,6 +3,7 @@
 #include "core/bake/domain/VertexSamples.h"
 #include "core/base/Check.h"
 #include "core/job/Parallel.h"
+#include "core/material/Material.h"
 
 #include <algorithm>
 #include <charconv>

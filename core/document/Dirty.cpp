@@ -1,5 +1,8 @@
 #include "core/document/Dirty.h"
 
+#include "core/light/Light.h"
+#include "core/material/Material.h"
+
 #include <algorithm>
 #include <tuple>
 #include <unordered_map>

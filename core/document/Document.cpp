@@ -1,6 +1,8 @@
 #include "core/document/Document.h"
 
 #include "core/base/Check.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 
 #include <algorithm>
 #include <utility>
@@ -21,6 +23,14 @@ Document::Document() {
     Environment& first = environments.emplace_back();
     mix.first = first.id = takeId();
 }
+
+// Here, where materials and lights are known.
+Document::Document(const Document& other) = default;
+Document::Document(Document&& other) noexcept = default;
+Document& Document::operator=(const Document& other) = default;
+Document& Document::operator=(Document&& other) noexcept = default;
+Document::~Document() = default;
+bool Document::operator==(const Document& other) const = default;
 
 const Material* Document::material(Id id) const {
     return findById(materials, id);

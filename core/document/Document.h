@@ -7,16 +7,22 @@
 #include "core/document/UnknownKeys.h"
 #include "core/document/View.h"
 #include "core/light/Environment.h"
-#include "core/light/Light.h"
-#include "core/material/Material.h"
 #include "core/material/ShadingModel.h"
 
 #include <vector>
 
 namespace patina {
 
+struct Light;
+struct Material;
+
 struct Document {
     Document(); // with one environment, which lights the scene
+    Document(const Document& other);
+    Document(Document&& other) noexcept;
+    Document& operator=(const Document& other);
+    Document& operator=(Document&& other) noexcept;
+    ~Document();
 
     std::vector<MeshInstance> meshes;
     std::vector<Material> materials;
@@ -48,7 +54,7 @@ struct Document {
     [[nodiscard]] MeshInstance* mesh(Id id);
     [[nodiscard]] Bounds bounds() const;             // of the visible meshes, in the world
     [[nodiscard]] std::size_t triangleCount() const; // visible
-    friend bool operator==(const Document&, const Document&) = default;
+    bool operator==(const Document& other) const;
 };
 
 } // namespace patina

@@ -1,5 +1,7 @@
 #include "core/document/Equation.h"
 
+#include "core/light/Light.h"
+
 #include <algorithm>
 #include <iterator>
 
@@ -70,6 +72,10 @@ std::optional<Equation> equationOf(ViewKind opened, const ShadingModel& model) {
     default:
         return {};
     }
+}
+
+bool hasFactors(LightType type) {
+    return type == LightType::Directional || type == LightType::Point || type == LightType::Spot;
 }
 
 bool closesBracket(const Equation& equation, std::size_t index) {

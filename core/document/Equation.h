@@ -11,6 +11,8 @@
 
 namespace patina {
 
+enum class LightType;
+
 enum class Join { Plus, Times, Over };
 
 struct EquationPart {
@@ -36,9 +38,7 @@ struct Equation {
 
 // Whether light of this type comes from one direction, so that D, G, F and N·L are its factors.
 // Area lights are integrated over their surface.
-[[nodiscard]] constexpr bool hasFactors(LightType type) {
-    return type == LightType::Directional || type == LightType::Point || type == LightType::Spot;
-}
+[[nodiscard]] bool hasFactors(LightType type);
 
 // Whether the parts before `index` are a sum that is multiplied, and so stand in brackets.
 [[nodiscard]] bool closesBracket(const Equation& equation, std::size_t index);

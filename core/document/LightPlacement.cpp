@@ -1,5 +1,6 @@
 #include "core/document/LightPlacement.h"
 
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
 
 #include <algorithm>

@@ -1,6 +1,8 @@
 #include "core/document/ToneResponse.h"
 
 #include "core/base/Check.h"
+#include "core/document/View.h"
+#include "core/document/ViewChoices.h"
 #include "core/math/Shading.h"
 
 #include <cmath>

@@ -2,9 +2,9 @@
 // (shaders/shared/tonemap.glsl) with a view's settings, for plots and tests.
 #pragma once
 
-#include "core/document/View.h"
-
 namespace patina {
+
+struct View;
 
 namespace shading {
 struct ToneCurve;

@@ -2,6 +2,7 @@
 
 #include "core/base/Check.h"
 #include "core/document/View.h"
+#include "core/document/ViewChoices.h"
 #include "core/material/MaterialInputs.h"
 
 #include <algorithm>

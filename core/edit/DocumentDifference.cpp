@@ -3,6 +3,8 @@
 #include "core/document/EnvironmentTitle.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 
 #include <fmt/format.h>
 #include <map>

@@ -4,6 +4,8 @@
 #include "core/document/AbsentBake.h"
 #include "core/document/EnvironmentTitle.h"
 #include "core/edit/ResetValue.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 
 #include <algorithm>
 #include <fmt/format.h>

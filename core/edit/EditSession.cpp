@@ -1,6 +1,8 @@
 #include "core/edit/EditSession.h"
 
 #include "core/base/Check.h"
+#include "core/edit/EditSteps.h"
+#include "core/light/Light.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -16,6 +16,9 @@
 
 namespace patina {
 
+class GroupStep;
+enum class LightType;
+
 // Who follows a session.
 class EditObserver {
   public:

@@ -1,17 +1,17 @@
-// The steps of an edited document's history. Each stores ids and values, never pointers into the
-// document, and swaps between what was and what is.
+// A step of an edited document's history: it stores ids and values, never pointers into the
+// document, and swaps between what was and what is. EditSteps.h has those there are.
 #pragma once
 
-#include "core/document/Document.h"
 #include "core/edit/Change.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string>
-#include <vector>
+#include <utility>
 
 namespace patina {
+
+struct Document;
 
 // Edits of the same parameters that carry the same session merge into one step; 0 never merges.
 using DragSession = std::uint64_t;
@@ -40,83 +40,6 @@ class EditStep {
     std::uint64_t m_mergeMark = 0;
     // DocumentState::step on its two sides; the second is 0 while it was not done yet.
     std::uint64_t m_stateBefore = 0, m_stateAfter = 0;
-};
-
-// Parameters of one element: one, or the few that belong together. Merges within a drag; a drag
-// that returns to its start leaves no step behind.
-class SetParametersStep : public EditStep {
-  public:
-    SetParametersStep(std::string text, const Document& document, Target target,
-                      std::vector<ParameterEdit> after, DragSession session);
-    Change swap(Document& document, bool forward) override;
-    bool merge(const EditStep& next) override;
-    [[nodiscard]] bool isEmpty() const override;
-    [[nodiscard]] std::size_t payloadBytes() const override;
-
-  private:
-    Target m_target;
-    std::vector<ParameterEdit> m_before, m_after; // of the same parameters, in the same order
-    DragSession m_session;
-};
-
-// The lists that structural edits replace as a whole, ids kept.
-struct Elements {
-    std::vector<MeshInstance> meshes;
-    std::vector<Material> materials;
-    std::vector<Light> lights;
-    std::vector<Environment> environments;
-    EnvironmentMix mix;
-    Id nextId = 1;
-};
-
-// Meshes, materials, lights and environments as a whole: added, removed, exchanged.
-class ReplaceElementsStep : public EditStep {
-  public:
-    ReplaceElementsStep(std::string text, const Document& before, Elements after);
-    Change swap(Document& document, bool forward) override;
-    [[nodiscard]] std::size_t payloadBytes() const override;
-
-  private:
-    Elements m_before, m_after;
-};
-
-// A bake is taken away. Undone it is there again, unless there is another one of its kind by then:
-// that a bake is finished is no step (EditSession::attachBake), and none is lost to undo.
-class RemoveBakeStep : public EditStep {
-  public:
-    RemoveBakeStep(std::string text, BakeKind kind)
-        : EditStep(std::move(text))
-        , m_kind(kind) {}
-    Change swap(Document& document, bool forward) override;
-    [[nodiscard]] std::size_t payloadBytes() const override;
-
-  private:
-    BakeKind m_kind;
-    BakeArtifactPtr m_removed; // while it is away
-};
-
-// The whole document, such as unsaved work on top of what was saved.
-class ReplaceDocumentStep : public EditStep {
-  public:
-    // Meshes that both documents read from the same place are shared where they are equal.
-    ReplaceDocumentStep(std::string text, const Document& before, Document after);
-    Change swap(Document& document, bool forward) override;
-
-  private:
-    Document m_before, m_after;
-};
-
-// Several that are done and taken back together.
-class GroupStep : public EditStep {
-  public:
-    using EditStep::EditStep;
-    void add(std::unique_ptr<EditStep> step) { m_steps.push_back(std::move(step)); }
-    Change swap(Document& document, bool forward) override;
-    [[nodiscard]] bool isEmpty() const override { return m_steps.empty(); }
-    [[nodiscard]] std::size_t payloadBytes() const override;
-
-  private:
-    std::vector<std::unique_ptr<EditStep>> m_steps;
 };
 
 } // namespace patina

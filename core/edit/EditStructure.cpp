@@ -4,8 +4,11 @@
 #include "core/document/EnvironmentTitle.h"
 #include "core/document/LightPlacement.h"
 #include "core/edit/EditSession.h"
+#include "core/edit/EditSteps.h"
 #include "core/edit/ResetValue.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
+#include "core/material/Material.h"
 
 #include <algorithm>
 #include <fmt/format.h>

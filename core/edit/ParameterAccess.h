@@ -5,6 +5,7 @@
 #include "core/base/Check.h"
 #include "core/document/Document.h"
 #include "core/edit/Parameters.h"
+#include "core/material/Material.h"
 
 #include <cmath>
 #include <type_traits>

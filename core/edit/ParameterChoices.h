@@ -3,7 +3,10 @@
 #pragma once
 
 #include "core/document/Document.h"
+#include "core/document/ViewChoices.h"
 #include "core/edit/Choices.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 
 namespace patina {
 

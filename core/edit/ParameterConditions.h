@@ -4,9 +4,11 @@
 
 #include "core/document/Document.h"
 #include "core/document/Source.h"
+#include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
 #include "core/light/Lights.h"
+#include "core/material/Material.h"
 
 namespace patina {
 

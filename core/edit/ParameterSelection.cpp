@@ -3,6 +3,8 @@
 #include "core/document/Document.h"
 #include "core/document/EnvironmentTitle.h"
 #include "core/edit/Parameters.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 
 #include <algorithm>
 #include <cctype>

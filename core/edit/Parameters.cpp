@@ -2,12 +2,14 @@
 
 #include "core/base/Check.h"
 #include "core/document/Document.h"
+#include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/edit/ParameterAccess.h"
 #include "core/edit/ParameterChoices.h"
 #include "core/edit/ParameterConditions.h"
 #include "core/io/DisplayTransform.h"
 #include "core/light/Blackbody.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "core/material/MaterialInputs.h"
 

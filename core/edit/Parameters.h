@@ -4,8 +4,9 @@
 // and its use in a shader.
 #pragma once
 
+#include "core/base/Id.h"
 #include "core/base/Result.h"
-#include "core/material/Material.h"
+#include "core/material/MapSlot.h"
 
 #include <cstdint>
 #include <span>

@@ -3,8 +3,11 @@
 #include "core/base/ById.h"
 #include "core/document/Equation.h"
 #include "core/document/Lighting.h"
+#include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
+#include "core/material/Material.h"
 #include "core/mix/LightMix.h"
 
 #include <algorithm>

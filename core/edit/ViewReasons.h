@@ -1,9 +1,9 @@
 // Why views have nothing to show, where a light is chosen, and what would help.
 #pragma once
 
+#include "core/base/Id.h"
 #include "core/document/Document.h"
 #include "core/document/Views.h"
-#include "core/material/Material.h"
 
 namespace patina {
 

@@ -7,6 +7,8 @@
 #include "core/edit/Edit.h"
 #include "core/export/GltfEnvironment.h"
 #include "core/export/Names.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/material/ModelPresets.h"
 #include "core/mix/EnvironmentBlend.h"
 

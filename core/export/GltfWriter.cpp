@@ -4,6 +4,7 @@
 #include "core/export/GltfGeometry.h"
 #include "core/export/Names.h"
 #include "core/export/ShFile.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "core/material/MaterialInputs.h"
 

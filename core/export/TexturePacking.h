@@ -5,7 +5,8 @@
 #include "core/document/Document.h"
 #include "core/export/Export.h"
 #include "core/io/ImageIO.h"
-#include "core/material/MaterialInputs.h"
+#include "core/material/MapSlot.h"
+#include "core/material/MaterialInput.h"
 
 #include <array>
 #include <string>

@@ -1,6 +1,8 @@
 #include "core/edit/Edit.h"
 #include "core/export/Names.h"
 #include "core/export/TexturePacking.h"
+#include "core/material/Material.h"
+#include "core/material/MaterialInputs.h"
 
 #include <algorithm>
 #include <array>

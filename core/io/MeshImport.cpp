@@ -3,6 +3,7 @@
 #include "core/base/InputFile.h"
 #include "core/base/Limits.h"
 #include "core/io/TexturePaths.h"
+#include "core/material/Material.h"
 #include "core/mesh/MeshSource.h"
 #include "core/worker/ModelWire.h"
 #include "core/worker/WorkerClient.h"

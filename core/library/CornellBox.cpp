@@ -1,6 +1,7 @@
 // The Cornell box: geometry in millimetres and reflectances as measured (Cornell University
 // Program of Computer Graphics, "Cornell Box Data"; spectra reduced to linear sRGB under D65).
 #include "core/library/Meshes.h"
+#include "core/material/Material.h"
 
 #include <array>
 #include <cmath>

@@ -3,6 +3,7 @@
 #include "core/library/MaterialRecipes.h"
 #include "core/library/Meshes.h"
 #include "core/library/SkyRecipes.h"
+#include "core/material/Material.h"
 
 #include <fmt/format.h>
 #include <map>

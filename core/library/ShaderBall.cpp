@@ -4,6 +4,7 @@
 #include "core/library/Directions.h"
 #include "core/library/Lathe.h"
 #include "core/library/Meshes.h"
+#include "core/material/Material.h"
 #include "core/math/PortableMath.h"
 
 #include <algorithm>

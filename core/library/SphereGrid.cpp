@@ -1,5 +1,6 @@
 // Twenty-five balls, metallic over roughness: what a shading model makes of each, at a glance.
 #include "core/library/Meshes.h"
+#include "core/material/Material.h"
 
 #include <array>
 #include <glm/vec3.hpp>

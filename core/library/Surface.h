@@ -4,7 +4,6 @@
 
 #include "core/image/Image.h"
 #include "core/library/Field.h"
-#include "core/material/Material.h"
 
 #include <glm/vec3.hpp>
 

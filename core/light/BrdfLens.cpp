@@ -1,6 +1,7 @@
 #include "core/light/BrdfLens.h"
 
 #include "core/base/Check.h"
+#include "core/light/Light.h"
 #include "core/material/BrdfModel.h"
 
 #include <algorithm>

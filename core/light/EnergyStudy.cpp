@@ -1,5 +1,6 @@
 #include "core/light/EnergyStudy.h"
 
+#include "core/light/Light.h"
 #include "core/material/MaterialInputs.h"
 
 #include <algorithm>

@@ -5,13 +5,14 @@
 #include "core/image/TexelRange.h"
 #include "core/job/JobContext.h"
 #include "core/light/Energy.h"
-#include "core/material/Material.h"
 
 #include <functional>
 #include <optional>
 #include <vector>
 
 namespace patina {
+
+struct Material;
 
 // Between which numbers a material lies: its maps vary them. Each number for itself; the mean is
 // that of all texels.

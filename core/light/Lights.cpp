@@ -1,6 +1,7 @@
 #include "core/light/Lights.h"
 
 #include "core/light/Blackbody.h"
+#include "core/light/Light.h"
 #include "core/math/Shading.h"
 
 #include <algorithm>

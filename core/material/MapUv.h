@@ -1,7 +1,7 @@
 // Where a map is looked up: its scale, rotation and offset applied to texture coordinates.
 #pragma once
 
-#include "core/material/Material.h"
+#include "core/material/MapSlot.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>

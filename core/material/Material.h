@@ -3,32 +3,12 @@
 #pragma once
 
 #include "core/base/Id.h"
-#include "core/image/Image.h"
+#include "core/material/MapSlot.h"
 
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <string>
 
 namespace patina {
-
-enum class MapChannel { Rgb, R, G, B, A };
-
-// An image that varies a parameter over the surface. Map values multiply the parameter's number
-// (the normal map is scaled by it).
-struct MapSlot {
-    // Where the image came from: an absolute path (UTF-8), "builtin:NAME", or
-    // "PATH-OF-MODEL#embedded:INDEX". Empty: no map.
-    std::string source;
-    ImagePtr image;      // null when there is no map, or when it could not be read
-    std::string problem; // why it could not be read; the viewport then shows a placeholder
-    MapChannel channel = MapChannel::Rgb;
-    glm::vec2 uvScale{1.0f}, uvOffset{0.0f};
-    float uvRotationDeg = 0.0f;
-
-    [[nodiscard]] bool assigned() const { return !source.empty() || image != nullptr; }
-    // Images compare by identity: they are immutable.
-    friend bool operator==(const MapSlot&, const MapSlot&) = default;
-};
 
 enum class NormalConvention { OpenGl, DirectX }; // green up (+Y) or green down (-Y)
 enum class AlphaMode { Opaque, Mask, Blend };

@@ -5,31 +5,14 @@
 #pragma once
 
 #include "core/material/Material.h"
+#include "core/material/MaterialInput.h"
 #include "core/math/Shading.h"
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <string_view>
 
 namespace patina {
-
-enum class MaterialInput { BaseColor, Metallic, PerceptualRoughness, Normal, Occlusion, Emissive };
-inline constexpr std::size_t kMaterialInputCount =
-    static_cast<std::size_t>(MaterialInput::Emissive) + 1; // the last one
-
-// One value for each input.
-template <class T>
-struct PerInput {
-    std::array<T, kMaterialInputCount> values{};
-    [[nodiscard]] constexpr T& operator[](MaterialInput input) {
-        return values[static_cast<std::size_t>(input)];
-    }
-    [[nodiscard]] constexpr const T& operator[](MaterialInput input) const {
-        return values[static_cast<std::size_t>(input)];
-    }
-    friend auto operator<=>(const PerInput&, const PerInput&) = default;
-};
 
 // How the material's value and the texel of the map become what shading reads.
 enum class InputRole {
@@ -184,16 +167,6 @@ static_assert(sizeof(shading::SurfaceInputs) ==
               "a row for every number of SurfaceInputs");
 
 } // namespace detail
-
-// The numbers of a material that nobody has edited; 0 for inputs that have none.
-[[nodiscard]] inline PerInput<float> defaultNumbers() {
-    const Material material;
-    PerInput<float> numbers;
-    for (const MaterialInputInfo& info : kMaterialInputs)
-        if (info.number != nullptr)
-            numbers[info.input] = material.*info.number;
-    return numbers;
-}
 
 // All maps of a material, in the order of the table.
 template <class MaterialType, class Visit>

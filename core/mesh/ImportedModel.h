@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/AtomicFile.h"
-#include "core/material/MaterialInputs.h"
+#include "core/material/MaterialInput.h"
 #include "core/mesh/Mesh.h"
 
 #include <filesystem>

@@ -1,5 +1,7 @@
 #include "core/mix/LightMix.h"
 
+#include "core/light/Light.h"
+
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,6 @@
 #include "core/mix/MixLevels.h"
 
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "core/math/Shading.h"
 #include "core/mix/LightMix.h"

@@ -1,6 +1,7 @@
 #include "core/mix/TransferLight.h"
 
 #include "core/base/Check.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "core/light/NearRectangle.h"
 #include "core/math/ShRotation.h"

@@ -3,6 +3,7 @@
 #include "core/bake/document/BakeCache.h"
 #include "core/bake/domain/BakeOptions.h"
 #include "core/document/Document.h"
+#include "core/material/Material.h"
 
 #include <algorithm>
 #include <limits>

@@ -3,6 +3,8 @@
 #include "core/base/AtomicFile.h"
 #include "core/base/Limits.h"
 #include "core/base/Utf8.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/scene/ProjectJson.h"
 #include "core/scene/ProjectPath.h"
 

@@ -1,5 +1,7 @@
 #include "core/recovery/RecoveryWriter.h"
 
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/recovery/RecoveryBakes.h"
 #include "core/scene/DocumentIO.h"
 

@@ -8,6 +8,7 @@
 #include "core/base/PrintableText.h"
 #include "core/base/Utf8.h"
 #include "core/document/AbsentBake.h"
+#include "core/material/Material.h"
 #include "core/scene/ProjectBakes.h"
 #include "core/scene/ProjectJson.h"
 #include "core/scene/SceneLoader.h"

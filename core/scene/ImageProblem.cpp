@@ -3,6 +3,7 @@
 #include "core/base/InputFile.h"
 #include "core/base/Utf8.h"
 #include "core/edit/Parameters.h"
+#include "core/material/Material.h"
 #include "core/scene/OutsidePictures.h"
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 #include "core/base/Check.h"
 #include "core/base/Utf8.h"
 #include "core/edit/Parameters.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "core/material/MaterialInputs.h"
 

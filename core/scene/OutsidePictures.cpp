@@ -1,6 +1,7 @@
 #include "core/scene/OutsidePictures.h"
 
 #include "core/edit/Parameters.h"
+#include "core/material/Material.h"
 
 #include <algorithm>
 

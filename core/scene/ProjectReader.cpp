@@ -2,6 +2,8 @@
 #include "core/base/Limits.h"
 #include "core/base/Utf8.h"
 #include "core/edit/Edit.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/scene/DocumentIO.h"
 #include "core/scene/ProjectJson.h"
 #include "core/scene/ProjectPath.h"

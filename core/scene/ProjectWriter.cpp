@@ -1,4 +1,6 @@
 #include "core/document/AbsentBake.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/scene/DocumentIO.h"
 #include "core/scene/ProjectBakes.h"
 #include "core/scene/ProjectJson.h"

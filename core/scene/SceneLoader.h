@@ -4,6 +4,8 @@
 
 #include "core/document/Document.h"
 #include "core/io/MeshImport.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/scene/Scene.h"
 
 #include <glm/mat4x4.hpp>

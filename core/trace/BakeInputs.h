@@ -1,6 +1,7 @@
 // The part of a scene that bakes depend on.
 #pragma once
 
+#include "core/base/Id.h"
 #include "core/mesh/Mesh.h"
 #include "core/trace/BakeSurface.h"
 

@@ -1,5 +1,7 @@
 #include "core/trace/BakeScene.h"
 
+#include "core/material/Material.h"
+
 #include <algorithm>
 #include <utility>
 

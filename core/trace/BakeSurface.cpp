@@ -2,6 +2,7 @@
 
 #include "core/image/Srgb.h"
 #include "core/material/MapUv.h"
+#include "core/material/Material.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/Hash.h"
-#include "core/material/Material.h"
+#include "core/material/MapSlot.h"
 
 #include <array>
 #include <cstdint>
@@ -13,13 +13,16 @@
 
 namespace patina {
 
+struct Material;
+enum class AlphaMode; // of core/material/Material.h
+
 // The part of a material that transport depends on.
 struct BakeSurface {
     glm::vec3 baseColor{0.8f}; // linear sRGB
     float metallic = 0.0f;     // metals have no diffuse reflection
     MapSlot baseColorMap, metallicMap;
     float opacity = 1.0f;
-    AlphaMode alphaMode = AlphaMode::Opaque;
+    AlphaMode alphaMode{}; // opaque
     float alphaCutoff = 0.5f;
     friend bool operator==(const BakeSurface&, const BakeSurface&) = default;
 };

@@ -2,6 +2,7 @@
 
 #include "core/base/FreedMemory.h"
 #include "core/job/ForkJoin.h"
+#include "core/material/Material.h"
 #include "core/math/Sampling.h"
 #include "core/trace/Embree.h"
 

@@ -1,6 +1,9 @@
 #include "core/worker/ModelWire.h"
 
 #include "core/base/Limits.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
+#include "core/material/MaterialInputs.h"
 #include "core/mesh/MeshSource.h"
 
 #include <cmath>

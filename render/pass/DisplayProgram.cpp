@@ -1,6 +1,7 @@
 #include "render/pass/DisplayProgram.h"
 
 #include "core/document/Document.h"
+#include "core/document/ViewChoices.h"
 #include "render/shader/ShaderSources.h"
 
 #include <array>

@@ -1,5 +1,6 @@
 #include "render/pass/InspectPass.h"
 
+#include "core/light/Light.h"
 #include "render/scene/LightBlocks.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "render/pass/NearLightPass.h"
 
 #include "core/base/Check.h"
+#include "core/light/Light.h"
 #include "core/light/NearRectangle.h"
 #include "core/mix/TransferLight.h"
 

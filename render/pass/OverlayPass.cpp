@@ -1,5 +1,6 @@
 #include "render/pass/OverlayPass.h"
 
+#include "core/light/Light.h"
 #include "render/pass/SurfacePass.h"
 
 #include <algorithm>

@@ -1,6 +1,8 @@
 #include "render/pass/RelightPass.h"
 
 #include "core/base/Check.h"
+#include "core/document/ViewChoices.h"
+#include "core/light/Light.h"
 #include "render/scene/LightBlocks.h"
 
 #include <algorithm>

@@ -18,7 +18,7 @@ namespace patina::render {
 
 // In what light, and how.
 struct RelightSettings {
-    LightingMode lighting = LightingMode::Ibl;
+    LightingMode lighting{};
     LightId light = kDocumentLight;
     bool bounces = true; // Prt: what came by way of other surfaces, too
 };

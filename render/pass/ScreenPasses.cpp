@@ -1,5 +1,7 @@
 #include "render/pass/ScreenPasses.h"
 
+#include "core/document/ViewChoices.h"
+
 #include <cmath>
 #include <epoxy/gl.h>
 

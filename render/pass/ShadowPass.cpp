@@ -1,5 +1,7 @@
 #include "render/pass/ShadowPass.h"
 
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "render/pass/SurfacePass.h"
 #include "render/scene/LightBlocks.h"
 

@@ -1,6 +1,7 @@
 #include "render/pass/SurfacePass.h"
 
 #include "core/document/Lighting.h"
+#include "core/document/ViewChoices.h"
 #include "render/shader/GeneratedShaders.h"
 
 #include <algorithm>

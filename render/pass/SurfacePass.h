@@ -18,7 +18,7 @@ namespace patina::render {
 
 // What is the same for all items of a frame.
 struct SurfaceSettings {
-    LightingMode lighting = LightingMode::Ibl;
+    LightingMode lighting{};
     LightId light = kDocumentLight;
     bool hasPunctualLights = false;
     bool hasAreaLights = false;

@@ -1,5 +1,7 @@
 #include "render/scene/DrawList.h"
 
+#include "core/material/Material.h"
+
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>

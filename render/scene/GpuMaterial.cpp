@@ -1,6 +1,7 @@
 #include "render/scene/GpuMaterial.h"
 
 #include "core/material/MapUv.h"
+#include "core/material/Material.h"
 #include "render/scene/MapFetches.h"
 #include "render/shader/GeneratedShaders.h"
 

@@ -2,7 +2,7 @@
 // which variant of the shader they need.
 #pragma once
 
-#include "core/material/MaterialInputs.h"
+#include "core/material/MaterialInput.h"
 #include "render/gl/Buffer.h"
 #include "render/scene/Blocks.h"
 #include "render/scene/TextureCache.h"

@@ -4,7 +4,9 @@
 #include "core/base/Check.h"
 #include "core/base/Log.h"
 #include "core/document/Lighting.h"
+#include "core/light/Light.h"
 #include "core/light/LobeTable.h"
+#include "core/material/Material.h"
 #include "core/mix/TransferLight.h"
 #include "render/scene/LightBlocks.h"
 

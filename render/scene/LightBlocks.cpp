@@ -1,5 +1,6 @@
 #include "render/scene/LightBlocks.h"
 
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "core/mix/LightMix.h"
 

@@ -1,5 +1,7 @@
 #include "render/scene/LightCells.h"
 
+#include "core/light/Light.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

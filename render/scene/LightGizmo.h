@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/document/Document.h"
+#include "core/light/Light.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>

@@ -1,5 +1,7 @@
 #include "render/scene/ManyLights.h"
 
+#include "core/light/Light.h"
+
 #include <cstring>
 #include <utility>
 

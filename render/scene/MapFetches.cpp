@@ -1,5 +1,8 @@
 #include "render/scene/MapFetches.h"
 
+#include "core/material/Material.h"
+#include "core/material/MaterialInputs.h"
+
 #include <algorithm>
 
 namespace patina::render {

@@ -3,10 +3,15 @@
 // they share, or of a texture into which the channels of their images are packed. No OpenGL.
 #pragma once
 
-#include "core/material/MaterialInputs.h"
+#include "core/image/Image.h"
+#include "core/material/MaterialInput.h"
 
 #include <optional>
 #include <vector>
+
+namespace patina {
+struct Material;
+}
 
 namespace patina::render {
 

@@ -1,5 +1,6 @@
 #include "render/scene/ShadowView.h"
 
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "render/scene/TransferValues.h"
 
 #include "core/base/Check.h"
+#include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 
 #include <algorithm>
@@ -53,6 +54,10 @@ gl::Texture texels(gl::Context& context, const char* label, gl::PixelFormat form
 }
 
 } // namespace
+
+std::size_t LitElements::stageIndex(LightingMode mode) {
+    return static_cast<std::size_t>(mode) - static_cast<std::size_t>(LightingMode::Unshadowed);
+}
 
 int Transfer::order() const {
     int order = 1;

@@ -76,9 +76,8 @@ struct LitElements {
     NearShareBuffers nearShares;
     std::uint64_t nearSharesRevision = 0;
 
-    [[nodiscard]] static std::size_t stageIndex(LightingMode mode) {
-        return static_cast<std::size_t>(mode) - static_cast<std::size_t>(LightingMode::Unshadowed);
-    }
+    // Unshadowed 0, Shadowed 1, Prt 2.
+    [[nodiscard]] static std::size_t stageIndex(LightingMode mode);
     [[nodiscard]] ExitRadiance& stage(LightId light, LightingMode mode) {
         return byLight[light].stages[stageIndex(mode)];
     }

@@ -1,6 +1,7 @@
 #include "render/shader/GeneratedShaders.h"
 
 #include "core/document/Views.h"
+#include "core/material/MaterialInputs.h"
 
 #include <array>
 #include <cctype>

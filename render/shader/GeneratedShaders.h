@@ -7,11 +7,15 @@
 // The last three follow from core/material/MaterialInputs.h.
 #pragma once
 
-#include "core/material/MaterialInputs.h"
+#include "core/material/MaterialInput.h"
 
 #include <optional>
 #include <string>
 #include <string_view>
+
+namespace patina {
+struct MaterialInputInfo;
+}
 
 namespace patina::render {
 

@@ -1,3 +1,4 @@
+#include "core/document/ViewChoices.h"
 #include "render/view/ExplanationParts.h"
 
 #include "core/document/ToneResponse.h"

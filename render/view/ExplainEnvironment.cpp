@@ -1,3 +1,4 @@
+#include "core/light/Light.h"
 #include "render/view/ExplanationParts.h"
 
 #include "core/document/Lighting.h"

@@ -1,6 +1,8 @@
 #include "render/view/Explanation.h"
 
 #include "core/edit/ViewReasons.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "render/view/ExplanationParts.h"
 
 #include <algorithm>

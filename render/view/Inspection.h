@@ -1,9 +1,9 @@
 // Everything the shader computed at one pixel, in its own numbers.
 #pragma once
 
+#include "core/base/Id.h"
 #include "core/document/ToneResponse.h"
 #include "core/document/Views.h"
-#include "core/material/Material.h"
 #include "render/view/ViewSettings.h"
 
 #include <array>

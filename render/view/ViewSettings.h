@@ -1,8 +1,8 @@
 // What of the shading equation a frame shows, and how.
 #pragma once
 
+#include "core/base/Id.h"
 #include "core/document/Lighting.h"
-#include "core/material/Material.h"
 
 #include <array>
 #include <glm/vec2.hpp>

@@ -1,6 +1,9 @@
 // Pictures of local lights under transfer, as `patina render` writes them: with complete shadows.
 #include "CommandRunner.h"
+#include "core/document/ViewChoices.h"
 #include "core/io/ImageIO.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/scene/DocumentIO.h"
 #include "core/scene/Scene.h"
 #include "core/worker/WorkerClient.h"

@@ -3,6 +3,7 @@
 #include "core/bake/local/NearShadows.h"
 #include "core/library/Library.h"
 #include "core/library/Meshes.h"
+#include "core/light/Light.h"
 
 #include <algorithm>
 #include <array>

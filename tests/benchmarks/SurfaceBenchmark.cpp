@@ -6,7 +6,10 @@
 //
 // Times are processor time of all threads (llvmpipe draws on them). Every variant is drawn once per
 // round, so that a busy machine disturbs all alike; the table holds minima.
+#include "core/document/ViewChoices.h"
 #include "core/library/Library.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/math/Camera.h"
 #include "render/pass/RelightPass.h"
 #include "render/pass/SurfacePass.h"

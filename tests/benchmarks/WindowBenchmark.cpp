@@ -1,5 +1,7 @@
 // Frames in the editor's window: a drag, an environment that arrives meanwhile, views that are
 // shown for the first time.
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "tests/benchmarks/WindowStage.h"
 
 #include "app/editor/Startup.h"

@@ -2,6 +2,7 @@
 #include "core/bake/Bake.h"
 #include "core/bake/bounce/Interreflection.h"
 #include "core/bake/transfer/TransferMeaning.h"
+#include "core/light/Light.h"
 #include "core/math/ZonalHarmonics.h"
 #include "tests/core/bake/BakeTestScene.h"
 #include "tests/reference/TruthTable.h"

@@ -3,8 +3,10 @@
 // (docs/maths/transfer-truth.md).
 #include "core/bake/Bake.h"
 #include "core/bake/domain/BakeRequest.h"
+#include "core/document/ViewChoices.h"
 #include "core/library/Library.h"
 #include "core/light/OrientedEnvironment.h"
+#include "core/material/Material.h"
 #include "core/scene/Scene.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/reference/ReferenceLight.h"

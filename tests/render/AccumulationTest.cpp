@@ -1,3 +1,4 @@
+#include "core/material/Material.h"
 #include "render/scene/EnvironmentLight.h"
 #include "tests/render/RenderTest.h"
 

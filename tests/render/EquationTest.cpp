@@ -1,7 +1,10 @@
 // The equation bar's sums and products, from the numbers that the views read back.
 
 #include "core/document/Equation.h"
+#include "core/document/ViewChoices.h"
 #include "core/library/Library.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "tests/render/RenderTest.h"
 #include "tests/render/TransferScenes.h"
 

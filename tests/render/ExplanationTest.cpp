@@ -1,6 +1,8 @@
 // The explanation of a pixel: that its numbers are the picture's, and that it notices when they are
 // not.
 #include "render/view/Explanation.h"
+#include "core/document/ViewChoices.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "core/material/MaterialInputs.h"
 #include "render/view/Recombine.h"

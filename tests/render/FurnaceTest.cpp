@@ -2,6 +2,7 @@
 // 1 everywhere, from its centre to its rim, through the whole chain of an environment.
 #include "core/light/DfgTable.h"
 #include "core/material/BrdfModel.h"
+#include "core/material/Material.h"
 #include "tests/render/RenderTest.h"
 
 #include <cmath>

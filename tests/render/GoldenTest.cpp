@@ -1,6 +1,9 @@
 // Whole pictures. Their scenes are made here, so that nothing but the renderer can change them.
 #include "tests/render/Golden.h"
+#include "core/document/ViewChoices.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
+#include "core/material/Material.h"
 #include "tests/render/RenderTest.h"
 
 #include <cmath>

@@ -1,5 +1,7 @@
 // What reaches the GPU, and how it reads there.
 #include "render/scene/GpuScene.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "render/gl/Uploads.h"
 #include "render/scene/DrawList.h"
 #include "tests/render/RenderTest.h"

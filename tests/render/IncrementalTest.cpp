@@ -3,7 +3,9 @@
 // and PATINA_INCREMENTAL_EDITS ask for more.
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
+#include "core/material/Material.h"
 #include "core/mix/LightMix.h"
 #include "tests/core/document/RandomDocument.h"
 #include "tests/render/RenderTest.h"

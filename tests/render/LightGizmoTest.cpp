@@ -1,5 +1,6 @@
 // Where lights can be taken hold of, and what dragging does, without a window.
 #include "render/scene/LightGizmo.h"
+#include "core/light/Light.h"
 
 #include "core/light/Lights.h"
 

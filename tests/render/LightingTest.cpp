@@ -2,6 +2,9 @@
 // light and reflections.
 #include "core/document/Lighting.h"
 #include "core/bake/local/NearShadows.h"
+#include "core/document/ViewChoices.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/math/Shading.h"
 #include "core/math/SphericalHarmonics.h"
 #include "render/pass/RelightPass.h"

@@ -2,6 +2,9 @@
 // range where it reaches.
 #include "render/scene/ManyLights.h"
 #include "core/bake/local/NearShadows.h"
+#include "core/document/ViewChoices.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "render/scene/LightBlocks.h"
 #include "render/scene/LightCells.h"
 #include "tests/render/TransferScenes.h"

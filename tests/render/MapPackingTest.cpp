@@ -1,4 +1,7 @@
 // Maps of numbers that lie at one place share a texture, and nobody sees it.
+#include "core/document/ViewChoices.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "render/WarmUp.h"
 #include "render/gl/Uploads.h"
 #include "render/scene/GpuScene.h"

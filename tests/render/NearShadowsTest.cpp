@@ -2,6 +2,9 @@
 #include "core/bake/local/NearShadows.h"
 #include "core/bake/Bake.h"
 #include "core/bake/document/DocumentBakeInputs.h"
+#include "core/document/ViewChoices.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/math/Shading.h"
 #include "tests/render/TransferScenes.h"
 

@@ -1,5 +1,6 @@
 // OpenColorIO's displays on the GPU against OpenColorIO's own CPU processor, and configurations
 // that are missing, broken or different from what the user thinks.
+#include "core/document/ViewChoices.h"
 #include "core/io/DisplayTransform.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/render/RenderTest.h"

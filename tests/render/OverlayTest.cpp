@@ -1,5 +1,6 @@
 // Overlays over a picture that has fewer pixels than what it is shown on.
 
+#include "core/light/Light.h"
 #include "render/gl/Framebuffer.h"
 #include "tests/render/RenderTest.h"
 

@@ -1,5 +1,7 @@
 #include "tests/render/RenderTest.h"
 
+#include "core/document/ViewChoices.h"
+#include "core/material/Material.h"
 #include "core/math/Shading.h"
 #include "render/scene/EnvironmentLight.h"
 

@@ -1,4 +1,7 @@
 // What the renderer does with the rest of a document: environments, bakes, picking, changes.
+#include "core/document/ViewChoices.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/math/Shading.h"
 #include "core/math/SphericalHarmonics.h"
 #include "render/scene/Blocks.h"

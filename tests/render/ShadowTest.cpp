@@ -1,5 +1,7 @@
 // Shadows against geometry: umbra, light, penumbra, and nothing where nothing should be.
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
+#include "core/material/Material.h"
 #include "render/pass/ShadowPass.h"
 #include "render/scene/ShadowView.h"
 #include "tests/render/RenderTest.h"

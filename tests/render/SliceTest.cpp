@@ -1,6 +1,9 @@
 // Frames that are drawn in slices are those that are drawn in one piece.
 
+#include "core/document/ViewChoices.h"
 #include "core/document/Views.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "render/scene/FrameSlicer.h"
 #include "tests/render/RenderTest.h"
 

@@ -1,5 +1,8 @@
 // The surface against what can be worked out by hand.
+#include "core/document/ViewChoices.h"
 #include "core/light/Cubemap.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/math/Shading.h"
 #include "render/scene/EnvironmentLight.h"
 #include "tests/render/RenderTest.h"

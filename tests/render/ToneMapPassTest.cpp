@@ -1,5 +1,7 @@
 // From linear pixels to display values on the GPU: exposure, adaptation, tone curves, dithering.
 #include "core/document/ToneResponse.h"
+#include "core/document/ViewChoices.h"
+#include "core/material/Material.h"
 #include "render/pass/AdaptationPass.h"
 #include "tests/render/RenderTest.h"
 #include "tests/render/ToneMapFixture.h"

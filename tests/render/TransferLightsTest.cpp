@@ -1,6 +1,9 @@
 // Light of lights and of two environments under radiance transfer, against what it should be.
 #include "core/bake/Bake.h"
 #include "core/bake/document/DocumentBakeInputs.h"
+#include "core/document/ViewChoices.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/math/Shading.h"
 #include "core/mix/EnvironmentBlend.h"
 #include "core/mix/LightMix.h"

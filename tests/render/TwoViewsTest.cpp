@@ -1,4 +1,7 @@
 // Several pictures of one scene: each as if it were alone, at the cost of its pixels.
+#include "core/document/ViewChoices.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "render/gl/Uploads.h"
 #include "tests/render/RenderTest.h"
 #include "tests/render/TransferScenes.h"

@@ -3,6 +3,8 @@
 #include "core/job/JobContext.h"
 #include "core/light/CubeAtlas.h"
 #include "core/light/DfgTable.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/math/Shading.h"
 #include "tests/render/RenderTest.h"
 

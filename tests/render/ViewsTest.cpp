@@ -1,4 +1,7 @@
+#include "core/document/ViewChoices.h"
 #include "core/light/DfgTable.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/math/Shading.h"
 #include "tests/render/RenderTest.h"
 #include "tests/render/TransferScenes.h"

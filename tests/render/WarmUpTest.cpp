@@ -1,4 +1,7 @@
 #include "render/WarmUp.h"
+#include "core/document/ViewChoices.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "tests/render/TransferScenes.h"
 
 #include <algorithm>

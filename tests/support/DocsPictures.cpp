@@ -21,6 +21,8 @@
 #include "app/editor/widget/ContributionChart.h"
 #include "core/bake/Bake.h"
 #include "core/bake/document/DocumentBakeInputs.h"
+#include "core/document/ViewChoices.h"
+#include "core/material/Material.h"
 
 #include <QApplication>
 #include <QComboBox>

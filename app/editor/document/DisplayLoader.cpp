@@ -1,6 +1,7 @@
 #include "app/editor/document/DisplayLoader.h"
 
 #include "app/editor/document/DocumentController.h"
+#include "core/document/ViewChoices.h"
 
 namespace patina::editor {
 

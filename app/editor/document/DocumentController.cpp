@@ -2,8 +2,10 @@
 
 #include "app/editor/document/EnvironmentResolver.h"
 #include "core/document/EnvironmentTitle.h"
+#include "core/edit/EditSteps.h"
 #include "core/edit/ResetValue.h"
 #include "core/library/SoftboxRigs.h"
+#include "core/light/Light.h"
 
 #include <algorithm>
 

@@ -6,9 +6,12 @@
 #include "app/editor/document/FileOnDisk.h"
 #include "app/editor/document/ImportNotice.h"
 #include "core/base/Check.h"
+#include "core/document/ViewChoices.h"
 #include "core/edit/EditSession.h"
 #include "core/io/DisplayTransform.h"
 #include "core/library/Library.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/scene/DocumentIO.h"
 #include "core/scene/Scene.h"
 

@@ -3,6 +3,7 @@
 #include "app/editor/document/FileKinds.h"
 #include "core/document/Document.h"
 #include "core/edit/MapNames.h"
+#include "core/material/Material.h"
 
 #include <QCoreApplication>
 #include <QFileInfo>

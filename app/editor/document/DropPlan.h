@@ -1,6 +1,7 @@
 // What files mean that are dropped together, worked out from their names before anything is read.
 #pragma once
 
+#include "core/base/Id.h"
 #include "core/edit/Parameters.h"
 
 #include <QString>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/editor/document/DropPlan.h"
+#include "core/base/Id.h"
 
 namespace patina::editor {
 

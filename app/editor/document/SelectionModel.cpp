@@ -1,6 +1,8 @@
 #include "app/editor/document/SelectionModel.h"
 
 #include "app/editor/document/DocumentController.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 
 namespace patina::editor {
 

@@ -2,8 +2,8 @@
 // viewport; never refers to an element that is gone.
 #pragma once
 
+#include "core/base/Id.h"
 #include "core/edit/Change.h"
-#include "core/material/Material.h"
 
 #include <QObject>
 

@@ -11,6 +11,7 @@
 #include "core/bake/file/BakeFileSize.h"
 #include "core/base/FileLock.h"
 #include "core/document/AbsentBake.h"
+#include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
 #include "core/job/Parallel.h"

@@ -4,6 +4,7 @@
 #include "core/bake/BakeMemory.h"
 #include "core/edit/Change.h"
 #include "core/edit/Edit.h"
+#include "core/light/Light.h"
 
 namespace patina::editor {
 namespace {

@@ -13,6 +13,7 @@
 #include "app/editor/widget/TileArea.h"
 #include "core/image/TexelRange.h"
 #include "core/light/EnergyStudy.h"
+#include "core/light/Light.h"
 #include "core/material/MaterialInputs.h"
 #include "render/view/Recombine.h"
 

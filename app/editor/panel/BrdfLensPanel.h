@@ -6,7 +6,6 @@
 #include "app/editor/panel/LensComparison.h"
 #include "core/image/Image.h"
 #include "core/light/Ibl.h"
-#include "core/material/Material.h"
 
 #include <QWidget>
 #include <optional>
@@ -15,6 +14,10 @@
 class QComboBox;
 class QLabel;
 class QStackedWidget;
+
+namespace patina {
+struct Material;
+}
 
 namespace patina::editor {
 

@@ -16,6 +16,8 @@
 #include "app/editor/widget/PanelScroll.h"
 #include "app/editor/widget/PlotLegend.h"
 #include "core/edit/EditSession.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 
 #include <QComboBox>
 #include <QHBoxLayout>

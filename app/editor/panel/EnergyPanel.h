@@ -5,7 +5,6 @@
 
 #include "app/editor/panel/EnergyTexts.h"
 #include "core/light/EnergyStudy.h"
-#include "core/material/Material.h"
 
 #include <QWidget>
 #include <optional>

@@ -1,5 +1,6 @@
 #include "app/editor/panel/LabDrawing.h"
 
+#include "core/document/ViewChoices.h"
 #include "core/image/ColorMap.h"
 #include "core/job/Parallel.h"
 #include "core/light/CubeSampling.h"

@@ -4,6 +4,7 @@
 
 #include "app/editor/panel/LabLight.h"
 #include "core/document/ToneResponse.h"
+#include "core/document/View.h"
 #include "core/image/Image.h"
 #include "core/job/JobContext.h"
 #include "core/material/ShadingModel.h"

@@ -7,6 +7,7 @@
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/PixelProbe.h"
 #include "app/editor/widget/ElidedLabel.h"
+#include "core/document/ViewChoices.h"
 #include "core/light/DfgLookup.h"
 #include "core/light/LatLongGrid.h"
 #include "core/math/Shading.h"

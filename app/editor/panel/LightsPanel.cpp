@@ -8,6 +8,7 @@
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/PanelScroll.h"
 #include "core/edit/EditSession.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "core/mix/LightMix.h"
 

@@ -7,6 +7,7 @@
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/PanelScroll.h"
 #include "core/library/Library.h"
+#include "core/material/Material.h"
 
 #include <QComboBox>
 #include <QHBoxLayout>

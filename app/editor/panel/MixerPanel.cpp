@@ -12,6 +12,7 @@
 #include "app/editor/widget/Slider.h"
 #include "core/edit/EditSession.h"
 #include "core/library/Library.h"
+#include "core/light/Light.h"
 #include "core/math/Shading.h"
 #include "core/mix/LightMix.h"
 #include "core/mix/MixLevels.h"

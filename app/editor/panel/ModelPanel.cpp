@@ -8,6 +8,7 @@
 #include "app/editor/widget/FurnacePlot.h"
 #include "app/editor/widget/PanelScroll.h"
 #include "core/edit/EditSession.h"
+#include "core/material/Material.h"
 #include "core/material/ModelPresets.h"
 #include "core/math/Shading.h"
 

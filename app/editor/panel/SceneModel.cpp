@@ -5,6 +5,7 @@
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/ColorConversion.h"
 #include "app/editor/widget/Thumbnails.h"
+#include "core/material/Material.h"
 #include "core/scene/ImageProblem.h"
 
 #include <QPainter>

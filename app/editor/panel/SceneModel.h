@@ -8,6 +8,10 @@
 #include <QColor>
 #include <QIcon>
 
+namespace patina {
+struct Material;
+}
+
 namespace patina::editor {
 
 class DocumentController;

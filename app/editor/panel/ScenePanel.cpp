@@ -5,6 +5,7 @@
 #include "app/editor/panel/SceneModel.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
+#include "core/material/Material.h"
 
 #include <QHeaderView>
 #include <QMenu>

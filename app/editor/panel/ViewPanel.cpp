@@ -11,6 +11,7 @@
 #include "app/editor/widget/PanelScroll.h"
 #include "app/editor/widget/Section.h"
 #include "app/editor/widget/ToneCurvePlot.h"
+#include "core/document/ViewChoices.h"
 #include "core/edit/EditSession.h"
 
 #include <QComboBox>

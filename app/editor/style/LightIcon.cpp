@@ -1,5 +1,7 @@
 #include "app/editor/style/LightIcon.h"
 
+#include "core/light/Light.h"
+
 namespace patina::editor {
 
 QString lightIcon(LightType type) {

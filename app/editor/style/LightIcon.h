@@ -1,9 +1,11 @@
 // The icons of the kinds of light.
 #pragma once
 
-#include "core/document/Document.h"
-
 #include <QString>
+
+namespace patina {
+enum class LightType;
+}
 
 namespace patina::editor {
 

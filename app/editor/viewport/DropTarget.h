@@ -2,7 +2,7 @@
 // and frames the picture as their target.
 #pragma once
 
-#include "core/material/Material.h"
+#include "core/base/Id.h"
 
 #include <QObject>
 #include <QStringList>

@@ -10,6 +10,7 @@
 #include "app/editor/widget/ElidedLabel.h"
 #include "app/editor/widget/FoldButton.h"
 #include "core/edit/ViewReasons.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "core/mix/LightMix.h"
 

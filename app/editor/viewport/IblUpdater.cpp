@@ -1,6 +1,7 @@
 #include "app/editor/viewport/IblUpdater.h"
 
 #include "core/base/Log.h"
+#include "core/light/Light.h"
 
 #include <QFile>
 #include <QStandardPaths>

@@ -3,7 +3,9 @@
 #include "app/editor/viewport/ViewState.h"
 #include "core/document/Document.h"
 #include "core/edit/ViewReasons.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
+#include "core/material/Material.h"
 #include "core/math/Shading.h"
 #include "core/mix/LightMix.h"
 

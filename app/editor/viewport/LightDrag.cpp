@@ -4,6 +4,7 @@
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/viewport/Navigator.h"
 #include "app/editor/widget/StatusHint.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
 
 #include <QWidget>

@@ -2,6 +2,8 @@
 
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/viewport/PixelProbe.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 
 #include <algorithm>
 #include <cmath>

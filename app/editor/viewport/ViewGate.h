@@ -52,7 +52,7 @@ class ViewGate : public QObject {
     QTimer m_limit;       // runs out when a view has been waited for too long
     bool m_passes = true; // nothing is held back: the limit is reached, or the document is new
     render::ViewSettings m_view;                       // of the last frame
-    LightingMode m_lighting = LightingMode::Ibl;       // of its document
+    LightingMode m_lighting{};                         // of its document
     std::vector<render::FrameKind> m_drawn;            // what it was drawn as
     mutable std::map<render::FrameKind, bool> m_known; // what the warmer says of this document
     bool m_waiting = false;

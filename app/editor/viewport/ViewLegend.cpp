@@ -8,6 +8,7 @@
 #include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/TextButton.h"
+#include "core/light/Light.h"
 
 #include <QApplication>
 #include <QButtonGroup>

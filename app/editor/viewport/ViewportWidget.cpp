@@ -7,6 +7,7 @@
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/LobeOnSurface.h"
 #include "core/base/Log.h"
+#include "core/document/ViewChoices.h"
 #include "core/job/Parallel.h"
 #include "core/job/WorkGate.h"
 #include "core/mix/LightMix.h"

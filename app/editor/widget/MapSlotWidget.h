@@ -2,7 +2,7 @@
 // the channel that is read, tiling and removal.
 #pragma once
 
-#include "core/material/Material.h"
+#include "core/material/MapSlot.h"
 
 #include <QFrame>
 #include <QImage>

@@ -1,6 +1,7 @@
 #include "app/editor/widget/SpherePicture.h"
 
 #include "core/document/ToneResponse.h"
+#include "core/document/ViewChoices.h"
 #include "core/job/Parallel.h"
 #include "core/light/CubeSampling.h"
 

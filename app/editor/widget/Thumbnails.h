@@ -3,7 +3,7 @@
 
 #include "core/image/Image.h"
 #include "core/job/TaskRunner.h"
-#include "core/material/Material.h"
+#include "core/material/MapSlot.h"
 
 #include <QHash>
 #include <QImage>

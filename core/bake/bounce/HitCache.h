@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/bake/domain/BakePoints.h"
+#include "core/base/Id.h"
 #include "core/trace/RayScene.h"
 
 #include <cstddef>

@@ -3,6 +3,7 @@
 #include "core/bake/Bake.h"
 #include "core/bake/domain/BakeOptions.h"
 #include "core/base/ById.h"
+#include "core/material/Material.h"
 
 #include <algorithm>
 #include <cstring>

@@ -2,6 +2,7 @@
 
 #include "core/base/ById.h"
 #include "core/document/Document.h"
+#include "core/material/Material.h"
 
 namespace patina {
 

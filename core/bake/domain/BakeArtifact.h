@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/base/Hash.h"
+#include "core/base/Id.h"
 #include "core/image/Image.h"
-#include "core/material/Material.h"
 
 #include <cstddef>
 #include <map>

@@ -1,5 +1,7 @@
 #include "core/bake/domain/BakeHash.h"
 
+#include "core/material/Material.h"
+
 #include <map>
 
 namespace patina {

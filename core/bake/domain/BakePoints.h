@@ -3,6 +3,7 @@
 // triangle it leaves.
 #pragma once
 
+#include "core/base/Id.h"
 #include "core/trace/BakeGeometry.h"
 
 #include <cstddef>

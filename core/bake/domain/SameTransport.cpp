@@ -1,5 +1,7 @@
 #include "core/bake/domain/SameTransport.h"
 
+#include "core/material/Material.h"
+
 #include <algorithm>
 
 namespace patina {

@@ -6,6 +6,7 @@
 #include "core/bake/file/BakeTarget.h"
 #include "core/base/Check.h"
 #include "core/document/Document.h"
+#include "core/material/Material.h"
 #include "core/trace/BakeInputs.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 #include "core/bake/file/BakeTarget.h"
 
+#include "core/material/Material.h"
+
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>

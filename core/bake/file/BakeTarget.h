@@ -3,6 +3,7 @@
 
 #include "core/bake/file/BakeHeader.h"
 #include "core/document/Document.h"
+#include "core/material/Material.h"
 
 #include <map>
 #include <optional>

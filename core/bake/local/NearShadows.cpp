@@ -7,6 +7,7 @@
 #include "core/bake/transfer/InsideShares.h"
 #include "core/edit/Edit.h"
 #include "core/job/Parallel.h"
+#include "core/light/Light.h"
 #include "core/mix/LightMix.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "core/bake/local/NearVisibility.h"
 
 #include "core/job/Parallel.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "core/math/Sampling.h"
 #include "core/math/Shading.h"

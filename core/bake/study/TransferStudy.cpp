@@ -6,6 +6,7 @@
 #include "core/base/Check.h"
 #include "core/document/Document.h"
 #include "core/edit/Edit.h"
+#include "core/light/Light.h"
 #include "core/mix/TransferLight.h"
 
 #include <algorithm>

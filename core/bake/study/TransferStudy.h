@@ -6,6 +6,7 @@
 #include "core/bake/local/NearShadows.h"
 #include "core/bake/study/TransferFunction.h"
 #include "core/light/EnvironmentLookup.h"
+#include "core/light/Light.h"
 #include "core/mix/LightMix.h"
 
 #include <glm/vec3.hpp>

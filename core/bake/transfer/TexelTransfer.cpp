@@ -1,6 +1,7 @@
 #include "core/bake/transfer/TexelTransfer.h"
 
 #include "core/bake/domain/GutterFill.h"
+#include "core/material/Material.h"
 
 #include <algorithm>
 #include <fmt/format.h>

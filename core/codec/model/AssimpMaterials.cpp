@@ -1,5 +1,7 @@
 #include "core/codec/model/AssimpMaterials.h"
 
+#include "core/material/Material.h"
+
 #include <algorithm>
 #include <array>
 #include <assimp/material.h>

@@ -1,6 +1,8 @@
 #include "core/codec/model/GltfMaterials.h"
 
 #include "core/codec/Codec.h"
+#include "core/material/Material.h"
+#include "core/material/MaterialInputs.h"
 
 #include <algorithm>
 #include <fmt/format.h>

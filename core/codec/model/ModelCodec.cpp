@@ -3,6 +3,7 @@
 #include "core/codec/model/GltfReader.h"
 #include "core/codec/model/PlyReader.h"
 #include "core/codec/model/StlReader.h"
+#include "core/material/Material.h"
 #include "core/worker/ModelWire.h"
 
 #include <nlohmann/json.hpp>

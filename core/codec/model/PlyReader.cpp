@@ -3,6 +3,7 @@
 #include "core/base/Limits.h"
 #include "core/codec/Codec.h"
 #include "core/codec/TokenReader.h"
+#include "core/material/Material.h"
 #include "core/mesh/MeshSource.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 #include "app/editor/job/BounceUpdater.h"
+#include "core/material/Material.h"
 
 #include "app/editor/Session.h"
 #include "app/editor/job/LivePreview.h"

@@ -1,4 +1,6 @@
 // A wall of the Cornell box recoloured in its window: the light that bounces off it follows.
+#include "core/document/ViewChoices.h"
+#include "core/material/Material.h"
 #include "tests/app/editor/EditorFixture.h"
 
 #include "app/editor/viewport/IblUpdater.h"

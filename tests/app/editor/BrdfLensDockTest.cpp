@@ -10,6 +10,7 @@
 #include "app/editor/widget/LobeView.h"
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Slider.h"
+#include "core/material/Material.h"
 
 #include <QComboBox>
 #include <QDockWidget>

@@ -2,6 +2,8 @@
 // says when there is nothing to show.
 
 #include "app/editor/panel/BrdfLensPanel.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 
 #include "app/editor/panel/LensControls.h"
 #include "app/editor/widget/CurvePlot.h"

@@ -1,5 +1,6 @@
 // Docks: opened, tabbed, floated, left and found again, reached by mouse and keys.
 
+#include "core/light/Light.h"
 #include "tests/app/editor/EditorFixture.h"
 #include "tests/support/Events.h"
 

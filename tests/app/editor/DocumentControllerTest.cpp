@@ -1,4 +1,6 @@
 #include "app/editor/document/DocumentController.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 
 #include "app/editor/Session.h"
 #include "app/editor/document/FileOnDisk.h"

@@ -1,5 +1,7 @@
 #include "tests/app/editor/EditorFixture.h"
 
+#include "core/material/MaterialInputs.h"
+
 namespace patina::editor {
 
 std::unique_ptr<Session> EditorTest::session;
@@ -18,6 +20,30 @@ void EditorTest::SetUpTestSuite() {
 void EditorTest::TearDownTestSuite() {
     window.reset();
     session.reset();
+}
+
+void EditorTest::SetUp() {
+    if (!session->controller.isPristine() || document().meshes.empty())
+        session->controller.newDocument();
+    ASSERT_TRUE(settled(*session));
+    ASSERT_FALSE(session->controller.document().materials.empty());
+    ASSERT_EQ(undoCount(), 0);
+}
+
+const Material& EditorTest::selectedMaterial() {
+    return *document().material(session->selection.material());
+}
+
+void EditorTest::selectMaterialWithoutMaps() {
+    for (const Material& material : document().materials) {
+        bool hasMap = false;
+        forEachMap(material, [&](const MapSlot& map) { hasMap |= map.assigned(); });
+        if (!hasMap) {
+            session->selection.selectMaterial(material.id);
+            return;
+        }
+    }
+    FAIL() << "every material has maps";
 }
 
 } // namespace patina::editor

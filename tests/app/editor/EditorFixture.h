@@ -15,7 +15,7 @@
 
 namespace patina::editor {
 
-// Processes events until `condition` holds; false after a minute (a busy machine needs time).
+// Processes events until `condition` holds; false after two minutes (a busy machine needs time).
 template <class Condition>
 [[nodiscard]] bool eventually(Condition condition) {
     return QTest::qWaitFor(condition, 120'000);
@@ -39,30 +39,13 @@ class EditorTest : public ::testing::Test {
     static void SetUpTestSuite();
     static void TearDownTestSuite();
 
-    void SetUp() override {
-        if (!session->controller.isPristine() || document().meshes.empty())
-            session->controller.newDocument();
-        ASSERT_TRUE(settled(*session));
-        ASSERT_FALSE(session->controller.document().materials.empty());
-        ASSERT_EQ(undoCount(), 0);
-    }
+    void SetUp() override;
 
     static DocumentController& controller() { return session->controller; }
     static const Document& document() { return session->controller.document(); }
     static int undoCount() { return session->controller.undoStack().count(); }
-    static const Material& selectedMaterial() {
-        return *document().material(session->selection.material());
-    }
-    static void selectMaterialWithoutMaps() {
-        for (const Material& material : document().materials)
-            if (!material.baseColorMap.assigned() && !material.metallicMap.assigned() &&
-                !material.perceptualRoughnessMap.assigned() && !material.normalMap.assigned() &&
-                !material.occlusionMap.assigned() && !material.emissiveMap.assigned()) {
-                session->selection.selectMaterial(material.id);
-                return;
-            }
-        FAIL() << "every material has maps";
-    }
+    static const Material& selectedMaterial();
+    static void selectMaterialWithoutMaps();
 
     static std::unique_ptr<Session> session;
     static std::unique_ptr<MainWindow> window;

@@ -10,6 +10,7 @@
 #include "app/editor/widget/EnergyPlot.h"
 #include "app/editor/widget/NumberField.h"
 #include "core/edit/EditSession.h"
+#include "core/material/Material.h"
 #include "tests/app/editor/EditorFixture.h"
 
 #include <QComboBox>

@@ -1,5 +1,6 @@
 // The Environment dock by real events: kinds, the lat-long view with its sun and softboxes.
 
+#include "core/document/ViewChoices.h"
 #include "tests/app/editor/EditorFixture.h"
 
 #include "app/editor/panel/EnvironmentList.h"

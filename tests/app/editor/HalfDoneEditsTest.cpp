@@ -1,6 +1,8 @@
 // What happens to a number, name or colour that is half typed when the dock comes to show something
 // else: nothing. It neither ends the program nor reaches another element.
 
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "tests/app/editor/EditorFixture.h"
 
 #include "app/editor/panel/LightsPanel.h"

@@ -1,6 +1,7 @@
 // The pixels of the Light lab.
 
 #include "app/editor/panel/LabDrawing.h"
+#include "core/document/ViewChoices.h"
 #include "core/image/ColorMap.h"
 #include "core/light/DfgLookup.h"
 #include "core/math/Shading.h"

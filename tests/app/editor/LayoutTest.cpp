@@ -1,6 +1,8 @@
 // Everything fits on every screen: sizes of the window, texts in docks and dialogs.
 // PATINA_SCREENSHOTS keeps a picture of each.
 
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "tests/app/editor/EditorFixture.h"
 #include "tests/app/editor/TextFit.h"
 #include "tests/support/Events.h"

@@ -1,6 +1,7 @@
 // What the window says of more lights than the picture can show.
 #include "app/editor/Session.h"
 #include "core/edit/EditSession.h"
+#include "core/light/Light.h"
 
 #include <QTest>
 #include <algorithm>

@@ -6,6 +6,7 @@
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Slider.h"
 #include "core/edit/EditSession.h"
+#include "core/light/Light.h"
 #include "core/mix/LightMix.h"
 #include "tests/app/editor/EditorFixture.h"
 #include "tests/support/Events.h"

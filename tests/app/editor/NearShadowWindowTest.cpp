@@ -1,5 +1,7 @@
 // A light moved about in the window under radiance transfer: its shadows follow, traced behind the
 // input, and end complete.
+#include "core/document/ViewChoices.h"
+#include "core/light/Light.h"
 #include "tests/app/editor/EditorFixture.h"
 
 #include "app/editor/job/NearShadowUpdater.h"

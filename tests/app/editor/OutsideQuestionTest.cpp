@@ -2,6 +2,7 @@
 #include "app/editor/OutsideQuestion.h"
 #include "app/editor/document/PrintableNotice.h"
 #include "core/io/ImageIO.h"
+#include "core/material/Material.h"
 #include "tests/app/editor/EditorFixture.h"
 
 #include <QMessageBox>

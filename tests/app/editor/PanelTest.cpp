@@ -1,5 +1,7 @@
 // Panels and document together, by real events on the widgets of the window.
 
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "tests/app/editor/EditorFixture.h"
 #include "tests/support/Events.h"
 

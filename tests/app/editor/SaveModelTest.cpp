@@ -4,8 +4,11 @@
 
 #include "app/editor/Session.h"
 #include "core/bake/file/BakeIO.h"
+#include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/edit/EditSession.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/scene/DocumentIO.h"
 #include "core/scene/ProjectJson.h"
 

@@ -2,8 +2,11 @@
 // running operation lost or landing where it does not belong.
 
 #include "app/editor/Session.h"
+#include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/edit/EditSession.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/scene/DocumentIO.h"
 
 #include <QDir>

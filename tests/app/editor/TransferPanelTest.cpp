@@ -1,4 +1,6 @@
 // The Transfer dock in its window: a known transfer, looked at from a pinned point.
+#include "core/document/ViewChoices.h"
+#include "core/light/Light.h"
 #include "tests/app/editor/EditorFixture.h"
 
 #include "app/editor/panel/TransferPanel.h"

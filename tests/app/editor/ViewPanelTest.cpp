@@ -1,6 +1,7 @@
 // The Camera dock and the viewport: operators chosen by the mouse, the eye watched while it adapts,
 // OpenColorIO by drop, with configurations good and bad.
 
+#include "core/document/ViewChoices.h"
 #include "tests/app/editor/EditorFixture.h"
 #include "tests/support/Events.h"
 

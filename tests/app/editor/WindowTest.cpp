@@ -1,5 +1,8 @@
 // The window as a whole: files, guard, drops, actions, layout, pictures of it.
 
+#include "core/document/ViewChoices.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "tests/app/editor/EditorFixture.h"
 #include "tests/support/Events.h"
 

@@ -1,6 +1,7 @@
 // The viewport's context is destroyed again and again: the picture comes back as it was. How often:
 // PATINA_CONTEXT_LOSSES (1 by default; the demand is 20).
 
+#include "core/light/Light.h"
 #include "tests/app/editor/EditorFixture.h"
 
 #include "app/editor/viewport/IblUpdater.h"

@@ -2,6 +2,8 @@
 // offered, at most two seconds of it are lost, and the user's file is as it was. How often:
 // PATINA_RECOVERY_KILLS, _TERMS and _DISPLAYS (a few by default; the demand is 100, 20 and 20).
 
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/recovery/RecoverySession.h"
 #include "core/scene/DocumentIO.h"
 #include "core/scene/Scene.h"

@@ -8,6 +8,8 @@
 #include "app/editor/Startup.h"
 #include "app/editor/style/Style.h"
 #include "core/edit/EditSession.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 
 #include <QApplication>
 #include <QTimer>

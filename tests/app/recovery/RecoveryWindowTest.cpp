@@ -1,5 +1,6 @@
 // Unsaved work in a running window: what is kept when, and the dialog that offers it.
 
+#include "core/material/Material.h"
 #include "tests/app/editor/EditorFixture.h"
 #include "tests/support/Events.h"
 

@@ -1,4 +1,5 @@
 // The Bake and Jobs docks, driven by real clicks: queue, pause, staleness, cache, interruption.
+#include "core/document/ViewChoices.h"
 #include "tests/app/editor/EditorFixture.h"
 #include "tests/support/Events.h"
 

@@ -6,6 +6,7 @@
 #include "app/editor/viewport/ViewState.h"
 #include "app/editor/viewport/ViewStrip.h"
 #include "app/editor/viewport/ViewThumb.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "tests/app/editor/EditorFixture.h"
 

@@ -1,6 +1,9 @@
 // What a drag may rely on: every move is shown before the next, whatever else goes on, and what
 // goes on is not held up by the drag. How long frames take is for benchmarks (bench_window).
 
+#include "core/document/ViewChoices.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "tests/app/editor/EditorFixture.h"
 
 #include "app/editor/job/BakeService.h"

@@ -6,7 +6,9 @@
 #include "app/editor/viewport/PinMarker.h"
 #include "app/editor/viewport/PixelPicker.h"
 #include "app/editor/widget/ContributionChart.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
+#include "core/material/Material.h"
 #include "tests/app/editor/EditorFixture.h"
 #include "tests/support/Events.h"
 

@@ -1,6 +1,8 @@
 // The viewport and the bakes, driven by real mouse and key events in the real window.
 
 #include "app/editor/job/JobManager.h"
+#include "core/document/ViewChoices.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "render/scene/LightGizmo.h"
 #include "tests/app/editor/EditorFixture.h"

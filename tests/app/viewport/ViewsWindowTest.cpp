@@ -12,7 +12,9 @@
 #include "app/editor/widget/ColorScale.h"
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Slider.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
+#include "core/material/Material.h"
 #include "tests/app/editor/EditorFixture.h"
 #include "tests/support/Events.h"
 

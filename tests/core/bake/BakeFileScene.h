@@ -4,6 +4,7 @@
 #include "core/bake/Bake.h"
 #include "core/bake/document/DocumentBakeInputs.h"
 #include "core/document/Document.h"
+#include "core/material/Material.h"
 #include "tests/core/bake/BakeTestScene.h"
 
 #include <gtest/gtest.h>

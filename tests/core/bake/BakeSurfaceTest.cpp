@@ -1,4 +1,5 @@
 #include "core/trace/BakeSurface.h"
+#include "core/material/Material.h"
 
 #include "core/bake/Bake.h"
 #include "core/bake/document/DocumentBakeInputs.h"

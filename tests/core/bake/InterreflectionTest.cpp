@@ -5,6 +5,7 @@
 #include "core/bake/Bake.h"
 #include "core/bake/domain/BakeOptions.h"
 #include "core/job/Parallel.h"
+#include "core/material/Material.h"
 #include "core/math/Shading.h"
 #include "tests/core/bake/BakeTestScene.h"
 

@@ -2,6 +2,8 @@
 #include "core/bake/document/BakeStaleness.h"
 #include "core/bake/local/NearShadows.h"
 #include "core/base/ById.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "tests/core/mesh/Shapes.h"
 
 #include <glm/gtc/matrix_transform.hpp>

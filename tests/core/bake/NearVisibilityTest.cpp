@@ -2,6 +2,8 @@
 #include "core/bake/local/NearLightAt.h"
 #include "core/bake/local/NearShadows.h"
 #include "core/job/Parallel.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/math/Shading.h"
 #include "tests/core/bake/BakeTestScene.h"
 

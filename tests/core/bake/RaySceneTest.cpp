@@ -1,4 +1,5 @@
 #include "core/trace/RayScene.h"
+#include "core/material/Material.h"
 #include "tests/core/bake/BakeTestScene.h"
 
 #include <gtest/gtest.h>

@@ -2,6 +2,7 @@
 #include "core/bake/document/TransferPoint.h"
 #include "core/bake/document/DocumentBakeInputs.h"
 #include "core/document/Document.h"
+#include "core/material/Material.h"
 #include "tests/core/bake/BakeFileScene.h"
 
 #include <glm/gtc/matrix_transform.hpp>

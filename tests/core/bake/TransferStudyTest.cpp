@@ -6,6 +6,8 @@
 #include "core/bake/study/TransferStatistics.h"
 #include "core/document/Document.h"
 #include "core/edit/Edit.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/math/SphericalHarmonics.h"
 #include "core/mix/TransferLight.h"
 #include "tests/core/light/LatLongPicture.h"

@@ -2,6 +2,8 @@
 
 #include "core/document/Dirty.h"
 #include "core/edit/Edit.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "tests/core/document/RandomDocument.h"
 
 #include <functional>

@@ -1,6 +1,8 @@
 #include "core/document/Document.h"
 #include "core/base/Utf8.h"
 #include "core/document/Source.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/scene/ProjectPath.h"
 
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,4 +1,5 @@
 #include "core/document/LightPlacement.h"
+#include "core/light/Light.h"
 
 #include "core/edit/Edit.h"
 #include "core/light/Lights.h"

@@ -3,6 +3,7 @@
 
 #include "core/document/Document.h"
 #include "core/edit/Parameters.h"
+#include "core/material/Material.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,7 @@
 // A view's exposure and tone curve on the CPU.
 #include "core/document/ToneResponse.h"
+#include "core/document/View.h"
+#include "core/document/ViewChoices.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -2,6 +2,8 @@
 #include "core/bake/domain/BakeArtifact.h"
 #include "core/document/Document.h"
 #include "core/edit/ViewReasons.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 
 #include <gtest/gtest.h>
 #include <set>

@@ -2,6 +2,8 @@
 
 #include "core/edit/DocumentDifference.h"
 #include "core/edit/Edit.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/scene/Scene.h"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,9 @@
 // Editing without a window: steps, undo, redo, merging, what was saved.
 
 #include "core/edit/EditSession.h"
+#include "core/edit/EditSteps.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 
 #include "core/document/EnvironmentTitle.h"
 #include "core/image/Image.h"

@@ -1,4 +1,6 @@
 #include "core/edit/Edit.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 
 #include "core/bake/Bake.h"
 #include "core/bake/document/DocumentBakeInputs.h"

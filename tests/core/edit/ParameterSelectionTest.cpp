@@ -1,6 +1,8 @@
 #include "core/document/Document.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,8 @@
 // Every row of the table: does it keep its promises, and does it reach the member it names?
 #include "core/document/Document.h"
+#include "core/document/ViewChoices.h"
 #include "core/edit/Parameters.h"
+#include "core/light/Light.h"
 #include "core/material/MaterialInputs.h"
 #include "tests/core/document/RandomDocument.h"
 

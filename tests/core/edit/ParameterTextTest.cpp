@@ -1,5 +1,6 @@
 #include "core/document/Document.h"
 #include "core/edit/Parameters.h"
+#include "core/material/Material.h"
 
 #include <cmath>
 #include <cstring>

@@ -4,6 +4,7 @@
 #include "core/document/Document.h"
 #include "core/export/ExportContents.h"
 #include "core/export/GltfWriter.h"
+#include "core/material/Material.h"
 
 #include <cstring>
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 // A developer's look at the built-in library: `library_dump FOLDER` writes every map as PPM and
 // every sky tone mapped, and prints how long each entry took to make.
 #include "core/library/Library.h"
+#include "core/material/Material.h"
 
 #include <chrono>
 #include <cmath>

@@ -1,6 +1,7 @@
 // The built-in materials: maps that tile, agree with each other and stay physically plausible.
 #include "core/library/Library.h"
 #include "core/library/MaterialRecipes.h"
+#include "core/material/Material.h"
 
 #include <algorithm>
 #include <cmath>

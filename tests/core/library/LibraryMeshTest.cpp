@@ -1,6 +1,7 @@
 // The built-in meshes keep every promise that bakes and the renderer rely on.
 #include "core/library/Library.h"
 #include "core/library/Meshes.h"
+#include "core/material/Material.h"
 #include "core/mesh/UvUnwrap.h"
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // Whole area lights at a surface: from which side their light comes, and how much of it.
 #include "core/light/DfgTable.h"
+#include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "core/light/LobeTable.h"
 #include "core/math/Shading.h"

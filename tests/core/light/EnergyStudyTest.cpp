@@ -1,5 +1,7 @@
 // What the study of a material's energy shows, and which faults it finds.
 #include "core/light/EnergyStudy.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // What lights do, against what can be worked out by hand.
 #include "core/light/Lights.h"
+#include "core/light/Light.h"
 #include "core/mix/LightMix.h"
 
 #include "core/edit/Parameters.h"

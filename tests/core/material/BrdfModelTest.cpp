@@ -1,4 +1,5 @@
 // What the assembled models promise: energy, reciprocity, agreement with the table, finite numbers.
+#include "core/material/Material.h"
 #include "tests/core/math/LobeQuadrature.h"
 
 #include <gtest/gtest.h>

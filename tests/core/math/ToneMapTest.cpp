@@ -1,5 +1,6 @@
 // Exposure, adaptation and tone curves: exact values, and what holds for every curve.
 #include "core/document/Document.h"
+#include "core/document/ViewChoices.h"
 #include "core/math/Shading.h"
 
 #include <array>

@@ -1,4 +1,5 @@
 #include "core/mix/LightMix.h"
+#include "core/light/Light.h"
 
 #include "core/edit/Edit.h"
 #include "core/light/Ibl.h"

@@ -1,4 +1,5 @@
 #include "core/mix/TransferLight.h"
+#include "core/light/Light.h"
 
 #include "core/light/Lights.h"
 #include "core/light/NearRectangle.h"

@@ -1,5 +1,6 @@
 // Pictures outside the model's folder: left out, listed and never exported, until somebody agrees.
 #include "core/scene/OutsidePictures.h"
+#include "core/material/Material.h"
 
 #include "core/export/Export.h"
 #include "core/io/MeshImport.h"

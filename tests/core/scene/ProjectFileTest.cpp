@@ -5,6 +5,8 @@
 #include "core/edit/Parameters.h"
 #include "core/export/Export.h"
 #include "core/light/GeneratedEnvironment.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/scene/DocumentIO.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,8 @@
 // The project's text: nothing is lost, nothing is believed.
+#include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/scene/DocumentIO.h"
 #include "tests/core/document/RandomDocument.h"
 #include "tests/support/SecondEnvironment.h"

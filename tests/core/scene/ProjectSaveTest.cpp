@@ -2,6 +2,7 @@
 // the project names is lost, and nothing of others is overwritten unasked.
 #include "SceneFixture.h"
 #include "core/edit/Edit.h"
+#include "core/light/Light.h"
 #include "core/scene/DocumentIO.h"
 
 #include <array>

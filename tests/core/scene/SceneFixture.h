@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/io/ImageIO.h"
+#include "core/material/Material.h"
 #include "core/scene/Scene.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/support/TemporaryFolder.h"

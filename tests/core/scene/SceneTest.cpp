@@ -1,5 +1,7 @@
 #include "SceneFixture.h"
 #include "core/edit/Edit.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "core/scene/ImageProblem.h"
 
 #include <gmock/gmock.h>

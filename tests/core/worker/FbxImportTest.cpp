@@ -1,3 +1,4 @@
+#include "core/material/Material.h"
 #include "tests/core/worker/FbxWriter.h"
 #include "tests/core/worker/ModelFiles.h"
 

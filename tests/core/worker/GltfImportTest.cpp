@@ -1,3 +1,5 @@
+#include "core/light/Light.h"
+#include "core/material/Material.h"
 #include "tests/core/worker/ModelFiles.h"
 
 #include <glm/geometric.hpp>

@@ -3,6 +3,7 @@
 
 #include "core/base/AtomicFile.h"
 #include "core/io/MeshImport.h"
+#include "core/material/Material.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/support/TemporaryFolder.h"
 

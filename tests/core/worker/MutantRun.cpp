@@ -2,6 +2,7 @@
 
 #include "core/io/ImageIO.h"
 #include "core/io/MeshImport.h"
+#include "core/material/Material.h"
 #include "tests/core/worker/ModelFiles.h"
 #include "tests/support/TemporaryFolder.h"
 

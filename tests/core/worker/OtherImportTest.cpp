@@ -1,4 +1,5 @@
 // COLLADA, PLY and STL.
+#include "core/material/Material.h"
 #include "tests/core/worker/ModelFiles.h"
 
 #include <cmath>

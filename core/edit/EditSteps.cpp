@@ -1,4 +1,4 @@
-#include "core/edit/EditStep.h"
+#include "core/edit/EditSteps.h"
 
 #include "core/edit/Edit.h"
 #include "core/light/GeneratedEnvironment.h"

@@ -1,0 +1,14 @@
+#include "core/document/View.h"
+
+#include "core/document/ViewChoices.h"
+
+namespace patina {
+
+View::View()
+    : exposureMode(ExposureMode::Fixed)
+    , toneMap(ToneMap::PbrNeutral)
+    , displayTransfer(DisplayTransfer::Srgb)
+    , lighting(LightingMode::Ibl)
+    , background(BackgroundMode::Environment) {}
+
+} // namespace patina

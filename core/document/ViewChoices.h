@@ -1,0 +1,31 @@
+// What is chosen from a few possibilities in a view. View.h knows only that they exist: another
+// possibility rebuilds its users, not all that know a document.
+#pragma once
+
+namespace patina {
+
+enum class ToneMap {
+    Clamp,
+    Reinhard,             // L / (1 + L)
+    ReinhardPhotographic, // key over the log-average luminance, optional white point
+    Exponential,          // 1 - exp(-k L)
+    PbrNeutral,           // Khronos
+    Aces,                 // fitted
+    AgX,
+    OpenColorIo // display and view of the configuration; only when there is one
+};
+enum class ExposureMode { Fixed, Automatic };
+// What is seen behind the scene.
+enum class BackgroundMode { Environment, Blurred, Color, Off };
+enum class DisplayTransfer { Srgb, Gamma };
+// How the environment lights the scene, from one directional light to everything that a bake knows.
+enum class LightingMode {
+    Ibl,          // split-sum image-based light, with ambient occlusion
+    Cosine,       // N·L: the dominant light of the environment
+    ShIrradiance, // irradiance from nine coefficients, nothing hidden
+    Unshadowed,   // transfer of an open sky, per vertex, in as many bands as the bake
+    Shadowed,     // baked transfer: what the scene hides
+    Prt           // and light by way of other surfaces, as far as the bake holds it
+};
+
+} // namespace patina
