@@ -2,7 +2,6 @@
 
 #include "core/base/Check.h"
 #include "core/edit/EditSteps.h"
-#include "core/light/Light.h"
 
 #include <algorithm>
 #include <fmt/format.h>

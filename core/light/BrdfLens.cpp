@@ -1,7 +1,6 @@
 #include "core/light/BrdfLens.h"
 
 #include "core/base/Check.h"
-#include "core/light/Light.h"
 #include "core/material/BrdfModel.h"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 #include "core/light/EnergyStudy.h"
 
-#include "core/light/Light.h"
 #include "core/material/MaterialInputs.h"
 
 #include <algorithm>

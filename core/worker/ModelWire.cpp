@@ -1,7 +1,6 @@
 #include "core/worker/ModelWire.h"
 
 #include "core/base/Limits.h"
-#include "core/light/Light.h"
 #include "core/material/Material.h"
 #include "core/material/MaterialInputs.h"
 #include "core/mesh/MeshSource.h"

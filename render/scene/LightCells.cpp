@@ -1,7 +1,5 @@
 #include "render/scene/LightCells.h"
 
-#include "core/light/Light.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -7,7 +7,6 @@
 #include "core/bake/domain/BakeRequest.h"
 #include "core/io/ImageIO.h"
 #include "core/job/Parallel.h"
-#include "core/light/Light.h"
 #include "core/light/OrientedEnvironment.h"
 #include "core/math/SphericalHarmonics.h"
 #include "core/scene/Scene.h"

@@ -2,8 +2,6 @@
 // and frames the picture as their target.
 #pragma once
 
-#include "core/base/Id.h"
-
 #include <QObject>
 #include <QStringList>
 #include <QWidget>

@@ -3,7 +3,6 @@
 #include "core/base/Limits.h"
 #include "core/codec/Codec.h"
 #include "core/codec/model/AssimpMaterials.h"
-#include "core/light/Light.h"
 
 #include <algorithm>
 #include <assimp/DefaultLogger.hpp>

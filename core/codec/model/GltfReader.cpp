@@ -5,7 +5,6 @@
 #include "core/codec/model/DracoMesh.h"
 #include "core/codec/model/GltfBuffers.h"
 #include "core/codec/model/GltfMaterials.h"
-#include "core/light/Light.h"
 #include "core/material/Material.h"
 #include "core/mesh/MeshSource.h"
 

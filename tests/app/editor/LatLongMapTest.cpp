@@ -4,7 +4,6 @@
 #include "app/editor/job/UiTasks.h"
 #include "app/editor/viewport/IblUpdater.h"
 #include "core/light/LatLongGrid.h"
-#include "core/light/Light.h"
 
 #include <QTemporaryDir>
 #include <QTest>

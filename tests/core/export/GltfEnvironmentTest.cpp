@@ -4,7 +4,6 @@
 #include "ExportScene.h"
 #include "core/io/ImageIO.h"
 #include "core/io/MeshImport.h"
-#include "core/light/Light.h"
 #include "core/worker/WorkerClient.h"
 #include "tests/support/KnownRadiance.h"
 #include "tests/support/TemporaryFolder.h"

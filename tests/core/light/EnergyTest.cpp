@@ -1,6 +1,5 @@
 // What returns of a white furnace, against published formulas and independent quadratures.
 #include "core/light/Energy.h"
-#include "core/light/Light.h"
 
 #include "core/light/DfgTable.h"
 
