@@ -9,6 +9,7 @@
 #include "core/material/MapSlot.h"
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <span>
 #include <string>
 #include <string_view>
