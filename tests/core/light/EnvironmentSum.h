@@ -234,10 +234,13 @@ inline std::vector<NamedEnvironment> lookupEnvironments() {
     return result;
 }
 
-// Directions for each half of lookupDirections(); PATINA_PREFILTER_DIRECTIONS of them.
-inline std::uint32_t lookupCount(std::uint32_t standard) {
-    const char* text = std::getenv("PATINA_PREFILTER_DIRECTIONS");
-    return text ? static_cast<std::uint32_t>(std::max(1, std::atoi(text))) : standard;
+// Directions for each half of lookupDirections(); for files 600, or PATINA_PREFILTER_DIRECTIONS: on
+// the edge of a lamp in a night square, where light grows by thousands within a texel, one
+// direction errs by half, and of a few it would be the rms.
+inline std::uint32_t lookupCount(std::uint32_t ofShipped) {
+    if (const char* text = std::getenv("PATINA_PREFILTER_DIRECTIONS"))
+        return static_cast<std::uint32_t>(std::max(1, std::atoi(text)));
+    return std::getenv("PATINA_PREFILTER_HDR") ? 600 : ofShipped;
 }
 
 // The exact sums, roughness by roughness, for each direction.
