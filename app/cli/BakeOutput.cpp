@@ -2,6 +2,7 @@
 
 #include "app/cli/SceneSetup.h"
 #include "core/bake/file/BakeIO.h"
+#include "core/base/LowerCase.h"
 #include "core/io/ImageIO.h"
 #include "core/material/Material.h"
 

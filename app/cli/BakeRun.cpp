@@ -13,6 +13,7 @@
 #include "core/base/DiskSpace.h"
 #include "core/base/FileLock.h"
 #include "core/base/Leftovers.h"
+#include "core/base/LowerCase.h"
 #include "core/base/PrintableText.h"
 #include "core/mesh/UvUnwrap.h"
 #include "core/scene/Scene.h"

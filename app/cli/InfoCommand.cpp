@@ -7,6 +7,7 @@
 #include "core/bake/file/BakePacking.h"
 #include "core/bake/transfer/BakeCheckpoint.h"
 #include "core/base/ById.h"
+#include "core/base/LowerCase.h"
 #include "core/document/AbsentBake.h"
 #include "core/document/EnvironmentTitle.h"
 #include "core/document/Source.h"

@@ -2,6 +2,7 @@
 
 #include "core/bake/file/BakeIO.h"
 #include "core/base/AtomicFile.h"
+#include "core/base/LowerCase.h"
 #include "core/document/Source.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
@@ -11,7 +12,6 @@
 #include "core/scene/Scene.h"
 
 #include <algorithm>
-#include <cctype>
 #include <fmt/format.h>
 #include <functional>
 #include <map>
@@ -347,13 +347,6 @@ Result<void> checkOutput(const fs::path& output) {
     if (::access(folder.c_str(), W_OK) != 0 && !fs::exists(output, ignored))
         return refuse("its folder is not writable; choose another one");
     return {};
-}
-
-std::string extensionOf(const fs::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
 }
 
 } // namespace patina::cli

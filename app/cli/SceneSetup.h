@@ -45,7 +45,5 @@ Result<EnvironmentLayout> parseLayout(const std::string& name);
 
 // CannotCreate when the folder is missing or not writable, or the path is a folder.
 Result<void> checkOutput(const std::filesystem::path& output);
-// The extension in lower case, with the dot.
-[[nodiscard]] std::string extensionOf(const std::filesystem::path& path);
 
 } // namespace patina::cli

@@ -2,11 +2,11 @@
 
 #include "core/base/InputFile.h"
 #include "core/base/Limits.h"
+#include "core/base/LowerCase.h"
 #include "core/worker/WorkerClient.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstring>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -19,13 +19,6 @@ using nlohmann::json;
 
 // Compressed files beyond this hold more than the largest supported image.
 constexpr std::size_t kMaxFileBytes = 2 * limits::kMaxImageBytes;
-
-std::string lowerExtension(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
 
 // A Targa file has no magic number: its name and a header that makes sense must do. Byte 1 is the
 // kind of palette, byte 2 the kind of image, byte 16 the bits per pixel.
@@ -159,7 +152,7 @@ Result<LoadedImage> loadImage(WorkerClient& worker, const std::filesystem::path&
     const auto input = openInputFile(file, kMaxFileBytes);
     if (!input)
         return input.error();
-    const std::string format = formatOf(input->head, lowerExtension(file));
+    const std::string format = formatOf(input->head, extensionOf(file));
     if (format.empty())
         return notAnImage(file);
     return load(
@@ -176,7 +169,7 @@ Result<LoadedImage> loadImageFromMemory(WorkerClient& worker, std::span<const st
     constexpr std::size_t kHead = 64;
     const std::string_view head(reinterpret_cast<const char*>(data.data()),
                                 std::min(data.size(), kHead));
-    const std::string format = formatOf(head, lowerExtension(name));
+    const std::string format = formatOf(head, extensionOf(name));
     if (format.empty())
         return notAnImage(name);
     return load(
@@ -190,7 +183,7 @@ Result<ImageInfo> inspectImage(WorkerClient& worker, const std::filesystem::path
     const auto input = openInputFile(file, kMaxFileBytes);
     if (!input)
         return input.error();
-    const std::string format = formatOf(input->head, lowerExtension(file));
+    const std::string format = formatOf(input->head, extensionOf(file));
     if (format.empty())
         return notAnImage(file);
     const auto reply = decode(
@@ -223,7 +216,7 @@ Result<ImageFileFormat> imageFormatForPath(const std::filesystem::path& file) {
         {".jpeg", ImageFileFormat::Jpeg}, {".exr", ImageFileFormat::Exr},
         {".hdr", ImageFileFormat::Hdr},   {".tif", ImageFileFormat::Tiff},
         {".tiff", ImageFileFormat::Tiff}, {".tga", ImageFileFormat::Tga}};
-    const auto it = kFormats.find(lowerExtension(file));
+    const auto it = kFormats.find(extensionOf(file));
     if (it == kFormats.end())
         return Error{ErrorKind::Usage,
                      "images are written as .png, .jpg, .exr, .hdr, .tif or .tga; choose one of "

@@ -2,6 +2,7 @@
 
 #include "core/base/InputFile.h"
 #include "core/base/Limits.h"
+#include "core/base/LowerCase.h"
 #include "core/io/TexturePaths.h"
 #include "core/material/Material.h"
 #include "core/mesh/MeshSource.h"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -24,9 +24,7 @@ namespace fs = std::filesystem;
 
 // The worker's name of the format; glTF and GLB are told apart by content.
 std::string formatOf(const fs::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = extensionOf(file);
     const auto& known = modelExtensions();
     if (std::find(known.begin(), known.end(), extension) == known.end())
         return {};

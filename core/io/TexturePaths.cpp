@@ -1,4 +1,5 @@
 #include "core/io/TexturePaths.h"
+#include "core/base/LowerCase.h"
 
 #include <algorithm>
 #include <cctype>
@@ -8,12 +9,6 @@ namespace patina {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 std::string withSlashes(std::string name) {
     std::replace(name.begin(), name.end(), '\\', '/');
@@ -39,7 +34,7 @@ const TexturePaths::Listing& TexturePaths::listing(const fs::path& folder) {
         std::error_code error;
         for (fs::directory_iterator it(folder, error), end; !error && it != end;
              it.increment(error))
-            entry->second.try_emplace(lower(it->path().filename().string()), it->path());
+            entry->second.try_emplace(lowerCase(it->path().filename().string()), it->path());
     }
     return entry->second;
 }
@@ -65,7 +60,7 @@ std::optional<fs::path> TexturePaths::find(const std::string& name) {
             outside = spelled;
     }
 
-    const std::string base = lower(fs::path(withSlashes(name)).filename().string());
+    const std::string base = lowerCase(fs::path(withSlashes(name)).filename().string());
     const auto inFolder = [&](const fs::path& folder) -> std::optional<fs::path> {
         const Listing& files = listing(folder);
         const auto it = files.find(base);

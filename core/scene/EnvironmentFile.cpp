@@ -1,5 +1,6 @@
 #include "core/scene/EnvironmentFile.h"
 
+#include "core/base/LowerCase.h"
 #include "core/edit/Parameters.h"
 #include "core/image/Chromaticities.h"
 #include "core/io/ImageIO.h"
@@ -30,13 +31,6 @@ constexpr std::array<std::array<std::string_view, 6>, 6> kFaceNames{{
     {"right", "left", "up", "down", "front", "back"},
     {"rt", "lf", "up", "dn", "ft", "bk"},
 }};
-
-std::string lower(std::string_view text) {
-    std::string result(text);
-    std::ranges::transform(result, result.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return result;
-}
 
 // In the spelling of what was there: "PX" for "NZ", "Left" for "Right".
 std::string inCaseOf(std::string_view name, std::string_view like) {
@@ -234,7 +228,7 @@ LayoutGuess guessLayout(const Image& image, const std::map<std::string, std::str
 
 std::vector<fs::path> sixFaceFiles(const fs::path& file) {
     const std::string stem = file.stem().string();
-    const std::string lowered = lower(stem);
+    const std::string lowered = lowerCase(stem);
     std::vector<fs::path> found;
     for (const auto& names : kFaceNames)
         for (const std::string_view name : names) {
@@ -321,11 +315,11 @@ std::string_view layoutLabel(EnvironmentLayout layout) {
 }
 
 std::optional<EnvironmentLayout> layoutNamed(std::string_view name) {
-    std::string wanted = lower(name);
+    std::string wanted = lowerCase(name);
     std::erase(wanted, '-');
     const auto choices = findParameter("environment.layout")->choices;
     for (std::size_t i = 0; i < choices.size(); ++i)
-        if (lower(choices[i]) == wanted)
+        if (lowerCase(choices[i]) == wanted)
             return static_cast<EnvironmentLayout>(i);
     return std::nullopt;
 }

@@ -1,11 +1,9 @@
 #include "core/scene/Scene.h"
 
 #include "core/base/Check.h"
+#include "core/base/LowerCase.h"
 #include "core/scene/DocumentIO.h"
 #include "core/scene/SceneLoader.h"
-
-#include <algorithm>
-#include <cctype>
 
 namespace patina {
 namespace {
@@ -15,10 +13,7 @@ namespace fs = std::filesystem;
 constexpr float kFramingAspect = 16.0f / 9.0f; // whatever the window or picture: the same camera
 
 bool isProjectFile(const fs::path& file) {
-    std::string extension = file.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension == ".patina";
+    return extensionOf(file) == ".patina";
 }
 
 void frame(Document& document) {
