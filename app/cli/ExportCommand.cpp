@@ -34,15 +34,12 @@ void describe(Report& report, const ExportPlan& plan, bool dryRun) {
 Result<void> run(Session& session, const ExportOptions& options) {
     ExportSettings settings;
     settings.output = options.output;
-    const std::string extension = extensionOf(settings.output);
-    if (extension != ".glb" && extension != ".gltf")
-        return Error{ErrorKind::Usage,
-                     "the extension decides the format; name the output .glb or .gltf",
-                     settings.output,
-                     {}};
+    const Result<ExportFormat> format = exportFormatOf(settings.output);
+    if (!format)
+        return format.error();
     if (Result<void> output = checkOutput(settings.output); !output)
         return output;
-    settings.format = extension == ".glb" ? ExportFormat::Glb : ExportFormat::Gltf;
+    settings.format = *format;
     settings.textures = options.jpeg ? ExportTextureFormat::Jpeg : ExportTextureFormat::Png;
     settings.maxTextureSize = options.textureSize;
     settings.includeBakedAo = !options.noBakedAo;
@@ -70,10 +67,12 @@ Result<void> run(Session& session, const ExportOptions& options) {
     const ExportPlan plan = planExport(*document, settings);
     for (const std::string& warning : plan.warnings)
         report.warn(warning);
+    if (plan.problem)
+        return *plan.problem;
     if (!options.dryRun) {
         session.beginPhase();
         Result<std::vector<std::filesystem::path>> written =
-            runExport(session.worker(), *document, plan, session.job());
+            runExport(session.worker(), plan, session.job());
         if (!written)
             return written.error();
         for (const std::filesystem::path& file : *written) {

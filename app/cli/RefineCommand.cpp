@@ -14,15 +14,12 @@ namespace patina::cli {
 Result<void> run(Session& session, const RefineOptions& options) {
     ExportSettings target;
     target.output = options.output;
-    const std::string extension = extensionOf(target.output);
-    if (extension != ".glb" && extension != ".gltf")
-        return Error{ErrorKind::Usage,
-                     "the extension decides the format; name the output .glb or .gltf",
-                     target.output,
-                     {}};
+    const Result<ExportFormat> format = exportFormatOf(target.output);
+    if (!format)
+        return format.error();
     if (Result<void> output = checkOutput(target.output); !output)
         return output;
-    target.format = extension == ".glb" ? ExportFormat::Glb : ExportFormat::Gltf;
+    target.format = *format;
     target.visibleOnly = false;
 
     Report& report = session.report();
@@ -60,7 +57,7 @@ Result<void> run(Session& session, const RefineOptions& options) {
     for (const std::string& warning : plan.warnings)
         report.warn(warning);
     Result<std::vector<std::filesystem::path>> written =
-        runExport(session.worker(), *document, plan, session.job());
+        runExport(session.worker(), plan, session.job());
     if (!written)
         return written.error();
     for (const std::filesystem::path& file : *written) {

@@ -35,6 +35,14 @@ QString suggestedPath(const DocumentController& controller) {
         .filePath((name.isEmpty() ? QStringLiteral("scene") : name) + QStringLiteral(".glb"));
 }
 
+std::vector<OutputFile::Format> fileFormats() {
+    std::vector<OutputFile::Format> formats;
+    for (const ExportFormatInfo& info : exportFormats())
+        formats.push_back({QString::fromUtf8(info.label), QString::fromUtf8(info.extension),
+                           QString::fromUtf8(info.filter)});
+    return formats;
+}
+
 // The name of the file that an embedded one lies in.
 QString containerOf(const PlannedFile& file) {
     const QString name = fromPath(file.path.filename());
@@ -56,10 +64,8 @@ ExportDialog::ExportDialog(DocumentController& controller, JobManager& jobs, QWi
     : QDialog(parent)
     , m_controller(controller)
     , m_jobs(jobs)
-    , m_output(new OutputFile(QStringLiteral("export"),
-                              {{tr("GLB (one file)"), QStringLiteral("glb"), tr("glTF binary")},
-                               {tr("glTF (separate files)"), QStringLiteral("gltf"), tr("glTF")}},
-                              suggestedPath(controller), *this)) {
+    , m_output(new OutputFile(QStringLiteral("export"), fileFormats(), suggestedPath(controller),
+                              *this)) {
     connect(m_output, &OutputFile::changed, this, &ExportDialog::refresh);
     connect(m_output, &OutputFile::accepted, this, &ExportDialog::run);
     setObjectName(QStringLiteral("exportDialog"));
@@ -144,6 +150,7 @@ QWidget* ExportDialog::makeSettings() {
         new QCheckBox(tr("Environment's light (EXT_lights_image_based)")),
         tr("Writes the environment's light into the file; few programs read it, Babylon.js does"));
     m_environment->setObjectName(QStringLiteral("exportEnvironment"));
+    m_visible->setObjectName(QStringLiteral("exportVisible"));
     for (QCheckBox* box : {m_bakedAo, m_transfer, m_lights, m_environment, m_visible}) {
         box->setChecked(box != m_environment);
         form->addRow(QString(), box);
@@ -158,7 +165,7 @@ QWidget* ExportDialog::makeSettings() {
 ExportSettings ExportDialog::settings() const {
     ExportSettings settings;
     settings.output = toPath(m_output->path());
-    settings.format = m_output->format() == 0 ? ExportFormat::Glb : ExportFormat::Gltf;
+    settings.format = exportFormats()[static_cast<std::size_t>(m_output->format())].format;
     settings.textures = static_cast<ExportTextureFormat>(m_textures->currentData().toInt());
     settings.maxTextureSize = m_size->currentData().toInt();
     settings.includeBakedAo = m_bakedAo->isChecked();
@@ -193,23 +200,24 @@ void ExportDialog::refresh() {
         }
     }
     QStringList warnings;
+    if (m_plan.problem)
+        warnings << QString::fromStdString(m_plan.problem->message);
     for (const std::string& warning : m_plan.warnings)
         warnings << QString::fromStdString(warning);
     m_warnings->setText(warnings.join(QLatin1Char('\n')));
     m_warningsArea->setVisible(!warnings.isEmpty());
     const bool overwrites = std::any_of(m_plan.files.begin(), m_plan.files.end(),
                                         [](const PlannedFile& file) { return file.overwrites; });
-    m_output->setRunnable(!m_plan.files.empty() && !m_output->path().isEmpty(),
+    m_output->setRunnable(!m_plan.problem && !m_output->path().isEmpty(),
                           overwrites ? tr("Export and overwrite") : tr("Export"));
 }
 
 void ExportDialog::run() {
-    // The job works on a snapshot: editing goes on meanwhile.
+    // The plan holds the document as it was: editing goes on meanwhile.
     m_jobs.start(tr("Export: %1").arg(QFileInfo(m_output->path()).fileName()), false,
-                 [document = m_controller.document(), plan = m_plan,
-                  worker = &m_controller.worker(),
+                 [plan = m_plan, worker = &m_controller.worker(),
                   controller = &m_controller](const JobContext& job) -> JobOutcome {
-                     const auto written = runExport(*worker, document, plan, job);
+                     const auto written = runExport(*worker, plan, job);
                      if (!written)
                          return {written.error(), {}, {}};
                      const QString file = fromPath(plan.settings.output);

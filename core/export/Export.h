@@ -1,12 +1,17 @@
-// Export: a plan that says exactly which files will be written (pure, what the dialog shows), and
-// the run that writes them, each atomically.
+// Export: a plan that says exactly which files will be written, what dialogs show, and has a
+// function for each that makes it; and the run, which calls these and writes the files, each
+// atomically. A format is a row of exportFormats() with the function that plans it.
 #pragma once
 
+#include "core/base/AtomicFile.h"
 #include "core/base/Result.h"
 #include "core/document/Document.h"
 #include "core/job/JobContext.h"
 
 #include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,6 +35,9 @@ struct ExportSettings {
     bool visibleOnly = true;
 };
 
+// The bytes of a file; empty for what lies inside another file, whose function has kept it.
+using MakeFile = std::function<Result<Bytes>(WorkerClient& worker, const JobContext& job)>;
+
 struct PlannedFile {
     std::filesystem::path path; // inside another file: that file's path + "#" + name
     std::string
@@ -38,17 +46,33 @@ struct PlannedFile {
     std::string format;      // "GLB", "PNG 8-bit RGB 1024 × 1024"
     bool embedded = false;   // inside another file, the GLB or the .bin
     bool overwrites = false; // a file of that name exists
+    MakeFile make;
+    int stage = 0; // files of one are made side by side, after those of the stages before
 };
 
+// Holds what it needs of the document as it was: edits that follow are not exported.
 struct ExportPlan {
     ExportSettings settings;
     std::vector<PlannedFile> files;
     std::vector<std::string> warnings; // what the format cannot carry, missing maps, stale bakes
+    std::optional<Error> problem;      // why it cannot be run
 };
 
+struct ExportFormatInfo {
+    ExportFormat format;
+    const char* extension; // without the dot
+    const char* label;     // "GLB (one file)"
+    const char* filter;    // of file dialogs: "glTF binary"
+    ExportPlan (*plan)(const Document& document, const ExportSettings& settings);
+};
+[[nodiscard]] std::span<const ExportFormatInfo> exportFormats();
+// By the extension. Errors: Usage, with the extensions that there are.
+[[nodiscard]] Result<ExportFormat> exportFormatOf(const std::filesystem::path& output);
+
 [[nodiscard]] ExportPlan planExport(const Document& document, const ExportSettings& settings);
-// Writes what the plan says. Cancelled or failed: no partial file under a final name.
-Result<std::vector<std::filesystem::path>> runExport(WorkerClient& worker, const Document& document,
-                                                     const ExportPlan& plan, const JobContext& job);
+// Writes what the plan says, what refers to other files last, and returns their paths. A plan is
+// run by one at a time. Cancelled or failed: no partial file under a final name.
+Result<std::vector<std::filesystem::path>> runExport(WorkerClient& worker, const ExportPlan& plan,
+                                                     const JobContext& job);
 
 } // namespace patina

@@ -1,4 +1,4 @@
-// What of a document an export takes along, decided once for the plan and for the run.
+// What of a document a glTF export takes along.
 #pragma once
 
 #include "core/document/Document.h"

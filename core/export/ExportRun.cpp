@@ -2,14 +2,11 @@
 #include "core/base/DiskSpace.h"
 #include "core/base/OwnFile.h"
 #include "core/export/Export.h"
-#include "core/export/ExportContents.h"
-#include "core/export/GltfEnvironment.h"
-#include "core/export/GltfWriter.h"
 #include "core/job/Parallel.h"
 
 #include <algorithm>
 #include <atomic>
-#include <fmt/format.h>
+#include <numeric>
 #include <optional>
 #include <system_error>
 
@@ -27,35 +24,33 @@ Error cancelled() {
     return {ErrorKind::Cancelled, "the export was cancelled; nothing was written", {}, {}};
 }
 
-Bytes bytesOf(const std::string& text) {
-    const auto bytes = std::as_bytes(std::span(text));
-    return {bytes.begin(), bytes.end()};
-}
-
-// Textures take the time: each is packed and encoded on its own core.
-Result<std::vector<Bytes>> encodeTextures(WorkerClient& worker,
-                                          const std::vector<PackedTexture>& textures,
-                                          const JobContext& job) {
-    std::vector<std::optional<Result<Bytes>>> encoded(textures.size());
+// The files' bytes, by stages; `order`: of the files, stage after stage.
+Result<std::vector<Bytes>> makeAll(WorkerClient& worker, const ExportPlan& plan,
+                                   const std::vector<std::size_t>& order, const JobContext& job) {
+    std::vector<std::optional<Result<Bytes>>> made(order.size());
     std::atomic<std::size_t> done = 0;
-    parallelFor(job, textures.size(), 1, [&](std::size_t begin, std::size_t end) {
+    const auto make = [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            job.setActivity(fmt::format("packing {}", textures[i].name));
-            const Image image = packTexture(textures[i], job);
-            if (!image.empty())
-                encoded[i] = encodeImage(worker, image, textures[i].format);
-            job.setProgress(0.9 * static_cast<double>(++done) /
-                            static_cast<double>(textures.size()));
+            made[i] = plan.files[order[i]].make(worker, job);
+            job.setProgress(0.9 * static_cast<double>(++done) / static_cast<double>(order.size()));
         }
-    });
-    if (job.cancelled())
-        return cancelled();
-    std::vector<Bytes> files;
-    for (std::optional<Result<Bytes>>& file : encoded) {
-        if (!file->ok())
-            return file->error();
-        files.push_back(std::move(**file));
+    };
+    for (std::size_t first = 0; first < order.size();) {
+        std::size_t last = first + 1;
+        while (last < order.size() &&
+               plan.files[order[last]].stage == plan.files[order[first]].stage)
+            ++last;
+        parallelFor(job, last - first, 1,
+                    [&](std::size_t begin, std::size_t end) { make(first + begin, first + end); });
+        if (job.cancelled())
+            return cancelled();
+        for (; first < last; ++first)
+            if (!made[first]->ok())
+                return made[first]->error();
     }
+    std::vector<Bytes> files;
+    for (std::optional<Result<Bytes>>& file : made)
+        files.push_back(std::move(**file));
     return files;
 }
 
@@ -87,81 +82,31 @@ Result<std::vector<fs::path>> writeAll(std::vector<FileToWrite> files, const fs:
     return written;
 }
 
-bool matchesPlan(const ExportPlan& plan, const ExportContents& contents) {
-    const std::size_t own = plan.settings.format == ExportFormat::Glb ? 1 : 2;
-    const std::vector<PackedTexture>& textures = contents.textures.textures;
-    const std::size_t environment = contents.environment != nullptr ? 1 : 0;
-    const std::size_t transfer = contents.transfer != nullptr ? 2 : 0;
-    if (plan.files.size() != own + textures.size() + environment + transfer)
-        return false;
-    for (std::size_t i = 0; i < textures.size(); ++i)
-        if (plan.files[own + i].path != contents.texturePath(plan.settings, textures[i]) ||
-            plan.files[own + i].format != textures[i].formatText())
-            return false;
-    return true;
-}
-
 } // namespace
 
-Result<std::vector<fs::path>> runExport(WorkerClient& worker, const Document& document,
-                                        const ExportPlan& plan, const JobContext& job) {
-    const ExportSettings& settings = plan.settings;
-    const ExportContents contents = gatherContents(document, settings);
-    if (contents.instances.empty())
-        return Error{ErrorKind::Usage,
-                     "there is nothing to export; make at least one mesh visible",
-                     settings.output,
-                     {}};
-    if (!matchesPlan(plan, contents))
-        return Error{ErrorKind::Usage,
-                     "the scene changed after the export was planned; plan it again",
-                     settings.output,
-                     {}};
-
-    Result<std::vector<Bytes>> images = encodeTextures(worker, contents.textures.textures, job);
-    if (!images)
-        return images.error();
-    std::optional<GltfEnvironment> environment;
-    if (contents.environment != nullptr) {
-        Result<GltfEnvironment> encoded = encodeGltfEnvironment(worker, *contents.environment, job);
-        if (!encoded)
-            return encoded.error();
-        environment = std::move(*encoded);
-    }
-    job.setActivity("writing");
-    const bool glb = settings.format == ExportFormat::Glb;
-    Result<GltfOutput> gltf =
-        writeGltf(contents, settings, *images, environment ? &*environment : nullptr);
-    if (!gltf)
-        return gltf.error();
-
+Result<std::vector<fs::path>> runExport(WorkerClient& worker, const ExportPlan& plan,
+                                        const JobContext& job) {
+    if (plan.problem)
+        return *plan.problem;
+    std::vector<std::size_t> order(plan.files.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return plan.files[i].stage; });
+    Result<std::vector<Bytes>> made = makeAll(worker, plan, order, job);
+    if (!made)
+        return made.error();
     std::vector<FileToWrite> files;
-    if (contents.transfer != nullptr) {
-        const fs::path light = contents.transferLightPath(settings);
-        const std::string json = transferLightJson(document, contents.transferLayout, job);
-        files.push_back({light, bytesOf(json)});
-        files.push_back(
-            {contents.transferShaderPath(settings),
-             bytesOf(transferShader(contents.transferLayout, settings.output.filename().string(),
-                                    light.filename().string()))});
-    }
-    if (glb) {
-        files.push_back({settings.output, packGlb(*gltf)});
-    } else {
-        for (std::size_t i = 0; i < images->size(); ++i)
-            files.push_back({contents.texturePath(settings, contents.textures.textures[i]),
-                             std::move((*images)[i])});
-        files.push_back({contents.buffer, std::move(gltf->buffer)});
-        files.push_back({settings.output, bytesOf(gltf->json)});
-    }
+    for (std::size_t i = 0; i < order.size(); ++i)
+        if (const PlannedFile& file = plan.files[order[i]]; !file.embedded)
+            files.push_back({file.path, std::move((*made)[i])});
+    const fs::path& output = plan.settings.output;
     std::uint64_t bytes = 0, largest = 0;
     for (const FileToWrite& file : files) {
         bytes += file.data.size();
         largest = std::max<std::uint64_t>(largest, file.data.size());
     }
-    if (Result<void> fits = checkDiskSpace(settings.output, bytes, largest); !fits)
+    if (Result<void> fits = checkDiskSpace(output, bytes, largest); !fits)
         return fits.error();
-    Result<std::vector<fs::path>> written = writeAll(std::move(files), settings.output, job);
+    Result<std::vector<fs::path>> written = writeAll(std::move(files), output, job);
     if (written)
         job.setProgress(1.0);
     return written;

@@ -11,6 +11,7 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
+#include <QPushButton>
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QTableWidget>
@@ -52,6 +53,25 @@ TEST_F(ExportDialogTest, TheEnvironmentComesAlongWhenTicked) {
 
     QTest::mouseClick(box, Qt::LeftButton, Qt::NoModifier, {8, box->height() / 2});
     EXPECT_EQ(files->rowCount(), before);
+    dialog->reject();
+}
+
+TEST_F(ExportDialogTest, NothingVisibleCannotBeExportedAndSaysWhy) {
+    const std::vector<MeshInstance> meshes = document().meshes;
+    for (const MeshInstance& mesh : meshes)
+        controller().setParameter(*findParameter("mesh.visible"), {Scope::Mesh, mesh.id}, false);
+    QDialog* dialog = openDialog();
+    ASSERT_NE(dialog, nullptr);
+    auto* run = dialog->findChild<QPushButton*>(QStringLiteral("exportRun"));
+    auto* warnings = dialog->findChild<QLabel*>(QStringLiteral("exportWarnings"));
+    ASSERT_TRUE(run && warnings);
+    EXPECT_FALSE(run->isEnabled());
+    EXPECT_TRUE(warnings->text().contains(QStringLiteral("make at least one mesh visible")));
+    auto* all = dialog->findChild<QCheckBox*>(QStringLiteral("exportVisible"));
+    ASSERT_NE(all, nullptr);
+    QTest::mouseClick(all, Qt::LeftButton, Qt::NoModifier, {8, all->height() / 2});
+    EXPECT_TRUE(run->isEnabled());
+    EXPECT_FALSE(warnings->text().contains(QStringLiteral("visible")));
     dialog->reject();
 }
 

@@ -82,8 +82,7 @@ class ExportRun : public testing::Test {
 
 TEST_F(ExportRun, TheFolderHoldsWhatThePlanSays) {
     const ExportPlan plan = planExport(m_document, settings("scene.gltf"));
-    const Result<std::vector<fs::path>> written =
-        runExport(m_worker, m_document, plan, JobContext());
+    const Result<std::vector<fs::path>> written = runExport(m_worker, plan, JobContext());
     ASSERT_TRUE(written.ok()) << written.error().text();
 
     std::set<fs::path> planned;
@@ -110,7 +109,7 @@ TEST_F(ExportRun, TheGlbHoldsWhatThePlanSays) {
     ExportSettings glb = settings("scene.glb");
     glb.textures = ExportTextureFormat::Jpeg;
     const ExportPlan plan = planExport(m_document, glb);
-    ASSERT_TRUE(runExport(m_worker, m_document, plan, JobContext()).ok());
+    ASSERT_TRUE(runExport(m_worker, plan, JobContext()).ok());
     EXPECT_EQ(folderContents(), std::set<fs::path>{m_folder / "scene.glb"});
 
     const Result<Bytes> bytes = readFile(m_folder / "scene.glb", 1 << 20);
@@ -143,7 +142,7 @@ TEST_F(ExportRun, TheGlbHoldsWhatThePlanSays) {
 TEST_F(ExportRun, ReadBackItIsTheSameScene) {
     for (const char* name : {"scene.glb", "scene.gltf"}) {
         const ExportPlan plan = planExport(m_document, settings(name));
-        ASSERT_TRUE(runExport(m_worker, m_document, plan, JobContext()).ok());
+        ASSERT_TRUE(runExport(m_worker, plan, JobContext()).ok());
         const Result<ImportedModel> model = importModel(m_worker, m_folder / name);
         ASSERT_TRUE(model.ok()) << model.error().text();
         EXPECT_THAT(model->missingTextures, IsEmpty());
@@ -202,8 +201,7 @@ TEST_F(ExportRun, EveryInputOfAMaterialIsReadBack) {
     const Material sent = out;
 
     for (const char* name : {"inputs.glb", "inputs.gltf"}) {
-        ASSERT_TRUE(
-            runExport(m_worker, document, planExport(document, settings(name)), JobContext()).ok());
+        ASSERT_TRUE(runExport(m_worker, planExport(document, settings(name)), JobContext()).ok());
         const Result<OpenedScene> opened = openScene(m_worker, m_folder / name);
         ASSERT_TRUE(opened.ok()) << opened.error().text();
         ASSERT_EQ(opened->document.materials.size(), 1u);
@@ -236,8 +234,8 @@ TEST_F(ExportRun, ACancelLeavesNothing) {
     for (const char* name : {"scene.glb", "scene.gltf"}) {
         JobControl control;
         control.cancel();
-        const Result<std::vector<fs::path>> written = runExport(
-            m_worker, m_document, planExport(m_document, settings(name)), control.context());
+        const Result<std::vector<fs::path>> written =
+            runExport(m_worker, planExport(m_document, settings(name)), control.context());
         ASSERT_FALSE(written.ok());
         EXPECT_EQ(written.error().kind, ErrorKind::Cancelled);
         EXPECT_THAT(folderContents(), IsEmpty());
@@ -247,20 +245,32 @@ TEST_F(ExportRun, ACancelLeavesNothing) {
 TEST_F(ExportRun, AFailureTakesItsNewFilesAway) {
     fs::create_directory(m_folder / "scene.bin"); // the geometry cannot be written
     const ExportPlan plan = planExport(m_document, settings("scene.gltf"));
-    const Result<std::vector<fs::path>> written =
-        runExport(m_worker, m_document, plan, JobContext());
+    const Result<std::vector<fs::path>> written = runExport(m_worker, plan, JobContext());
     ASSERT_FALSE(written.ok());
     EXPECT_EQ(written.error().kind, ErrorKind::CannotCreate);
     EXPECT_EQ(folderContents(), std::set<fs::path>{m_folder / "scene.bin"});
 }
 
-TEST_F(ExportRun, AChangedSceneNeedsANewPlan) {
+TEST_F(ExportRun, EditsAfterThePlanAreNotExported) {
+    const auto exported = [&](const ExportPlan& plan) {
+        EXPECT_TRUE(runExport(m_worker, plan, JobContext()).ok());
+        return *readFile(m_folder / "scene.glb", 1 << 20);
+    };
     const ExportPlan plan = planExport(m_document, settings("scene.glb"));
+    const Bytes before = exported(plan);
     m_document.materials[0].normalMap = {};
-    const Result<std::vector<fs::path>> written =
-        runExport(m_worker, m_document, plan, JobContext());
-    ASSERT_FALSE(written.ok());
-    EXPECT_EQ(written.error().kind, ErrorKind::Usage);
+    m_document.meshes.pop_back();
+    EXPECT_EQ(exported(plan), before);
+    EXPECT_NE(exported(planExport(m_document, settings("scene.glb"))), before);
+}
+
+TEST_F(ExportRun, TheExtensionDecidesTheFormat) {
+    EXPECT_EQ(*exportFormatOf("a/scene.GLB"), ExportFormat::Glb);
+    EXPECT_EQ(*exportFormatOf("scene.v2.gltf"), ExportFormat::Gltf);
+    const Result<ExportFormat> unknown = exportFormatOf("scene.usd");
+    ASSERT_FALSE(unknown.ok());
+    EXPECT_EQ(unknown.error().kind, ErrorKind::Usage);
+    EXPECT_THAT(unknown.error().message, HasSubstr(".glb or .gltf"));
 }
 
 TEST_F(ExportRun, HiddenMeshesStayBehind) {
@@ -270,8 +280,8 @@ TEST_F(ExportRun, HiddenMeshesStayBehind) {
     visible.visibleOnly = false;
     EXPECT_GT(planExport(m_document, visible).files.size(), 2u);
     m_document.meshes[1].visible = false;
-    const Result<std::vector<fs::path>> nothing = runExport(
-        m_worker, m_document, planExport(m_document, settings("scene.glb")), JobContext());
+    const Result<std::vector<fs::path>> nothing =
+        runExport(m_worker, planExport(m_document, settings("scene.glb")), JobContext());
     ASSERT_FALSE(nothing.ok());
     EXPECT_EQ(nothing.error().kind, ErrorKind::Usage);
 }
@@ -326,7 +336,7 @@ TEST_F(ExportRun, PunctualLightsComeBackAsTheyWent) {
 
     const ExportPlan plan = planExport(m_document, settings("lights.glb"));
     EXPECT_THAT(plan.warnings, ElementsAre(HasSubstr("no area lights: \"Panel\" is left out")));
-    ASSERT_TRUE(runExport(m_worker, m_document, plan, JobContext()).ok());
+    ASSERT_TRUE(runExport(m_worker, plan, JobContext()).ok());
     Result<ImportedModel> model = importModel(m_worker, m_folder / "lights.glb");
     ASSERT_TRUE(model.ok()) << model.error().text();
     const std::vector<Light> lights = convertModel(std::move(*model), "lights.glb").lights;

@@ -49,7 +49,7 @@ class GltfEnvironmentFile : public testing::Test {
     // Exports and takes the file apart. `light` is the only one.
     void exportAndRead(const std::string& name) {
         const ExportPlan plan = planExport(m_document, settings(name));
-        const auto written = runExport(m_worker, m_document, plan, JobContext());
+        const auto written = runExport(m_worker, plan, JobContext());
         ASSERT_TRUE(written.ok()) << written.error().text();
         if (fs::path(name).extension() == ".glb") {
             const Bytes file = readFile(m_folder / name, 1 << 28).value();
@@ -231,8 +231,8 @@ TEST_F(GltfEnvironmentFile, ACancelWritesNothing) {
     m_document.environment().image = latLong([](const glm::dvec3&) { return glm::dvec3(1.0); });
     JobControl job;
     job.cancel();
-    const auto result = runExport(m_worker, m_document,
-                                  planExport(m_document, settings("scene.glb")), job.context());
+    const auto result =
+        runExport(m_worker, planExport(m_document, settings("scene.glb")), job.context());
     ASSERT_FALSE(result.ok());
     EXPECT_EQ(result.error().kind, ErrorKind::Cancelled);
     EXPECT_THAT(m_folder.files(), IsEmpty());

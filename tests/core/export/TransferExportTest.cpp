@@ -101,7 +101,7 @@ TEST_P(TransferExport, DotProductsOfTheFilesAreOurs) {
     const ExportPlan plan = planExport(scene.document, settings);
     EXPECT_TRUE(plan.warnings.empty()) << plan.warnings.front();
     ASSERT_EQ(plan.files.size(), 3u);
-    const auto written = runExport(worker, scene.document, plan, JobContext());
+    const auto written = runExport(worker, plan, JobContext());
     ASSERT_TRUE(written.ok()) << written.error().text();
     EXPECT_EQ(written->size(), 3u);
 
@@ -155,7 +155,7 @@ TEST_P(TransferExport, DotProductsOfTheFilesAreOurs) {
     settings.includeTransfer = false;
     settings.output = folder / "plain.glb";
     const ExportPlan plain = planExport(scene.document, settings);
-    ASSERT_TRUE(runExport(worker, scene.document, plain, JobContext()).ok());
+    ASSERT_TRUE(runExport(worker, plain, JobContext()).ok());
     const Result<ImportedModel> without = importModel(worker, folder / "plain.glb");
     ASSERT_TRUE(without.ok()) << without.error().text();
     EXPECT_THAT(without->warnings, testing::IsEmpty());

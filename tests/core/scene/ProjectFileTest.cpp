@@ -91,7 +91,7 @@ TEST_F(ProjectFile, EmbeddedImagesAreReadFromTheirModel) {
     Document document = open(writeModel()).document;
     ExportSettings settings;
     settings.output = m_folder / "pair.glb";
-    const auto written = runExport(m_worker, document, planExport(document, settings), {});
+    const auto written = runExport(m_worker, planExport(document, settings), {});
     ASSERT_TRUE(written.ok()) << written.error().text();
 
     const OpenedScene glb = open(settings.output.string());
