@@ -46,6 +46,7 @@ Result<void> run(Session& session, const ExportOptions& options) {
     settings.includeTransfer = !options.noTransfer;
     settings.transferBands = options.transferBands;
     settings.includeLights = !options.noLights;
+    settings.visibleOnly = !options.hidden;
     settings.includeEnvironment = options.environmentLight || !options.environment.empty();
 
     Report& report = session.report();
@@ -56,6 +57,7 @@ Result<void> run(Session& session, const ExportOptions& options) {
                                  {"transfer", settings.includeTransfer},
                                  {"transferBands", settings.transferBands},
                                  {"lights", settings.includeLights},
+                                 {"hidden", options.hidden},
                                  {"environmentLight", settings.includeEnvironment}};
     session.beginPhase();
     SceneRequest request{options.scene, options.environment, options.environmentLayout,

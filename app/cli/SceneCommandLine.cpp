@@ -171,6 +171,7 @@ void CommandParser::addExport() {
                       "Environment in place of the scene's; implies --environment-light")
             ->type_name("HDR");
     addLayout(c, o.environmentLayout)->needs(environment);
+    c->add_flag("--hidden", o.hidden, "Take hidden meshes along");
     c->add_flag("--no-lights", o.noLights, "Leave the lights out");
     c->add_flag("--dry-run", o.dryRun, "Say what would be written, and write nothing");
     addSets(c);

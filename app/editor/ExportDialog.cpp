@@ -5,6 +5,8 @@
 #include "app/editor/job/JobManager.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/OutputFile.h"
+#include "core/edit/Edit.h"
+#include "core/export/TransferExport.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -143,6 +145,13 @@ QWidget* ExportDialog::makeSettings() {
         new QCheckBox(tr("Radiance transfer as vertex attributes _PRT_n")),
         tr("Uses the attached radiance transfer bake per vertex; writes the light as JSON and a "
            "shader that multiplies the two"));
+    m_bands = withHelp(new QComboBox,
+                       tr("Fewer bands take fewer vertex attributes and have softer shadows"));
+    m_bands->setObjectName(QStringLiteral("exportBands"));
+    m_bands->addItem(tr("All"), 0);
+    const BakeArtifactPtr transfer = findBake(m_controller.document(), BakeKind::PrtVertex);
+    for (int bands = transfer ? transferLayout(*transfer, 0).bands - 1 : 0; bands > 0; --bands)
+        m_bands->addItem(tr("The first %1").arg(bands), bands);
     m_lights = withHelp(new QCheckBox(tr("Lights (KHR_lights_punctual)")),
                         tr("Writes point and directional lights"));
     m_visible = withHelp(new QCheckBox(tr("Visible meshes only")), tr("Leaves hidden meshes out"));
@@ -155,8 +164,14 @@ QWidget* ExportDialog::makeSettings() {
         box->setChecked(box != m_environment);
         form->addRow(QString(), box);
         connect(box, &QCheckBox::toggled, this, &ExportDialog::refresh);
+        if (box == m_transfer)
+            form->addRow(tr("Transfer &bands"), m_bands);
     }
+    // What no bake is there for is not asked.
+    form->setRowVisible(m_bands, transfer != nullptr);
+    connect(m_transfer, &QCheckBox::toggled, m_bands, &QWidget::setEnabled);
 
+    connect(m_bands, &QComboBox::currentIndexChanged, this, &ExportDialog::refresh);
     connect(m_textures, &QComboBox::currentIndexChanged, this, &ExportDialog::refresh);
     connect(m_size, &QComboBox::currentIndexChanged, this, &ExportDialog::refresh);
     return widget;
@@ -170,6 +185,7 @@ ExportSettings ExportDialog::settings() const {
     settings.maxTextureSize = m_size->currentData().toInt();
     settings.includeBakedAo = m_bakedAo->isChecked();
     settings.includeTransfer = m_transfer->isChecked();
+    settings.transferBands = m_bands->currentData().toInt();
     settings.includeLights = m_lights->isChecked();
     settings.includeEnvironment = m_environment->isChecked();
     settings.visibleOnly = m_visible->isChecked();

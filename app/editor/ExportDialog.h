@@ -39,6 +39,7 @@ class ExportDialog : public QDialog {
     QComboBox* m_size = nullptr;
     QCheckBox* m_bakedAo = nullptr;
     QCheckBox* m_transfer = nullptr;
+    QComboBox* m_bands = nullptr; // of the transfer
     QCheckBox* m_lights = nullptr;
     QCheckBox* m_environment = nullptr;
     QCheckBox* m_visible = nullptr;

@@ -188,6 +188,22 @@ TEST_F(Commands, ExportPlansWithoutWriting) {
     EXPECT_EQ(outcome.json()["files"][1]["path"], m_folder / "ball.bin");
 }
 
+TEST_F(Commands, ExportTakesHiddenMeshesAlongWhenAsked) {
+    const auto plan = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments = {
+            "export", "builtin:sphere",     "-o",     m_folder / "ball.glb",
+            "--set",  "mesh.visible=false", "--json", "--dry-run"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runPatina(arguments);
+    };
+    const Outcome nothing = plan({});
+    EXPECT_EQ(nothing.status, 2);
+    EXPECT_THAT(nothing.err, HasSubstr("make at least one mesh visible"));
+    const Outcome hidden = plan({"--hidden"});
+    EXPECT_EQ(hidden.status, 0) << hidden.err;
+    EXPECT_EQ(hidden.json()["settings"]["hidden"], true);
+}
+
 TEST_F(Commands, ExportTakesTheEnvironmentAlongWhenAsked) {
     const auto plan = [&](std::vector<std::string> more) {
         std::vector<std::string> arguments = {

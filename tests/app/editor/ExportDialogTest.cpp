@@ -4,8 +4,11 @@
 #include "tests/support/Events.h"
 
 #include "app/editor/Actions.h"
+#include "core/bake/Bake.h"
+#include "core/bake/document/DocumentBakeInputs.h"
 
 #include <QCheckBox>
+#include <QComboBox>
 #include <QDialog>
 #include <QDir>
 #include <QHeaderView>
@@ -73,6 +76,39 @@ TEST_F(ExportDialogTest, NothingVisibleCannotBeExportedAndSaysWhy) {
     EXPECT_TRUE(run->isEnabled());
     EXPECT_FALSE(warnings->text().contains(QStringLiteral("visible")));
     dialog->reject();
+}
+
+TEST_F(ExportDialogTest, BandsOfATransferAreChosenWhereThereIsOne) {
+    const auto bands = [](QDialog* dialog) {
+        return dialog->findChild<QComboBox*>(QStringLiteral("exportBands"));
+    };
+    QDialog* without = openDialog();
+    ASSERT_NE(without, nullptr);
+    EXPECT_FALSE(bands(without)->isVisible());
+    without->reject();
+
+    auto bake = std::make_shared<BakeArtifact>();
+    bake->kind = BakeKind::PrtVertex;
+    bake->order = 3;
+    bake->inputs = hashBakeInputs(bakeInputs(document()));
+    for (const MeshInstance& mesh : document().meshes)
+        bake->vertices.push_back(
+            {mesh.id, 9, std::vector<float>(9 * mesh.mesh->vertexCount(), 0.25f)});
+    controller().attachBake(bake);
+    QDialog* dialog = openDialog();
+    ASSERT_NE(dialog, nullptr);
+    ASSERT_TRUE(bands(dialog)->isVisible());
+    const auto lists = [&](const QString& text) {
+        const auto* files = dialog->findChild<QTableWidget*>(QStringLiteral("exportFiles"));
+        return !files->findItems(text, Qt::MatchContains).isEmpty();
+    };
+    EXPECT_TRUE(lists(QStringLiteral("3 bands")));
+    bands(dialog)->setFocus();
+    QTest::keyClick(bands(dialog), Qt::Key_Down);
+    EXPECT_EQ(bands(dialog)->currentText(), QStringLiteral("The first 2"));
+    EXPECT_TRUE(lists(QStringLiteral("2 bands")));
+    dialog->reject();
+    controller().removeBake(BakeKind::PrtVertex);
 }
 
 // A scene whose textures are damaged has a warning for each.
