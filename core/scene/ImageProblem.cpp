@@ -39,6 +39,13 @@ std::string problemWord(std::string_view problem) {
     return "damaged";
 }
 
+std::string environmentProblem(const Environment& environment) {
+    if (environment.kind != EnvironmentKind::Image || environment.problem.empty())
+        return {};
+    return fmt::format("{} is {}", std::filesystem::path(environment.source).filename().string(),
+                       problemWord(environment.problem));
+}
+
 std::vector<std::string> damagedMaps(const Document& document) {
     std::vector<std::string> sources;
     for (const Material& material : document.materials)

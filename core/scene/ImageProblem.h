@@ -13,6 +13,9 @@ namespace patina {
 // file, "unreadable" where it may not be read, else "damaged".
 [[nodiscard]] std::string problemWord(std::string_view problem);
 
+// "night.hdr is missing"; empty where the environment shows its file, or none.
+[[nodiscard]] std::string environmentProblem(const Environment& environment);
+
 // Sources of the maps that are there and could not be read, each once, in the order of materials.
 [[nodiscard]] std::vector<std::string> damagedMaps(const Document& document);
 

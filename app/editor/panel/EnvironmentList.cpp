@@ -6,8 +6,10 @@
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/ListButton.h"
+#include "app/editor/widget/ListItems.h"
 #include "core/document/EnvironmentTitle.h"
 #include "core/library/Library.h"
+#include "core/scene/ImageProblem.h"
 
 #include <QFileDialog>
 #include <QHBoxLayout>
@@ -17,19 +19,8 @@
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <QVBoxLayout>
-#include <algorithm>
 
 namespace patina::editor {
-namespace {
-
-constexpr int kShownRows = 4; // more scroll
-
-Id idOf(const QListWidgetItem& item) {
-    return item.data(Qt::UserRole).toUInt();
-}
-
-} // namespace
-
 QString EnvironmentList::titleOf(const Environment& environment) {
     return QString::fromStdString(environmentTitle(environment));
 }
@@ -129,51 +120,32 @@ void EnvironmentList::openImage() {
     m_controller.addEnvironment(file, DocumentController::EnvironmentUse::Light);
 }
 
-// The environment's item, at this row.
-QListWidgetItem* EnvironmentList::placed(Id environment, int row) {
-    int from = row;
-    while (from < m_list->count() && idOf(*m_list->item(from)) != environment)
-        ++from;
-    if (from == row && from < m_list->count())
-        return m_list->item(row);
-    QListWidgetItem* item = m_list->takeItem(from); // null: none yet
-    if (!item) {
-        item = new QListWidgetItem;
-        item->setData(Qt::UserRole, environment);
-        // Once: setting flags brings the old name back into an open editor.
-        item->setFlags(item->flags() | Qt::ItemIsEditable);
-    }
-    m_list->insertItem(row, item);
-    return item;
-}
-
 void EnvironmentList::refresh() {
     const Document& document = m_controller.document();
     m_refreshing = true;
-    // An item stays with its environment, and so does the name that is being typed into it.
-    for (int row = m_list->count() - 1; row >= 0; --row)
-        if (!document.environment(idOf(*m_list->item(row))))
-            delete m_list->takeItem(row);
+    removeItems(*m_list, [&](Id id) { return !document.environment(id); });
     int current = 0;
     for (int row = 0; row < static_cast<int>(document.environments.size()); ++row) {
         const Environment& environment = document.environments[static_cast<std::size_t>(row)];
-        QListWidgetItem* item = placed(environment.id, row);
+        QListWidgetItem* item = placeItem(*m_list, environment.id, row, Qt::ItemIsEditable);
         const bool second = environment.id == document.mix.second;
         item->setText(titleOf(environment));
-        item->setToolTip(second ? tr("The second environment of the cross-fade")
+        const QString problem = QString::fromStdString(environmentProblem(environment));
+        item->setToolTip(!problem.isEmpty() ? tr("%1; a neutral grey stands in").arg(problem)
+                         : second           ? tr("The second environment of the cross-fade")
                          : environment.id == document.mix.first
                              ? tr("The environment that lights the scene")
                              : tr("Light the scene with it"));
-        item->setIcon(icon(second ? QStringLiteral("mixer") : QStringLiteral("environment")));
+        item->setIcon(!problem.isEmpty()
+                          ? icon(QStringLiteral("warning"), tokens::kCopper)
+                          : icon(second ? QStringLiteral("mixer") : QStringLiteral("environment")));
         if (environment.id == document.mix.first)
             current = row;
     }
     m_list->setCurrentRow(current);
     const bool several = document.environments.size() > 1;
     m_list->setVisible(several);
-    if (several)
-        m_list->setFixedHeight(std::min(m_list->count(), kShownRows) * m_list->sizeHintForRow(0) +
-                               2 * m_list->frameWidth() + 6);
+    fitHeight(*m_list);
     m_remove->setEnabled(several);
     m_refreshing = false;
 }

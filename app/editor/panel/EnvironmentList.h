@@ -29,7 +29,6 @@ class EnvironmentList : public QWidget {
     void fillAdd(QMenu& menu);
     void openImage();
     void refresh();
-    [[nodiscard]] QListWidgetItem* placed(Id environment, int row);
 
     DocumentController& m_controller;
     QListWidget* m_list;

@@ -218,7 +218,8 @@ void EnvironmentPanel::refresh() {
     m_gallery->setCurrent(source);
     m_source->setText(MapSlotWidget::sourceTitle(environment.source));
     const bool broken = !environment.problem.empty();
-    m_source->setToolTip(broken ? QString::fromStdString(environment.problem) : source);
+    m_source->setToolTip(
+        broken ? source + QLatin1Char('\n') + QString::fromStdString(environment.problem) : source);
     QPalette colors = m_source->palette();
     colors.setColor(QPalette::WindowText, QColor(broken ? tokens::kCopper : tokens::kTextDim));
     m_source->setPalette(colors);

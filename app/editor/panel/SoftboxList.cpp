@@ -5,6 +5,7 @@
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/ListButton.h"
+#include "app/editor/widget/ListItems.h"
 #include "core/edit/EditSession.h"
 #include "core/library/SoftboxRigs.h"
 
@@ -17,16 +18,6 @@
 #include <algorithm>
 
 namespace patina::editor {
-namespace {
-
-constexpr int kShownRows = 4; // more scroll
-
-Id idOf(const QListWidgetItem& item) {
-    return item.data(Qt::UserRole).toUInt();
-}
-
-} // namespace
-
 SoftboxList::SoftboxList(DocumentController& controller, Thumbnails& thumbnails, QWidget* parent)
     : QWidget(parent)
     , m_controller(controller)
@@ -144,24 +135,6 @@ void SoftboxList::remove(Id softbox) {
     select(next);
 }
 
-// The softbox's item, at this row.
-QListWidgetItem* SoftboxList::placed(Id softbox, int row) {
-    int from = row;
-    while (from < m_list->count() && idOf(*m_list->item(from)) != softbox)
-        ++from;
-    if (from == row && from < m_list->count())
-        return m_list->item(row);
-    QListWidgetItem* item = m_list->takeItem(from); // null: none yet
-    if (!item) {
-        item = new QListWidgetItem;
-        item->setData(Qt::UserRole, softbox);
-        // Once: setting flags brings the old name back into an open editor.
-        item->setFlags(item->flags() | Qt::ItemIsEditable | Qt::ItemIsUserCheckable);
-    }
-    m_list->insertItem(row, item);
-    return item;
-}
-
 void SoftboxList::refresh() {
     const std::vector<Softbox>& softboxes = m_controller.document().environment().softboxes;
     if (!m_controller.document().softbox(m_selected) && m_selected != 0) {
@@ -169,14 +142,12 @@ void SoftboxList::refresh() {
         Q_EMIT selectionChanged();
     }
     m_refreshing = true;
-    // An item stays with its softbox, and so does the name that is being typed into it.
-    for (int row = m_list->count() - 1; row >= 0; --row)
-        if (!m_controller.document().softbox(idOf(*m_list->item(row))))
-            delete m_list->takeItem(row);
+    removeItems(*m_list, [&](Id id) { return !m_controller.document().softbox(id); });
     int current = -1;
     for (int row = 0; row < static_cast<int>(softboxes.size()); ++row) {
         const Softbox& softbox = softboxes[static_cast<std::size_t>(row)];
-        QListWidgetItem* item = placed(softbox.id, row);
+        QListWidgetItem* item =
+            placeItem(*m_list, softbox.id, row, Qt::ItemIsEditable | Qt::ItemIsUserCheckable);
         item->setText(QString::fromStdString(softbox.name));
         item->setCheckState(softbox.enabled ? Qt::Checked : Qt::Unchecked);
         if (softbox.id == m_selected)
@@ -185,9 +156,7 @@ void SoftboxList::refresh() {
     m_list->setCurrentRow(current);
     const bool any = m_selected != 0;
     m_list->setVisible(!softboxes.empty());
-    if (!softboxes.empty())
-        m_list->setFixedHeight(std::min(m_list->count(), kShownRows) * m_list->sizeHintForRow(0) +
-                               2 * m_list->frameWidth() + 6);
+    fitHeight(*m_list);
     m_parameters->setVisible(any);
     m_duplicate->setEnabled(any);
     m_remove->setEnabled(any);

@@ -33,7 +33,6 @@ class SoftboxList : public QWidget {
   private:
     [[nodiscard]] QWidget* makeButtons();
     void refresh();
-    [[nodiscard]] QListWidgetItem* placed(Id softbox, int row);
 
     DocumentController& m_controller;
     Id m_selected = 0;

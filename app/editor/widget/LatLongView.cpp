@@ -3,6 +3,7 @@
 #include "app/editor/style/FocusRing.h"
 #include "app/editor/style/Tokens.h"
 #include "core/light/LatLongGrid.h"
+#include "core/scene/ImageProblem.h"
 
 #include <QKeyEvent>
 #include <QMouseEvent>
@@ -407,7 +408,10 @@ void LatLongView::paintEvent(QPaintEvent*) {
     painter.save();
     painter.setClipPath(frame);
     painter.fillRect(area, QColor(tokens::kWell));
-    if (!m_picture.isNull())
+    const QString problem = QString::fromStdString(environmentProblem(m_environment));
+    if (!problem.isEmpty())
+        paintHint(painter, tr("%1; a neutral grey stands in").arg(problem));
+    else if (!m_picture.isNull())
         painter.drawImage(area, rolled(m_picture, shown.shift() / area.width()));
     paintCompass(painter);
     if (m_environment.kind == EnvironmentKind::Sky)
@@ -520,7 +524,8 @@ void LatLongView::paintSoftboxes(QPainter& painter) const {
 void LatLongView::paintHint(QPainter& painter, const QString& text) const {
     painter.setFont(font());
     painter.setPen(QColor(tokens::kTextDim));
-    painter.drawText(map().area().adjusted(0, 0, 0, -20), Qt::AlignCenter, text);
+    painter.drawText(map().area().adjusted(8, 0, -8, -20), Qt::AlignCenter | Qt::TextWordWrap,
+                     text);
 }
 
 } // namespace patina::editor

@@ -10,6 +10,7 @@
 #include "app/editor/widget/LatLongView.h"
 #include "app/editor/widget/RecentSkies.h"
 #include "app/editor/widget/SkyGallery.h"
+#include "core/base/InputFile.h"
 #include "core/edit/EditSession.h"
 #include "core/library/SoftboxRigs.h"
 #include "core/light/GeneratedEnvironment.h"
@@ -553,6 +554,31 @@ TEST_F(EnvironmentPanelTest, TheSceneHoldsSeveralEnvironments) {
     EXPECT_EQ(document().environments.size(), 1u);
     EXPECT_EQ(environment(), before);
     EXPECT_TRUE(list.isHidden());
+}
+
+TEST_F(EnvironmentPanelTest, AMissingFileIsSaid) {
+    const QListWidget& list = *panel().findChild<EnvironmentList*>()->list();
+    const QImage shown = view().grab().toImage();
+    controller().editStructure(QStringLiteral("lose it"), [](Document& edited) {
+        Environment lost = edited.environment();
+        lost.id = edited.takeId();
+        lost.source = "/lost/night.hdr";
+        lost.problem = kNoSuchFile;
+        edited.mix.first = lost.id;
+        edited.environments.push_back(std::move(lost));
+    });
+    QApplication::processEvents();
+    const QString said = QStringLiteral("night.hdr is missing; a neutral grey stands in");
+    ASSERT_EQ(list.count(), 2);
+    EXPECT_EQ(list.item(1)->toolTip(), said);
+    EXPECT_NE(list.item(0)->toolTip(), said);
+    EXPECT_NE(view().grab().toImage(), shown);
+    EXPECT_TRUE(
+        eventually([&] { return list.geometry().bottom() < list.parentWidget()->height(); }));
+    if (const QString shots = qEnvironmentVariable("PATINA_SCREENSHOTS"); !shots.isEmpty())
+        panel().grab().save(shots + QStringLiteral("/environment-missing.png"));
+    controller().undoStack().undo();
+    EXPECT_EQ(list.count(), 1);
 }
 
 // Its full picture is still under way when it is removed.
