@@ -79,8 +79,8 @@ Result<std::pair<Json, std::string>> describePart(const ImagePart& part, const B
             text += colored ? ", coloured bounces" : ", grey bounces";
         json["sky"] = hasChannel(part.image, "sky");
         json["error"] = hasChannel(part.image, "error");
-        if (hasChannel(part.image, "sky"))
-            text += ", sky visibility";
+        if (!hasChannel(part.image, "sky"))
+            text += ", nothing for the view Sky Visibility";
         if (hasChannel(part.image, "error"))
             text += ", error estimates";
     }
