@@ -5,7 +5,8 @@
 
 namespace patina::cli {
 
-// Of the folder PATINA_LIGHT_CACHE, where one is named, or else computed, and kept there.
+// Computed, and kept for the next time where the editor keeps it, too (~/.cache/Patina/Patina/ibl),
+// or in the folder PATINA_LIGHT_CACHE; nowhere where that is empty.
 // `environment`: as computeIbl() takes it. Errors: Cancelled.
 Result<IblMaps> prepareLight(const Image& environment, const JobContext& job);
 

@@ -52,7 +52,7 @@ Outcome runPatina(const std::vector<std::string>& arguments, const RunOptions& o
         ::dup2(out[1], STDOUT_FILENO);
         ::dup2(err[1], STDERR_FILENO);
         for (const auto& [name, value] : options.environment)
-            ::setenv(name.c_str(), value.c_str(), 1);
+            value ? ::setenv(name.c_str(), value->c_str(), 1) : ::unsetenv(name.c_str());
         ::execv(program.c_str(), argv.data());
         ::_exit(127);
     }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,10 @@ struct Outcome {
 };
 
 struct RunOptions {
-    std::map<std::string, std::string> environment; // on top of the test's own
-    std::string program;                            // empty: the one in $PATINA_BIN_DIR
-    int signal = 0;                                 // sent when `signalWhen` appears on stderr
+    // On top of the test's own; null: without that variable
+    std::map<std::string, std::optional<std::string>> environment;
+    std::string program; // empty: the one in $PATINA_BIN_DIR
+    int signal = 0;      // sent when `signalWhen` appears on stderr
     std::string signalWhen;
     std::function<void()> when; // called at that moment instead of sending a signal
 };

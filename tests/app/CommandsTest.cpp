@@ -340,6 +340,21 @@ TEST_F(Commands, RenderFindsLightThatWasKept) {
     EXPECT_EQ(kept(), files);
 }
 
+TEST_F(Commands, LightIsKeptWhereTheEditorKeepsIt) {
+    const std::string home = m_folder / "home", cache = m_folder / "cache";
+    for (const auto& [xdg, folder] :
+         {std::pair(std::optional<std::string>(cache), cache + "/Patina/Patina/ibl"),
+          std::pair(std::optional<std::string>(), home + "/.cache/Patina/Patina/ibl")}) {
+        RunOptions options;
+        options.environment = {
+            {"PATINA_LIGHT_CACHE", std::nullopt}, {"XDG_CACHE_HOME", xdg}, {"HOME", home}};
+        const Outcome outcome = runPatina({"info", "builtin:studio", "--light"}, options);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        ASSERT_TRUE(std::filesystem::is_directory(folder)) << folder;
+        EXPECT_FALSE(std::filesystem::is_empty(folder));
+    }
+}
+
 TEST_F(Commands, RenderWritesLinearFloats) {
     const Outcome outcome =
         runPatina({"render", "builtin:sphere", "-o", m_folder / "a.exr", "--size", "32x32",
