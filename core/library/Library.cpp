@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <string>
@@ -16,29 +17,36 @@ namespace patina::library {
 
 namespace {
 
-// What has been made, by name. The library's content never changes, so that keeping it is no
-// hidden state: a caller cannot tell a cached entry from a new one but by the time it takes. No
-// lock is held while an entry is made (making it runs a parallel loop, whose waiting thread may
-// pick up a task that asks for the same entry): two threads may make the same bytes, the first
-// stays.
+// What has been made, by name, for as long as somebody uses it. The library's content never
+// changes, so that keeping it is no hidden state: a caller cannot tell a cached entry from a new
+// one but by the time it takes. No lock is held while an entry is made (making it runs a parallel
+// loop, whose waiting thread may pick up a task that asks for the same entry): two threads may make
+// the same bytes, the first stays.
 template <class Value>
 class Cache {
   public:
+    using Pointer = std::shared_ptr<const Value>;
+
     template <class Make>
-    Value get(const std::string& name, const Make& make) {
+    Pointer get(const std::string& name, const Make& make) {
         {
             const std::lock_guard lock(m_mutex);
             if (const auto found = m_values.find(name); found != m_values.end())
-                return found->second;
+                if (Pointer used = found->second.lock())
+                    return used;
         }
-        Value value = make();
+        Pointer made = make();
         const std::lock_guard lock(m_mutex);
-        return m_values.emplace(name, std::move(value)).first->second;
+        std::weak_ptr<const Value>& kept = m_values[name];
+        if (Pointer used = kept.lock())
+            return used;
+        kept = made;
+        return made;
     }
 
   private:
     std::mutex m_mutex;
-    std::map<std::string, Value> m_values;
+    std::map<std::string, std::weak_ptr<const Value>> m_values;
 };
 
 template <class Recipe>
@@ -67,9 +75,18 @@ Error unknown(const char* kind, std::string_view name, const std::vector<Entry>&
             {}};
 }
 
+// Whoever holds one of the maps holds all: they are made together.
 SurfaceMaps mapsOf(const MaterialRecipe& recipe) {
     static Cache<SurfaceMaps> cache;
-    return cache.get(recipe.name, [&] { return finishSurface(recipe.make()); });
+    const auto maps = cache.get(recipe.name, [&] {
+        return std::make_shared<const SurfaceMaps>(finishSurface(recipe.make()));
+    });
+    SurfaceMaps result = *maps;
+    for (ImagePtr* map : {&result.baseColor, &result.metallic, &result.perceptualRoughness,
+                          &result.normal, &result.occlusion})
+        if (*map)
+            *map = ImagePtr(maps, map->get());
+    return result;
 }
 
 } // namespace
@@ -94,14 +111,19 @@ Result<std::vector<ModelPart>> model(const std::string& name) {
     if (!recipe)
         return unknown("model", name, models());
     static Cache<std::vector<ModelPart>> cache;
-    return cache.get(name, recipe->make);
+    const auto parts = cache.get(
+        name, [&] { return std::make_shared<const std::vector<ModelPart>>(recipe->make()); });
+    std::vector<ModelPart> result = *parts;
+    for (ModelPart& part : result) // whoever holds one of the meshes holds all
+        part.mesh = MeshPtr(parts, part.mesh.get());
+    return result;
 }
 
 Result<ImagePtr> environment(const std::string& name) {
     const SkyRecipe* recipe = find(skyRecipes(), name);
     if (!recipe)
         return unknown("environment", name, environments());
-    static Cache<ImagePtr> cache;
+    static Cache<Image> cache;
     return cache.get(name, [&] { return recipe->make(recipe->whiteFacingUp); });
 }
 

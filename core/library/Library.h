@@ -1,5 +1,6 @@
 // The built-in library: meshes, skies and materials made by Patina's own code, so that nothing has
-// to be downloaded. Deterministic: the same name gives the same bytes on every machine.
+// to be downloaded. Deterministic: the same name gives the same bytes on every machine, and the same
+// pointers for as long as somebody holds one of them.
 #pragma once
 
 #include "core/base/Result.h"
@@ -33,8 +34,7 @@ struct ModelPart {
     std::string materialName; // parts with the same name share a material
     Material material;        // its default look (id 0)
 };
-// Usage error listing the names when there is none such. Cached: the second call returns the same
-// pointers.
+// Usage error listing the names when there is none such.
 Result<std::vector<ModelPart>> model(const std::string& name);
 
 // Lat-long F32 RGB, 1024 × 512, conventions of patina::Environment.

@@ -66,6 +66,25 @@ TEST(Library, ReturnsTheSamePayloadsTheSecondTime) {
               library::material("wood").value().normalMap.image);
 }
 
+TEST(Library, KeepsWhatSomebodyUsesAndNothingElse) {
+    ImagePtr sky = library::environment("night").value();
+    const std::weak_ptr<const Image> lastSky = sky;
+    sky.reset();
+    EXPECT_TRUE(lastSky.expired());
+
+    ImagePtr color = library::map("leather/baseColor").value();
+    const std::weak_ptr<const Image> normal = library::map("leather/normal").value();
+    EXPECT_FALSE(normal.expired()) << "made together, and one is in use";
+    color.reset();
+    EXPECT_TRUE(normal.expired());
+
+    MeshPtr part = library::model("cornell-box").value().front().mesh;
+    const std::weak_ptr<const Mesh> other = library::model("cornell-box").value().back().mesh;
+    EXPECT_FALSE(other.expired());
+    part.reset();
+    EXPECT_TRUE(other.expired());
+}
+
 TEST(Library, ServesManyThreadsAtOnce) {
     std::vector<ImagePtr> images(6);
     std::vector<std::thread> threads;
