@@ -1,5 +1,6 @@
 // Frame time of the built-in start scene at 1280 × 720 on whatever draws here (llvmpipe without a
 // GPU), with and without image-based light, multisampling and overlays.
+#include "core/document/ViewChoices.h"
 #include "core/math/Camera.h"
 #include "core/scene/Scene.h"
 #include "render/SceneRenderer.h"
@@ -10,6 +11,7 @@
 
 #include <benchmark/benchmark.h>
 #include <chrono>
+#include <ctime>
 #include <epoxy/gl.h>
 #include <memory>
 
@@ -83,6 +85,57 @@ BENCHMARK_CAPTURE(drawFrames, ibl_4x, true, 4, false)
 BENCHMARK_CAPTURE(drawFrames, ibl_4x_overlays, true, 4, true)
     ->MeasureProcessCPUTime()
     ->Unit(benchmark::kMillisecond);
+
+// Two views over one scene, each with its camera, lighting and target: what both cost drawn in
+// turns over the sum of each drawn alone. An iteration is all three; milliseconds of all threads.
+void twoViews(benchmark::State& state) {
+    const auto stage = makeStage(true);
+    if (!stage) {
+        state.SkipWithError("no OpenGL 4.5");
+        return;
+    }
+    FrameSettings left;
+    left.width = 640;
+    left.height = 720;
+    left.samples = 1;
+    left.camera =
+        frameBounds(stage->document.view.camera, stage->document.bounds(), 640.0f / 720.0f);
+    FrameSettings right = left;
+    right.camera.yawDeg += 60.0f;
+    right.look = stage->document.view;
+    right.look->background = BackgroundMode::Blurred;
+    ViewRenderer second(*stage->scene);
+    const auto draw = [&](ViewRenderer& view, const FrameSettings& frame) {
+        timespec begin{}, end{};
+        clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &begin);
+        if (!view.render(frame, 0))
+            state.SkipWithError("rendering failed");
+        benchmark::DoNotOptimize(view.pick(0, 0)); // waits for the frame
+        clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &end);
+        return 1e3 * static_cast<double>(end.tv_sec - begin.tv_sec) +
+               1e-6 * static_cast<double>(end.tv_nsec - begin.tv_nsec);
+    };
+    constexpr int kFrames = 5;
+    double leftMs = 0.0, rightMs = 0.0, bothMs = 0.0;
+    for (auto _ : state) {
+        draw(*stage->renderer, left); // what was drawn last was another
+        for (int i = 0; i < kFrames; ++i)
+            leftMs += draw(*stage->renderer, left);
+        draw(second, right);
+        for (int i = 0; i < kFrames; ++i)
+            rightMs += draw(second, right);
+        for (int i = 0; i < kFrames; ++i) {
+            bothMs += draw(*stage->renderer, left);
+            bothMs += draw(second, right);
+        }
+    }
+    const double frames = kFrames * static_cast<double>(state.iterations());
+    state.counters["left_ms"] = leftMs / frames;
+    state.counters["right_ms"] = rightMs / frames;
+    state.counters["both_ms"] = bothMs / frames;
+    state.counters["both_over_sum"] = bothMs / (leftMs + rightMs);
+}
+BENCHMARK(twoViews)->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond)->Iterations(10);
 
 // What looking at one pixel costs: which mesh lies there, and every number of the equation.
 void lookAtPixel(benchmark::State& state, bool everything) {
