@@ -1,7 +1,7 @@
 #version 450 core
 // Scene-linear radiance to display values: exposure, tone curve, the display's transfer function.
 // TONE_MAP is one of kToneMap…: software renderers execute both sides of a branch, so that each
-// curve is a program of its own.
+// curve is a program of its own. OPEN_COLOR_IO: what OpenColorIO makes of a configuration instead.
 #include "include/exposure.glsl"
 #include "include/side.glsl"
 
@@ -17,7 +17,7 @@ uniform int u_markClipped; // marks instead of the picture
 
 layout(location = 0) out vec4 o_color; // straight alpha
 
-#if TONE_MAP == 7
+#ifdef OPEN_COLOR_IO
 vec4 ocioDisplay(vec4 pixel); // OpenColorIO's text follows below
 
 vec3 displayed(vec3 exposed) {
@@ -31,10 +31,11 @@ vec3 displayed(vec3 exposed) {
     t.scale = 1.0;
     t.white = u_reinhardWhite;
     t.k = u_exponentialK;
-#if TONE_MAP == 2
-    float key = u_autoKey != 0 ? reinhardAutoKey(u_adapted, u_darkest, u_brightest) : u_reinhardKey;
-    t.scale = key / u_adapted;
-#endif
+    if (TONE_MAP == kToneMapReinhardPhotographic) {
+        float key =
+            u_autoKey != 0 ? reinhardAutoKey(u_adapted, u_darkest, u_brightest) : u_reinhardKey;
+        t.scale = key / u_adapted;
+    }
     return displayEncode(toneMap(exposed, t), u_transfer, u_gamma);
 }
 #endif

@@ -1,7 +1,6 @@
 #include "render/pass/DisplayProgram.h"
 
 #include "core/document/Document.h"
-#include "core/document/ViewChoices.h"
 #include "render/shader/ShaderSources.h"
 
 #include <array>
@@ -30,8 +29,7 @@ gl::Texture makeTable(gl::Context& context, const DisplayTransform::Table& table
 
 Result<DisplayProgram> DisplayProgram::create(gl::Context& context,
                                               const DisplayTransform& transform) {
-    const std::array<std::string, 1> defines{
-        fmt::format("TONE_MAP {}", static_cast<int>(ToneMap::OpenColorIo))};
+    const std::array<std::string, 1> defines{"OPEN_COLOR_IO"};
     std::vector<gl::StageSource> stages;
     ExpandedShader shader;
     for (const auto& [stage, file] :
