@@ -113,7 +113,7 @@ struct ExportOptions {
     std::string environmentLayout; // of it; empty: guessed
     bool environmentLight = false; // takes the scene's along
     int transferBands = 0;         // 0: all
-    bool hidden = false; // takes hidden meshes along
+    bool hidden = false;           // takes hidden meshes along
     bool noLights = false, noBakedAo = false, noTransfer = false, dryRun = false;
 };
 

@@ -1,6 +1,6 @@
 // The built-in library: meshes, skies and materials made by Patina's own code, so that nothing has
-// to be downloaded. Deterministic: the same name gives the same bytes on every machine, and the same
-// pointers for as long as somebody holds one of them.
+// to be downloaded. Deterministic: the same name gives the same bytes on every machine, and the
+// same pointers for as long as somebody holds one of them.
 #pragma once
 
 #include "core/base/Result.h"
