@@ -25,9 +25,10 @@ endif()
 
 find_program(PATINA_CCACHE ccache)
 if(PATINA_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # What ccache wants to be told before it stores objects compiled with precompiled headers.
-  set(CMAKE_CXX_COMPILER_LAUNCHER
-    ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${PATINA_CCACHE})
+  # What ccache wants to be told before it stores objects compiled with precompiled headers; and that paths
+  # below the checkout are relative for it, so that another clone finds what this one compiled.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros
+    CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=true ${PATINA_CCACHE})
 endif()
 
 find_program(PATINA_MOLD mold)
