@@ -50,6 +50,7 @@ void PixelPicker::setProbe(PixelProbe& probe) {
     connect(&probe, &PixelProbe::pinChanged, this, [this] {
         if (!m_probe->pin() && m_pin) { // a panel took it away
             m_pin.reset();
+            m_clicked.reset();
             placeMark();
             lookSoon();
         }
@@ -114,6 +115,7 @@ void PixelPicker::lookAtPin() {
         unpin();
         return;
     }
+    refinePin();
     const auto place = m_pin->place(document, QSizeF(m_frame));
     if (!place) {
         m_probe->setPinState(PinState::Outside);
@@ -124,6 +126,26 @@ void PixelPicker::lookAtPin() {
             m_probe->setPinState(PinState::Hidden);
     }
     placeMark();
+}
+
+void PixelPicker::refinePin() {
+    const Document& document = m_controller.document();
+    if (!m_clicked)
+        return;
+    if (document.view.camera != m_clicked->camera ||
+        m_pin->position(document) != m_clicked->position) { // something else is there now
+        m_clicked.reset();
+        return;
+    }
+    const auto pixel = pixelAt(m_clicked->at);
+    if (!pixel || m_frame.width() <= m_clicked->frame.width())
+        return;
+    // Beside the silhouette, a finer pixel may show what is behind: the pin stays on its mesh.
+    if (const auto there = inspect(*pixel); there && there->mesh == m_pin->mesh()) {
+        m_pin.emplace(*there, document);
+        m_clicked->position = *m_pin->position(document);
+    }
+    m_clicked->frame = m_frame;
 }
 
 std::optional<render::Inspection> PixelPicker::inspect(const QPoint& pixel) {
@@ -162,6 +184,7 @@ void PixelPicker::placeMark() {
 
 void PixelPicker::unpin() {
     m_pin.reset();
+    m_clicked.reset();
     placeMark();
     if (m_probe && m_probe->pin())
         m_probe->setPin(std::nullopt);
@@ -191,7 +214,11 @@ void PixelPicker::pinAt(const QPointF& at) {
         unpin();
         return;
     }
-    m_pin.emplace(*inspection, m_controller.document());
+    const Document& document = m_controller.document();
+    m_pin.emplace(*inspection, document);
+    m_clicked.reset();
+    if (const auto position = m_pin->position(document))
+        m_clicked = {at, m_frame, m_camera, *position};
     m_probe->setPin(std::move(inspection));
     placeMark();
     Q_EMIT pinned();

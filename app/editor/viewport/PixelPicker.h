@@ -59,6 +59,7 @@ class PixelPicker : public QObject {
     void look(); // at what is wanted
     void lookSoon();
     void lookAtPin();
+    void refinePin();
     void unpin();
     [[nodiscard]] std::optional<QPoint> pixelAt(const QPointF& position) const;
     [[nodiscard]] std::optional<render::Inspection> inspect(const QPoint& pixel);
@@ -71,6 +72,15 @@ class PixelPicker : public QObject {
     QSize m_frame;                    // the last one's, in device pixels
     std::optional<QPointF> m_pointer; // where it was last, inside
     std::optional<SurfacePin> m_pin;
+    // A pin of a coarse frame is the middle of a pixel several of the window's wide: it is set
+    // again in each finer frame, as long as the same point is under the place that was clicked.
+    struct Clicked {
+        QPointF at;
+        QSize frame;
+        Camera camera;
+        glm::vec3 position; // the pin's, in the world
+    };
+    std::optional<Clicked> m_clicked;
     QTimer m_timer;
     QElapsedTimer m_sinceLook;
     double m_lookMs = 0.0;

@@ -16,6 +16,8 @@ class SurfacePin {
     // At an inspected point of a surface.
     SurfacePin(const render::Inspection& at, const Document& document);
 
+    [[nodiscard]] Id mesh() const { return m_mesh; }
+
     // Nothing when its mesh is gone.
     [[nodiscard]] std::optional<glm::vec3> position(const Document& document) const;
 
