@@ -1,6 +1,7 @@
 #include "app/cli/BakeRun.h"
 #include "app/cli/Commands.h"
 #include "app/cli/LongBake.h"
+#include "app/cli/Report.h"
 
 #include <nlohmann/json.hpp>
 
@@ -35,10 +36,6 @@ const char* methodName(SampleMethod method) {
     return "random";
 }
 
-Error usage(const char* message) {
-    return {ErrorKind::Usage, message, {}, {}};
-}
-
 // The settings that options which imply or exclude each other come to.
 Result<BakeRequest> requestOf(const BakePrtOptions& options) {
     const bool perTexel = options.target == BakeTarget::Texel;
@@ -47,23 +44,23 @@ Result<BakeRequest> requestOf(const BakePrtOptions& options) {
     request.kind = perTexel ? BakeKind::PrtTexel : BakeKind::PrtVertex;
     PrtSettings& settings = request.prt = options.settings;
     if (options.transfer && *options.transfer != TransferKind::Interreflected && bounces)
-        return usage("--bounces and --bounce-samples are for --transfer interreflected");
+        return usageError("--bounces and --bounce-samples are for --transfer interreflected");
     settings.transfer =
         options.transfer.value_or(bounces ? TransferKind::Interreflected : settings.transfer);
     settings.bounces = options.bounces.value_or(settings.bounces);
     settings.bounceSamples = options.bounceSamples.value_or(settings.bounceSamples);
     if (!options.hitMemory.empty()) {
         if (settings.transfer != TransferKind::Interreflected)
-            return usage("--hit-memory is for --transfer interreflected");
+            return usageError("--hit-memory is for --transfer interreflected");
         const Result<std::uint64_t> bytes = parseSize("--hit-memory", options.hitMemory, 0);
         if (!bytes)
             return bytes.error();
         settings.hitBudget = *bytes;
     }
     if (options.size && !perTexel)
-        return usage("--size is for --target texel; the vertices are those of the mesh");
+        return usageError("--size is for --target texel; the vertices are those of the mesh");
     if (!settings.fitted && perTexel)
-        return usage("--no-fit is for --target vertex; texels are dense enough as they are");
+        return usageError("--no-fit is for --target vertex; texels are dense enough as they are");
     settings.size = options.size.value_or(settings.size);
     return request;
 }
@@ -108,7 +105,7 @@ Result<void> run(Session& session, const BakePrtOptions& options) {
     else
         json["fitted"] = settings.fitted;
     if (options.bits && options.storage.storage != BakeStorage::Quantised)
-        return usage("--bits is for --store quantised");
+        return usageError("--bits is for --store quantised");
     BakeFileOptions storage = options.storage;
     storage.bits = options.bits.value_or(storage.bits);
     json["store"] = storageName(storage.storage);

@@ -38,8 +38,8 @@ Result<void> writeBakeFile(Session& session, const Document& document, const Bak
 }
 
 // All of them or, where one cannot be encoded, none.
-Result<void> writePictures(Session& session, const Document& document, const BakeArtifact& artifact,
-                           const fs::path& output) {
+Result<void> writeBakedPictures(Session& session, const Document& document,
+                                const BakeArtifact& artifact, const fs::path& output) {
     PictureWriter writer(session, document, output, artifact.texels.size() > 1);
     std::vector<std::pair<fs::path, Bytes>> files;
     for (const TexelBake& texel : artifact.texels) {
@@ -75,7 +75,7 @@ Result<void> checkBakeOutput(const fs::path& output, BakeKind kind) {
 Result<void> writeBake(Session& session, const Document& document, const BakeArtifact& artifact,
                        const fs::path& output, const BakeFileOptions& storage) {
     return extensionOf(output) == ".png"
-               ? writePictures(session, document, artifact, output)
+               ? writeBakedPictures(session, document, artifact, output)
                : writeBakeFile(session, document, artifact, output, storage);
 }
 

@@ -3,6 +3,7 @@
 #include "app/cli/BakeOutput.h"
 #include "app/cli/LongBake.h"
 #include "app/cli/OcclusionRun.h"
+#include "app/cli/Report.h"
 #include "app/cli/SceneSetup.h"
 #include "core/bake/Bake.h"
 #include "core/bake/BakeMemory.h"
@@ -30,10 +31,6 @@ namespace patina::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-Error usage(std::string message) {
-    return {ErrorKind::Usage, std::move(message), {}, {}};
-}
 
 // What the options of a long bake come to.
 struct Plan {
@@ -68,7 +65,8 @@ Result<Plan> planBake(const CommonOptions& common, const std::string& output,
         !fs::exists(status) || fs::is_regular_file(status))
         plan.checkpoint = output + ".checkpoint";
     else if (plan.keepWhenInterrupted)
-        return usage(fmt::format("checkpoints lie beside the output, and {} is no file", output));
+        return usageError(
+            fmt::format("checkpoints lie beside the output, and {} is no file", output));
 
     if (options.shard.empty())
         return plan;
@@ -78,14 +76,16 @@ Result<Plan> planBake(const CommonOptions& common, const std::string& output,
     plan.shard = *shard;
     plan.part = true;
     if (common.keepPartial)
-        return usage("--keep-partial is for whole bakes; a part that is stopped goes on with "
-                     "--checkpoint and --resume");
+        return usageError("--keep-partial is for whole bakes; a part that is stopped goes on with "
+                          "--checkpoint and --resume");
     if (holdsTransfer(request.kind) && request.prt.transfer == TransferKind::Unshadowed)
-        return usage("unshadowed transfer needs no rays, so there is nothing to split; bake it "
-                     "without --shard");
+        return usageError(
+            "unshadowed transfer needs no rays, so there is nothing to split; bake it "
+            "without --shard");
     if (holdsTransfer(request.kind) && request.prt.tolerance > 0.0f)
-        return usage("--tolerance looks at the whole surface, of which a part sees little; give "
-                     "the parts --samples instead");
+        return usageError(
+            "--tolerance looks at the whole surface, of which a part sees little; give "
+            "the parts --samples instead");
     return plan;
 }
 

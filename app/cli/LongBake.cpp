@@ -1,5 +1,7 @@
 #include "app/cli/LongBake.h"
 
+#include "app/cli/Report.h"
+
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -35,10 +37,6 @@ constexpr Scheduler kSchedulers[] = {
 
 constexpr long kMaxShards = 1'000'000;
 
-Error usage(std::string message) {
-    return {ErrorKind::Usage, std::move(message), {}, {}};
-}
-
 std::optional<long> wholeNumber(std::string_view text) {
     long value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -49,8 +47,8 @@ std::optional<long> wholeNumber(std::string_view text) {
 
 Result<PassShard> shardOf(long index, long count, const std::string& source) {
     if (count < 1 || count > kMaxShards || index < 0 || index >= count)
-        return usage(fmt::format("{} asks for part {} of {}; parts are 1 to {} of at most {}",
-                                 source, index + 1, count, std::max(count, 1L), kMaxShards));
+        return usageError(fmt::format("{} asks for part {} of {}; parts are 1 to {} of at most {}",
+                                      source, index + 1, count, std::max(count, 1L), kMaxShards));
     return PassShard{static_cast<int>(index), static_cast<int>(count)};
 }
 
@@ -79,9 +77,10 @@ Result<PassShard> automaticShard(const Variables& variables) {
             continue;
         return shardOf((*id - first) / step, *count, fmt::format("{}={}", scheduler.id, *id));
     }
-    return usage(fmt::format("--shard auto finds no scheduler that numbers its tasks; give K/N, or "
-                             "one of these variables with its count: {}",
-                             names));
+    return usageError(
+        fmt::format("--shard auto finds no scheduler that numbers its tasks; give K/N, or "
+                    "one of these variables with its count: {}",
+                    names));
 }
 
 } // namespace
@@ -100,9 +99,10 @@ Result<PassShard> parseShard(const std::string& text, const Variables& variables
                                           ? std::nullopt
                                           : wholeNumber(std::string_view(text).substr(slash + 1));
     if (!part || !count)
-        return usage(fmt::format("--shard takes K/N, such as 2/8 for the second of eight parts, or "
-                                 "auto, not \"{}\"",
-                                 text));
+        return usageError(
+            fmt::format("--shard takes K/N, such as 2/8 for the second of eight parts, or "
+                        "auto, not \"{}\"",
+                        text));
     return shardOf(*part - 1, *count, "--shard " + text);
 }
 
@@ -115,7 +115,7 @@ Result<double> parseInterval(const std::string& text) {
     for (const auto& [name, seconds] : kUnits)
         if (error == std::errc() && unit == name && std::isfinite(value) && value > 0)
             return value * seconds;
-    return usage(
+    return usageError(
         fmt::format("--checkpoint takes a time such as 30s, 5min or 1h, not \"{}\"", text));
 }
 
@@ -132,7 +132,8 @@ Result<std::uint64_t> parseSize(const std::string& option, const std::string& te
         if (error == std::errc() && unit == name && value * bytes >= static_cast<double>(least) &&
             value * bytes < 0x1p63)
             return static_cast<std::uint64_t>(value * bytes);
-    return usage(fmt::format("{} takes a size such as 512MiB or 4GiB, not \"{}\"", option, text));
+    return usageError(
+        fmt::format("{} takes a size such as 512MiB or 4GiB, not \"{}\"", option, text));
 }
 
 } // namespace patina::cli

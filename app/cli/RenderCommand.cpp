@@ -4,6 +4,7 @@
 #include "app/cli/Numbers.h"
 #include "app/cli/PreparedLight.h"
 #include "app/cli/RenderViews.h"
+#include "app/cli/Report.h"
 #include "app/cli/SceneSetup.h"
 #include "core/bake/bounce/Interreflection.h"
 #include "core/bake/document/BakeStaleness.h"
@@ -30,17 +31,14 @@
 namespace patina::cli {
 namespace {
 
-Error usage(std::string message) {
-    return {ErrorKind::Usage, std::move(message), {}, {}};
-}
-
 Result<render::FrameSettings> frameSettings(const RenderOptions& options) {
     render::FrameSettings frame;
     std::vector<int> size;
     if (!parseNumbers(options.size, 'x', size) || size.size() != 2 || size[0] < 1 || size[1] < 1)
-        return usage(fmt::format("--size wants WIDTHxHEIGHT in pixels, for example 1920x1080, not "
-                                 "\"{}\"",
-                                 options.size));
+        return usageError(
+            fmt::format("--size wants WIDTHxHEIGHT in pixels, for example 1920x1080, not "
+                        "\"{}\"",
+                        options.size));
     frame.width = size[0];
     frame.height = size[1];
     frame.samples = options.samples;
@@ -55,9 +53,9 @@ Result<Camera> chooseCamera(const RenderOptions& options, const Document& docume
     if (!options.camera.empty()) {
         if (!parseNumbers(options.camera, ',', orbit) || orbit.size() < 2 || orbit.size() > 3 ||
             !(std::abs(orbit[1]) <= 89.0f) || (orbit.size() == 3 && !(orbit[2] > 0.0f)))
-            return usage(fmt::format("--camera wants YAW,PITCH[,DISTANCE] with a pitch within "
-                                     "±89° and a distance above 0, not \"{}\"",
-                                     options.camera));
+            return usageError(fmt::format("--camera wants YAW,PITCH[,DISTANCE] with a pitch within "
+                                          "±89° and a distance above 0, not \"{}\"",
+                                          options.camera));
         camera.yawDeg = orbit[0];
         camera.pitchDeg = orbit[1];
     }
@@ -76,9 +74,10 @@ Result<void> applyView(Session& session, const RenderOptions& options, Document&
     if (options.exposure == "auto" || options.exposure == "automatic")
         document.view.exposureMode = ExposureMode::Automatic;
     else if (Result<void> result = set("view.exposureEv", options.exposure); !result)
-        return usage(fmt::format("--exposure wants a number of EV from -24 to 24 or \"auto\", not "
-                                 "\"{}\"",
-                                 options.exposure));
+        return usageError(
+            fmt::format("--exposure wants a number of EV from -24 to 24 or \"auto\", not "
+                        "\"{}\"",
+                        options.exposure));
     for (const auto& [name, value] : {std::pair{"view.fovDeg", options.fov},
                                       {"view.toneMap", options.toneMap},
                                       {"view.lighting", options.lighting}})
@@ -98,9 +97,9 @@ Result<void> applyView(Session& session, const RenderOptions& options, Document&
     else if (!options.background.empty()) {
         view.background = BackgroundMode::Color;
         if (Result<void> result = set("environment.backgroundColor", options.background); !result)
-            return usage(fmt::format("--background wants visible, blurred, transparent or a "
-                                     "colour as R,G,B or #rrggbb, not \"{}\"",
-                                     options.background));
+            return usageError(fmt::format("--background wants visible, blurred, transparent or a "
+                                          "colour as R,G,B or #rrggbb, not \"{}\"",
+                                          options.background));
     }
     frame.transparentBackground = view.background == BackgroundMode::Off;
     if (Result<void> offered = checkOffered(document, "view.lighting"); !offered)
@@ -174,8 +173,9 @@ Result<DisplayTransformPtr> openDisplay(Session& session, const View& view) {
         return DisplayTransformPtr();
     const std::string config = openColorIoConfig(view.ocioConfig);
     if (config.empty())
-        return usage("the view is shown through OpenColorIO, and there is no configuration; set "
-                     "the environment variable OCIO to one, or choose another --tone-map");
+        return usageError(
+            "the view is shown through OpenColorIO, and there is no configuration; set "
+            "the environment variable OCIO to one, or choose another --tone-map");
     Result<DisplayTransform> display =
         loadDisplayTransform(session.worker(), config, view.ocioDisplay, view.ocioView);
     if (!display)
@@ -208,11 +208,13 @@ Result<Prepared> prepare(Session& session, const Document& document,
     session.report().json()["openGl"] = {
         {"vendor", info.vendor}, {"renderer", info.renderer}, {"version", info.version}};
     if (std::max(frame.width, frame.height) > info.maxTextureSize)
-        return usage(fmt::format("{} can draw at most {} pixels a side; choose a smaller --size",
-                                 info.renderer, info.maxTextureSize));
+        return usageError(
+            fmt::format("{} can draw at most {} pixels a side; choose a smaller --size",
+                        info.renderer, info.maxTextureSize));
     if (frame.samples > info.maxSamples)
-        return usage(fmt::format("{} takes at most {} samples per pixel; choose fewer --samples",
-                                 info.renderer, info.maxSamples));
+        return usageError(
+            fmt::format("{} takes at most {} samples per pixel; choose fewer --samples",
+                        info.renderer, info.maxSamples));
 
     Result<std::unique_ptr<render::SceneRenderer>> scene = render::SceneRenderer::create(**context);
     if (!scene)
@@ -303,7 +305,8 @@ void reportLeftOut(Report& report, const std::vector<LeftOut>& left) {
 Result<void> run(Session& session, const RenderOptions& options) {
     const bool writes = !options.output.empty();
     if (!writes && options.inspect.empty())
-        return usage("--output is required: where the picture goes; only --inspect does without");
+        return usageError(
+            "--output is required: where the picture goes; only --inspect does without");
     Result<ImageFileFormat> format =
         writes ? imageFormatForPath(options.output) : ImageFileFormat::Png;
     if (!format)

@@ -1,5 +1,6 @@
 #include "app/cli/RenderViews.h"
 
+#include "app/cli/Report.h"
 #include "core/edit/Edit.h"
 #include "core/edit/ViewReasons.h"
 #include "core/image/TextRaster.h"
@@ -18,10 +19,6 @@ namespace {
 using render::ViewChoice;
 using render::ViewMode;
 using render::ViewRange;
-
-Error usage(std::string message) {
-    return {ErrorKind::Usage, std::move(message), {}, {}};
-}
 
 std::string viewNames() {
     std::string names;
@@ -175,16 +172,16 @@ Result<render::ViewSettings> viewSettings(const RenderOptions& options, const Do
     if (!options.view.empty() && !wantsAllViews(options)) {
         const ViewInfo* info = findView(options.view);
         if (!info)
-            return usage(fmt::format("there is no view \"{}\"; --view wants all or one of {}",
-                                     options.view, viewNames()));
+            return usageError(fmt::format("there is no view \"{}\"; --view wants all or one of {}",
+                                          options.view, viewNames()));
         settings.shown.kind = info->kind;
     }
     if (options.viewMode == "contribution") {
         settings.shown.mode = ViewMode::Contribution;
         if (!wantsAllViews(options) && viewInfo(settings.shown.kind).contribution.empty())
-            return usage(fmt::format("the view \"{}\" has no contribution of its own to the "
-                                     "picture; leave --view-mode out",
-                                     viewInfo(settings.shown.kind).id));
+            return usageError(fmt::format("the view \"{}\" has no contribution of its own to the "
+                                          "picture; leave --view-mode out",
+                                          viewInfo(settings.shown.kind).id));
     }
     if (!options.viewRange.empty()) {
         const std::string& text = options.viewRange;
@@ -194,8 +191,8 @@ Result<render::ViewSettings> viewSettings(const RenderOptions& options, const Do
         const bool comma = low.ec == std::errc() && low.ptr != end && *low.ptr == ',';
         const auto high = comma ? std::from_chars(low.ptr + 1, end, range.max) : low;
         if (!comma || high.ec != std::errc() || high.ptr != end || !(range.min < range.max))
-            return usage(fmt::format("--view-range wants MIN,MAX with MIN below MAX, not \"{}\"",
-                                     options.viewRange));
+            return usageError(fmt::format(
+                "--view-range wants MIN,MAX with MIN below MAX, not \"{}\"", options.viewRange));
         settings.shown.range = range;
     }
     if (!options.viewLight.empty()) {
@@ -208,7 +205,7 @@ Result<render::ViewSettings> viewSettings(const RenderOptions& options, const Do
             for (const Light& l : document.lights)
                 if (isActive(document, l))
                     names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", l.name);
-            return usage(
+            return usageError(
                 names.empty()
                     ? "--view-light: no light of this scene is on"
                     : fmt::format("--view-light: no light named \"{}\" is on; these are: {}",
@@ -220,7 +217,7 @@ Result<render::ViewSettings> viewSettings(const RenderOptions& options, const Do
         return settings;
     const ViewKind kind = settings.shown.kind;
     if (const std::string reason = whyEmpty(kind, document, settings.light); !reason.empty())
-        return usage(fmt::format(
+        return usageError(fmt::format(
             "the view \"{}\" does not apply to this scene: {}{}", viewInfo(kind).id, reason,
             viewInfo(kind).ofTransfer && !hasTransfer(document)
                 ? " Compute one with \"patina bake prt\" and add it with --bake."
@@ -241,9 +238,10 @@ std::vector<LeftOut> leftOutViews(const Document& document, const render::ViewSe
 
 Result<Image> viewNumbers(render::ViewRenderer& renderer, const ViewChoice& choice) {
     if (!hasNumbers(viewInfo(choice.kind)))
-        return usage(fmt::format("the view \"{}\" judges the displayed picture and has no numbers; "
-                                 "write it as .png",
-                                 viewInfo(choice.kind).id));
+        return usageError(
+            fmt::format("the view \"{}\" judges the displayed picture and has no numbers; "
+                        "write it as .png",
+                        viewInfo(choice.kind).id));
     Result<Image> read = renderer.readView(choice.kind, choice.mode);
     if (!read)
         return read;
@@ -315,8 +313,9 @@ Result<Image> contactSheet(Session& session, render::ViewRenderer& renderer,
     const int height =
         below + (left.empty() ? 0 : kHeadingRow + static_cast<int>(left.size()) * kLine + kMargin);
     if (width > 16384 || height > 16384)
-        return usage("the contact sheet would have more than 16384 pixels a side; choose a smaller "
-                     "--size for its pictures");
+        return usageError(
+            "the contact sheet would have more than 16384 pixels a side; choose a smaller "
+            "--size for its pictures");
     // Numbers are drawn without anti-aliasing: twice as large, then averaged.
     if (frame.samples > 1) {
         frame.width *= 2;

@@ -46,6 +46,11 @@ class Report {
     bool m_wantsJson, m_quiet;
 };
 
+// The command line itself is wrong: `message` says what is expected.
+[[nodiscard]] inline Error usageError(std::string message) {
+    return {ErrorKind::Usage, std::move(message), {}, {}};
+}
+
 // The exit status of COMMANDS: sysexits.h where it has a number for it.
 [[nodiscard]] int exitStatus(ErrorKind kind);
 // Interrupted for now: farms put the task back into the queue. Whenever a checkpoint is there or

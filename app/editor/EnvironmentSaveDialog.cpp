@@ -2,8 +2,10 @@
 
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/ProposedFolder.h"
+#include "app/editor/document/QtText.h"
 #include "app/editor/job/JobManager.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/ControlHelp.h"
 #include "app/editor/widget/OutputFile.h"
 #include "core/scene/EnvironmentFile.h"
 
@@ -23,11 +25,7 @@ constexpr const char* kFolderKey = "folders/environments";
 constexpr int kOpenExr = 0; // of the formats
 constexpr int kSmallestSize = 2, kLargestSize = 16384;
 
-QString fromPath(const std::filesystem::path& path) {
-    return QFile::decodeName(path.string().c_str());
-}
-
-QString suggestedPath(const DocumentController& controller) {
+QString suggestedEnvironmentPath(const DocumentController& controller) {
     return QDir(proposedFolder(controller, QLatin1String(kFolderKey)))
         .filePath(QStringLiteral("environment.exr"));
 }
@@ -43,7 +41,7 @@ EnvironmentSaveDialog::EnvironmentSaveDialog(DocumentController& controller, Job
           QStringLiteral("environmentSave"),
           {{tr("OpenEXR (32-bit float)"), QStringLiteral("exr"), QStringLiteral("OpenEXR")},
            {tr("Radiance HDR"), QStringLiteral("hdr"), QStringLiteral("Radiance HDR")}},
-          suggestedPath(controller), *this)) {
+          suggestedEnvironmentPath(controller), *this)) {
     connect(m_output, &OutputFile::changed, this, &EnvironmentSaveDialog::refresh);
     connect(m_output, &OutputFile::accepted, this, &EnvironmentSaveDialog::run);
     setObjectName(QStringLiteral("environmentSaveDialog"));

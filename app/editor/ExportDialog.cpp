@@ -2,8 +2,10 @@
 
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/ProposedFolder.h"
+#include "app/editor/document/QtText.h"
 #include "app/editor/job/JobManager.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/ControlHelp.h"
 #include "app/editor/widget/OutputFile.h"
 #include "core/edit/Edit.h"
 #include "core/export/TransferExport.h"
@@ -22,14 +24,6 @@
 
 namespace patina::editor {
 namespace {
-
-QString fromPath(const std::filesystem::path& path) {
-    return QFile::decodeName(path.string().c_str());
-}
-
-std::filesystem::path toPath(const QString& text) {
-    return QFile::encodeName(text).toStdString();
-}
 
 QString suggestedPath(const DocumentController& controller) {
     const QString name = QFileInfo(controller.displayName()).completeBaseName();

@@ -17,7 +17,7 @@
 namespace patina::editor {
 namespace {
 
-QString tr(const char* text) {
+QString trHelp(const char* text) {
     return QCoreApplication::translate("HelpDialogs", text);
 }
 
@@ -71,47 +71,49 @@ QDialog* makeShortcutsDialog(const QList<QAction*>& commands, const QList<QActio
                              QWidget* parent) {
     auto* dialog = new QDialog(parent);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setWindowTitle(tr("Keyboard and Mouse"));
+    dialog->setWindowTitle(trHelp("Keyboard and Mouse"));
 
     const Lines looking = {
-        {tr("Shift + number"), tr("Backwards through the group")},
-        {tr("Hold a key"), tr("Look only while it is held")},
-        {tr("Drag the split"), tr("Move it; its ring turns it (Shift: in steps); Esc removes it")},
-        {tr("Double-click a thumbnail"), tr("Show it on the other side of the split")},
+        {trHelp("Shift + number"), trHelp("Backwards through the group")},
+        {trHelp("Hold a key"), trHelp("Look only while it is held")},
+        {trHelp("Drag the split"),
+         trHelp("Move it; its ring turns it (Shift: in steps); Esc removes it")},
+        {trHelp("Double-click a thumbnail"), trHelp("Show it on the other side of the split")},
     };
     const Lines viewport = {
-        {tr("Left drag"), tr("Orbit")},
-        {tr("Middle drag"), tr("Pan (also Shift + left drag)")},
-        {tr("Wheel"), tr("Zoom")},
-        {tr("Click"), tr("Select a mesh and its material, or a light")},
-        {tr("Ctrl + Shift + click"),
-         tr("Pin a point of the surface for the Pixel dock (also P, Alt + click)")},
-        {tr("Right drag"), tr("Look around")},
-        {tr("W A S D Q E"), tr("Fly while the right button is held")},
-        {tr("Shift + right drag"), tr("Turn the environment")},
-        {tr("Ctrl + right drag"),
-         tr("Turn the selected light about the scene, or the environment")},
-        {tr("Drag a light's mark"), tr("Move it; a sun turns")},
-        {tr("Drag its handles"), tr("Move it along X, Y, Z, or aim it; Esc takes the drag back")},
+        {trHelp("Left drag"), trHelp("Orbit")},
+        {trHelp("Middle drag"), trHelp("Pan (also Shift + left drag)")},
+        {trHelp("Wheel"), trHelp("Zoom")},
+        {trHelp("Click"), trHelp("Select a mesh and its material, or a light")},
+        {trHelp("Ctrl + Shift + click"),
+         trHelp("Pin a point of the surface for the Pixel dock (also P, Alt + click)")},
+        {trHelp("Right drag"), trHelp("Look around")},
+        {trHelp("W A S D Q E"), trHelp("Fly while the right button is held")},
+        {trHelp("Shift + right drag"), trHelp("Turn the environment")},
+        {trHelp("Ctrl + right drag"),
+         trHelp("Turn the selected light about the scene, or the environment")},
+        {trHelp("Drag a light's mark"), trHelp("Move it; a sun turns")},
+        {trHelp("Drag its handles"),
+         trHelp("Move it along X, Y, Z, or aim it; Esc takes the drag back")},
     };
     const Lines fields = {
-        {tr("Drag a number"), tr("Change it; Shift is fine, Ctrl is coarse")},
-        {tr("Click a number"), tr("Type it; Enter takes it, Esc does not")},
-        {tr("Wheel, ↑, ↓"), tr("Step the focused number")},
-        {tr("Double-click a label"), tr("Reset to the default")},
+        {trHelp("Drag a number"), trHelp("Change it; Shift is fine, Ctrl is coarse")},
+        {trHelp("Click a number"), trHelp("Type it; Enter takes it, Esc does not")},
+        {trHelp("Wheel, ↑, ↓"), trHelp("Step the focused number")},
+        {trHelp("Double-click a label"), trHelp("Reset to the default")},
     };
     auto* right = new QVBoxLayout;
     right->setSpacing(2 * tokens::kMargin);
-    right->addWidget(page(tr("Viewport"), viewport));
-    right->addWidget(page(tr("Looking at views"), looking));
-    right->addWidget(page(tr("Panels"), fields));
+    right->addWidget(page(trHelp("Viewport"), viewport));
+    right->addWidget(page(trHelp("Looking at views"), looking));
+    right->addWidget(page(trHelp("Panels"), fields));
     right->addStretch(1);
     auto* pages = new QWidget;
     auto* columns = new QHBoxLayout(pages);
     columns->setContentsMargins(0, 0, 0, 0);
     columns->setSpacing(4 * tokens::kMargin);
-    columns->addWidget(page(tr("Commands"), linesOf(commands)), 0, Qt::AlignTop);
-    columns->addWidget(page(tr("Views"), linesOf(views)), 0, Qt::AlignTop);
+    columns->addWidget(page(trHelp("Commands"), linesOf(commands)), 0, Qt::AlignTop);
+    columns->addWidget(page(trHelp("Views"), linesOf(views)), 0, Qt::AlignTop);
     columns->addLayout(right);
     // Where a scaled screen is too small for them, they are scrolled.
     auto* scroll = new QScrollArea;
@@ -140,15 +142,16 @@ QDialog* makeShortcutsDialog(const QList<QAction*>& commands, const QList<QActio
 QDialog* makeAboutDialog(QWidget* parent) {
     auto* dialog = new QDialog(parent);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setWindowTitle(tr("About Patina"));
+    dialog->setWindowTitle(trHelp("About Patina"));
     auto* picture = new QLabel;
     picture->setPixmap(QIcon(QStringLiteral(":/icons/patina.svg"))
                            .pixmap(QSize(72, 72), dialog->devicePixelRatioF()));
     auto* text = new QLabel(
-        tr("<h2>Patina %1</h2>"
-           "<p>Author physically based materials and trust what you see.</p>"
-           "<p>Apache License 2.0. Built with Qt, Embree, oneTBB, Assimp, OpenImageIO, OpenEXR, "
-           "GLM, libepoxy, fmt, spdlog and JSON for Modern C++.</p>")
+        trHelp(
+            "<h2>Patina %1</h2>"
+            "<p>Author physically based materials and trust what you see.</p>"
+            "<p>Apache License 2.0. Built with Qt, Embree, oneTBB, Assimp, OpenImageIO, OpenEXR, "
+            "GLM, libepoxy, fmt, spdlog and JSON for Modern C++.</p>")
             .arg(QCoreApplication::applicationVersion()));
     text->setWordWrap(true);
     text->setMinimumWidth(360);

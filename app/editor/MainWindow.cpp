@@ -10,6 +10,7 @@
 #include "app/editor/Session.h"
 #include "app/editor/ViewActions.h"
 #include "app/editor/document/PrintableNotice.h"
+#include "app/editor/document/QtText.h"
 #include "app/editor/panel/BakePanel.h"
 #include "app/editor/panel/BrdfLensPanel.h"
 #include "app/editor/panel/EnergyPanel.h"

@@ -1,5 +1,6 @@
 #include "app/editor/RecoveryDialog.h"
 
+#include "app/editor/document/QtText.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
 #include "core/base/AtomicFile.h"
@@ -30,10 +31,6 @@ namespace {
 
 constexpr QSize kPictureSize(352, 220);
 constexpr int kListWidth = 220;
-
-QString fromPath(const std::filesystem::path& path) {
-    return QFile::decodeName(path.string().c_str());
-}
 
 QString timeText(std::int64_t seconds) {
     const QDateTime time = QDateTime::fromSecsSinceEpoch(seconds);

@@ -1,6 +1,7 @@
 #include "app/editor/RecoveryKeeper.h"
 
 #include "app/editor/document/DocumentController.h"
+#include "app/editor/document/QtText.h"
 #include "app/editor/viewport/ViewportWidget.h"
 
 #include <QBuffer>
@@ -22,7 +23,7 @@ constexpr int kLongestPeriodMs = 1000;
 constexpr double kCopyShare = 0.02;
 constexpr int kPictureRestMs = 800;         // the picture is taken when frames pause
 constexpr qint64 kPictureMs = 5000;         // and at the latest after
-constexpr QSize kPictureSize(480, 360);     // at most
+constexpr QSize kOfferedPicture(480, 360);  // at most
 constexpr std::chrono::seconds kLongest{8}; // session managers end who takes longer
 
 // Of the calling thread: what a busy machine does meanwhile says nothing about the document.
@@ -30,10 +31,6 @@ double threadMs() {
     timespec now{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
-}
-
-std::filesystem::path toPath(const QString& file) {
-    return {QFile::encodeName(file).toStdString()};
 }
 
 Bytes encodePng(const QImage& image) {
@@ -164,7 +161,7 @@ void RecoveryKeeper::take() {
 
 void RecoveryKeeper::takePicture() {
     m_pictureTaken.start();
-    QImage picture = m_viewport.smallPicture(kPictureSize);
+    QImage picture = m_viewport.smallPicture(kOfferedPicture);
     if (picture.isNull() || m_discarded)
         return;
     const auto make = [picture = std::move(picture)] { return encodePng(picture); };

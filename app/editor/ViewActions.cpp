@@ -2,6 +2,7 @@
 
 #include "app/editor/Actions.h"
 #include "app/editor/document/DocumentController.h"
+#include "app/editor/document/QtText.h"
 #include "app/editor/viewport/ViewState.h"
 #include "core/light/Light.h"
 #include "core/light/Lights.h"
@@ -23,10 +24,6 @@ namespace {
 
 using namespace shading;
 
-QString text(std::string_view utf8) {
-    return QString::fromUtf8(utf8.data(), static_cast<qsizetype>(utf8.size()));
-}
-
 // An ampersand in a name is no mnemonic.
 QString menuText(QString name) {
     return name.replace(QLatin1Char('&'), QLatin1String("&&"));
@@ -42,7 +39,7 @@ bool isModifier(int key) {
 } // namespace
 
 QString ViewActions::keyOf(ViewKind kind) {
-    return text(viewInfo(kind).key);
+    return toQString(viewInfo(kind).key);
 }
 
 ViewActions::ViewActions(ViewState& views, DocumentController& controller, QObject* parent)
@@ -105,9 +102,10 @@ QAction* ViewActions::make(const QString& label, const QString& keys, const QStr
 void ViewActions::makeViews() {
     auto* group = new QActionGroup(this);
     for (const ViewInfo& info : views()) {
-        QAction* action = make(menuText(text(info.label)), keyOf(info.kind), text(info.help), true);
-        action->setObjectName(QStringLiteral("view.") + text(info.id));
-        action->setIconText(text(info.label));
+        QAction* action =
+            make(menuText(toQString(info.label)), keyOf(info.kind), toQString(info.help), true);
+        action->setObjectName(QStringLiteral("view.") + toQString(info.id));
+        action->setIconText(toQString(info.label));
         action->setCheckable(true);
         group->addAction(action);
         connect(action, &QAction::triggered, this,
@@ -119,7 +117,7 @@ void ViewActions::makeViews() {
 void ViewActions::makeCycles() {
     for (int i = 0; i < kViewGroupCount; ++i) {
         const auto group = static_cast<ViewGroup>(i);
-        const QString name = text(viewGroupLabel(group));
+        const QString name = toQString(viewGroupLabel(group));
         for (const bool back : {false, true}) {
             QAction* action =
                 make(back ? tr("%1: View Before").arg(name) : tr("%1, in Turn").arg(name),
@@ -136,7 +134,7 @@ void ViewActions::makeCycles() {
 
 void ViewActions::makeTerms() {
     for (std::size_t i = 0; i < kTermCount; ++i) {
-        const QString name = text(viewInfo(kTermViews[i]).label);
+        const QString name = toQString(viewInfo(kTermViews[i]).label);
         QAction* action = make(name, QStringLiteral("Alt+%1").arg(i + 1),
                                tr("Take %1 out of the picture, or put it back").arg(name), true);
         action->setObjectName(QStringLiteral("term.%1").arg(i));
@@ -186,7 +184,7 @@ void ViewActions::fillMenu(QMenu& menu) {
     menu.addSeparator();
     for (int i = 0; i < kViewGroupCount; ++i) {
         const auto group = static_cast<ViewGroup>(i);
-        QMenu* submenu = menu.addMenu(menuText(text(viewGroupLabel(group))));
+        QMenu* submenu = menu.addMenu(menuText(toQString(viewGroupLabel(group))));
         submenu->setToolTipsVisible(true);
         for (const ViewInfo& info : views())
             if (info.group == group)
@@ -235,7 +233,7 @@ void ViewActions::fillLights(QMenu& menu) {
     add(tr("Mirror Direction"), 0, tr("The factors for light from where a mirror would look"));
     for (const Light& light : m_controller.document().lights)
         if (isActive(m_controller.document(), light))
-            add(text(light.name), light.id, tr("The factors of this light"));
+            add(toQString(light.name), light.id, tr("The factors of this light"));
 }
 
 // --- Keys that are held ------------------------------------------------------------------------

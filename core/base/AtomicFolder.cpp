@@ -25,12 +25,12 @@ Error refusal(const fs::path& folder, const char* why) {
     return {ErrorKind::CannotCreate, why, folder, {}};
 }
 
-Error cannotCreate(const fs::path& folder, int code) {
+Error cannotCreateFolder(const fs::path& folder, int code) {
     return {ErrorKind::CannotCreate, "the folder cannot be created; choose another place", folder,
             std::strerror(code)};
 }
 
-Error cannotWrite(const fs::path& folder, int code) {
+Error cannotWriteIn(const fs::path& folder, int code) {
     return {ErrorKind::Io,
             code == ENOSPC || code == EDQUOT
                 ? "the disk is full; free some space or write elsewhere"
@@ -149,10 +149,10 @@ Result<void> writeFolderAtomically(const fs::path& folder, std::span<const Folde
     const int openError = errno;
     const bool unnamed = first >= 0;
     if (!unnamed && openError != EOPNOTSUPP && openError != EISDIR && openError != EINVAL)
-        return cannotCreate(folder, openError);
+        return cannotCreateFolder(folder, openError);
     Unfinished unfinished(part);
     if (!unnamed && ::mkdir(part.c_str(), 0777) != 0)
-        return cannotCreate(folder, errno);
+        return cannotCreateFolder(folder, errno);
     for (const FolderFile& file : files) {
         int fd = -1;
         if (!unnamed)
@@ -160,24 +160,24 @@ Result<void> writeFolderAtomically(const fs::path& folder, std::span<const Folde
         else
             fd = written.empty() ? first : createUnnamed();
         if (fd < 0)
-            return cannotWrite(folder, errno);
+            return cannotWriteIn(folder, errno);
         written.emplace_back(fd);
         if (const int code = writeAll(fd, file.data, cancelled))
-            return code == ECANCELED ? cancelledError(folder) : cannotWrite(folder, code);
+            return code == ECANCELED ? cancelledError(folder) : cannotWriteIn(folder, code);
     }
 
     // From here on it is a matter of names.
     if (unnamed) {
         if (::mkdir(part.c_str(), 0777) != 0)
-            return cannotWrite(folder, errno);
+            return cannotWriteIn(folder, errno);
         if (const int code = nameFiles(part, files, written))
-            return cannotWrite(folder, code);
+            return cannotWriteIn(folder, code);
     }
     const FileDescriptor fresh(::open(part.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (fresh.valid())
         ::fsync(fresh.get());
     if (const int code = swapIn(part, path))
-        return cannotWrite(folder, code);
+        return cannotWriteIn(folder, code);
     const FileDescriptor around(::open(parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (around.valid())
         ::fsync(around.get());

@@ -10,8 +10,6 @@ namespace patina::library {
 
 namespace {
 
-constexpr int n = kMapSize;
-
 // Reflectance at normal incidence in linear sRGB, from measured optical constants (Hoffman,
 // "Background: Physics and Math of Shading", 2013, table 1).
 const glm::vec3 kGold(1.0f, 0.765f, 0.336f);
@@ -24,21 +22,21 @@ const glm::vec3 kSteel(0.560f, 0.570f, 0.580f);
 // a threshold the paint is gone; just inside the paint's edge the primer shows, just outside the
 // steel has rusted.
 Surface wornPaintedMetal() {
-    Surface s(n);
-    const Field large = fbm(n, {3, 3, 3, 0.5f, 11});
-    const Field detail = fbm(n, {8, 8, 6, 0.6f, 12});
-    const Field fine = fbm(n, {32, 32, 4, 0.6f, 13});
-    const Field tone = fbm(n, {2, 2, 4, 0.5f, 14});
-    const Field smudge = warp(fbm(n, {4, 4, 5, 0.55f, 15}), large, detail, 40.0f);
-    const Field deep = strokes(n, {26, 30, 130, 1.1f, 25, 50, 16});
-    const Field hair = strokes(n, {110, 20, 90, 0.6f, 20, 120, 17});
+    Surface s(kMapSize);
+    const Field large = fbm(kMapSize, {3, 3, 3, 0.5f, 11});
+    const Field detail = fbm(kMapSize, {8, 8, 6, 0.6f, 12});
+    const Field fine = fbm(kMapSize, {32, 32, 4, 0.6f, 13});
+    const Field tone = fbm(kMapSize, {2, 2, 4, 0.5f, 14});
+    const Field smudge = warp(fbm(kMapSize, {4, 4, 5, 0.55f, 15}), large, detail, 40.0f);
+    const Field deep = strokes(kMapSize, {26, 30, 130, 1.1f, 25, 50, 16});
+    const Field hair = strokes(kMapSize, {110, 20, 90, 0.6f, 20, 120, 17});
 
     const glm::vec3 teal(0.020f, 0.205f, 0.215f), tealWorn(0.065f, 0.270f, 0.270f);
     const glm::vec3 primer(0.40f, 0.36f, 0.30f);
     const glm::vec3 rustDark(0.115f, 0.038f, 0.018f), rustBright(0.36f, 0.125f, 0.035f);
 
-    forRows(n, [&](int y) {
-        for (int x = 0; x < n; ++x) {
+    forRows(kMapSize, [&](int y) {
+        for (int x = 0; x < kMapSize; ++x) {
             const float a = large.row(y)[x], b = detail.row(y)[x], c = fine.row(y)[x];
             const float scratch = deep.row(y)[x], hairline = hair.row(y)[x];
 
@@ -86,19 +84,19 @@ Surface wornPaintedMetal() {
 // Copper that has been outside: bright only where it is rubbed, brown oxide, then verdigris that
 // gathers in the hollows and runs down.
 Surface copperPatina() {
-    Surface s(n);
-    const Field large = fbm(n, {3, 3, 4, 0.5f, 21});
-    const Field detail = fbm(n, {10, 10, 5, 0.6f, 22});
-    const Field powder = fbm(n, {48, 48, 3, 0.7f, 23});
-    const Field runs = warp(fbm(n, {24, 2, 4, 0.55f, 24}), detail, large, 10.0f);
-    const VoronoiCells dents = voronoi(n, 7, 7, 0.9f, 25);
-    const Field scratch = strokes(n, {90, 20, 110, 0.6f, 0, 360, 26});
+    Surface s(kMapSize);
+    const Field large = fbm(kMapSize, {3, 3, 4, 0.5f, 21});
+    const Field detail = fbm(kMapSize, {10, 10, 5, 0.6f, 22});
+    const Field powder = fbm(kMapSize, {48, 48, 3, 0.7f, 23});
+    const Field runs = warp(fbm(kMapSize, {24, 2, 4, 0.55f, 24}), detail, large, 10.0f);
+    const VoronoiCells dents = voronoi(kMapSize, 7, 7, 0.9f, 25);
+    const Field scratch = strokes(kMapSize, {90, 20, 110, 0.6f, 0, 360, 26});
 
     const glm::vec3 brown(0.26f, 0.105f, 0.058f), darkBrown(0.075f, 0.036f, 0.026f);
     const glm::vec3 verdigris(0.065f, 0.255f, 0.205f), pale(0.285f, 0.51f, 0.425f);
 
-    forRows(n, [&](int y) {
-        for (int x = 0; x < n; ++x) {
+    forRows(kMapSize, [&](int y) {
+        for (int x = 0; x < kMapSize; ++x) {
             const float a = large.row(y)[x], b = detail.row(y)[x], p = powder.row(y)[x];
             const float dent = dents.nearest.row(y)[x];
             const float hammered = 0.5f * dent * dent; // shallow bowls
@@ -131,15 +129,16 @@ Surface copperPatina() {
 
 // Hammered sheet gold: overlapping shallow facets, polished, with fine hair scratches.
 Surface gold() {
-    Surface s(n);
-    const Field warpX = fbm(n, {6, 6, 3, 0.5f, 31}), warpY = fbm(n, {6, 6, 3, 0.5f, 32});
-    const VoronoiCells cells = voronoi(n, 9, 9, 0.95f, 33);
+    Surface s(kMapSize);
+    const Field warpX = fbm(kMapSize, {6, 6, 3, 0.5f, 31}),
+                warpY = fbm(kMapSize, {6, 6, 3, 0.5f, 32});
+    const VoronoiCells cells = voronoi(kMapSize, 9, 9, 0.95f, 33);
     const Field bowls = blur(warp(cells.nearest, warpX, warpY, 9.0f), 2);
-    const Field smudge = fbm(n, {4, 4, 5, 0.6f, 34});
-    const Field hair = strokes(n, {160, 20, 120, 0.55f, 0, 360, 35});
-    const Field grain = fbm(n, {64, 64, 2, 0.6f, 36});
-    forRows(n, [&](int y) {
-        for (int x = 0; x < n; ++x) {
+    const Field smudge = fbm(kMapSize, {4, 4, 5, 0.6f, 34});
+    const Field hair = strokes(kMapSize, {160, 20, 120, 0.55f, 0, 360, 35});
+    const Field grain = fbm(kMapSize, {64, 64, 2, 0.6f, 36});
+    forRows(kMapSize, [&](int y) {
+        for (int x = 0; x < kMapSize; ++x) {
             const float d = bowls.row(y)[x];
             const float soft = d * d / (0.35f + d); // bowls meet in rounded crests
             const float dirt = smoothstep(0.05f, 0.5f, smudge.row(y)[x]);
@@ -157,14 +156,14 @@ Surface gold() {
 
 // A linear brush finish: streaks along u in roughness and normal spread highlights across them.
 Surface brushedSteel() {
-    Surface s(n);
-    const Field broad = fbm(n, {2, 64, 3, 0.6f, 41});
-    const Field streak = fbm(n, {4, 256, 1, 0.6f, 42});
-    const Field streak2 = fbm(n, {1, 128, 2, 0.7f, 43});
-    const Field smudge = fbm(n, {3, 3, 5, 0.5f, 44});
-    const Field cuts = strokes(n, {70, 60, 300, 0.6f, 0, 5, 45});
-    forRows(n, [&](int y) {
-        for (int x = 0; x < n; ++x) {
+    Surface s(kMapSize);
+    const Field broad = fbm(kMapSize, {2, 64, 3, 0.6f, 41});
+    const Field streak = fbm(kMapSize, {4, 256, 1, 0.6f, 42});
+    const Field streak2 = fbm(kMapSize, {1, 128, 2, 0.7f, 43});
+    const Field smudge = fbm(kMapSize, {3, 3, 5, 0.5f, 44});
+    const Field cuts = strokes(kMapSize, {70, 60, 300, 0.6f, 0, 5, 45});
+    forRows(kMapSize, [&](int y) {
+        for (int x = 0; x < kMapSize; ++x) {
             const float line =
                 0.45f * broad.row(y)[x] + 0.3f * streak.row(y)[x] + 0.45f * streak2.row(y)[x];
             const float print = smoothstep(0.05f, 0.5f, smudge.row(y)[x]);

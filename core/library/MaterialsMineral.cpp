@@ -8,25 +8,25 @@
 
 namespace patina::library {
 
-namespace {
-constexpr int n = kMapSize;
-}
+namespace {}
 
 // A celadon glaze: glossy, pooling slightly, with a fine crackle and iron specks.
 Surface ceramic() {
-    Surface s(n);
-    const Field warpX = fbm(n, {8, 8, 3, 0.5f, 71}), warpY = fbm(n, {8, 8, 3, 0.5f, 72});
-    const VoronoiCells large = voronoi(n, 6, 6, 0.95f, 73), small = voronoi(n, 15, 15, 0.95f, 74);
+    Surface s(kMapSize);
+    const Field warpX = fbm(kMapSize, {8, 8, 3, 0.5f, 71}),
+                warpY = fbm(kMapSize, {8, 8, 3, 0.5f, 72});
+    const VoronoiCells large = voronoi(kMapSize, 6, 6, 0.95f, 73),
+                       small = voronoi(kMapSize, 15, 15, 0.95f, 74);
     const Field edgeLarge = warp(large.edge, warpX, warpY, 16.0f);
     const Field edgeSmall = warp(small.edge, warpY, warpX, 8.0f);
-    const Field pool = fbm(n, {2, 2, 4, 0.5f, 75});
-    const Field presence = fbm(n, {5, 5, 2, 0.5f, 76});
-    const VoronoiCells specks = voronoi(n, 36, 36, 1.0f, 77);
+    const Field pool = fbm(kMapSize, {2, 2, 4, 0.5f, 75});
+    const Field presence = fbm(kMapSize, {5, 5, 2, 0.5f, 76});
+    const VoronoiCells specks = voronoi(kMapSize, 36, 36, 1.0f, 77);
     const glm::vec3 glaze(0.50f, 0.64f, 0.55f), thick(0.30f, 0.49f, 0.42f),
         thin(0.72f, 0.76f, 0.66f);
     const glm::vec3 iron(0.13f, 0.085f, 0.055f), crack(0.22f, 0.20f, 0.15f);
-    forRows(n, [&](int y) {
-        for (int x = 0; x < n; ++x) {
+    forRows(kMapSize, [&](int y) {
+        for (int x = 0; x < kMapSize; ++x) {
             const float p = pool.row(y)[x];
             const float major = smoothstep(0.016f, 0.003f, edgeLarge.row(y)[x]) *
                                 smoothstep(-0.45f, 0.05f, presence.row(y)[x]);
@@ -52,16 +52,17 @@ Surface ceramic() {
 
 // Cast concrete: cement with sand, air bubbles of several sizes, damp stains, a few hairlines.
 Surface concrete() {
-    Surface s(n);
-    const Field stain = fbm(n, {2, 2, 6, 0.55f, 81});
-    const Field blotch = fbm(n, {9, 9, 4, 0.55f, 82});
-    const Field sand = fbm(n, {96, 96, 2, 0.7f, 83});
-    const Field wave = fbm(n, {5, 5, 3, 0.5f, 84});
-    const VoronoiCells bubbles = voronoi(n, 14, 14, 1.0f, 85), pores = voronoi(n, 44, 44, 1.0f, 86);
-    const VoronoiCells plates = voronoi(n, 3, 3, 0.9f, 87);
+    Surface s(kMapSize);
+    const Field stain = fbm(kMapSize, {2, 2, 6, 0.55f, 81});
+    const Field blotch = fbm(kMapSize, {9, 9, 4, 0.55f, 82});
+    const Field sand = fbm(kMapSize, {96, 96, 2, 0.7f, 83});
+    const Field wave = fbm(kMapSize, {5, 5, 3, 0.5f, 84});
+    const VoronoiCells bubbles = voronoi(kMapSize, 14, 14, 1.0f, 85),
+                       pores = voronoi(kMapSize, 44, 44, 1.0f, 86);
+    const VoronoiCells plates = voronoi(kMapSize, 3, 3, 0.9f, 87);
     const Field crackEdge = warp(plates.edge, blotch, wave, 34.0f);
-    forRows(n, [&](int y) {
-        for (int x = 0; x < n; ++x) {
+    forRows(kMapSize, [&](int y) {
+        for (int x = 0; x < kMapSize; ++x) {
             // A bubble's radius varies with its cell; most cells have none.
             const float big = 0.24f * smoothstep(0.72f, 1.0f, bubbles.random.row(y)[x]);
             const float small = 0.40f * smoothstep(0.68f, 1.0f, pores.random.row(y)[x]);

@@ -8,27 +8,25 @@
 
 namespace patina::library {
 
-namespace {
-constexpr int n = kMapSize;
-}
+namespace {}
 
 // Oiled oak boards along u, five to a tile, each butted against the next at its own place. Growth
 // rings are cut at a shallow angle (cathedral grain), pores follow the fibres.
 Surface wood() {
     constexpr int kBoards = 5;
-    Surface s(n);
-    const Field bend = fbm(n, {3, 12, 4, 0.45f, 91});
-    const Field fibre = fbm(n, {8, 128, 2, 0.6f, 92});
-    const Field figure = fbm(n, {2, 24, 3, 0.5f, 93});
-    const Field tone = fbm(n, {3, 6, 4, 0.5f, 94});
-    const Field pores = fbm(n, {20, 256, 1, 0.5f, 95});
+    Surface s(kMapSize);
+    const Field bend = fbm(kMapSize, {3, 12, 4, 0.45f, 91});
+    const Field fibre = fbm(kMapSize, {8, 128, 2, 0.6f, 92});
+    const Field figure = fbm(kMapSize, {2, 24, 3, 0.5f, 93});
+    const Field tone = fbm(kMapSize, {3, 6, 4, 0.5f, 94});
+    const Field pores = fbm(kMapSize, {20, 256, 1, 0.5f, 95});
     const glm::vec3 light(0.47f, 0.285f, 0.140f), dark(0.235f, 0.118f, 0.050f);
-    forRows(n, [&](int y) {
-        const float v = (static_cast<float>(y) + 0.5f) / static_cast<float>(n) * kBoards;
+    forRows(kMapSize, [&](int y) {
+        const float v = (static_cast<float>(y) + 0.5f) / static_cast<float>(kMapSize) * kBoards;
         const int board = static_cast<int>(v);
         const float across = v - static_cast<float>(board); // 0…1 over the board's width
-        for (int x = 0; x < n; ++x) {
-            const float u = (static_cast<float>(x) + 0.5f) / static_cast<float>(n);
+        for (int x = 0; x < kMapSize; ++x) {
+            const float u = (static_cast<float>(x) + 0.5f) / static_cast<float>(kMapSize);
             const float joint = hashToFloat(hashInt(static_cast<std::uint32_t>(board), 7u, 96u));
             float along = u - joint;
             along -= along < 0.0f ? -1.0f : 0.0f;
@@ -50,8 +48,9 @@ Surface wood() {
                 smoothstep(0.28f, 0.55f, pores.at(x + shift, y)) * (1.0f - 0.6f * late);
 
             // Gaps between boards and at butt joints, in pixels.
-            const float edgeV = std::min(across, 1.0f - across) * (static_cast<float>(n) / kBoards);
-            const float endU = std::min(along, 1.0f - along) * static_cast<float>(n);
+            const float edgeV =
+                std::min(across, 1.0f - across) * (static_cast<float>(kMapSize) / kBoards);
+            const float endU = std::min(along, 1.0f - along) * static_cast<float>(kMapSize);
             const float edge = std::min(edgeV, endU);
             const float gap = smoothstep(1.5f, 0.4f, edge);
             const float bevel = smoothstep(5.0f, 1.0f, edge);
@@ -75,18 +74,19 @@ Surface wood() {
 
 // Cognac full-grain leather: pebbles of two sizes separated by creases, wear on their tops.
 Surface leather() {
-    Surface s(n);
-    const Field warpX = fbm(n, {7, 7, 4, 0.55f, 101}), warpY = fbm(n, {7, 7, 4, 0.55f, 102});
-    const VoronoiCells pebbles = voronoi(n, 30, 30, 1.0f, 103);
-    const VoronoiCells grains = voronoi(n, 58, 58, 1.0f, 104);
+    Surface s(kMapSize);
+    const Field warpX = fbm(kMapSize, {7, 7, 4, 0.55f, 101}),
+                warpY = fbm(kMapSize, {7, 7, 4, 0.55f, 102});
+    const VoronoiCells pebbles = voronoi(kMapSize, 30, 30, 1.0f, 103);
+    const VoronoiCells grains = voronoi(kMapSize, 58, 58, 1.0f, 104);
     const Field crease = warp(pebbles.edge, warpX, warpY, 22.0f);
     const Field fineCrease = warp(grains.edge, warpY, warpX, 14.0f);
-    const Field tint = fbm(n, {3, 3, 5, 0.55f, 105});
-    const Field pore = fbm(n, {110, 110, 1, 0.5f, 106});
+    const Field tint = fbm(kMapSize, {3, 3, 5, 0.55f, 105});
+    const Field pore = fbm(kMapSize, {110, 110, 1, 0.5f, 106});
     const glm::vec3 brown(0.235f, 0.090f, 0.034f), deep(0.085f, 0.029f, 0.014f);
     const glm::vec3 rubbed(0.37f, 0.165f, 0.068f);
-    forRows(n, [&](int y) {
-        for (int x = 0; x < n; ++x) {
+    forRows(kMapSize, [&](int y) {
+        for (int x = 0; x < kMapSize; ++x) {
             const float e = saturate(crease.row(y)[x] * 2.6f);
             const float dome = e * (2.0f - e);
             const float fine = smoothstep(0.0f, 0.30f, fineCrease.row(y)[x]);

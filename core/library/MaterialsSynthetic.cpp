@@ -8,19 +8,17 @@
 
 namespace patina::library {
 
-namespace {
-constexpr int n = kMapSize;
-}
+namespace {}
 
 // Moulded charcoal plastic with the fine pebble of a spark-eroded tool.
 Surface roughPlastic() {
-    Surface s(n);
-    const Field grain = fbm(n, {72, 72, 2, 0.55f, 51});
-    const Field coarse = fbm(n, {36, 36, 2, 0.5f, 52});
-    const Field smudge = fbm(n, {3, 3, 5, 0.55f, 53});
-    const Field scuff = strokes(n, {50, 20, 80, 0.7f, 30, 160, 54});
-    forRows(n, [&](int y) {
-        for (int x = 0; x < n; ++x) {
+    Surface s(kMapSize);
+    const Field grain = fbm(kMapSize, {72, 72, 2, 0.55f, 51});
+    const Field coarse = fbm(kMapSize, {36, 36, 2, 0.5f, 52});
+    const Field smudge = fbm(kMapSize, {3, 3, 5, 0.55f, 53});
+    const Field scuff = strokes(kMapSize, {50, 20, 80, 0.7f, 30, 160, 54});
+    forRows(kMapSize, [&](int y) {
+        for (int x = 0; x < kMapSize; ++x) {
             const float g = smoothstep(-0.35f, 0.45f, grain.row(y)[x] + 0.6f * coarse.row(y)[x]);
             const float worn = smoothstep(0.0f, 0.5f, smudge.row(y)[x]);
             const float mark = scuff.row(y)[x];
@@ -40,14 +38,14 @@ Surface roughPlastic() {
 // rounded and their fibres make the weave shimmer.
 Surface carbonFibre() {
     constexpr int kTows = 24; // per tile, a multiple of the weave's period 4
-    Surface s(n);
-    const Field fibresAlongU = fbm(n, {8, 256, 1, 0.5f, 61});
-    const Field fibresAlongV = fbm(n, {256, 8, 1, 0.5f, 62});
-    const Field wobble = fbm(n, {8, 8, 3, 0.5f, 63});
-    const Field smudge = fbm(n, {3, 3, 4, 0.55f, 64});
-    forRows(n, [&](int y) {
-        for (int x = 0; x < n; ++x) {
-            const float scale = static_cast<float>(kTows) / static_cast<float>(n);
+    Surface s(kMapSize);
+    const Field fibresAlongU = fbm(kMapSize, {8, 256, 1, 0.5f, 61});
+    const Field fibresAlongV = fbm(kMapSize, {256, 8, 1, 0.5f, 62});
+    const Field wobble = fbm(kMapSize, {8, 8, 3, 0.5f, 63});
+    const Field smudge = fbm(kMapSize, {3, 3, 4, 0.55f, 64});
+    forRows(kMapSize, [&](int y) {
+        for (int x = 0; x < kMapSize; ++x) {
+            const float scale = static_cast<float>(kTows) / static_cast<float>(kMapSize);
             const float px = (static_cast<float>(x) + 0.5f) * scale + 0.03f * wobble.row(y)[x];
             const float py = (static_cast<float>(y) + 0.5f) * scale + 0.03f * wobble.at(y, x);
             const int ix = static_cast<int>(px + 16.0f) - 16,

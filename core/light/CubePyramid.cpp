@@ -18,8 +18,8 @@ namespace {
 
 constexpr int kFacePlusZ = 4;
 constexpr std::size_t kMostBrightTexels = 1024;
-constexpr float kBrightContrast = 1.0f; // times the mean
-constexpr int kBlock = 8;               // texels on a side
+constexpr float kPyramidContrast = 1.0f; // times the mean
+constexpr int kBlock = 8;                // texels on a side
 
 // The matrix that takes cubeDirection(+Z, s, t) to cubeDirection(face, s, t).
 glm::mat3 faceMatrix(int face) {
@@ -65,7 +65,7 @@ std::array<CubeSymmetry, 48> makeSymmetries() {
     return result;
 }
 
-float brightest(const glm::vec4& c) {
+float brightestOf(const glm::vec4& c) {
     return std::max({c.x, c.y, c.z});
 }
 
@@ -147,8 +147,8 @@ void CubePyramid::separateBrightTexels(const std::vector<float>& solidAngles) {
     const std::size_t face = solidAngles.size(), count = 6 * face;
     double sum = 0.0;
     for (std::size_t i = 0; i < count; ++i)
-        sum += static_cast<double>(brightest(m_radiance[i])) * solidAngles[i % face];
-    const float limit = kBrightContrast * static_cast<float>(sum / (4.0 * std::numbers::pi));
+        sum += static_cast<double>(brightestOf(m_radiance[i])) * solidAngles[i % face];
+    const float limit = kPyramidContrast * static_cast<float>(sum / (4.0 * std::numbers::pi));
     if (!std::isfinite(limit))
         return;
 
@@ -177,7 +177,7 @@ std::vector<CubePyramid::Outlier> CubePyramid::findOutliers(float limit) const {
     std::vector<Outlier> outliers;
     std::vector<std::size_t> block;
     const auto value = [&](std::size_t i) {
-        const float v = brightest(m_radiance[i]);
+        const float v = brightestOf(m_radiance[i]);
         return v > 0.0f ? v : 0.0f; // also of what is no number
     };
     for (int top = 0; top < 6 * n; top += side)

@@ -15,7 +15,7 @@ namespace {
 
 // The terms to integrate, as a constant: after inlining, only the chosen ones are left.
 template <Distribution D, Visibility V>
-[[gnu::always_inline]] inline shading::BrdfModel lobe() {
+[[gnu::always_inline]] inline shading::BrdfModel lobeModel() {
     shading::BrdfModel model = shading::defaultBrdfModel();
     model.distribution = static_cast<int>(D);
     model.visibility = static_cast<int>(V);
@@ -59,13 +59,13 @@ using TableNodes = Nodes<float, 20, 12, 16>;
 using FineNodes = Nodes<double, 128, 128, 256>;
 
 // ∫ over visible normals h of GGX (Dupuy & Benyoub 2023), whatever the terms: their density of l,
-// D_GGX G1(v) / (4 N·V), follows every lobe closely enough, and for GGX itself it cancels D and
-// leaves a smooth function of the unit square. Split by F = F0 (1 - Fc) + Fc, Karis 2013.
+// D_GGX G1(v) / (4 N·V), follows every lobeModel closely enough, and for GGX itself it cancels D
+// and leaves a smooth function of the unit square. Split by F = F0 (1 - Fc) + Fc, Karis 2013.
 template <Distribution D, Visibility V, typename Real, int upper, int lower, int azimuths>
 [[gnu::always_inline]] inline glm::dvec3 integrate(const Nodes<Real, upper, lower, azimuths>& nodes,
                                                    Real NoV, Real alpha) {
     constexpr int kAzimuths = azimuths, kHeights = upper + lower;
-    const shading::BrdfModel model = lobe<D, V>();
+    const shading::BrdfModel model = lobeModel<D, V>();
     const Real a2 = alpha * alpha;
     const Real sinV = std::sqrt(std::max(1 - NoV * NoV, Real(0)));
     const Real length = std::sqrt(a2 * sinV * sinV + NoV * NoV);
@@ -131,7 +131,7 @@ template <Distribution D, Visibility V, typename Real, int upper, int lower, int
         }
         for (int k = 0; k < kAzimuths; ++k)
             NoL[k] = std::max(NoL[k], 0.0f);
-        // The lobe over the density:
+        // The lobeModel over the density:
         if constexpr (D != Distribution::GGX)
             for (int k = 0; k < kAzimuths; ++k)
                 weight[k] *= shading::distribution(model, NoH[k], sin2[k], alpha32) /
@@ -242,8 +242,8 @@ glm::dvec3 integrateDfg(float NoV, float perceptualRoughness, Distribution distr
 
 namespace {
 
-// The table's quadrature, kept off the limits: N·V = 0, where the lobe has no density, N·V = 1,
-// where n and R are one, and a mirror.
+// The table's quadrature, kept off the limits: N·V = 0, where the lobeModel has no density, N·V =
+// 1, where n and R are one, and a mirror.
 glm::dvec3 tableEntry(const Integrator& integrator, const TableNodes& nodes, float NoV,
                       float perceptualRoughness) {
     return integrator.table(nodes, std::clamp(NoV, 1e-3f, 1.0f - 1e-4f),

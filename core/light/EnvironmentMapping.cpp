@@ -15,8 +15,6 @@ namespace patina {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 struct FaceAxes {
     glm::vec3 centre, right, down;
 };
@@ -289,8 +287,9 @@ double EnvironmentMapping::solidAngle(int x, int y) const {
         const auto [u0, u1] = cell(x, m_size.width, m_centresOnBorder);
         const auto [v0, v1] = cell(y, m_size.height, m_centresOnBorder);
         // cos(theta0) - cos(theta1) without cancellation
-        return 2.0 * kPi * (u1 - u0) * 2.0 * std::sin(0.5 * kPi * (v0 + v1)) *
-               std::sin(0.5 * kPi * (v1 - v0));
+        return 2.0 * std::numbers::pi * (u1 - u0) * 2.0 *
+               std::sin(0.5 * std::numbers::pi * (v0 + v1)) *
+               std::sin(0.5 * std::numbers::pi * (v1 - v0));
     }
     case Projection::Angular:
     case Projection::Ball: {
@@ -310,7 +309,7 @@ double EnvironmentMapping::solidAngle(int x, int y) const {
                 for (int i = 0; i < quadrature.size(); ++i) {
                     const double t = from + (to - from) * quadrature.node01(i);
                     const double r = std::sqrt(c * c + t * t);
-                    const double s = std::sin(0.5 * kPi * r) / r;
+                    const double s = std::sin(0.5 * std::numbers::pi * r) / r;
                     sum += quadrature.weight01(i) * 2.0 * s * s;
                 }
                 return c * (to - from) * sum;

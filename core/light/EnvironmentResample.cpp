@@ -14,7 +14,7 @@ namespace patina {
 namespace {
 
 // What is this many times brighter than the mean of the picture is moved by area.
-constexpr float kBrightContrast = 16.0f;
+constexpr float kResampledContrast = 16.0f;
 constexpr int kMaxSamples = 32; // along one side of a pixel
 
 glm::vec3 pixelAt(const Image& picture, int x, int y) {
@@ -219,7 +219,7 @@ Image resampleEnvironment(const Image& picture, const EnvironmentMapping& from,
         // Bright texels leave the picture first.
         result = Image(to.size().width, to.size().height, 3, PixelType::F32, ColorEncoding::Linear);
         Image smooth = picture;
-        const float limit = kBrightContrast * meanBrightness(picture, from);
+        const float limit = kResampledContrast * meanBrightness(picture, from);
         for (int y = 0; y < picture.height() && !job.cancelled(); ++y)
             for (int x = 0; x < picture.width(); ++x) {
                 const glm::vec3 radiance = pixelAt(picture, x, y);

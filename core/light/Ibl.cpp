@@ -21,7 +21,7 @@ std::size_t memoryBytes(const IblMaps& maps) {
 
 namespace {
 
-constexpr int kMaxLevels = 32;
+constexpr int kMostLevels = 32;
 
 // The narrower a lobe is, the less of its light comes from cells far away: they may be wider, where
 // levels have the most texels.
@@ -65,7 +65,7 @@ Result<IblMaps> computeIbl(const Image& environment, const IblSettings& settings
     CHECK(environment.type() == PixelType::F32);
     CHECK_LE(3, environment.channels());
     CHECK(settings.cubeSize > 0 && std::has_single_bit(static_cast<unsigned>(settings.cubeSize)));
-    CHECK(settings.levels >= 2 && settings.levels <= kMaxLevels);
+    CHECK(settings.levels >= 2 && settings.levels <= kMostLevels);
     const Error cancelled{ErrorKind::Cancelled, "The image-based light was cancelled.", {}, {}};
 
     IblMaps maps;

@@ -17,7 +17,7 @@ constexpr std::uint32_t kAlgorithm = 6;
 constexpr char kMagic[8] = {'P', 'T', 'I', 'B', 'L', '0', '0', '4'};
 constexpr const char* kExtension = ".ibl";
 constexpr std::size_t kMaxFile = std::size_t{1} << 30;
-constexpr std::uint32_t kMaxLevels = 32, kMaxSize = 4096;
+constexpr std::uint32_t kMostCachedLevels = 32, kMaxSize = 4096;
 
 struct Header {
     char magic[8];
@@ -33,8 +33,9 @@ std::size_t texelsOf(std::size_t size) {
 
 template <class T>
 void append(Bytes& bytes, const T* values, std::size_t count) {
-    const auto* first = reinterpret_cast<const std::byte*>(values);
-    bytes.insert(bytes.end(), first, first + count * sizeof(T));
+    const std::size_t before = bytes.size();
+    bytes.resize(before + count * sizeof(T));
+    std::memcpy(bytes.data() + before, values, count * sizeof(T));
 }
 
 Bytes encode(const IblMaps& maps) {
@@ -64,7 +65,7 @@ std::optional<IblMaps> decode(const Bytes& bytes) {
     std::memcpy(&header, bytes.data(), sizeof(header));
     if (std::memcmp(header.magic, kMagic, sizeof(kMagic)) != 0)
         return std::nullopt;
-    if (header.levels < 1 || header.levels > kMaxLevels || header.size > kMaxSize ||
+    if (header.levels < 1 || header.levels > kMostCachedLevels || header.size > kMaxSize ||
         !std::has_single_bit(header.size) ||
         header.spacing > static_cast<std::uint32_t>(LevelSpacing::Even) ||
         header.irradianceSize > kMaxSize)

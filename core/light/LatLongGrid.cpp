@@ -8,9 +8,7 @@
 #include <numbers>
 
 namespace patina {
-namespace {
-constexpr double kPi = std::numbers::pi;
-}
+namespace {}
 
 LatLongGrid::LatLongGrid(int height)
     : m_height(height)
@@ -18,34 +16,37 @@ LatLongGrid::LatLongGrid(int height)
     , m_rows(static_cast<std::size_t>(height)) {
     CHECK(height >= 2 && height % 2 == 0);
     for (int x = 0; x < width(); ++x) {
-        const double angle = 2.0 * kPi * ((x + 0.5) / width() - 0.5);
+        const double angle = 2.0 * std::numbers::pi * ((x + 0.5) / width() - 0.5);
         m_columns[static_cast<std::size_t>(x)] = {std::sin(angle), std::cos(angle)};
     }
     for (int y = 0; y < height; ++y) {
-        const double angle = kPi * (y + 0.5) / height;
+        const double angle = std::numbers::pi * (y + 0.5) / height;
         m_rows[static_cast<std::size_t>(y)] = {std::sin(angle), std::cos(angle)};
     }
 }
 
 glm::dvec3 LatLongGrid::directionAt(double x, double y) const {
-    const double phi = 2.0 * kPi * (x / width() - 0.5), theta = kPi * y / m_height;
+    const double phi = 2.0 * std::numbers::pi * (x / width() - 0.5),
+                 theta = std::numbers::pi * y / m_height;
     const double rho = std::sin(theta);
     return {rho * std::sin(phi), std::cos(theta), -rho * std::cos(phi)};
 }
 
 double LatLongGrid::texelAngle() const {
-    return kPi / m_height;
+    return std::numbers::pi / m_height;
 }
 
 double LatLongGrid::solidAngle(int y) const {
-    return 2.0 * kPi / width() *
-           (std::cos(kPi * y / m_height) - std::cos(kPi * (y + 1) / m_height));
+    return 2.0 * std::numbers::pi / width() *
+           (std::cos(std::numbers::pi * y / m_height) -
+            std::cos(std::numbers::pi * (y + 1) / m_height));
 }
 
 double LatLongGrid::projectedSolidAngle(int y) const {
     // ∫ cos θ sin θ dθ = sin² θ / 2.
-    const double top = std::sin(kPi * y / m_height), bottom = std::sin(kPi * (y + 1) / m_height);
-    return kPi / width() * (bottom * bottom - top * top);
+    const double top = std::sin(std::numbers::pi * y / m_height),
+                 bottom = std::sin(std::numbers::pi * (y + 1) / m_height);
+    return std::numbers::pi / width() * (bottom * bottom - top * top);
 }
 
 glm::ivec2 LatLongGrid::rowsBetween(double begin, double end) const {

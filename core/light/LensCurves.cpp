@@ -11,7 +11,7 @@ namespace patina {
 namespace {
 
 constexpr int kAlbedoAngles = 31; // 0…90°, 3° apart
-constexpr float kHalfPi = shading::kPi / 2.0f;
+constexpr float kRightAngle = shading::kPi / 2.0f;
 
 glm::vec3 opposite(float incidence) {
     return lensDirection(-incidence);
@@ -67,7 +67,7 @@ LensResult evaluateLens(const LensRequest& request, DfgTables& tables, const Job
     const std::size_t looks = request.looks.size();
     std::vector<LensAlbedo> albedos(looks * kAlbedoAngles);
     const auto angleOf = [](std::size_t i) {
-        return kHalfPi * static_cast<float>(i) / static_cast<float>(kAlbedoAngles - 1);
+        return kRightAngle * static_cast<float>(i) / static_cast<float>(kAlbedoAngles - 1);
     };
     parallelFor(job, albedos.size() + looks, 4, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)

@@ -20,7 +20,7 @@ namespace {
 using namespace detail;
 
 constexpr int kTile = 8; // texels on a tile's side
-constexpr int kFacePlusZ = 4;
+constexpr int kLobeFace = 4;
 // Of a texel's width: through a narrower lobe a texel is a disc and no point.
 constexpr float kPointLobe = 0.5f;
 constexpr float kBrightGroup = 0.08f; // of the distance + 2 alpha: how wide a group may be
@@ -43,7 +43,7 @@ struct Tile {
                 return (static_cast<float>(at) + 0.5f) / static_cast<float>(size);
             };
             const glm::vec3 d = glm::normalize(
-                cubeDirection(kFacePlusZ, position(x0 + k % side), position(y0 + k / side)));
+                cubeDirection(kLobeFace, position(x0 + k % side), position(y0 + k / side)));
             directions.x[i] = d.x;
             directions.y[i] = d.y;
             directions.z[i] = d.z;

@@ -14,7 +14,6 @@
 namespace patina {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kLanes = 4; // rows are padded to whole groups
 typedef float Lanes __attribute__((vector_size(kLanes * sizeof(float)))); // NOLINT: GCC's
 
@@ -50,7 +49,7 @@ struct AzimuthTable {
         , sines(cosines.size()) {
         for (int m = 0; m < bands; ++m)
             for (int x = 0; x < width; ++x) {
-                const double phi = 2.0 * kPi * (x + 0.5) / width;
+                const double phi = 2.0 * std::numbers::pi * (x + 0.5) / width;
                 cosines[static_cast<std::size_t>(m) * padded + x] =
                     static_cast<float>(std::cos(m * phi));
                 sines[static_cast<std::size_t>(m) * padded + x] =
@@ -61,7 +60,7 @@ struct AzimuthTable {
     std::vector<float> cosines, sines;
 };
 
-Lanes load(const float* from) {
+Lanes loadLanes(const float* from) {
     Lanes lanes;
     __builtin_memcpy(&lanes, from, sizeof(lanes));
     return lanes;
@@ -86,7 +85,8 @@ void addBand(int l, double theta, std::span<const glm::dvec3> local, const Azimu
                 table.cosines.data() + static_cast<std::ptrdiff_t>(m) * table.padded;
             const float* sine = table.sines.data() + static_cast<std::ptrdiff_t>(m) * table.padded;
             for (int x = 0; x < table.padded; x += kLanes)
-                store(sum + x, load(sum + x) + a * load(cosine + x) + b * load(sine + x));
+                store(sum + x,
+                      loadLanes(sum + x) + a * loadLanes(cosine + x) + b * loadLanes(sine + x));
         }
     }
 }
@@ -95,7 +95,7 @@ void addBand(int l, double theta, std::span<const glm::dvec3> local, const Azimu
 double squaredDifference(const float* radiance, const float* sum, int padded) {
     Lanes total = {};
     for (int x = 0; x < padded; x += kLanes) {
-        const Lanes difference = load(radiance + x) - load(sum + x);
+        const Lanes difference = loadLanes(radiance + x) - loadLanes(sum + x);
         total += difference * difference;
     }
     double result = 0.0;
@@ -154,8 +154,8 @@ ShBands computeShBands(const Image& environment, const JobContext& job) {
                 for (int x = 0; x < width; ++x)
                     planes[static_cast<std::size_t>(channel) * table.padded + x] =
                         source[static_cast<std::ptrdiff_t>(x) * channels + channel];
-            rows[y] =
-                compareRow(planes, kPi * (static_cast<double>(y) + 0.5) / height, local, table);
+            rows[y] = compareRow(planes, std::numbers::pi * (static_cast<double>(y) + 0.5) / height,
+                                 local, table);
         }
     });
     if (job.cancelled())
@@ -167,8 +167,9 @@ ShBands computeShBands(const Image& environment, const JobContext& job) {
     std::array<int, kMaxShOrder> lowestRow{};
     for (int y = 0; y < height; ++y) {
         const RowResult& row = rows[static_cast<std::size_t>(y)];
-        const double share =
-            (std::cos(kPi * y / height) - std::cos(kPi * (y + 1) / height)) / (2.0 * width) / 3.0;
+        const double share = (std::cos(std::numbers::pi * y / height) -
+                              std::cos(std::numbers::pi * (y + 1) / height)) /
+                             (2.0 * width) / 3.0;
         squaresOfAll += share * row.squaresOfAll;
         for (int l = 0; l < kMaxShOrder; ++l) {
             squares[l] += share * row.squares[l];
@@ -196,7 +197,7 @@ double bandEnergy(std::span<const glm::vec3> coefficients, int l) {
         const glm::dvec3 c(coefficients[static_cast<std::size_t>(i)]);
         sum += glm::dot(c, c);
     }
-    return sum / 3.0 / (4.0 * kPi);
+    return sum / 3.0 / (4.0 * std::numbers::pi);
 }
 
 glm::vec3 shSum(std::span<const glm::vec3> coefficients, int order, const glm::vec3& direction) {
@@ -225,7 +226,7 @@ Image shLatLong(std::span<const glm::vec3> coefficients, int order, int height,
         for (std::size_t y = begin; y < end; ++y) {
             std::fill(sums.begin(), sums.end(), 0.0f);
             for (int l = 0; l < order; ++l)
-                addBand(l, kPi * (static_cast<double>(y) + 0.5) / height, local, table,
+                addBand(l, std::numbers::pi * (static_cast<double>(y) + 0.5) / height, local, table,
                         sums.data());
             for (int channel = 0; channel < 3; ++channel)
                 for (int x = 0; x < width; ++x)

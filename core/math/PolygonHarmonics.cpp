@@ -12,7 +12,6 @@
 namespace patina {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kMaxCount = shCount(kMaxShOrder);
 
 // Below this angular size the edges' sums would lose the digits that a sample in the middle keeps:
@@ -34,7 +33,7 @@ void integrateArc(const glm::dvec3& middle, const glm::dvec3& along, double angl
     sums.fill(0.0);
     Harmonics y{};
     for (int j = 0; j < nodes; ++j) {
-        const double t = kPi * j / nodes;
+        const double t = std::numbers::pi * j / nodes;
         // Kernels of the even and of the odd frequencies, integrated over -angle/2 … angle/2.
         std::array<double, 2> weight{angle, 0.0};
         for (int k = 1; k < order; ++k)
@@ -110,7 +109,7 @@ void projectPolygon(std::span<const glm::dvec3> corners, std::span<double> out) 
             out[i] = solidAngle * y[i];
         return;
     }
-    out[0] = solidAngle * std::sqrt(0.25 / kPi);
+    out[0] = solidAngle * std::sqrt(0.25 / std::numbers::pi);
 
     // Δ Y_lm = -l (l + 1) Y_lm: Gauss' theorem on the sphere leaves the slope across each edge.
     Harmonics arc{};

@@ -2,6 +2,7 @@
 
 #include "core/base/Check.h"
 #include "core/math/Quadrature.h"
+#include "core/math/SphericalHarmonics.h"
 
 #include <algorithm>
 #include <array>
@@ -19,13 +20,6 @@ int bandOf(int i) {
     while (shCount(l + 1) <= i)
         ++l;
     return l;
-}
-
-int orderOf(std::size_t coefficients) {
-    const int order = static_cast<int>(std::lround(std::sqrt(static_cast<double>(coefficients))));
-    CHECK(order >= 1 && order <= kMaxShOrder);
-    CHECK_EQ(static_cast<std::size_t>(shCount(order)), coefficients);
-    return order;
 }
 
 // Calls visit(direction, weight) for a product rule that is exact up to degree 2 heights - 1.
@@ -122,7 +116,7 @@ void ShProduct::multiply(std::span<const glm::vec3> light, std::span<const float
 void multiplyByFunction(std::span<const glm::vec3> light,
                         const std::function<double(const glm::dvec3& direction)>& scalar,
                         int resolution, std::span<glm::vec3> out) {
-    const int inOrder = orderOf(light.size()), outOrder = orderOf(out.size());
+    const int inOrder = shOrderOf(light.size()), outOrder = shOrderOf(out.size());
     CHECK_LE(1, resolution);
     std::array<glm::dvec3, kCount> sums{};
     std::array<double, kCount> y{};

@@ -1,6 +1,7 @@
 #include "core/math/ShWindow.h"
 
 #include "core/base/Check.h"
+#include "core/math/SphericalHarmonics.h"
 
 #include <algorithm>
 #include <array>
@@ -14,16 +15,8 @@ namespace patina {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // Rounding to float moves irradiance by less: below zero by no more is not below zero.
 constexpr double kTolerance = 1e-6;
-
-int orderOf(std::size_t coefficients) {
-    const int order = static_cast<int>(std::lround(std::sqrt(static_cast<double>(coefficients))));
-    CHECK(order >= 1 && order <= kMaxShOrder);
-    CHECK_EQ(static_cast<std::size_t>(shCount(order)), coefficients);
-    return order;
-}
 
 using Bands = std::array<glm::dvec3, kMaxShOrder>;
 using Factors = std::array<double, kMaxShOrder>;
@@ -41,7 +34,7 @@ Factors factorsOf(const ShWindow& window) {
 class Irradiance {
   public:
     explicit Irradiance(std::span<const glm::vec3> radiance)
-        : m_order(orderOf(radiance.size()))
+        : m_order(shOrderOf(radiance.size()))
         , m_coefficients(radiance.size()) {
         for (int l = 0; l < m_order; ++l)
             for (int m = -l; m <= l; ++m)
@@ -52,7 +45,7 @@ class Irradiance {
         m_normals.reserve(kNormals);
         for (int i = 0; i < kNormals; ++i) {
             const double z = 1.0 - (2.0 * i + 1.0) / kNormals, r = std::sqrt(1.0 - z * z);
-            const double phi = 2.0 * kPi * i / std::numbers::phi;
+            const double phi = 2.0 * std::numbers::pi * i / std::numbers::phi;
             add({r * std::cos(phi), r * std::sin(phi), z});
         }
     }
@@ -62,7 +55,7 @@ class Irradiance {
         m_bands.push_back(at(normal));
     }
     [[nodiscard]] double mean(int channel) const {
-        return m_coefficients[0][channel] * std::sqrt(1.0 / (4.0 * kPi));
+        return m_coefficients[0][channel] * std::sqrt(1.0 / (4.0 * std::numbers::pi));
     }
 
     // Lowest at the normals held.
@@ -86,11 +79,11 @@ class Irradiance {
             double squares = 0.0;
             for (int m = -l; m <= l; ++m)
                 squares += std::pow(factors[l] * m_coefficients[shIndex(l, m)][channel], 2.0);
-            margin +=
-                0.5 * 0.06 * 0.06 * l * l * std::sqrt((2.0 * l + 1.0) / (4.0 * kPi) * squares);
+            margin += 0.5 * 0.06 * 0.06 * l * l *
+                      std::sqrt((2.0 * l + 1.0) / (4.0 * std::numbers::pi) * squares);
             all += squares;
         }
-        const double worth = 1e-3 * std::sqrt(all / (4.0 * kPi));
+        const double worth = 1e-3 * std::sqrt(all / (4.0 * std::numbers::pi));
         LowestIrradiance best = lowestHeld(factors, channel);
         const double limit = best.value + margin;
         std::vector<LowestIrradiance> starts;
@@ -143,7 +136,7 @@ class Irradiance {
             const glm::dvec3 x = glm::normalize(glm::cross(side, n)), y = glm::cross(n, x);
             const double before = best.value;
             for (int k = 0; k < 8; ++k) {
-                const double phi = kPi / 4.0 * k;
+                const double phi = std::numbers::pi / 4.0 * k;
                 const glm::dvec3 to =
                     glm::normalize(n + step * (std::cos(phi) * x + std::sin(phi) * y));
                 const double value = sumOf(factors, at(to), channel);
@@ -176,14 +169,15 @@ class Irradiance {
 
 double hannWindow(int l, double width) {
     CHECK(l >= 0 && width > 0.0);
-    return l < width ? 0.5 * (1.0 + std::cos(kPi * l / width)) : 0.0;
+    return l < width ? 0.5 * (1.0 + std::cos(std::numbers::pi * l / width)) : 0.0;
 }
 
 double lanczosWindow(int l, double width) {
     CHECK(l >= 0 && width > 0.0);
     if (l == 0)
         return 1.0;
-    return l < width ? std::sin(kPi * l / width) / (kPi * l / width) : 0.0;
+    return l < width ? std::sin(std::numbers::pi * l / width) / (std::numbers::pi * l / width)
+                     : 0.0;
 }
 
 double laplacianWindow(int l, double lambda) {
@@ -204,7 +198,7 @@ double ShWindow::factor(int l) const {
 }
 
 void applyWindow(const ShWindow& window, std::span<glm::vec3> coefficients) {
-    const int order = orderOf(coefficients.size());
+    const int order = shOrderOf(coefficients.size());
     for (int l = 0; l < order; ++l)
         for (int m = -l; m <= l; ++m)
             coefficients[shIndex(l, m)] *= static_cast<float>(window.factor(l));

@@ -14,8 +14,6 @@ namespace patina {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // To the last bit: Newton's method in the x87's 64 bits, rounded once.
 constexpr double squareRoot(double x) {
     long double root = x > 1.0 ? x : 1.0;
@@ -35,7 +33,7 @@ struct Recurrence {
     std::array<std::array<double, kMaxShOrder>, kMaxShOrder> a{}, b{};
 
     constexpr Recurrence() {
-        double normalisation = squareRoot(1.0 / (4.0 * kPi));
+        double normalisation = squareRoot(1.0 / (4.0 * std::numbers::pi));
         start[0] = normalisation;
         for (int m = 1; m < kMaxShOrder; ++m) {
             normalisation *= -squareRoot((2.0 * m + 1.0) / (2.0 * m));
@@ -222,6 +220,13 @@ SumRow chooseSumRow() {
 
 } // namespace
 
+int shOrderOf(std::size_t coefficients) {
+    const int order = static_cast<int>(std::lround(std::sqrt(static_cast<double>(coefficients))));
+    CHECK(order >= 1 && order <= kMaxShOrder);
+    CHECK_EQ(static_cast<std::size_t>(shCount(order)), coefficients);
+    return order;
+}
+
 void evaluateSh(int order, const glm::dvec3& direction, std::span<double> out) {
     evaluateOne(order, direction, out);
 }
@@ -266,12 +271,12 @@ void sumSh(int order, std::span<const glm::vec3> directions, std::span<float> su
 double cosineConvolution(int l) {
     CHECK_LE(0, l);
     if (l == 1)
-        return 2.0 * kPi / 3.0;
+        return 2.0 * std::numbers::pi / 3.0;
     if (l % 2 == 1)
         return 0.0;
     // A_0 = pi; A_l = A_l-2 * -(l - 3) / (l + 2), from the quotient of the closed forms
     // 2 pi (-1)^(l/2-1) / ((l+2)(l-1)) * l! / (2^l ((l/2)!)²).
-    double a = kPi;
+    double a = std::numbers::pi;
     for (int k = 2; k <= l; k += 2)
         a *= -(k - 3.0) / (k + 2.0);
     return a;
@@ -301,7 +306,7 @@ std::vector<glm::vec3> projectLatLong(const Image& environment, int order, const
     std::vector<float> sines(cosines.size());
     for (int m = 0; m < order; ++m)
         for (int x = 0; x < width; ++x) {
-            const double phi = 2.0 * kPi * (x + 0.5) / width;
+            const double phi = 2.0 * std::numbers::pi * (x + 0.5) / width;
             cosines[static_cast<std::size_t>(m) * padded + x] =
                 static_cast<float>(std::cos(m * phi));
             sines[static_cast<std::size_t>(m) * padded + x] = static_cast<float>(std::sin(m * phi));
@@ -335,15 +340,15 @@ std::vector<glm::vec3> projectLatLong(const Image& environment, int order, const
     const GaussLegendre rule(4 + 16 / height);
     std::array<double, kMaxShOrder> azimuth{}; // sinc times the texel's width
     for (int m = 0; m < order; ++m) {
-        const double half = m * kPi / width;
-        azimuth[m] = (m == 0 ? 1.0 : std::sin(half) / half) * 2.0 * kPi / width;
+        const double half = m * std::numbers::pi / width;
+        azimuth[m] = (m == 0 ? 1.0 : std::sin(half) / half) * 2.0 * std::numbers::pi / width;
     }
     std::vector<glm::dvec3> local(shCount(order), glm::dvec3(0.0));
     for (int y = 0; y < height; ++y) {
         for (int node = 0; node < rule.size(); ++node) {
-            const double theta = kPi * (y + rule.node01(node)) / height;
+            const double theta = std::numbers::pi * (y + rule.node01(node)) / height;
             const double z = std::cos(theta), sinTheta = std::sin(theta);
-            const double extent = sinTheta * kPi / height;
+            const double extent = sinTheta * std::numbers::pi / height;
             std::array<double, kMaxShOrder> sinPower{};
             sinPower[0] = 1.0;
             for (int m = 1; m < order; ++m)

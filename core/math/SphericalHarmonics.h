@@ -6,6 +6,7 @@
 #include "core/image/Image.h"
 #include "core/job/JobContext.h"
 
+#include <cstddef>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
@@ -20,6 +21,8 @@ inline constexpr int kMaxShOrder = 8;
 [[nodiscard]] constexpr int shIndex(int l, int m) {
     return l * (l + 1) + m;
 }
+// Bands of so many coefficients; CHECKs that they are those of whole bands, 1 … kMaxShOrder.
+[[nodiscard]] int shOrderOf(std::size_t coefficients);
 
 // Y_0 … of a unit direction into out[0 … order²). Exact polynomials: no poles, no trigonometry.
 void evaluateSh(int order, const glm::dvec3& direction, std::span<double> out);

@@ -1,6 +1,7 @@
 #include "core/math/ZonalHarmonics.h"
 
 #include "core/base/Check.h"
+#include "core/math/SphericalHarmonics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +11,9 @@ namespace patina {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // sqrt((2l + 1) / 4pi): Y_l0 = this times P_l(z).
 double normalisation(int l) {
-    return std::sqrt((2.0 * l + 1.0) / (4.0 * kPi));
+    return std::sqrt((2.0 * l + 1.0) / (4.0 * std::numbers::pi));
 }
 
 // 2pi K_l ∫_cos a^1 P_l dz with ∫_x^1 P_l dz = (1 - x²) P_l'(x) / (l (l + 1)), from Legendre's
@@ -23,11 +22,11 @@ ZonalHarmonics cap(double cosine, double sineSquared) {
     ZonalHarmonics c{};
     // 1 - cos a
     const double height = cosine > 0.0 ? sineSquared / (1.0 + cosine) : 1.0 - cosine;
-    c[0] = 2.0 * kPi * normalisation(0) * height;
+    c[0] = 2.0 * std::numbers::pi * normalisation(0) * height;
     double p = cosine, previousP = 1.0;      // P_l, P_l-1
     double slope = 1.0, previousSlope = 0.0; // their derivatives
     for (int l = 1; l < kMaxShOrder; ++l) {
-        c[l] = 2.0 * kPi * normalisation(l) * sineSquared * slope / (l * (l + 1.0));
+        c[l] = 2.0 * std::numbers::pi * normalisation(l) * sineSquared * slope / (l * (l + 1.0));
         const double nextP = ((2.0 * l + 1.0) * cosine * p - l * previousP) / (l + 1.0);
         const double nextSlope = previousSlope + (2.0 * l + 1.0) * p;
         previousP = p;
@@ -36,13 +35,6 @@ ZonalHarmonics cap(double cosine, double sineSquared) {
         slope = nextSlope;
     }
     return c;
-}
-
-int orderOf(std::size_t coefficients) {
-    const int order = static_cast<int>(std::lround(std::sqrt(static_cast<double>(coefficients))));
-    CHECK(order >= 1 && order <= kMaxShOrder);
-    CHECK_EQ(static_cast<std::size_t>(shCount(order)), coefficients);
-    return order;
 }
 
 // Calls visit(i, c_lm).
@@ -59,7 +51,7 @@ void forEachTurned(const ZonalHarmonics& zonal, const glm::dvec3& direction, int
 } // namespace
 
 ZonalHarmonics zonalCap(double halfAngleRad) {
-    CHECK(halfAngleRad >= 0.0 && halfAngleRad <= kPi);
+    CHECK(halfAngleRad >= 0.0 && halfAngleRad <= std::numbers::pi);
     const double sine = std::sin(halfAngleRad);
     return cap(std::cos(halfAngleRad), sine * sine);
 }
@@ -102,19 +94,19 @@ double directionalScale(int order) {
 
 void addZonal(const ZonalHarmonics& zonal, const glm::dvec3& direction, const glm::dvec3& color,
               std::span<glm::vec3> coefficients) {
-    forEachTurned(zonal, direction, orderOf(coefficients.size()), [&](int i, double c) {
+    forEachTurned(zonal, direction, shOrderOf(coefficients.size()), [&](int i, double c) {
         coefficients[i] = glm::vec3(glm::dvec3(coefficients[i]) + color * c);
     });
 }
 
 void addZonal(const ZonalHarmonics& zonal, const glm::dvec3& direction, double value,
               std::span<double> coefficients) {
-    forEachTurned(zonal, direction, orderOf(coefficients.size()),
+    forEachTurned(zonal, direction, shOrderOf(coefficients.size()),
                   [&](int i, double c) { coefficients[i] += value * c; });
 }
 
 void convolveWithZonal(const ZonalHarmonics& kernel, std::span<glm::vec3> coefficients) {
-    const int order = orderOf(coefficients.size());
+    const int order = shOrderOf(coefficients.size());
     for (int l = 0; l < order; ++l)
         for (int m = -l; m <= l; ++m)
             coefficients[shIndex(l, m)] *= static_cast<float>(kernel[l] / normalisation(l));

@@ -18,7 +18,6 @@
 namespace patina {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kAngles = 256;       // samples of the irradiance from axis to antipode
 constexpr double kPointDeg = 1e-3; // smaller discs are points
 
@@ -28,7 +27,8 @@ using Bands = std::array<double, kMaxShOrder>;
 Bands irradianceBands(const ZonalHarmonics& radiance, int order) {
     Bands bands{};
     for (int l = 0; l < order; ++l)
-        bands[l] = cosineConvolution(l) * radiance[l] * std::sqrt((2.0 * l + 1.0) / (4.0 * kPi));
+        bands[l] = cosineConvolution(l) * radiance[l] *
+                   std::sqrt((2.0 * l + 1.0) / (4.0 * std::numbers::pi));
     return bands;
 }
 
@@ -49,7 +49,7 @@ double deringFactor(const ZonalHarmonics& radiance, int order) {
     const Bands bands = irradianceBands(radiance, order);
     double lowest = 0.0; // of the bands from 1 on
     for (int i = 0; i <= kAngles; ++i) {
-        const double x = std::cos(kPi * i / kAngles);
+        const double x = std::cos(std::numbers::pi * i / kAngles);
         double p = x, previous = 1.0, sum = 0.0;
         for (int l = 1; l < order; ++l) {
             sum += bands[l] * p;

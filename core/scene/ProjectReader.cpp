@@ -24,8 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // A sorted map, unlike the writer's: objects with many keys must not take quadratic time.
-using Json = nlohmann::basic_json<std::map, std::vector, std::string, bool, std::int64_t,
-                                  std::uint64_t, float>;
+using ReadJson = nlohmann::basic_json<std::map, std::vector, std::string, bool, std::int64_t,
+                                      std::uint64_t, float>;
 
 // A project of the largest size is refused before it fills the memory with tiny values.
 constexpr std::size_t kMaxValues = 8'000'000;
@@ -38,16 +38,16 @@ struct Broken {
 
 // A value and where it stands: "materials[3].metallic".
 struct Node {
-    const Json* json;
+    const ReadJson* json;
     std::string key;
     std::string path{}; // the same as a JSON pointer: "/materials/3/metallic"; of objects and lists
 };
 
-std::string describe(const Json& json) {
+std::string describe(const ReadJson& json) {
     constexpr std::size_t kShown = 40;
     if (json.is_structured())
         return json.is_array() ? "a list" : "an object";
-    std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    std::string text = json.dump(-1, ' ', false, ReadJson::error_handler_t::replace);
     if (text.size() > kShown)
         text = makeValidUtf8(text.substr(0, kShown)) + "…";
     return text;
@@ -257,7 +257,7 @@ class ProjectReader {
     explicit ProjectReader(const fs::path& projectFile)
         : m_reading{projectFile, {}} {}
 
-    ParsedProject read(const Json& json) {
+    ParsedProject read(const ReadJson& json) {
         checkVersion(json);
         ObjectReader root(Node{&json, ""});
         static_cast<void>(root.find("format"));
@@ -291,7 +291,7 @@ class ProjectReader {
   private:
     Document& document() { return m_project.document; }
 
-    static void checkVersion(const Json& json) {
+    static void checkVersion(const ReadJson& json) {
         const bool isProject = json.is_object() && json.contains("format") &&
                                json["format"].is_string() && json["format"] == "patina";
         if (!isProject)
@@ -547,7 +547,7 @@ Result<ParsedProject> parseProject(const std::string& json, const fs::path& proj
         return broken("this is no Patina project: " + *problem, {});
     try {
         ProjectReader reader(projectFile);
-        ParsedProject project = reader.read(Json::parse(json));
+        ParsedProject project = reader.read(ReadJson::parse(json));
         project.document.unknownKeys = textsOf(reader.unknown(), json);
         for (const UnknownKey& one : reader.unknown())
             project.unknown.push_back(one.parent + (one.parent.empty() ? "" : ".") +
@@ -555,7 +555,7 @@ Result<ParsedProject> parseProject(const std::string& json, const fs::path& proj
         return project;
     } catch (const Broken& problem) {
         return broken(problem.message, {});
-    } catch (const Json::exception& problem) {
+    } catch (const ReadJson::exception& problem) {
         return broken("this is no Patina project, or it is damaged: the file is not valid JSON",
                       makeValidUtf8(std::string_view(problem.what()).substr(0, 300)));
     } catch (const std::bad_alloc&) {

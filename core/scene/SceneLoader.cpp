@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kShownFiles = 5; // in the notice that sums up the missing ones
 
-std::string fileName(const std::string& file) {
+std::string fileNameOf(const std::string& file) {
     return makeValidUtf8(fs::path(file).filename().string());
 }
 
@@ -125,7 +125,7 @@ std::vector<Notice> SceneLoader::takeNotices(const fs::path& file) {
         return notices;
     std::string text =
         fmt::format("{} missing: {}", m_missing.size() == 1 ? "a file is" : "files are",
-                    firstOf(m_missing, fileName));
+                    firstOf(m_missing, fileNameOf));
     text += ". Put the files back and open it again, or assign others";
     notices.insert(notices.begin(), Notice{std::move(text), file});
     return notices;
@@ -147,7 +147,7 @@ Result<SceneLoader::Model> SceneLoader::readModel(const std::string& source) {
     }
     CHECK(m_worker != nullptr);
     const fs::path file = source;
-    m_job.setActivity("reading " + fileName(source));
+    m_job.setActivity("reading " + fileNameOf(source));
     Result<ImportedModel> imported = importModel(*m_worker, file);
     if (!imported)
         return imported.error();
@@ -201,7 +201,7 @@ void SceneLoader::loadMaps(std::span<Material> materials) {
     parallelFor(m_job, requests.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             Request& request = requests[i];
-            m_job.setActivity("reading " + fileName(request.source));
+            m_job.setActivity("reading " + fileNameOf(request.source));
             if (!request.result)
                 request.result =
                     readMapImage(m_worker, request.source, request.encoding, request.embedded);
@@ -250,7 +250,7 @@ void SceneLoader::loadEnvironmentFile(Environment& environment) {
         environment.fileImage = neutralEnvironment();
         return;
     }
-    m_job.setActivity("reading " + fileName(environment.source));
+    m_job.setActivity("reading " + fileNameOf(environment.source));
     Result<ImagePtr> image =
         readEnvironmentImage(m_worker, environment.source, environment.layout, m_notices, m_job);
     if (image.ok()) {

@@ -1,6 +1,7 @@
 #include "core/trace/BakeGeometry.h"
 
 #include "core/job/Parallel.h"
+#include "core/trace/BakeInputs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,7 +83,7 @@ Result<BakeGeometry> makeBakeGeometry(const BakeInputs& inputs, const JobContext
             box.max = glm::max(box.max, p);
         }
         if (job.cancelled())
-            return Error{ErrorKind::Cancelled, "The bake was cancelled.", {}, {}};
+            return bakeCancelled();
     }
     if (box.min.x > box.max.x)
         return Error{ErrorKind::InputBroken,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/Id.h"
+#include "core/base/Result.h"
 #include "core/mesh/Mesh.h"
 #include "core/trace/BakeSurface.h"
 
@@ -22,5 +23,10 @@ struct BakeMesh {
 struct BakeInputs {
     std::vector<BakeMesh> meshes; // visible ones
 };
+
+// What a bake returns when it is cancelled.
+[[nodiscard]] inline Error bakeCancelled() {
+    return {ErrorKind::Cancelled, "The bake was cancelled.", {}, {}};
+}
 
 } // namespace patina

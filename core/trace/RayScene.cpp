@@ -4,6 +4,7 @@
 #include "core/job/ForkJoin.h"
 #include "core/material/Material.h"
 #include "core/math/Sampling.h"
+#include "core/trace/BakeInputs.h"
 #include "core/trace/Embree.h"
 
 #include <atomic>
@@ -95,10 +96,6 @@ Error refused(const BakeGeometry& geometry, RTCDevice device) {
         fmt::format("Embree error {}", static_cast<int>(code))};
 }
 
-Error cancelledError() {
-    return {ErrorKind::Cancelled, "The bake was cancelled.", {}, {}};
-}
-
 // Coordinates are within 2 of the origin by construction; anything far outside is a fault.
 bool traceable(const OcclusionRay& ray) {
     constexpr float kFar = 1e6f;
@@ -180,10 +177,10 @@ Result<RayScene> RayScene::build(const BakeGeometry& geometry, const JobContext&
     rtcCommitScene(impl->scene);
     impl->building.join();
     if (job.cancelled())
-        return cancelledError();
+        return bakeCancelled();
     const RTCError code = rtcGetDeviceError(impl->device);
     if (code == RTC_ERROR_CANCELLED)
-        return cancelledError();
+        return bakeCancelled();
     if (code != RTC_ERROR_NONE)
         return Error{ErrorKind::Internal,
                      refused(geometry, impl->device).message,

@@ -11,7 +11,7 @@ namespace {
 constexpr int kTile = 64;                                // pixels a side: luminance.comp
 constexpr std::size_t kSumBytes = 2 * 4 * sizeof(float); // of the model, of all pixels
 constexpr unsigned kTilesBinding = 0, kStateBinding = 1; // storage blocks of the shaders
-constexpr unsigned kPictureUnit = 0, kDepthUnit = 1;
+constexpr unsigned kMeteredUnit = 0, kMeteredDepthUnit = 1;
 
 gl::Handle<gl::deleteBuffer> makeReadback(std::size_t bytes) {
     GLuint id = 0;
@@ -59,8 +59,8 @@ Result<void> AdaptationPass::measure(const Targets& targets, int firstRow, int r
         m_nextTiles = gl::Buffer(m_context, "luminance of tiles", bytes);
     (*shader)->use();
     (*shader)->set("u_firstRow", first);
-    targets.linear().bind(kPictureUnit);
-    targets.depth().bind(kDepthUnit);
+    targets.linear().bind(kMeteredUnit);
+    targets.depth().bind(kMeteredDepthUnit);
     m_nextTiles.bindStorage(kTilesBinding);
     glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(end - first), 1);
     if (end < allRows)

@@ -10,7 +10,7 @@ namespace patina::render {
 
 namespace {
 
-struct Vertex {
+struct LobeVertex {
     glm::vec3 position, normal, color;
 };
 
@@ -19,16 +19,16 @@ struct Vertex {
 void LobePass::upload(const LobeMesh& mesh) {
     CHECK_EQ(mesh.normals.size(), mesh.positions.size());
     CHECK_EQ(mesh.colors.size(), mesh.positions.size());
-    std::vector<Vertex> vertices;
+    std::vector<LobeVertex> vertices;
     vertices.reserve(mesh.positions.size());
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
         vertices.push_back({mesh.positions[i], mesh.normals[i], mesh.colors[i]});
-    m_vertices = gl::Buffer::of<Vertex>(m_context, "lobe", vertices);
+    m_vertices = gl::Buffer::of<LobeVertex>(m_context, "lobe", vertices);
     m_indices = gl::Buffer(m_context, "lobe", mesh.triangles.size() * sizeof(std::uint32_t));
     m_array = gl::VertexArray(m_context, "lobe");
-    m_array.setFloats(0, 3, m_vertices, offsetof(Vertex, position), sizeof(Vertex));
-    m_array.setFloats(1, 3, m_vertices, offsetof(Vertex, normal), sizeof(Vertex));
-    m_array.setFloats(2, 3, m_vertices, offsetof(Vertex, color), sizeof(Vertex));
+    m_array.setFloats(0, 3, m_vertices, offsetof(LobeVertex, position), sizeof(LobeVertex));
+    m_array.setFloats(1, 3, m_vertices, offsetof(LobeVertex, normal), sizeof(LobeVertex));
+    m_array.setFloats(2, 3, m_vertices, offsetof(LobeVertex, color), sizeof(LobeVertex));
     m_array.setIndices(m_indices);
 }
 

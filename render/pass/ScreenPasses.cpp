@@ -8,7 +8,7 @@
 namespace patina::render {
 
 namespace {
-constexpr unsigned kEnvironmentUnit = 0, kPictureUnit = 0, kPrefilteredUnit = 7;
+constexpr unsigned kEnvironmentUnit = 0, kPictureUnit = 0, kBlurredUnit = 7;
 // Just under a whole step from end to end, so that a value on a step stays there.
 constexpr float kDitherAmplitude = 0.998f;
 
@@ -62,7 +62,7 @@ Result<void> ScreenPasses::drawSky(const EnvironmentLight& environment, Backgrou
     if (blurred)
         (*shader)->set("u_blur", blur);
     environment.background().bind(kEnvironmentUnit);
-    environment.prefiltered().bind(kPrefilteredUnit);
+    environment.prefiltered().bind(kBlurredUnit);
     glDisable(GL_BLEND);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LEQUAL); // the triangle lies on the far plane

@@ -12,8 +12,9 @@
 namespace patina::render {
 namespace {
 
-constexpr unsigned kDepthUnit = 10, kNearestUnit = 11, kRangeUnit = 12; // of the surface shader
-constexpr unsigned kImageUnit = 0;                                      // of the pyramid's
+constexpr unsigned kShadowDepthUnit = 10, kNearestUnit = 11,
+                   kRangeUnit = 12;            // of the surface shader
+constexpr unsigned kImageUnit = 0;             // of the pyramid's
 constexpr int kRangeSize = kShadowMapSize / 2; // level 0 of the pyramid, per map
 constexpr int kRangeLevels = 10;               // 512 … 1
 constexpr int kGroup = 8;                      // threads along a side of a group
@@ -189,15 +190,15 @@ Result<void> ShadowPass::drawPyramid(int x, int y) {
 void ShadowPass::bind() const {
     if (m_lightCount == 0)
         return;
-    m_depth.bind(kDepthUnit);
-    glBindSampler(kDepthUnit, m_compare.id());
+    m_depth.bind(kShadowDepthUnit);
+    glBindSampler(kShadowDepthUnit, m_compare.id());
     m_nearest.bind(kNearestUnit);
     m_range.bind(kRangeUnit);
     m_shadowBlock.bindUniform(kShadowBinding);
 }
 
 void ShadowPass::unbind() const {
-    glBindSampler(kDepthUnit, 0);
+    glBindSampler(kShadowDepthUnit, 0);
 }
 
 } // namespace patina::render

@@ -16,7 +16,7 @@ struct Vertex {
 };
 static_assert(sizeof(Vertex) == 48);
 
-constexpr std::size_t kManyTriangles = 30'000;
+constexpr std::size_t kManyToReduce = 30'000;
 constexpr float kCoarseCells = 64.0f; // along the longest side
 
 } // namespace
@@ -44,7 +44,7 @@ GpuMesh makeGpuMesh(gl::Context& context, const Mesh& mesh) {
     std::vector<std::uint32_t> indices = mesh.indices;
     const glm::vec3 size = result.bounds.size();
     const float cell = std::max({size.x, size.y, size.z}) / kCoarseCells;
-    if (mesh.triangleCount() >= kManyTriangles && cell > 0.0f) {
+    if (mesh.triangleCount() >= kManyToReduce && cell > 0.0f) {
         const std::vector<std::uint32_t> coarse = coarseTriangles(mesh, cell);
         if (!coarse.empty() && coarse.size() < indices.size() / 2) {
             indices.insert(indices.end(), coarse.begin(), coarse.end());

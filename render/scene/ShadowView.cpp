@@ -12,8 +12,8 @@
 namespace patina::render {
 namespace {
 
-constexpr float kMargin = 0.02f;     // around the scene, share of its extent
-constexpr float kMaxConeDeg = 80.0f; // beyond it a perspective map has no resolution left
+constexpr float kSceneMargin = 0.02f; // around the scene, share of its extent
+constexpr float kMaxConeDeg = 80.0f;  // beyond it a perspective map has no resolution left
 constexpr float kNearShare =
     0.02f;                        // nearest depth of a spot within the scene, share of the far one
 constexpr float kMaxSlope = 6.0f; // tan 80°
@@ -63,8 +63,9 @@ ShadowView directionalView(const Light& light, const Bounds& scene, int size) {
         z.add(glm::dot(along, p));
     }
     const float least = 1e-3f * scene.radius(); // a flat scene, seen from its side
-    const float width = std::max(std::max(x.extent(), y.extent()), least) * (1.0f + 2.0f * kMargin);
-    const float depth = std::max(z.extent(), least) * (1.0f + 2.0f * kMargin);
+    const float width =
+        std::max(std::max(x.extent(), y.extent()), least) * (1.0f + 2.0f * kSceneMargin);
+    const float depth = std::max(z.extent(), least) * (1.0f + 2.0f * kSceneMargin);
     ShadowView view;
     view.worldToClip = rows(glm::vec4(axes.x, -x.center()) * (2.0f / width),
                             glm::vec4(axes.y, -y.center()) * (2.0f / width),
@@ -86,8 +87,8 @@ ShadowView spotView(const Light& light, const Bounds& scene, int size) {
     ShadowView view;
     if (!(z.max > 0.0f))
         return view;
-    const float far = z.max + kMargin * scene.radius();
-    const float near = std::max(z.min - kMargin * scene.radius(), kNearShare * far);
+    const float far = z.max + kSceneMargin * scene.radius();
+    const float near = std::max(z.min - kSceneMargin * scene.radius(), kNearShare * far);
 
     // The window, in tangents: the cone's, or the scene's where that is smaller.
     const float cone = std::tan(glm::radians(std::min(light.outerConeDeg, kMaxConeDeg)));
@@ -102,7 +103,7 @@ ShadowView spotView(const Light& light, const Bounds& scene, int size) {
         x.min = y.min = -cone;
         x.max = y.max = cone;
     }
-    const float half = 0.5f * std::max(x.extent(), y.extent()) * (1.0f + 2.0f * kMargin);
+    const float half = 0.5f * std::max(x.extent(), y.extent()) * (1.0f + 2.0f * kSceneMargin);
     if (!(half > 0.0f)) // all of the scene lies beside the cone
         return view;
 

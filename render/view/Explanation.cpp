@@ -26,10 +26,6 @@ void compareNumbers(ExplainedStep& step, std::vector<float> recomputed, float fl
     step.recomputed = std::move(recomputed);
 }
 
-glm::vec3 straight(const glm::vec4& value) {
-    return value.w > 0.0f ? glm::vec3(value) / value.w : glm::vec3(0.0f);
-}
-
 // The terms that are one bar each, and between them one bar for each light.
 void addContributions(Explanation& explanation, const Subject& subject) {
     const Inspection& pixel = subject.pixel;

@@ -43,4 +43,9 @@ struct Inspection {
     }
 };
 
+// Radiance is recorded premultiplied by its opacity.
+[[nodiscard]] inline glm::vec3 straight(const glm::vec4& premultiplied) {
+    return premultiplied.w > 0.0f ? glm::vec3(premultiplied) / premultiplied.w : glm::vec3(0.0f);
+}
+
 } // namespace patina::render

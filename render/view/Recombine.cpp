@@ -22,11 +22,6 @@ namespace {
 
 using namespace shading;
 
-// Radiance is recorded premultiplied.
-glm::vec3 straight(const glm::vec4& value) {
-    return value.w > 0.0f ? glm::vec3(value) / value.w : glm::vec3(0.0f);
-}
-
 SurfaceTerms surfaceOf(const Inspection& pixel, const Document& document) {
     const Material* material = document.material(pixel.material);
     const SurfaceTerms s =

@@ -5,6 +5,7 @@
 #include "app/editor/document/FileKinds.h"
 #include "app/editor/document/FileOnDisk.h"
 #include "app/editor/document/ImportNotice.h"
+#include "app/editor/document/QtText.h"
 #include "core/base/Check.h"
 #include "core/document/ViewChoices.h"
 #include "core/edit/EditSession.h"
@@ -37,10 +38,6 @@ QString shortName(const QString& source) {
             if (entry.name == key)
                 return QString::fromStdString(entry.title);
     return QString::fromStdString(key);
-}
-
-QString labelOf(const ParameterInfo& info) {
-    return QString::fromUtf8(info.label.data(), static_cast<qsizetype>(info.label.size()));
 }
 
 // Appends what `part` holds under ids and names that are free in `document`.
@@ -150,7 +147,7 @@ void DocumentController::openScene(const QString& scene, std::function<void(bool
                        saves = savesOf(scene)](const JobContext& job) -> BackgroundTasks::Apply {
         // Before it is read: what changes meanwhile is noticed when it is saved.
         const std::optional<Hash> version =
-            fileKind(scene) == FileKind::Project ? projectVersion(toPath(scene)) : std::nullopt;
+            fileKind(scene) == FileKind::Project ? projectVersion(absolutePath(scene)) : std::nullopt;
         auto result = std::make_shared<Result<OpenedScene>>(
             patina::openScene(m_worker, scene.toStdString(), job));
         return [this, scene, name, done, opening, savesOf, saves, version, result] {
@@ -244,14 +241,14 @@ void DocumentController::setMap(const ParameterInfo& map, Target target, const Q
                     slot.image = image->value();
                     slot.problem.clear();
                     pushParameters(target, editsForMap(document(), map, target, slot),
-                                   tr("Set %1").arg(labelOf(map)));
+                                   tr("Set %1").arg(toQString(map.label)));
                 });
             };
         });
 }
 
 void DocumentController::clearMap(const ParameterInfo& map, Target target) {
-    pushParameters(target, {{&map, map.defaultValue()}}, tr("Remove %1").arg(labelOf(map)));
+    pushParameters(target, {{&map, map.defaultValue()}}, tr("Remove %1").arg(toQString(map.label)));
 }
 
 void DocumentController::setEnvironment(const QString& source) {

@@ -25,12 +25,12 @@ struct SaveOrder {
 namespace {
 
 std::filesystem::path markFolder() {
-    return toPath(QStandardPaths::writableLocation(QStandardPaths::CacheLocation)) / "open";
+    return absolutePath(QStandardPaths::writableLocation(QStandardPaths::CacheLocation)) / "open";
 }
 
 SaveOutcome write(WorkerClient& worker, SaveOrder& order) {
     FileOnDisk& onDisk = *order.onDisk;
-    const std::filesystem::path path = toPath(order.file);
+    const std::filesystem::path path = absolutePath(order.file);
     const std::string others = onDisk.mark->others();
     if (order.consent.overwriteOpen)
         onDisk.sharedWith = others;
@@ -107,7 +107,7 @@ std::shared_ptr<FileOnDisk> DocumentController::fileOnDisk(const QString& file, 
     if (before && !anew)
         return before;
     auto result = std::make_shared<FileOnDisk>();
-    result->mark = before ? before->mark : OpenProject::hold(markFolder(), toPath(file));
+    result->mark = before ? before->mark : OpenProject::hold(markFolder(), absolutePath(file));
     known = result;
     return result;
 }
@@ -151,7 +151,7 @@ void DocumentController::saveAs(const QString& file, std::function<void(bool)> d
                 outcome = *written;
             else
                 outcome.error = Error{ErrorKind::Internal, "saving failed; the file is as it was",
-                                      toPath(order->file), written.error().detail};
+                                      absolutePath(order->file), written.error().detail};
             saveEnded(outcome, *order);
         });
 }

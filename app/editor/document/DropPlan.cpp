@@ -1,6 +1,7 @@
 #include "app/editor/document/DropPlan.h"
 
 #include "app/editor/document/FileKinds.h"
+#include "app/editor/document/QtText.h"
 #include "core/document/Document.h"
 #include "core/edit/MapNames.h"
 #include "core/material/Material.h"
@@ -12,7 +13,7 @@
 namespace patina::editor {
 namespace {
 
-QString tr(const char* text) {
+QString trDrop(const char* text) {
     return QCoreApplication::translate("DropPlan", text);
 }
 
@@ -22,10 +23,6 @@ QString nameOf(const QString& file) {
 
 const ParameterInfo* mapOf(const QString& file) {
     return mapForFileName(nameOf(file).toStdString());
-}
-
-QString labelOf(const ParameterInfo& info) {
-    return QString::fromUtf8(info.label.data(), static_cast<qsizetype>(info.label.size()));
 }
 
 void assign(DropPlan& plan, const QStringList& images) {
@@ -80,12 +77,12 @@ QStringList DropPlan::lines(const Document& document, Id material) const {
     QStringList result;
     const Material* target = document.material(material);
     for (const MapFile& one : maps)
-        result << tr("%1 ← %2").arg(labelOf(*one.map), nameOf(one.file));
+        result << trDrop("%1 ← %2").arg(toQString(one.map->label), nameOf(one.file));
     if (target && !maps.empty())
-        result.prepend(tr("Onto the material “%1”:").arg(QString::fromStdString(target->name)));
+        result.prepend(trDrop("Onto the material “%1”:").arg(QString::fromStdString(target->name)));
     const auto add = [&](const char* text, const QStringList& files) {
         for (const QString& file : files)
-            result << tr(text).arg(nameOf(file));
+            result << trDrop(text).arg(nameOf(file));
     };
     add("Open the project %1", projects.mid(0, 1));
     add("Add or open the model %1", models);
@@ -100,10 +97,11 @@ QString unclearText(const QStringList& files) {
     QStringList names;
     for (const QString& file : files)
         names << nameOf(file);
-    return tr("Left out: %1. Of images that are dropped together each goes to the map that its "
-              "name "
-              "says (color, metallic, roughness, normal, ao, emissive); drop the others on their "
-              "slots in the Material dock.")
+    return trDrop(
+               "Left out: %1. Of images that are dropped together each goes to the map that its "
+               "name "
+               "says (color, metallic, roughness, normal, ao, emissive); drop the others on their "
+               "slots in the Material dock.")
         .arg(names.join(QStringLiteral(", ")));
 }
 

@@ -8,7 +8,7 @@
 
 namespace patina::editor {
 namespace {
-constexpr int kRestMs = 200;
+constexpr int kRecipeRestMs = 200;
 constexpr std::size_t kKept = 2; // 24 MiB each
 } // namespace
 
@@ -16,7 +16,7 @@ EnvironmentResolver::EnvironmentResolver(TaskRunner& runner, QObject* parent)
     : QObject(parent)
     , m_tasks(runner) {
     m_rest.setSingleShot(true);
-    m_rest.setInterval(kRestMs);
+    m_rest.setInterval(kRecipeRestMs);
     connect(&m_rest, &QTimer::timeout, this, &EnvironmentResolver::refine);
 }
 

@@ -8,7 +8,7 @@
 namespace patina::editor {
 namespace {
 
-QString tr(const char* text) {
+QString trKinds(const char* text) {
     return QCoreApplication::translate("FileKinds", text);
 }
 
@@ -51,30 +51,30 @@ FileKind fileKind(const QString& file) {
 }
 
 QString sceneFilter() {
-    return QStringList{
-        filter(tr("Projects and models"), QStringList{QStringLiteral("patina")} + modelSuffixes()),
-        projectFilter(), modelFilter(), tr("All files (*)")}
+    return QStringList{filter(trKinds("Projects and models"),
+                              QStringList{QStringLiteral("patina")} + modelSuffixes()),
+                       projectFilter(), modelFilter(), trKinds("All files (*)")}
         .join(QStringLiteral(";;"));
 }
 
 QString modelFilter() {
-    return filter(tr("Models"), modelSuffixes());
+    return filter(trKinds("Models"), modelSuffixes());
 }
 
 QString imageFilter() {
-    return filter(tr("Images"), kImageSuffixes + kEnvironmentSuffixes);
+    return filter(trKinds("Images"), kImageSuffixes + kEnvironmentSuffixes);
 }
 
 QString environmentFilter() {
-    return filter(tr("Environments"), kEnvironmentSuffixes + kImageSuffixes);
+    return filter(trKinds("Environments"), kEnvironmentSuffixes + kImageSuffixes);
 }
 
 QString projectFilter() {
-    return filter(tr("Patina projects"), {QStringLiteral("patina")});
+    return filter(trKinds("Patina projects"), {QStringLiteral("patina")});
 }
 
 QString displayConfigFilter() {
-    return filter(tr("OpenColorIO configurations"), {QStringLiteral("ocio")});
+    return filter(trKinds("OpenColorIO configurations"), {QStringLiteral("ocio")});
 }
 
 } // namespace patina::editor

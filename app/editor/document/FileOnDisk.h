@@ -2,9 +2,9 @@
 #pragma once
 
 #include "app/editor/document/OpenProjects.h"
+#include "app/editor/document/QtText.h"
 #include "core/base/Hash.h"
 
-#include <QFile>
 #include <QFileInfo>
 #include <QString>
 #include <filesystem>
@@ -23,8 +23,8 @@ struct FileOnDisk {
     quint64 saves = 0;      // of the UI thread: how many have ended well
 };
 
-[[nodiscard]] inline std::filesystem::path toPath(const QString& file) {
-    return {QFile::encodeName(QFileInfo(file).absoluteFilePath()).toStdString()};
+[[nodiscard]] inline std::filesystem::path absolutePath(const QString& file) {
+    return toPath(QFileInfo(file).absoluteFilePath());
 }
 
 } // namespace patina::editor

@@ -7,7 +7,7 @@
 namespace patina::editor {
 namespace {
 
-QString tr(const char* text) {
+QString trImport(const char* text) {
     return QCoreApplication::translate("ImportNotice", text);
 }
 
@@ -26,24 +26,25 @@ UserNotice importNotice(const QString& name, const OpenedScene& opened) {
         return result;
     result.kind = NoticeKind::Warning;
     if (missing + damaged == 1) {
-        result.text = (missing == 1 ? tr("%1 refers to a file that is missing: %2")
-                                    : tr("%1 refers to a file that is damaged: %2"))
+        result.text = (missing == 1 ? trImport("%1 refers to a file that is missing: %2")
+                                    : trImport("%1 refers to a file that is damaged: %2"))
                           .arg(name, QString::fromStdString(missing == 1 ? opened.missingFiles[0]
                                                                          : damagedFiles[0]));
         return result;
     }
     if (damaged == 0)
-        result.text = tr("%1 refers to %2 files that are missing.").arg(name).arg(missing);
+        result.text = trImport("%1 refers to %2 files that are missing.").arg(name).arg(missing);
     else if (missing == 0)
-        result.text = tr("%1 refers to %2 files that are damaged.").arg(name).arg(damaged);
+        result.text = trImport("%1 refers to %2 files that are damaged.").arg(name).arg(damaged);
     else
-        result.text = tr("%1 refers to files of which %2 are missing and %3 damaged.")
+        result.text = trImport("%1 refers to files of which %2 are missing and %3 damaged.")
                           .arg(name)
                           .arg(missing)
                           .arg(damaged);
-    result.text += QLatin1Char(' ') +
-                   tr("Their materials are marked in the Scene list; a checkered pattern stands in "
-                      "for base colours.");
+    result.text +=
+        QLatin1Char(' ') +
+        trImport("Their materials are marked in the Scene list; a checkered pattern stands in "
+                 "for base colours.");
     return result;
 }
 

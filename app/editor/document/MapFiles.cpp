@@ -12,7 +12,7 @@
 namespace patina::editor {
 
 namespace {
-QString tr(const char* text) {
+QString trMaps(const char* text) {
     return QCoreApplication::translate("MapFiles", text);
 }
 } // namespace
@@ -59,15 +59,15 @@ void setMaps(DocumentController& controller, Id material, const std::vector<MapF
             }
             controller.setParameters(
                 target, edits,
-                tr("Set %1 Maps of %2")
+                trMaps("Set %1 Maps of %2")
                     .arg(count, QString::fromStdString(nameOf(document, target))));
         };
         return [&controller, begun, count, apply] {
-            controller.deliver(begun, tr("What %1 images show").arg(count), apply);
+            controller.deliver(begun, trMaps("What %1 images show").arg(count), apply);
         };
     };
     controller.tasks().start(QStringLiteral("maps:%1").arg(material),
-                             tr("Reading %1 images").arg(count), work);
+                             trMaps("Reading %1 images").arg(count), work);
 }
 
 // Of the controller: files of several kinds at once.
@@ -84,16 +84,17 @@ void DocumentController::addFiles(const QStringList& files, Id material) {
     if (document().material(material))
         setMaps(*this, material, plan.maps);
     else if (!plan.maps.empty())
-        Q_EMIT noticed({NoticeKind::Warning,
-                        tr("No material is selected that the images could belong to: select one in "
-                           "the Scene list and drop them again."),
-                        {}});
+        Q_EMIT noticed(
+            {NoticeKind::Warning,
+             trMaps("No material is selected that the images could belong to: select one in "
+                    "the Scene list and drop them again."),
+             {}});
     if (!plan.unclear.isEmpty())
         Q_EMIT noticed({NoticeKind::Warning, unclearText(plan.unclear), plan.unclear});
     for (const QString& file : plan.unknown)
         Q_EMIT noticed({NoticeKind::Error,
-                        tr("%1 is neither a model, an image, an environment nor a project that "
-                           "Patina can read.")
+                        trMaps("%1 is neither a model, an image, an environment nor a project that "
+                               "Patina can read.")
                             .arg(QFileInfo(file).fileName()),
                         {file}});
 }

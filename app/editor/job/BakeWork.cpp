@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kCheckpointSeconds = 30.0;
 
-QString tr(const char* text) {
+QString trBake(const char* text) {
     return QCoreApplication::translate("patina::editor::BakeWork", text);
 }
 
@@ -52,10 +52,10 @@ Baked bakeResumably(const BakeWork& work, const std::filesystem::path& checkpoin
 } // namespace
 
 QString bakeSummary(const BakeArtifact& artifact) {
-    const QString element = isPerTexel(artifact.kind) ? tr("texel") : tr("vertex");
+    const QString element = isPerTexel(artifact.kind) ? trBake("texel") : trBake("vertex");
     if (const std::optional<StoppedBake> stopped = stoppedEarly(artifact))
-        return tr("%1 of %2 rays per %3").arg(stopped->done).arg(stopped->asked).arg(element);
-    return tr("%1 rays per %2").arg(artifact.samplesDone).arg(element);
+        return trBake("%1 of %2 rays per %3").arg(stopped->done).arg(stopped->asked).arg(element);
+    return trBake("%1 rays per %2").arg(artifact.samplesDone).arg(element);
 }
 
 BakeEnd runBake(const BakeWork& work, const JobContext& job) {
@@ -65,7 +65,7 @@ BakeEnd runBake(const BakeWork& work, const JobContext& job) {
     };
     const Hash key = BakeCache::key(work.request, *work.inputs);
     if (std::optional<BakeArtifact> kept = work.cache.find(key, *work.inputs)) {
-        const QString summary = tr("%1, kept from an earlier bake").arg(bakeSummary(*kept));
+        const QString summary = trBake("%1, kept from an earlier bake").arg(bakeSummary(*kept));
         return ended(std::move(*kept), summary);
     }
     work.preview->begin(*work.inputs, work.request.prt.order, work.request.ao.size);
@@ -73,9 +73,10 @@ BakeEnd runBake(const BakeWork& work, const JobContext& job) {
     if (!baked.artifact) {
         const bool resumable = job.cancelled() && baked.keepsCheckpoint;
         return {baked.artifact.error(), nullptr, nullptr,
-                resumable ? tr("Interrupted; it can go on in the Bake dock once its scene is open "
-                               "again")
-                          : QString()};
+                resumable
+                    ? trBake("Interrupted; it can go on in the Bake dock once its scene is open "
+                             "again")
+                    : QString()};
     }
     if (!stoppedEarly(*baked.artifact))
         if (const Result<void> stored = work.cache.store(key, *work.inputs, *baked.artifact);

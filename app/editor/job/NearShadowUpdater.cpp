@@ -9,8 +9,8 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kPauseMs = 150;    // without an edit until a hierarchy is worth its time
-constexpr int kPatienceMs = 300; // what is done sooner is not worth a word
+constexpr int kShadowPauseMs = 150; // without an edit until a hierarchy is worth its time
+constexpr int kPatienceMs = 300;    // what is done sooner is not worth a word
 
 } // namespace
 
@@ -20,7 +20,7 @@ NearShadowUpdater::NearShadowUpdater(DocumentController& controller, QObject* pa
     , m_memory(std::make_shared<NearShadowsPtr>())
     , m_tasks(controller.runner()) {
     m_pause.setSingleShot(true);
-    m_pause.setInterval(kPauseMs);
+    m_pause.setInterval(kShadowPauseMs);
     connect(&m_pause, &QTimer::timeout, this, &NearShadowUpdater::trace);
     m_patience.setSingleShot(true);
     m_patience.setInterval(kPatienceMs);

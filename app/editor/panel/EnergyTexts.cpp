@@ -12,7 +12,7 @@ namespace {
 constexpr double kSeen = 0.005; // less than this of a lobe nobody sees
 constexpr double kEqual = 5e-4; // what the quadratures err
 
-QString tr(const char* text) {
+QString trEnergy(const char* text) {
     return QCoreApplication::translate("EnergyTexts", text);
 }
 
@@ -21,7 +21,7 @@ QString number(double value, int decimals = 2) {
 }
 
 QString angle(float NoV) {
-    return tr("%1°").arg(qRound(glm::degrees(std::acos(std::clamp(NoV, 0.0f, 1.0f)))));
+    return trEnergy("%1°").arg(qRound(glm::degrees(std::acos(std::clamp(NoV, 0.0f, 1.0f)))));
 }
 
 double lossOf(const EnergyPoint& point, EnergyChannel channel) {
@@ -36,12 +36,12 @@ QString place(const EnergyStudy& study, EnergyChannel channel) {
     for (std::size_t i = 1; i < study.byAngle.size(); ++i)
         if (lossOf(study.byAngle[i], channel) > lossOf(study.byAngle[at], channel) + kEqual)
             at = i;
-    QString text = tr("roughness %1, %2 at %3°")
+    QString text = trEnergy("roughness %1, %2 at %3°")
                        .arg(number(surface.mean.perceptualRoughness),
                             percent(lossOf(study.byAngle[at], channel)))
                        .arg(90 * static_cast<int>(at) / (EnergyStudy::kAngles - 1));
     if (surface.high.perceptualRoughness > surface.mean.perceptualRoughness)
-        text += tr(", and %1 where its map is roughest (%2)")
+        text += trEnergy(", and %1 where its map is roughest (%2)")
                     .arg(percent(lossOf(study.roughest, channel)),
                          number(surface.high.perceptualRoughness));
     return text;
@@ -51,7 +51,9 @@ QString place(const EnergyStudy& study, EnergyChannel channel) {
 QString inWhich(std::optional<int> channel) {
     if (!channel)
         return {};
-    return *channel == 0 ? tr(" in red") : *channel == 1 ? tr(" in green") : tr(" in blue");
+    return *channel == 0   ? trEnergy(" in red")
+           : *channel == 1 ? trEnergy(" in green")
+                           : trEnergy(" in blue");
 }
 
 bool madeByBlinnPhong(const ShadingModel& model) {
@@ -74,7 +76,7 @@ Returned inChannel(const Returned& returned, EnergyChannel channel) {
 }
 
 QString percent(double share, int decimals) {
-    return tr("%1 %").arg(100.0 * share, 0, 'f', decimals);
+    return trEnergy("%1 %").arg(100.0 * share, 0, 'f', decimals);
 }
 
 bool compensationMatters(const EnergyStudy& study, EnergyChannel channel) {
@@ -85,18 +87,20 @@ bool compensationMatters(const EnergyStudy& study, EnergyChannel channel) {
 QString lossText(const EnergyStudy& study, EnergyChannel channel) {
     const double loss = lossOf(study.average, channel);
     if (!compensationMatters(study, channel))
-        return tr("The specular lobe loses next to nothing at roughness %1: facets this even hide "
-                  "little from each other.")
+        return trEnergy(
+                   "The specular lobe loses next to nothing at roughness %1: facets this even hide "
+                   "little from each other.")
             .arg(number(study.surface.mean.perceptualRoughness));
     const bool on = study.model.multiScatter;
     if (loss < 0.0)
-        return (on ? tr("Compensation takes away the %1 that the specular lobe would have too much "
-                        "at roughness %2.")
-                   : tr("The specular lobe returns %1 too much at roughness %2: turn on "
-                        "compensation to take it away."))
+        return (on ? trEnergy("Compensation takes away the %1 that the specular lobe would have "
+                              "too much "
+                              "at roughness %2.")
+                   : trEnergy("The specular lobe returns %1 too much at roughness %2: turn on "
+                              "compensation to take it away."))
             .arg(percent(-loss), number(study.surface.mean.perceptualRoughness));
-    return (on ? tr("Compensation gives back the %1 that the specular lobe would lose at %2.")
-               : tr("The specular lobe loses %1 at %2: turn on compensation to get it back."))
+    return (on ? trEnergy("Compensation gives back the %1 that the specular lobe would lose at %2.")
+               : trEnergy("The specular lobe loses %1 at %2: turn on compensation to get it back."))
         .arg(percent(loss), place(study, channel));
 }
 
@@ -105,13 +109,14 @@ QString returnText(const EnergyStudy& study, EnergyChannel channel) {
     const double whole = channelOf(study.average.compensated.total(), channel);
     const bool on = study.model.multiScatter;
     if (std::abs(single - whole) < 0.0005)
-        return tr("All in all the material returns %1 of the light, seen from all sides.")
+        return trEnergy("All in all the material returns %1 of the light, seen from all sides.")
             .arg(percent(on ? whole : single));
-    return on ? tr("All in all the material returns %1 of the light, seen from all sides; %2 "
-                   "without compensation.")
+    return on ? trEnergy("All in all the material returns %1 of the light, seen from all sides; %2 "
+                         "without compensation.")
                     .arg(percent(whole), percent(single))
-              : tr("All in all the material returns %1 of the light, seen from all sides; %2 with "
-                   "compensation.")
+              : trEnergy(
+                    "All in all the material returns %1 of the light, seen from all sides; %2 with "
+                    "compensation.")
                     .arg(percent(single), percent(whole));
 }
 
@@ -126,33 +131,35 @@ EnergyFix fixOf(const EnergyFault& fault, const ShadingModel& model) {
 
 QString faultText(const EnergyFault& fault, const ShadingModel& model) {
     const QString where =
-        tr("at %1 and roughness %2").arg(angle(fault.NoV), number(fault.perceptualRoughness));
+        trEnergy("at %1 and roughness %2").arg(angle(fault.NoV), number(fault.perceptualRoughness));
     const QString channel = inWhich(fault.channel);
     switch (fault.kind) {
     case EnergyFault::Kind::MakesLight: {
-        const QString made = tr("Makes light: %1 of what lights send comes back%2, %3.")
+        const QString made = trEnergy("Makes light: %1 of what lights send comes back%2, %3.")
                                  .arg(percent(fault.value), channel, where);
         if (madeByBlinnPhong(model))
             return made + QLatin1Char(' ') +
-                   tr("Blinn-Phong borrows its visibility; compensation takes the excess away.");
+                   trEnergy(
+                       "Blinn-Phong borrows its visibility; compensation takes the excess away.");
         if (model.fresnel == Fresnel::Dielectric)
             return made + QLatin1Char(' ') +
-                   tr("The layer over the body is weighed by its reflectance at one angle; no real "
-                      "surface is that white.");
+                   trEnergy("The layer over the body is weighed by its reflectance at one angle; "
+                            "no real "
+                            "surface is that white.");
         return made;
     }
     case EnergyFault::Kind::LightsDiffer: {
         const QString differ =
-            (fault.value < 0.0 ? tr("Lights return %1 less than the environment does%2, %3.")
-                               : tr("Lights return %1 more than the environment does%2, %3."))
+            (fault.value < 0.0 ? trEnergy("Lights return %1 less than the environment does%2, %3.")
+                               : trEnergy("Lights return %1 more than the environment does%2, %3."))
                 .arg(percent(std::abs(fault.value)), channel, where);
         if (model.visibility == Visibility::SchlickDirect)
             return differ + QLatin1Char(' ') +
-                   tr("Schlick's k = (r + 1)²/8 was made for lights only.");
+                   trEnergy("Schlick's k = (r + 1)²/8 was made for lights only.");
         return differ;
     }
     default:
-        return tr("The base colour reaches %1%2, more than all light. It is cut at 1.")
+        return trEnergy("The base colour reaches %1%2, more than all light. It is cut at 1.")
             .arg(number(fault.value), channel);
     }
 }

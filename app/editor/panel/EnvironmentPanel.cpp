@@ -2,6 +2,7 @@
 
 #include "app/editor/document/FileKinds.h"
 #include "app/editor/document/ProposedFolder.h"
+#include "app/editor/document/QtText.h"
 #include "app/editor/panel/EnvironmentList.h"
 #include "app/editor/panel/ParameterList.h"
 #include "app/editor/panel/SoftboxList.h"
@@ -30,7 +31,6 @@ namespace patina::editor {
 namespace {
 
 constexpr Target kEnvironment{Scope::Environment, 0};
-constexpr qint64 kStepPauseMs = 700; // a longer pause begins a new undo step
 
 } // namespace
 

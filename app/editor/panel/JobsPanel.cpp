@@ -13,7 +13,7 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kPollMs = 100;
+constexpr int kJobsPollMs = 100;
 
 } // namespace
 
@@ -43,7 +43,7 @@ JobsPanel::JobsPanel(JobManager& jobs, QWidget* parent)
     connect(m_clear, &QPushButton::clicked, &jobs, &JobManager::clearFinished);
     layout->addWidget(m_clear, 0, Qt::AlignRight);
 
-    m_timer.setInterval(kPollMs);
+    m_timer.setInterval(kJobsPollMs);
     connect(&m_timer, &QTimer::timeout, this, &JobsPanel::poll);
     connect(&jobs, &JobManager::jobsChanged, this, &JobsPanel::rebuild);
     rebuild();

@@ -16,8 +16,8 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kPad = 4;       // around a thumbnail
-constexpr double kMark = 4.5; // radius
+constexpr int kThumbnailPad = 4; // around a thumbnail
+constexpr double kMark = 4.5;    // radius
 constexpr double kLabelPad = 6;
 constexpr int kFinest = 4096; // pixels that a picture's positions are counted in
 
@@ -169,7 +169,7 @@ int LabPicture::captionHeight() const {
 }
 
 QRectF LabPicture::box() const {
-    const int pad = m_role == Role::Thumbnail ? kPad : 0;
+    const int pad = m_role == Role::Thumbnail ? kThumbnailPad : 0;
     const QRectF inside = QRectF(rect()).adjusted(pad, pad, -pad, -pad);
     if (m_role == Role::Stage)
         return inside.adjusted(0, captionHeight(), 0, 0);
@@ -291,8 +291,8 @@ QSize LabPicture::sizeHint() const {
 int LabPicture::heightForWidth(int width) const {
     if (m_role == Role::Stage)
         return (m_view.isTable() ? width * 3 / 5 : width / 2) + captionHeight();
-    const int inside = width - 2 * kPad;
-    return (m_view.isTable() ? inside * 4 / 5 : inside / 2) + captionHeight() + 2 * kPad;
+    const int inside = width - 2 * kThumbnailPad;
+    return (m_view.isTable() ? inside * 4 / 5 : inside / 2) + captionHeight() + 2 * kThumbnailPad;
 }
 
 // --- Input ---------------------------------------------------------------------------------------
@@ -444,7 +444,8 @@ void LabPicture::paintCaption(QPainter& painter) const {
     }
     painter.setFont(plotFont(font()));
     const QFontMetrics metrics(painter.font());
-    QRectF line(kPad, height() - kPad - captionHeight() + 2, width() - 2 * kPad, metrics.height());
+    QRectF line(kThumbnailPad, height() - kThumbnailPad - captionHeight() + 2,
+                width() - 2 * kThumbnailPad, metrics.height());
     for (const auto& [text, color] :
          {std::pair(m_caption, QColor(tokens::kText)), std::pair(m_detail, dim),
           std::pair(m_warning, QColor(tokens::kCopper))}) {

@@ -8,7 +8,7 @@
 namespace patina::editor {
 namespace {
 
-QString tr(const char* text) {
+QString trLab(const char* text) {
     return QCoreApplication::translate("LightLab", text);
 }
 
@@ -36,18 +36,18 @@ QString labColor(const glm::vec3& c) {
 
 std::vector<LabSection> labSections() {
     std::vector<LabSection> sections{
-        {tr("Light"), tr("The environment, the cube and the irradiance"), {}},
-        {tr("Harmonics"),
-         tr("The environment from its first 1 to 8 bands of spherical harmonics; magenta is "
-            "below "
-            "zero"),
+        {trLab("Light"), trLab("The environment, the cube and the irradiance"), {}},
+        {trLab("Harmonics"),
+         trLab("The environment from its first 1 to 8 bands of spherical harmonics; magenta is "
+               "below "
+               "zero"),
          {}},
-        {tr("Prefilter"),
-         tr("What reflections are looked up in: the environment blurred with the lobe of each "
-            "roughness"),
+        {trLab("Prefilter"),
+         trLab("What reflections are looked up in: the environment blurred with the lobe of each "
+               "roughness"),
          {}},
-        {tr("DFG"),
-         tr("What the lobe reflects, by angle and roughness: albedo = F0 · scale + bias"),
+        {trLab("DFG"),
+         trLab("What the lobe reflects, by angle and roughness: albedo = F0 · scale + bias"),
          {}}};
     for (const LabKind kind :
          {LabKind::Environment, LabKind::Faces, LabKind::Irradiance, LabKind::IrradianceExact})
@@ -65,66 +65,67 @@ LabCaption labCaption(LabView view, bool whole, const LabLight& light, double ir
     LabCaption c;
     const EnvironmentLookup& lookup = light.lookup;
     const auto faces = [&](std::size_t level) {
-        return tr("%1 × %1").arg(lookup.maps->prefiltered[level].size);
+        return trLab("%1 × %1").arg(lookup.maps->prefiltered[level].size);
     };
     const bool draft =
         lookup.maps && static_cast<int>(lookup.maps->prefiltered.size()) < IblSettings().levels;
     switch (view.kind) {
     case LabKind::Environment: {
-        c.title = tr("Environment");
+        c.title = trLab("Environment");
         QStringList parts;
         if (lookup.analysis)
-            parts << tr("%1 × %2")
+            parts << trLab("%1 × %2")
                          .arg(lookup.analysis->environment->width())
                          .arg(lookup.analysis->environment->height());
         if (lookup.rotationDeg != 0.0f && !whole)
             parts.clear(); // room for one of both
         if (lookup.rotationDeg != 0.0f)
-            parts << tr("rotated %1°").arg(labFixed(static_cast<double>(lookup.rotationDeg), 1));
+            parts << trLab("rotated %1°").arg(labFixed(static_cast<double>(lookup.rotationDeg), 1));
         if (whole && lookup.analysis)
-            parts << tr("RMS %1").arg(labNumber(lookup.rms()));
+            parts << trLab("RMS %1").arg(labNumber(lookup.rms()));
         c.detail = parts.join(QStringLiteral(" · "));
         break;
     }
     case LabKind::Faces:
-        c.title = view.isFace() ? tr("Face %1").arg(QString::fromUtf8(labFace(view.index).name))
-                                : tr("Cube faces");
+        c.title = view.isFace() ? trLab("Face %1").arg(QString::fromUtf8(labFace(view.index).name))
+                                : trLab("Cube faces");
         if (lookup.maps)
-            c.detail = view.isFace() ? tr("%1 texels, click for all faces").arg(faces(0))
-                       : whole       ? tr("%1 texels each, click one").arg(faces(0))
-                                     : tr("%1 each").arg(faces(0));
+            c.detail = view.isFace() ? trLab("%1 texels, click for all faces").arg(faces(0))
+                       : whole       ? trLab("%1 texels each, click one").arg(faces(0))
+                                     : trLab("%1 each").arg(faces(0));
         break;
     case LabKind::Irradiance:
-        c.title = whole ? tr("Irradiance from 9 coefficients") : tr("Irradiance, SH 9");
+        c.title = whole ? trLab("Irradiance from 9 coefficients") : trLab("Irradiance, SH 9");
         if (lookup.maps)
-            c.detail = tr("%1 % off").arg(labFixed(100.0 * irradianceError, 1));
+            c.detail = trLab("%1 % off").arg(labFixed(100.0 * irradianceError, 1));
         if (whole && lookup.maps)
-            c.detail = tr("as surfaces take it, %1 % RMS from the exact one, shown over π")
+            c.detail = trLab("as surfaces take it, %1 % RMS from the exact one, shown over π")
                            .arg(labFixed(100.0 * irradianceError, 1));
         break;
     case LabKind::IrradianceExact:
-        c.title = whole ? tr("Irradiance, exact") : tr("Irradiance");
-        c.detail =
-            whole ? tr("∫ L cos, the widest prefiltered level times π; shown over π") : tr("exact");
+        c.title = whole ? trLab("Irradiance, exact") : trLab("Irradiance");
+        c.detail = whole ? trLab("∫ L cos, the widest prefiltered level times π; shown over π")
+                         : trLab("exact");
         break;
     case LabKind::Harmonics: {
         const int n = view.index;
-        c.title = n == 1 ? tr("1 band") : tr("%1 bands").arg(n);
+        c.title = n == 1 ? trLab("1 band") : trLab("%1 bands").arg(n);
         if (!lookup.analysis)
             break;
         const BandSumError sum = lookup.bandSumError(n);
-        c.detail = tr("RMSE %1").arg(fourDigits(sum.rmse));
+        c.detail = trLab("RMSE %1").arg(fourDigits(sum.rmse));
         if (whole)
-            c.detail = tr("%1, %2 % of the light's RMS; %3")
-                           .arg(c.detail, labFixed(100.0 * sum.share, 2),
-                                n == 1 ? tr("1 coefficient") : tr("%1 coefficients").arg(n * n));
+            c.detail =
+                trLab("%1, %2 % of the light's RMS; %3")
+                    .arg(c.detail, labFixed(100.0 * sum.share, 2),
+                         n == 1 ? trLab("1 coefficient") : trLab("%1 coefficients").arg(n * n));
         if (sum.belowZero)
-            c.warning = tr("lowest %1").arg(labNumber(sum.lowest));
+            c.warning = trLab("lowest %1").arg(labNumber(sum.lowest));
         break;
     }
     case LabKind::Prefiltered: {
         const float r = roughnessStep(view.index);
-        c.title = tr("Roughness %1").arg(labFixed(static_cast<double>(r), 2));
+        c.title = trLab("Roughness %1").arg(labFixed(static_cast<double>(r), 2));
         if (!lookup.maps)
             break;
         const LevelPair levels = levelsOf(*lookup.maps, r);
@@ -132,22 +133,23 @@ LabCaption labCaption(LabView view, bool whole, const LabLight& light, double ir
         if (whole)
             c.detail =
                 levels.share > 0.0f
-                    ? tr("perceptual roughness, between levels %1 and %2, %3 texels per face")
+                    ? trLab("perceptual roughness, between levels %1 and %2, %3 texels per face")
                           .arg(levels.first)
                           .arg(levels.second)
                           .arg(c.detail)
-                    : tr("perceptual roughness, level %1, %2 texels per face")
+                    : trLab("perceptual roughness, level %1, %2 texels per face")
                           .arg(levels.first)
                           .arg(c.detail);
         if (draft)
-            c.detail = tr("%1, draft").arg(c.detail);
+            c.detail = trLab("%1, draft").arg(c.detail);
         break;
     }
     case LabKind::Dfg: {
-        const QString titles[] = {tr("Scale A"), tr("Bias B"), tr("Mean direction")};
-        const QString shorts[] = {tr("times F0"), tr("for any F0"), tr("lean to the mirror")};
-        const QString wholes[] = {tr("albedo = F0 · A + B"), tr("albedo = F0 · A + B"),
-                                  tr("0 along the normal, 1 along the mirror direction")};
+        const QString titles[] = {trLab("Scale A"), trLab("Bias B"), trLab("Mean direction")};
+        const QString shorts[] = {trLab("times F0"), trLab("for any F0"),
+                                  trLab("lean to the mirror")};
+        const QString wholes[] = {trLab("albedo = F0 · A + B"), trLab("albedo = F0 · A + B"),
+                                  trLab("0 along the normal, 1 along the mirror direction")};
         c.title = titles[view.index];
         c.detail = whole ? wholes[view.index] : shorts[view.index];
         break;

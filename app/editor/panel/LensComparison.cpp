@@ -1,5 +1,6 @@
 #include "app/editor/panel/LensComparison.h"
 
+#include "app/editor/document/QtText.h"
 #include "app/editor/panel/ParameterRow.h"
 #include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/PlotStyle.h"

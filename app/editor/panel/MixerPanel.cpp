@@ -2,11 +2,13 @@
 
 #include "app/editor/document/FileKinds.h"
 #include "app/editor/document/ProposedFolder.h"
+#include "app/editor/document/QtText.h"
 #include "app/editor/panel/EnvironmentList.h"
 #include "app/editor/panel/ParameterRow.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/LightIcon.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/ControlHelp.h"
 #include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/NumberField.h"
 #include "app/editor/widget/Slider.h"
@@ -32,7 +34,6 @@ namespace patina::editor {
 namespace {
 
 constexpr Target kScene{Scope::Environment, 0}; // of the cross-fade
-constexpr qint64 kStepPauseMs = 700;            // a longer pause begins a new undo step
 
 MixerChannel channelOf(const Environment& environment) {
     return {{Scope::Environment, environment.id},
@@ -40,13 +41,6 @@ MixerChannel channelOf(const Environment& environment) {
             &parameter("environment.tint"),
             &parameter("environment.enabled"),
             &parameter("environment.solo")};
-}
-
-void describe(QWidget* widget, const QString& name, const QString& help) {
-    widget->setAccessibleName(name);
-    widget->setAccessibleDescription(help);
-    widget->setToolTip(help);
-    widget->setStatusTip(help);
 }
 
 } // namespace

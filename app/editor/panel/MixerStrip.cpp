@@ -1,9 +1,12 @@
 #include "app/editor/panel/MixerStrip.h"
 
+#include "app/editor/document/QtText.h"
 #include "app/editor/panel/ParameterRow.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/ColorButton.h"
+#include "app/editor/widget/ControlHelp.h"
+#include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/ElidedLabel.h"
 #include "app/editor/widget/Fader.h"
 #include "app/editor/widget/NumberField.h"
@@ -19,7 +22,6 @@ namespace patina::editor {
 namespace {
 
 constexpr int kWidth = 88;
-constexpr qint64 kStepPauseMs = 700; // a longer pause begins a new undo step
 constexpr double kMeterStops = 12.0; // the meter spans them, its middle is 1 lux
 constexpr int kIconSize = 16;
 
@@ -40,13 +42,6 @@ QToolButton* letter(const QString& text, const QString& objectName) {
     button->setFocusPolicy(Qt::StrongFocus);
     button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     return button;
-}
-
-void describe(QWidget* widget, const QString& name, const QString& help) {
-    widget->setAccessibleName(name);
-    widget->setAccessibleDescription(help);
-    widget->setToolTip(help);
-    widget->setStatusTip(help);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "app/editor/panel/ModelPanel.h"
 
 #include "app/editor/document/DocumentController.h"
+#include "app/editor/document/QtText.h"
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/panel/ParameterList.h"
 #include "app/editor/style/Tokens.h"

@@ -1,5 +1,6 @@
 #include "app/editor/panel/ParameterList.h"
 
+#include "app/editor/document/QtText.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/Section.h"

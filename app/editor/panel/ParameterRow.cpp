@@ -1,5 +1,6 @@
 #include "app/editor/panel/ParameterRow.h"
 
+#include "app/editor/document/QtText.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/EditControl.h"
 #include "app/editor/widget/RowLabel.h"
@@ -9,13 +10,7 @@
 #include <QHBoxLayout>
 
 namespace patina::editor {
-namespace {
-constexpr qint64 kStepPauseMs = 700; // a longer pause begins a new undo step
-}
-
-QString toQString(std::string_view text) {
-    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
-}
+namespace {}
 
 ParameterRow::ParameterRow(const ParameterInfo& info, const RowContext& context)
     : m_info(info)

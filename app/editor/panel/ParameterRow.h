@@ -64,6 +64,4 @@ class ParameterRow : public QWidget {
 // The row that suits the parameter's type; null for names and references.
 [[nodiscard]] ParameterRow* makeParameterRow(const ParameterInfo& info, const RowContext& context);
 
-[[nodiscard]] QString toQString(std::string_view text);
-
 } // namespace patina::editor

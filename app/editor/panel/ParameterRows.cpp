@@ -2,6 +2,7 @@
 
 #include "app/editor/document/FileKinds.h"
 #include "app/editor/document/ProposedFolder.h"
+#include "app/editor/document/QtText.h"
 #include "app/editor/panel/BouncesRow.h"
 #include "app/editor/panel/ParameterRow.h"
 #include "app/editor/style/Tokens.h"

@@ -27,7 +27,7 @@ namespace {
 constexpr int kBeside = 620;     // wide enough for waterfall and tree side by side
 constexpr int kOneRow = 440;     // wide enough for colour and buttons in one row
 constexpr int kChartWidth = 330; // beside the tree
-constexpr int kSwatch = 34;
+constexpr int kPixelSwatch = 34;
 constexpr int kNameWidth = 130; // of the names in the tree at least: the numbers scroll before
 
 QString sentence(PinState state) {
@@ -42,7 +42,7 @@ QString sentence(PinState state) {
     return {};
 }
 
-QToolButton* makeButton(const QString& iconName, const QString& name, const QString& help) {
+QToolButton* makeToolButton(const QString& iconName, const QString& name, const QString& help) {
     auto* button = new QToolButton;
     button->setIcon(icon(iconName));
     button->setIconSize({18, 18});
@@ -107,7 +107,7 @@ PixelPanel::~PixelPanel() {
 
 QWidget* PixelPanel::makeHeader() {
     m_swatch = new QLabel;
-    m_swatch->setFixedSize(kSwatch, kSwatch);
+    m_swatch->setFixedSize(kPixelSwatch, kPixelSwatch);
     m_swatch->setAccessibleName(tr("Displayed colour"));
     m_title = new ElidedLabel;
     m_title->setObjectName(QStringLiteral("pixelTitle"));
@@ -118,7 +118,7 @@ QWidget* PixelPanel::makeHeader() {
     m_state->setObjectName(QStringLiteral("pixelState"));
     m_state->setWordWrap(true);
 
-    m_pin = makeButton(QStringLiteral("pin"), tr("Pin"), {});
+    m_pin = makeToolButton(QStringLiteral("pin"), tr("Pin"), {});
     m_pin->setCheckable(true);
     connect(m_pin, &QToolButton::clicked, this, [this] {
         if (m_probe.pin())
@@ -127,11 +127,11 @@ QWidget* PixelPanel::makeHeader() {
             m_picker.setPicking(!m_picker.isPicking());
         refreshHeader();
     });
-    m_copyText = makeButton(QStringLiteral("copy"), tr("Copy as Text"),
-                            tr("Copy the whole explanation as text"));
+    m_copyText = makeToolButton(QStringLiteral("copy"), tr("Copy as Text"),
+                                tr("Copy the whole explanation as text"));
     m_copyText->setText(tr("Text"));
-    m_copyJson = makeButton(QStringLiteral("copy"), tr("Copy as JSON"),
-                            tr("Copy the whole explanation as JSON, for scripts"));
+    m_copyJson = makeToolButton(QStringLiteral("copy"), tr("Copy as JSON"),
+                                tr("Copy the whole explanation as JSON, for scripts"));
     m_copyJson->setText(tr("JSON"));
     for (QToolButton* button : {m_copyText, m_copyJson})
         button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);

@@ -11,8 +11,8 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kHeight = 192; // of the pictures of the environment
-const TransferColors kColors{{0.35f, 0.75f, 0.66f}, {0.92f, 0.2f, 0.75f}};
+constexpr int kPictureHeight = 192; // of the pictures of the environment
+const TransferColors kTransferColors{{0.35f, 0.75f, 0.66f}, {0.92f, 0.2f, 0.75f}};
 
 QRgb blend(QRgb color, double light) {
     return qRgb(static_cast<int>(qRed(color) * light), static_cast<int>(qGreen(color) * light),
@@ -28,7 +28,8 @@ QImage functionPicture(const TransferFunction& function) {
         for (int x = 0; x < width; ++x) {
             const float value = function.values[static_cast<std::size_t>(y * width + x)];
             const glm::vec3 color = shading::srgbEncode(
-                (value < 0.0f ? kColors.negative : kColors.positive) * std::abs(value) / peak);
+                (value < 0.0f ? kTransferColors.negative : kTransferColors.positive) *
+                std::abs(value) / peak);
             picture.setPixel(x, y,
                              qRgb(static_cast<int>(255.0f * color.x + 0.5f),
                                   static_cast<int>(255.0f * color.y + 0.5f),
@@ -68,7 +69,7 @@ Result<TransferPictures> drawTransfer(const Document& document,
     pictures.lab = {study.environment, memory.reductions};
 
     const LabTone tone(document.view, luminance, 0.0f);
-    const QSize size(2 * kHeight, kHeight);
+    const QSize size(2 * kPictureHeight, kPictureHeight);
     const QImage environment = labPicture(pictures.lab, {LabKind::Environment, 0}, size, tone, job);
     pictures.sum =
         labPicture(pictures.lab, {LabKind::Harmonics, request.lightBands}, size, tone, job);
@@ -81,21 +82,21 @@ Result<TransferPictures> drawTransfer(const Document& document,
         const int rows = study.visibleHeight;
         pictures.rays = 2 * rows * rows;
         pictures.seen = seenPicture(environment, [&](int x, int y) {
-            const int from = y * rows / kHeight * 2 * rows + x * rows / kHeight;
+            const int from = y * rows / kPictureHeight * 2 * rows + x * rows / kPictureHeight;
             return study.visible[static_cast<std::size_t>(from)] ? 1.0 : 0.0;
         });
     } else {
         const float peak = std::max(study.function.highest, 1e-6f);
         pictures.seen = seenPicture(environment, [&](int x, int y) {
-            const float value =
-                study.transfer.towards(latLongDirection(x, y, 2 * kHeight, kHeight), ~0u);
+            const float value = study.transfer.towards(
+                latLongDirection(x, y, 2 * kPictureHeight, kPictureHeight), ~0u);
             return static_cast<double>(std::clamp(value / peak, 0.0f, 1.0f));
         });
     }
 
     auto lobe = std::make_shared<render::SurfaceLobe>();
     lobe->mesh = std::make_shared<const LobeMesh>(
-        transferLobe(study.transfer, request.study.bands, study.function.peak(), kColors));
+        transferLobe(study.transfer, request.study.bands, study.function.peak(), kTransferColors));
     lobe->position = request.study.position; // its frame is the world's
     pictures.lobe = std::move(lobe);
     return pictures;

@@ -14,7 +14,7 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kFrame = 3;       // round the target
+constexpr int kTargetFrame = 3; // round the target
 constexpr int kMostLines = 12;  // of a folder full of files
 constexpr int kVeilAlpha = 150; // over the picture, of 255
 
@@ -51,8 +51,9 @@ void DropHint::paintEvent(QPaintEvent*) {
     QColor veil(tokens::kWell);
     veil.setAlpha(kVeilAlpha);
     painter.fillRect(rect(), veil);
-    painter.setPen(QPen(QColor(tokens::kAccent), kFrame));
-    painter.drawRect(rect().adjusted(kFrame / 2, kFrame / 2, -kFrame / 2 - 1, -kFrame / 2 - 1));
+    painter.setPen(QPen(QColor(tokens::kAccent), kTargetFrame));
+    painter.drawRect(rect().adjusted(kTargetFrame / 2, kTargetFrame / 2, -kTargetFrame / 2 - 1,
+                                     -kTargetFrame / 2 - 1));
 
     QStringList shown = m_lines.mid(0, kMostLines);
     if (m_lines.size() > kMostLines)

@@ -1,14 +1,12 @@
 #include "app/editor/viewport/EquationText.h"
 
+#include "app/editor/document/QtText.h"
+
 #include <QCoreApplication>
 #include <QStringList>
 
 namespace patina::editor {
 namespace {
-
-QString text(std::string_view utf8) {
-    return QString::fromUtf8(utf8.data(), static_cast<qsizetype>(utf8.size()));
-}
 
 QString withConstant(const QString& name, float constant) {
     if (constant == 1.0f)
@@ -20,13 +18,13 @@ QString withConstant(const QString& name, float constant) {
 
 QString symbol(ViewKind kind) {
     const ViewInfo& info = viewInfo(kind);
-    return text(info.symbol.empty() ? info.label : info.symbol);
+    return toQString(info.symbol.empty() ? info.label : info.symbol);
 }
 
 } // namespace
 
 QString labelText(ViewKind kind) {
-    return text(viewInfo(kind).label);
+    return toQString(viewInfo(kind).label);
 }
 
 QString partText(const EquationPart& part) {

@@ -1,5 +1,6 @@
 #include "app/editor/viewport/LegendContent.h"
 
+#include "app/editor/document/QtText.h"
 #include "app/editor/viewport/ViewState.h"
 #include "core/document/Document.h"
 #include "core/edit/ViewReasons.h"
@@ -19,12 +20,8 @@ using namespace shading;
 
 constexpr std::size_t kMostSwatches = 8;
 
-QString tr(const char* text) {
+QString trLegend(const char* text) {
     return QCoreApplication::translate("LegendContent", text);
-}
-
-QString text(std::string_view utf8) {
-    return QString::fromUtf8(utf8.data(), static_cast<qsizetype>(utf8.size()));
 }
 
 // Names of what is visible, in the colours of shaders/view.frag.
@@ -47,17 +44,17 @@ void addIdentities(LegendContent& content, const Things& things, Keep keep) {
 void addMarks(LegendContent& content) {
     switch (content.kind) {
     case kViewInvalid:
-        content.swatches = {{QColor::fromRgbF(1.0f, 0.0f, 1.0f), tr("Not a number")},
-                            {QColor::fromRgbF(1.0f, 0.9f, 0.0f), tr("Infinite")},
-                            {QColor::fromRgbF(0.0f, 0.9f, 0.9f), tr("Negative")}};
+        content.swatches = {{QColor::fromRgbF(1.0f, 0.0f, 1.0f), trLegend("Not a number")},
+                            {QColor::fromRgbF(1.0f, 0.9f, 0.0f), trLegend("Infinite")},
+                            {QColor::fromRgbF(0.0f, 0.9f, 0.9f), trLegend("Negative")}};
         break;
     case kViewClipped:
-        content.swatches = {{QColor::fromRgbF(1.0f, 0.15f, 0.1f), tr("One channel clipped")},
-                            {Qt::white, tr("All channels clipped")},
-                            {QColor::fromRgbF(0.1f, 0.25f, 1.0f), tr("Black")}};
+        content.swatches = {{QColor::fromRgbF(1.0f, 0.15f, 0.1f), trLegend("One channel clipped")},
+                            {Qt::white, trLegend("All channels clipped")},
+                            {QColor::fromRgbF(0.1f, 0.25f, 1.0f), trLegend("Black")}};
         break;
     case kViewOutOfGamut:
-        content.swatches = {{QColor::fromRgbF(1.0f, 0.2f, 0.8f), tr("A channel below zero")}};
+        content.swatches = {{QColor::fromRgbF(1.0f, 0.2f, 0.8f), trLegend("A channel below zero")}};
         break;
     default:
         break;
@@ -67,18 +64,19 @@ void addMarks(LegendContent& content) {
 void describeColors(LegendContent& content, const ViewInfo& info, const Document& document) {
     switch (info.value) {
     case ViewValue::Radiance:
-        content.note = tr("Exposed and tone mapped like the picture");
+        content.note = trLegend("Exposed and tone mapped like the picture");
         break;
     case ViewValue::Color:
-        content.note = tr("0…%1, not exposed").arg(static_cast<double>(info.rangeMax));
+        content.note = trLegend("0…%1, not exposed").arg(static_cast<double>(info.rangeMax));
         break;
     case ViewValue::Scalar:
         content.hasScale = true;
         break;
     case ViewValue::Direction:
-        content.note = info.kind == kViewNormalMap
-                           ? tr("Red, green, blue: along the tangent, the bitangent, the normal")
-                           : tr("Red, green, blue: X, Y, Z from −1 to 1");
+        content.note =
+            info.kind == kViewNormalMap
+                ? trLegend("Red, green, blue: along the tangent, the bitangent, the normal")
+                : trLegend("Red, green, blue: X, Y, Z from −1 to 1");
         break;
     case ViewValue::Identity:
         if (info.kind == kViewMaterialId)
@@ -103,7 +101,7 @@ void addLights(LegendContent& content, const render::ViewSettings& settings,
                const Document& document) {
     content.light = settings.light;
     content.lights.push_back(
-        {0, content.kind == kViewShadow ? tr("All lights") : tr("Mirror direction")});
+        {0, content.kind == kViewShadow ? trLegend("All lights") : trLegend("Mirror direction")});
     for (const Light& light : document.lights)
         if (isActive(document, light))
             content.lights.push_back({light.id, QString::fromStdString(light.name)});
@@ -116,13 +114,13 @@ LegendContent describeView(const render::ViewSettings& settings, const render::V
     const ViewInfo& info = viewInfo(choice.kind);
     LegendContent content;
     content.kind = choice.kind;
-    content.symbol = text(info.symbol);
-    content.title = text(info.label);
-    content.help = text(info.help) + QLatin1Char('.');
+    content.symbol = toQString(info.symbol);
+    content.title = toQString(info.label);
+    content.help = toQString(info.help) + QLatin1Char('.');
     content.contribution = choice.mode == render::ViewMode::Contribution;
     content.hasModes = !info.contribution.empty();
     if (content.hasModes)
-        content.help += tr("\nContribution: ") + text(info.contribution);
+        content.help += trLegend("\nContribution: ") + toQString(info.contribution);
     content.why = QString::fromStdString(whyEmpty(choice.kind, document, settings.light));
     if (!content.why.isEmpty()) {
         content.hasModes = false;
@@ -134,9 +132,9 @@ LegendContent describeView(const render::ViewSettings& settings, const render::V
     if (choice.kind == kViewFinal)
         return content; // beside a split its name says it all
     if (content.contribution) {
-        content.note = text(info.contribution);
+        content.note = toQString(info.contribution);
     } else {
-        content.unit = text(info.unit);
+        content.unit = toQString(info.unit);
         describeColors(content, info, document);
     }
     if (info.ofChosenLight)

@@ -9,8 +9,8 @@ namespace patina::editor {
 namespace {
 
 constexpr double kRadius = 8.0;
-constexpr double kReach = 16.0; // of the whole mark
-constexpr double kGap = 3.0;    // around the point itself, which is what is looked at
+constexpr double kMarkReach = 16.0; // of the whole mark
+constexpr double kPointGap = 3.0;   // around the point itself, which is what is looked at
 
 } // namespace
 
@@ -33,7 +33,8 @@ bool PinMarker::eventFilter(QObject*, QEvent* event) {
 
 void PinMarker::updateMark() {
     if (m_place)
-        update(QRectF(*m_place - QPointF(kReach, kReach), QSizeF(2 * kReach, 2 * kReach))
+        update(QRectF(*m_place - QPointF(kMarkReach, kMarkReach),
+                      QSizeF(2 * kMarkReach, 2 * kMarkReach))
                    .toAlignedRect()
                    .adjusted(-1, -1, 1, 1));
 }
@@ -69,7 +70,7 @@ void PinMarker::paintEvent(QPaintEvent*) {
         painter.setPen(pen);
         painter.drawEllipse(*m_place, kRadius, kRadius);
         for (const QPointF& way : {QPointF(1, 0), QPointF(-1, 0), QPointF(0, 1), QPointF(0, -1)})
-            painter.drawLine(*m_place + kGap * way, *m_place + (kReach - 2.0) * way);
+            painter.drawLine(*m_place + kPointGap * way, *m_place + (kMarkReach - 2.0) * way);
     }
 }
 

@@ -7,7 +7,7 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kPollMs = 100; // how often a bake is asked for a new pass
+constexpr int kPassPollMs = 100; // how often a bake is asked for a new pass
 // How often an unfinished pass is shown: each time redraws the picture, which takes the cores from
 // the bake.
 constexpr int kPartMs = 1500;
@@ -18,7 +18,7 @@ constexpr int kMovingMs = 3000;
 
 PreviewFeed::PreviewFeed(QObject* parent)
     : QObject(parent) {
-    m_timer.setInterval(kPollMs);
+    m_timer.setInterval(kPassPollMs);
     connect(&m_timer, &QTimer::timeout, this, &PreviewFeed::poll);
 }
 

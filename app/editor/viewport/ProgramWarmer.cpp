@@ -12,7 +12,7 @@ using render::FrameKind;
 using render::SurfaceOutput;
 
 // Of the calling thread, where drivers compile: other programs do not disturb the measurement.
-double threadMs() {
+double compilerMs() {
     timespec now{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
@@ -32,10 +32,10 @@ Result<double> warmUp(const Document& document, const FrameKind& frame, const st
     auto made = render::WarmUp::create(**context, document);
     if (!made)
         return made.error();
-    const double start = threadMs();
+    const double start = compilerMs();
     if (auto done = made->draw(frame, job); !done)
         return done.error();
-    return threadMs() - start;
+    return compilerMs() - start;
 }
 
 } // namespace

@@ -15,15 +15,15 @@
 namespace patina::editor {
 namespace {
 
-constexpr double kReach = 6.0;          // pixels from the line that still take it
+constexpr double kLineReach = 6.0;      // pixels from the line that still take it
 constexpr double kKnob = 11.0;          // radius of the disc that is dragged
 constexpr double kRing = 7.0;           // radius of the ring that turns
 constexpr double kRingDistance = 64.0;  // from the disc
 constexpr double kCaptionDistance = 84; // from the disc, the other way
 constexpr double kSnapDeg = 15.0;
-constexpr float kMargin = 0.02f; // the disc stays inside
+constexpr float kDiscMargin = 0.02f; // the disc stays inside
 
-QString nameOf(const render::ViewChoice& choice) {
+QString choiceName(const render::ViewChoice& choice) {
     const ViewInfo& info = viewInfo(choice.kind);
     const QString label =
         QString::fromUtf8(info.label.data(), static_cast<qsizetype>(info.label.size()));
@@ -80,7 +80,7 @@ void SplitHandle::refresh() {
 
 void SplitHandle::paintCaption(QPainter& painter, const SplitLine& line,
                                const render::ViewChoice& choice, double side) const {
-    const QString name = nameOf(choice);
+    const QString name = choiceName(choice);
     const QSizeF half(0.5 * fontMetrics().horizontalAdvance(name) + 8,
                       0.5 * fontMetrics().height() + 3);
     // Beside the line, below the disc, wherever the line is turned to.
@@ -148,7 +148,7 @@ SplitHandle::Part SplitHandle::partAt(const QPointF& point) const {
     const SplitLine line(*split, size());
     if (length(point - line.ring()) <= kRing + 4)
         return Part::Ring;
-    if (length(point - line.center) <= kKnob + 2 || std::abs(line.distance(point)) <= kReach)
+    if (length(point - line.center) <= kKnob + 2 || std::abs(line.distance(point)) <= kLineReach)
         return Part::Line;
     return Part::None;
 }
@@ -193,7 +193,8 @@ void SplitHandle::drag(const QPointF& point, bool inSteps) {
     } else {
         const QPointF center = point + m_grab;
         const auto inside = [](double at, int extent) {
-            return std::clamp(static_cast<float>(at / std::max(extent, 1)), kMargin, 1 - kMargin);
+            return std::clamp(static_cast<float>(at / std::max(extent, 1)), kDiscMargin,
+                              1 - kDiscMargin);
         };
         split.position = {inside(center.x(), width()), inside(center.y(), height())};
     }

@@ -23,8 +23,8 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kWidth = 236; // of the content
-constexpr int kSwatch = 12;
+constexpr int kLegendWidth = 236; // of the content
+constexpr int kLegendSwatch = 12;
 constexpr double kHuge = 1e9; // beyond any range that is typed
 
 // Three digits that matter, and drags that are as fine as the number is small.
@@ -43,7 +43,7 @@ QLabel* wrapped(const QString& text) {
     auto* label = new QLabel(text);
     label->setWordWrap(true);
     label->setTextFormat(Qt::PlainText);
-    label->setFixedWidth(kWidth);
+    label->setFixedWidth(kLegendWidth);
     return label;
 }
 
@@ -221,7 +221,7 @@ void ViewLegend::addModes(QVBoxLayout& rows) {
 void ViewLegend::addScale(QVBoxLayout& rows) {
     const ViewInfo& info = viewInfo(m_content.kind);
     m_scale = new ColorScale(info.colorMap, info.logarithmic);
-    m_scale->setFixedWidth(kWidth);
+    m_scale->setFixedWidth(kLegendWidth);
     m_scale->setAccessibleName(tr("Range of the colours"));
     m_scale->setToolTip(tr("Drag an end or the middle to lock the range; double-click: automatic"));
     connect(m_scale, &ColorScale::dragged, this, &ViewLegend::lockRange);
@@ -265,7 +265,7 @@ void ViewLegend::addScale(QVBoxLayout& rows) {
 
 void ViewLegend::addSwatches(QVBoxLayout& rows) {
     for (const LegendContent::Swatch& swatch : m_content.swatches) {
-        QPixmap color(QSize(kSwatch, kSwatch) * devicePixelRatioF());
+        QPixmap color(QSize(kLegendSwatch, kLegendSwatch) * devicePixelRatioF());
         color.setDevicePixelRatio(devicePixelRatioF());
         color.fill(swatch.color);
         auto* square = new QLabel;
@@ -273,7 +273,7 @@ void ViewLegend::addSwatches(QVBoxLayout& rows) {
         auto* name = new QLabel;
         name->setTextFormat(Qt::PlainText);
         name->setText(fontMetrics().elidedText(swatch.name, Qt::ElideMiddle,
-                                               kWidth - kSwatch - tokens::kGap));
+                                               kLegendWidth - kLegendSwatch - tokens::kGap));
         auto* row = new QHBoxLayout;
         row->setSpacing(tokens::kGap);
         row->addWidget(square);

@@ -21,7 +21,7 @@ namespace patina::editor {
 namespace {
 
 constexpr int kRoomyScreen = 640; // height from which the strip is open at first
-const char* const kFoldedKey = "viewStrip/folded";
+const char* const kStripFoldedKey = "viewStrip/folded";
 
 // Short, so that all of them have room; the tool tip says the whole name.
 QString tabName(ViewGroup group) {
@@ -50,7 +50,7 @@ ViewStrip::ViewStrip(ViewState& views, DocumentController& controller, SheetSche
     , m_views(views)
     , m_controller(controller)
     , m_sheets(&sheets)
-    , m_fold(new FoldButton(tr("Views"), QLatin1String(kFoldedKey)))
+    , m_fold(new FoldButton(tr("Views"), QLatin1String(kStripFoldedKey)))
     , m_groups(new QTabBar)
     , m_scroll(new QScrollArea) {
     setObjectName(QStringLiteral("viewStrip"));

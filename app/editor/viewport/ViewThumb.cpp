@@ -9,8 +9,8 @@
 
 namespace patina::editor {
 namespace {
-constexpr int kFrame = 2; // around the picture
-constexpr int kGap = 1;   // above the name
+constexpr int kFrame = 2;   // around the picture
+constexpr int kNameGap = 1; // above the name
 constexpr double kMutedOpacity = 0.22;
 } // namespace
 
@@ -30,7 +30,7 @@ ViewThumb::ViewThumb(ViewKind kind, QWidget* parent)
 }
 
 QSize ViewThumb::sizeHint() const {
-    const int name = m_size == kPicture ? kGap + fontMetrics().height() : 0;
+    const int name = m_size == kPicture ? kNameGap + fontMetrics().height() : 0;
     return m_size + QSize(2 * kFrame, 2 * kFrame + name);
 }
 
@@ -108,7 +108,7 @@ void ViewThumb::paintEvent(QPaintEvent*) {
     if (m_size != kPicture)
         return;
     painter.setPen(QColor(current ? tokens::kText : tokens::kTextDim));
-    const QRect line(kFrame, place.bottom() + 1 + kFrame + kGap, m_size.width(),
+    const QRect line(kFrame, place.bottom() + 1 + kFrame + kNameGap, m_size.width(),
                      fontMetrics().height());
     painter.drawText(line, Qt::AlignHCenter | Qt::AlignVCenter,
                      fontMetrics().elidedText(text(), Qt::ElideRight, line.width()));

@@ -11,7 +11,7 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kBar = 12;           // height
+constexpr int kScaleBar = 12;      // height
 constexpr int kTick = 3;           // length of a mark below it
 constexpr int kInset = 8;          // room for half a number at the ends
 constexpr int kTicks = 6;          // at most
@@ -93,7 +93,7 @@ void ColorScale::setRange(double min, double max) {
 }
 
 QSize ColorScale::sizeHint() const {
-    return {200, kBar + kTick + fontMetrics().height()};
+    return {200, kScaleBar + kTick + fontMetrics().height()};
 }
 
 double ColorScale::even(double value) const {
@@ -106,7 +106,7 @@ double ColorScale::value(double even) const {
 
 void ColorScale::paintEvent(QPaintEvent*) {
     QPainter painter(this);
-    const QRectF bar(kInset, 0, width() - 2 * kInset, kBar);
+    const QRectF bar(kInset, 0, width() - 2 * kInset, kScaleBar);
     const double ratio = devicePixelRatioF();
     const int pixels = std::max(1, qRound(bar.width() * ratio));
     QImage colors(pixels, 1, QImage::Format_RGB32);

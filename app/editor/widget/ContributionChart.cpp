@@ -9,7 +9,7 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kPad = 8;
+constexpr int kChartPad = 8;
 constexpr QRgb kChannelColors[3] = {0xffd9635f, 0xff5fb370, 0xff5f8fd9};
 
 // In the colour of the light itself, as bright as a bar must be to be seen.
@@ -66,7 +66,7 @@ int ContributionChart::rowHeight() const {
 }
 
 QSize ContributionChart::sizeHint() const {
-    return {300, rowHeight() * static_cast<int>(m_parts.size() + 1) + 2 * kPad};
+    return {300, rowHeight() * static_cast<int>(m_parts.size() + 1) + 2 * kChartPad};
 }
 
 QSize ContributionChart::minimumSizeHint() const {
@@ -86,14 +86,15 @@ QRectF ContributionChart::area() const {
         label = std::max(label, metrics.horizontalAdvance(QString::fromStdString(part.label)));
     label = std::min(label, 0.42 * width());
     const double number = metrics.horizontalAdvance(QStringLiteral("0.0000  100 %"));
-    const double left = kPad + label + kPad, right = width() - kPad - number - kPad;
-    return {left, double{kPad}, std::max(right - left, 10.0),
+    const double left = kChartPad + label + kChartPad,
+                 right = width() - kChartPad - number - kChartPad;
+    return {left, double{kChartPad}, std::max(right - left, 10.0),
             double(rowHeight()) * static_cast<double>(m_parts.size() + 1)};
 }
 
 int ContributionChart::rowAt(const QPoint& position) const {
-    const int row = (position.y() - kPad) / rowHeight();
-    return position.y() >= kPad && row <= static_cast<int>(m_parts.size()) ? row : -1;
+    const int row = (position.y() - kChartPad) / rowHeight();
+    return position.y() >= kChartPad && row <= static_cast<int>(m_parts.size()) ? row : -1;
 }
 
 std::optional<QPointF> ContributionChart::placeAt(const QPointF& point) const {
@@ -148,15 +149,15 @@ bool ContributionChart::pick(const QPointF& place, Qt::KeyboardModifiers) {
 void ContributionChart::paintRow(QPainter& painter, int index, const glm::vec3& begin) const {
     const render::Contribution part = row(index);
     const QRectF bars = area();
-    const double top = kPad + double(index) * rowHeight(), height = rowHeight();
+    const double top = kChartPad + double(index) * rowHeight(), height = rowHeight();
     const QFontMetricsF metrics(painter.font());
-    const double wide = bars.left() - 2 * kPad;
+    const double wide = bars.left() - 2 * kChartPad;
     painter.setPen(part.on ? QColor(tokens::kText) : QColor(tokens::kTextOff));
-    painter.drawText(QRectF(kPad, top, wide, height), Qt::AlignLeft | Qt::AlignVCenter,
+    painter.drawText(QRectF(kChartPad, top, wide, height), Qt::AlignLeft | Qt::AlignVCenter,
                      metrics.elidedText(QString::fromStdString(part.label), Qt::ElideRight, wide));
-    painter.drawText(QRectF(bars.right() + kPad, top, width() - bars.right() - 2 * kPad, height),
-                     Qt::AlignRight | Qt::AlignVCenter,
-                     part.on ? shareText(part.radiance) : tr("off"));
+    painter.drawText(
+        QRectF(bars.right() + kChartPad, top, width() - bars.right() - 2 * kChartPad, height),
+        Qt::AlignRight | Qt::AlignVCenter, part.on ? shareText(part.radiance) : tr("off"));
 
     const float whole = largest();
     if (!part.on || whole <= 0.0f)
@@ -197,8 +198,8 @@ void ContributionChart::paintValues(QPainter& painter) const {
     const auto count = static_cast<int>(m_parts.size());
     painter.setPen(QColor(tokens::kLine));
     painter.drawLine(bars.topLeft(), bars.bottomLeft());
-    const double sumTop = kPad + double(count) * rowHeight();
-    painter.drawLine(QPointF(kPad, sumTop), QPointF(width() - kPad, sumTop));
+    const double sumTop = kChartPad + double(count) * rowHeight();
+    painter.drawLine(QPointF(kChartPad, sumTop), QPointF(width() - kChartPad, sumTop));
     glm::vec3 begin(0.0f);
     for (int index = 0; index < count; ++index) {
         const render::Contribution& part = m_parts[static_cast<std::size_t>(index)];
@@ -214,8 +215,9 @@ void ContributionChart::paintValues(QPainter& painter) const {
 void ContributionChart::paintProbe(QPainter& painter, const QPointF& place) const {
     QColor band(tokens::kText);
     band.setAlpha(22);
-    painter.fillRect(
-        QRectF(kPad / 2.0, kPad + place.y() * rowHeight(), width() - kPad, rowHeight()), band);
+    painter.fillRect(QRectF(kChartPad / 2.0, kChartPad + place.y() * rowHeight(),
+                            width() - kChartPad, rowHeight()),
+                     band);
 }
 
 } // namespace patina::editor

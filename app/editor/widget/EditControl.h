@@ -2,6 +2,8 @@
 // reports an edit, and nothing that was typed for one element reaches another.
 #pragma once
 
+#include <QtGlobal>
+
 class QLayout;
 class QWidget;
 
@@ -19,6 +21,9 @@ class EditControl {
     EditControl(const EditControl&) = default;
     EditControl& operator=(const EditControl&) = default;
 };
+
+// Steps of one control (the wheel, keys) with a longer pause between them are steps of the history.
+inline constexpr qint64 kStepPauseMs = 700;
 
 // Ends every edit in `root` and below without a signal, and closes what popped up from there.
 // For controls that are kept and are about to show something else, or to be hidden or disabled.

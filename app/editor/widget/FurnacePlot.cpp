@@ -5,14 +5,14 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kSteps = 48;
-constexpr int kHeight = 132;
+constexpr int kFurnaceSteps = 48;
+constexpr int kFurnaceHeight = 132;
 
 std::vector<QPointF> averageReturn(const ShadingModel& model) {
     std::vector<QPointF> points;
     SurfacePoint white;
-    for (int i = 0; i <= kSteps; ++i) {
-        const double roughness = static_cast<double>(i) / kSteps;
+    for (int i = 0; i <= kFurnaceSteps; ++i) {
+        const double roughness = static_cast<double>(i) / kFurnaceSteps;
         white.perceptualRoughness = static_cast<float>(roughness);
         const Returned average =
             averageReturned([&](float NoV) { return returnedFromEnvironment(model, white, NoV); });
@@ -26,7 +26,7 @@ std::vector<QPointF> averageReturn(const ShadingModel& model) {
 FurnacePlot::FurnacePlot(QWidget* parent)
     : EnergyPlot(tr("White metal"), {tr("roughness"), {}, 0.0, 1.0, 0.5}, parent) {
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    setFixedHeight(kHeight);
+    setFixedHeight(kFurnaceHeight);
     setHelp(tr("How much of the light around it a white metal gives back, by roughness. Anything "
                "below 100 % is light that the model loses."));
     setAccessibleName(tr("White furnace"));

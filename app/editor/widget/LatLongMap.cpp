@@ -16,10 +16,6 @@ constexpr double kEdgeHandles = 34; // a side at least this long has a handle in
 constexpr double kRollDistance = 18;
 constexpr double kMinSideDeg = 0.5, kMaxSideDeg = 170; // as in the parameter table
 
-double wrapDeg(double degrees) {
-    return degrees - 360.0 * std::floor((degrees + 180.0) / 360.0);
-}
-
 // In half sizes: -1, 0 or 1 along x (right) and y (up).
 glm::dvec2 placeOf(SoftboxHandle handle) {
     switch (handle) {
@@ -57,6 +53,10 @@ double angleAbout(const Softbox& softbox, const glm::dvec3& direction) {
 }
 
 } // namespace
+
+double wrapDeg(double degrees) {
+    return degrees - 360.0 * std::floor((degrees + 180.0) / 360.0);
+}
 
 double LatLongMap::shift() const {
     const double turns =

@@ -75,4 +75,7 @@ struct SoftboxHandlePoint {
                                      const LatLongMap& map, const QPointF& from, const QPointF& to,
                                      bool keepShape);
 
+// Into -180 … 180.
+[[nodiscard]] double wrapDeg(double degrees);
+
 } // namespace patina::editor

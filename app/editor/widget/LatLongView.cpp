@@ -42,10 +42,6 @@ Qt::CursorShape cursorOf(SoftboxHandle handle) {
     return Qt::ArrowCursor;
 }
 
-double wrapDeg(double degrees) {
-    return degrees - 360.0 * std::floor((degrees + 180.0) / 360.0);
-}
-
 // Moved to the right by a share of its width, what leaves coming in again: drawn in two parts a
 // line would show between them.
 QImage rolled(const QImage& picture, double share) {

@@ -8,8 +8,8 @@
 namespace patina::editor {
 namespace {
 
-constexpr double kStep = 0.05;  // of the highlight, with the keys
-constexpr float kRim = 0.9995f; // seen at grazing angles, never from behind
+constexpr double kHighlightStep = 0.05; // of the highlight, with the keys
+constexpr float kRim = 0.9995f;         // seen at grazing angles, never from behind
 
 QPointF within(const QPointF& place, double radius) {
     const double length = std::hypot(place.x(), place.y());
@@ -66,7 +66,7 @@ bool LitSphere::pick(const QPointF& place, Qt::KeyboardModifiers) {
 }
 
 bool LitSphere::moveHandle(const QPointF& way) {
-    setHighlight(m_highlight + kStep * way);
+    setHighlight(m_highlight + kHighlightStep * way);
     return true;
 }
 

@@ -8,7 +8,7 @@
 namespace patina::editor {
 namespace {
 
-constexpr double kDegreesPerPixel = 0.6, kDegreesPerKey = 5.0;
+constexpr double kTurnPerPixel = 0.6, kDegreesPerKey = 5.0;
 constexpr double kLowest = 2.0,
                  kHighest = 90.0; // of the camera: never from below
 
@@ -125,7 +125,7 @@ void LobeView::mouseMoveEvent(QMouseEvent* event) {
     if (event->buttons().testFlag(Qt::LeftButton)) {
         const QPointF way = event->position() - m_last;
         m_last = event->position();
-        orbit(-way.x() * kDegreesPerPixel, way.y() * kDegreesPerPixel);
+        orbit(-way.x() * kTurnPerPixel, way.y() * kTurnPerPixel);
     }
     PictureFrame::mouseMoveEvent(event);
 }

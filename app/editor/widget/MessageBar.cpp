@@ -7,7 +7,7 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kMargin = 6; // logical pixels
+constexpr int kBarMargin = 6; // logical pixels
 
 } // namespace
 
@@ -16,7 +16,7 @@ QRect MessageBar::messageRect() const {
     for (const QWidget* widget : findChildren<QWidget*>(Qt::FindDirectChildrenOnly))
         if (widget->isVisible())
             right = std::min(right, widget->x());
-    return {kMargin, 0, std::max(right - 2 * kMargin, 0), height()};
+    return {kBarMargin, 0, std::max(right - 2 * kBarMargin, 0), height()};
 }
 
 QString MessageBar::shownMessage() const {

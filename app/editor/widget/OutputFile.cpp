@@ -1,6 +1,7 @@
 #include "app/editor/widget/OutputFile.h"
 
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/ControlHelp.h"
 
 #include <QComboBox>
 #include <QDialog>

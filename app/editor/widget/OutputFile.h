@@ -53,12 +53,4 @@ class OutputFile : public QObject {
     QPushButton* m_run = nullptr;
 };
 
-// Tool tip and accessible description are the same sentence.
-template <class Widget>
-Widget* withHelp(Widget* widget, const QString& help) {
-    widget->setToolTip(help);
-    widget->setAccessibleDescription(help);
-    return widget;
-}
-
 } // namespace patina::editor

@@ -5,7 +5,7 @@
 
 namespace patina::editor {
 namespace {
-constexpr double kGap = 6.0;
+constexpr double kPictureGap = 6.0;
 } // namespace
 
 PictureFrame::PictureFrame(TaskRunner& runner, const char* job, const QString& title, Press press,
@@ -21,11 +21,12 @@ void PictureFrame::setLooks(std::vector<Look> looks) {
 }
 
 QRectF PictureFrame::area() const {
-    return QRectF(rect()).adjusted(kGap, plotTitleHeight(font()), -kGap, -kGap);
+    return QRectF(rect()).adjusted(kPictureGap, plotTitleHeight(font()), -kPictureGap,
+                                   -kPictureGap);
 }
 
 std::vector<QRectF> PictureFrame::cells(const QRectF& area, double unit) const {
-    return plotCells(area, static_cast<int>(m_looks.size()), kGap * unit);
+    return plotCells(area, static_cast<int>(m_looks.size()), kPictureGap * unit);
 }
 
 int PictureFrame::cellAt(const QPointF& point) const {

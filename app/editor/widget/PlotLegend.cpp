@@ -7,7 +7,7 @@
 namespace patina::editor {
 namespace {
 constexpr int kSample = 18; // a line's length
-constexpr int kGap = 5;
+constexpr int kLegendGap = 5;
 } // namespace
 
 PlotLegend::PlotLegend(QWidget* parent)
@@ -29,7 +29,8 @@ void PlotLegend::setCurves(std::vector<PlotCurve> curves) {
 QSize PlotLegend::sizeHint() const {
     int width = 0;
     for (const PlotCurve& curve : m_curves)
-        width += kSample + kGap + fontMetrics().horizontalAdvance(curve.name) + 2 * kGap;
+        width +=
+            kSample + kLegendGap + fontMetrics().horizontalAdvance(curve.name) + 2 * kLegendGap;
     return {width, tokens::kRowHeight};
 }
 
@@ -41,11 +42,11 @@ void PlotLegend::paintEvent(QPaintEvent*) {
         painter.setPen(curvePen(curve.shape, curve.look));
         const double y = height() / 2.0;
         painter.drawLine(QPointF(x, y), QPointF(x + kSample, y));
-        x += kSample + kGap;
+        x += kSample + kLegendGap;
         painter.setPen(QColor(tokens::kTextDim));
         painter.drawText(QRect(x, 0, width() - x, height()), Qt::AlignLeft | Qt::AlignVCenter,
                          curve.name);
-        x += fontMetrics().horizontalAdvance(curve.name) + 2 * kGap;
+        x += fontMetrics().horizontalAdvance(curve.name) + 2 * kLegendGap;
     }
 }
 

@@ -10,7 +10,7 @@
 namespace patina::editor {
 namespace {
 
-constexpr std::array<QRgb, kPlotLooks> kColors{0xff56b4e9, 0xffe69f00, 0xffcc79a7, 0xfff0e442};
+constexpr std::array<QRgb, kPlotLooks> kLookColors{0xff56b4e9, 0xffe69f00, 0xffcc79a7, 0xfff0e442};
 constexpr std::array<Qt::PenStyle, kPlotLooks> kDashes{Qt::SolidLine, Qt::DashLine, Qt::DotLine,
                                                        Qt::DashDotLine};
 
@@ -25,7 +25,7 @@ QString superscript(int exponent) {
 } // namespace
 
 QColor plotColor(int look) {
-    return kColors[static_cast<std::size_t>(look % kPlotLooks)];
+    return kLookColors[static_cast<std::size_t>(look % kPlotLooks)];
 }
 
 Qt::PenStyle plotDash(int look) {

@@ -10,7 +10,7 @@
 namespace patina::editor {
 namespace {
 
-constexpr double kPad = 6.0;
+constexpr double kPolarPad = 6.0;
 constexpr double kNumberGap = 9.0; // between the rim and the numbers of angles
 
 double radians(double degrees) {
@@ -51,11 +51,11 @@ PolarPlot::Dial PolarPlot::dial() const {
     const QFontMetricsF metrics(plotFont(font()));
     const double number = metrics.horizontalAdvance(QStringLiteral("60°"));
     const double top = plotTitleHeight(font()) + metrics.height() + 2.0;
-    const double bottom = metrics.height() + kPad; // numbers along the surface
+    const double bottom = metrics.height() + kPolarPad; // numbers along the surface
     // Beside the rim stand the numbers of 60°; those of 90° stand below its ends.
     const double wide =
-        std::min((width() / 2.0 - kPad - number) / std::sin(radians(60.0)) - kNumberGap,
-                 width() / 2.0 - kPad - number / 2.0);
+        std::min((width() / 2.0 - kPolarPad - number) / std::sin(radians(60.0)) - kNumberGap,
+                 width() / 2.0 - kPolarPad - number / 2.0);
     const double radius = std::max(std::min(wide, height() - top - bottom), 10.0);
     const double spare = height() - top - bottom - radius;
     return {{width() / 2.0, top + radius + std::max(spare, 0.0) / 2.0}, radius};

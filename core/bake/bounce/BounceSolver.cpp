@@ -22,7 +22,7 @@ struct BounceSolver::MappedSurface {
 
 namespace {
 
-Error cancelledError() {
+Error bouncesCancelled() {
     return {ErrorKind::Cancelled, "Following the bounces was cancelled.", {}, {}};
 }
 
@@ -198,7 +198,7 @@ Result<std::vector<glm::vec3>> BounceSolver::solveLight(std::span<const glm::vec
                 next[e * row + i] = straight[e * row + i] + scale * sums[i];
         };
         if (!forEachElement(last ? elements.fronts() : elements.count(), gather, job))
-            return cancelledError();
+            return bouncesCancelled();
         leaving.swap(next);
     }
     return result;
@@ -221,7 +221,7 @@ Result<std::vector<float>> BounceSolver::solve(std::span<const float> direct, in
         const std::size_t first = stride * group / groups;
         if (!solveGroup(direct, bounces, first, stride * (group + 1) / groups - first, rows, result,
                         job))
-            return cancelledError();
+            return bouncesCancelled();
     }
     return result;
 }

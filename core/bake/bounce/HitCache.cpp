@@ -4,6 +4,7 @@
 #include "core/bake/domain/HemisphereSamples.h"
 #include "core/base/Check.h"
 #include "core/job/Parallel.h"
+#include "core/trace/BakeInputs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,11 +14,7 @@ namespace patina {
 namespace {
 
 constexpr std::size_t kStream = 1024;           // rays per call
-constexpr std::uint32_t kOwnRays = 0xb0c5ce5fu; // other rays than those of the direct pass
-
-Error cancelledError() {
-    return {ErrorKind::Cancelled, "The bake was cancelled.", {}, {}};
-}
+constexpr std::uint32_t kHitRays = 0xb0c5ce5fu; // other rays than those of the direct pass
 
 void addBasis(const glm::vec3& direction, std::span<float> sum) {
     float basis[64];
@@ -60,7 +57,7 @@ class ChunkTracer {
         m_begin = 0;
         for (std::size_t element = first; element < end; ++element) {
             const std::uint32_t seed =
-                seedFor(m_settings.seed ^ kOwnRays, static_cast<std::uint32_t>(element));
+                seedFor(m_settings.seed ^ kHitRays, static_cast<std::uint32_t>(element));
             const glm::mat3 frame = HemisphereSamples::frame(m_points[element].normal, seed);
             for (const glm::vec3& local : m_samples.directions(seed, m_scratch)) {
                 ClosestRay& closest = m_rays.emplace_back();
@@ -254,12 +251,12 @@ HitCache::trace(const RayScene& scene, const BakeGeometry& geometry, BounceEleme
                 const HitSettings& settings, const JobContext& job) {
     std::shared_ptr<HitCache> cache(new HitCache(std::move(elements), settings));
     std::vector<BakePoint> points = cache->elements().points(geometry, job);
-    const HemisphereSamples samples(settings.seed ^ kOwnRays, 0,
+    const HemisphereSamples samples(settings.seed ^ kHitRays, 0,
                                     static_cast<std::uint32_t>(settings.samples));
     cache->m_chunks.resize(cache->chunkCount());
     cache->m_backTransfer.assign(backValues(cache->elements(), settings.order), 0.0f);
     if (job.cancelled())
-        return cancelledError();
+        return bakeCancelled();
     std::vector<std::uint32_t> raysOut(points.size(), 0);
     const auto traceChunk = [&](std::size_t chunk, ChunkTracer& tracer,
                                 std::vector<CachedHit>& hits) {
@@ -274,7 +271,7 @@ HitCache::trace(const RayScene& scene, const BakeGeometry& geometry, BounceEleme
             traceChunk(chunk, tracer, hits);
     });
     if (job.cancelled())
-        return cancelledError();
+        return bakeCancelled();
 
     // What stands within something looks again, from beside it.
     const std::vector<std::size_t> again =
@@ -288,7 +285,7 @@ HitCache::trace(const RayScene& scene, const BakeGeometry& geometry, BounceEleme
             traceChunk(again[i], tracer, hits);
     });
     if (job.cancelled())
-        return cancelledError();
+        return bakeCancelled();
     scaleBackTransfer(cache->m_backTransfer, settings.samples);
     return std::shared_ptr<const HitCache>(std::move(cache));
 }
@@ -319,10 +316,10 @@ Result<HitSourcePtr> HitRetracer::make(const RayScene& scene, const BakeGeometry
                                        const JobContext& job) {
     std::vector<BakePoint> points = elements.points(geometry, job);
     if (job.cancelled())
-        return cancelledError();
+        return bakeCancelled();
     auto tracing = std::make_unique<Tracing>(
         Tracing{scene, geometry, std::move(points),
-                HemisphereSamples(settings.seed ^ kOwnRays, 0,
+                HemisphereSamples(settings.seed ^ kHitRays, 0,
                                   static_cast<std::uint32_t>(settings.samples))});
     std::shared_ptr<HitRetracer> retracer(
         new HitRetracer(std::move(elements), settings, std::move(tracing)));
@@ -342,7 +339,7 @@ Result<HitSourcePtr> HitRetracer::make(const RayScene& scene, const BakeGeometry
     };
     traceChunks(retracer->chunkCount(), [](std::size_t i) { return i; });
     if (job.cancelled())
-        return cancelledError();
+        return bakeCancelled();
     const std::vector<std::size_t> again =
         chunksOf(moveHiddenPoints(all, hiddenOf(raysOut, settings.samples), t.points));
     for (const std::size_t chunk : again)
@@ -350,7 +347,7 @@ Result<HitSourcePtr> HitRetracer::make(const RayScene& scene, const BakeGeometry
     if (!retracer->m_backTransfer.empty())
         traceChunks(again.size(), [&](std::size_t i) { return again[i]; });
     if (job.cancelled())
-        return cancelledError();
+        return bakeCancelled();
     scaleBackTransfer(retracer->m_backTransfer, settings.samples);
     return HitSourcePtr(std::move(retracer));
 }

@@ -8,6 +8,7 @@
 #include "core/base/Check.h"
 #include "core/job/Parallel.h"
 #include "core/math/SphericalHarmonics.h"
+#include "core/trace/BakeInputs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,15 +17,11 @@
 namespace patina {
 namespace {
 
-constexpr std::uint32_t kOwnRays = 0x7e8e1b0cu; // other rays than those of the direct pass
+constexpr std::uint32_t kTexelRays = 0x7e8e1b0cu; // other rays than those of the direct pass
 constexpr std::uint32_t kNone = 0x7fffffffu;
 constexpr std::uint32_t kLast = 1u << 31;   // of its row
 constexpr std::size_t kRowsPerChunk = 64;   // traced and gathered together
 constexpr std::size_t kMaxCoefficients = 8; // of a group: rows of all texels stay near the cores
-
-Error cancelledError() {
-    return {ErrorKind::Cancelled, "The bake was cancelled.", {}, {}};
-}
 
 // What light bounces between: a row for each texel of every material, then one for the back of each
 // texel of two-sided ones.
@@ -169,7 +166,7 @@ class TexelHits {
         , m_geometry(geometry)
         , m_scene(scene)
         , m_settings(settings)
-        , m_samples(settings.seed ^ kOwnRays, 0, static_cast<std::uint32_t>(settings.samples)) {}
+        , m_samples(settings.seed ^ kTexelRays, 0, static_cast<std::uint32_t>(settings.samples)) {}
 
     // Traces once: for the light that comes straight to the backs, and to keep what it may.
     // False when cancelled.
@@ -230,7 +227,7 @@ class TexelHits {
             rays.clear();
             for (std::size_t p = 0; p < points.size(); ++p) {
                 const std::uint32_t seed =
-                    seedFor(m_settings.seed ^ kOwnRays,
+                    seedFor(m_settings.seed ^ kTexelRays,
                             static_cast<std::uint32_t>(row * kMaxPointsPerTexel + p));
                 const glm::mat3 frame = HemisphereSamples::frame(points[p].normal, seed);
                 for (const glm::vec3& local : m_samples.directions(seed, scratch)) {
@@ -378,12 +375,12 @@ std::optional<Error> addTexelInterreflection(BakeArtifact& artifact, const BakeI
     TexelHits hits(rows, geometry, scene, *hitSetting);
     const std::size_t most = layout.points.size() * (rows.count() > rows.fronts() ? 2 : 1);
     if (!hits.prepare(settings.hitBudget, most, job))
-        return cancelledError();
+        return bakeCancelled();
     job.setActivity("following bounces");
     const std::optional<std::vector<float>> bounced =
         follow(rows, hits, direct, settings.order, settings.bounces, job);
     if (!bounced)
-        return cancelledError();
+        return bakeCancelled();
 
     const auto side = static_cast<std::size_t>(layout.size);
     const auto width = static_cast<std::size_t>(3 * settings.order * settings.order);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kFormat = "patina:format";
 constexpr const char* kFormatName = "patina-bake";
-constexpr const char* kVersion = "patina:version";
+constexpr const char* kVersionAttribute = "patina:version";
 constexpr const char* kKind = "patina:kind";
 constexpr const char* kInputs = "patina:inputHash";
 constexpr const char* kAlbedo = "patina:albedoHash";
@@ -129,7 +129,7 @@ std::optional<Error> readStorage(const BakeAttributes& attributes, BakeHeader& h
 
 BakeAttributes headerAttributes(const BakeArtifact& artifact, const BakeFileOptions& options) {
     BakeAttributes attributes = {{kFormat, kFormatName},
-                                 {kVersion, std::to_string(kBakeFormatVersion)},
+                                 {kVersionAttribute, std::to_string(kBakeFormatVersion)},
                                  {kInputs, artifact.inputs.hex()},
                                  {kSamples, std::to_string(artifact.samplesDone)},
                                  {kStorage, storageName(options.storage)}};
@@ -165,7 +165,7 @@ Result<BakeHeader> readBakeHeader(const BakeAttributes& attributes,
                      "editor wrote",
                      file,
                      {}};
-    const auto version = numberAttribute(attributes, kVersion, 1, 1'000'000);
+    const auto version = numberAttribute(attributes, kVersionAttribute, 1, 1'000'000);
     if (!version)
         return damagedBake(file, "no version");
     if (*version > kBakeFormatVersion)

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kVersion = "patina:version";
+constexpr const char* kVersionKey = "patina:version";
 // Of a packed part: its description stays some hundred kilobytes long, its pixels some hundred
 // megabytes.
 constexpr std::size_t kMaxMembers = 1024;
@@ -40,7 +40,7 @@ ImagePart packed(std::vector<ImagePart> members, std::size_t number) {
             const auto own = member.attributes.find(attribute.first);
             return own == member.attributes.end() || own->second != attribute.second;
         });
-    const auto version = part.attributes.find(kVersion);
+    const auto version = part.attributes.find(kVersionKey);
 
     std::size_t pixels = 0;
     for (const ImagePart& member : members)
@@ -62,7 +62,7 @@ ImagePart packed(std::vector<ImagePart> members, std::size_t number) {
             if (!part.attributes.contains(key))
                 entry[key] = value;
         if (version != part.attributes.end())
-            entry[kVersion] = version->second;
+            entry[kVersionKey] = version->second;
         description.push_back(std::move(entry));
         std::ranges::copy(
             member.image.f32(),
@@ -70,7 +70,7 @@ ImagePart packed(std::vector<ImagePart> members, std::size_t number) {
         at += pixelsOf(member.image);
         member.image = {};
     }
-    part.attributes[kVersion] = std::to_string(kPackedBakeVersion);
+    part.attributes[kVersionKey] = std::to_string(kPackedBakeVersion);
     part.attributes[kPackedAttribute] = description.dump();
     return part;
 }
@@ -117,7 +117,8 @@ Result<std::vector<ImagePart>> unpackParts(std::vector<ImagePart> parts,
     };
     std::vector<ImagePart> result;
     for (ImagePart& part : parts) {
-        const auto version = numberAttribute(part.attributes, kVersion, 1, 1'000'000).value_or(0);
+        const auto version =
+            numberAttribute(part.attributes, kVersionKey, 1, 1'000'000).value_or(0);
         if (!isPacked(part) || version > kPackedBakeVersion) {
             result.push_back(std::move(part));
             continue;

@@ -8,6 +8,7 @@
 #include "core/base/Check.h"
 #include "core/job/Parallel.h"
 #include "core/math/SphericalHarmonics.h"
+#include "core/trace/BakeInputs.h"
 
 #include <algorithm>
 #include <atomic>
@@ -330,7 +331,7 @@ Result<PassState> openPasses(std::span<const BakePoint> points, std::span<const 
         }
     });
     if (job.cancelled())
-        return Error{ErrorKind::Cancelled, "The bake was cancelled.", {}, {}};
+        return bakeCancelled();
     plan.updateSamplesDone();
     if (callbacks.passDone)
         callbacks.passDone(state.samplesDone);
@@ -351,7 +352,7 @@ Result<PassState> runPasses(const RayScene& scene, std::span<const BakePoint> po
     if (job.cancelled()) {
         if (callbacks.checkpoint)
             callbacks.checkpoint(state);
-        return Error{ErrorKind::Cancelled, "The bake was cancelled.", {}, {}};
+        return bakeCancelled();
     }
     return state;
 }

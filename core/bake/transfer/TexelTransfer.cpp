@@ -2,6 +2,7 @@
 
 #include "core/bake/domain/GutterFill.h"
 #include "core/material/Material.h"
+#include "core/trace/BakeInputs.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -91,7 +92,7 @@ Result<TexelLayout> texelLayout(const BakeGeometry& geometry, std::span<const Id
         MaterialTexels part{material, texelPoints(geometry, material, size, job),
                             layout.points.size()};
         if (job.cancelled())
-            return Error{ErrorKind::Cancelled, "The bake was cancelled.", {}, {}};
+            return bakeCancelled();
         const std::vector<std::uint32_t>& firstPoint = part.texels.firstPoint;
         for (std::size_t t = 0; t < part.texels.texels.size(); t += kTexelsPerRange) {
             const std::size_t end = std::min(t + kTexelsPerRange, part.texels.texels.size());

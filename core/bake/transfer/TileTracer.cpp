@@ -9,7 +9,7 @@
 namespace patina {
 namespace {
 
-constexpr std::size_t kStream = 2048;
+constexpr std::size_t kTileStream = 2048;
 constexpr std::size_t kCheckEvery = 8; // directions
 constexpr std::uint8_t kFree = 0, kHidden = 1, kDivided = 2;
 
@@ -25,8 +25,8 @@ TileTracer::TileTracer(const RayScene& scene, std::span<const BakePoint> points,
     , m_maxDistance(settings.maxDistance > 0.0f ? settings.maxDistance
                                                 : std::numeric_limits<float>::infinity()) {
     CHECK(settings.shOrder > 0 && settings.method == SampleMethod::Qmc);
-    m_rays.reserve(kStream);
-    m_answers.reserve(kStream);
+    m_rays.reserve(kTileStream);
+    m_answers.reserve(kTileStream);
 }
 
 std::optional<std::size_t> TileTracer::trace(std::span<const std::uint32_t> tile,
@@ -100,7 +100,7 @@ void TileTracer::add(std::size_t direction, std::size_t element) {
     ray.direction = m_frames[element] * m_directions[direction];
     ray.maxDistance = m_maxDistance;
     m_answers.push_back(static_cast<std::uint32_t>(direction * m_origins.size() + element));
-    if (m_rays.size() == kStream)
+    if (m_rays.size() == kTileStream)
         flush();
 }
 

@@ -1,6 +1,7 @@
 // From what the samples of a bake per vertex saw to the transfer of every mesh.
 
 #include "core/bake/transfer/VertexFit.h"
+#include "core/trace/BakeInputs.h"
 
 #include <algorithm>
 
@@ -75,7 +76,7 @@ finishVertexTransfer(const BakeGeometry& geometry, const VertexSamples& samples,
         firstOnTriangles = endOnTriangles;
     }
     if (job.cancelled())
-        return Error{ErrorKind::Cancelled, "The bake was cancelled.", {}, {}};
+        return bakeCancelled();
     return bakes;
 }
 

@@ -35,9 +35,9 @@ float roughnessOfExponent(float exponent) {
     return std::sqrt(std::sqrt(2.0f / (std::max(exponent, 0.0f) + 2.0f)));
 }
 
-class Reader {
+class AssimpMaterialReader {
   public:
-    Reader(const aiScene& scene, std::string format, ImportedModel& model)
+    AssimpMaterialReader(const aiScene& scene, std::string format, ImportedModel& model)
         : m_scene(scene)
         , m_format(std::move(format))
         , m_model(model) {}
@@ -53,9 +53,9 @@ class Reader {
     ImportedModel& m_model;
 };
 
-std::optional<ImportedTexture> Reader::texture(const aiMaterial& source,
-                                               std::initializer_list<aiTextureType> types,
-                                               char channel) {
+std::optional<ImportedTexture>
+AssimpMaterialReader::texture(const aiMaterial& source, std::initializer_list<aiTextureType> types,
+                              char channel) {
     for (const aiTextureType type : types) {
         aiString path;
         if (source.GetTexture(type, 0, &path) != AI_SUCCESS || path.length == 0)
@@ -84,7 +84,7 @@ std::optional<ImportedTexture> Reader::texture(const aiMaterial& source,
     return std::nullopt;
 }
 
-ImportedMaterial Reader::material(const aiMaterial& source, std::size_t index) {
+ImportedMaterial AssimpMaterialReader::material(const aiMaterial& source, std::size_t index) {
     ImportedMaterial material;
     aiString name;
     source.Get(AI_MATKEY_NAME, name);
@@ -177,7 +177,7 @@ void readAssimpMaterials(const aiScene& scene, const std::string& format, Import
         if (texture.mWidth > 0)
             std::memcpy(bytes.data(), texture.pcData, bytes.size());
     }
-    Reader reader(scene, format, model);
+    AssimpMaterialReader reader(scene, format, model);
     for (unsigned int i = 0; i < scene.mNumMaterials; ++i)
         model.materials.push_back(reader.material(*scene.mMaterials[i], i));
 }

@@ -43,9 +43,9 @@ bool isOfMaterial(const MaterialInputInfo& info) {
     return info.gltf.object.empty();
 }
 
-class Reader {
+class GltfMaterialReader {
   public:
-    Reader(const json& root, const GltfBuffers& buffers, ImportedModel& model)
+    GltfMaterialReader(const json& root, const GltfBuffers& buffers, ImportedModel& model)
         : m_root(root)
         , m_buffers(buffers)
         , m_model(model) {}
@@ -73,7 +73,7 @@ class Reader {
 };
 
 // A file beside the model, a data URI or a buffer view.
-void Reader::image(std::size_t index, ImportedTexture& texture) {
+void GltfMaterialReader::image(std::size_t index, ImportedTexture& texture) {
     const json& image = element(m_root, "images", index);
     if (const auto known = m_embedded.find(index); known != m_embedded.end()) {
         texture.embedded = known->second;
@@ -95,8 +95,9 @@ void Reader::image(std::size_t index, ImportedTexture& texture) {
     m_model.embeddedImages.push_back(std::move(bytes));
 }
 
-std::optional<ImportedTexture> Reader::texture(const json& parent, const char* key,
-                                               const std::string& material, char channel) {
+std::optional<ImportedTexture> GltfMaterialReader::texture(const json& parent, const char* key,
+                                                           const std::string& material,
+                                                           char channel) {
     const auto info = parent.find(key);
     if (info == parent.end())
         return std::nullopt;
@@ -128,8 +129,8 @@ std::optional<ImportedTexture> Reader::texture(const json& parent, const char* k
 }
 
 // The map of an input and its number from the object that holds them.
-void Reader::readInput(const MaterialInputInfo& info, const json& object,
-                       ImportedMaterial& material) {
+void GltfMaterialReader::readInput(const MaterialInputInfo& info, const json& object,
+                                   ImportedMaterial& material) {
     const std::string key(info.gltf.texture);
     auto& map = material.maps[info.input] =
         texture(object, key.c_str(), material.name, info.gltf.channel);
@@ -139,15 +140,15 @@ void Reader::readInput(const MaterialInputInfo& info, const json& object,
         material.numbers[info.input] = object.at(key).value(std::string(info.gltf.scale), 1.0f);
 }
 
-void Reader::readInputs(const json& object, bool (*wanted)(const MaterialInputInfo&),
-                        ImportedMaterial& material) {
+void GltfMaterialReader::readInputs(const json& object, bool (*wanted)(const MaterialInputInfo&),
+                                    ImportedMaterial& material) {
     for (const MaterialInputInfo& info : kMaterialInputs)
         if (wanted(info))
             readInput(info, object, material);
 }
 
 // KHR_materials_pbrSpecularGlossiness, archived by Khronos: taken as a dielectric.
-void Reader::specularGlossiness(const json& source, ImportedMaterial& material) {
+void GltfMaterialReader::specularGlossiness(const json& source, ImportedMaterial& material) {
     material.baseColor = vector<4>(source, "diffuseFactor", glm::vec4(1.0f));
     material.numbers[MaterialInput::Metallic] = 0.0f;
     material.numbers[MaterialInput::PerceptualRoughness] =
@@ -158,7 +159,7 @@ void Reader::specularGlossiness(const json& source, ImportedMaterial& material) 
                          material.name));
 }
 
-ImportedMaterial Reader::material(const json& source, std::size_t index) {
+ImportedMaterial GltfMaterialReader::material(const json& source, std::size_t index) {
     ImportedMaterial material;
     material.name = source.value("name", fmt::format("material {}", index + 1));
     const json& pbr =
@@ -193,7 +194,7 @@ void readGltfMaterials(const json& root, const GltfBuffers& buffers, ImportedMod
     const auto materials = root.find("materials");
     if (materials == root.end())
         return;
-    Reader reader(root, buffers, model);
+    GltfMaterialReader reader(root, buffers, model);
     for (std::size_t i = 0; i < materials->size(); ++i)
         model.materials.push_back(reader.material((*materials)[i], i));
 }

@@ -17,7 +17,7 @@ namespace patina::codec {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& detail) {
+[[noreturn]] void refusePly(const std::string& detail) {
     throw Refusal("the file is damaged or cut short; export or download it again",
                   "ply: " + detail);
 }
@@ -45,7 +45,7 @@ Type typeNamed(std::string_view name) {
     for (const auto& [known, type] : kNames)
         if (known == name)
             return type;
-    refuse(fmt::format("unknown type \"{}\"", name));
+    refusePly(fmt::format("unknown type \"{}\"", name));
 }
 
 struct Property {
@@ -88,7 +88,7 @@ class Values {
         if (m_encoding == Encoding::Text) {
             const auto value = m_text.number();
             if (!value)
-                refuse("a number is missing");
+                refusePly("a number is missing");
             return *value;
         }
         switch (type) {
@@ -121,7 +121,7 @@ class Values {
     T take() {
         std::array<char, sizeof(T)> bytes{};
         if (m_data.size() < bytes.size())
-            refuse("the values end early");
+            refusePly("the values end early");
         std::memcpy(bytes.data(), m_data.data(), bytes.size());
         m_data.remove_prefix(bytes.size());
         const bool littleHere = std::endian::native == std::endian::little;
@@ -142,7 +142,7 @@ Header readHeader(TokenReader& reader) {
     constexpr int kMostLines = 10000;
     for (int i = 0; i < kMostLines; ++i) {
         if (reader.rest().empty())
-            refuse("the header ends early");
+            refusePly("the header ends early");
         TokenReader line(reader.line());
         const std::string_view key = line.word();
         if (key == "end_header")
@@ -150,7 +150,7 @@ Header readHeader(TokenReader& reader) {
         if (key == "format") {
             const std::string_view name = line.word();
             if (name != "ascii" && name != "binary_little_endian" && name != "binary_big_endian")
-                refuse("unknown format");
+                refusePly("unknown format");
             header.encoding = name == "ascii"                  ? Encoding::Text
                               : name == "binary_little_endian" ? Encoding::LittleEndian
                                                                : Encoding::BigEndian;
@@ -165,12 +165,12 @@ Header readHeader(TokenReader& reader) {
             element.name = line.word();
             const auto count = line.number();
             if (!count || !(*count >= 0.0 && *count < 1e12))
-                refuse("an element without a count");
+                refusePly("an element without a count");
             element.count = static_cast<std::size_t>(*count);
             header.elements.push_back(std::move(element));
         } else if (key == "property") {
             if (header.elements.empty())
-                refuse("a property without an element");
+                refusePly("a property without an element");
             Property property;
             std::string_view type = line.word();
             if (type == "list") {
@@ -182,7 +182,7 @@ Header readHeader(TokenReader& reader) {
             header.elements.back().properties.push_back(std::move(property));
         }
     }
-    refuse("the header does not end");
+    refusePly("the header does not end");
 }
 
 // Reads one item of an element: scalars into `scalars`, and the wanted list into `list`.
@@ -196,7 +196,7 @@ void readItem(const Element& element, Values& values, std::vector<double>& scala
         }
         const double count = values.next(*property.listCount);
         if (!(count >= 0.0 && count <= static_cast<double>(values.bytesLeft())))
-            refuse("a list is longer than the file");
+            refusePly("a list is longer than the file");
         const bool wanted = static_cast<int>(p) == wantedList;
         if (wanted)
             list.clear();
@@ -216,7 +216,7 @@ void readVertices(const Element& element, Values& values, Mesh& mesh) {
     const std::array<int, 2> uv{element.find({"s", "u", "texture_u"}),
                                 element.find({"t", "v", "texture_v"})};
     if (position[0] < 0 || position[1] < 0 || position[2] < 0)
-        refuse("vertices without a position");
+        refusePly("vertices without a position");
     const bool hasNormals = normal[0] >= 0 && normal[1] >= 0 && normal[2] >= 0;
     const bool hasUvs = uv[0] >= 0 && uv[1] >= 0;
     std::vector<double> scalars(element.properties.size(), 0.0);
@@ -271,7 +271,7 @@ ImportedModel readPly(const ModelFolder& folder) {
         if (element.properties.empty())
             continue;
         if (element.count > values.bytesLeft())
-            refuse("more elements than the file can hold");
+            refusePly("more elements than the file can hold");
         if (element.name == "vertex") {
             readVertices(element, values, mesh);
         } else if (element.name == "face") {

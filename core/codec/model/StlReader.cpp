@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kBinaryHeader = 84;
 constexpr std::size_t kBinaryTriangle = 50; // normal, three corners, 16 bits of attributes
 
-[[noreturn]] void refuse(const char* detail) {
+[[noreturn]] void refuseStl(const char* detail) {
     throw Refusal("the file is damaged or cut short; export or download it again", detail);
 }
 
@@ -43,7 +43,7 @@ std::size_t binaryCount(std::span<const std::byte> bytes) {
 Mesh readBinary(std::span<const std::byte> bytes) {
     const std::size_t count = binaryCount(bytes);
     if (bytes.size() < kBinaryHeader || count > (bytes.size() - kBinaryHeader) / kBinaryTriangle)
-        refuse("stl: fewer triangles than announced");
+        refuseStl("stl: fewer triangles than announced");
     if (count > limits::kMaxTriangles)
         throw Refusal("the model is larger than the supported 50 million triangles");
     Mesh mesh;
@@ -83,20 +83,20 @@ std::vector<Mesh> readText(std::string_view text) {
             for (int c = 0; c < 3; ++c) {
                 const auto value = reader.number();
                 if (!value)
-                    refuse("stl: a corner without three numbers");
+                    refuseStl("stl: a corner without three numbers");
                 position[c] = static_cast<float>(*value);
             }
             if (corner >= 3 || solids.empty())
-                refuse("stl: a facet with more than three corners");
+                refuseStl("stl: a facet with more than three corners");
             corners[corner++] = position;
         } else if (word == "endfacet") {
             if (corner != 3 || solids.empty())
-                refuse("stl: a facet without three corners");
+                refuseStl("stl: a facet without three corners");
             addTriangle(solids.back(), corners);
         }
     }
     if (open)
-        refuse("stl: no endsolid");
+        refuseStl("stl: no endsolid");
     return solids;
 }
 
