@@ -41,20 +41,25 @@ set(PATINA_TEST_ENVIRONMENT
 function(patina_test_support name)
   add_library(${name} STATIC)
   target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
-  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+  # Objects of their own: a test that has its own main() does not link the one that is here.
+  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF UNITY_BUILD OFF)
   target_link_libraries(${name} PRIVATE patina_compiler)
   target_compile_options(${name} PRIVATE -fPIE)
   patina_test_options(${name})
 endfunction()
 
-# patina_test(NAME LABEL core|render|app SOURCES … LIBRARIES … [TIMEOUT s])
-# One GoogleTest program, one ctest entry.
+# patina_test(NAME LABEL core|render|app SOURCES … LIBRARIES … [TIMEOUT s] [APART])
+# One GoogleTest program, one ctest entry. APART: its sources have local names in common, and are compiled
+# one by one (PATINA_UNITY).
 function(patina_test name)
-  cmake_parse_arguments(T "" "LABEL;TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(T "APART" "LABEL;TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
   if(NOT T_TIMEOUT)
     set(T_TIMEOUT 600)
   endif()
   patina_executable(${name})
+  if(T_APART)
+    set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
+  endif()
   target_sources(${name} PRIVATE ${T_SOURCES})
   target_link_libraries(${name} PRIVATE ${T_LIBRARIES} patina_core GTest::gmock GTest::gtest_main)
   patina_test_options(${name})
@@ -86,11 +91,14 @@ endfunction()
 # its own (tests/support/with-xvfb). Brings its main() and the editor's fixture from
 # patina_gui_test_support. Pictures that a test takes are kept in tests/screenshots of the build folder.
 function(patina_gui_test name)
-  cmake_parse_arguments(T "" "TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(T "APART" "TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
   if(NOT T_TIMEOUT)
     set(T_TIMEOUT 600)
   endif()
   patina_executable(${name})
+  if(T_APART)
+    set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
+  endif()
   target_sources(${name} PRIVATE ${T_SOURCES})
   target_link_libraries(${name} PRIVATE
     ${T_LIBRARIES} patina_gui_test_support patina_editor_lib Qt6::Test GTest::gmock)
