@@ -146,8 +146,9 @@ void DocumentController::openScene(const QString& scene, std::function<void(bool
     const auto work = [this, scene, name, done, opening = m_opening, savesOf,
                        saves = savesOf(scene)](const JobContext& job) -> BackgroundTasks::Apply {
         // Before it is read: what changes meanwhile is noticed when it is saved.
-        const std::optional<Hash> version =
-            fileKind(scene) == FileKind::Project ? projectVersion(absolutePath(scene)) : std::nullopt;
+        const std::optional<Hash> version = fileKind(scene) == FileKind::Project
+                                                ? projectVersion(absolutePath(scene))
+                                                : std::nullopt;
         auto result = std::make_shared<Result<OpenedScene>>(
             patina::openScene(m_worker, scene.toStdString(), job));
         return [this, scene, name, done, opening, savesOf, saves, version, result] {

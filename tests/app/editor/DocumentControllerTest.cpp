@@ -329,7 +329,8 @@ TEST_F(Controller, WhatWasAskedForBeforeAModelIsOpenedDoesNotKeepItOut) {
 TEST_F(Controller, ALightThatIsReadMoreSlowlyThanTheModelIsNotLost) {
     const QString sky = folder.filePath(QStringLiteral("large.hdr"));
     ASSERT_TRUE(saveImage(session.worker,
-                          Image(4096, 2048, 3, PixelType::F32, ColorEncoding::Linear), absolutePath(sky))
+                          Image(4096, 2048, 3, PixelType::F32, ColorEncoding::Linear),
+                          absolutePath(sky))
                     .ok());
     controller.setEnvironment(sky);
     controller.openScene(QStringLiteral("builtin:sphere"));
