@@ -86,9 +86,9 @@ float BrdfLens::distribution(float theta) const {
 }
 
 glm::vec3 BrdfLens::fresnel(float theta) const {
-    return shading::fresnel(
-        m_model, shading::normalReflectance(m_model, m_point.baseColor, m_point.metallic),
-        m_point.metallic, std::max(std::cos(theta), 0.0f));
+    const glm::vec3 n(0.0f, 0.0f, 1.0f); // F0 is that of any view
+    return shading::fresnel(m_model, surface(n, n).f0, m_point.metallic,
+                            std::max(std::cos(theta), 0.0f));
 }
 
 float BrdfLens::masking(float thetaL, float thetaV) const {

@@ -172,7 +172,7 @@ TEST_F(Explanations, RecombineToThePictureAtAThousandPixels) {
     int surfaces = 0;
     float largest = 0.0f;
     for (int material = 0; material < 5; ++material)
-        for (int curve = 0; curve <= static_cast<int>(ToneMap::AgX); ++curve) {
+        for (int curve = 0; curve < static_cast<int>(ToneMap::OpenColorIo); ++curve) {
             Document document = litScene();
             applyMaterial(document, material);
             document.view.toneMap = static_cast<ToneMap>(curve);

@@ -128,10 +128,10 @@ void rgbe(InputMaker& make, In in) {
 // Any model, chosen by inputs that no case of a surface needs otherwise.
 #define CHOOSE_MODEL(m)                                                                            \
     BrdfModel m = defaultBrdfModel();                                                              \
-    m.distribution = int(2.999f * I(26));                                                          \
-    m.visibility = int(5.999f * I(27));                                                            \
-    m.fresnel = int(3.999f * I(28));                                                               \
-    m.diffuse = int(3.999f * I(29));                                                               \
+    m.distribution = int(0.999f * float(kDistributionCount) * I(26));                              \
+    m.visibility = int(0.999f * float(kVisibilityCount) * I(27));                                  \
+    m.fresnel = int(0.999f * float(kFresnelCount) * I(28));                                        \
+    m.diffuse = int(0.999f * float(kDiffuseCount) * I(29));                                        \
     m.multiScatter = int(1.999f * I(30));                                                          \
     m.f90 = I(31);                                                                                 \
     m.ior = 1.0f + I(22);                                                                          \
@@ -318,12 +318,12 @@ std::vector<SharedTermCase> makeCases() {
             CASE(
                 "tone map dispatch", hdr, 1e-2f, vec3 c = vec3(I(0), -I(1), 1e20f * I(2));
                 ToneCurve t; t.scale = I(3); t.white = I(4); t.k = I(5);
-                for (int i = 0; i < 7; ++i) {
+                for (int i = 0; i < kToneMapOpenColorIo; ++i) {
                     t.curve = i;
                     vec3 shown = toneMap(c, t);
-                    O(i) = shown.x + 2.0f * shown.y + 4.0f * shown.z;
-                } OUT3(7, finiteRadiance(c));
-                O(10) = finiteRadiance(-I(6));),
+                    O(4 + i) = shown.x + 2.0f * shown.y + 4.0f * shown.z;
+                } OUT3(0, finiteRadiance(c));
+                O(3) = finiteRadiance(-I(6));),
             CASE("identity colour", unit, 1e-2f, OUT3(0, identityColor(floor(200.0f * I(0))));),
             CASE(
                 "display", unit, 1e-2f,

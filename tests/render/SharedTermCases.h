@@ -2,6 +2,7 @@
 // C++ and, as text, as GLSL. I(k) are the inputs, O(k) the outputs.
 #pragma once
 
+#include "core/edit/ParameterChoices.h"
 #include "core/math/Shading.h"
 
 #include <functional>
@@ -13,6 +14,12 @@
 namespace patina::render {
 
 inline constexpr int kCaseInputs = 32, kCaseOutputs = 28;
+
+// Of the choices of a model.
+inline constexpr int kDistributionCount = static_cast<int>(kDistributions.names().size());
+inline constexpr int kVisibilityCount = static_cast<int>(kVisibilities.names().size());
+inline constexpr int kFresnelCount = static_cast<int>(kFresnels.names().size());
+inline constexpr int kDiffuseCount = static_cast<int>(kDiffuses.names().size());
 
 // Fills one set of inputs.
 class InputMaker {

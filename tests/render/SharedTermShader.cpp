@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <utility>
 
 namespace patina::render {
 
@@ -49,12 +50,19 @@ std::string sharedTermShader(const std::string& body) {
                        "vec3(I(0), I(1), I(2)), vec3(I(3), I(4), I(5)), vec2(I(14), I(15)))\n"
                        "#define SURFACE SURFACE_OF(defaultBrdfModel())\n"
                        "#define CHOOSE_MODEL(m) BrdfModel m = defaultBrdfModel(); "
-                       "m.distribution = int(2.999f * I(26)); "
-                       "m.visibility = int(5.999f * I(27)); m.fresnel = int(3.999f * I(28)); "
-                       "m.diffuse = int(3.999f * I(29)); m.multiScatter = int(1.999f * I(30)); "
+                       "m.distribution = int(0.999f * float(kDistributionCount) * I(26)); "
+                       "m.visibility = int(0.999f * float(kVisibilityCount) * I(27)); "
+                       "m.fresnel = int(0.999f * float(kFresnelCount) * I(28)); "
+                       "m.diffuse = int(0.999f * float(kDiffuseCount) * I(29)); "
+                       "m.multiScatter = int(1.999f * I(30)); "
                        "m.f90 = I(31); m.ior = 1.0f + I(22); "
                        "m.conductorN = vec3(0.05f + 3.0f * I(23), 1.0f, 0.2f); "
                        "m.conductorK = vec3(5.0f * I(24), 2.0f, 3.0f);\n";
+    for (const auto& [name, count] : {std::pair{"kDistributionCount", kDistributionCount},
+                                      {"kVisibilityCount", kVisibilityCount},
+                                      {"kFresnelCount", kFresnelCount},
+                                      {"kDiffuseCount", kDiffuseCount}})
+        text += fmt::format("const int {} = {};\n", name, count);
     for (const char* file :
          {"shared/ibl.glsl", "shared/normalmap.glsl", "shared/tonemap.glsl", "shared/sampling.glsl",
           "shared/lights.glsl", "shared/rgbe.glsl", "shared/nearlight.glsl"}) {

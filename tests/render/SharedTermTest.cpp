@@ -1,4 +1,5 @@
 // The GPU and the CPU run the same terms: so "the preview matches the reference" is this test.
+#include "core/edit/ParameterChoices.h"
 #include "render/gl/Buffer.h"
 #include "render/gl/Program.h"
 #include "render/shader/ShaderSources.h"
@@ -10,8 +11,11 @@
 #include <cmath>
 #include <cstring>
 #include <epoxy/gl.h>
+#include <map>
 #include <regex>
 #include <set>
+#include <span>
+#include <utility>
 
 namespace patina::render {
 namespace {
@@ -78,6 +82,33 @@ INSTANTIATE_TEST_SUITE_P(Each, SharedTerms,
                                  [](unsigned char ch) { return std::isalnum(ch) == 0; }, '_');
                              return name;
                          });
+
+// Shaders know a choice by its number: kToneMapAgX is what ToneMap::AgX is.
+TEST(SharedTermCases, NumbersOfChoicesAreThoseOfTheTable) {
+    using Names = std::span<const std::string_view>;
+    const std::vector<std::pair<std::string, Names>> choices{
+        {"kToneMap", kToneMaps.names()},
+        {"kDisplay", kDisplayTransfers.names()},
+        {"kDistribution", kDistributions.names()},
+        {"kVisibility", kVisibilities.names()},
+        {"kFresnel", kFresnels.names()},
+        {"kDiffuse", kDiffuses.names()},
+        {"kLobeDirection", kLobeDirections.names()}};
+    std::string text;
+    for (const EmbeddedShader& shader : embeddedShaders())
+        text += shader.text;
+    for (const auto& [prefix, names] : choices) {
+        const std::regex constant("PT_CONST int " + prefix + R"(([A-Z]\w*) = (\d+);)");
+        std::map<std::size_t, std::string> found;
+        for (std::sregex_iterator it(text.begin(), text.end(), constant), end; it != end; ++it)
+            EXPECT_TRUE(found.emplace(std::stoul((*it)[2].str()), (*it)[1].str()).second)
+                << it->str() << " has the number of " << prefix;
+        for (std::size_t i = 0; i < names.size(); ++i)
+            EXPECT_STRCASEEQ(found[i].c_str(), std::string(names[i]).c_str())
+                << prefix << "… = " << i << " in shaders/shared";
+        EXPECT_EQ(found.size(), names.size()) << prefix;
+    }
+}
 
 TEST(SharedTermCases, CoverEveryFunction) {
     std::string bodies;

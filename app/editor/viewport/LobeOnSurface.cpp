@@ -4,6 +4,7 @@
 #include "app/editor/viewport/PixelProbe.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
+#include "render/view/Recombine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -104,9 +105,7 @@ std::optional<LobeOnSurface::Ask> LobeOnSurface::ask(QString& problem) const {
     }
     const Material* material = document.material(at->material);
     ask.look = {document.model,
-                {glm::vec3(at->value(shading::kViewBaseColor)), at->value(shading::kViewMetallic).x,
-                 at->value(shading::kViewPerceptualRoughness).x,
-                 material ? material->diffuseRoughness : 0.0f}};
+                render::surfaceInputs(*at, material != nullptr ? *material : Material())};
     ask.scale = m_scale;
     return ask;
 }

@@ -127,14 +127,13 @@ TEST(LabTone, IsTheViewsOwnCurve) {
     view.exposureEv = 1.0f;
     view.displayTransfer = DisplayTransfer::Gamma;
     view.displayGamma = 2.4f;
-    for (const ToneMap map : {ToneMap::Clamp, ToneMap::Reinhard, ToneMap::PbrNeutral, ToneMap::Aces,
-                              ToneMap::AgX, ToneMap::Exponential, ToneMap::ReinhardPhotographic}) {
-        view.toneMap = map;
+    for (int map = 0; map < static_cast<int>(ToneMap::OpenColorIo); ++map) {
+        view.toneMap = static_cast<ToneMap>(map);
         const LabTone tone(view, {}, 0.5f);
         for (const float value : {0.0f, 0.004f, 0.18f, 0.7f, 20.0f}) {
             const float shown = displayedGrey(view, {}, value * std::exp2(1.5f));
             EXPECT_NEAR(qGreen(tone.pixel(glm::vec3(value))), 255.0f * shown, 1.01f)
-                << static_cast<int>(map) << " " << value;
+                << map << " " << value;
         }
     }
     view.exposureMode = ExposureMode::Automatic;

@@ -264,6 +264,28 @@ TEST_F(ExportRun, EditsAfterThePlanAreNotExported) {
     EXPECT_NE(exported(planExport(m_document, settings("scene.glb"))), before);
 }
 
+// Of the table of formats: each is found by its extension, and writes what it plans.
+TEST_F(ExportRun, EveryFormatWritesWhatItPlans) {
+    std::set<std::string> extensions;
+    for (const ExportFormatInfo& info : exportFormats()) {
+        SCOPED_TRACE(info.extension);
+        EXPECT_TRUE(extensions.insert(info.extension).second);
+        ExportSettings of = settings("every." + std::string(info.extension));
+        EXPECT_EQ(*exportFormatOf(of.output), info.format);
+        of.format = info.format;
+        const ExportPlan plan = planExport(m_document, of);
+        EXPECT_FALSE(plan.problem.has_value());
+        const Result<std::vector<fs::path>> written = runExport(m_worker, plan, JobContext());
+        ASSERT_TRUE(written.ok()) << written.error().text();
+        EXPECT_THAT(*written, testing::Contains(of.output));
+        for (const PlannedFile& file : plan.files) {
+            EXPECT_FALSE(file.contents.empty() || file.format.empty()) << file.path;
+            if (!file.embedded)
+                EXPECT_GT(fs::file_size(file.path), 0u) << file.path;
+        }
+    }
+}
+
 TEST_F(ExportRun, TheExtensionDecidesTheFormat) {
     EXPECT_EQ(*exportFormatOf("a/scene.GLB"), ExportFormat::Glb);
     EXPECT_EQ(*exportFormatOf("scene.v2.gltf"), ExportFormat::Gltf);

@@ -1,4 +1,5 @@
 // What the assembled models promise: energy, reciprocity, agreement with the table, finite numbers.
+#include "core/edit/ParameterChoices.h"
 #include "core/material/Material.h"
 #include "tests/core/math/LobeQuadrature.h"
 
@@ -13,7 +14,10 @@
 namespace patina::shading {
 namespace {
 
-constexpr int kDistributions = 3, kVisibilities = 6, kFresnels = 4, kDiffuses = 4;
+constexpr int kDistributions = static_cast<int>(patina::kDistributions.names().size());
+constexpr int kVisibilities = static_cast<int>(patina::kVisibilities.names().size());
+constexpr int kFresnels = static_cast<int>(patina::kFresnels.names().size());
+constexpr int kDiffuses = static_cast<int>(patina::kDiffuses.names().size());
 
 std::string nameOf(const BrdfModel& m) {
     return "D " + std::to_string(m.distribution) + ", V " + std::to_string(m.visibility) + ", F " +
