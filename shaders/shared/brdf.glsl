@@ -519,7 +519,7 @@ PT_FN SurfaceTerms fadeSpecularLayer(SurfaceTerms surface, float shown) {
 
 // ---- Lobes -------------------------------------------------------------------------------------
 
-// Cook & Torrance 1982: D V F, and the light scattered more than once. For NoL > 0.
+// Cook & Torrance 1982: D V F, and the light scattered more than once. For NoL >= 0.
 PT_FN vec3 specularLobe(SurfaceTerms s, float NoH, float sin2, float NoL, float VoH) {
     float D = distribution(s.model, NoH, sin2, s.alpha);
     float V = visibility(s.model, s.NoV, NoL, VoH, s.alpha);
@@ -541,27 +541,25 @@ struct ShadedLight {
 
 // `l`: unit vector to the light; `irradiance`: of a surface that faces the light. Directional
 // light: its intensity E; point light of intensity I (W/sr) at distance d: I / d².
+//
+// Nothing is left early: software OpenGL computes both sides of a branch, and shares nothing between
+// those of several lights.
 PT_FN ShadedLight shadeDirect(SurfaceTerms s, vec3 l, vec3 irradiance) {
-    ShadedLight result;
-    result.diffuse = vec3(0.0f);
-    result.specular = vec3(0.0f);
-    float NoL = min(dot(s.n, l), 1.0f);
-    if (NoL <= 0.0f)
-        return result;
+    float NoL = clamp(dot(s.n, l), 0.0f, 1.0f);
+    vec3 arriving = NoL > 0.0f ? irradiance : vec3(0.0f); // which may be infinite at the horizon
     vec3 h = s.v + l;
     float length2 = dot(h, h);
-    if (length2 < 1e-12f) {
-        // v = -l: no half vector, a surface between viewer and light reflects none
-        result.diffuse = diffuseLobe(s, NoL, 0.0f) * irradiance * NoL;
-        return result;
-    }
-    h = h * inversesqrt(length2);
+    // v = -l: no half vector, a surface between viewer and light reflects none
+    bool opposite = length2 < 1e-12f;
+    h = h * inversesqrt(max(length2, 1e-12f));
     vec3 nxh = cross(s.n, h);
     float NoH = clamp(dot(s.n, h), 0.0f, 1.0f);
-    float VoH = clamp(dot(s.v, h), 0.0f, 1.0f);
-    result.diffuse = diffuseLobe(s, NoL, VoH) * irradiance * NoL;
-    result.specular =
-        specularLobe(s, NoH, min(dot(nxh, nxh), 1.0f), NoL, VoH) * irradiance * NoL;
+    float VoH = opposite ? 0.0f : clamp(dot(s.v, h), 0.0f, 1.0f);
+    ShadedLight result;
+    result.diffuse = diffuseLobe(s, NoL, VoH) * arriving * NoL;
+    vec3 specular =
+        specularLobe(s, NoH, min(dot(nxh, nxh), 1.0f), NoL, VoH) * arriving * NoL;
+    result.specular = opposite ? vec3(0.0f) : specular; // not times 0: D has no value there
     return result;
 }
 

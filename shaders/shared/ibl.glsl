@@ -82,23 +82,30 @@ PT_FN int cubeLevelHalvings(int level, float side) {
     return min(level >> 2, most);
 }
 
-// Side of a face of whole level `level`; `side` is that of level 0, a power of two.
+// Side of a face that has been halved so often, at most three times; `side` is that of level 0, a power
+// of two. Eighths instead of a division by 2^halvings: exact, and without a division.
+PT_FN float cubeHalvedSide(int halvings, float side) {
+    return side * (0.125f * float(8 >> halvings));
+}
+
+// Side of a face of whole level `level`.
 PT_FN float cubeLevelSide(int level, float side) {
-    return side / float(1 << cubeLevelHalvings(level, side));
+    return cubeHalvedSide(cubeLevelHalvings(level, side), side);
 }
 
 // The prefiltered cubemap lies in one flat texture (core/light/CubeAtlas.h). Six faces side by side,
 // +X -X +Y -Y +Z -Z, each with a border of one texel, are a level; 1, 2, 4, 8 levels of one size are
-// a row. Above the levels of side `size` lie, in rows of texels, 4 side + 2 side / 2 + … and the
-// borders, 2 for each row. The widest lobes' levels that are larger than those before lie below all.
-PT_FN float cubeAtlasTop(float side, float size) {
-    return (side - size) * (16.0f * (side + size) + 48.0f) / (3.0f * side);
+// a row. Above the levels that are halved so often lie, in rows of texels, 4 side + 2 side / 2 + … and
+// the borders, 2 for each row: with 1 / 2^halvings = e / 8, side (64 - e²) / 12 + 2 (8 - e), a whole
+// number. The widest lobes' levels that are larger than those before lie below all.
+PT_FN float cubeAtlasTop(float side, int halvings) {
+    float eighths = float(8 >> halvings);
+    return side * ((64.0f - eighths * eighths) * 0.0833333333f) + (16.0f - 2.0f * eighths);
 }
 
 // The row of texels where those begin.
 PT_FN float cubeAtlasWideTop(float side) {
-    float size = side * 0.125f;
-    return cubeAtlasTop(side, size) + (size + 2.0f); // one row of eight levels
+    return cubeAtlasTop(side, 3) + (cubeHalvedSide(3, side) + 2.0f); // one row of eight levels
 }
 
 PT_FN vec2 cubeAtlasSize(float side, int levels) {
@@ -106,9 +113,9 @@ PT_FN vec2 cubeAtlasSize(float side, int levels) {
     bool wide = levels > kFirstWideLevel && side >= 128.0f;
     int inGroup = wide ? kFirstWideLevel : levels;
     float k = float(1 << halvings);
-    float size = side / k;
+    float size = cubeHalvedSide(halvings, side);
     float rows = ceil(float(max(inGroup - 4 * halvings, 1)) / k);
-    float height = floor(cubeAtlasTop(side, size) + 0.5f) + rows * (size + 2.0f);
+    float height = cubeAtlasTop(side, halvings) + rows * (size + 2.0f);
     if (wide)
         height = height + ceil(float(levels - kFirstWideLevel) / 4.0f) * (side * 0.25f + 2.0f);
     return vec2(6.0f * (side + 2.0f * k), height);
@@ -132,8 +139,8 @@ PT_FN vec3 cubeFacePosition(vec3 d) {
 PT_FN vec2 cubeAtlasTexel(vec3 at, int level, float side) {
     int halvings = cubeLevelHalvings(level, side);
     bool wide = level >= kFirstWideLevel && side >= 128.0f;
-    float size = side / float(1 << halvings);
-    float top = wide ? cubeAtlasWideTop(side) : cubeAtlasTop(side, size);
+    float size = cubeHalvedSide(halvings, side);
+    float top = wide ? cubeAtlasWideTop(side) : cubeAtlasTop(side, halvings);
     int inGroup = level - (wide ? kFirstWideLevel : 4 * halvings);
     int row = inGroup >> halvings;
     float column = float(inGroup - (row << halvings));
