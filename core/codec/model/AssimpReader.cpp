@@ -3,6 +3,7 @@
 #include "core/base/Limits.h"
 #include "core/codec/Codec.h"
 #include "core/codec/model/AssimpMaterials.h"
+#include "core/codec/model/ObjMeshes.h"
 
 #include <algorithm>
 #include <assimp/DefaultLogger.hpp>
@@ -57,24 +58,28 @@ class Stream : public Assimp::IOStream {
     std::size_t m_position = 0;
 };
 
-// All Assimp sees of the disk.
+// All Assimp sees of the disk. `model` is read in place of the model's file, unless it is empty.
 class FolderSystem : public Assimp::IOSystem {
   public:
-    explicit FolderSystem(const ModelFolder& folder)
-        : m_folder(folder) {}
+    FolderSystem(const ModelFolder& folder, std::string_view model)
+        : m_folder(folder)
+        , m_model(model) {}
 
     bool Exists(const char* path) const override { return m_folder.open(path).has_value(); }
     [[nodiscard]] char getOsSeparator() const override { return '/'; }
     Assimp::IOStream* Open(const char* path, const char* mode) override {
         if (mode == nullptr || mode[0] != 'r')
             return nullptr;
-        auto file = m_folder.open(path);
+        auto file = !m_model.empty() && path == m_folder.modelPath()
+                        ? MemoryFile::copyOf(std::as_bytes(std::span(m_model)))
+                        : m_folder.open(path);
         return file ? new Stream(std::move(*file)) : nullptr;
     }
     void Close(Assimp::IOStream* stream) override { delete stream; }
 
   private:
     const ModelFolder& m_folder;
+    std::string_view m_model;
 };
 
 void keepOnlyImporter(Assimp::Importer& importer, const std::string& extension) {
@@ -128,11 +133,15 @@ glm::mat4 fbxToWorld(const aiScene& scene) {
                                                                 : glm::mat4(glm::mat3(scale));
 }
 
+std::string meshName(const aiMesh& source, std::size_t index) {
+    return source.mName.length > 0 ? source.mName.C_Str() : fmt::format("mesh {}", index + 1);
+}
+
 std::optional<Mesh> readMesh(const aiMesh& source, std::size_t index) {
     if ((source.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0 || source.mNumFaces == 0)
         return std::nullopt;
     Mesh mesh;
-    mesh.name = source.mName.length > 0 ? source.mName.C_Str() : fmt::format("mesh {}", index + 1);
+    mesh.name = meshName(source, index);
     const std::size_t count = source.mNumVertices;
     const auto copy3 = [&](std::vector<glm::vec3>& target, const aiVector3D* from) {
         target.reserve(count);
@@ -213,12 +222,10 @@ void readNodes(const aiScene& scene, const glm::mat4& root, const std::vector<in
     }
 }
 
-} // namespace
-
-ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& format) {
-    Assimp::Importer importer;
+const aiScene& readFile(Assimp::Importer& importer, const ModelFolder& folder,
+                        const std::string& format, std::string_view model = {}) {
     keepOnlyImporter(importer, format);
-    importer.SetIOHandler(new FolderSystem(folder)); // the importer's from now on
+    importer.SetIOHandler(new FolderSystem(folder, model)); // the importer's from now on
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                                 aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
@@ -230,6 +237,19 @@ ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& forma
     if (scene == nullptr)
         throw Refusal("the file is damaged, cut short or not of the kind its name says",
                       importer.GetErrorString());
+    return *scene;
+}
+
+void checkSize(std::size_t faces, std::size_t meshes) {
+    if (faces > limits::kMaxTriangles || meshes > limits::kMaxMeshes)
+        throw Refusal("the model is larger than the supported 50 million triangles");
+}
+
+} // namespace
+
+ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& format) {
+    Assimp::Importer importer;
+    const aiScene* scene = &readFile(importer, folder, format);
     std::size_t faces = 0;
     std::size_t others = 0;
     for (unsigned int i = 0; i < scene->mNumMeshes; ++i)
@@ -237,8 +257,7 @@ ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& forma
             ++(scene->mMeshes[i]->mFaces[f].mNumIndices >= 3 ? faces : others);
     if (faces == 0)
         throw Refusal("the model has no faces; export it with geometry");
-    if (faces > limits::kMaxTriangles || scene->mNumMeshes > limits::kMaxMeshes)
-        throw Refusal("the model is larger than the supported 50 million triangles");
+    checkSize(faces, scene->mNumMeshes);
 
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                                          aiProcess_SortByPType | aiProcess_FlipUVs);
@@ -252,13 +271,38 @@ ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& forma
     for (unsigned int i = 0; i < scene->mNumMeshes; ++i)
         if (auto mesh = readMesh(*scene->mMeshes[i], i)) {
             meshOf[i] = static_cast<int>(model.meshes.size());
-            model.meshes.push_back(std::make_shared<const Mesh>(std::move(*mesh)));
+            model.meshes.push_back(std::make_shared<Mesh>(std::move(*mesh)));
         }
     readNodes(*scene, format == "fbx" ? fbxToWorld(*scene) : glm::mat4(1.0f), meshOf, model);
     if (others > 0)
         model.warnings.push_back(fmt::format("{} lines and points were left out.", others));
     if (scene->mNumAnimations > 0)
         model.warnings.emplace_back("Animation is not read; the model is shown at rest.");
+    return model;
+}
+
+ImportedModel readObjParts(const ModelFolder& folder, const ObjText& text) {
+    checkSize(text.cornerCounts.size(), 0);
+    Assimp::Importer importer;
+    const aiScene& scene = readFile(importer, folder, "obj", text.outline);
+    checkSize(0, scene.mNumMeshes);
+
+    ImportedModel model;
+    model.format = "obj";
+    readAssimpMaterials(scene, model.format, model);
+    std::vector<int> meshOf(scene.mNumMeshes);
+    ObjMeshes meshes(text);
+    for (unsigned int i = 0; i < scene.mNumMeshes; ++i) {
+        const aiMesh& part = *scene.mMeshes[i];
+        std::vector<std::size_t> runs; // of one triangle each
+        for (unsigned int v = 0; v < part.mNumVertices; v += 3)
+            runs.push_back(static_cast<std::size_t>(part.mVertices[v].x));
+        Mesh mesh = meshes.join(runs);
+        mesh.name = meshName(part, i);
+        meshOf[i] = static_cast<int>(i);
+        model.meshes.push_back(std::make_shared<Mesh>(std::move(mesh)));
+    }
+    readNodes(scene, glm::mat4(1.0f), meshOf, model);
     return model;
 }
 

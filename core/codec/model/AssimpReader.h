@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/codec/model/ModelFolder.h"
+#include "core/codec/model/ObjText.h"
 #include "core/mesh/ImportedModel.h"
 
 #include <string>
@@ -12,5 +13,9 @@ namespace patina::codec {
 // Assimp never guesses. Transforms come out in metres with +Y up, texture coordinates as in glTF.
 // ImportedTexture::file is the path as the file spells it. Throws Refusal and std::bad_alloc.
 ImportedModel readWithAssimp(const ModelFolder& folder, const std::string& format);
+
+// What readWithAssimp() makes of an OBJ file whose geometry has been read already: Assimp sees the
+// outline alone, and says which runs of faces are one part, under which name and material.
+ImportedModel readObjParts(const ModelFolder& folder, const ObjText& text);
 
 } // namespace patina::codec

@@ -1,6 +1,7 @@
 #include "core/codec/model/ModelCodec.h"
 #include "core/codec/model/AssimpReader.h"
 #include "core/codec/model/GltfReader.h"
+#include "core/codec/model/ObjReader.h"
 #include "core/codec/model/PlyReader.h"
 #include "core/codec/model/StlReader.h"
 #include "core/material/Material.h"
@@ -22,6 +23,7 @@ Reply importModel(const nlohmann::json& request, int payloadFd) {
     ImportedModel model = format == "gltf"  ? readGltf(folder)
                           : format == "ply" ? readPly(folder)
                           : format == "stl" ? readStl(folder)
+                          : format == "obj" ? readObj(folder)
                                             : readWithAssimp(folder, format);
     if (model.materials.empty()) {
         model.materials.emplace_back();
