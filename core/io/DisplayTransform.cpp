@@ -125,7 +125,7 @@ Result<DisplayTransform> loadDisplayTransform(WorkerClient& worker, const std::s
         transform.space = header.at("space");
         transform.shader = header.at("shader");
         require(transform.shader.size() <= kMaxShaderBytes, "shader");
-        std::span<const std::byte> payload = reply->payload;
+        std::span<const std::byte> payload = reply->payload.bytes();
         for (const json& entry : header.at("tables"))
             transform.tables.push_back(readTable(entry, payload));
         require(transform.tables.size() <= kMaxTables, "number of tables");

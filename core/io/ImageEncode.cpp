@@ -205,7 +205,8 @@ Result<Bytes> encodeImage(WorkerClient& worker, std::vector<ImagePart> parts,
             error.kind = ErrorKind::Internal; // our own pixels: no file is to blame
             return error;
         }
-        return std::move(reply->payload);
+        const std::span<const std::byte> bytes = reply->payload.bytes();
+        return Bytes(bytes.begin(), bytes.end());
     } catch (const json::exception& exception) {
         return Error{ErrorKind::Usage,
                      "a name or attribute of the image is no valid UTF-8 text",

@@ -132,7 +132,7 @@ Result<LoadedImage> load(const Send& send, const std::string& format,
         loaded.format = format;
         // Only files of floating-point formats name their channels on purpose.
         for (const json& entry : header.at("parts")) {
-            ImagePart part = readPart(entry, reply->payload, true, options.integerEncoding);
+            ImagePart part = readPart(entry, reply->payload.bytes(), true, options.integerEncoding);
             if (format != "openexr")
                 part.image.setChannelNames({});
             if (options.sanitize)

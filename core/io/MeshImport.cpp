@@ -42,7 +42,7 @@ Result<ImportedModel> decode(WorkerClient& worker, const fs::path& file, const s
     const auto reply = worker.request(WorkerKind::Model, header.dump(), fd, file);
     if (!reply)
         return reply.error();
-    auto model = readModel(reply->header, reply->payload);
+    auto model = readModel(reply->header, reply->payload.bytes());
     if (!model) {
         Error error = model.error();
         error.file = file;
@@ -93,11 +93,12 @@ void resolveMirrors(ImportedModel& model) {
         const auto [copy, isNew] =
             copies.try_emplace(instance.mesh, static_cast<int>(model.meshes.size()));
         if (isNew) {
-            const MeshPtr mesh = model.meshes[static_cast<std::size_t>(instance.mesh)];
+            const std::shared_ptr<Mesh> mesh =
+                model.meshes[static_cast<std::size_t>(instance.mesh)];
             const MeshSource* source = meshSource(mesh);
             model.meshes.push_back(source != nullptr
                                        ? withSource(mirrored(*mesh), mirrored(*source))
-                                       : std::make_shared<const Mesh>(mirrored(*mesh)));
+                                       : std::make_shared<Mesh>(mirrored(*mesh)));
         }
         instance.mesh = copy->second;
         instance.transform[0] = -instance.transform[0];
@@ -114,7 +115,7 @@ void dropUnused(ImportedModel& model) {
         return model.meshes[static_cast<std::size_t>(instance.mesh)]->indices.empty();
     });
     std::vector<int> newIndex(model.meshes.size(), -1);
-    std::vector<MeshPtr> kept;
+    std::vector<std::shared_ptr<Mesh>> kept;
     for (ImportedInstance& instance : model.instances) {
         int& index = newIndex[static_cast<std::size_t>(instance.mesh)];
         if (index < 0) {
@@ -128,17 +129,8 @@ void dropUnused(ImportedModel& model) {
 
 void repair(ImportedModel& model) {
     MeshRepairs& sum = model.repairs;
-    for (MeshPtr& mesh : model.meshes) {
-        Mesh repaired = *mesh;
-        MeshRepairs repairs;
-        if (const MeshSource* known = meshSource(mesh)) {
-            MeshSource source = *known;
-            repairs = sanitizeMesh(repaired, source.vertices);
-            mesh = withSource(std::move(repaired), std::move(source));
-        } else {
-            repairs = sanitizeMesh(repaired);
-            mesh = std::make_shared<const Mesh>(std::move(repaired));
-        }
+    for (const std::shared_ptr<Mesh>& mesh : model.meshes) {
+        const MeshRepairs repairs = sanitizeMesh(mesh);
         sum.droppedTriangles += repairs.droppedTriangles;
         sum.invalidTriangles += repairs.invalidTriangles;
         sum.repairedNormals += repairs.repairedNormals;

@@ -52,7 +52,7 @@ struct ImportedLight {
 };
 
 struct ImportedModel {
-    std::vector<MeshPtr> meshes;
+    std::vector<std::shared_ptr<Mesh>> meshes;
     std::vector<ImportedMaterial> materials; // at least one
     std::vector<ImportedInstance> instances; // at least one
     std::vector<ImportedLight> lights;

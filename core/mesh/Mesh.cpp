@@ -273,14 +273,7 @@ void computeTangents(Mesh& mesh) {
 
     // Corners with the same position, normal and UV are one vertex for MikkTSpace, also when the
     // file repeats them.
-    std::vector<float> rows(8 * vertexCount);
-    for (std::size_t i = 0; i < vertexCount; ++i) {
-        const glm::vec3 &p = mesh.positions[i], &n = mesh.normals[i];
-        const glm::vec2& uv = mesh.uvs[i];
-        const float row[8] = {p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y};
-        std::copy(row, row + 8, rows.begin() + static_cast<std::ptrdiff_t>(8 * i));
-    }
-    const std::vector<std::uint32_t> first = firstEqualRow(rows, 8);
+    const std::vector<std::uint32_t> first = weldVertices(mesh.positions, mesh.normals, mesh.uvs);
 
     // Where mirrored and unmirrored triangles meet MikkTSpace splits the vertex; here the
     // orientation with more weight wins.
@@ -288,7 +281,7 @@ void computeTangents(Mesh& mesh) {
         glm::dvec3 direction{0.0};
         double weight = 0.0;
     };
-    std::vector<std::array<Sum, 2>> sums(vertexCount); // [0] as drawn, [1] mirrored
+    std::array<std::vector<Sum>, 2> sums; // [0] as drawn, [1] mirrored; empty where nothing is
     for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
         const std::uint32_t* index = mesh.indices.data() + 3 * t;
         const glm::dvec2 uv0(mesh.uvs[index[0]]), uv1(mesh.uvs[index[1]]), uv2(mesh.uvs[index[2]]);
@@ -307,6 +300,9 @@ void computeTangents(Mesh& mesh) {
         if (!(glm::length(alongU) > 0.0))
             continue;
         const std::array<double, 3> angles = cornerAngles(a, b, c);
+        std::vector<Sum>& own = sums[mirrored ? 1 : 0];
+        if (own.empty())
+            own.resize(vertexCount);
         for (std::size_t corner = 0; corner < 3; ++corner) {
             const std::uint32_t vertex = index[corner];
             const glm::dvec3 direction =
@@ -314,7 +310,7 @@ void computeTangents(Mesh& mesh) {
             const double length = glm::length(direction);
             if (!(length > 1e-6))
                 continue;
-            Sum& sum = sums[first[vertex]][mirrored ? 1 : 0];
+            Sum& sum = own[first[vertex]];
             sum.direction += direction * (angles[corner] / length);
             sum.weight += angles[corner];
         }
@@ -322,9 +318,11 @@ void computeTangents(Mesh& mesh) {
 
     mesh.tangents.resize(vertexCount);
     for (std::size_t i = 0; i < vertexCount; ++i) {
-        const std::array<Sum, 2>& pair = sums[first[i]];
-        const bool mirrored = pair[1].weight > pair[0].weight;
-        const Sum& sum = pair[mirrored ? 1 : 0];
+        const auto sumOf = [&](std::size_t side) {
+            return sums[side].empty() ? Sum{} : sums[side][first[i]];
+        };
+        const bool mirrored = sumOf(1).weight > sumOf(0).weight;
+        const Sum sum = sumOf(mirrored ? 1 : 0);
         const glm::dvec3 direction = perpendicularPart(sum.direction, glm::dvec3(mesh.normals[i]));
         if (glm::length(direction) > 1e-6 * sum.weight)
             mesh.tangents[i] = glm::vec4(unit(direction), mirrored ? -1.0f : 1.0f);

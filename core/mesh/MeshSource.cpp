@@ -16,12 +16,12 @@ struct Owner {
 
 } // namespace
 
-MeshPtr withSource(Mesh mesh, MeshSource source) {
+std::shared_ptr<Mesh> withSource(Mesh mesh, MeshSource source) {
     CHECK_EQ(source.vertices.size(), mesh.positions.size());
     return {new Mesh(std::move(mesh)), Owner{std::move(source)}};
 }
 
-MeshPtr withOwnVertices(Mesh mesh, int number) {
+std::shared_ptr<Mesh> withOwnVertices(Mesh mesh, int number) {
     MeshSource source;
     source.mesh = number;
     source.vertices.resize(mesh.positions.size());
@@ -32,6 +32,11 @@ MeshPtr withOwnVertices(Mesh mesh, int number) {
 const MeshSource* meshSource(const MeshPtr& mesh) {
     const Owner* owner = std::get_deleter<Owner>(mesh);
     return owner != nullptr ? &owner->source : nullptr;
+}
+
+MeshRepairs sanitizeMesh(const std::shared_ptr<Mesh>& mesh) {
+    Owner* owner = std::get_deleter<Owner>(mesh);
+    return owner != nullptr ? sanitizeMesh(*mesh, owner->source.vertices) : sanitizeMesh(*mesh);
 }
 
 void addUse(const MeshPtr& mesh, const MeshSource::Use& use) {

@@ -29,9 +29,9 @@ struct MeshSource {
 
 // The source travels with the shared mesh (it is the owner's, as a deleter is) and is no part of
 // its value: neither == nor hashMesh() sees it, and a changed copy has none.
-[[nodiscard]] MeshPtr withSource(Mesh mesh, MeshSource source);
+[[nodiscard]] std::shared_ptr<Mesh> withSource(Mesh mesh, MeshSource source);
 // The same for a mesh whose vertices are those of the file's mesh of this number, one by one.
-[[nodiscard]] MeshPtr withOwnVertices(Mesh mesh, int number);
+[[nodiscard]] std::shared_ptr<Mesh> withOwnVertices(Mesh mesh, int number);
 // Null where it is not known: built-in meshes, and formats that lose it (OBJ, FBX, COLLADA).
 [[nodiscard]] const MeshSource* meshSource(const MeshPtr& mesh);
 // For the importer alone, as long as nobody else holds the mesh.
@@ -40,5 +40,7 @@ void addUse(const MeshPtr& mesh, const MeshSource::Use& use);
 // As sanitizeMesh(Mesh&), and keeps `origin`, which has an entry for each vertex, in step with the
 // vertices: those that are dropped take theirs along, copies have that of what they repeat.
 MeshRepairs sanitizeMesh(Mesh& mesh, std::vector<std::uint32_t>& origin);
+// The same for a mesh that may have a source, which is kept in step. For the importer alone.
+MeshRepairs sanitizeMesh(const std::shared_ptr<Mesh>& mesh);
 
 } // namespace patina

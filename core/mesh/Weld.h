@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
@@ -17,5 +18,10 @@ namespace patina {
 
 // The same for positions.
 [[nodiscard]] std::vector<std::uint32_t> weldPositions(std::span<const glm::vec3> positions);
+
+// The same for vertices, whose three arrays are of one length.
+[[nodiscard]] std::vector<std::uint32_t> weldVertices(std::span<const glm::vec3> positions,
+                                                      std::span<const glm::vec3> normals,
+                                                      std::span<const glm::vec2> uvs);
 
 } // namespace patina

@@ -151,9 +151,9 @@ class PayloadReader {
     void take(std::vector<T>& values, std::size_t count) {
         if (count > m_rest.size() / sizeof(T))
             throw std::runtime_error("an array is longer than the answer");
-        values.resize(count);
-        if (count > 0)
-            std::memcpy(values.data(), m_rest.data(), count * sizeof(T));
+        static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= kAlignment);
+        const T* const first = reinterpret_cast<const T*>(m_rest.data());
+        values.assign(first, first + count); // not resize(): that would write all memory twice
         m_rest = m_rest.subspan(std::min(m_rest.size(), aligned(count * sizeof(T))));
     }
     [[nodiscard]] bool atEnd() const { return m_rest.empty(); }
@@ -167,7 +167,7 @@ void checkIndex(int index, std::size_t size) {
         throw std::runtime_error("an index points nowhere");
 }
 
-MeshPtr readMesh(const json& value, PayloadReader& payload) {
+std::shared_ptr<Mesh> readMesh(const json& value, PayloadReader& payload) {
     Mesh mesh;
     mesh.name = value.at("name");
     const std::size_t vertices = value.at("vertices");
@@ -181,7 +181,7 @@ MeshPtr readMesh(const json& value, PayloadReader& payload) {
     payload.take(mesh.indices, indices);
     const auto source = value.find("source");
     if (source == value.end())
-        return std::make_shared<const Mesh>(std::move(mesh));
+        return std::make_shared<Mesh>(std::move(mesh));
     MeshSource known;
     known.mesh = source->at("mesh");
     known.primitive = source->at("primitive");
@@ -252,7 +252,7 @@ std::string writeModelHeader(const ImportedModel& model, std::size_t& payloadSiz
     json header;
     header["format"] = model.format;
     json& meshes = header["meshes"] = json::array();
-    for (const MeshPtr& mesh : model.meshes) {
+    for (const auto& mesh : model.meshes) {
         meshes.push_back({{"name", mesh->name},
                           {"vertices", mesh->positions.size()},
                           {"indices", mesh->indices.size()},
@@ -308,7 +308,7 @@ void writeModelPayload(const ImportedModel& model, std::span<std::byte> payload)
             std::memcpy(payload.data(), values.data(), size);
         payload = payload.subspan(aligned(size));
     };
-    for (const MeshPtr& mesh : model.meshes) {
+    for (const auto& mesh : model.meshes) {
         forEachArray(*mesh, put);
         if (const MeshSource* source = meshSource(mesh))
             put(source->vertices);

@@ -392,20 +392,17 @@ WorkerClient::Impl::attempt(WorkerKind kind, const protocol::Request& request,
                             fmt::format("an answer of {} bytes", report.payloadSize));
             const auto header =
                 MemoryFile::open(std::move(received->descriptors[0]), report.headerSize);
-            const auto payload =
+            auto payload =
                 MemoryFile::open(std::move(received->descriptors[1]), report.payloadSize);
             if (!header || !payload)
                 return died(file, "the decoder gave an answer that makes no sense", "not sealed");
             if (failed)
                 return refusedByDecoder(header->text(), file);
-            Reply reply;
             try {
-                reply.header = header->text();
-                reply.payload.assign(payload->bytes().begin(), payload->bytes().end());
+                return Reply{std::string(header->text()), *std::move(payload)};
             } catch (const std::bad_alloc&) {
                 return noMemory(file);
             }
-            return reply;
         }
         default:
             return died(file, "the decoder gave an answer that makes no sense", "unknown event");

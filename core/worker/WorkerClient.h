@@ -8,9 +8,9 @@
 // started again for the next request.
 #pragma once
 
-#include "core/base/AtomicFile.h"
 #include "core/base/Limits.h"
 #include "core/base/Result.h"
+#include "core/worker/MemoryFile.h"
 
 #include <filesystem>
 #include <memory>
@@ -19,8 +19,6 @@
 #include <vector>
 
 namespace patina {
-
-class MemoryFile;
 
 struct WorkerLimits {
     std::size_t memoryBytes; // address space of the child
@@ -61,7 +59,7 @@ class WorkerClient {
     // payload come back. The adapters in core/io give them meaning.
     struct Reply {
         std::string header;
-        Bytes payload;
+        MemoryFile payload; // sealed: nobody changes it any more
     };
     Result<Reply> request(WorkerKind kind, const std::string& header,
                           std::span<const std::byte> payload,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstring>
 #include <fmt/format.h>
 
@@ -196,6 +197,25 @@ std::size_t GltfBuffers::count(std::size_t accessor) const {
     return count;
 }
 
+std::span<const float> GltfBuffers::floatsInPlace(std::size_t index, int components) const {
+    const json& accessor = element(m_root, "accessors", index);
+    const auto viewIndex = accessor.find("bufferView");
+    if (viewIndex == accessor.end() || accessor.contains("sparse") ||
+        accessor.at("componentType") != 5126 ||
+        componentsOf(accessor.at("type").get<std::string>()) != components)
+        return {};
+    const std::size_t n = count(index);
+    const std::size_t size = static_cast<std::size_t>(components) * sizeof(float);
+    const auto view = viewIndex->get<std::size_t>();
+    if (element(m_root, "bufferViews", view).value("byteStride", size) != size)
+        return {};
+    const Elements source =
+        elements(this->view(view), accessor.value("byteOffset", std::size_t{0}), n, size, size);
+    if (reinterpret_cast<std::uintptr_t>(source.data) % alignof(float) != 0)
+        return {};
+    return {reinterpret_cast<const float*>(source.data), n * static_cast<std::size_t>(components)};
+}
+
 std::vector<float> GltfBuffers::floats(std::size_t index, int components) const {
     const json& accessor = element(m_root, "accessors", index);
     const int code = accessor.at("componentType");
@@ -266,6 +286,10 @@ std::vector<std::uint32_t> GltfBuffers::indices(std::size_t index) const {
     }
     const Elements source = elements(view(viewIndex->get<std::size_t>()),
                                      accessor.value("byteOffset", std::size_t{0}), n, size, size);
+    if (code == 5125 && reinterpret_cast<std::uintptr_t>(source.data) % size == 0) {
+        const auto* const first = reinterpret_cast<const std::uint32_t*>(source.data);
+        return {first, first + n};
+    }
     std::vector<std::uint32_t> result(n);
     for (std::size_t i = 0; i < n; ++i)
         result[i] = static_cast<std::uint32_t>(loadComponent(source.data + i * size, code));

@@ -21,6 +21,8 @@ class GltfBuffers {
     [[nodiscard]] std::span<const std::byte> view(std::size_t index) const;
     // `components` floats per element; normalised integers become 0…1 or -1…1.
     [[nodiscard]] std::vector<float> floats(std::size_t accessor, int components) const;
+    // The same where they lie in the file one after another as they are wanted; else empty.
+    [[nodiscard]] std::span<const float> floatsInPlace(std::size_t accessor, int components) const;
     [[nodiscard]] std::vector<std::uint32_t> indices(std::size_t accessor) const;
     [[nodiscard]] std::size_t count(std::size_t accessor) const;
 

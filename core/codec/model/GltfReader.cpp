@@ -93,13 +93,12 @@ void checkExtensions(const json& root) {
 }
 
 // Strips and fans become triangles with the winding of glTF 2.0, section 3.7.2.1.
-std::vector<std::uint32_t> triangulate(const std::vector<std::uint32_t>& source, int mode) {
-    std::vector<std::uint32_t> result;
+std::vector<std::uint32_t> triangulate(std::vector<std::uint32_t> source, int mode) {
     if (mode != kStrip && mode != kFan) {
-        result.assign(source.begin(),
-                      source.begin() + static_cast<std::ptrdiff_t>(source.size() / 3 * 3));
-        return result;
+        source.resize(source.size() / 3 * 3);
+        return source;
     }
+    std::vector<std::uint32_t> result;
     for (std::size_t i = 0; i + 2 < source.size(); ++i) {
         const std::size_t odd = i % 2;
         if (mode == kStrip)
@@ -111,11 +110,9 @@ std::vector<std::uint32_t> triangulate(const std::vector<std::uint32_t>& source,
 }
 
 template <class T>
-std::vector<T> regroup(const std::vector<float>& values) {
-    std::vector<T> result(values.size() / static_cast<std::size_t>(T::length()));
-    if (!result.empty())
-        std::memcpy(result.data(), values.data(), result.size() * sizeof(T));
-    return result;
+std::vector<T> regroup(std::span<const float> values) {
+    const auto* const first = reinterpret_cast<const T*>(values.data());
+    return {first, first + values.size() / static_cast<std::size_t>(T::length())};
 }
 
 // Without normals a mesh is flat-shaded (glTF 2.0, section 3.7.2.1): each triangle gets vertices of
@@ -164,14 +161,20 @@ class PrimitiveArrays {
     [[nodiscard]] bool compressed() const { return m_draco.has_value(); }
 
     // Empty when the primitive has no such attribute.
-    [[nodiscard]] std::vector<float> floats(const char* name, int components) const {
+    template <class T>
+    [[nodiscard]] std::vector<T> vectors(const char* name) const {
+        constexpr int kComponents = T::length();
         if (m_draco && m_dracoIds.contains(name))
-            return m_draco->floats(m_dracoIds.at(name).get<std::uint32_t>(), components);
+            return regroup<T>(
+                m_draco->floats(m_dracoIds.at(name).get<std::uint32_t>(), kComponents));
         const json& attributes = m_source.at("attributes");
         const auto it = attributes.find(name);
         if (it == attributes.end())
             return {};
-        return m_buffers.floats(it->get<std::size_t>(), components);
+        const auto accessor = it->get<std::size_t>();
+        if (const auto inPlace = m_buffers.floatsInPlace(accessor, kComponents); !inPlace.empty())
+            return regroup<T>(inPlace);
+        return regroup<T>(m_buffers.floats(accessor, kComponents));
     }
 
     [[nodiscard]] std::vector<std::uint32_t> indices() const {
@@ -249,27 +252,25 @@ std::optional<Mesh> Reader::primitive(const json& source, const std::string& nam
     Mesh mesh;
     mesh.name = name;
     const PrimitiveArrays arrays(source, m_buffers);
-    mesh.positions = regroup<glm::vec3>(arrays.floats("POSITION", 3));
+    mesh.positions = arrays.vectors<glm::vec3>("POSITION");
     m_vertices += mesh.positions.size(); // primitives may share an accessor
     if (m_vertices > 3 * limits::kMaxTriangles)
         throw Refusal("the model is larger than the supported 50 million triangles");
-    const auto optional = [&](const char* key, int components) {
-        auto values = arrays.floats(key, components);
-        if (!values.empty() &&
-            values.size() != mesh.positions.size() * static_cast<std::size_t>(components))
+    const auto take = [&]<class T>(std::vector<T>& values, const char* key) {
+        values = arrays.vectors<T>(key);
+        if (!values.empty() && values.size() != mesh.positions.size())
             throw Refusal("the file is damaged; export it again",
                           fmt::format("{} and POSITION differ in length", key));
-        return values;
     };
-    mesh.normals = regroup<glm::vec3>(optional("NORMAL", 3));
-    mesh.uvs = regroup<glm::vec2>(optional("TEXCOORD_0", 2));
-    mesh.tangents = regroup<glm::vec4>(optional("TANGENT", 4));
+    take(mesh.normals, "NORMAL");
+    take(mesh.uvs, "TEXCOORD_0");
+    take(mesh.tangents, "TANGENT");
     std::vector<std::uint32_t> indices = arrays.indices();
     if (indices.empty() && !source.contains("indices")) {
         indices.resize(mesh.positions.size());
         std::iota(indices.begin(), indices.end(), 0u);
     }
-    mesh.indices = triangulate(indices, arrays.compressed() ? kTriangles : mode);
+    mesh.indices = triangulate(std::move(indices), arrays.compressed() ? kTriangles : mode);
 
     if (mesh.normals.empty()) {
         mesh = flatShaded(mesh, origin);

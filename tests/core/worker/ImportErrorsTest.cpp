@@ -77,7 +77,7 @@ TEST_F(ImportErrors, CutShort) {
                     EXPECT_EQ(model.error().kind, ErrorKind::InputBroken) << extension;
                     continue;
                 }
-                for (const MeshPtr& mesh : model->meshes)
+                for (const auto& mesh : model->meshes)
                     for (const std::uint32_t index : mesh->indices)
                         ASSERT_LT(index, mesh->vertexCount());
             }

@@ -71,7 +71,7 @@ class ImportTest : public testing::Test {
         if (model.ok())
             return std::move(*model);
         ImportedModel empty;
-        empty.meshes.push_back(std::make_shared<const Mesh>());
+        empty.meshes.push_back(std::make_shared<Mesh>());
         empty.materials.resize(8);
         empty.instances.resize(8);
         return empty;

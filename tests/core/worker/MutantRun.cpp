@@ -59,7 +59,7 @@ std::string mutate(const std::vector<std::string>& seeds, std::mt19937_64& rando
 }
 
 bool keepsPromises(const ImportedModel& model) {
-    for (const MeshPtr& mesh : model.meshes) {
+    for (const auto& mesh : model.meshes) {
         const std::size_t n = mesh->vertexCount();
         if (mesh->normals.size() != n || mesh->uvs.size() != n || mesh->tangents.size() != n ||
             mesh->indices.empty())
