@@ -280,8 +280,9 @@ TEST_F(ExportRun, EveryFormatWritesWhatItPlans) {
         EXPECT_THAT(*written, testing::Contains(of.output));
         for (const PlannedFile& file : plan.files) {
             EXPECT_FALSE(file.contents.empty() || file.format.empty()) << file.path;
-            if (!file.embedded)
+            if (!file.embedded) {
                 EXPECT_GT(fs::file_size(file.path), 0u) << file.path;
+            }
         }
     }
 }

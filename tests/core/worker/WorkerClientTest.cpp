@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <thread>
 #include <unistd.h>
 
@@ -61,9 +62,10 @@ std::size_t openDescriptors() {
 TEST_F(Worker, AnswersWithHeaderAndPayload) {
     const auto reply = ask({{"do", "echo"}, {"size", 1000003}});
     ASSERT_TRUE(reply.ok()) << reply.error().text();
-    ASSERT_EQ(reply->payload.size(), 1000003u);
-    for (std::size_t i = 0; i < reply->payload.size(); ++i)
-        ASSERT_EQ(reply->payload[i], static_cast<std::byte>(i % 251));
+    const std::span<const std::byte> payload = reply->payload.bytes();
+    ASSERT_EQ(payload.size(), 1000003u);
+    for (std::size_t i = 0; i < payload.size(); ++i)
+        ASSERT_EQ(payload[i], static_cast<std::byte>(i % 251));
 }
 
 TEST_F(Worker, EachRequestHasAProcessOfItsOwn) {
@@ -266,7 +268,7 @@ TEST_F(Worker, RequestsFromManyThreadsRunSideBySide) {
                 const auto reply = ask({{"do", crash ? "abort" : "echo"}, {"size", size}});
                 if (crash && !reply.ok())
                     ++crashed;
-                if (!crash && reply.ok() && reply->payload.size() == size)
+                if (!crash && reply.ok() && reply->payload.bytes().size() == size)
                     ++good;
             }
         });
