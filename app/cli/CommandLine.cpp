@@ -18,8 +18,8 @@
 namespace patina::cli {
 namespace {
 
-constexpr std::array kCommands = {"info",   "render", "bake",    "merge",     "environment",
-                                  "export", "refine", "compare", "parameters"};
+constexpr std::array kCommands = {"info",        "render", "sheet",  "bake",    "merge",
+                                  "environment", "export", "refine", "compare", "parameters"};
 
 constexpr const char* kAbout =
     "Patina: a desktop editor for physically based materials you can trust.\n\n"
@@ -43,6 +43,7 @@ CommandParser::CommandParser()
     m_app.require_subcommand(1);
     addInfo();
     addRender();
+    addSheet();
     addBakes();
     addMerge();
     addEnvironment();

@@ -77,6 +77,10 @@ class CommandParser {
     // SceneCommandLine.cpp
     void addInfo();
     void addRender();
+    void addSheet();
+    // What `render` and `sheet` have in common.
+    void addEnvironmentOption(CLI::App* command, PictureOptions& options);
+    void addPicture(CLI::App* command, PictureOptions& options);
     void addEnvironment();
     void addExport();
     void addRefine();
@@ -87,6 +91,7 @@ class CommandParser {
     Invocation m_invocation;
     InfoOptions m_info;
     RenderOptions m_render;
+    SheetOptions m_sheet;
     BakeAoOptions m_ao;
     BakePrtOptions m_prt;
     BakeIblOptions m_ibl;

@@ -1,9 +1,7 @@
 #include "app/cli/LocalShadows.h"
 
 #include "app/cli/LongBake.h"
-#include "app/cli/RenderViews.h"
 #include "core/bake/BakeMemory.h"
-#include "core/document/Lighting.h"
 #include "core/edit/Edit.h"
 #include "core/light/Light.h"
 
@@ -12,9 +10,9 @@
 
 namespace patina::cli {
 
-Result<NearShadowsPtr> traceLocalShadows(Session& session, const RenderOptions& options,
-                                         const Document& document,
-                                         const render::ViewSettings& shown) {
+Result<NearShadowsPtr> traceLocalShadows(Session& session, const PictureOptions& options,
+                                         const Document& document, bool readsTransfer,
+                                         const NearShadowsPtr& before) {
     std::uint64_t most = availableMemory();
     if (!options.maxMemory.empty()) {
         const Result<std::uint64_t> bytes = parseSize("--max-memory", options.maxMemory);
@@ -22,8 +20,6 @@ Result<NearShadowsPtr> traceLocalShadows(Session& session, const RenderOptions& 
             return bytes.error();
         most = *bytes;
     }
-    const bool readsTransfer =
-        wantsAllViews(options) || readsBake(lightingOf(shown.shown.kind, document.view.lighting));
     if (!readsTransfer || !hasTransfer(document))
         return NearShadowsPtr();
     const NearShadowRequest request = nearShadowRequest(document);
@@ -31,7 +27,7 @@ Result<NearShadowsPtr> traceLocalShadows(Session& session, const RenderOptions& 
         return NearShadowsPtr();
     session.beginPhase();
     session.job().setActivity("tracing shadows of local lights");
-    Result<NearShadowsPtr> shadows = traceNearShadows(request, nullptr, most, session.job());
+    Result<NearShadowsPtr> shadows = traceNearShadows(request, before, most, session.job());
     if (!shadows) {
         if (shadows.error().kind == ErrorKind::Cancelled)
             return shadows.error();

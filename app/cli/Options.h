@@ -30,19 +30,38 @@ struct InfoOptions {
     std::string direction; // AZIMUTH,ELEVATION that light is looked up in; empty: none
 };
 
-struct RenderOptions {
+// Of every command that draws pictures.
+struct PictureOptions {
     std::string scene, output;
     std::string environment, environmentLayout;
     std::string size = "1280x720";
     std::string camera;                           // YAW,PITCH,DISTANCE
     std::string exposure, toneMap, fov, lighting; // as for --set; empty: as the scene has it
     std::string background;                       // visible, blurred, transparent or a colour
-    std::string view;                             // of core/document/Views.h, or all
-    std::string inspect;                          // X,Y of a pixel to explain
-    std::string viewMode = "raw", viewRange, viewLight;
     std::vector<std::string> bakes;
     std::string maxMemory; // a size; empty: what the machine has to give
     int samples = 4;
+};
+
+struct RenderOptions : PictureOptions {
+    std::string view;    // of core/document/Views.h, or all
+    std::string inspect; // X,Y of a pixel to explain
+    std::string viewMode = "raw", viewRange, viewLight;
+};
+
+struct SheetOptions : PictureOptions {
+    SheetOptions() { size = "320x240"; } // of a cell
+    enum class AxisKind { Environments, Materials, Lightings, Wedge };
+    struct Axis {
+        AxisKind kind;
+        std::string wedge; // NAME=FROM:TO:COUNT
+    };
+    std::vector<Axis> axes; // in the order of the command line: columns, rows
+    std::vector<std::string> environments, materials, lightings, wedges;
+    std::vector<std::string> meshes; // that materials are put on; empty: all that are visible
+    int columns = 0;                 // of a single axis; 0: chosen
+    bool noCaptions = false;
+    bool skipBroken = false; // environments that cannot be read
 };
 
 enum class BakeTarget { Texel, Vertex };
@@ -137,9 +156,9 @@ struct ParametersOptions {
 
 struct Invocation {
     CommonOptions common;
-    std::variant<InfoOptions, RenderOptions, BakeAoOptions, BakePrtOptions, BakeIblOptions,
-                 MergeOptions, EnvironmentOptions, ExportOptions, RefineOptions, CompareOptions,
-                 ParametersOptions>
+    std::variant<InfoOptions, RenderOptions, SheetOptions, BakeAoOptions, BakePrtOptions,
+                 BakeIblOptions, MergeOptions, EnvironmentOptions, ExportOptions, RefineOptions,
+                 CompareOptions, ParametersOptions>
         options;
 };
 

@@ -1,9 +1,9 @@
 #include "app/cli/RenderViews.h"
 
 #include "app/cli/Report.h"
+#include "app/cli/SheetCanvas.h"
 #include "core/edit/Edit.h"
 #include "core/edit/ViewReasons.h"
-#include "core/image/TextRaster.h"
 #include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "core/mix/LightMix.h"
@@ -59,48 +59,9 @@ constexpr int kColumns = 6, kMargin = 16, kGap = 12;
 constexpr int kHeading = 20, kLabel = 14, kSmall = 11; // pixels per em
 constexpr int kCaption = 42, kHeadingRow = 44;
 constexpr int kLine = 20, kReasonIndent = 150; // of what does not apply
-constexpr glm::vec3 kPaper{0.085f}, kWhite{0.94f}, kGrey{0.62f}, kAmber{0.95f, 0.70f, 0.30f};
-
-void fill(Image& image, int x, int y, int width, int height, const glm::vec3& color) {
-    const auto pixels = image.u8();
-    for (int row = std::max(y, 0); row < std::min(y + height, image.height()); ++row)
-        for (int column = std::max(x, 0); column < std::min(x + width, image.width()); ++column)
-            for (int c = 0; c < 3; ++c)
-                pixels[(static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width()) +
-                        static_cast<std::size_t>(column)) *
-                           3 +
-                       static_cast<std::size_t>(c)] =
-                    static_cast<std::uint8_t>(color[c] * 255.0f + 0.5f);
-}
-
-// Straight alpha over the paper.
-void paste(Image& sheet, int x, int y, const Image& tile) {
-    for (int row = 0; row < tile.height(); ++row)
-        for (int column = 0; column < tile.width(); ++column) {
-            const float alpha = tile.sample(column, row, 3);
-            glm::vec3 color(0.0f);
-            for (int c = 0; c < 3; ++c)
-                color[c] = alpha * tile.sample(column, row, c) + (1.0f - alpha) * kPaper[c];
-            fill(sheet, x + column, y + row, 1, 1, color);
-        }
-}
 
 std::string number(float value) {
     return fmt::format("{:.3g}", value);
-}
-
-// The longest beginning that fits, with an ellipsis when it is not all.
-std::string fitting(const TextRaster& text, std::string_view line, int size, int width) {
-    if (text.width(line, size) <= width)
-        return std::string(line);
-    std::string shorter(line);
-    while (!shorter.empty() && text.width(shorter + "…", size) > width) {
-        while (!shorter.empty() && (static_cast<unsigned char>(shorter.back()) & 0xc0u) == 0x80u)
-            shorter.pop_back();
-        if (!shorter.empty())
-            shorter.pop_back();
-    }
-    return shorter + "…";
 }
 
 // "0 [bar] 1 m": the colours that the numbers have.
@@ -111,8 +72,8 @@ void drawLegend(Image& sheet, const TextRaster& text, int x, int baseline, const
     text.draw(sheet, x, baseline, kSmall, kGrey, low);
     x += text.width(low, kSmall) + 6;
     for (int i = 0; i < kBar; ++i)
-        fill(sheet, x + i, baseline - 8, 1, 8,
-             mapColor(info.colorMap, static_cast<float>(i) / (kBar - 1)));
+        fillRectangle(sheet, x + i, baseline - 8, 1, 8,
+                      mapColor(info.colorMap, static_cast<float>(i) / (kBar - 1)));
     x += kBar + 6;
     const std::string high =
         fmt::format("{}{}{}{}", number(range.max), info.unit.empty() ? "" : " ", info.unit,
@@ -312,17 +273,17 @@ Result<Image> contactSheet(Session& session, render::ViewRenderer& renderer,
     const int below = sheet.layOut([](int, std::string_view) {}, [](int, int, const ViewInfo&) {});
     const int height =
         below + (left.empty() ? 0 : kHeadingRow + static_cast<int>(left.size()) * kLine + kMargin);
-    if (width > 16384 || height > 16384)
+    if (std::max(width, height) > kMostSheetSide)
         return usageError(
-            "the contact sheet would have more than 16384 pixels a side; choose a smaller "
-            "--size for its pictures");
+            fmt::format("the contact sheet would have more than {} pixels a side; choose a "
+                        "smaller --size for its pictures",
+                        kMostSheetSide));
     // Numbers are drawn without anti-aliasing: twice as large, then averaged.
     if (frame.samples > 1) {
         frame.width *= 2;
         frame.height *= 2;
     }
-    Image image(width, height, 3, PixelType::U8, ColorEncoding::Srgb);
-    fill(image, 0, 0, width, height, kPaper);
+    Image image = makePaper(width, height);
 
     Result<void> done;
     sheet.layOut(

@@ -4,6 +4,7 @@
 #include "core/edit/Parameters.h"
 #include "core/math/SphericalHarmonics.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace patina::cli {
@@ -27,18 +28,13 @@ void CommandParser::addInfo() {
     addOutside(command);
 }
 
-void CommandParser::addRender() {
-    RenderOptions& o = m_render;
-    CLI::App* c = addCommand(m_app, "render", "One picture, without a window", o);
-    addScene(c, o);
-    // With --inspect a picture need not be written: run() sees to that.
-    c->add_option("-o,--output", o.output,
-                  "Picture: .png, .jpg, .tif, .tga as displayed, .exr or .hdr linear")
-        ->type_name("OUT");
+void CommandParser::addEnvironmentOption(CLI::App* c, PictureOptions& o) {
     c->add_option("--environment", o.environment, "Environment that lights the scene")
         ->type_name("HDR");
     addLayout(c, o.environmentLayout);
-    c->add_option("--size", o.size, "Pixels")->capture_default_str()->type_name("WxH");
+}
+
+void CommandParser::addPicture(CLI::App* c, PictureOptions& o) {
     c->add_option("--samples", o.samples, "Samples per pixel against jagged edges (MSAA)")
         ->check(plain(CLI::IsMember({1, 2, 4, 8, 16})))
         ->capture_default_str()
@@ -65,6 +61,19 @@ void CommandParser::addRender() {
          "Of shadows of local lights with a transfer bake, e.g. 2GiB; where they would take "
          "more they stay soft (default: what is free)")
         ->type_name("SIZE");
+}
+
+void CommandParser::addRender() {
+    RenderOptions& o = m_render;
+    CLI::App* c = addCommand(m_app, "render", "One picture, without a window", o);
+    addScene(c, o);
+    // With --inspect a picture need not be written: run() sees to that.
+    c->add_option("-o,--output", o.output,
+                  "Picture: .png, .jpg, .tif, .tga as displayed, .exr or .hdr linear")
+        ->type_name("OUT");
+    addEnvironmentOption(c, o);
+    c->add_option("--size", o.size, "Pixels")->capture_default_str()->type_name("WxH");
+    addPicture(c, o);
     c->add_option("--view", o.view,
                   "A term of the shading equation instead of the picture (see --list-views); "
                   "all: a part each of an .exr, else a contact sheet of pictures of this size")
@@ -88,6 +97,72 @@ void CommandParser::addRender() {
         ->trigger_on_parse();
     addSets(c);
     addThreads(c);
+}
+
+void CommandParser::addSheet() {
+    SheetOptions& o = m_sheet;
+    CLI::App* c = addCommand(m_app, "sheet",
+                             "A wall of pictures: environments, materials, lighting modes or a "
+                             "parameter's values",
+                             o);
+    addSceneAndOutput(c, o,
+                      "Sheet: .png, .jpg, .tif, .tga, or an .exr with a part for each cell, "
+                      "linear");
+    // One after the other on the command line: columns, rows.
+    const auto many = [&](const char* name, std::vector<std::string>& names, const char* type,
+                          const char* help) {
+        return c->add_option(name, names, help)->type_name(type);
+    };
+    CLI::Option* environments =
+        many("--environments", o.environments, "HDR …",
+             "Environments: files, builtin:NAME or names of the scene's own");
+    CLI::Option* materials = many("--materials", o.materials, "NAME …",
+                                  "Materials of the scene, else built-in ones, by name");
+    CLI::Option* lightings =
+        many("--lightings", o.lightings, "NAME …", "Lighting modes, named as for --lighting");
+    CLI::Option* wedge =
+        c->add_option("--wedge", o.wedges,
+                      "Values of a number of patina parameters, evenly spaced, both ends among "
+                      "them; given twice, columns and rows")
+            ->type_name("NAME=FROM:TO:COUNT")
+            ->expected(1)
+            ->take_all()
+            ->allow_extra_args(false);
+    many("--meshes", o.meshes, "NAME …",
+         "What --materials are put on (default: all visible meshes)")
+        ->needs(materials);
+    c->add_option("--size", o.size, "Pixels of a cell")->capture_default_str()->type_name("WxH");
+    c->add_option("--columns", o.columns,
+                  "Of a sheet of one thing, which wraps (default: what reads well)")
+        ->check(plain(CLI::Range(1, 8)))
+        ->type_name("N");
+    c->add_flag("--no-captions", o.noCaptions, "Pictures alone, without title and captions");
+    c->add_flag("--skip-broken", o.skipBroken,
+                "Draw the others when environments cannot be read; their cells say why")
+        ->needs(environments);
+    addEnvironmentOption(c, o);
+    addPicture(c, o);
+    addSets(c);
+    addThreads(c);
+    m_select[c] = [&o, c, environments, materials, lightings, wedge] {
+        using Kind = SheetOptions::AxisKind;
+        std::size_t wedges = 0;
+        for (const CLI::Option* option : c->parse_order()) {
+            const auto once = [&](Kind kind) {
+                if (std::ranges::find(o.axes, kind, &SheetOptions::Axis::kind) == o.axes.end())
+                    o.axes.push_back({kind, {}});
+            };
+            if (option == environments)
+                once(Kind::Environments);
+            else if (option == materials)
+                once(Kind::Materials);
+            else if (option == lightings)
+                once(Kind::Lightings);
+            else if (option == wedge)
+                o.axes.push_back({Kind::Wedge, o.wedges.at(wedges++)});
+        }
+        return decltype(m_invocation.options)(o);
+    };
 }
 
 void CommandParser::addEnvironment() {

@@ -41,24 +41,6 @@ Result<std::pair<std::string, std::string>> splitAssignment(const std::string& t
     return std::pair{text.substr(0, equals), text.substr(equals + 1)};
 }
 
-Result<void> setEnvironment(Session& session, Environment& environment, const std::string& source,
-                            EnvironmentLayout layout) {
-    std::vector<Notice> notices;
-    const std::string normalized = normalizeSource(source);
-    Result<ImagePtr> image =
-        loadEnvironmentImage(session.worker(), normalized, notices, layout, session.job());
-    if (!image)
-        return image.error();
-    for (const Notice& notice : notices)
-        session.report().add(notice);
-    environment.kind = EnvironmentKind::Image;
-    environment.source = normalized;
-    environment.layout = layout;
-    environment.image = environment.fileImage = *image;
-    environment.problem.clear();
-    return {};
-}
-
 // No parameter of its own: the image of the second environment.
 constexpr std::string_view kSecondImage = "environment.secondImage";
 
@@ -124,6 +106,24 @@ Result<void> setMap(Session& session, Document& document, const ParameterSelecti
 
 } // namespace
 
+Result<void> setEnvironment(Session& session, Environment& environment, const std::string& source,
+                            EnvironmentLayout layout) {
+    std::vector<Notice> notices;
+    const std::string normalized = normalizeSource(source);
+    Result<ImagePtr> image =
+        loadEnvironmentImage(session.worker(), normalized, notices, layout, session.job());
+    if (!image)
+        return image.error();
+    for (const Notice& notice : notices)
+        session.report().add(notice);
+    environment.kind = EnvironmentKind::Image;
+    environment.source = normalized;
+    environment.layout = layout;
+    environment.image = environment.fileImage = *image;
+    environment.problem.clear();
+    return {};
+}
+
 std::string environmentName(const Environment& environment) {
     const ParameterInfo& kind = *findParameter("environment.kind");
     return environment.kind == EnvironmentKind::Image
@@ -165,6 +165,23 @@ Result<void> setParameter(Session& session, Document& document, const std::strin
     return setAll(document, *selection, *parsed);
 }
 
+void warnIfIdle(Session& session, const Document& document, std::string_view option,
+                const std::string& name) {
+    if (name == kSecondImage)
+        return;
+    const Result<ParameterSelection> selection = selectParameter(document, name);
+    if (!selection)
+        return;
+    std::string_view why;
+    for (const Target& target : selection->targets) {
+        why = whyIdle(*selection->info, document, target.id);
+        if (why.empty())
+            return;
+    }
+    if (!why.empty())
+        session.report().warn(fmt::format("{} {} has no effect: {}", option, name, why));
+}
+
 Result<void> checkOffered(const Document& document, const std::string& name) {
     if (name == kSecondImage)
         return {};
@@ -202,23 +219,6 @@ namespace {
 
 // --set, maps first: putting one on raises its number to 1, and numbers given should win. The
 // layout of an environment last: naming an image starts it anew, and what was given should win.
-// Where none of the elements that it was set in has a use for it now.
-void warnIfIdle(Session& session, const Document& document, const std::string& name) {
-    if (name == kSecondImage)
-        return;
-    const Result<ParameterSelection> selection = selectParameter(document, name);
-    if (!selection)
-        return;
-    std::string_view why;
-    for (const Target& target : selection->targets) {
-        why = whyIdle(*selection->info, document, target.id);
-        if (why.empty())
-            return;
-    }
-    if (!why.empty())
-        session.report().warn(fmt::format("--set {} has no effect: {}", name, why));
-}
-
 Result<void> applySets(Session& session, Document& document, const std::vector<std::string>& sets) {
     std::map<Id, EnvironmentRecipe> before;
     for (const Environment& environment : document.environments)
@@ -246,7 +246,7 @@ Result<void> applySets(Session& session, Document& document, const std::vector<s
         if (Result<void> offered = checkOffered(document, name); !offered)
             return offered.error();
     for (const auto& [name, value] : assignments)
-        warnIfIdle(session, document, name);
+        warnIfIdle(session, document, "--set", name);
     for (Environment& environment : document.environments)
         if (environmentRecipe(environment) != before[environment.id])
             resolveEnvironment(environment, session.job());

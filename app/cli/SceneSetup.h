@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace patina::cli {
@@ -33,6 +34,14 @@ Result<Document> openEnvironmentFor(Session& session, const std::string& source,
 // Sets one parameter from its text, as --set does; maps and environments are loaded.
 Result<void> setParameter(Session& session, Document& document, const std::string& name,
                           const std::string& value);
+
+// The environment becomes that of an image or builtin:NAME; errors leave it as it is.
+Result<void> setEnvironment(Session& session, Environment& environment, const std::string& source,
+                            EnvironmentLayout layout);
+
+// Warns where none of the elements that were set has a use for the parameter; `option`: "--set".
+void warnIfIdle(Session& session, const Document& document, std::string_view option,
+                const std::string& name);
 
 // Usage error when the named choice is one that the document does not offer (whyUnavailable()).
 Result<void> checkOffered(const Document& document, const std::string& name);

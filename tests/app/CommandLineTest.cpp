@@ -19,7 +19,7 @@ TEST(CommandLine, HelpListsTheCommandsThatExistAndNoOthers) {
     const Outcome help = runPatina({"--help"});
     EXPECT_EQ(help.status, 0);
     for (const char* command :
-         {"info", "render", "bake", "merge", "export", "refine", "compare", "parameters"})
+         {"info", "render", "sheet", "bake", "merge", "export", "refine", "compare", "parameters"})
         EXPECT_THAT(help.out, HasSubstr(std::string("\n  ") + command + " "));
     EXPECT_THAT(help.err, IsEmpty());
     const Outcome bake = runPatina({"bake", "--help"});
@@ -37,7 +37,7 @@ TEST(CommandLine, HelpStandsInTwoColumns) {
         return std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; });
     };
     const std::vector<std::vector<std::string>> commands{
-        {"bake", "prt"}, {"bake", "ao"}, {"bake", "ibl"}, {"render"}, {"merge"}, {"refine"}};
+        {"bake", "prt"}, {"bake", "ao"}, {"bake", "ibl"}, {"render"}, {"sheet"}, {"merge"}, {"refine"}};
     for (std::vector<std::string> command : commands) {
         SCOPED_TRACE(command.back());
         command.emplace_back("--help");
@@ -119,6 +119,9 @@ TEST(CommandLine, WrongUsageIsStatus2WithAHint) {
         {{"render", "builtin:sphere", "--inspect", "-1,0"}, "--inspect"},
         {{"render", "builtin:sphere", "--inspect", "1,2,3"}, "--inspect"},
         {{"render", "builtin:nonsense", "-o", "x.png"}, "shader-ball"},
+        {{"sheet", "builtin:sphere", "-o", "x.png"}, "one or two things: --environments"},
+        {{"sheet", "builtin:sphere", "--wedge", "view.exposureEv=0:1:2"}, "--output"},
+        {{"sheet", "-o", "x.png", "--environments", "builtin:studio"}, "SCENE"},
         {{"bake", "ao", "builtin:sphere", "-o", "x.jpg"}, ".png or .exr"},
         {{"bake", "ao", "builtin:sphere", "-o", "x.png", "--target", "vertex"}, ".exr"},
         {{"bake", "ao", "builtin:sphere", "-o", "x.png", "--preset", "best"}, "draft,good,final"},

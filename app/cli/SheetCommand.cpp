@@ -1,0 +1,411 @@
+// `patina sheet`: environments, materials, lighting modes and values of a parameter beside each
+// other.
+#include "app/cli/Commands.h"
+#include "app/cli/LocalShadows.h"
+#include "app/cli/PictureSetup.h"
+#include "app/cli/Report.h"
+#include "app/cli/SceneSetup.h"
+#include "app/cli/SheetAxes.h"
+#include "app/cli/WallSheet.h"
+#include "core/base/Limits.h"
+#include "core/document/EnvironmentTitle.h"
+#include "core/document/ViewChoices.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
+#include "core/mix/LightMix.h"
+#include "render/SceneRenderer.h"
+#include "render/ViewRenderer.h"
+#include "render/WallRenderer.h"
+#include "render/scene/LightBlocks.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+
+namespace patina::cli {
+namespace {
+
+Error cancelled() {
+    return {ErrorKind::Cancelled, "cancelled", {}, {}};
+}
+
+Result<ImageFileFormat> sheetFormat(const std::string& output) {
+    Result<ImageFileFormat> format = imageFormatForPath(output);
+    if (format && *format == ImageFileFormat::Hdr)
+        return usageError(
+            "a sheet is a displayed picture (.png, .jpg, .tif, .tga) or an .exr with a "
+            "part for each cell; .hdr can be neither");
+    return format;
+}
+
+// Draws cells, one after the other, from the document with what they have of their own.
+class SheetDrawer {
+  public:
+    SheetDrawer(Session& session, const SheetOptions& options, Document& document, SheetWall& wall,
+                bool isProject, render::FrameSettings frame)
+        : m_session(session)
+        , m_options(options)
+        , m_document(document)
+        , m_wall(wall)
+        , m_isProject(isProject)
+        , m_frame(std::move(frame)) {}
+
+    Result<void> begin() {
+        // Linear pictures need no display.
+        const Result<DisplayTransformPtr> display =
+            m_frame.floats ? DisplayTransformPtr() : openDisplay(m_session, m_document.view);
+        if (!display)
+            return display.error();
+        Result<std::unique_ptr<gl::Context>> context = createContext(m_session, m_frame);
+        if (!context)
+            return context.error();
+        m_context = std::move(*context);
+        Result<std::unique_ptr<render::SceneRenderer>> scene =
+            render::SceneRenderer::create(*m_context);
+        if (!scene)
+            return scene.error();
+        m_scene = std::move(*scene);
+        m_cells = std::make_unique<render::WallRenderer>(*m_scene);
+        return m_scene->setDisplay(*display);
+    }
+
+    // Reads the environment's file if it has not been read; nothing where it cannot be and such are
+    // skipped.
+    Result<void> open(Id environment) {
+        const auto file = m_wall.files.find(environment);
+        if (file == m_wall.files.end() || !file->second.problem.empty())
+            return {};
+        Environment& target = *m_document.environment(environment);
+        Result<void> read = setEnvironment(m_session, target, target.source, target.layout);
+        if (read)
+            return read;
+        Error error = read.error();
+        if (error.kind == ErrorKind::Cancelled || error.kind == ErrorKind::Internal)
+            return error;
+        if (m_options.skipBroken) {
+            file->second.problem = error.message;
+            return {};
+        }
+        error.message += "; --skip-broken draws the others";
+        return error;
+    }
+    // Its cells are drawn: what it took is let go.
+    void close(Id environment) {
+        if (!m_wall.files.contains(environment))
+            return;
+        Environment& target = *m_document.environment(environment);
+        target.image = target.fileImage = nullptr;
+        m_lightImage = nullptr;
+        m_light = nullptr;
+    }
+
+    Result<Image> draw(const Cell& cell) {
+        Result<Document> shown = documentOf(m_document, cell);
+        if (!shown)
+            return shown.error();
+        resolveCell(*shown, m_document, m_session.job());
+        if (m_session.job().cancelled())
+            return cancelled();
+        if (Result<void> followed = follow(*shown); !followed)
+            return followed.error();
+        render::CellView view;
+        const float aspect = static_cast<float>(m_frame.width) / static_cast<float>(m_frame.height);
+        const Result<Camera> camera = chooseCamera(m_options, *shown, m_isProject, aspect);
+        if (!camera)
+            return camera.error();
+        view.frame = m_frame;
+        shown->view.camera = view.frame.camera = *camera;
+        if (!environmentParts(*shown).empty()) {
+            const Result<EnvironmentTexelsPtr> light = lightOf(shownEnvironment(*shown).image);
+            if (!light)
+                return light.error();
+            view.light = *light;
+        }
+        const Result<NearShadowsPtr> shadows = traceLocalShadows(
+            m_session, m_options, *shown, isLitByBake(m_frame.view, *shown), m_shadows);
+        if (!shadows)
+            return shadows.error();
+        view.nearShadows = m_shadows = *shadows;
+        view.document = std::move(*shown);
+        if (Result<void> drawn = m_cells->draw({&view, 1}); !drawn)
+            return drawn.error();
+        const render::ViewRenderer& picture = m_cells->picture(0);
+        Image image = m_frame.floats ? picture.readLinear() : picture.readDisplayed();
+        return m_frame.transparentBackground ? std::move(image) : withoutAlpha(image);
+    }
+
+  private:
+    // Of the last picture, which most often is the next one's, too.
+    Result<EnvironmentTexelsPtr> lightOf(const ImagePtr& image) {
+        if (!image || image == m_lightImage)
+            return m_light;
+        Result<EnvironmentTexelsPtr> light = prepareTexels(image, m_session.job());
+        if (!light)
+            return light;
+        m_session.beginPhase(); // the light's progress is over
+        m_lightImage = image;
+        m_light = *light;
+        return m_light;
+    }
+
+    // Bounces off the colours that the cell's surfaces have, found once for all cells of the same.
+    Result<void> follow(Document& shown) {
+        if (!isLitByBake(m_frame.view, shown))
+            return {};
+        const auto known = std::ranges::find_if(m_followed, [&](const Followed& other) {
+            return other.materials == shown.materials && other.meshes == shown.meshes &&
+                   other.bounces == shown.view.bounces && other.lighting == shown.view.lighting;
+        });
+        if (known != m_followed.end()) {
+            shown.bakes = known->bakes;
+            return {};
+        }
+        if (Result<void> followed = followBounces(m_session, m_frame.view, shown); !followed)
+            return followed;
+        m_followed.push_back(
+            {shown.materials, shown.meshes, shown.view.bounces, shown.view.lighting, shown.bakes});
+        return {};
+    }
+
+    // What followBounces() made of what.
+    struct Followed {
+        std::vector<Material> materials;
+        std::vector<MeshInstance> meshes;
+        int bounces;
+        LightingMode lighting;
+        std::vector<BakeArtifactPtr> bakes;
+    };
+
+    Session& m_session;
+    const SheetOptions& m_options;
+    Document& m_document;
+    SheetWall& m_wall;
+    const bool m_isProject;
+    const render::FrameSettings m_frame;
+    std::unique_ptr<gl::Context> m_context; // outlives what it holds
+    std::unique_ptr<render::SceneRenderer> m_scene;
+    std::unique_ptr<render::WallRenderer> m_cells;
+    ImagePtr m_lightImage;
+    EnvironmentTexelsPtr m_light;
+    NearShadowsPtr m_shadows;
+    std::vector<Followed> m_followed;
+};
+
+// A cell's picture, or why there is none.
+struct DrawnCell {
+    Image picture;
+    std::string problem;
+    std::string part; // of an .exr
+    double seconds = 0.0;
+};
+
+// Environment by environment, so that one at a time is in memory; the result is in the order of
+// `cells`.
+Result<std::vector<DrawnCell>> drawCells(Session& session, SheetDrawer& drawer,
+                                         const SheetWall& wall, const Document& document,
+                                         const std::vector<WallCell>& cells) {
+    std::vector<DrawnCell> drawn(cells.size());
+    std::vector<Id> environments;
+    for (const WallCell& cell : cells)
+        if (std::ranges::find(environments, cell.cell.environment) == environments.end())
+            environments.push_back(cell.cell.environment);
+    std::size_t done = 0;
+    for (std::size_t e = 0; e < environments.size(); ++e) {
+        const Id environment = environments[e];
+        std::string of; // which, where there are several
+        if (environments.size() > 1)
+            of =
+                fmt::format("{} ({} of {}): ", environmentTitle(*document.environment(environment)),
+                            e + 1, environments.size());
+        session.beginPhase();
+        session.job().setActivity(of + "preparing light");
+        if (Result<void> opened = drawer.open(environment); !opened)
+            return opened.error();
+        const auto file = wall.files.find(environment);
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            if (cells[i].cell.environment != environment)
+                continue;
+            if (file != wall.files.end() && !file->second.problem.empty()) {
+                drawn[i].problem = file->second.problem;
+                continue;
+            }
+            if (session.job().cancelled())
+                return cancelled();
+            const auto start = std::chrono::steady_clock::now();
+            Result<Image> picture = drawer.draw(cells[i].cell);
+            if (!picture)
+                return picture.error();
+            drawn[i].picture = std::move(*picture);
+            drawn[i].seconds =
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            session.job().setActivity(of + "drawing");
+            session.job().setProgress(static_cast<double>(++done) /
+                                      static_cast<double>(cells.size()));
+        }
+        drawer.close(environment);
+    }
+    return drawn;
+}
+
+// "Studio, Gold": unlike any other part's.
+std::string partName(const WallCell& cell, std::set<std::string>& taken) {
+    const std::string wanted = fmt::format("{}", fmt::join(cell.captions, ", "));
+    std::string name = wanted;
+    for (int number = 2; !taken.insert(name).second; ++number)
+        name = fmt::format("{} ({})", wanted, number);
+    return name;
+}
+
+// The sheet with its pictures.
+Image pictureOf(const WallSheet& sheet, const Wall& wall, const std::vector<WallCell>& cells,
+                std::vector<DrawnCell>& drawn) {
+    Image paper = sheet.draw(wall);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (!drawn[i].problem.empty()) {
+            sheet.drawProblem(paper, cells[i], drawn[i].problem);
+            continue;
+        }
+        const glm::ivec2 place = sheet.place(cells[i]);
+        paste(paper, place.x, place.y, drawn[i].picture);
+        drawn[i].picture = {}; // large sheets have no room for the same pixels twice
+    }
+    return paper;
+}
+
+// Each cell as a part of its own.
+std::vector<ImagePart> partsOf(const std::vector<WallCell>& cells, std::vector<DrawnCell>& drawn) {
+    std::vector<ImagePart> parts;
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (!drawn[i].problem.empty())
+            continue;
+        ImagePart& part = parts.emplace_back();
+        part.name = drawn[i].part = partName(cells[i], names);
+        part.image = std::move(drawn[i].picture);
+    }
+    return parts;
+}
+
+nlohmann::ordered_json describeAxis(const WallAxis& axis) {
+    auto captions = nlohmann::ordered_json::array();
+    for (const WallEntry& entry : axis.entries)
+        captions.push_back(entry.caption);
+    return {{"title", axis.title}, {"captions", std::move(captions)}};
+}
+
+// `sheet`: null where cells are parts.
+void describeCells(nlohmann::ordered_json& json, const Wall& wall, const WallSheet* sheet,
+                   const std::vector<WallCell>& cells, const std::vector<DrawnCell>& drawn,
+                   const render::FrameSettings& frame) {
+    json["columns"] = describeAxis(wall.columns);
+    if (wall.isTable())
+        json["rows"] = describeAxis(wall.rows);
+    auto& list = json["cells"] = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        nlohmann::ordered_json cell{
+            {"column", cells[i].column}, {"row", cells[i].row}, {"captions", cells[i].captions}};
+        if (sheet != nullptr) {
+            const glm::ivec2 place = sheet->place(cells[i]);
+            cell["rectangle"] = {place.x, place.y, frame.width, frame.height};
+        } else if (drawn[i].problem.empty()) {
+            cell["part"] = drawn[i].part;
+        }
+        if (!drawn[i].problem.empty())
+            cell["problem"] = drawn[i].problem;
+        else
+            cell["seconds"] = drawn[i].seconds;
+        list.push_back(std::move(cell));
+    }
+}
+
+// Environments that were skipped, by their files.
+void reportBroken(Report& report, const SheetWall& wall) {
+    auto list = nlohmann::ordered_json::array();
+    for (const auto& [id, file] : wall.files) {
+        if (file.problem.empty())
+            continue;
+        list.push_back({{"file", file.source}, {"problem", file.problem}});
+        report.warn(fmt::format("{}: {}", file.source, file.problem));
+    }
+    report.json()["broken"] = std::move(list);
+}
+
+} // namespace
+
+Result<void> run(Session& session, const SheetOptions& options) {
+    const Result<ImageFileFormat> format = sheetFormat(options.output);
+    if (!format)
+        return format.error();
+    Result<render::FrameSettings> frame = frameSettings(options);
+    if (!frame)
+        return frame.error();
+    if (Result<void> output = checkOutput(options.output); !output)
+        return output;
+    const bool linear = isLinear(*format);
+    frame->floats = linear;
+
+    nlohmann::ordered_json& json = session.report().json();
+    json["settings"] = {{"scene", options.scene},
+                        {"size", {frame->width, frame->height}},
+                        {"samples", options.samples}};
+    session.beginPhase();
+    SceneRequest request{options.scene, options.environment,
+                         options.environments.empty() ? options.environmentLayout : std::string(),
+                         options.bakes};
+    Result<Document> document = openSceneFor(session, request);
+    if (!document)
+        return document.error();
+    if (Result<void> view = applyView(session, options, *document, *frame); !view)
+        return view;
+    Result<SheetWall> wall = makeSheetWall(session, options, *document);
+    if (!wall)
+        return wall.error();
+    const std::vector<WallCell> cells = cellsOf(wall->wall);
+    std::optional<WallSheet> sheet;
+    if (linear) {
+        const std::size_t bytes = cells.size() * static_cast<std::size_t>(frame->width) *
+                                  static_cast<std::size_t>(frame->height) * 4 * sizeof(float);
+        if (bytes > limits::kMaxImageBytes)
+            return usageError(
+                fmt::format("the cells would take more than {} MiB, which no picture may; "
+                            "choose a smaller --size",
+                            limits::kMaxImageBytes >> 20));
+    } else {
+        std::optional<WallSheetText> text;
+        if (!options.noCaptions)
+            text = {sheetTitle(options), sheetSubtitle(options, wall->wall, *document)};
+        Result<WallSheet> made = WallSheet::create(wall->wall, frame->width, frame->height, text);
+        if (!made)
+            return made.error();
+        sheet = std::move(*made);
+    }
+    warnOfStaleBakes(session, *document);
+    for (const render::LightLimit& limit : render::lightLimits(*document))
+        session.report().warn(limit.text);
+    describeView(json["settings"], document->view);
+
+    SheetDrawer drawer(session, options, *document, *wall, request.isProject, *frame);
+    if (Result<void> begun = drawer.begin(); !begun)
+        return begun;
+    Result<std::vector<DrawnCell>> drawn = drawCells(session, drawer, *wall, *document, cells);
+    if (!drawn)
+        return drawn.error();
+    reportBroken(session.report(), *wall);
+    if (std::ranges::all_of(*drawn, [](const DrawnCell& cell) { return !cell.problem.empty(); }))
+        return Error{ErrorKind::InputBroken, "none of the environments can be read", {}, {}};
+
+    std::vector<ImagePart> parts;
+    if (sheet)
+        parts.push_back({{}, pictureOf(*sheet, wall->wall, cells, *drawn), {}});
+    else
+        parts = partsOf(cells, *drawn);
+    describeCells(json, wall->wall, sheet ? &*sheet : nullptr, cells, *drawn, *frame);
+    if (session.job().cancelled())
+        return cancelled();
+    return writePictures(session, options.output, std::move(parts), *format);
+}
+
+} // namespace patina::cli

@@ -1,0 +1,44 @@
+// Cells beside and above each other: every column with every row.
+#pragma once
+
+#include "core/cells/Cell.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace patina {
+
+inline constexpr std::size_t kMostOnWallSide = 8; // of columns, and of rows
+
+struct WallEntry {
+    std::string caption;
+    Cell cell; // what the cells of this column or row have of their own
+};
+
+struct WallAxis {
+    std::string title; // "Roughness"
+    std::vector<WallEntry> entries;
+};
+
+struct Wall {
+    WallAxis columns;
+    WallAxis rows; // without entries: the columns' alone, in reading order
+    std::size_t width = 0, height = 0;
+
+    [[nodiscard]] bool isTable() const { return !rows.entries.empty(); }
+};
+
+// Of one axis, which wraps into a grid, or two: columns and rows. `gridWidth` of one; 0: chosen, a
+// row of up to six. Captions that two entries share are numbered. Usage error for none, more than
+// two, an axis without entries, a parameter that both set, more than kMostOnWallSide a side.
+[[nodiscard]] Result<Wall> makeWall(std::vector<WallAxis> axes, std::size_t gridWidth = 0);
+
+struct WallCell {
+    std::size_t column = 0, row = 0;
+    std::vector<std::string> captions; // of its column and row, or its only one
+    Cell cell;
+};
+[[nodiscard]] std::vector<WallCell> cellsOf(const Wall& wall); // row by row
+
+} // namespace patina

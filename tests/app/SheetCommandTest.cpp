@@ -1,0 +1,253 @@
+// patina sheet on built-in scenes.
+#include "CommandsFixture.h"
+#include "core/base/AtomicFile.h"
+
+#include <csignal>
+#include <map>
+
+using namespace patina;
+using namespace patina::test;
+using testing::AnyOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+namespace {
+
+class Sheets : public Commands {
+  protected:
+    Outcome sheet(const std::string& scene, const std::vector<std::string>& more,
+                  const std::string& name = "sheet.png") {
+        std::vector<std::string> arguments{"sheet",     scene, "-o",     m_folder / name, "--json",
+                                           "--samples", "1",   "--size", "40x30"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runPatina(arguments);
+    }
+    Image picture(const std::string& scene, const std::vector<std::string>& more,
+                  const std::string& name = "single.png") {
+        std::vector<std::string> arguments{"render",    scene, "-o",     m_folder / name,
+                                           "--samples", "1",   "--size", "40x30"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = runPatina(arguments);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return load(m_folder / name);
+    }
+    // What stands in a cell's rectangle.
+    static Image cellOf(const Image& sheet, const nlohmann::json& cell) {
+        const std::vector<int> place = cell["rectangle"];
+        Image result(place[2], place[3], 3, PixelType::U8, ColorEncoding::Srgb);
+        for (int y = 0; y < place[3]; ++y)
+            for (int x = 0; x < place[2]; ++x)
+                for (int c = 0; c < 3; ++c)
+                    result.u8()[static_cast<std::size_t>((y * place[2] + x) * 3 + c)] =
+                        sheet.u8()[static_cast<std::size_t>(
+                            ((y + place[1]) * sheet.width() + x + place[0]) * sheet.channels() +
+                            c)];
+        return result;
+    }
+    static std::vector<std::uint8_t> bytes(const Image& image) {
+        return {image.u8().begin(), image.u8().end()};
+    }
+    // A lat-long of one colour.
+    std::string skyFile(const std::string& name, float red) {
+        Image image(32, 16, 3, PixelType::F32, ColorEncoding::Linear);
+        for (std::size_t i = 0; i < image.f32().size(); ++i)
+            image.f32()[i] = i % 3 == 0 ? red : 0.4f;
+        const Result<void> saved = saveImage(m_worker, image, m_folder / name);
+        EXPECT_TRUE(saved.ok());
+        return m_folder / name;
+    }
+};
+
+TEST_F(Sheets, EachCellIsWhatRenderDraws) {
+    const std::string warm = skyFile("warm.exr", 1.0f);
+    const std::vector<std::string> shared{
+        "--tone-map", "agx",      "--exposure", "0.5",   "--background",
+        "blurred",    "--camera", "40,25",      "--set", "environment.rotationDeg=30"};
+    std::vector<std::string> arguments{"--environments", "builtin:studio", warm, "--wedge",
+                                       "material.perceptualRoughness=0.1:0.7:3"};
+    arguments.insert(arguments.end(), shared.begin(), shared.end());
+    const Outcome outcome = sheet("builtin:shader-ball", arguments);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const nlohmann::json json = outcome.json();
+    EXPECT_EQ(json["columns"]["title"], "Environment");
+    EXPECT_EQ(json["columns"]["captions"], nlohmann::json({"Studio", "warm"}));
+    EXPECT_EQ(json["rows"]["title"], "Roughness");
+    EXPECT_EQ(json["rows"]["captions"], nlohmann::json({"0.1", "0.4", "0.7"}));
+    EXPECT_THAT(json["outputs"], ElementsAre(m_folder / "sheet.png"));
+    ASSERT_EQ(json["cells"].size(), 6u);
+    const Image whole = load(m_folder / "sheet.png");
+    const std::string environments[] = {"builtin:studio", warm};
+    const char* roughness[] = {"0.1", "0.4", "0.7"};
+    for (const nlohmann::json& cell : json["cells"]) {
+        const std::size_t column = cell["column"], row = cell["row"];
+        EXPECT_GE(cell["seconds"], 0.0);
+        std::vector<std::string> single = shared;
+        single.insert(single.end(),
+                      {"--environment", environments[column], "--set",
+                       std::string("material.perceptualRoughness=") + roughness[row]});
+        EXPECT_EQ(bytes(cellOf(whole, cell)), bytes(picture("builtin:shader-ball", single)))
+            << cell.dump();
+    }
+}
+
+TEST_F(Sheets, MaterialsLightingModesAndAFieldOfView) {
+    const auto check = [&](const std::vector<std::string>& arguments,
+                           const std::vector<std::vector<std::string>>& singles) {
+        const Outcome outcome = sheet("builtin:shader-ball", arguments);
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        const nlohmann::json cells = outcome.json()["cells"];
+        ASSERT_EQ(cells.size(), singles.size());
+        const Image whole = load(m_folder / "sheet.png");
+        for (std::size_t i = 0; i < singles.size(); ++i)
+            EXPECT_EQ(bytes(cellOf(whole, cells[i])),
+                      bytes(picture("builtin:shader-ball", singles[i])))
+                << i;
+    };
+    const nlohmann::json info = runPatina({"info", "builtin:shader-ball", "--json"}).json();
+    const std::string material = info["materials"][0]["name"], other = info["materials"][1]["name"];
+    check({"--materials", material, other, "--lightings", "ibl", "cosine"},
+          {{"--set", "mesh.material=" + material},
+           {"--set", "mesh.material=" + other},
+           {"--set", "mesh.material=" + material, "--lighting", "cosine"},
+           {"--set", "mesh.material=" + other, "--lighting", "cosine"}});
+    // The scene fills the picture whatever the camera's field of view.
+    check({"--wedge", "view.fovDeg=20:60:2", "--environment", "builtin:sunset"},
+          {{"--fov", "20", "--environment", "builtin:sunset"},
+           {"--fov", "60", "--environment", "builtin:sunset"}});
+    // A sky for each cell.
+    check({"--wedge", "environment.skySunElevationDeg=10:70:2", "--set", "environment.kind=sky"},
+          {{"--set", "environment.kind=sky", "--set", "environment.skySunElevationDeg=10"},
+           {"--set", "environment.kind=sky", "--set", "environment.skySunElevationDeg=70"}});
+}
+
+TEST_F(Sheets, BuiltInMaterialsAreEachTheirOwn) {
+    const Outcome outcome = sheet("builtin:sphere", {"--materials", "gold", "builtin:ceramic",
+                                                     "wood", "--no-captions", "--columns", "2"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const nlohmann::json cells = outcome.json()["cells"];
+    const Image whole = load(m_folder / "sheet.png");
+    EXPECT_EQ(whole.width(), 2 * 40 + 3) << "pictures and the gap between them";
+    EXPECT_EQ(whole.height(), 2 * 30 + 3);
+    EXPECT_EQ(cells[0]["rectangle"], nlohmann::json({0, 0, 40, 30}));
+    EXPECT_EQ(cells[2]["rectangle"], nlohmann::json({0, 33, 40, 30}));
+    std::set<std::vector<std::uint8_t>> pictures;
+    for (const nlohmann::json& cell : cells)
+        pictures.insert(bytes(cellOf(whole, cell)));
+    EXPECT_EQ(pictures.size(), 3u);
+}
+
+TEST_F(Sheets, AnExrHasALinearPartForEachCell) {
+    const Outcome outcome = sheet("builtin:sphere",
+                                  {"--environments", "builtin:studio", "builtin:studio", "--wedge",
+                                   "material.metallic=0:1:2", "--tone-map", "reinhard"},
+                                  "sheet.exr");
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const nlohmann::json cells = outcome.json()["cells"];
+    ASSERT_EQ(cells.size(), 4u);
+    EXPECT_EQ(cells[0]["part"], "Studio, 0");
+    EXPECT_EQ(cells[1]["part"], "Studio (2), 0");
+    Result<LoadedImage> file =
+        loadImage(m_worker, m_folder / "sheet.exr", {.sanitize = false, .allParts = true});
+    ASSERT_TRUE(file.ok());
+    ASSERT_EQ(file->parts.size(), 4u);
+    const Image single = picture("builtin:sphere",
+                                 {"--environment", "builtin:studio", "--set", "material.metallic=1",
+                                  "--tone-map", "reinhard"},
+                                 "single.exr");
+    for (const ImagePart& part : file->parts)
+        if (part.name == "Studio, 1") {
+            ASSERT_EQ(part.image.f32().size(), single.f32().size());
+            EXPECT_TRUE(std::ranges::equal(part.image.f32(), single.f32()));
+        }
+}
+
+TEST_F(Sheets, BrokenEnvironmentsAreNamedOrSkipped) {
+    const std::string good = skyFile("good.exr", 0.8f), broken = m_folder / "broken.hdr",
+                      missing = m_folder / "missing.hdr";
+    writeBytes(broken, "#?RADIANCE\nnothing that is a picture");
+    const std::vector<std::string> three{"--environments", good, broken, missing};
+    const Outcome refused = sheet("builtin:sphere", three);
+    EXPECT_EQ(refused.status, 66);
+    EXPECT_THAT(refused.json()["error"]["file"].get<std::string>(), HasSubstr("missing.hdr"));
+    EXPECT_THAT(refused.err + refused.out, HasSubstr("--skip-broken"));
+    const Outcome damaged = sheet("builtin:sphere", {"--environments", good, broken});
+    EXPECT_THAT(damaged.status, AnyOf(65, 66));
+    EXPECT_THAT(damaged.out, HasSubstr("broken.hdr"));
+    EXPECT_FALSE(std::filesystem::exists(m_folder / "sheet.png"));
+
+    std::vector<std::string> skipping = three;
+    skipping.emplace_back("--skip-broken");
+    const Outcome outcome = sheet("builtin:sphere", skipping);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const nlohmann::json json = outcome.json();
+    ASSERT_EQ(json["broken"].size(), 2u);
+    EXPECT_EQ(json["broken"][0]["file"], broken);
+    EXPECT_EQ(json["warnings"].size(), 2u);
+    EXPECT_FALSE(json["cells"][0].contains("problem"));
+    EXPECT_TRUE(json["cells"][1].contains("problem"));
+    const Image whole = load(m_folder / "sheet.png");
+    EXPECT_EQ(bytes(cellOf(whole, json["cells"][0])),
+              bytes(picture("builtin:sphere", {"--environment", good})));
+
+    const Outcome none = sheet("builtin:sphere", {"--environments", missing, "--skip-broken"});
+    EXPECT_EQ(none.status, 65);
+    EXPECT_THAT(none.out, HasSubstr("none of the environments"));
+}
+
+TEST_F(Sheets, WrongOnesAreRefusedBeforeAnythingIsDrawn) {
+    const std::vector<std::pair<std::vector<std::string>, const char*>> cases{
+        {{"--materials", "gold", "marzipan"}, "there is no material \\\"marzipan\\\""},
+        {{"--materials", "gold", "--meshes", "Nobody"}, "Nobody"},
+        {{"--meshes", "Sphere", "--wedge", "view.exposureEv=0:1:2"}, "--materials"},
+        {{"--lightings", "ibl", "sunny"}, "shIrradiance"},
+        {{"--lightings", "ibl", "prt"}, "patina bake prt"},
+        {{"--wedge", "material.roughness"}, "NAME=FROM:TO:COUNT"},
+        {{"--wedge", "material.baseColor=0:1:3"}, "a wedge is of numbers"},
+        {{"--wedge", "material.metallic=0:3:3"}, "from 0 to 1"},
+        {{"--wedge", "light[Sun].intensity=0:3:3"}, "the scene has no light"},
+        {{"--wedge", "material[Nobody].metallic=0:1:3"}, "Nobody"},
+        {{"--wedge", "view.exposureEv=0:1:9", "--wedge", "material.metallic=0:1:2"}, "9 × 2"},
+        {{"--wedge", "view.exposureEv=0:1:2", "--wedge", "view.exposureEv=0:1:3"}, "both set"},
+        {{"--wedge", "view.exposureEv=0:1:2", "--wedge", "material.metallic=0:1:2", "--materials",
+          "gold"},
+         "one or two things"},
+        {{"--wedge", "view.exposureEv=0:1:8", "--size", "8000x100"}, "at most 16384"},
+        {{"--wedge", "view.exposureEv=0:1:2", "--columns", "9"}, "--columns"},
+        {{"--wedge", "view.exposureEv=0:1:2", "--wedge", "material.metallic=0:1:2", "--columns",
+          "2"},
+         "--columns"},
+        {{"--environments", "builtin:studio", "--environment", "builtin:sunset"},
+         "--environment has no effect"},
+        {{"--lightings", "ibl", "--lighting", "ibl"}, "--lighting has no effect"},
+        {{"--wedge", "view.exposureEv=0:1:2", "--skip-broken"}, "--environments"}};
+    for (const auto& [arguments, hint] : cases) {
+        const Outcome outcome = sheet("builtin:sphere", arguments);
+        EXPECT_EQ(outcome.status, 2) << testing::PrintToString(arguments);
+        EXPECT_THAT(outcome.out, HasSubstr(hint)) << testing::PrintToString(arguments);
+    }
+    const std::vector<std::string> wedge{"--wedge", "view.exposureEv=0:1:2"};
+    EXPECT_EQ(sheet("builtin:sphere", wedge, "sheet.hdr").status, 2);
+    EXPECT_EQ(sheet("builtin:sphere", wedge, "sheet.pdf").status, 2);
+    EXPECT_EQ(sheet("builtin:sphere", wedge, "none/sheet.png").status, 73);
+    EXPECT_THAT(m_folder.files(), IsEmpty());
+    const Outcome idle = sheet("builtin:sphere", {"--wedge", "view.displayGamma=1:3:2"});
+    EXPECT_EQ(idle.status, 0) << idle.err;
+    EXPECT_THAT(idle.json()["warnings"][0].get<std::string>(),
+                HasSubstr("--wedge view.displayGamma has no effect"));
+}
+
+TEST_F(Sheets, ASignalLeavesNothing) {
+    RunOptions options;
+    options.signal = SIGINT;
+    options.signalWhen = "%";
+    const Outcome outcome = runPatina(
+        {"sheet", "builtin:shader-ball", "-o", m_folder / "x.png", "--json", "--size", "640x480",
+         "--wedge", "material.metallic=0:1:8", "--wedge", "material.perceptualRoughness=0:1:8"},
+        options);
+    EXPECT_EQ(outcome.status, 130) << outcome.err;
+    EXPECT_EQ(outcome.json()["error"]["kind"], "cancelled");
+    EXPECT_THAT(m_folder.files(), IsEmpty());
+}
+
+} // namespace
