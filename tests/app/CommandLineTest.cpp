@@ -37,7 +37,8 @@ TEST(CommandLine, HelpStandsInTwoColumns) {
         return std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; });
     };
     const std::vector<std::vector<std::string>> commands{
-        {"bake", "prt"}, {"bake", "ao"}, {"bake", "ibl"}, {"render"}, {"sheet"}, {"merge"}, {"refine"}};
+        {"bake", "prt"}, {"bake", "ao"}, {"bake", "ibl"}, {"render"},
+        {"sheet"},       {"merge"},      {"refine"}};
     for (std::vector<std::string> command : commands) {
         SCOPED_TRACE(command.back());
         command.emplace_back("--help");
