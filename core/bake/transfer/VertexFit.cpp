@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <glm/geometric.hpp>
-#include <tuple>
 
 namespace patina {
 namespace {
@@ -36,13 +36,47 @@ std::vector<std::uint32_t> weldedVertices(const BakeGeometryMesh& mesh) {
     return firstEqualRow(rows, 6);
 }
 
-struct HalfEdge {
-    std::uint32_t low, high;        // unknowns, low < high
-    std::uint32_t triangle, corner; // `corner` is opposite
-    [[nodiscard]] bool sameEdge(const HalfEdge& other) const {
-        return low == other.low && high == other.high;
+// Of the edges of all triangles, by the lower of their two unknowns: large meshes have millions,
+// and sorting them as a whole took as long as solving the system.
+class HalfEdges {
+  public:
+    struct HalfEdge {
+        std::uint32_t high;             // the other unknown
+        std::uint32_t triangle, corner; // `corner` is opposite
+        friend auto operator<=>(const HalfEdge&, const HalfEdge&) = default;
+    };
+
+    // `visit(add)` calls add(low, half edge) for each, in the same order each time.
+    template <class Visit>
+    HalfEdges(std::size_t unknowns, const Visit& visit)
+        : m_ends(unknowns + 1, 0) {
+        visit([this](std::uint32_t low, const HalfEdge&) { ++m_ends[low + 1]; });
+        for (std::size_t v = 0; v < unknowns; ++v)
+            m_ends[v + 1] += m_ends[v];
+        m_all.resize(m_ends[unknowns]);
+        std::vector<std::uint32_t> next(m_ends.begin(), m_ends.end() - 1);
+        visit([&](std::uint32_t low, const HalfEdge& edge) { m_all[next[low]++] = edge; });
+        for (std::size_t v = 0; v < unknowns; ++v)
+            std::sort(m_all.begin() + m_ends[v], m_all.begin() + m_ends[v + 1]);
     }
+
+    [[nodiscard]] std::size_t size() const { return m_all.size(); }
+    // Sorted.
+    [[nodiscard]] std::span<const HalfEdge> from(std::size_t low) const {
+        return std::span(m_all).subspan(m_ends[low], m_ends[low + 1] - m_ends[low]);
+    }
+
+  private:
+    std::vector<std::uint32_t> m_ends; // of what begins with each unknown, from the second on
+    std::vector<HalfEdge> m_all;
 };
+
+double areaOf(const BakeGeometryMesh& mesh, std::size_t triangle) {
+    const std::uint32_t* index = mesh.mesh->indices.data() + 3 * triangle;
+    const glm::dvec3 a(mesh.positions[index[0]]), b(mesh.positions[index[1]]),
+        c(mesh.positions[index[2]]);
+    return 0.5 * glm::length(glm::cross(b - a, c - a));
+}
 
 } // namespace
 
@@ -63,7 +97,7 @@ VertexFit::VertexFit(const BakeGeometryMesh& mesh, std::span<const TrianglePoint
     // What each sample counts: a triangle's area in equal shares for its points and, because six
     // triangles meet at a vertex, a sixth of a share for each corner.
     const std::vector<std::uint32_t>& indices = mesh.mesh->indices;
-    std::vector<HalfEdge> halfEdges;
+    m_triangles.reserve(std::min(mesh.mesh->triangleCount(), points.size()));
     std::size_t p = 0;
     for (std::uint32_t t = 0; t < mesh.mesh->triangleCount(); ++t) {
         if (t % 65536 == 0 && job.cancelled())
@@ -72,18 +106,12 @@ VertexFit::VertexFit(const BakeGeometryMesh& mesh, std::span<const TrianglePoint
         while (p < points.size() && points[p].triangle == t)
             ++p;
         const std::uint32_t* index = indices.data() + std::size_t{3} * t;
-        const glm::dvec3 a(mesh.positions[index[0]]), b(mesh.positions[index[1]]),
-            c(mesh.positions[index[2]]);
-        const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
+        const double area = areaOf(mesh, t);
         if (!(area > 0.0))
             continue;
         const double share = area / (0.5 + static_cast<double>(p - begin));
-        for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t i = 0; i < 3; ++i)
             m_vertexWeight[index[i]] += static_cast<float>(share / 6.0);
-            const std::uint32_t from = m_unknownOf[index[i]], to = m_unknownOf[index[(i + 1) % 3]];
-            halfEdges.push_back({std::min(from, to), std::max(from, to), t,
-                                 static_cast<std::uint32_t>((i + 2) % 3)});
-        }
         if (begin == p)
             continue;
         Triangle triangle{{m_unknownOf[index[0]], m_unknownOf[index[1]], m_unknownOf[index[2]]},
@@ -110,49 +138,9 @@ VertexFit::VertexFit(const BakeGeometryMesh& mesh, std::span<const TrianglePoint
         m_ownWeight[m_unknownOf[v]] += weight;
     }
 
-    // The gradient's jump over the edge a b with third corners c and d at heights h1 and h2 is
-    // (c - its foot) / h1 + (d - its foot) / h2, here times the harmonic mean of the heights.
-    std::sort(halfEdges.begin(), halfEdges.end(), [](const HalfEdge& x, const HalfEdge& y) {
-        return std::tie(x.low, x.high, x.triangle, x.corner) <
-               std::tie(y.low, y.high, y.triangle, y.corner);
-    });
-    for (std::size_t i = 0; i + 1 < halfEdges.size();) {
-        std::size_t end = i + 1;
-        while (end < halfEdges.size() && halfEdges[end].sameEdge(halfEdges[i]))
-            ++end;
-        const bool pair = end - i == 2 && halfEdges[i].low != halfEdges[i].high;
-        const HalfEdge sides[2] = {halfEdges[i], halfEdges[std::min(i + 1, halfEdges.size() - 1)]};
-        i = end;
-        if (!pair)
-            continue;
-        double height[2], foot[2], area = 0.0;
-        Edge edge{{sides[0].low, sides[0].high, 0, 0}, {}};
-        for (int s = 0; s < 2; ++s) {
-            const std::uint32_t* index = indices.data() + std::size_t{3} * sides[s].triangle;
-            std::uint32_t from = index[(sides[s].corner + 1) % 3],
-                          to = index[(sides[s].corner + 2) % 3];
-            if (m_unknownOf[from] != edge.corner[0])
-                std::swap(from, to);
-            const glm::dvec3 origin(mesh.positions[from]),
-                along = glm::dvec3(mesh.positions[to]) - origin,
-                third = glm::dvec3(mesh.positions[index[sides[s].corner]]) - origin;
-            const double length = glm::length(along), twice = glm::length(glm::cross(along, third));
-            height[s] = twice / length;
-            foot[s] = glm::dot(third, along) / (length * length);
-            area += 0.5 * twice;
-            edge.corner[2 + s] = m_unknownOf[index[sides[s].corner]];
-        }
-        if (!(std::max(std::abs(foot[0] - 0.5), std::abs(foot[1] - 0.5)) < kMaxFoot))
-            continue; // NaN too
-        const double scale = std::sqrt(kSmoothness * area / 3.0);
-        for (int s = 0; s < 2; ++s) {
-            const double w = scale * 2.0 * height[1 - s] / (height[0] + height[1]);
-            edge.weight[2 + s] = static_cast<float>(w);
-            edge.weight[0] -= static_cast<float>(w * (1.0 - foot[s]));
-            edge.weight[1] -= static_cast<float>(w * foot[s]);
-        }
-        m_edges.push_back(edge);
-    }
+    addEdges(job);
+    if (job.cancelled())
+        return;
 
     m_diagonal = m_ownWeight;
     for (const Triangle& t : m_triangles)
@@ -161,6 +149,64 @@ VertexFit::VertexFit(const BakeGeometryMesh& mesh, std::span<const TrianglePoint
     for (const Edge& e : m_edges)
         for (int k = 0; k < 4; ++k)
             m_diagonal[e.corner[k]] += e.weight[k] * e.weight[k];
+}
+
+// The gradient's jump over the edge a b with third corners c and d at heights h1 and h2 is
+// (c - its foot) / h1 + (d - its foot) / h2, here times the harmonic mean of the heights.
+void VertexFit::addEdges(const JobContext& job) {
+    const std::vector<std::uint32_t>& indices = m_mesh.mesh->indices;
+    const HalfEdges halfEdges(m_unknowns, [&](const auto& add) {
+        for (std::uint32_t t = 0; t < m_mesh.mesh->triangleCount(); ++t) {
+            if (!(areaOf(m_mesh, t) > 0.0))
+                continue;
+            const std::uint32_t* index = indices.data() + std::size_t{3} * t;
+            for (std::uint32_t i = 0; i < 3; ++i) {
+                const std::uint32_t from = m_unknownOf[index[i]],
+                                    to = m_unknownOf[index[(i + 1) % 3]];
+                add(std::min(from, to), {std::max(from, to), t, (i + 2) % 3});
+            }
+        }
+    });
+    m_edges.reserve(halfEdges.size() / 2);
+    for (std::uint32_t low = 0; low < m_unknowns; ++low) {
+        if (low % 65536 == 0 && job.cancelled())
+            return;
+        const auto from = halfEdges.from(low);
+        for (std::size_t i = 0, end = 0; i < from.size(); i = end) {
+            for (end = i + 1; end < from.size() && from[end].high == from[i].high;)
+                ++end;
+            if (end - i != 2 || low == from[i].high)
+                continue;
+            double height[2], foot[2], area = 0.0;
+            Edge edge{{low, from[i].high, 0, 0}, {}};
+            for (std::size_t s = 0; s < 2; ++s) {
+                const auto& side = from[i + s];
+                const std::uint32_t* index = indices.data() + std::size_t{3} * side.triangle;
+                std::uint32_t a = index[(side.corner + 1) % 3], b = index[(side.corner + 2) % 3];
+                if (m_unknownOf[a] != low)
+                    std::swap(a, b);
+                const glm::dvec3 origin(m_mesh.positions[a]),
+                    along = glm::dvec3(m_mesh.positions[b]) - origin,
+                    third = glm::dvec3(m_mesh.positions[index[side.corner]]) - origin;
+                const double length = glm::length(along),
+                             twice = glm::length(glm::cross(along, third));
+                height[s] = twice / length;
+                foot[s] = glm::dot(third, along) / (length * length);
+                area += 0.5 * twice;
+                edge.corner[2 + s] = m_unknownOf[index[side.corner]];
+            }
+            if (!(std::max(std::abs(foot[0] - 0.5), std::abs(foot[1] - 0.5)) < kMaxFoot))
+                continue; // NaN too
+            const double scale = std::sqrt(kSmoothness * area / 3.0);
+            for (std::size_t s = 0; s < 2; ++s) {
+                const double w = scale * 2.0 * height[1 - s] / (height[0] + height[1]);
+                edge.weight[2 + s] = static_cast<float>(w);
+                edge.weight[0] -= static_cast<float>(w * (1.0 - foot[s]));
+                edge.weight[1] -= static_cast<float>(w * foot[s]);
+            }
+            m_edges.push_back(edge);
+        }
+    }
 }
 
 // y = matrix x, `kColumns` right-hand sides side by side.
@@ -277,18 +323,21 @@ void VertexFit::solveColumns(std::size_t first, std::size_t count, std::size_t s
 
 std::vector<float> VertexFit::solve(int stride, std::span<const float> values,
                                     const JobContext& job) const {
-    constexpr int kColumns = 8;
+    constexpr std::size_t kColumns = 8;
     const auto columns = static_cast<std::size_t>(stride);
     CHECK_EQ(values.size(), (m_unknownOf.size() + m_points.size()) * columns);
     std::vector<float> result(m_unknownOf.size() * columns);
-    parallelFor(
-        job, (columns + kColumns - 1) / kColumns, 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t block = begin; block < end; ++block) {
-                const std::size_t first = block * kColumns;
-                solveColumns<kColumns>(first, std::min<std::size_t>(kColumns, columns - first),
-                                       columns, values, result, job);
-            }
-        });
+    parallelFor(job, (columns + kColumns - 1) / kColumns, 1,
+                [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t block = begin; block < end; ++block) {
+                        const std::size_t first = block * kColumns;
+                        const std::size_t count = std::min(kColumns, columns - first);
+                        if (count == 1) // often: 9 and 25 coefficients, and the sky's share
+                            solveColumns<1>(first, count, columns, values, result, job);
+                        else
+                            solveColumns<kColumns>(first, count, columns, values, result, job);
+                    }
+                });
     return result;
 }
 

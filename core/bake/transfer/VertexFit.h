@@ -45,6 +45,7 @@ class VertexFit {
         std::uint32_t corner[4];
         float weight[4];
     };
+    void addEdges(const JobContext& job);
     template <int kColumns>
     void apply(std::span<const float> x, std::span<float> y) const;
     template <int kColumns>
@@ -65,10 +66,11 @@ class VertexFit {
 };
 
 // The transfer of every mesh from what the samples saw: fitted where `samples` has points on the
-// triangles, else that of the vertices themselves. Errors: Cancelled.
+// triangles, else that of the vertices themselves. Takes the values out of `state`. Errors:
+// Cancelled.
 Result<std::vector<VertexBake>> finishVertexTransfer(const BakeGeometry& geometry,
                                                      const VertexSamples& samples,
-                                                     const PassSettings& settings,
-                                                     const PassState& state, const JobContext& job);
+                                                     const PassSettings& settings, PassState& state,
+                                                     const JobContext& job);
 
 } // namespace patina

@@ -26,13 +26,16 @@ std::vector<float> rowsOf(const VertexSamples& samples, std::size_t mesh,
 
 } // namespace
 
-Result<std::vector<VertexBake>>
-finishVertexTransfer(const BakeGeometry& geometry, const VertexSamples& samples,
-                     const PassSettings& settings, const PassState& state, const JobContext& job) {
+Result<std::vector<VertexBake>> finishVertexTransfer(const BakeGeometry& geometry,
+                                                     const VertexSamples& samples,
+                                                     const PassSettings& settings, PassState& state,
+                                                     const JobContext& job) {
     const auto stride = static_cast<std::size_t>(settings.stride());
+    state.passes = state.wanted = std::vector<std::uint8_t>();
     std::vector<float> sky(samples.points.size());
     for (std::size_t p = 0; p < sky.size(); ++p)
         sky[p] = skyShare(state.hiddenSky[p], samples.points[p].normal);
+    state.hiddenSky = std::vector<float>();
 
     std::vector<VertexBake> bakes;
     std::size_t firstOnTriangles = 0;
@@ -48,8 +51,10 @@ finishVertexTransfer(const BakeGeometry& geometry, const VertexSamples& samples,
         VertexBake& bake = bakes.emplace_back();
         bake.mesh = geometry.meshes[m].id;
         bake.stride = settings.stride();
-        bake.values = rows(stride, state.values);
-        bake.sky = rows(1, sky);
+        // Of a single mesh they stand in this order already, and are too many to have twice.
+        const bool single = geometry.meshes.size() == 1;
+        bake.values = single ? std::move(state.values) : rows(stride, state.values);
+        bake.sky = single ? std::move(sky) : rows(1, sky);
         if (samples.onTriangles.empty()) {
             if (settings.method != SampleMethod::Stratified) // whose one pass cannot tell
                 bake.error = rows(1, state.error);
