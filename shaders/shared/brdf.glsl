@@ -519,7 +519,7 @@ PT_FN SurfaceTerms fadeSpecularLayer(SurfaceTerms surface, float shown) {
 
 // ---- Lobes -------------------------------------------------------------------------------------
 
-// Cook & Torrance 1982: D V F, and the light scattered more than once. For NoL >= 0.
+// Cook & Torrance 1982: D V F, and the light scattered more than once. For NoL > 0.
 PT_FN vec3 specularLobe(SurfaceTerms s, float NoH, float sin2, float NoL, float VoH) {
     float D = distribution(s.model, NoH, sin2, s.alpha);
     float V = visibility(s.model, s.NoV, NoL, VoH, s.alpha);
@@ -546,7 +546,6 @@ struct ShadedLight {
 // those of several lights.
 PT_FN ShadedLight shadeDirect(SurfaceTerms s, vec3 l, vec3 irradiance) {
     float NoL = clamp(dot(s.n, l), 0.0f, 1.0f);
-    vec3 arriving = NoL > 0.0f ? irradiance : vec3(0.0f); // which may be infinite at the horizon
     vec3 h = s.v + l;
     float length2 = dot(h, h);
     // v = -l: no half vector, a surface between viewer and light reflects none
@@ -555,11 +554,13 @@ PT_FN ShadedLight shadeDirect(SurfaceTerms s, vec3 l, vec3 irradiance) {
     vec3 nxh = cross(s.n, h);
     float NoH = clamp(dot(s.n, h), 0.0f, 1.0f);
     float VoH = opposite ? 0.0f : clamp(dot(s.v, h), 0.0f, 1.0f);
+    vec3 arriving = irradiance * NoL;
+    vec3 diffuse = diffuseLobe(s, NoL, VoH) * arriving;
+    vec3 specular = specularLobe(s, NoH, min(dot(nxh, nxh), 1.0f), NoL, VoH) * arriving;
+    // Chosen, not multiplied by 0: a lobe may have no value there, an irradiance be infinite.
     ShadedLight result;
-    result.diffuse = diffuseLobe(s, NoL, VoH) * arriving * NoL;
-    vec3 specular =
-        specularLobe(s, NoH, min(dot(nxh, nxh), 1.0f), NoL, VoH) * arriving * NoL;
-    result.specular = opposite ? vec3(0.0f) : specular; // not times 0: D has no value there
+    result.diffuse = NoL > 0.0f ? diffuse : vec3(0.0f);
+    result.specular = NoL > 0.0f && !opposite ? specular : vec3(0.0f);
     return result;
 }
 

@@ -245,7 +245,8 @@ std::vector<SharedTermCase> makeCases() {
                  O(6) = size.y; O(7) = cubeLevelSide(int(21.0f * abs(I(3))), 64.0f);
                  O(8) = float(cubeLevelHalvings(int(21.0f * abs(I(3))), 256.0f * abs(I(4))));
                  O(9) = cubeAtlasTop(256.0f, int(3.9f * abs(I(4))));
-                 O(10) = cubeAtlasWideTop(256.0f * abs(I(4)));),
+                 O(10) = cubeAtlasWideTop(256.0f * abs(I(4)));
+                 O(11) = cubeHalvedSide(int(3.9f * abs(I(4))), 256.0f);),
             CASE("spherical harmonics", directions, 1e-1f, float y9[9]; float y25[25];
                  shBasis9(vec3(I(0), I(1), I(2)), y9); shBasis25(vec3(I(0), I(1), I(2)), y25);
                  for (int i = 0; i < 25; ++i) O(i) = y25[i];

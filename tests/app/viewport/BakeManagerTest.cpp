@@ -288,7 +288,7 @@ TEST_F(BakeManagerTest, AnInterruptedBakeIsOfferedAndGoesOn) {
 // Another program computes the same bake: its checkpoint is not offered, not continued and not
 // overwritten.
 TEST_F(BakeManagerTest, ACheckpointThatAnotherProgramWritesIsLeftAlone) {
-    rays(512);
+    rays(2048);
     click("bakeStart");
     ASSERT_TRUE(traces(0));
     controller().newDocument(); // interrupts it
@@ -310,11 +310,11 @@ TEST_F(BakeManagerTest, ACheckpointThatAnotherProgramWritesIsLeftAlone) {
     QObject here;
     QObject::connect(&controller(), &DocumentController::noticed, &here,
                      [&](const UserNotice& notice) { notices.push_back(notice); });
-    rays(512);
+    rays(2048);
     click("bakeStart");
     ASSERT_TRUE(eventually([] { return document().bakes.size() == 1; }));
     ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
-    EXPECT_EQ(document().bakes.front()->samplesDone, 512);
+    EXPECT_EQ(document().bakes.front()->samplesDone, 2048);
     ASSERT_EQ(notices.size(), 1u);
     EXPECT_THAT(notices.front().text.toStdString(),
                 HasSubstr("another program computes this bake"));
