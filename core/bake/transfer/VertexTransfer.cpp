@@ -4,6 +4,7 @@
 #include "core/trace/BakeInputs.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace patina {
 namespace {
@@ -53,8 +54,8 @@ Result<std::vector<VertexBake>> finishVertexTransfer(const BakeGeometry& geometr
         bake.stride = settings.stride();
         // Of a single mesh they stand in this order already, and are too many to have twice.
         const bool single = geometry.meshes.size() == 1;
-        bake.values = single ? std::move(state.values) : rows(stride, state.values);
-        bake.sky = single ? std::move(sky) : rows(1, sky);
+        bake.values = single ? std::exchange(state.values, {}) : rows(stride, state.values);
+        bake.sky = single ? std::exchange(sky, {}) : rows(1, sky);
         if (samples.onTriangles.empty()) {
             if (settings.method != SampleMethod::Stratified) // whose one pass cannot tell
                 bake.error = rows(1, state.error);
