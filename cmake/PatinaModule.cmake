@@ -1,10 +1,10 @@
-# patina_module(NAME SOURCES … [DEPENDS module…] [LIBRARIES library…] [PRECOMPILED header…])
+# patina_module(NAME [NUMERIC] SOURCES … [DEPENDS module…] [LIBRARIES library…] [PRECOMPILED header…])
 # A folder of core/ as a library, patina_core_NAME, which sees the modules it depends on and those below
 # them. It must link alone: a program of nothing but all of its objects is linked with it, so that a call
 # into a module that is not named here does not build. tests/core/base/BordersTest.cpp holds the includes
-# against the same lines.
+# against the same lines. NUMERIC: its loops are what users wait for, and are worth the compiler's time.
 function(patina_module name)
-  cmake_parse_arguments(M "" "" "SOURCES;DEPENDS;LIBRARIES;PRECOMPILED" ${ARGN})
+  cmake_parse_arguments(M "NUMERIC" "" "SOURCES;DEPENDS;LIBRARIES;PRECOMPILED" ${ARGN})
   string(REPLACE / _ target patina_core_${name})
   list(TRANSFORM M_DEPENDS REPLACE / _)
   list(TRANSFORM M_DEPENDS PREPEND patina_core_)
@@ -13,6 +13,9 @@ function(patina_module name)
   target_link_libraries(${target}
     PUBLIC glm::glm fmt::fmt Threads::Threads ${M_DEPENDS}
     PRIVATE ${M_LIBRARIES})
+  if(M_NUMERIC)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O3>)
+  endif()
   if(M_PRECOMPILED)
     patina_precompile(${target} ${M_PRECOMPILED})
   else()

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <future>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
@@ -40,21 +41,27 @@ Result<Prepared> prepare(Session& session, const Document& document,
     Result<std::unique_ptr<gl::Context>> context = createContext(session, frame);
     if (!context)
         return context.error();
+    session.beginPhase();
+    session.job().setActivity("preparing light");
+    // Beside what this thread does with OpenGL.
+    std::future<Result<EnvironmentTexelsPtr>> light;
+    if (ImagePtr image = lit ? shownEnvironment(document).image : nullptr)
+        light = std::async(std::launch::async, [image = std::move(image), job = session.job()] {
+            return prepareTexels(image, job);
+        });
     Result<std::unique_ptr<render::SceneRenderer>> scene = render::SceneRenderer::create(**context);
     if (!scene)
         return scene.error();
-    session.beginPhase();
-    session.job().setActivity("preparing light");
-    if (const ImagePtr image = lit ? shownEnvironment(document).image : nullptr) {
-        Result<EnvironmentTexelsPtr> texels = prepareTexels(image, session.job());
+    if (Result<void> set = (*scene)->setDisplay(*display); !set)
+        return set.error();
+    (*scene)->setDocument(document);
+    if (light.valid()) {
+        Result<EnvironmentTexelsPtr> texels = light.get();
         if (!texels)
             return texels.error();
         (*scene)->setEnvironment(std::move(*texels));
     }
-    if (Result<void> set = (*scene)->setDisplay(*display); !set)
-        return set.error();
     session.job().setActivity("drawing");
-    (*scene)->setDocument(document);
     return Prepared{std::move(*context), std::move(*scene)};
 }
 
