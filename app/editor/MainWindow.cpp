@@ -1,6 +1,7 @@
 #include "app/editor/MainWindow.h"
 
 #include "app/editor/Actions.h"
+#include "app/editor/ActivityStatus.h"
 #include "app/editor/Docks.h"
 #include "app/editor/EnvironmentSaveDialog.h"
 #include "app/editor/EscapeKey.h"
@@ -419,12 +420,11 @@ void MainWindow::connectActions() {
         if (change.isAnotherDocument())
             m_notices->sceneReplaced(m_session.controller.isPristine());
     });
-    const auto showActivity = [this] {
-        const QString task = m_session.controller.tasks().activity();
-        m_busy->setActivity(task.isEmpty() ? m_session.nearShadows.activity() : task);
-    };
-    connect(&controller.tasks(), &BackgroundTasks::busyChanged, this, showActivity);
-    connect(&m_session.nearShadows, &NearShadowUpdater::activityChanged, this, showActivity);
+    auto* activity = new ActivityStatus(m_session, *m_busy, this);
+    connect(activity, &ActivityStatus::jobsWanted, this, [this] {
+        if (!m_actions->jobsDock->isChecked())
+            m_actions->jobsDock->trigger();
+    });
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
         if (touches(change.affects, Affects::Geometry | Affects::Structure))
             refreshTriangles();

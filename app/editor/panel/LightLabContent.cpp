@@ -71,10 +71,17 @@ void LightLabPanel::refreshLight() {
 }
 
 void LightLabPanel::refreshMaps() {
-    if (!m_seen || m_light.lookup.maps == m_ibl.maps())
+    if (!m_seen)
         return;
-    m_light.lookup.maps = m_ibl.maps();
-    m_irradianceError = m_light.lookup.maps ? irradianceError(*m_light.lookup.maps) : 0.0;
+    const std::shared_ptr<const IblMaps> maps = m_ibl.maps();
+    if (!maps) {
+        m_ibl.requestMaps();
+        return;
+    }
+    if (m_light.lookup.maps == maps)
+        return;
+    m_light.lookup.maps = maps;
+    m_irradianceError = irradianceError(*maps);
     invalidate();
 }
 

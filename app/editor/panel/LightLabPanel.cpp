@@ -109,7 +109,7 @@ LightLabPanel::LightLabPanel(DocumentController& controller, IblUpdater& ibl, Pi
         select({LabKind::Faces, face});
     });
     connect(&controller, &DocumentController::changed, this, &LightLabPanel::follow);
-    connect(&ibl, &IblUpdater::ready, this, &LightLabPanel::refreshMaps);
+    connect(&ibl, &IblUpdater::mapsReady, this, &LightLabPanel::refreshMaps);
     connect(&probe, &PixelProbe::hoverChanged, this, &LightLabPanel::refreshPicked);
     connect(&probe, &PixelProbe::pinChanged, this, &LightLabPanel::refreshPicked);
     select({LabKind::Environment, 0});
@@ -317,6 +317,7 @@ void LightLabPanel::setSeen(bool seen) {
     m_seen = seen;
     if (!seen) {
         m_probe.removeListener();
+        m_light.lookup.maps = nullptr; // large
         return;
     }
     m_probe.addListener();

@@ -12,6 +12,7 @@ namespace {
 constexpr IblSettings kFull;
 constexpr const char* kFirst = "image-based light";
 constexpr const char* kRefined = "image-based light in full";
+constexpr const char* kMaps = "image-based light to look at";
 
 } // namespace
 
@@ -101,6 +102,31 @@ Result<IblUpdater::Light> IblUpdater::refined(Light light, const JobContext& job
     return light;
 }
 
+void IblUpdater::requestMaps() {
+    if (!m_environment || !m_finished || m_tasks.busy(kMaps))
+        return; // they come with the light that is under way
+    m_tasks.run(
+        {.tag = kMaps},
+        [this, environment = m_environment](const JobContext& job) -> Result<Light> {
+            Light light;
+            light.environment = environment;
+            std::optional<IblMaps> found = m_cache.find(IblCache::key(*environment, kFull));
+            Result<IblMaps> maps = found ? std::move(*found) : computeIbl(*environment, kFull, job);
+            if (!maps)
+                return maps.error();
+            light.maps = std::make_shared<const IblMaps>(std::move(*maps));
+            return light;
+        },
+        [this](const Result<Light>& light) {
+            if (!light)
+                return fail(light.error());
+            if (light->environment != m_environment)
+                return; // its own are under way
+            m_maps = light->maps;
+            Q_EMIT mapsReady();
+        });
+}
+
 // The disk may take its time: nobody waits for it. What a drag passes over never comes here.
 void IblUpdater::keep(const Light& full) {
     m_tasks.run(
@@ -128,6 +154,7 @@ void IblUpdater::deliver(const Light& light) {
     m_texels = light.texels;
     m_maps = light.maps;
     Q_EMIT ready();
+    Q_EMIT mapsReady();
 }
 
 } // namespace patina::editor

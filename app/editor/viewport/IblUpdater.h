@@ -31,15 +31,20 @@ class IblUpdater : public QObject {
     void request(ImagePtr environment);
     // The last result, once: it is large. Null when there is none, or it has been taken.
     [[nodiscard]] EnvironmentTexelsPtr take() { return std::exchange(m_texels, nullptr); }
-    // What it was made of, for whoever else shows it; null before the first.
-    [[nodiscard]] std::shared_ptr<const IblMaps> maps() const { return m_maps; }
-    // maps() are of the environment asked for last, at full resolution: nothing else is to come.
+    // What it was made of, for whoever else shows it, and keeps it meanwhile: large, too, and null
+    // when nobody does.
+    [[nodiscard]] std::shared_ptr<const IblMaps> maps() const { return m_maps.lock(); }
+    // Has them made again, or found in the cache; mapsReady() follows.
+    void requestMaps();
+    // The light is that of the environment asked for last, at full resolution: nothing else is to
+    // come.
     [[nodiscard]] bool finished() const { return m_finished; }
     // What has been taken is lost and needed again, by a new OpenGL context.
     void renew();
 
   Q_SIGNALS:
-    void ready(); // take() has something, and maps() is of the same
+    void ready();     // take() has something
+    void mapsReady(); // maps() has something, until the end of the call unless it is kept
 
   private:
     struct Light { // of an environment, full or small
@@ -65,7 +70,7 @@ class IblUpdater : public QObject {
     ImagePtr m_environment;
     bool m_finished = false;
     EnvironmentTexelsPtr m_texels; // until it is taken
-    std::shared_ptr<const IblMaps> m_maps;
+    std::weak_ptr<const IblMaps> m_maps;
     TaskGroup m_tasks; // last: it ends before the cache
 };
 

@@ -4,6 +4,7 @@
 
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QMouseEvent>
 #include <QPainter>
 
 namespace patina::editor {
@@ -26,14 +27,26 @@ BusyIndicator::BusyIndicator(QWidget* parent)
     hide();
 }
 
-void BusyIndicator::setActivity(const QString& activity) {
-    m_text->setText(activity + QStringLiteral("…"));
+void BusyIndicator::setActivity(const QString& activity, const QString& action) {
+    m_text->setText(activity);
     setAccessibleName(activity);
+    setToolTip(action);
+    setStatusTip(action);
+    setCursor(action.isEmpty() ? Qt::ArrowCursor : Qt::PointingHandCursor);
     setVisible(!activity.isEmpty());
     if (activity.isEmpty())
         m_timer.stop();
     else
         m_timer.start();
+}
+
+QString BusyIndicator::activity() const {
+    return m_text->text();
+}
+
+void BusyIndicator::mouseReleaseEvent(QMouseEvent* event) {
+    if (event->button() == Qt::LeftButton && rect().contains(event->pos()))
+        Q_EMIT clicked();
 }
 
 void BusyIndicator::paintEvent(QPaintEvent*) {

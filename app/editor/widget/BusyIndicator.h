@@ -12,9 +12,15 @@ class BusyIndicator : public QWidget {
     Q_OBJECT
   public:
     explicit BusyIndicator(QWidget* parent = nullptr);
-    void setActivity(const QString& activity); // empty: idle
+    // `activity` as it is shown; empty: idle. `action`: what a click does; empty: nothing.
+    void setActivity(const QString& activity, const QString& action = {});
+    [[nodiscard]] QString activity() const;
+
+  Q_SIGNALS:
+    void clicked();
 
   protected:
+    void mouseReleaseEvent(QMouseEvent* event) override;
     void paintEvent(QPaintEvent* event) override;
 
   private:

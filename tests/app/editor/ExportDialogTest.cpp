@@ -4,6 +4,7 @@
 #include "tests/support/Events.h"
 
 #include "app/editor/Actions.h"
+#include "app/editor/widget/BusyIndicator.h"
 #include "core/bake/Bake.h"
 #include "core/bake/document/DocumentBakeInputs.h"
 
@@ -18,6 +19,8 @@
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QTableWidget>
+#include <atomic>
+#include <thread>
 
 namespace patina::editor {
 namespace {
@@ -133,6 +136,33 @@ TEST_F(ExportDialogTest, ManyWarningsLeaveTheFilesInSight) {
     ASSERT_TRUE(QDir().mkpath(target));
     EXPECT_TRUE(dialog->grab().save(QDir(target).filePath(QStringLiteral("export-warnings.png"))));
     dialog->reject();
+}
+
+TEST_F(ExportDialogTest, TheStatusBarSaysHowFarAJobHasCome) {
+    auto* indicator = window->findChild<BusyIndicator*>();
+    ASSERT_NE(indicator, nullptr);
+    ASSERT_TRUE(eventually([&] { return indicator->isHidden(); }));
+    QAction* jobs = window->actions().jobsDock;
+    ASSERT_FALSE(jobs->isChecked());
+    std::atomic<bool> mayEnd = false;
+    session->jobs.start(QStringLiteral("Export: 100%2.glb"), false, [&](const JobContext& job) {
+        job.setProgress(0.42);
+        while (!mayEnd)
+            std::this_thread::yield();
+        return JobOutcome{std::nullopt, QStringLiteral("100%2.glb"), {}};
+    });
+    EXPECT_TRUE(eventually([&] {
+        return indicator->activity() == QStringLiteral("Export: 100%2.glb · 42 %");
+    })) << indicator->activity().toStdString();
+    EXPECT_TRUE(indicator->isVisible());
+    QTest::mouseClick(indicator, Qt::LeftButton);
+    EXPECT_TRUE(eventually([&] { return jobs->isChecked(); }));
+    QTest::mouseClick(indicator, Qt::LeftButton); // they stay in sight
+    EXPECT_TRUE(jobs->isChecked());
+    mayEnd = true;
+    EXPECT_TRUE(eventually([&] { return indicator->isHidden(); }));
+    jobs->trigger();
+    session->jobs.clearFinished();
 }
 
 } // namespace

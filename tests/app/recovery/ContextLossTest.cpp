@@ -24,7 +24,7 @@ class ContextLoss : public EditorTest {
         QImage before;
         const bool still = eventually([&] {
             if (!viewport.isSettled() || session->controller.tasks().busy() ||
-                session->ibl.maps() == nullptr)
+                !session->ibl.finished())
                 return false;
             const QImage now = viewport.grabFramebuffer();
             const bool same = !now.isNull() && now == before;

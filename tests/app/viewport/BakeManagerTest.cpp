@@ -457,7 +457,7 @@ TEST_F(BakeManagerTest, AFinishedBakeStaysInThePictureUntilTheNextIsDone) {
         if (!window->viewport().isSettled())
             return false;
         const QImage last = std::exchange(before, picture());
-        return session->ibl.maps() && !window->viewport().waitsForPrograms() &&
+        return session->ibl.finished() && !window->viewport().waitsForPrograms() &&
                difference(last, before) < 0.02;
     }));
 

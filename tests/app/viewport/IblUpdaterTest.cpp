@@ -4,6 +4,7 @@
 #include "tests/support/TemporaryFolder.h"
 
 #include <QSignalSpy>
+#include <QTest>
 #include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -45,6 +46,8 @@ TEST_F(IblUpdaterTest, AnswersSoonThenInFull) {
     const test::TemporaryFolder folder;
     IblUpdater updater(runner, folder.path());
     QSignalSpy ready(&updater, &IblUpdater::ready);
+    std::shared_ptr<const IblMaps> maps; // somebody shows them
+    QObject::connect(&updater, &IblUpdater::mapsReady, [&] { maps = updater.maps(); });
     EXPECT_EQ(updater.take(), nullptr);
     const ImagePtr image = sky(2.0f);
     updater.request(image);
@@ -52,8 +55,9 @@ TEST_F(IblUpdaterTest, AnswersSoonThenInFull) {
     const EnvironmentTexelsPtr quick = updater.take();
     ASSERT_NE(quick, nullptr);
     EXPECT_EQ(updater.take(), nullptr) << "it is taken";
-    ASSERT_NE(updater.maps(), nullptr) << "these stay";
-    EXPECT_EQ(updater.maps()->prefiltered.front().size, quick->side);
+    ASSERT_NE(maps, nullptr);
+    EXPECT_EQ(updater.maps(), maps);
+    EXPECT_EQ(maps->prefiltered.front().size, quick->side);
     EXPECT_EQ(quick->side, IblSettings::quick().cubeSize);
     EXPECT_EQ(quick->image, image);
     EXPECT_EQ(quick->background->front().width, 256);
@@ -62,10 +66,35 @@ TEST_F(IblUpdaterTest, AnswersSoonThenInFull) {
     const EnvironmentTexelsPtr full = takeFull(updater, ready);
     EXPECT_EQ(ready.count(), 2);
     EXPECT_EQ(full->image, image);
-    EXPECT_EQ(updater.maps()->prefiltered.front().size, full->side);
-    EXPECT_NEAR(updater.maps()->prefiltered.back().texels[0].x, 2.0f, 1e-4f);
+    EXPECT_EQ(maps->prefiltered.front().size, full->side);
+    EXPECT_NEAR(maps->prefiltered.back().texels[0].x, 2.0f, 1e-4f);
     EXPECT_EQ(full->background, quick->background) << "made once";
     EXPECT_NEAR(brightness(*full), 2.0f, 1e-4f);
+}
+
+TEST_F(IblUpdaterTest, KeepsNoMapsThatNobodyShowsAndMakesThemAgain) {
+    const test::TemporaryFolder folder;
+    IblUpdater updater(runner, folder.path());
+    QSignalSpy ready(&updater, &IblUpdater::ready);
+    updater.requestMaps(); // of nothing
+    updater.request(sky(2.0f));
+    const EnvironmentTexelsPtr full = takeFull(updater, ready);
+    // The file of the cache may still be on its way out.
+    ASSERT_TRUE(QTest::qWaitFor([&] { return updater.maps() == nullptr; }, 60'000));
+    std::shared_ptr<const IblMaps> maps;
+    QSignalSpy mapsReady(&updater, &IblUpdater::mapsReady);
+    QObject::connect(&updater, &IblUpdater::mapsReady, [&] { maps = updater.maps(); });
+    updater.requestMaps();
+    updater.requestMaps();
+    ASSERT_TRUE(mapsReady.wait(60'000));
+    ASSERT_NE(maps, nullptr);
+    EXPECT_EQ(maps->prefiltered.front().size, full->side);
+    EXPECT_NEAR(maps->prefiltered.back().texels[0].x, 2.0f, 1e-4f);
+    EXPECT_TRUE(updater.finished());
+    EXPECT_EQ(updater.take(), nullptr) << "the picture's light is as it was";
+    EXPECT_EQ(mapsReady.count(), 1);
+    maps.reset();
+    EXPECT_EQ(updater.maps(), nullptr);
 }
 
 TEST_F(IblUpdaterTest, RemembersAcrossSessions) {
