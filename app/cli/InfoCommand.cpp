@@ -306,6 +306,7 @@ bool isBuiltinEnvironment(const std::string& name) {
 } // namespace
 
 Result<void> run(Session& session, const InfoOptions& options) {
+    session.expectNoImages(); // those of models are not looked at
     Report& report = session.report();
     report.json()["settings"] = {{"file", options.file}};
     const Result<std::optional<glm::vec3>> direction = parseDirection(options.direction);

@@ -10,6 +10,7 @@
 #include "core/bake/domain/BakeHash.h"
 #include "core/base/AtomicFile.h"
 #include "core/document/Lighting.h"
+#include "core/document/Source.h"
 #include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
@@ -21,6 +22,13 @@
 
 namespace patina::cli {
 namespace {} // namespace
+
+bool needsImageLibraries(const PictureOptions& options) {
+    const Result<ImageFileFormat> format = imageFormatForPath(options.output);
+    return !isBuiltin(options.scene) || !options.bakes.empty() ||
+           (!options.environment.empty() && !isBuiltin(options.environment)) ||
+           (format && *format != ImageFileFormat::Png);
+}
 
 Result<render::FrameSettings> frameSettings(const PictureOptions& options) {
     render::FrameSettings frame;

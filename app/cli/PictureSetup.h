@@ -19,6 +19,8 @@ namespace patina::cli {
 
 // Size and samples. Usage error for what is no size.
 Result<render::FrameSettings> frameSettings(const PictureOptions& options);
+// Whether files of images are likely to be read, or written in another format than PNG.
+[[nodiscard]] bool needsImageLibraries(const PictureOptions& options);
 
 // The camera frames the scene as the editor does, unless a project has one of its own.
 Result<Camera> chooseCamera(const PictureOptions& options, const Document& document, bool isProject,

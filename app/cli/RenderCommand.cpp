@@ -119,6 +119,8 @@ Result<void> run(Session& session, const RenderOptions& options) {
         if (Result<void> output = checkOutput(options.output); !output)
             return output;
 
+    if (!needsImageLibraries(options))
+        session.expectNoImages();
     nlohmann::ordered_json& json = session.report().json();
     json["settings"] = {{"scene", options.scene},
                         {"size", {frame->width, frame->height}},

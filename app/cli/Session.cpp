@@ -37,9 +37,8 @@ WorkerClient& Session::worker() {
         m_worker = std::make_unique<WorkerClient>();
         if (m_options.allowOutside)
             m_worker->allowOutsideOfAll();
-        // All others read or write images; loading their libraries takes a quarter of a second,
-        // while models are read.
-        if (m_options.command != "info")
+        // Loading the libraries takes a quarter of a second, while models are read.
+        if (m_expectsImages)
             m_worker->warmUp(WorkerKind::Image);
     }
     return *m_worker;

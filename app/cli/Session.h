@@ -26,6 +26,9 @@ class Session {
 
     [[nodiscard]] const CommonOptions& options() const { return m_options; }
     [[nodiscard]] WorkerClient& worker(); // its process starts with the first file
+    // Before worker() is first asked for: most likely no image is read, and none but PNG is
+    // written.
+    void expectNoImages() { m_expectsImages = false; }
     [[nodiscard]] JobContext job() const; // of the current phase
     [[nodiscard]] Report& report() { return m_report; }
 
@@ -48,6 +51,7 @@ class Session {
     std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
     Report m_report;
     std::optional<ThreadLimit> m_threads;
+    bool m_expectsImages = true;
     std::unique_ptr<WorkerClient> m_worker;
     std::unique_ptr<Watcher> m_watcher;
     std::filesystem::path m_checkpoint; // kept; empty: none

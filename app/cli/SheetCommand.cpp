@@ -9,6 +9,7 @@
 #include "app/cli/WallSheet.h"
 #include "core/base/Limits.h"
 #include "core/document/EnvironmentTitle.h"
+#include "core/document/Source.h"
 #include "core/document/ViewChoices.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
@@ -347,6 +348,8 @@ Result<void> run(Session& session, const SheetOptions& options) {
     const bool linear = isLinear(*format);
     frame->floats = linear;
 
+    if (!needsImageLibraries(options) && std::ranges::all_of(options.environments, isBuiltin))
+        session.expectNoImages();
     nlohmann::ordered_json& json = session.report().json();
     json["settings"] = {{"scene", options.scene},
                         {"size", {frame->width, frame->height}},

@@ -1,6 +1,9 @@
 // The writing half of ImageIO.h: what each format stores is decided here, the worker only encodes.
+// PNG, which renders and textures are most of the time, is encoded without it.
+#include "core/base/Check.h"
 #include "core/base/Limits.h"
 #include "core/io/ImageIO.h"
+#include "core/io/PngEncoder.h"
 #include "core/worker/MemoryFile.h"
 #include "core/worker/WorkerClient.h"
 
@@ -24,8 +27,6 @@ constexpr float kMaxHalf = 65504.0f;
 
 const char* pluginFor(ImageFileFormat format) {
     switch (format) {
-    case ImageFileFormat::Png:
-        return "png";
     case ImageFileFormat::Jpeg:
         return "jpeg";
     case ImageFileFormat::Exr:
@@ -35,9 +36,12 @@ const char* pluginFor(ImageFileFormat format) {
     case ImageFileFormat::Tiff:
         return "tiff";
     case ImageFileFormat::Tga:
+        return "targa";
+    case ImageFileFormat::Png:
         break;
     }
-    return "targa";
+    CHECK(false); // encodePng() does it
+    return "";
 }
 
 // The same picture with other channels: grey is repeated, missing alpha is opaque, surplus is
@@ -176,7 +180,6 @@ Result<Bytes> encodeImage(WorkerClient& worker, std::vector<ImagePart> parts,
                                     {"channels", image.channels()},
                                     {"type", type},
                                     {"half", exr && options.half},
-                                    {"srgb", image.encoding() == ColorEncoding::Srgb},
                                     {"channelNames", channelNames},
                                     {"attributes", part.attributes}});
             payloadSize += sizeOnWire(image);
@@ -184,6 +187,8 @@ Result<Bytes> encodeImage(WorkerClient& worker, std::vector<ImagePart> parts,
                 return misuse(fmt::format("the image is larger than the supported {} MiB",
                                           limits::kMaxImageBytes >> 20));
         }
+        if (format == ImageFileFormat::Png)
+            return encodePng(parts.front().image);
         if (parts.size() > 1 && !distinct(partNames))
             return misuse("the parts of an OpenEXR file need names of their own");
         const json header = {{"op", "encodeImage"},

@@ -75,8 +75,8 @@ struct ImageSaveOptions {
     bool half = false; // EXR: store 16-bit floats
     int jpegQuality = 92;
 };
-// Encodes in the worker. Png, Jpeg, Tga: U8 (Png, Tiff also U16) is stored as it is, F32 is clamped
-// and encoded as sRGB when Linear, taken as it is when Data. Exr, Hdr: linear floats.
+// Encodes in the worker, Png here. Png, Jpeg, Tga: U8 (Png, Tiff also U16) is stored as it is, F32
+// is clamped and encoded as sRGB when Linear, taken as it is when Data. Exr, Hdr: linear floats.
 Result<Bytes> encodeImage(WorkerClient& worker, std::vector<ImagePart> parts,
                           ImageFileFormat format, const ImageSaveOptions& options = {});
 Result<Bytes> encodeImage(WorkerClient& worker, const Image& image, ImageFileFormat format,

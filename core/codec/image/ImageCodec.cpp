@@ -25,7 +25,7 @@ using nlohmann::json;
 // The only formats whose readers are ever created, so that OpenImageIO never probes all of them.
 constexpr std::array<const char*, 9> kReaders{"png", "jpeg", "openexr", "tiff", "targa",
                                               "psd", "dds",  "bmp",     "webp"};
-constexpr std::array<const char*, 5> kWriters{"png", "jpeg", "openexr", "tiff", "targa"};
+constexpr std::array<const char*, 4> kWriters{"jpeg", "openexr", "tiff", "targa"};
 
 // A few threads: a child works on one file, several children run at once.
 void allowThreads() {
@@ -439,10 +439,6 @@ Reply encodeImage(const json& request, std::span<const std::byte> payload) {
         spec.attribute("oiio:UnassociatedAlpha", 1);
         // Or it would be the time of writing: the same picture in other bytes.
         spec.attribute("DateTime", format == "tiff" ? "1970:01:01 00:00:00" : "");
-        // PNG marks sRGB in a chunk. (In TIFF it would become an Exif directory, over which readers
-        // stumble.)
-        if (format == "png" && part.at("srgb").get<bool>())
-            spec.attribute("oiio:ColorSpace", "sRGB");
         if (format == "openexr") {
             spec.attribute("compression", "zip");
             if (const auto name = part.at("name").get<std::string>(); !name.empty()) {

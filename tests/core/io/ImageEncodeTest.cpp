@@ -3,6 +3,8 @@
 
 #include <ctime>
 #include <gmock/gmock.h>
+#include <string>
+#include <vector>
 
 namespace patina {
 namespace {
@@ -26,7 +28,31 @@ class Encode : public test::ImageFiles {
         EXPECT_EQ(bytes.error().kind, ErrorKind::Usage);
         return bytes.error().message;
     }
+    // The names of a PNG file's chunks, those of pixels once.
+    static std::vector<std::string> chunks(const Bytes& png) {
+        std::vector<std::string> names;
+        for (std::size_t at = 8; at + 8 <= png.size();) {
+            std::size_t size = 0;
+            for (std::size_t i = 0; i < 4; ++i)
+                size = size << 8 | std::to_integer<std::size_t>(png[at + i]);
+            const std::string name(reinterpret_cast<const char*>(png.data() + at + 4), 4);
+            if (names.empty() || names.back() != name)
+                names.push_back(name);
+            at += size + 12; // with its size, name and checksum
+        }
+        return names;
+    }
 };
+
+TEST_F(Encode, PngSaysWhichColoursAreSrgb) {
+    const auto of = [](ColorEncoding encoding) {
+        return chunks(encode(noise(300, 200, 3, PixelType::U8, encoding), ImageFileFormat::Png));
+    };
+    using testing::ElementsAre;
+    EXPECT_THAT(of(ColorEncoding::Srgb),
+                ElementsAre("IHDR", "gAMA", "sRGB", "cHRM", "oFFs", "tEXt", "IDAT", "IEND"));
+    EXPECT_THAT(of(ColorEncoding::Data), ElementsAre("IHDR", "oFFs", "IDAT", "IEND"));
+}
 
 TEST_F(Encode, LinearFloatsGetTheCurveInIntegerFormats) {
     // linearToSrgb(0.5) * 255 = 187.5 → 188
