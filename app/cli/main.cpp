@@ -1,5 +1,6 @@
 // `patina`: what the editor can do to files, without a window. Without a command it starts the
 // editor that lies beside it.
+#include "app/cli/Allocator.h"
 #include "app/cli/CommandLine.h"
 #include "app/cli/Commands.h"
 #include "app/cli/Report.h"
@@ -10,6 +11,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <string_view>
+#include <type_traits>
 #include <unistd.h>
 #include <vector>
 
@@ -39,8 +41,15 @@ int runCommand(const Invocation& invocation) {
     Session session(invocation.common);
     Result<void> result;
     try {
-        result = std::visit([&](const auto& options) { return run(session, options); },
-                            invocation.options);
+        result = std::visit(
+            [&](const auto& options) {
+                constexpr bool kDraws =
+                    std::is_base_of_v<PictureOptions, std::decay_t<decltype(options)>>;
+                if (!kDraws)
+                    useSmallPages();
+                return run(session, options);
+            },
+            invocation.options);
     } catch (const std::bad_alloc&) {
         result = Error{
             ErrorKind::Internal, "there is not enough memory; use smaller inputs or sizes", {}, {}};
