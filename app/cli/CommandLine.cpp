@@ -29,7 +29,8 @@ constexpr const char* kAbout =
     "builtin:NAME; HDR is an image of any layout or builtin:NAME. `patina info builtin:list`\n"
     "prints the built-in names.";
 constexpr const char* kFooter =
-    "Exit status: 0 done, 2 wrong usage, 65 an input is broken, 66 an input is missing, 69 no\n"
+    "Exit status: 0 done, 1 compare --fail-above or --fail-below, 2 wrong usage, 65 an input is "
+    "broken, 66 an input is missing, 69 no\n"
     "OpenGL, 70 a fault of ours, 73 an output cannot be created, 74 I/O error or disk full,\n"
     "75 stopped for now (--checkpoint, --resume), 130/143 interrupted.";
 

@@ -134,6 +134,12 @@ void Report::output(const std::filesystem::path& file, const std::string& what) 
                                 what.empty() ? "" : " (" + what + ")"));
 }
 
+void Report::failCheck(const std::string& text) {
+    (*m_json)["failed"].push_back(text);
+    say(stderr, "patina: " + printableLine(text));
+    m_status = 1;
+}
+
 int Report::fail(const Error& error, int status) {
     // A result that never came to be has no keys of its own.
     nlohmann::ordered_json description = {{"kind", kindName(error.kind)},
@@ -148,7 +154,7 @@ int Report::fail(const Error& error, int status) {
 }
 
 int Report::succeed() {
-    return print(0);
+    return print(m_status);
 }
 
 int Report::print(int status) {

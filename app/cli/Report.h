@@ -32,6 +32,9 @@ class Report {
     void add(const OpenedScene& scene); // its notices and the files that are not in it
     void output(const std::filesystem::path& file, const std::string& what); // was written
 
+    // The work is done, but its result is not what was asked for: succeed() returns 1.
+    void failCheck(const std::string& text);
+
     // Prints the JSON object with "error", or the message. Returns the exit status.
     int fail(const Error& error, int status);
     int succeed();
@@ -44,6 +47,7 @@ class Report {
     std::unique_ptr<nlohmann::ordered_json> m_json;
     std::string m_command;
     bool m_wantsJson, m_quiet;
+    int m_status = 0;
 };
 
 // The command line itself is wrong: `message` says what is expected.

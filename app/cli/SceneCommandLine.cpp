@@ -286,12 +286,54 @@ void CommandParser::addRefine() {
 }
 
 void CommandParser::addCompare() {
-    CLI::App* c =
-        addCommand(m_app, "compare", "Distance of two images: rmse, relmse, psnr, max", m_compare);
-    c->add_option("A", m_compare.image, "Image")->required()->type_name("");
-    c->add_option("B", m_compare.reference, "Reference")->required()->type_name("");
-    c->add_option("-o,--output", m_compare.difference, "Write the absolute difference")
-        ->type_name("DIFF");
+    CompareOptions& o = m_compare;
+    CLI::App* c = addCommand(m_app, "compare",
+                             "Distance of two images: rmse, relmse, psnr, max, flip, ssim", o);
+    c->add_option("A", o.image, "Image")->required()->type_name("");
+    c->add_option("B", o.reference, "Reference")->required()->type_name("");
+    CLI::Option* output = c->add_option("-o,--output", o.output,
+                                        "Write the difference: numbers into an .exr, colours "
+                                        "into .png, .jpg, .tif, .tga")
+                              ->type_name("DIFF");
+    CLI::Option* difference =
+        c->add_option("--difference", o.difference,
+                      "What DIFF shows at a pixel: its channels' absolute differences, or one "
+                      "value in colours: signed (A - B: blue below, orange above), absolute, "
+                      "relative (to B, as in relmse), flip (0 to 1)")
+            ->transform(plain(CLI::CheckedTransformer(
+                std::map<std::string, DifferenceShown>{{"channels", DifferenceShown::Channels},
+                                                       {"signed", DifferenceShown::Signed},
+                                                       {"absolute", DifferenceShown::Absolute},
+                                                       {"relative", DifferenceShown::Relative},
+                                                       {"flip", DifferenceShown::Flip}})))
+            ->default_str("channels")
+            ->needs(output)
+            ->type_name("NAME");
+    c->add_option("--range", o.range,
+                  "What the last colour stands for (default: the largest error; flip: 1)")
+        ->check(plain(CLI::PositiveNumber))
+        ->needs(difference)
+        ->type_name("X");
+    c->add_option("--visible", o.visible,
+                  "Leave what is hardly noticed out of DIFF: where flip is below X")
+        ->check(plain(CLI::Range(0.0, 1.0)))
+        ->needs(difference)
+        ->type_name("X");
+    const auto addLimits = [&](const char* name, std::vector<std::string>& limits,
+                               const char* help) {
+        c->add_option(name, limits, help)
+            ->type_name("METRIC=X")
+            ->expected(1)
+            ->take_all()
+            ->allow_extra_args(false);
+    };
+    addLimits("--fail-above", o.failAbove,
+              "Exit status 1 where rmse, relmse, max or flip is above X (repeatable)");
+    addLimits("--fail-below", o.failBelow,
+              "The same for psnr or ssim, which are higher for better pictures, below X");
+    c->add_flag("--fit", o.fit,
+                "Scale B to the size of A (else images of different sizes are refused)");
+    addThreads(c);
 }
 
 void CommandParser::addParameters() {

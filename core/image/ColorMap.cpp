@@ -3,7 +3,9 @@
 #include "core/image/Srgb.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/common.hpp>
 
 namespace patina {
@@ -28,6 +30,20 @@ glm::vec3 fromLch(float lightness, float chroma, float hueDeg) {
     return {linearToSrgb(inside.x), linearToSrgb(inside.y), linearToSrgb(inside.z)};
 }
 
+constexpr std::array<std::uint32_t, 256> kMagma{
+#include "core/image/MagmaTable.inc"
+};
+
+// Between the two nearest colours of the table.
+glm::vec3 magma(float t) {
+    const float at = t * (kMagma.size() - 1);
+    const auto below = std::min(static_cast<std::size_t>(at), kMagma.size() - 2);
+    const auto color = [](std::uint32_t rgb) {
+        return glm::vec3(rgb >> 16, rgb >> 8 & 0xff, rgb & 0xff) / 255.0f;
+    };
+    return glm::mix(color(kMagma[below]), color(kMagma[below + 1]), at - static_cast<float>(below));
+}
+
 } // namespace
 
 // Lightness grows evenly, so equal steps look equal, also printed grey and to colour-blind eyes;
@@ -44,6 +60,8 @@ glm::vec3 mapColor(ColorMap map, float t) {
         const float away = std::abs(2.0f * t - 1.0f);
         return fromLch(0.95f - 0.45f * away, 0.14f * away, t < 0.5f ? 255.0f : 50.0f);
     }
+    case ColorMap::Magma:
+        return magma(t);
     }
     return glm::vec3(t);
 }

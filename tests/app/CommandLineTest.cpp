@@ -38,7 +38,7 @@ TEST(CommandLine, HelpStandsInTwoColumns) {
     };
     const std::vector<std::vector<std::string>> commands{
         {"bake", "prt"}, {"bake", "ao"}, {"bake", "ibl"}, {"render"},
-        {"sheet"},       {"merge"},      {"refine"}};
+        {"sheet"},       {"merge"},      {"refine"},      {"compare"}};
     for (std::vector<std::string> command : commands) {
         SCOPED_TRACE(command.back());
         command.emplace_back("--help");

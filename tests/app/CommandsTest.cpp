@@ -1,7 +1,6 @@
-// patina compare, info, refine and export, on built-in scenes.
+// patina info, refine and export, on built-in scenes.
 #include "CommandsFixture.h"
 
-#include <cmath>
 #include <filesystem>
 
 using namespace patina;
@@ -9,39 +8,6 @@ using namespace patina::test;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-TEST_F(Commands, CompareGivesExactNumbers) {
-    save(m_folder / "a.png", 2, 1, 3, {255, 0, 0, 10, 20, 30});
-    save(m_folder / "b.png", 2, 1, 3, {0, 0, 0, 10, 20, 30});
-    const Outcome outcome = runPatina(
-        {"compare", m_folder / "a.png", m_folder / "b.png", "--json", "-o", m_folder / "d.png"});
-    ASSERT_EQ(outcome.status, 0) << outcome.err;
-    nlohmann::json json = outcome.json();
-    EXPECT_EQ(json["command"], "compare");
-    EXPECT_NEAR(json["rmse"].get<double>(), std::sqrt(1.0 / 6), 1e-9);
-    EXPECT_NEAR(json["psnr"].get<double>(), 10 * std::log10(6.0), 1e-9);
-    EXPECT_NEAR(json["relmse"].get<double>(), 1 / 0.01 / 6, 1e-9);
-    EXPECT_EQ(json["max"], 1.0);
-    EXPECT_EQ(json["samples"], 6);
-    EXPECT_EQ(json["different"], 1);
-    EXPECT_EQ(json["identical"], false);
-    const Image difference = load(m_folder / "d.png");
-    EXPECT_THAT(difference.u8(), ElementsAre(255, 0, 0, 0, 0, 0));
-}
-
-TEST_F(Commands, CompareSaysThatImagesAreIdentical) {
-    save(m_folder / "a.png", 2, 2, 3, {1, 2, 3, 4});
-    const Outcome human = runPatina({"compare", m_folder / "a.png", m_folder / "a.png"});
-    EXPECT_EQ(human.status, 0);
-    EXPECT_THAT(human.out, HasSubstr("rmse    0\n"));
-    EXPECT_THAT(human.out, HasSubstr("identical"));
-    nlohmann::json json =
-        runPatina({"compare", m_folder / "a.png", m_folder / "a.png", "--json"}).json();
-    EXPECT_EQ(json["identical"], true);
-    EXPECT_TRUE(json["psnr"].is_null());
-    save(m_folder / "b.png", 1, 2, 3, {1});
-    EXPECT_EQ(runPatina({"compare", m_folder / "a.png", m_folder / "b.png"}).status, 2);
-}
 
 TEST_F(Commands, InfoListsTheBuiltins) {
     const Outcome human = runPatina({"info", "builtin:list"});

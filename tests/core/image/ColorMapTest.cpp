@@ -44,8 +44,25 @@ TEST(ColorMap, DivergingIsLightestInTheMiddleAndAlikeOnBothSides) {
     }
 }
 
+// Entries 0, 128 and 255 of the table that matplotlib has published as magma.
+TEST(ColorMap, MagmaIsTheOneThatFlipIsShownIn) {
+    const auto codes = [](float t) { return mapColor(ColorMap::Magma, t) * 255.0f; };
+    const auto expectNear = [](const glm::vec3& color, const glm::vec3& expected) {
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(color[c], expected[c], 1e-3f) << c;
+    };
+    expectNear(codes(0.0f), {0, 0, 4});
+    expectNear(codes(128.0f / 255.0f), {183, 55, 121});
+    expectNear(codes(1.0f), {252, 253, 191});
+    for (int i = 0; i < 255; ++i)
+        EXPECT_LT(lightness(mapColor(ColorMap::Magma, static_cast<float>(i) / 255.0f)),
+                  lightness(mapColor(ColorMap::Magma, static_cast<float>(i + 1) / 255.0f)))
+            << i;
+}
+
 TEST(ColorMap, WhatIsOutsideTakesTheEnds) {
-    for (const ColorMap map : {ColorMap::Grey, ColorMap::Sequential, ColorMap::Diverging}) {
+    for (const ColorMap map :
+         {ColorMap::Grey, ColorMap::Sequential, ColorMap::Diverging, ColorMap::Magma}) {
         EXPECT_EQ(mapColor(map, -3.0f), mapColor(map, 0.0f));
         EXPECT_EQ(mapColor(map, 7.0f), mapColor(map, 1.0f));
         EXPECT_EQ(mapColor(map, std::numeric_limits<float>::quiet_NaN()), mapColor(map, 0.0f));

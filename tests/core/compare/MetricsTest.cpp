@@ -1,29 +1,14 @@
-#include "core/image/Compare.h"
+#include "core/compare/Metrics.h"
+
+#include "Pictures.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
-#include <initializer_list>
 #include <limits>
 
 using namespace patina;
-
-namespace {
-
-Image floats(int width, int height, int channels, std::initializer_list<float> values,
-             ColorEncoding encoding = ColorEncoding::Linear) {
-    Image image(width, height, channels, PixelType::F32, encoding);
-    std::copy(values.begin(), values.end(), image.f32().begin());
-    return image;
-}
-
-Image codes(int width, int height, int channels, std::initializer_list<std::uint8_t> values,
-            ColorEncoding encoding = ColorEncoding::Srgb) {
-    Image image(width, height, channels, PixelType::U8, encoding);
-    std::copy(values.begin(), values.end(), image.u8().begin());
-    return image;
-}
-
-} // namespace
+using patina::test::codes;
+using patina::test::floats;
 
 TEST(Compare, EqualImagesHaveNoDistance) {
     const Image image = codes(2, 1, 3, {0, 10, 255, 7, 8, 9});
@@ -48,6 +33,7 @@ TEST(Compare, GivesTheNumbersOfItsDefinitions) {
     EXPECT_DOUBLE_EQ(metrics->psnr, 10 * std::log10(6 / squares));
     EXPECT_DOUBLE_EQ(metrics->relMse, (0.25 / 0.01 + 0.0625 / 0.26 + 1.0 / 1.01) / 6);
     EXPECT_EQ(metrics->max, 1.0);
+    EXPECT_EQ(metrics->maxPosition, (PixelPosition{1, 0}));
     EXPECT_EQ(metrics->different, 3u);
     // The reference weighs relative errors: exchanged, the number is another one.
     EXPECT_NE(compareImages(reference, image)->relMse, metrics->relMse);
