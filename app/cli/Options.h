@@ -153,7 +153,7 @@ struct CompareOptions {
     std::string output; // the difference as a picture; empty: none
     DifferenceShown difference = DifferenceShown::Channels;
     std::optional<float> range; // what the last colour stands for; not given: the largest error
-    float visible = 0.0f; // of FLIP: what is below is left out of the difference; 0: nothing
+    float visible = 0.0f;       // of FLIP: what is below is left out of the difference; 0: nothing
     std::vector<std::string> failAbove, failBelow; // METRIC=X
     bool fit = false;                              // scales the reference to the image's size
 };
