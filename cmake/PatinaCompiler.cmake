@@ -4,12 +4,14 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()
 
+# Modules of loops over numbers ask for more (patina_module(… NUMERIC)), tests for less; what reads files
+# and draws panels would only take longer to compile. Here and not among the options of a target: those
+# come later, and the last one counts.
+string(REPLACE -O3 -O2 CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
+
 add_library(patina_compiler INTERFACE)
 target_compile_options(patina_compiler INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-qual)
-# Modules of loops over numbers ask for more (patina_module(… NUMERIC)); what reads files and draws panels
-# would only take longer to compile.
-target_compile_options(patina_compiler INTERFACE $<$<CONFIG:Release>:-O2>)
 if(PATINA_WARNINGS_AS_ERRORS)
   target_compile_options(patina_compiler INTERFACE -Werror)
 endif()
@@ -31,7 +33,7 @@ endif()
 # single sources, build without (the preset dev does).
 option(PATINA_UNITY "Compile several sources of a target at a time" ON)
 set(CMAKE_UNITY_BUILD ${PATINA_UNITY})
-set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 16)
 if(PATINA_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # Each source is a header there: a local of one that is named like a constant of another shadows nothing,
   # and a type of one source alone may have members of that source's own types.

@@ -28,9 +28,13 @@ endfunction()
 # compiled shaders are kept in one folder for all tests, none of which starts with an editor that counts
 # on them. So is the light of environments, named by all that it is computed from. Settings and the other
 # caches of the editor are each test's own.
+# Optimizing shaders (LLVM behind llvmpipe) costs a third more than running them gains here, and memory that
+# is given back and taken again costs page faults: large pages, and what was allocated is kept.
 set(PATINA_TEST_ENVIRONMENT
   "PATINA_BIN_DIR=${CMAKE_BINARY_DIR}/bin"
   "LP_NUM_THREADS=2"
+  "GALLIVM_PERF=nopt"
+  "GLIBC_TUNABLES=glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=1073741824:glibc.malloc.trim_threshold=2147483648"
   "XDG_RUNTIME_DIR=${CMAKE_BINARY_DIR}/run"
   "MESA_SHADER_CACHE_DIR=${CMAKE_BINARY_DIR}/tests/shader-cache"
   "PATINA_LIGHT_CACHE=${CMAKE_BINARY_DIR}/tests/light-cache"
@@ -48,18 +52,14 @@ function(patina_test_support name)
   patina_test_options(${name})
 endfunction()
 
-# patina_test(NAME LABEL core|render|app SOURCES … LIBRARIES … [TIMEOUT s] [APART])
-# One GoogleTest program, one ctest entry. APART: its sources have local names in common, and are compiled
-# one by one (PATINA_UNITY).
+# patina_test(NAME LABEL core|render|app SOURCES … LIBRARIES … [TIMEOUT s])
+# One GoogleTest program, one ctest entry.
 function(patina_test name)
-  cmake_parse_arguments(T "APART" "LABEL;TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(T "" "LABEL;TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
   if(NOT T_TIMEOUT)
     set(T_TIMEOUT 600)
   endif()
   patina_executable(${name})
-  if(T_APART)
-    set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
-  endif()
   target_sources(${name} PRIVATE ${T_SOURCES})
   target_link_libraries(${name} PRIVATE ${T_LIBRARIES} patina_core GTest::gmock GTest::gtest_main)
   patina_test_options(${name})
@@ -91,14 +91,11 @@ endfunction()
 # its own (tests/support/with-xvfb). Brings its main() and the editor's fixture from
 # patina_gui_test_support. Pictures that a test takes are kept in tests/screenshots of the build folder.
 function(patina_gui_test name)
-  cmake_parse_arguments(T "APART" "TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(T "" "TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
   if(NOT T_TIMEOUT)
     set(T_TIMEOUT 600)
   endif()
   patina_executable(${name})
-  if(T_APART)
-    set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
-  endif()
   target_sources(${name} PRIVATE ${T_SOURCES})
   target_link_libraries(${name} PRIVATE
     ${T_LIBRARIES} patina_gui_test_support patina_editor_lib Qt6::Test GTest::gmock)

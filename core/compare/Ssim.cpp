@@ -16,7 +16,7 @@ constexpr int kRadius = 5;
 constexpr int kWindow = 2 * kRadius + 1;
 constexpr double kSigma = 1.5;
 constexpr double kC1 = 0.01 * 0.01, kC2 = 0.03 * 0.03;
-constexpr int kRowsAtATime = 64; // the rows above and below are filtered again for each such band
+constexpr int kSsimRows = 64; // the rows above and below are filtered again for each such band
 
 std::array<double, kWindow> window() {
     std::array<double, kWindow> weights{};
@@ -153,7 +153,7 @@ Result<Ssim> computeSsim(const Image& image, const Image& reference, const JobCo
     ssim.map = Image(image.width(), image.height(), 1, PixelType::F32, ColorEncoding::Data);
     const Band band(image, reference);
     const std::span<float> out = ssim.map.f32();
-    parallelFor(job, static_cast<std::size_t>(image.height()), kRowsAtATime,
+    parallelFor(job, static_cast<std::size_t>(image.height()), kSsimRows,
                 [&](std::size_t begin, std::size_t end) {
                     band.evaluate(static_cast<int>(begin), static_cast<int>(end), out);
                 });

@@ -17,7 +17,6 @@
 namespace patina {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr double kBelowZero = 1e-3; // of the RMS: smaller dips are rounding
 
 } // namespace
@@ -66,7 +65,8 @@ std::optional<glm::vec3> EnvironmentLookup::irradianceSh9(const glm::vec3& norma
 std::optional<glm::vec3> EnvironmentLookup::irradiance(const glm::vec3& normal) const {
     if (!maps)
         return std::nullopt;
-    return tint * scale * kPi * sampleCube(maps->prefiltered.back(), toPicture(normal));
+    return tint * scale * std::numbers::pi_v<float> *
+           sampleCube(maps->prefiltered.back(), toPicture(normal));
 }
 
 double EnvironmentLookup::rms() const {
@@ -96,7 +96,7 @@ double irradianceError(const IblMaps& maps) {
                 const auto n = static_cast<float>(exact.size);
                 const glm::vec3 d = glm::normalize(cubeDirection(
                     face, (static_cast<float>(x) + 0.5f) / n, (static_cast<float>(y) + 0.5f) / n));
-                const glm::dvec3 e(kPi * cubeTexel(exact, face, x, y));
+                const glm::dvec3 e(std::numbers::pi_v<float> * cubeTexel(exact, face, x, y));
                 const glm::dvec3 nine(shading::irradianceFromSh9(maps.irradianceSh.data(), d));
                 const double weight =
                     static_cast<double>(solidAngles[static_cast<std::size_t>(y * exact.size + x)]);

@@ -9,7 +9,7 @@ using namespace patina::render;
 
 namespace {
 
-constexpr int kSize = 48;
+constexpr int kSide = 48;
 
 // A glowing sphere before black: every pixel is the share of it that the sphere covers.
 Document glowingSphere() {
@@ -56,39 +56,39 @@ double coverageError(const Image& picture, const Image& fine) {
 TEST_F(AccumulationTest, FramesAddUpToTheShareOfAPixelThatIsCovered) {
     const Document document = glowingSphere();
     sceneRenderer().setDocument(document);
-    const Image fine = drawOnce(document, 16 * kSize, false);
-    const Image single = drawOnce(document, kSize, false);
+    const Image fine = drawOnce(document, 16 * kSide, false);
+    const Image single = drawOnce(document, kSide, false);
     EXPECT_EQ(renderer().accumulatedFrames(), 0);
-    Image mean = drawOnce(document, kSize, true);
+    Image mean = drawOnce(document, kSide, true);
     EXPECT_EQ(mean, single) << "the first frame is the ordinary one";
     EXPECT_EQ(renderer().accumulatedFrames(), 1);
     for (int i = 2; i <= ViewRenderer::kSteadyFrames; ++i) {
-        mean = drawOnce(document, kSize, true);
+        mean = drawOnce(document, kSide, true);
         EXPECT_EQ(renderer().accumulatedFrames(), i);
     }
     EXPECT_LT(coverageError(mean, fine), 0.45 * coverageError(single, fine));
     EXPECT_FLOAT_EQ(centerPixel(mean).r, centerPixel(single).r);
-    EXPECT_EQ(drawOnce(document, kSize, true), mean) << "it is complete";
-    EXPECT_EQ(drawOnce(document, kSize, true, true), mean);
+    EXPECT_EQ(drawOnce(document, kSide, true), mean) << "it is complete";
+    EXPECT_EQ(drawOnce(document, kSide, true, true), mean);
 }
 
 TEST_F(AccumulationTest, WhatChangesBeginsAnew) {
     Document document = glowingSphere();
     sceneRenderer().setDocument(document);
     for (int i = 0; i < 3; ++i)
-        (void)drawOnce(document, kSize, true);
+        (void)drawOnce(document, kSide, true);
     ASSERT_EQ(renderer().accumulatedFrames(), 3);
     document.materials[0].emissive = glm::vec3(0.25f);
     sceneRenderer().setDocument(document);
-    const Image changed = drawOnce(document, kSize, true);
+    const Image changed = drawOnce(document, kSide, true);
     EXPECT_EQ(renderer().accumulatedFrames(), 1);
     EXPECT_FLOAT_EQ(centerPixel(changed).r, 0.25f) << "nothing is left of what was";
-    (void)drawOnce(document, kSize, true);
+    (void)drawOnce(document, kSide, true);
     EXPECT_EQ(renderer().accumulatedFrames(), 2);
     document.view.camera.yawDeg += 20.0f;
-    (void)drawOnce(document, kSize, true);
+    (void)drawOnce(document, kSide, true);
     EXPECT_EQ(renderer().accumulatedFrames(), 1) << "the camera";
-    (void)drawOnce(document, kSize / 2, true);
+    (void)drawOnce(document, kSide / 2, true);
     EXPECT_EQ(renderer().accumulatedFrames(), 1) << "the size";
 }
 
@@ -96,7 +96,7 @@ TEST_F(AccumulationTest, BothSidesOfASplitHaveTheirOwn) {
     const Document document = glowingSphere();
     sceneRenderer().setDocument(document);
     FrameSettings frame;
-    frame.width = frame.height = kSize;
+    frame.width = frame.height = kSide;
     frame.samples = 1;
     frame.camera = document.view.camera;
     const auto steady = [&](const ViewSettings& view) {
@@ -111,10 +111,10 @@ TEST_F(AccumulationTest, BothSidesOfASplitHaveTheirOwn) {
     split.split = ViewSplit();
     split.split->other.kind = shading::kViewEmissive;
     const Image left = steady(alone), right = steady(other), both = steady(split);
-    for (const int y : {4, kSize / 2, kSize - 5})
-        for (int x = 0; x < kSize; ++x)
-            if (std::abs(x - kSize / 2) > 1) {
-                EXPECT_EQ(pixel(both, x, y), pixel(x < kSize / 2 ? left : right, x, y))
+    for (const int y : {4, kSide / 2, kSide - 5})
+        for (int x = 0; x < kSide; ++x)
+            if (std::abs(x - kSide / 2) > 1) {
+                EXPECT_EQ(pixel(both, x, y), pixel(x < kSide / 2 ? left : right, x, y))
                     << x << ", " << y;
             }
 }

@@ -21,7 +21,7 @@ using namespace shading; // NOLINT: the bodies are GLSL, too
 
 constexpr auto kAbsolute = Tolerance::Absolute, kRelative = Tolerance::Relative;
 
-std::vector<KnownValueCase> makeCases() {
+std::vector<KnownValueCase> makeKnownValues() {
     std::vector<KnownValueCase> cases;
 
     // Closed form; alpha = r². NoH, r.
@@ -652,7 +652,7 @@ std::vector<KnownValueCase> makeCases() {
 } // namespace
 
 const std::vector<KnownValueCase>& knownValueCases() {
-    static const std::vector<KnownValueCase> cases = makeCases();
+    static const std::vector<KnownValueCase> cases = makeKnownValues();
     return cases;
 }
 

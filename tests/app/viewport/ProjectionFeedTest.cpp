@@ -14,7 +14,7 @@
 namespace patina::editor {
 namespace {
 
-ImagePtr sky(float brightness) {
+ImagePtr smallSky(float brightness) {
     Image image(64, 32, 3, PixelType::F32, ColorEncoding::Linear);
     for (float& value : image.f32())
         value = brightness;
@@ -29,8 +29,8 @@ struct ProjectionFeedTest : ::testing::Test {
         auto created = render::SceneRenderer::create(*context);
         ASSERT_TRUE(created.ok());
         renderer = std::move(*created);
-        test::addSecond(document, "second", sky(3.0f));
-        document.environment().image = sky(1.0f);
+        test::addSecond(document, "second", smallSky(3.0f));
+        document.environment().image = smallSky(1.0f);
     }
     void upload() {
         renderer->setDocument(document);
@@ -74,7 +74,7 @@ TEST_F(ProjectionFeedTest, FollowsAPictureThatIsReplaced) {
     Environment& e = document.environment();
     document.mix.fade = 0.5f;
     upload();
-    e.image = sky(2.0f); // while the first one is under way
+    e.image = smallSky(2.0f); // while the first one is under way
     for (int i = 0; i < 4 && !(renderer->knowsProjection(e.image) &&
                                renderer->knowsProjection(document.secondEnvironment()->image));
          ++i) {

@@ -22,7 +22,6 @@ using namespace patina::test;
 
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr glm::vec3 kRadiance{1.0f, 2.0f, 0.5f};
 
 class TransferStudies : public testing::Test {
@@ -93,8 +92,10 @@ TEST_F(TransferStudies, AnOpenPointReflectsAUniformEnvironment) {
     EXPECT_EQ(all.light.size(), 9u);
     EXPECT_NEAR(all.environment.rms(), std::sqrt((1.0 + 4.0 + 0.25) / 3.0), 1e-5);
     // Three bands of a clamped cosine are 3/32 + z/2 + 15/32 z² over pi, lowest at z = -8/15.
-    EXPECT_NEAR(all.function.lowest * kPi, 3.0f / 32.0f - 2.0f / 15.0f, 1e-3f);
-    EXPECT_NEAR(all.function.highest * kPi, 3.0f / 32.0f + 0.5f + 15.0f / 32.0f, 1e-3f);
+    EXPECT_NEAR(all.function.lowest * std::numbers::pi_v<float>, 3.0f / 32.0f - 2.0f / 15.0f,
+                1e-3f);
+    EXPECT_NEAR(all.function.highest * std::numbers::pi_v<float>,
+                3.0f / 32.0f + 0.5f + 15.0f / 32.0f, 1e-3f);
     // Between its roots, (-8 ± sqrt(19)) / 15, half their difference of the sphere.
     EXPECT_NEAR(all.function.negativeShare, std::sqrt(19.0) / 15.0, 0.01);
     EXPECT_EQ(all.function.values.size(),

@@ -12,7 +12,7 @@ using namespace patina;
 
 namespace {
 
-MeshPtr triangle() {
+MeshPtr aTriangle() {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}};
     mesh.indices = {0, 1, 2};
@@ -27,7 +27,7 @@ TEST(Document, BoundsAndCountsAreOfWhatIsVisible) {
     for (int i = 0; i < 3; ++i) {
         MeshInstance& mesh = document.meshes.emplace_back();
         mesh.id = document.takeId();
-        mesh.mesh = triangle();
+        mesh.mesh = aTriangle();
         mesh.transform = glm::translate(glm::mat4(1.0f), glm::vec3(10.0f * float(i), 0, -1));
     }
     document.meshes[2].visible = false;

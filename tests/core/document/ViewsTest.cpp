@@ -46,7 +46,7 @@ TEST(Views, SaysWhyAViewIsEmpty) {
 }
 
 // One triangle with a material, in the grey sky that stands in for an image.
-Document triangle() {
+Document triangleInGreySky() {
     Document document;
     Material material;
     material.id = document.takeId();
@@ -103,7 +103,7 @@ Ids sum(std::initializer_list<Ids> sets) {
 }
 
 TEST(Views, ApplyOnlyWhereTheSceneHasWhatTheyNeed) {
-    Document document = triangle();
+    Document document = triangleInGreySky();
     const Ids rest = sum({kOfCoordinates, kOfMaterials});
     EXPECT_EQ(inapplicable(document), sum({rest, kOfLights, kOfBakes}));
 
@@ -157,7 +157,7 @@ TEST(Views, ApplyOnlyWhereTheSceneHasWhatTheyNeed) {
 }
 
 TEST(Views, SayWhatWouldMakeThemApply) {
-    Document document = triangle();
+    Document document = triangleInGreySky();
     EXPECT_EQ(viewRemedy(shading::kViewFinal, document), ViewRemedy::None);
     EXPECT_EQ(viewRemedy(shading::kViewNormalMap, document), ViewRemedy::None);
     EXPECT_EQ(viewRemedy(shading::kViewDirect, document), ViewRemedy::AddLight);

@@ -12,7 +12,7 @@ using namespace patina;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 Sky skyWith(float turbidity, float elevationDeg, float azimuthDeg = 180.0f) {
     Sky sky;
@@ -95,12 +95,12 @@ TEST(ClearSky, SunsFluxIsExactHoweverCoarseThePicture) {
                     const Disc disc = discOf(sky, height);
                     const double radius = glm::radians(0.5 * diameter);
                     const glm::dvec3 exact =
-                        sunRadiance(sky) * (2.0 * kPi * (1.0 - std::cos(radius)));
+                        sunRadiance(sky) * (2.0 * pi * (1.0 - std::cos(radius)));
                     expectNear(disc.flux, exact, 2e-3, "flux");
                     // Its centre of light stays where it is, also across the seam and at the pole.
                     const double off =
                         glm::length(disc.direction - directionFromAngles(azimuth, elevation));
-                    EXPECT_LT(off, 0.75 * kPi / height)
+                    EXPECT_LT(off, 0.75 * pi / height)
                         << height << " " << elevation << " " << azimuth << " " << diameter;
                 }
 }
@@ -171,7 +171,7 @@ TEST(ClearSky, GroundReflectsWhatFallsOnIt) {
     Sky sky = skyWith(3.0f, 50.0f);
     sky.groundAlbedo = 0.4f;
     const Image image = clearSkyImage(sky, 256);
-    expectNear(texel(image, 9, 255), 0.4 / kPi * irradianceUp(image), 1e-3, "below");
+    expectNear(texel(image, 9, 255), 0.4 / pi * irradianceUp(image), 1e-3, "below");
     sky.groundAlbedo = 0.0f;
     EXPECT_LT(texel(clearSkyImage(sky, 256), 9, 255).g, 1e-7);
 }
@@ -180,7 +180,7 @@ TEST(ClearSky, GroundReflectsWhatFallsOnIt) {
 TEST(ClearSky, LightsLikeTheBuiltInSkyAtEverySize) {
     const glm::dvec3 draft = irradianceUp(clearSkyImage({}, 64));
     expectNear(draft, irradianceUp(clearSkyImage({}, 512)), 3e-3, "draft");
-    EXPECT_NEAR(draft.g / kPi, 1.04, 0.05);
+    EXPECT_NEAR(draft.g / pi, 1.04, 0.05);
 }
 
 TEST(ClearSky, HasNoBadTexelAnywhereInItsRange) {

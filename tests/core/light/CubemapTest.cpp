@@ -2,29 +2,17 @@
 #include "core/light/Cubemap.h"
 
 #include "core/math/Sampling.h"
+#include "tests/core/light/LatLongPicture.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace patina {
 namespace {
 
 constexpr double kFourPi = 4.0 * M_PI;
-
-Image latLong(int width, int height, const std::function<glm::vec3(glm::vec3)>& radiance) {
-    Image image(width, height, 3, PixelType::F32, ColorEncoding::Linear);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const glm::vec3 value = radiance(shading::directionFromLatLong(
-                {(x + 0.5f) / static_cast<float>(width), (y + 0.5f) / static_cast<float>(height)}));
-            for (int c = 0; c < 3; ++c)
-                image.f32()[(static_cast<std::size_t>(y) * width + x) * 3 + c] = value[c];
-        }
-    return image;
-}
 
 glm::dvec3 integral(const CubeLevel& level) {
     const std::vector<float> omega = cubeSolidAngles(level.size);
@@ -80,7 +68,8 @@ TEST(Cube, SolidAnglesAreExact) {
 }
 
 TEST(CubeFromLatLong, PutsEveryDirectionInItsPlace) {
-    const Image image = latLong(256, 128, [](glm::vec3 d) { return d + glm::vec3(2.0f); });
+    const Image image =
+        test::latLongImage(256, 128, [](glm::vec3 d) { return d + glm::vec3(2.0f); });
     for (const int size : {16, 64}) {
         const CubeLevel cube = cubeFromLatLong(image, size, {});
         ASSERT_EQ(cube.texels.size(), 6u * size * size);
@@ -99,7 +88,7 @@ TEST(CubeFromLatLong, PutsEveryDirectionInItsPlace) {
 
 TEST(CubeFromLatLong, KeepsTheEnergyOfSmoothLight) {
     // ∫ 1 = 4pi, ∫ max(0, z) = pi, ∫ (1 + z)² = 16pi / 3.
-    const Image image = latLong(512, 256, [](glm::vec3 d) {
+    const Image image = test::latLongImage(512, 256, [](glm::vec3 d) {
         return glm::vec3(1.0f, std::max(d.z, 0.0f), (1.0f + d.z) * (1.0f + d.z));
     });
     const glm::dvec3 sum = integral(cubeFromLatLong(image, 64, {}));

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,8 +17,6 @@ using namespace patina;
 using namespace patina::test;
 
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 EnvironmentLookup makeLight(const ImagePtr& image, int levels = IblSettings().levels) {
     IblSettings settings = IblSettings::quick();
@@ -59,9 +58,10 @@ TEST(EnvironmentLookup, AConstantEnvironmentIsConstantEverywhere) {
         light.rotationDeg = 33.0f;
         for (const glm::vec3 d : {glm::vec3(0, 1, 0), {0, 0, -1}, {0.48f, -0.6f, 0.64f}})
             for (const auto& [name, value] : lookUpAll(light, d))
-                EXPECT_LT(
-                    glm::distance(value.value(), (isIrradiance(name) ? kPi : 1.0f) * radiance),
-                    3e-4f)
+                EXPECT_LT(glm::distance(value.value(),
+                                        (isIrradiance(name) ? std::numbers::pi_v<float> : 1.0f) *
+                                            radiance),
+                          3e-4f)
                     << name;
         EXPECT_LT(irradianceError(*light.maps), 1e-3);
     }
@@ -87,7 +87,8 @@ TEST(EnvironmentLookup, RotatesAndBrightensWithTheEnvironment) {
     const glm::vec3 d = glm::normalize(glm::vec3(0.3f, -0.5f, 0.8f));
     EXPECT_LT(glm::distance(light.bandSum(2, d).value(), radiance(d)), 1e-3f);
     const glm::vec3 irradiance =
-        kPi * glm::vec3(1.0f) + 2.0f / 3.0f * kPi * glm::vec3(0.9f * d.x, 0.5f * d.y, 0.8f * d.z);
+        std::numbers::pi_v<float> *
+        (glm::vec3(1.0f) + 2.0f / 3.0f * glm::vec3(0.9f * d.x, 0.5f * d.y, 0.8f * d.z));
     EXPECT_LT(glm::distance(light.irradianceSh9(d).value(), irradiance), 2e-3f);
     EXPECT_LT(glm::distance(light.irradiance(d).value(), irradiance), 3e-2f);
 }

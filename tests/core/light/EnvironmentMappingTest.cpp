@@ -15,7 +15,7 @@ namespace {
 using L = EnvironmentLayout;
 using C = EnvironmentConvention;
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 struct Kind {
     L layout;
@@ -237,7 +237,7 @@ TEST(EnvironmentMapping, SolidAnglesSumToTheSphere) {
             for (int y = 0; y < map.size().height; ++y)
                 for (int x = 0; x < map.size().width; ++x)
                     sum += map.solidAngle(x, y);
-            EXPECT_NEAR(sum, 4.0 * kPi, 1e-9);
+            EXPECT_NEAR(sum, 4.0 * pi, 1e-9);
         }
 }
 
@@ -281,7 +281,7 @@ TEST(EnvironmentMapping, SolidAnglesAreExact) {
         const EnvironmentMapping map = mapping({L::LatLong}, 2 * c.height);
         double usual = 0.0, total = 0.0;
         for (int y = 0; y < c.height; ++y) {
-            usual += 2.0 * kPi * kPi / c.height * std::sin(kPi * (y + 0.5) / c.height);
+            usual += 2.0 * pi * pi / c.height * std::sin(pi * (y + 0.5) / c.height);
             total += 2.0 * c.height * map.solidAngle(0, y);
         }
         EXPECT_NEAR(usual / total - 1.0, c.usual, 1e-9);

@@ -15,7 +15,7 @@ namespace {
 using L = EnvironmentLayout;
 using C = EnvironmentConvention;
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr L kLayouts[] = {L::LatLong,         L::AngularMap,    L::MirrorBall,
                           L::HorizontalCross, L::VerticalCross, L::HorizontalStrip,
                           L::VerticalStrip,   L::SixFaces};
@@ -76,9 +76,9 @@ TEST(EnvironmentResample, FluxOfSmoothLightIsKept) {
             const EnvironmentMapping target = mapping(to, 48);
             const glm::dvec3 flux =
                 environmentFlux(resampleEnvironment(image, source, target), target);
-            EXPECT_NEAR(flux.x / (4.0 * kPi), 1.0, 1e-5);
-            EXPECT_NEAR(flux.y / kPi, 1.0, 2e-3);
-            EXPECT_NEAR(flux.z / (16.0 * kPi / 3.0), 1.0, 2e-3);
+            EXPECT_NEAR(flux.x / (4.0 * pi), 1.0, 1e-5);
+            EXPECT_NEAR(flux.y / pi, 1.0, 2e-3);
+            EXPECT_NEAR(flux.z / (16.0 * pi / 3.0), 1.0, 2e-3);
         }
     }
 }
@@ -117,7 +117,7 @@ TEST(EnvironmentResample, ReducingALatLongKeepsItsFluxExactly) {
         const glm::dvec3 after = environmentFlux(small, mapping(L::LatLong, width));
         EXPECT_NEAR(after.x / before.x, 1.0, 1e-6) << width;
         EXPECT_NEAR(after.y / before.y, 1.0, 1e-6) << width;
-        EXPECT_NEAR(after.z / (4.0 * kPi), 1.0, 1e-6) << width;
+        EXPECT_NEAR(after.z / (4.0 * pi), 1.0, 1e-6) << width;
     }
     EXPECT_EQ(shrinkLatLong(image, 60), image);
 }

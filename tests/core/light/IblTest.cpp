@@ -5,27 +5,15 @@
 #include "core/light/Cubemap.h"
 #include "core/math/Shading.h"
 #include "core/math/SphericalHarmonics.h"
+#include "tests/core/light/LatLongPicture.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace patina {
 namespace {
-
-Image latLong(int width, int height, const std::function<glm::vec3(glm::vec3)>& radiance) {
-    Image image(width, height, 3, PixelType::F32, ColorEncoding::Linear);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const glm::vec3 value = radiance(shading::directionFromLatLong(
-                {(x + 0.5f) / static_cast<float>(width), (y + 0.5f) / static_cast<float>(height)}));
-            for (int c = 0; c < 3; ++c)
-                image.f32()[(static_cast<std::size_t>(y) * width + x) * 3 + c] = value[c];
-        }
-    return image;
-}
 
 glm::vec3 lookUp(const CubeLevel& level, const glm::vec3& d) {
     const CubePosition at = cubePosition(d);
@@ -36,7 +24,7 @@ glm::vec3 lookUp(const CubeLevel& level, const glm::vec3& d) {
 }
 
 TEST(Ibl, LevelsHalveAndGrowRougher) {
-    const Image sky = latLong(
+    const Image sky = test::latLongImage(
         128, 64, [](glm::vec3 d) { return glm::vec3(d.y > 0.0f ? 1.0f : 0.0f, d.x + 1.0f, 1.0f); });
     const auto maps =
         computeIbl(sky, {.cubeSize = 32, .levels = 4, .spacing = LevelSpacing::Even}, {});
@@ -75,7 +63,7 @@ TEST(Ibl, LevelsHalveAndGrowRougher) {
 TEST(Ibl, IrradianceOfAnalyticSkies) {
     // Constant: pi. y: (2pi/3) n.y. y²: pi/3 + (pi/6) P2(n.y). Sky above the horizon: pi(1 +
     // n.y)/2.
-    const Image image = latLong(256, 128, [](glm::vec3 d) {
+    const Image image = test::latLongImage(256, 128, [](glm::vec3 d) {
         return glm::vec3(1.0f + d.y, d.y * d.y, d.y > 0.0f ? 1.0f : 0.0f);
     });
     const auto maps = computeIbl(image, {16, 2}, {});
@@ -94,7 +82,7 @@ TEST(Ibl, IrradianceOfAnalyticSkies) {
 
 TEST(Ibl, IrradianceCubeIsTheRoughestLevelTimesPi) {
     // The same skies, texel by texel, and without the nine coefficients' limits: a lamp of 1e4.
-    const Image image = latLong(256, 128, [](glm::vec3 d) {
+    const Image image = test::latLongImage(256, 128, [](glm::vec3 d) {
         return glm::vec3(1.0f + d.y, d.y * d.y, d.y > 0.0f ? 1.0f : 0.0f);
     });
     const auto maps = computeIbl(
@@ -119,7 +107,7 @@ TEST(Ibl, IrradianceCubeIsTheRoughestLevelTimesPi) {
 }
 
 TEST(Ibl, ResultDoesNotDependOnThreads) {
-    const Image sky = latLong(128, 64, [](glm::vec3 d) {
+    const Image sky = test::latLongImage(128, 64, [](glm::vec3 d) {
         return d.y > 0.98f ? glm::vec3(1e5f) : glm::vec3(1.0f + d.x, 0.5f, d.z * d.z);
     });
     const auto many = computeIbl(sky, {32, 4}, {});
@@ -133,7 +121,7 @@ TEST(Ibl, ResultDoesNotDependOnThreads) {
 }
 
 TEST(Ibl, CancelledMeansNoMaps) {
-    const Image sky = latLong(64, 32, [](glm::vec3) { return glm::vec3(1.0f); });
+    const Image sky = test::latLongImage(64, 32, [](glm::vec3) { return glm::vec3(1.0f); });
     JobControl control;
     control.cancel();
     const auto maps = computeIbl(sky, {32, 4}, control.context());
@@ -142,7 +130,7 @@ TEST(Ibl, CancelledMeansNoMaps) {
 }
 
 TEST(Ibl, ReportsProgressToTheEnd) {
-    const Image sky = latLong(64, 32, [](glm::vec3) { return glm::vec3(1.0f); });
+    const Image sky = test::latLongImage(64, 32, [](glm::vec3) { return glm::vec3(1.0f); });
     JobControl control;
     ASSERT_TRUE(computeIbl(sky, {32, 4}, control.context()).ok());
     EXPECT_NEAR(control.progress().fraction, 1.0, 1e-9);

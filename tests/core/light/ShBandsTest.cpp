@@ -2,6 +2,7 @@
 #include "core/light/ShBands.h"
 
 #include "core/math/Shading.h"
+#include "tests/core/light/LatLongPicture.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -10,24 +11,10 @@
 namespace patina {
 namespace {
 
-template <class Radiance>
-Image latLong(int width, int height, Radiance&& radiance, int channels = 3) {
-    Image image(width, height, channels, PixelType::F32, ColorEncoding::Linear);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const glm::vec3 value = radiance(shading::directionFromLatLong(
-                {(static_cast<float>(x) + 0.5f) / static_cast<float>(width),
-                 (static_cast<float>(y) + 0.5f) / static_cast<float>(height)}));
-            for (int c = 0; c < 3; ++c)
-                image.f32()[static_cast<std::size_t>((y * width + x) * channels + c)] = value[c];
-        }
-    return image;
-}
-
 TEST(ShBands, AConstantNeedsOneBandAtAnySize) {
     for (const glm::ivec2 size : {glm::ivec2(1, 1), {2, 1}, {3, 5}, {64, 32}}) {
-        const ShBands bands = computeShBands(
-            latLong(size.x, size.y, [](const glm::vec3&) { return glm::vec3(1.0f, 2.0f, 0.5f); }));
+        const ShBands bands = computeShBands(test::latLongImage(
+            size.x, size.y, [](const glm::vec3&) { return glm::vec3(1.0f, 2.0f, 0.5f); }));
         EXPECT_NEAR(bands.rms, std::sqrt((1.0 + 4.0 + 0.25) / 3.0), 1e-6);
         for (const ShBandSum& sum : bands.sums) {
             EXPECT_LT(sum.rmse, 1e-5) << size.x;
@@ -42,7 +29,7 @@ TEST(ShBands, AConstantNeedsOneBandAtAnySize) {
 TEST(ShBands, ACosineNeedsTwo) {
     // L_c = 2 + a_c · d: the first band leaves |a_c|² / 3 of each channel, the second nothing.
     const glm::vec3 a(0.5f, -1.0f, 0.25f);
-    const Image image = latLong(
+    const Image image = test::latLongImage(
         256, 128,
         [&](const glm::vec3& d) {
             return glm::vec3(2.0f + glm::dot(a, d), 2.0f, 2.0f + 2.0f * glm::dot(a, d));
@@ -63,7 +50,7 @@ TEST(ShBands, ACosineNeedsTwo) {
 
 // Parseval: what a band holds is what its sum comes closer by.
 TEST(ShBands, EnergiesOfTheBandsAddUpToTheEnvironment) {
-    const ShBands bands = computeShBands(latLong(512, 256, [](const glm::vec3& d) {
+    const ShBands bands = computeShBands(test::latLongImage(512, 256, [](const glm::vec3& d) {
         return glm::vec3(d.x > 0.2f ? 3.0f : 0.5f, 1.0f, 2.0f + d.y * d.z);
     }));
     double held = 0.0;
@@ -79,8 +66,8 @@ TEST(ShBands, EnergiesOfTheBandsAddUpToTheEnvironment) {
 TEST(ShBands, HalfASphereByItsClosedForm) {
     // L = 1 above the horizon: bands hold pi, 3pi/4, 0, 7pi/64, 0, 11pi/256 … of its energy 2pi,
     // because ∫_0^1 P_l = 1/2, 1/2, 0, -1/8, 0, 1/16, 0, -5/128 and c_l² = pi (2l+1) (∫ P_l)².
-    const ShBands bands = computeShBands(
-        latLong(512, 256, [](const glm::vec3& d) { return glm::vec3(d.y > 0.0f ? 1.0f : 0.0f); }));
+    const ShBands bands = computeShBands(test::latLongImage(
+        512, 256, [](const glm::vec3& d) { return glm::vec3(d.y > 0.0f ? 1.0f : 0.0f); }));
     constexpr double kLegendre[8] = {1.0, 0.5, 0.0, -0.125, 0.0, 0.0625, 0.0, -5.0 / 128.0};
     double left = 2.0; // of ∫ L² / pi
     for (std::size_t l = 0; l < 8; ++l) {
@@ -100,7 +87,7 @@ TEST(ShBands, EveryBasisFunctionAppearsWithItsBand) {
     std::array<double, 64> basis{};
     for (int i = 0; i < 64; ++i) {
         const int l = static_cast<int>(std::sqrt(static_cast<double>(i)));
-        const Image image = latLong(128, 64, [&](const glm::vec3& d) {
+        const Image image = test::latLongImage(128, 64, [&](const glm::vec3& d) {
             evaluateSh(8, glm::dvec3(d), basis);
             return glm::vec3(static_cast<float>(basis[static_cast<std::size_t>(i)]));
         });

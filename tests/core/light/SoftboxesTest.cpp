@@ -13,7 +13,7 @@ using namespace patina;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 Softbox box(float azimuthDeg, float elevationDeg, float widthDeg, float heightDeg,
             float rollDeg = 0.0f, float softness = 0.0f) {
@@ -43,7 +43,7 @@ double flux(const Image& image) {
 
 // The radiance in a direction, nearest texel.
 float lookUp(const Image& image, const glm::dvec3& d) {
-    const double u = 0.5 + std::atan2(d.x, -d.z) / (2.0 * kPi), v = std::acos(d.y) / kPi;
+    const double u = 0.5 + std::atan2(d.x, -d.z) / (2.0 * pi), v = std::acos(d.y) / pi;
     return image
         .linear(static_cast<int>(u * image.width()) % image.width(),
                 std::min(static_cast<int>(v * image.height()), image.height() - 1))
@@ -61,8 +61,8 @@ TEST(LatLongGrid, TexelsCoverTheSphere) {
             if (y < height / 2)
                 upper += grid.width() * grid.projectedSolidAngle(y);
         }
-        EXPECT_NEAR(sphere, 4.0 * kPi, 1e-12);
-        EXPECT_NEAR(upper, kPi, 1e-12);
+        EXPECT_NEAR(sphere, 4.0 * pi, 1e-12);
+        EXPECT_NEAR(upper, pi, 1e-12);
         EXPECT_NEAR(glm::length(grid.directionAt(1.5, 0.5) - grid.direction(1, 0)), 0.0, 1e-15);
     }
 }
@@ -79,7 +79,7 @@ TEST(LatLongGrid, AnglesAndDirectionsAreInverse) {
 }
 
 TEST(Softboxes, SolidAngleIsThatOfAPyramid) {
-    EXPECT_NEAR(solidAngle(box(0, 0, 90, 90)), 4.0 * kPi / 6.0, 1e-12); // a cube's face
+    EXPECT_NEAR(solidAngle(box(0, 0, 90, 90)), 4.0 * pi / 6.0, 1e-12); // a cube's face
     EXPECT_NEAR(solidAngle(box(0, 0, 0.5f, 1)), glm::radians(0.5) * glm::radians(1.0), 1e-8);
     EXPECT_NEAR(luminousSolidAngle(box(20, 70, 60, 30)), solidAngle(box(0, 0, 60, 30)), 1e-12);
 }

@@ -1,6 +1,7 @@
 // Every term of the shading models against closed forms and independently computed values.
 #include "core/math/Quadrature.h"
 #include "tests/core/math/LobeQuadrature.h"
+#include "tests/core/math/RelativeError.h"
 
 #include <gtest/gtest.h>
 
@@ -10,18 +11,11 @@
 namespace patina::shading {
 namespace {
 
-constexpr std::array<float, 5> kRoughness = {0.1f, 0.25f, 0.5f, 0.75f, 1.0f};
-
-BrdfModel withTerms(int distribution, int visibility = kVisibilitySmithCorrelated) {
+BrdfModel withVisibility(int distribution, int visibility = kVisibilitySmithCorrelated) {
     BrdfModel m = defaultBrdfModel();
     m.distribution = distribution;
     m.visibility = visibility;
     return m;
-}
-
-void expectRelative(double actual, double expected, double tolerance, const char* what) {
-    EXPECT_LE(std::abs(actual - expected), tolerance * std::abs(expected) + 1e-12)
-        << what << ": " << actual << " instead of " << expected;
 }
 
 // ∫ f cos dω over the hemisphere of lights, by Gauss-Legendre in N·L and the midpoint rule in the
@@ -84,7 +78,7 @@ TEST(Distributions, ProjectedAreaIsOne) {
                 const double s = (i + 0.5) / kSteps, a2 = double(alpha) * alpha;
                 const double q = 1.0 + (a2 - 1.0) * s, sin2 = a2 * s / q;
                 sum += M_PI * a2 / (q * q) / kSteps *
-                       distribution(withTerms(d), static_cast<float>(std::sqrt((1.0 - s) / q)),
+                       distribution(withVisibility(d), static_cast<float>(std::sqrt((1.0 - s) / q)),
                                     static_cast<float>(sin2), alpha);
             }
             EXPECT_NEAR(sum, 1.0, 2e-5) << "D " << d << ", r " << r;
@@ -126,7 +120,7 @@ TEST(Visibilities, ClosedFormValues) {
         for (int k = 0; k < 3; ++k)
             for (int i = 0; i < 4; ++i) {
                 const float NoV = kPairs[i][0], NoL = kPairs[i][1];
-                const BrdfModel m = withTerms(kDistributionGGX, kVisibility[k]);
+                const BrdfModel m = withVisibility(kDistributionGGX, kVisibility[k]);
                 expectRelative(visibility(m, NoV, NoL, 0.5f, alpha) * 4.0f * NoV * NoL,
                                kG2[r][k][i], 1e-5, "G2");
             }
@@ -142,10 +136,10 @@ TEST(Visibilities, CorrelatedMasksLessThanSeparable) {
             for (const float NoV : {0.05f, 0.3f, 1.0f})
                 for (const float NoL : {0.05f, 0.4f, 1.0f}) {
                     const float correlated =
-                        visibility(withTerms(d), NoV, NoL, 0.5f, alpha) * 4.0f * NoV * NoL;
-                    const float separable =
-                        visibility(withTerms(d, kVisibilitySmithSeparable), NoV, NoL, 0.5f, alpha) *
-                        4.0f * NoV * NoL;
+                        visibility(withVisibility(d), NoV, NoL, 0.5f, alpha) * 4.0f * NoV * NoL;
+                    const float separable = visibility(withVisibility(d, kVisibilitySmithSeparable),
+                                                       NoV, NoL, 0.5f, alpha) *
+                                            4.0f * NoV * NoL;
                     EXPECT_GE(correlated, separable * (1.0f - 1e-6f));
                     EXPECT_LE(correlated, 1.0f + 1e-6f);
                     if (NoL == 1.0f) { // no shadow: what remains is the masking of v

@@ -16,7 +16,7 @@
 namespace patina {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 using Quad = std::array<glm::dvec3, 4>;
 
 std::vector<double> project(std::span<const glm::dvec3> corners, int order) {
@@ -89,11 +89,11 @@ TEST(PolygonHarmonics, FacesOfACubeAddUpToTheSphere) {
         for (const double s : {-1.0, 1.0}) {
             const glm::dvec3 n = s * axes[a], x = axes[(a + 1) % 3], y = glm::cross(n, x);
             const std::vector<double> face = project(rectangle(n, x, y), 8);
-            EXPECT_NEAR(face[0], 4.0 * kPi / 6.0 * std::sqrt(0.25 / kPi), 1e-14);
+            EXPECT_NEAR(face[0], 4.0 * pi / 6.0 * std::sqrt(0.25 / pi), 1e-14);
             for (std::size_t k = 0; k < 64; ++k)
                 sum[k] += face[k];
         }
-    EXPECT_NEAR(sum[0], std::sqrt(4.0 * kPi), 1e-13);
+    EXPECT_NEAR(sum[0], std::sqrt(4.0 * pi), 1e-13);
     for (std::size_t k = 1; k < 64; ++k)
         EXPECT_NEAR(sum[k], 0.0, 1e-13) << k;
 }
@@ -115,7 +115,7 @@ TEST(PolygonHarmonics, TheOtherSideCountsNegative) {
     for (int l = 0; l < 8; ++l)
         irradiance +=
             cosine[static_cast<std::size_t>(l)] * many[static_cast<std::size_t>(shIndex(l, 0))];
-    EXPECT_NEAR(irradiance, kPi * shading::quadFormFactor(q[0], q[1], q[2], q[3]),
+    EXPECT_NEAR(irradiance, pi * shading::quadFormFactor(q[0], q[1], q[2], q[3]),
                 0.02 * irradiance); // what is left out beyond band 7
 }
 
@@ -140,7 +140,7 @@ TEST(PolygonHarmonics, DegenerateViewsAreDarkOrTheirLimit) {
 
     // Huge: half of all directions.
     const std::vector<double> wall = project(rectangle({0, 0, 1e-6}, {1e6, 0, 0}, {0, 1e6, 0}), 8);
-    const ZonalHarmonics half = zonalCap(0.5 * kPi);
+    const ZonalHarmonics half = zonalCap(0.5 * pi);
     for (int l = 0; l < 8; ++l)
         for (int m = -l; m <= l; ++m)
             EXPECT_NEAR(wall[static_cast<std::size_t>(shIndex(l, m))],
@@ -163,7 +163,7 @@ TEST(PolygonHarmonics, DegenerateViewsAreDarkOrTheirLimit) {
 
 TEST(PolygonHarmonics, SolidAngles) {
     const Quad octant{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 1}}};
-    EXPECT_NEAR(polygonSolidAngle(std::span(octant).first(3)), kPi / 2, 1e-15);
+    EXPECT_NEAR(polygonSolidAngle(std::span(octant).first(3)), pi / 2, 1e-15);
     // A rectangle 2a × 2b at distance d: 4 asin(a b / sqrt((a² + d²) (b² + d²))).
     const double expected = 4.0 * std::asin(1.0 * 0.5 / std::sqrt((1.0 + 4.0) * (0.25 + 4.0)));
     EXPECT_NEAR(polygonSolidAngle(rectangle({0, 0, 2}, {1, 0, 0}, {0, 0.5, 0})), expected, 1e-15);

@@ -12,7 +12,7 @@
 namespace patina {
 
 namespace {
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 } // namespace
 
 void checkSampler(const std::string& name, const std::function<glm::vec3(glm::vec2)>& sample,
@@ -26,9 +26,9 @@ void checkSampler(const std::string& name, const std::function<glm::vec3(glm::ve
     for (int i = 0; i < kZ * kSub; ++i)
         for (int j = 0; j < kPhi * kSub; ++j) {
             const double z = zMin + (1.0 - zMin) * (i + 0.5) / (kZ * kSub);
-            const double phi = 2.0 * kPi * (j + 0.5) / (kPhi * kSub);
+            const double phi = 2.0 * pi * (j + 0.5) / (kPhi * kSub);
             const double r = std::sqrt(1.0 - z * z);
-            const double weight = (1.0 - zMin) / (kZ * kSub) * 2.0 * kPi / (kPhi * kSub);
+            const double weight = (1.0 - zMin) / (kZ * kSub) * 2.0 * pi / (kPhi * kSub);
             const double p = pdf({r * std::cos(phi), r * std::sin(phi), z}) * weight;
             expected[(i / kSub) * kPhi + j / kSub] += p * kSamples;
             total += p;
@@ -48,9 +48,9 @@ void checkSampler(const std::string& name, const std::function<glm::vec3(glm::ve
         }
         double phi = std::atan2(d.y, d.x);
         if (phi < 0.0)
-            phi += 2.0 * kPi;
+            phi += 2.0 * pi;
         const int i = std::min(static_cast<int>((d.z - zMin) / (1.0 - zMin) * kZ), kZ - 1);
-        observed[i * kPhi + std::min(static_cast<int>(phi / (2.0 * kPi) * kPhi), kPhi - 1)] += 1;
+        observed[i * kPhi + std::min(static_cast<int>(phi / (2.0 * pi) * kPhi), kPhi - 1)] += 1;
     }
     double chi2 = 0.0, pooledExpected = kSamples * (1.0 - total), pooledObserved = outside;
     int cells = 0;

@@ -14,7 +14,7 @@
 namespace patina {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // The first 16 points of the unscrambled sequence (Joe & Kuo direction numbers), times 16.
 constexpr std::array<std::array<int, 2>, 16> kSobol16 = {{{0, 0},
@@ -110,7 +110,7 @@ TEST(Warp, CosineHemisphere) {
 TEST(Warp, UniformSphere) {
     checkSampler(
         "sphere", [](glm::vec2 u) { return uniformSphere(u); },
-        [](const glm::dvec3&) { return 0.25 / kPi; }, -1.0);
+        [](const glm::dvec3&) { return 0.25 / pi; }, -1.0);
 }
 
 TEST(Warp, ReflectedVisibleNormals) {
@@ -140,8 +140,8 @@ TEST(Warp, ConcentricDiscKeepsAreaAndFillsTheDisc) {
             const float r2 = glm::dot(p, p);
             ASSERT_LE(r2, 1.0f + 1e-6f);
             ++rings[std::min(static_cast<int>(r2 * 4.0f), 3)];
-            const double angle = std::atan2(p.y, p.x) + kPi;
-            ++sectors[std::min(static_cast<int>(angle / (2.0 * kPi) * 8.0), 7)];
+            const double angle = std::atan2(p.y, p.x) + pi;
+            ++sectors[std::min(static_cast<int>(angle / (2.0 * pi) * 8.0), 7)];
         }
     for (const int n : rings)
         EXPECT_NEAR(n, kGrid * kGrid / 4, kGrid * kGrid / 400);

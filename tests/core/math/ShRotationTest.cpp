@@ -2,6 +2,7 @@
 #include "core/math/ShRotation.h"
 
 #include "core/math/Sampling.h"
+#include "tests/core/light/LatLongPicture.h"
 
 #include <gtest/gtest.h>
 
@@ -14,21 +15,7 @@
 namespace patina {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-template <class Radiance>
-Image latLong(int width, int height, Radiance&& radiance) {
-    Image image(width, height, 3, PixelType::F32, ColorEncoding::Linear);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const glm::vec3 d = shading::directionFromLatLong(
-                {(x + 0.5f) / static_cast<float>(width), (y + 0.5f) / static_cast<float>(height)});
-            const glm::vec3 value = radiance(glm::dvec3(d));
-            for (int c = 0; c < 3; ++c)
-                image.f32()[(static_cast<std::size_t>(y) * width + x) * 3 + c] = value[c];
-        }
-    return image;
-}
+using std::numbers::pi;
 
 // Active rotation by 40° about (1, 2, 2) / 3.
 ShRotation knownRotation(int order) {
@@ -140,11 +127,11 @@ TEST(Rotation, EqualsEvaluationInTheRotatedDirection) {
 TEST(Rotation, IsExactWhereTheZonalAxisStaysOrTurnsRound) {
     // Euler angles are not unique there, and nearly so just beside it.
     for (const double tilt : {0.0, 1e-300, 1e-17, 1e-12, 1e-8, 1e-4})
-        for (const double around : {0.0, 0.7, kPi / 2, kPi, -2.5}) {
+        for (const double around : {0.0, 0.7, pi / 2, pi, -2.5}) {
             const glm::dmat3 nearly = turn({0.6, 0.8, 0.0}, tilt) * turn({0, 0, 1}, around);
             EXPECT_LT(worstOf(nearly), 1e-12) << tilt << " " << around;
-            EXPECT_LT(worstOf(turn({1, 0, 0}, kPi) * nearly), 1e-12) << tilt << " " << around;
-            EXPECT_LT(worstOf(nearly * turn({0, 1, 0}, kPi)), 1e-12) << tilt << " " << around;
+            EXPECT_LT(worstOf(turn({1, 0, 0}, pi) * nearly), 1e-12) << tilt << " " << around;
+            EXPECT_LT(worstOf(nearly * turn({0, 1, 0}, pi)), 1e-12) << tilt << " " << around;
         }
     EXPECT_LT(worstOf(glm::dmat3(1.0)), 1e-14);
 }
@@ -181,14 +168,15 @@ TEST(Rotation, AboutYTurnsAnEnvironmentLikeItsImage) {
         return glm::vec3(static_cast<float>(1.0 + d.x + 2.0 * d.z * d.x + d.y * d.z),
                          static_cast<float>(d.z * d.z * d.z), static_cast<float>(d.y));
     };
-    const glm::dmat3 quarter = turn({0, 1, 0}, kPi / 2);
+    const glm::dmat3 quarter = turn({0, 1, 0}, pi / 2);
     EXPECT_NEAR((quarter * glm::dvec3(0, 0, 1)).x, 1.0, 1e-12);
-    const auto original = projectLatLong(latLong(128, 64, scene), 5);
+    const auto original = projectLatLong(test::latLongImage(128, 64, scene), 5);
     const auto expected = projectLatLong(
-        latLong(128, 64, [&](const glm::dvec3& d) { return scene(glm::transpose(quarter) * d); }),
+        test::latLongImage(128, 64,
+                           [&](const glm::dvec3& d) { return scene(glm::transpose(quarter) * d); }),
         5);
     std::vector<glm::vec3> rotated(25);
-    ShRotation::aboutY(kPi / 2, 5).apply(std::span<const glm::vec3>(original), rotated);
+    ShRotation::aboutY(pi / 2, 5).apply(std::span<const glm::vec3>(original), rotated);
     for (int i = 0; i < 25; ++i)
         EXPECT_LT(glm::length(rotated[i] - expected[i]), 2e-6f) << i;
 

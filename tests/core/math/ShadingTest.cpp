@@ -3,6 +3,7 @@
 
 #include "core/light/Ibl.h"
 #include "core/math/Sampling.h"
+#include "tests/core/math/RelativeError.h"
 
 #include <gtest/gtest.h>
 
@@ -12,13 +13,6 @@
 
 namespace patina::shading {
 namespace {
-
-constexpr std::array<float, 5> kRoughness = {0.1f, 0.25f, 0.5f, 0.75f, 1.0f};
-
-void expectRelative(double actual, double expected, double tolerance, const char* what) {
-    EXPECT_LE(std::abs(actual - expected), tolerance * std::abs(expected) + 1e-12)
-        << what << ": " << actual << " instead of " << expected;
-}
 
 TEST(Distribution, ClosedFormValues) {
     // D = a² / (pi ((n·h)² (a² - 1) + 1)²), alpha = perceptualRoughness².

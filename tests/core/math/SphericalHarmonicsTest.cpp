@@ -3,6 +3,7 @@
 
 #include "core/math/Quadrature.h"
 #include "core/math/Sampling.h"
+#include "tests/core/light/LatLongPicture.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,7 @@
 namespace patina {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // First 25 basis values with Condon-Shortley phase. Source: Green 2003 and DirectXMath's constants;
 // agree with scipy.special.sph_harm made real to 4e-16.
@@ -157,7 +158,7 @@ TEST(ShBasis, AdditionTheorem) {
         double sum = 0.0;
         for (int m = -l; m <= l; ++m)
             sum += a[shIndex(l, m)] * b[shIndex(l, m)];
-        EXPECT_NEAR(sum, (2 * l + 1) / (4.0 * kPi) * legendre(l, glm::dot(kD2, kD3)), 1e-12);
+        EXPECT_NEAR(sum, (2 * l + 1) / (4.0 * pi) * legendre(l, glm::dot(kD2, kD3)), 1e-12);
         if (l < 5) {
             EXPECT_NEAR(sum, kKnown[l], 1e-11);
         }
@@ -169,13 +170,13 @@ TEST(ShBasis, IsOrthonormalUpToEightBands) {
     const GaussLegendre rule(8);
     for (int i = 0; i < 8; ++i)
         for (int k = 0; k < 16; ++k) {
-            const double z = 2.0 * rule.node01(i) - 1.0, phi = 2.0 * kPi * k / 16.0;
+            const double z = 2.0 * rule.node01(i) - 1.0, phi = 2.0 * pi * k / 16.0;
             const double r = std::sqrt(1.0 - z * z);
             std::array<double, 64> y{};
             evaluateSh(8, glm::dvec3(r * std::cos(phi), r * std::sin(phi), z), y);
             for (int a = 0; a < 64; ++a)
                 for (int b = 0; b < 64; ++b)
-                    gram[a * 64 + b] += 2.0 * rule.weight01(i) * 2.0 * kPi / 16.0 * y[a] * y[b];
+                    gram[a * 64 + b] += 2.0 * rule.weight01(i) * 2.0 * pi / 16.0 * y[a] * y[b];
         }
     for (int a = 0; a < 64; ++a)
         for (int b = 0; b < 64; ++b)
@@ -208,20 +209,6 @@ TEST(CosineConvolution, ClosedFormValues) {
     for (int l = 0; l < 5; ++l)
         for (int m = -l; m <= l; ++m)
             EXPECT_NEAR(c[shIndex(l, m)].y, 2.0 * kA[l], 1e-5) << l << " " << m;
-}
-
-template <class Radiance>
-Image latLong(int width, int height, Radiance&& radiance) {
-    Image image(width, height, 3, PixelType::F32, ColorEncoding::Linear);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const glm::vec3 d = shading::directionFromLatLong(
-                {(x + 0.5f) / static_cast<float>(width), (y + 0.5f) / static_cast<float>(height)});
-            const glm::vec3 value = radiance(glm::dvec3(d));
-            for (int c = 0; c < 3; ++c)
-                image.f32()[(static_cast<std::size_t>(y) * width + x) * 3 + c] = value[c];
-        }
-    return image;
 }
 
 TEST(CosineConvolution, EnergyOfTheClampedCosine) {
@@ -258,8 +245,8 @@ TEST(CosineConvolution, EnergyOfTheClampedCosine) {
 TEST(Projection, ConstantIsExactAtAnySize) {
     // c_00 = sqrt(4pi) c and nothing else: a sin(theta) weight would be off by 2.6 % at 4 rows.
     for (const int height : {1, 3, 4, 64}) {
-        const Image image =
-            latLong(2 * height, height, [](const glm::dvec3&) { return glm::vec3(1, 2, 0.5); });
+        const Image image = test::latLongImage(
+            2 * height, height, [](const glm::dvec3&) { return glm::vec3(1, 2, 0.5); });
         const auto c = projectLatLong(image, 5);
         EXPECT_NEAR(c[0].x, 3.54490770181, 1e-5) << height;
         EXPECT_NEAR(c[0].y, 2 * 3.54490770181, 2e-5) << height;
@@ -271,7 +258,7 @@ TEST(Projection, ConstantIsExactAtAnySize) {
 TEST(Projection, RecoversEveryBasisFunctionInPlace) {
     // Catches mirrored axes, swapped signs and wrong zonal axes, coefficient by coefficient.
     for (int i = 0; i < 64; ++i) {
-        const Image image = latLong(256, 128, [&](const glm::dvec3& d) {
+        const Image image = test::latLongImage(256, 128, [&](const glm::dvec3& d) {
             std::array<double, 64> y{};
             evaluateSh(8, d, y);
             return glm::vec3(static_cast<float>(y[i]));
@@ -287,15 +274,15 @@ TEST(Projection, HemisphereIsExact) {
     // -0.58618401, 0; here the axis is +Y, so band l is c_l sqrt(4pi / (2l+1)) Y_lm(+Y).
     constexpr std::array<double, 5> kZonal = {1.77245385091, 1.53499006192, 0.0, -0.586184012479,
                                               0.0};
-    const Image image =
-        latLong(64, 32, [](const glm::dvec3& d) { return glm::vec3(d.y > 0.0 ? 1.0f : 0.0f); });
+    const Image image = test::latLongImage(
+        64, 32, [](const glm::dvec3& d) { return glm::vec3(d.y > 0.0 ? 1.0f : 0.0f); });
     const auto c = projectLatLong(image, 5);
     std::array<double, 25> y{};
     evaluateSh(5, glm::dvec3(0, 1, 0), y);
     for (int l = 0; l < 5; ++l)
         for (int m = -l; m <= l; ++m)
             EXPECT_NEAR(c[shIndex(l, m)].x,
-                        kZonal[l] * std::sqrt(4.0 * kPi / (2 * l + 1)) * y[shIndex(l, m)], 2e-6)
+                        kZonal[l] * std::sqrt(4.0 * pi / (2 * l + 1)) * y[shIndex(l, m)], 2e-6)
                 << l << " " << m;
 }
 
@@ -317,12 +304,12 @@ TEST(Projection, OneTexelSunKeepsItsEnergyAndPlace) {
             std::array<double, 25> mean{};
             constexpr int kSteps = 64;
             for (int i = 0; i < kSteps * kSteps; ++i) {
-                const double top = std::cos(kPi * row / 64.0);
-                const double bottom = std::cos(kPi * (row + 1) / 64.0);
+                const double top = std::cos(pi * row / 64.0);
+                const double bottom = std::cos(pi * (row + 1) / 64.0);
                 const double y = top + (bottom - top) * (i / kSteps + 0.5) / kSteps;
                 const double r = std::sqrt(1.0 - y * y);
                 const double u = (column + (i % kSteps + 0.5) / kSteps) / 128.0;
-                const double phi = 2.0 * kPi * (u - 0.5);
+                const double phi = 2.0 * pi * (u - 0.5);
                 std::array<double, 25> basis{};
                 evaluateSh(5, glm::dvec3(r * std::sin(phi), y, -r * std::cos(phi)), basis);
                 for (int k = 0; k < 25; ++k)

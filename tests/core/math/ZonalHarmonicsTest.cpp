@@ -14,7 +14,7 @@
 namespace patina {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // 2pi ∫ Y_l0 dz from cos(a) to 1, the definition.
 ZonalHarmonics capByQuadrature(double halfAngleRad) {
@@ -26,7 +26,7 @@ ZonalHarmonics capByQuadrature(double halfAngleRad) {
         const double z = from + length * rule.node01(i);
         evaluateSh(8, glm::dvec3(std::sqrt(1.0 - z * z), 0.0, z), y);
         for (int l = 0; l < 8; ++l)
-            c[l] += 2.0 * kPi * length * rule.weight01(i) * y[shIndex(l, 0)];
+            c[l] += 2.0 * pi * length * rule.weight01(i) * y[shIndex(l, 0)];
     }
     return c;
 }
@@ -78,9 +78,9 @@ TEST(ZonalHarmonics, Caps) {
     // Half of all directions: 1.77245385091, 1.53499006192, 0, -0.586184012479, 0, 0.367410273855
     // and irradiance pi (1 + n.z) / 2, to which two bands suffice.
     std::vector<double> half(4, 0.0);
-    addZonal(zonalCap(kPi / 2), {0, 0, 1}, 1.0, half);
+    addZonal(zonalCap(pi / 2), {0, 0, 1}, 1.0, half);
     for (const double z : {1.0, 0.5, 0.0, -0.5, -1.0})
-        EXPECT_NEAR(irradiance(half, {std::sqrt(1 - z * z), 0, z}), kPi * (1 + z) / 2, 1e-12);
+        EXPECT_NEAR(irradiance(half, {std::sqrt(1 - z * z), 0, z}), pi * (1 + z) / 2, 1e-12);
 }
 
 TEST(ZonalHarmonics, SmallLightsKeepTheirDigits) {
@@ -89,7 +89,7 @@ TEST(ZonalHarmonics, SmallLightsKeepTheirDigits) {
     for (const double a : {1e-3, 1e-5, 1e-8}) {
         const ZonalHarmonics c = zonalCap(a), point = zonalDirectional();
         const double half = std::sin(a / 2);
-        const double solidAngle = 4.0 * kPi * half * half;
+        const double solidAngle = 4.0 * pi * half * half;
         for (int l = 0; l < 8; ++l)
             EXPECT_NEAR(c[l] / (solidAngle * point[l]), 1.0 - l * (l + 1) / 8.0 * a * a, 1e-10)
                 << a << " " << l;
@@ -102,7 +102,7 @@ TEST(ZonalHarmonics, DiscsAndSpheresAreCapsOfTheirSize) {
             EXPECT_NEAR(a[l], b[l], 1e-12) << l;
     };
     expectSame(zonalDisc(3.0, 4.0), zonalCap(std::atan2(3.0, 4.0)));
-    expectSame(zonalDisc(2.0, 0.0), zonalCap(kPi / 2));
+    expectSame(zonalDisc(2.0, 0.0), zonalCap(pi / 2));
     expectSame(zonalDisc(0.0, 1.0), zonalCap(0.0));
     expectSame(zonalSphere(3.0, 5.0), zonalCap(std::asin(0.6)));
     expectSame(zonalSphere(0.0, 1.0), ZonalHarmonics{});
@@ -110,7 +110,7 @@ TEST(ZonalHarmonics, DiscsAndSpheresAreCapsOfTheirSize) {
     expectSame(zonalSphere(2.0, 1.0), everywhere);
     expectSame(zonalSphere(2.0, 0.0), everywhere);
     // Touching, as the sine's root is steep: half of all directions from outside.
-    EXPECT_NEAR(zonalSphere(1.0, 1.0 + 1e-12)[0], zonalCap(kPi / 2)[0], 1e-5);
+    EXPECT_NEAR(zonalSphere(1.0, 1.0 + 1e-12)[0], zonalCap(pi / 2)[0], 1e-5);
 }
 
 TEST(ZonalHarmonics, IrradianceOfCaps) {
@@ -131,7 +131,7 @@ TEST(ZonalHarmonics, IrradianceOfCaps) {
             EXPECT_NEAR(irradiance(c, d), order < 5 ? cap.order3 : cap.order5, 1e-10)
                 << cap.halfAngleDeg << " " << order;
             const double sine = std::sin(glm::radians(cap.halfAngleDeg));
-            EXPECT_NEAR(kPi * sine * sine, cap.exact, 1e-10);
+            EXPECT_NEAR(pi * sine * sine, cap.exact, 1e-10);
         }
     // Off the axis by 0, 20, 40 and 60 degrees, 30 degrees wide, nine coefficients.
     constexpr double kOff[4] = {0.815700498314, 0.754721596239, 0.592092697123, 0.380227017844};
@@ -142,7 +142,7 @@ TEST(ZonalHarmonics, IrradianceOfCaps) {
         const double t = glm::radians(20.0 * i);
         EXPECT_NEAR(irradiance(c, {0.6 * std::sin(t), 0.8 * std::sin(t), std::cos(t)}), kOff[i],
                     1e-10);
-        EXPECT_NEAR(kPi / 4.0 * std::cos(t), kExact[i], 1e-10);
+        EXPECT_NEAR(pi / 4.0 * std::cos(t), kExact[i], 1e-10);
     }
 }
 
@@ -156,7 +156,7 @@ TEST(ZonalHarmonics, DirectionalLights) {
         addZonal(zonalDirectional(), d, 5.0 * directionalScale(order), c);
         EXPECT_NEAR(irradiance(c, d), 5.0, 1e-12) << order;
         if (order >= 2 && order <= 6) {
-            EXPECT_NEAR(kPi * directionalScale(order), kScale[order - 2], 1e-10) << order;
+            EXPECT_NEAR(pi * directionalScale(order), kScale[order - 2], 1e-10) << order;
         }
     }
     // Nine coefficients of irradiance 1: 0.09375 + z / 2 + 0.46875 z².

@@ -8,13 +8,7 @@
 namespace patina {
 namespace {
 
-class FbxImport : public test::ImportTest {
-  protected:
-    static void expectNear(glm::vec3 a, glm::vec3 b) {
-        EXPECT_LT(glm::distance(a, b), 1e-5f)
-            << a.x << " " << a.y << " " << a.z << " instead of " << b.x << " " << b.y << " " << b.z;
-    }
-};
+class FbxImport : public test::ImportTest {};
 
 TEST_F(FbxImport, TextAndBinaryHoldTheSame) {
     folder.write("textures/wood.png", std::string_view("any"));

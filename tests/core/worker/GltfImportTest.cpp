@@ -18,11 +18,6 @@ using testing::IsEmpty;
 
 class GltfImport : public test::ImportTest {};
 
-void expectNear(glm::vec3 a, glm::vec3 b, float tolerance = 1e-5f) {
-    EXPECT_LT(glm::distance(a, b), tolerance)
-        << a.x << " " << a.y << " " << a.z << " instead of " << b.x << " " << b.y << " " << b.z;
-}
-
 TEST_F(GltfImport, GlbDataUriAndFileHoldTheSame) {
     GltfBuilder builder;
     builder.node({{"mesh", builder.triangle()}, {"name", "one"}});

@@ -8,6 +8,7 @@
 #include "tests/support/TemporaryFolder.h"
 
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <map>
@@ -63,6 +64,10 @@ class ImportTest : public testing::Test {
     }
     static void TearDownTestSuite() { s_worker.reset(); }
     static WorkerClient& worker() { return *s_worker; }
+    static void expectNear(glm::vec3 a, glm::vec3 b, float tolerance = 1e-5f) {
+        EXPECT_LT(glm::distance(a, b), tolerance)
+            << a.x << " " << a.y << " " << a.z << " instead of " << b.x << " " << b.y << " " << b.z;
+    }
 
     // An empty model after a reported failure.
     ImportedModel import(const std::string& name, std::string_view content) {

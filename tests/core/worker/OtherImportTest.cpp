@@ -14,11 +14,6 @@ class ColladaImport : public test::ImportTest {};
 class PlyImport : public test::ImportTest {};
 class StlImport : public test::ImportTest {};
 
-void expectNear(glm::vec3 a, glm::vec3 b) {
-    EXPECT_LT(glm::distance(a, b), 1e-5f)
-        << a.x << " " << a.y << " " << a.z << " instead of " << b.x << " " << b.y << " " << b.z;
-}
-
 TEST_F(ColladaImport, UnitsAndAxes) {
     // The first corner sits at the node's translation (10, 20, 30).
     const ImportedModel metres = import("a.dae", test::daeQuad("1", "Y_UP"));
