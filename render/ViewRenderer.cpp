@@ -49,9 +49,12 @@ Result<void> ViewRenderer::Impl::show(const FrameSettings& frame, bool overlaysD
             done = overlay.draw(Canvas::of(targets), targets, shared.scene, lastBlock, frame.camera,
                                 settings);
         }
-        return done ? shared.screen.present(targets, Canvas::window(targets, targetFramebuffer))
-                    : done;
+        if (!done || targetFramebuffer == kNowhere)
+            return done;
+        return shared.screen.present(targets, Canvas::window(targets, targetFramebuffer));
     }
+    if (targetFramebuffer == kNowhere)
+        return {};
     const Canvas canvas{targetFramebuffer, frame.shownWidth, frame.shownHeight};
     if (auto done = shared.screen.present(targets, canvas); !done || !frame.showOverlays)
         return done;
@@ -126,7 +129,7 @@ Result<void> ViewRenderer::render(const FrameSettings& wanted, unsigned targetFr
                                       frame.floats);
         !sized)
         return sized;
-    const Impl::GlScope scope(r.shared, targetFramebuffer);
+    const Impl::GlScope scope(r.shared, targetFramebuffer == kNowhere ? 0 : targetFramebuffer);
 
     const bool drawsScene =
         !keeps && !prepared && (r.sceneIsNew(frame) || !frame.reuseScene || frame.view.split);
@@ -148,6 +151,20 @@ Result<void> ViewRenderer::render(const FrameSettings& wanted, unsigned targetFr
     if (done)
         done = r.show(frame, displayed, targetFramebuffer);
     return done;
+}
+
+Result<void> ViewRenderer::present(unsigned targetFramebuffer, const PixelRectangle& part) const {
+    const Impl& r = *m_impl;
+    CHECK(r.targets.width() > 0);
+    const Impl::GlScope scope(r.shared, targetFramebuffer);
+    return r.shared.screen.present(r.targets,
+                                   {targetFramebuffer, part.width, part.height, part.x, part.y});
+}
+
+void ViewRenderer::resume() {
+    Impl& r = *m_impl;
+    if (r.drawnRevision != 0)
+        r.drawnRevision = r.shared.revision(r.lastFrame);
 }
 
 int ViewRenderer::accumulatedFrames() const {

@@ -26,6 +26,13 @@ class ViewRenderer {
     // (0: the window's), viewport 0,0 … width,height or shownWidth,shownHeight.
     Result<void> render(const FrameSettings& frame, unsigned targetFramebuffer);
 
+    // Instead of a framebuffer: the picture is only drawn, and present() shows it. Of overlays such
+    // a picture has those that are drawn at its own size.
+    static constexpr unsigned kNowhere = ~0u;
+    // Shows the last picture as it is, whatever has been set since, stretched to a part of a
+    // framebuffer. CHECKs that there was a frame.
+    Result<void> present(unsigned targetFramebuffer, const PixelRectangle& part) const;
+
     // Draws a slice of a frame's scene beside the one that is shown, and waits for it: of about
     // `budgetMs`, by the time that slices before took. True: the frame is complete, and render()
     // shows it as if it had drawn it in one piece. What is set meanwhile, and settings of another
@@ -39,6 +46,9 @@ class ViewRenderer {
     // Whether the last frame shows the scene as these settings want it, as fine as they do.
     [[nodiscard]] bool isCurrent(const FrameSettings& frame) const;
 
+    // The scene shows again what the last frame was drawn of, after something else: the next frame
+    // goes on from there.
+    void resume();
     // Frames that the last one is the mean of; kSteadyFrames: more will not change it.
     [[nodiscard]] int accumulatedFrames() const;
     static constexpr int kSteadyFrames = 8;

@@ -7,6 +7,9 @@
 #include "render/ViewRenderer.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <epoxy/gl.h>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -25,15 +28,32 @@ struct WallLight {
 struct Shown {
     CellView cell;
     std::unique_ptr<ViewRenderer> view;
-    bool drawn = false; // the picture is that of the cell
+    bool hasPicture = false;
+    bool drawn = false;   // the picture is that of the cell
+    int frames = 0;       // that it is the mean of
+    std::size_t turn = 0; // when it was drawn last: Counts::pictures
+
+    // Whether another frame would change it.
+    [[nodiscard]] bool isDue() const {
+        if (cell.waits)
+            return false;
+        return !drawn ||
+               (cell.frame.accumulate && frames > 0 && frames < ViewRenderer::kSteadyFrames);
+    }
 };
+
+double millisecondsSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+        .count();
+}
 
 } // namespace
 
 bool CellView::sameAs(const CellView& other) const {
-    return light == other.light && nearShadows == other.nearShadows &&
-           showSameScene(frame, other.frame) && showSameOverlays(frame, other.frame) &&
-           frame.dither == other.frame.dither && document == other.document;
+    return light == other.light && sceneLight == other.sceneLight &&
+           nearShadows == other.nearShadows && showSameScene(frame, other.frame) &&
+           showSameOverlays(frame, other.frame) && frame.dither == other.frame.dither &&
+           document == other.document;
 }
 
 struct WallRenderer::Impl {
@@ -43,6 +63,8 @@ struct WallRenderer::Impl {
     LightId lightOf(const CellView& cell);
     LightId show(const CellView& cell); // returns what lights it
     Result<void> draw(Shown& shown);
+    [[nodiscard]] Shown* next(); // null: all are drawn
+    void letLightsGo();          // that no cell has
 
     SceneRenderer& scene;
     std::vector<Shown> cells;
@@ -53,6 +75,8 @@ struct WallRenderer::Impl {
 };
 
 LightId WallRenderer::Impl::lightOf(const CellView& cell) {
+    if (cell.sceneLight)
+        return kDocumentLight;
     // A cross-fade is of the document's mix, which only its own light knows.
     if (cell.document.secondEnvironment() != nullptr) {
         if (cell.light && documentTexels.lock() != cell.light)
@@ -86,11 +110,42 @@ Result<void> WallRenderer::Impl::draw(Shown& shown) {
     FrameSettings frame = shown.cell.frame;
     frame.light = show(shown.cell);
     frame.look.reset();
-    if (auto done = shown.view->render(frame, 0); !done)
+    if (shown.drawn)
+        shown.view->resume();
+    if (auto done = shown.view->render(frame, ViewRenderer::kNowhere); !done)
         return done;
-    shown.drawn = true;
-    ++counts.pictures;
+    shown.drawn = shown.hasPicture = true;
+    shown.frames = shown.view->accumulatedFrames();
+    shown.turn = ++counts.pictures;
     return {};
+}
+
+// What is to show something else first, in turn, so that none waits for long while all of them
+// change all the time; then one after the other is refined.
+Shown* WallRenderer::Impl::next() {
+    Shown* chosen = nullptr;
+    const auto isBefore = [](const Shown& a, const Shown& b) {
+        if (a.drawn != b.drawn)
+            return b.drawn;
+        return a.drawn ? a.turn > b.turn : a.turn < b.turn;
+    };
+    for (Shown& shown : cells)
+        if (shown.isDue() && (chosen == nullptr || isBefore(shown, *chosen)))
+            chosen = &shown;
+    return chosen;
+}
+
+void WallRenderer::Impl::letLightsGo() {
+    std::erase_if(lights, [&](const WallLight& light) {
+        const bool used = std::ranges::any_of(cells, [&](const Shown& shown) {
+            return !shown.cell.sceneLight && shown.cell.document.secondEnvironment() == nullptr &&
+                   shown.cell.light == light.texels &&
+                   shown.cell.document.environment() == light.environment;
+        });
+        if (!used)
+            scene.removeLight(light.id);
+        return !used;
+    });
 }
 
 WallRenderer::WallRenderer(SceneRenderer& scene)
@@ -101,36 +156,86 @@ WallRenderer::~WallRenderer() {
         m_impl->scene.removeLight(light.id);
 }
 
-Result<void> WallRenderer::draw(std::span<const CellView> cells) {
+void WallRenderer::set(std::span<const CellView> cells, bool sameCells) {
     Impl& r = *m_impl;
-    r.cells.resize(cells.size());
+    std::vector<Shown> before = std::exchange(r.cells, std::vector<Shown>(cells.size()));
+    const auto takeAlong = [](Shown& from, Shown& to) {
+        to.view = std::move(from.view);
+        to.hasPicture = from.hasPicture;
+        to.drawn = from.drawn;
+        to.frames = from.frames;
+        to.turn = from.turn;
+        from = {};
+    };
+    // Most often it is in its place; where cells are the same it is nowhere else.
+    const std::size_t places = sameCells && before.size() == cells.size() ? 1 : before.size();
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        for (std::size_t k = 0; k < places && !r.cells[i].view; ++k)
+            if (Shown& other = before[(i + k) % before.size()];
+                other.view && other.hasPicture && other.cell.sameAs(cells[i]))
+                takeAlong(other, r.cells[i]);
     for (std::size_t i = 0; i < cells.size(); ++i) {
         Shown& shown = r.cells[i];
-        if (!shown.view)
-            shown.view = std::make_unique<ViewRenderer>(r.scene);
-        if (shown.drawn && shown.cell.sameAs(cells[i]))
-            continue;
         shown.cell = cells[i];
+        if (shown.view)
+            continue;
+        if (sameCells && i < before.size() && before[i].view)
+            takeAlong(before[i], shown);
+        else
+            shown.view = std::make_unique<ViewRenderer>(r.scene);
         shown.drawn = false;
-        if (auto done = r.draw(shown); !done)
-            return done;
     }
-    // Only now: what is new may share textures with what goes.
-    std::erase_if(r.lights, [&](const WallLight& light) {
-        const bool used = std::ranges::any_of(r.cells, [&](const Shown& shown) {
-            return shown.cell.document.secondEnvironment() == nullptr &&
-                   shown.cell.light == light.texels &&
-                   shown.cell.document.environment() == light.environment;
-        });
-        if (!used)
-            r.scene.removeLight(light.id);
-        return !used;
-    });
-    return {};
+}
+
+void WallRenderer::invalidate() {
+    m_impl->documentTexels.reset();
+    for (Shown& shown : m_impl->cells)
+        shown.drawn = false;
+}
+
+Result<bool> WallRenderer::proceed(double budgetMs) {
+    Impl& r = *m_impl;
+    const auto start = std::chrono::steady_clock::now();
+    while (Shown* shown = r.next()) {
+        if (auto done = r.draw(*shown); !done)
+            return done.error();
+        if (std::isinf(budgetMs))
+            continue;
+        glFinish();
+        if (millisecondsSince(start) >= budgetMs)
+            break;
+    }
+    if (!complete())
+        return false;
+    r.letLightsGo(); // only now: what is new may share textures with what goes
+    return true;
+}
+
+bool WallRenderer::complete() const {
+    return m_impl->next() == nullptr;
+}
+
+std::size_t WallRenderer::due() const {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        m_impl->cells, [](const Shown& shown) { return !shown.drawn && !shown.cell.waits; }));
+}
+
+Result<void> WallRenderer::draw(std::span<const CellView> cells) {
+    set(cells, false);
+    const Result<bool> done = proceed();
+    return done ? Result<void>() : Result<void>(done.error());
+}
+
+std::size_t WallRenderer::size() const {
+    return m_impl->cells.size();
+}
+
+bool WallRenderer::hasPicture(std::size_t cell) const {
+    return cell < m_impl->cells.size() && m_impl->cells[cell].hasPicture;
 }
 
 const ViewRenderer& WallRenderer::picture(std::size_t cell) const {
-    CHECK(cell < m_impl->cells.size() && m_impl->cells[cell].drawn);
+    CHECK(hasPicture(cell));
     return *m_impl->cells[cell].view;
 }
 

@@ -10,6 +10,7 @@
 #include "render/view/FrameSettings.h"
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <span>
 
@@ -22,8 +23,12 @@ class ViewRenderer;
 struct CellView {
     Document document;          // as the cell shows it: documentOf() of core/cells
     EnvironmentTexelsPtr light; // of the picture that lights it (shownEnvironment()); null: none
+    // Lit by what SceneRenderer::setEnvironment() was given for the document instead. Not for cells
+    // beside others that cross-fade: those set it.
+    bool sceneLight = false;
     NearShadowsPtr nearShadows; // of its local lights under transfer; null: none
     FrameSettings frame;        // light and look are the document's
+    bool waits = false; // it is not drawn yet: something that its picture depends on is not there
 
     // Whether both show the same picture.
     [[nodiscard]] bool sameAs(const CellView& other) const;
@@ -35,20 +40,34 @@ class WallRenderer {
     explicit WallRenderer(SceneRenderer& scene);
     ~WallRenderer();
 
-    // Renews the picture of each cell that has changed since, by its place in the list; the others
-    // stay as they are. Environments that no cell has any more are let go. Errors: Internal from
-    // the driver.
+    // What the cells show from now on. One that shows what another one showed takes the picture
+    // along. Others have none until they are drawn, or, where cells are those of the last call with
+    // something edited (`sameCells`), the one that they had.
+    void set(std::span<const CellView> cells, bool sameCells);
+    // The scene has changed in a way that documents do not tell: all are drawn anew.
+    void invalidate();
+    // Draws cells that have changed, and the frames that are added to what is there
+    // (FrameSettings::accumulate), for about `budgetMs`, but at least one; it waits for what it
+    // draws where that is finite. True: nothing is left. Environments that no cell has any more are
+    // let go. Errors: Internal from the driver.
+    Result<bool> proceed(double budgetMs = std::numeric_limits<double>::infinity());
+    [[nodiscard]] bool complete() const;   // proceed() has nothing to do
+    [[nodiscard]] std::size_t due() const; // cells that do not show yet what they are to show
+    // set() and proceed() to the end.
     Result<void> draw(std::span<const CellView> cells);
 
-    // A cell's picture as it was drawn last. What looks into its scene (inspect(), readView(),
-    // pick()) is right for the cell whose document the scene shows: see show().
+    [[nodiscard]] std::size_t size() const; // cells
+    [[nodiscard]] bool hasPicture(std::size_t cell) const;
+    // A cell's picture as it was drawn last, which it must have been. What looks into its scene
+    // (inspect(), readView(), pick()) is right for the cell whose document the scene shows: see
+    // show().
     [[nodiscard]] const ViewRenderer& picture(std::size_t cell) const;
-    // Sets the scene to a cell of the last draw().
+    // Sets the scene to a cell.
     void show(std::size_t cell);
 
     // What has been done since it was made, to see that nothing is done twice.
     struct Counts {
-        std::size_t pictures = 0; // drawn
+        std::size_t pictures = 0; // frames of cells that were drawn
         std::size_t lights = 0;   // of environments, added to the scene
     };
     [[nodiscard]] Counts counts() const;

@@ -1,13 +1,14 @@
 #version 450 core
-// The finished picture into a window; where it is transparent a checkerboard shows.
+// The finished picture into a window, or a part of one; where it is transparent a checkerboard shows.
 layout(binding = 0) uniform sampler2D u_picture; // straight alpha
+uniform vec2 u_origin; // lower left pixel of that part
 #ifdef STRETCHED // over more pixels than it has
 in vec2 v_uv;
 #endif
 layout(location = 0) out vec4 o_color;
 
 void main() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    ivec2 pixel = ivec2(gl_FragCoord.xy - u_origin);
 #ifdef STRETCHED
     vec4 c = texture(u_picture, v_uv);
 #else

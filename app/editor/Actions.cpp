@@ -33,6 +33,9 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
                 tr("Show the whole scene from where the camera began")))
     , overlays(make(tr("&Grid and Outlines"), QStringLiteral("tiling"), {tr("G")},
                     tr("Show the ground grid, the outline of the selection and the lights")))
+    , wall(make(tr("&Wall"), QStringLiteral("wall"), {tr("F3")},
+                tr("Compare environments, materials or values beside each other; once more: one "
+                   "picture again")))
     , lightingIbl(make(tr("&Image-Based Light"), {}, {tr("Ctrl+L")},
                        tr("Light from the environment, with every reflection")))
     , lightingPrt(make(tr("&Precomputed Transfer"), {}, {tr("Ctrl+Shift+L")},
@@ -101,6 +104,7 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
     overlays->setChecked(true);
     for (QAction* dock : docks() + instruments())
         dock->setCheckable(true);
+    wall->setCheckable(true);
     furnace->setCheckable(true);
     fullScreen->setCheckable(true);
     auto* lighting = new QActionGroup(this);
@@ -138,9 +142,9 @@ QList<QAction*> Actions::instruments() const {
 }
 
 QList<QAction*> Actions::all() const {
-    return QList<QAction*>{newScene,        open,        addModel, save,        saveAs,
-                           saveEnvironment, exportScene, quit,     undo,        redo,
-                           frame,           home,        overlays, lightingIbl, lightingPrt} +
+    return QList<QAction*>{newScene,    open, addModel,    save,       saveAs, saveEnvironment,
+                           exportScene, quit, undo,        redo,       frame,  home,
+                           overlays,    wall, lightingIbl, lightingPrt} +
            docks() + QList<QAction*>{nextDock, previousDock} + instruments() +
            QList<QAction*>{pinPixel, furnace, fullScreen, resetLayout, shortcuts, about, recover};
 }

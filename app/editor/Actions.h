@@ -20,7 +20,7 @@ class Actions : public QObject {
     QAction *newScene, *open, *addModel, *save, *saveAs, *saveEnvironment, *exportScene, *quit;
     QAction* recover;
     QAction *undo, *redo;
-    QAction *frame, *home, *overlays, *lightingIbl, *lightingPrt;
+    QAction *frame, *home, *overlays, *wall, *lightingIbl, *lightingPrt;
     QAction *sceneDock, *materialDock, *environmentDock, *lightsDock, *viewDock, *bakeDock;
     QAction *modelDock, *jobsDock, *logDock;
     QAction *nextDock, *previousDock;                             // by key

@@ -35,6 +35,8 @@
 #include "app/editor/viewport/ViewOverlay.h"
 #include "app/editor/viewport/ViewStrip.h"
 #include "app/editor/viewport/ViewportWidget.h"
+#include "app/editor/wall/WallBar.h"
+#include "app/editor/wall/WallOverlay.h"
 #include "app/editor/widget/BusyIndicator.h"
 #include "app/editor/widget/MessageBar.h"
 #include "app/editor/widget/NoticeArea.h"
@@ -92,13 +94,16 @@ MainWindow::MainWindow(Session& session)
     m_viewport->setDisplays(session.displays);
     m_viewport->setLobe(session.lobe);
     m_viewport->setViews(session.views);
+    m_viewport->setWall(session.wall);
     m_viewport->setProbe(session.probe);
 
     auto* centre = new QWidget;
     auto* layout = new QVBoxLayout(centre);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
+    layout->addWidget(new WallBar(session.wall, session.controller, session.selection));
     layout->addWidget(m_viewport, 1);
+    new WallOverlay(session.wall, *m_viewport);
     m_overlay = new ViewOverlay(session.views, session.controller, *m_viewport);
     m_progress = new SceneProgress(session.controller, *m_viewport);
     new DropTarget(*this, *m_viewport, session.controller, session.selection);
@@ -123,6 +128,15 @@ MainWindow::MainWindow(Session& session)
                               if (splits)
                                   m_session.views.toggleSplit();
                               return splits;
+                          },
+                          [this] {
+                              WallState& wall = m_session.wall;
+                              const bool shows = wall.isOn();
+                              if (wall.enlarged())
+                                  wall.enlarge(std::nullopt);
+                              else
+                                  wall.setOn(false);
+                              return shows;
                           },
                           [equation] { return equation->back(); },
                           [this] {
@@ -276,6 +290,7 @@ void MainWindow::makeMenus() {
     QMenu* view = menuBar()->addMenu(tr("&View"));
     view->addActions({a.frame, a.home, a.overlays});
     view->addSeparator();
+    view->addAction(a.wall);
     m_looks->fillMenu(*view->addMenu(tr("L&ook At")));
     view->addSeparator();
     view->addActions({a.lightingIbl, a.lightingPrt});
@@ -315,7 +330,7 @@ void MainWindow::makeToolBar() {
     bar->addSeparator();
     bar->addActions({a.undo, a.redo});
     bar->addSeparator();
-    bar->addActions({a.frame, a.home, a.overlays});
+    bar->addActions({a.frame, a.home, a.overlays, a.wall});
     bar->addSeparator();
     bar->addAction(a.exportScene);
     for (QToolButton* button : bar->findChildren<QToolButton*>()) {
@@ -382,6 +397,12 @@ void MainWindow::connectActions() {
     connect(a.frame, &QAction::triggered, m_viewport, &ViewportWidget::frameSelection);
     connect(a.home, &QAction::triggered, m_viewport, &ViewportWidget::resetCamera);
     connect(a.overlays, &QAction::toggled, m_viewport, &ViewportWidget::setOverlaysVisible);
+    connect(a.wall, &QAction::triggered, &m_session.wall, &WallState::setOn);
+    connect(&m_session.wall, &WallState::changed, this, [this] {
+        m_actions->wall->setChecked(m_session.wall.isOn());
+        if (m_session.wall.isOn() && m_session.views.settings().split)
+            m_session.views.toggleSplit(); // cells show one view each
+    });
     const auto lighting = [this](LightingMode mode) {
         m_session.controller.setParameter(parameter("view.lighting"), {Scope::View, 0},
                                           static_cast<int>(mode));
@@ -395,6 +416,8 @@ void MainWindow::connectActions() {
         });
     });
     connect(&m_session.views, &ViewState::changed, this, [this] {
+        if (m_session.views.settings().split)
+            m_session.wall.setOn(false); // that is of one picture
         m_actions->furnace->setChecked(m_session.views.settings().furnace.has_value());
     });
     connect(a.fullScreen, &QAction::toggled, this,

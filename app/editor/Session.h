@@ -15,6 +15,7 @@
 #include "app/editor/viewport/LobeOnSurface.h"
 #include "app/editor/viewport/PixelProbe.h"
 #include "app/editor/viewport/ViewState.h"
+#include "app/editor/wall/WallState.h"
 #include "app/editor/widget/Thumbnails.h"
 #include "core/worker/WorkerClient.h"
 
@@ -31,6 +32,7 @@ struct Session {
     Thumbnails thumbnails{tasks};
     IblUpdater ibl{tasks, iblCacheFolder()};
     ViewState views;
+    WallState wall{controller};
     PixelProbe probe;
     LobeOnSurface lobe{controller, probe};
     JobManager jobs{controller};

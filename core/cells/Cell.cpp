@@ -1,6 +1,7 @@
 #include "core/cells/Cell.h"
 
 #include "core/edit/Edit.h"
+#include "core/edit/EditSession.h"
 #include "core/light/GeneratedEnvironment.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
@@ -48,6 +49,19 @@ Result<Document> documentOf(const Document& document, const Cell& cell) {
                 return done.error();
     }
     return shown;
+}
+
+void putIntoScene(EditSession& session, const Cell& cell) {
+    session.group("Use Cell in Scene", [&] {
+        if (cell.environment != 0) {
+            session.lightWith(cell.environment);
+            session.setParameter(*findParameter("environment.second"), {Scope::Environment, 0}, 0);
+        }
+        for (const CellEdit& own : cell.own)
+            session.setParameter(*own.info, own.target, own.value);
+    });
+    if (cell.camera)
+        session.setCamera(*cell.camera);
 }
 
 void resolveCell(Document& shown, const Document& document, const JobContext& job) {

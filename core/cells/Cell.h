@@ -10,6 +10,8 @@
 
 namespace patina {
 
+class EditSession;
+
 // A parameter that a cell has of its own.
 struct CellEdit {
     Target target; // environment 0: the one that lights the cell
@@ -34,6 +36,9 @@ struct Cell {
 // and images are shared. Pictures of environments are still the document's: see resolveCell().
 // Usage error when an element that the cell names is no longer there.
 [[nodiscard]] Result<Document> documentOf(const Document& document, const Cell& cell);
+
+// Makes the scene what the cell shows, as one step.
+void putIntoScene(EditSession& session, const Cell& cell);
 
 // Generates those pictures of environments and of their mix that documentOf() has made others than
 // the document's (a sky with another sun, another cross-fade). They may be missing after a cancel.

@@ -14,11 +14,13 @@ inline constexpr std::size_t kMostOnWallSide = 8; // of columns, and of rows
 struct WallEntry {
     std::string caption;
     Cell cell; // what the cells of this column or row have of their own
+    friend bool operator==(const WallEntry&, const WallEntry&) = default;
 };
 
 struct WallAxis {
     std::string title; // "Roughness"
     std::vector<WallEntry> entries;
+    friend bool operator==(const WallAxis&, const WallAxis&) = default;
 };
 
 struct Wall {
@@ -27,6 +29,7 @@ struct Wall {
     std::size_t width = 0, height = 0;
 
     [[nodiscard]] bool isTable() const { return !rows.entries.empty(); }
+    friend bool operator==(const Wall&, const Wall&) = default;
 };
 
 // Of one axis, which wraps into a grid, or two: columns and rows. `gridWidth` of one; 0: chosen, a

@@ -17,6 +17,8 @@
 namespace patina {
 namespace {
 
+constexpr auto kMostValues = static_cast<int>(kMostOnWallSide * kMostOnWallSide);
+
 Error axisUsage(std::string message) {
     return {ErrorKind::Usage, std::move(message), {}, {}};
 }
@@ -167,45 +169,54 @@ Result<Wedge> parseWedge(std::string_view text) {
     if (!read(parts[0], wedge.from) || !read(parts[1], wedge.to) || !read(parts[2], wedge.count) ||
         !std::isfinite(wedge.from) || !std::isfinite(wedge.to))
         return wrong();
-    constexpr auto kMost = static_cast<int>(kMostOnWallSide * kMostOnWallSide);
-    if (wedge.count < 2 || wedge.count > kMost || wedge.from == wedge.to)
+    if (wedge.count < 2 || wedge.count > kMostValues || wedge.from == wedge.to)
         return axisUsage(
             fmt::format("a wedge has 2 to {} different values: {} asks for {} from {} to "
                         "{}",
-                        kMost, wedge.parameter, wedge.count, wedge.from, wedge.to));
+                        kMostValues, wedge.parameter, wedge.count, wedge.from, wedge.to));
     return wedge;
+}
+
+Result<WallAxis> valueAxis(const Document& document, const ParameterInfo& info,
+                           std::span<const Target> targets, float from, float to, int count,
+                           bool named) {
+    if (info.type != ParameterType::Float)
+        return axisUsage(fmt::format("a wedge is of numbers, and {} expects {}", info.id,
+                                     describeExpected(info)));
+    if (count < 2 || count > kMostValues || from == to)
+        return axisUsage(fmt::format("a wedge has 2 to {} different values: {} asks for {} from {} "
+                                     "to {}",
+                                     kMostValues, info.id, count, from, to));
+    for (const float end : {from, to})
+        if (!info.wraps && !(end >= info.hardMin && end <= info.hardMax))
+            return axisUsage(
+                fmt::format("{} expects {}, not {}", info.id, describeExpected(info), end));
+    std::vector<float> values;
+    for (int i = 0; i < count; ++i) {
+        // Both ends exactly as they were given.
+        const float t = static_cast<float>(i) / static_cast<float>(count - 1);
+        values.push_back((1.0f - t) * from + t * to);
+    }
+    const std::vector<std::string> texts = numberTexts(values, info.decimals);
+    const std::string_view unit = info.unitFor(document, targets.front().id);
+    const std::string name = named ? nameOf(document, targets.front()) : std::string();
+    WallAxis axis{
+        name.empty() ? std::string(info.label) : fmt::format("{} of {}", info.label, name), {}};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        WallEntry& entry = axis.entries.emplace_back();
+        entry.caption = withUnit(texts[i], unit);
+        give(entry.cell, info, targets, values[i]);
+    }
+    return axis;
 }
 
 Result<WallAxis> wedgeAxis(const Document& document, const Wedge& wedge) {
     const Result<ParameterSelection> selection = selectParameter(document, wedge.parameter);
     if (!selection)
         return selection.error();
-    const ParameterInfo& info = *selection->info;
-    if (info.type != ParameterType::Float)
-        return axisUsage(fmt::format("a wedge is of numbers, and {} expects {}", info.id,
-                                     describeExpected(info)));
-    for (const float end : {wedge.from, wedge.to})
-        if (!info.wraps && !(end >= info.hardMin && end <= info.hardMax))
-            return axisUsage(
-                fmt::format("{} expects {}, not {}", info.id, describeExpected(info), end));
-    std::vector<float> values;
-    for (int i = 0; i < wedge.count; ++i) {
-        // Both ends exactly as they were given.
-        const float t = static_cast<float>(i) / static_cast<float>(wedge.count - 1);
-        values.push_back((1.0f - t) * wedge.from + t * wedge.to);
-    }
-    const std::vector<std::string> texts = numberTexts(values, info.decimals);
-    const std::string_view unit = info.unitFor(document, selection->targets.front().id);
-    // "Roughness of Body" where it is one element's.
     const bool named = wedge.parameter.find('[') != std::string::npos;
-    const std::string name = named ? nameOf(document, selection->targets.front()) : std::string();
-    WallAxis axis{named ? fmt::format("{} of {}", info.label, name) : std::string(info.label), {}};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        WallEntry& entry = axis.entries.emplace_back();
-        entry.caption = withUnit(texts[i], unit);
-        give(entry.cell, info, selection->targets, values[i]);
-    }
-    return axis;
+    return valueAxis(document, *selection->info, selection->targets, wedge.from, wedge.to,
+                     wedge.count, named);
 }
 
 } // namespace patina

@@ -35,6 +35,11 @@ struct Wedge {
 };
 // "NAME=FROM:TO:COUNT". Usage error for other texts.
 [[nodiscard]] Result<Wedge> parseWedge(std::string_view text);
+// Of elements of one scope, all of which get each value, and at least one. `named`: the title says
+// whose it is, "Roughness of Body". Usage errors as of parseWedge() and wedgeAxis().
+[[nodiscard]] Result<WallAxis> valueAxis(const Document& document, const ParameterInfo& info,
+                                         std::span<const Target> targets, float from, float to,
+                                         int count, bool named);
 // Usage error when there is no such parameter or element, when it is no number, or an end is out of
 // its range.
 [[nodiscard]] Result<WallAxis> wedgeAxis(const Document& document, const Wedge& wedge);

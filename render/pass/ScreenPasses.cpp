@@ -148,7 +148,7 @@ Result<void> ScreenPasses::showMean(const Targets& targets, std::size_t side) {
 
 void Canvas::bind() const {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glViewport(0, 0, width, height);
+    glViewport(x, y, width, height);
 }
 
 Result<void> ScreenPasses::present(const Targets& targets, const Canvas& canvas) {
@@ -163,6 +163,7 @@ Result<void> ScreenPasses::present(const Targets& targets, const Canvas& canvas)
         return shader.error();
     canvas.bind();
     (*shader)->use();
+    (*shader)->set("u_origin", glm::vec2(canvas.x, canvas.y));
     targets.displayed().bind(kPictureUnit);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);

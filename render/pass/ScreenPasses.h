@@ -22,10 +22,12 @@ struct ToneMapSettings {
     glm::vec3 side{0.0f};     // shaders/include/side.glsl
 };
 
-// A framebuffer that finished pictures are shown in, or drawn over: targets' own or a window's.
+// What finished pictures are shown in, or drawn over: a framebuffer of targets or of a window, or a
+// part of it.
 struct Canvas {
     unsigned framebuffer = 0;
     int width = 0, height = 0; // pixels
+    int x = 0, y = 0;          // of its lower left corner in the framebuffer
 
     [[nodiscard]] static Canvas of(const Targets& targets) {
         return {targets.display().id(), targets.width(), targets.height()};

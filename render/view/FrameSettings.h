@@ -54,6 +54,12 @@ struct FrameSettings {
     ViewSettings view; // which terms of the shading equation are shown
 };
 
+// Of a framebuffer; from its lower left corner.
+struct PixelRectangle {
+    int x = 0, y = 0, width = 0, height = 0;
+    friend bool operator==(const PixelRectangle&, const PixelRectangle&) = default;
+};
+
 // Whether frames show the same radiance or numbers of what has been set, from the same camera.
 [[nodiscard]] bool showSameScene(const FrameSettings& a, const FrameSettings& b);
 // Whether they have the same overlays, over as many pixels.

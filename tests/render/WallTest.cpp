@@ -197,9 +197,9 @@ TEST_F(WallTest, EachCellIsItsSinglePictureByteForByte) {
         ASSERT_TRUE(wall.draw(cells).ok());
         for (std::size_t i = 0; i < cells.size(); ++i)
             EXPECT_EQ(read(wall.picture(i)), alone(cells[i])) << "cell " << i;
-        std::ranges::reverse(cells); // none shows what its place showed before
+        std::ranges::reverse(cells);
     }
-    EXPECT_EQ(wall.counts().pictures, 2 * cells.size() - cells.size() % 2);
+    EXPECT_EQ(wall.counts().pictures, cells.size()) << "they took their pictures along";
 }
 
 // Rotation and brightness are numbers of the light, not another upload.
@@ -274,6 +274,67 @@ TEST_F(WallTest, EnvironmentsThatNoCellHasAreLetGo) {
     cost(wall, {});
     cost(wall, cells);
     EXPECT_EQ(wall.counts().lights, 3u) << "it was let go";
+}
+
+// Frames are added to a cell's after others have been drawn, and each is what it would be alone.
+TEST_F(WallTest, CellsAreRefinedFrameByFrame) {
+    std::vector<CellView> cells = viewsOf(
+        {wedge("material[Metal].perceptualRoughness=0:1:2"), wedge("light.azimuthDeg=0:90:2")});
+    for (CellView& cell : cells) {
+        cell.frame.samples = 1;
+        cell.frame.accumulate = true;
+    }
+    WallRenderer wall(sceneRenderer());
+    wall.set(cells, false);
+    EXPECT_EQ(wall.due(), cells.size());
+    EXPECT_FALSE(wall.hasPicture(0));
+    for (std::size_t left = cells.size(); left > 0; --left) { // each call draws at least one
+        ASSERT_TRUE(wall.proceed(0.0).ok());
+        EXPECT_EQ(wall.due(), left - 1) << "none is refined before all are there";
+    }
+    for (int calls = 0; !wall.complete(); ++calls) {
+        ASSERT_LT(calls, 100);
+        ASSERT_TRUE(wall.proceed(0.0).ok());
+    }
+    EXPECT_EQ(wall.counts().pictures, cells.size() * ViewRenderer::kSteadyFrames);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        auto made = SceneRenderer::create(context());
+        ASSERT_TRUE(made.ok());
+        (*made)->setEnvironment(cells[i].light);
+        (*made)->setDocument(cells[i].document);
+        ViewRenderer view(**made);
+        for (int frame = 0; frame < ViewRenderer::kSteadyFrames; ++frame)
+            ASSERT_TRUE(view.render(cells[i].frame, 0).ok());
+        EXPECT_EQ(read(wall.picture(i)), read(view)) << i;
+    }
+    wall.invalidate();
+    EXPECT_EQ(wall.due(), cells.size());
+    EXPECT_TRUE(wall.hasPicture(0)) << "until it is drawn anew";
+}
+
+TEST_F(WallTest, NoPictureIsShownForAnotherCell) {
+    std::vector<CellView> cells = viewsOf({wedge("material[Metal].metallic=0:1:3")});
+    WallRenderer wall(sceneRenderer());
+    ASSERT_TRUE(wall.draw(cells).ok());
+    const Picture second = read(wall.picture(1));
+    CellView other = cells[0];
+    other.document.view.exposureEv = 1.0f;
+    const std::vector<CellView> edited{cells[0], other, cells[2]};
+    wall.set(edited, true);
+    EXPECT_TRUE(wall.hasPicture(1)) << "the same cell, edited, shows what it did";
+    ASSERT_TRUE(wall.draw(cells).ok());
+    const std::vector<CellView> changed{cells[1], other};
+    wall.set(changed, false);
+    EXPECT_TRUE(wall.hasPicture(0));
+    EXPECT_EQ(read(wall.picture(0)), second) << "it took its picture along";
+    EXPECT_FALSE(wall.hasPicture(1));
+    std::vector<CellView> waiting = changed;
+    waiting[1].waits = true;
+    wall.set(waiting, true);
+    EXPECT_TRUE(wall.complete()) << "nothing can be drawn yet";
+    wall.set(changed, true);
+    ASSERT_TRUE(wall.proceed().ok());
+    EXPECT_EQ(read(wall.picture(1)), alone(other));
 }
 
 // The scene shows one cell after the other: looking at one is right after show().

@@ -1,6 +1,7 @@
 // Renders the documentation's pictures of the editor from the editor itself:
 //   docs-pictures FOLDER             all of them
 //   docs-pictures FOLDER bounces     the Cornell box whose wall is painted
+//   docs-pictures FOLDER compare     a wall of materials and environments
 // Run by scripts/docs-pictures on a display of its own.
 
 #include "app/editor/Actions.h"
@@ -21,6 +22,7 @@
 #include "app/editor/widget/ContributionChart.h"
 #include "core/bake/Bake.h"
 #include "core/bake/document/DocumentBakeInputs.h"
+#include "core/cells/WallAxes.h"
 #include "core/document/ViewChoices.h"
 #include "core/material/Material.h"
 
@@ -313,12 +315,50 @@ bool saveBounces(Session& session, MainWindow& window, const QString& file) {
     return row.pictures.size() == 3 && row.drawn().save(file);
 }
 
+// Materials of the library on the ball of the start scene, in three environments.
+bool saveCompare(Session& session, MainWindow& window, const QString& file) {
+    DocumentController& controller = session.controller;
+    controller.newDocument();
+    runUntil([&] { return !controller.tasks().busy(); }, 30'000);
+    for (const char* sky : {"builtin:sunset", "builtin:night"}) {
+        controller.addEnvironment(QLatin1String(sky), DocumentController::EnvironmentUse::Light);
+        runUntil([&] { return !controller.tasks().busy(); }, 30'000);
+    }
+    controller.lightWith(controller.document().environments.front().id);
+    patina::WallPlan plan;
+    plan.columns.compared = patina::Compared::Environments;
+    plan.rows.compared = patina::Compared::Materials;
+    for (const patina::MeshInstance& mesh : controller.document().meshes)
+        if (mesh.name == "Ball")
+            plan.rows.meshes = {mesh.id};
+    for (const patina::Material& material : controller.document().materials)
+        if (material.name != "Ball")
+            plan.rows.hidden.push_back(material.id);
+    controller.editStructure(QStringLiteral("Materials"), [](patina::Document& document) {
+        for (const char* name : {"gold", "copper-patina", "leather"})
+            (void)patina::materialNamed(document, std::string("builtin:") + name);
+    });
+    raiseDock(window, QStringLiteral("material"));
+    window.actions().home->trigger();
+    session.wall.setPlan(plan);
+    session.wall.setOn(true);
+    session.wall.setCurrent(4);
+    runUntil([&] { return window.viewport().isSettled(); }, 120'000);
+    settle(session, window);
+    const bool ok = save(window, file);
+    session.wall.setOn(false);
+    return ok;
+}
+
 } // namespace
 
 int main(int argc, char* argv[]) {
-    const bool bouncesAlone = argc == 3 && std::strcmp(argv[2], "bounces") == 0;
-    if (argc != 2 && !bouncesAlone) {
-        std::fprintf(stderr, "usage: docs-pictures FOLDER [bounces]\n");
+    const auto isAlone = [&](const char* name) {
+        return argc == 3 && std::strcmp(argv[2], name) == 0;
+    };
+    const bool bouncesAlone = isAlone("bounces"), compareAlone = isAlone("compare");
+    if (argc != 2 && !bouncesAlone && !compareAlone) {
+        std::fprintf(stderr, "usage: docs-pictures FOLDER [bounces | compare]\n");
         return 2;
     }
     QStandardPaths::setTestModeEnabled(true); // the user's settings stay as they are
@@ -347,6 +387,9 @@ int main(int argc, char* argv[]) {
     const QString bounces = folder.filePath(QStringLiteral("bounces.png"));
     if (bouncesAlone)
         return saveBounces(session, window, bounces) ? 0 : 1;
+    const QString compare = folder.filePath(QStringLiteral("compare.png"));
+    if (compareAlone)
+        return saveCompare(session, window, compare) ? 0 : 1;
     settle(6000); // image-based light at full resolution
     settle(session, window);
     bool ok = save(window, folder.filePath(QStringLiteral("start.png")));
@@ -452,6 +495,7 @@ int main(int argc, char* argv[]) {
         ok = false;
     }
     session.jobs.cancelAll();
+    ok &= saveCompare(session, window, compare);
     ok &= saveBounces(session, window, bounces);
     session.controller.tasks().cancelAll();
     return ok ? 0 : 1;

@@ -3,27 +3,19 @@
 #include "core/base/Log.h"
 #include "core/light/Light.h"
 
-#include <QFile>
-#include <QStandardPaths>
-
 namespace patina::editor {
 namespace {
 
-constexpr IblSettings kFull;
 constexpr const char* kFirst = "image-based light";
 constexpr const char* kRefined = "image-based light in full";
 constexpr const char* kMaps = "image-based light to look at";
 
 } // namespace
 
-std::filesystem::path iblCacheFolder() {
-    const QString folder = QStandardPaths::writableLocation(QStandardPaths::CacheLocation);
-    return std::filesystem::path(QFile::encodeName(folder).toStdString()) / "ibl";
-}
-
 IblUpdater::IblUpdater(TaskRunner& runner, const std::filesystem::path& cacheFolder,
                        QObject* parent)
     : QObject(parent)
+    , m_cacheFolder(cacheFolder)
     , m_cache(cacheFolder)
     , m_tasks(runner) {}
 
@@ -46,9 +38,9 @@ void IblUpdater::prepare() {
     m_tasks.run(
         {.tag = kFirst, .policy = TaskPolicy::Follow, .priority = TaskPriority::High},
         [this, environment = m_environment](const JobContext& job) {
-            return first(m_cache, environment, job);
+            return firstIbl(m_cache, environment, job);
         },
-        [this](const Result<Light>& light) {
+        [this](const Result<IblLight>& light) {
             if (!light)
                 return fail(light.error());
             if (!light->full && light->environment == m_environment)
@@ -57,33 +49,12 @@ void IblUpdater::prepare() {
         });
 }
 
-Result<IblUpdater::Light> IblUpdater::first(const IblCache& cache, const ImagePtr& environment,
-                                            const JobContext& job) {
-    Light light;
-    light.environment = environment;
-    light.key = IblCache::key(*environment, kFull);
-    std::optional<IblMaps> found = cache.find(light.key);
-    light.full = found.has_value();
-    const Result<HalfMipmapsPtr> background = makeBackground(*environment, job);
-    if (!background)
-        return background.error();
-    light.background = *background;
-    Result<IblMaps> maps =
-        found ? std::move(*found) : computeIbl(*environment, IblSettings::quick(), job);
-    if (!maps)
-        return maps.error();
-    light.maps = std::make_shared<const IblMaps>(std::move(*maps));
-    light.texels = std::make_shared<const EnvironmentTexels>(
-        makeEnvironmentTexels(environment, *light.maps, light.background));
-    return light;
-}
-
-void IblUpdater::refine(const Light& small) {
+void IblUpdater::refine(const IblLight& small) {
     m_tasks.run(
         {.tag = kRefined, .priority = TaskPriority::Low},
-        [todo = Light{small.environment, small.key, small.background, nullptr, nullptr, false}](
-            const JobContext& job) { return refined(todo, job); },
-        [this](const Result<Light>& light) {
+        [todo = IblLight{small.environment, small.key, small.background, nullptr, nullptr, false}](
+            const JobContext& job) { return refinedIbl(todo, job); },
+        [this](const Result<IblLight>& light) {
             if (!light)
                 return fail(light.error());
             keep(*light);
@@ -91,33 +62,15 @@ void IblUpdater::refine(const Light& small) {
         });
 }
 
-Result<IblUpdater::Light> IblUpdater::refined(Light light, const JobContext& job) {
-    Result<IblMaps> maps = computeIbl(*light.environment, kFull, job);
-    if (!maps)
-        return maps.error();
-    light.maps = std::make_shared<const IblMaps>(std::move(*maps));
-    light.texels = std::make_shared<const EnvironmentTexels>(
-        makeEnvironmentTexels(light.environment, *light.maps, light.background));
-    light.full = true;
-    return light;
-}
-
 void IblUpdater::requestMaps() {
     if (!m_environment || !m_finished || m_tasks.busy(kMaps))
         return; // they come with the light that is under way
     m_tasks.run(
         {.tag = kMaps},
-        [this, environment = m_environment](const JobContext& job) -> Result<Light> {
-            Light light;
-            light.environment = environment;
-            std::optional<IblMaps> found = m_cache.find(IblCache::key(*environment, kFull));
-            Result<IblMaps> maps = found ? std::move(*found) : computeIbl(*environment, kFull, job);
-            if (!maps)
-                return maps.error();
-            light.maps = std::make_shared<const IblMaps>(std::move(*maps));
-            return light;
+        [this, environment = m_environment](const JobContext& job) {
+            return fullIblMaps(m_cache, environment, job);
         },
-        [this](const Result<Light>& light) {
+        [this](const Result<IblLight>& light) {
             if (!light)
                 return fail(light.error());
             if (light->environment != m_environment)
@@ -128,7 +81,7 @@ void IblUpdater::requestMaps() {
 }
 
 // The disk may take its time: nobody waits for it. What a drag passes over never comes here.
-void IblUpdater::keep(const Light& full) {
+void IblUpdater::keep(const IblLight& full) {
     m_tasks.run(
         {.tag = "keeping image-based light",
          .policy = TaskPolicy::Exclusive,
@@ -149,7 +102,7 @@ void IblUpdater::fail(const Error& error) {
     m_finished = !m_tasks.busy(kFirst);
 }
 
-void IblUpdater::deliver(const Light& light) {
+void IblUpdater::deliver(const IblLight& light) {
     m_finished = light.full && light.environment == m_environment;
     m_texels = light.texels;
     m_maps = light.maps;

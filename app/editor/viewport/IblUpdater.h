@@ -3,19 +3,14 @@
 // The newest environment wins.
 #pragma once
 
-#include "core/image/Image.h"
+#include "app/editor/viewport/IblWork.h"
 #include "core/job/TaskRunner.h"
-#include "core/light/EnvironmentTexels.h"
-#include "core/light/IblCache.h"
 
 #include <QObject>
 #include <filesystem>
 #include <utility>
 
 namespace patina::editor {
-
-// Computed light outlives the session; the system may empty this folder at any time.
-[[nodiscard]] std::filesystem::path iblCacheFolder();
 
 class IblUpdater : public QObject {
     Q_OBJECT
@@ -24,6 +19,8 @@ class IblUpdater : public QObject {
     // Its end waits for what is being written there.
     IblUpdater(TaskRunner& runner, const std::filesystem::path& cacheFolder,
                QObject* parent = nullptr);
+
+    [[nodiscard]] const std::filesystem::path& cacheFolder() const { return m_cacheFolder; }
 
     // Does nothing when `environment` is the one already prepared or under way. Requests that
     // follow each other quickly wait for the small version of the first, so that light keeps
@@ -47,25 +44,13 @@ class IblUpdater : public QObject {
     void mapsReady(); // maps() has something, until the end of the call unless it is kept
 
   private:
-    struct Light { // of an environment, full or small
-        ImagePtr environment;
-        Hash key;
-        HalfMipmapsPtr background;
-        std::shared_ptr<const IblMaps> maps;
-        EnvironmentTexelsPtr texels;
-        bool full = false;
-    };
-    // On a thread of the pool.
-    static Result<Light> first(const IblCache& cache, const ImagePtr& environment,
-                               const JobContext& job);
-    static Result<Light> refined(Light light, const JobContext& job);
-
     void prepare();
-    void refine(const Light& small);
-    void keep(const Light& full);
-    void deliver(const Light& light);
+    void refine(const IblLight& small);
+    void keep(const IblLight& full);
+    void deliver(const IblLight& light);
     void fail(const Error& error);
 
+    std::filesystem::path m_cacheFolder;
     IblCache m_cache;
     ImagePtr m_environment;
     bool m_finished = false;

@@ -13,6 +13,10 @@ void NearShadowFeed::setShadows(NearShadowUpdater& shadows) {
     connect(&shadows, &NearShadowUpdater::shownChanged, this, &NearShadowFeed::changed);
 }
 
+NearShadowsPtr NearShadowFeed::shown() const {
+    return m_shadows ? m_shadows->shown() : nullptr;
+}
+
 void NearShadowFeed::upload(render::SceneRenderer& renderer) {
     if (!m_shadows || m_shadows->shown() == m_uploaded)
         return;

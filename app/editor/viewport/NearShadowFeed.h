@@ -19,7 +19,8 @@ class NearShadowFeed : public QObject {
     explicit NearShadowFeed(QObject* parent = nullptr);
 
     void setShadows(NearShadowUpdater& shadows);
-    void restart() { m_uploaded = nullptr; } // the renderer is a new one
+    [[nodiscard]] NearShadowsPtr shown() const; // null: none
+    void restart() { m_uploaded = nullptr; }    // the renderer is a new one
     // With the renderer's context current, before a frame: what has come since the last one.
     void upload(render::SceneRenderer& renderer);
     void endFrame(render::SceneRenderer& renderer);

@@ -103,8 +103,10 @@ bool ViewGate::isOpenForInspection() const {
 void ViewGate::prepareAwaited() {
     const auto opened = [this](const FrameKind& frame) { return isOpen(frame); };
     std::erase_if(m_sheetFrames, opened);
+    std::erase_if(m_cellFrames, opened);
     m_inspectionAwaited = m_inspectionAwaited && !isOpenForInspection();
-    std::vector<FrameKind> frames = m_sheetFrames;
+    std::vector<FrameKind> frames = m_cellFrames;
+    frames.insert(frames.end(), m_sheetFrames.begin(), m_sheetFrames.end());
     if (m_inspectionAwaited)
         frames.insert(frames.begin(), inspection());
     if (!frames.empty() && !m_waiting)
@@ -118,6 +120,16 @@ void ViewGate::prepareSheets(const std::vector<ViewKind>& kinds) {
             std::ranges::find(m_sheetFrames, frame) == m_sheetFrames.end())
             m_sheetFrames.push_back(frame);
     prepareAwaited();
+}
+
+bool ViewGate::admitCells(const std::vector<FrameKind>& frames) {
+    if (std::ranges::all_of(frames, [this](const FrameKind& frame) { return isOpen(frame); }))
+        return true;
+    for (const FrameKind& frame : frames)
+        if (std::ranges::find(m_cellFrames, frame) == m_cellFrames.end())
+            m_cellFrames.push_back(frame);
+    prepareAwaited();
+    return false;
 }
 
 void ViewGate::prepareInspection() {

@@ -33,6 +33,10 @@ class ViewGate : public QObject {
     // Somebody waits for thumbnails of these views, or for the explanation of a pixel.
     void prepareSheets(const std::vector<ViewKind>& kinds);
     void prepareInspection();
+    // Whether cells of a wall that are drawn as these can be drawn without a stall; else they are
+    // prepared. Cells that nobody asks for any more are dropped.
+    [[nodiscard]] bool admitCells(const std::vector<render::FrameKind>& frames);
+    void dropCells() { m_cellFrames.clear(); }
     // Nobody needs the processor: what may be looked at next is prepared.
     void rest();
 
@@ -57,6 +61,7 @@ class ViewGate : public QObject {
     mutable std::map<render::FrameKind, bool> m_known; // what the warmer says of this document
     bool m_waiting = false;
     std::vector<render::FrameKind> m_sheetFrames; // that somebody waits for
+    std::vector<render::FrameKind> m_cellFrames;  // likewise
     bool m_inspectionAwaited = false;
 };
 

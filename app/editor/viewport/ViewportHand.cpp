@@ -39,8 +39,11 @@ bool ViewportHand::holding() const {
 
 bool ViewportHand::eventFilter(QObject*, QEvent* event) {
     switch (event->type()) {
-    case QEvent::MouseButtonPress:
     case QEvent::MouseButtonDblClick: // the second press of two quick ones
+        if (static_cast<QMouseEvent*>(event)->button() == Qt::LeftButton)
+            Q_EMIT doubleClicked(static_cast<QMouseEvent*>(event)->position());
+        [[fallthrough]];
+    case QEvent::MouseButtonPress:
         press(*static_cast<QMouseEvent*>(event));
         return true;
     case QEvent::MouseMove:
@@ -149,7 +152,9 @@ void ViewportHand::move(const QMouseEvent& event) {
         setCamera(orbit(camera, toGlm(moved)));
         break;
     case Drag::Pan:
-        setCamera(pan(camera, toGlm(moved), static_cast<float>(m_viewport.height())));
+        setCamera(
+            pan(camera, toGlm(moved),
+                static_cast<float>(m_pictureHeight > 0 ? m_pictureHeight : m_viewport.height())));
         break;
     case Drag::Look:
         setCamera(look(camera, toGlm(moved)));

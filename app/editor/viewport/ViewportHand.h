@@ -29,10 +29,14 @@ class ViewportHand : public QObject {
 
     void setHandlesVisible(bool visible) { m_lights.setVisible(visible); }
     [[nodiscard]] bool holding() const; // a button or a flying key
+    // Of the picture, in the viewport's pixels, by which a drag moves the camera; 0: the
+    // viewport's.
+    void setPictureHeight(int height) { m_pictureHeight = height; }
 
   Q_SIGNALS:
     void cameraMoved();
     void clicked(const QPointF& position); // pressed and released without moving, on no handle
+    void doubleClicked(const QPointF& position);
 
   protected:
     bool eventFilter(QObject* viewport, QEvent* event) override;
@@ -55,6 +59,7 @@ class ViewportHand : public QObject {
     LightDrag m_lights;
     FlyKeys m_fly;
     Drag m_drag = Drag::None;
+    int m_pictureHeight = 0;
     QPointF m_pressPosition, m_lastPosition;
     bool m_pressIsClick = false; // no movement since the press
     quint64 m_turnSession = 0;   // of the environment

@@ -47,6 +47,10 @@ void ViewportWidget::drawSlice() {
         m_sliceTimer.start(); // something else has just taken its time
         return;
     }
+    if (m_wall.isOn()) {
+        drawWallSlice();
+        return;
+    }
     QElapsedTimer clock;
     clock.start();
     makeCurrent();

@@ -6,6 +6,7 @@
 #include "app/editor/job/JobManager.h"
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/LobeOnSurface.h"
+#include "app/editor/wall/WallState.h"
 #include "core/base/Log.h"
 #include "core/document/ViewChoices.h"
 #include "core/job/Parallel.h"
@@ -43,7 +44,8 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     , m_projections(controller.runner())
     , m_viewFeed(controller)
     , m_gate(controller)
-    , m_picker(controller, *this) {
+    , m_picker(controller, *this)
+    , m_wall(controller, ibl.cacheFolder()) {
     setObjectName(QStringLiteral("viewport"));
     setAccessibleName(tr("Viewport"));
     setAccessibleDescription(
@@ -61,7 +63,14 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
             return;
         }
         m_preview.setHandMoves(false);
-        if (m_slicing && !m_pacing.refined()) {
+        if (m_wall.isOn()) {
+            if (m_pacing.refine()) {
+                update();
+                m_restTimer.start();
+            } else if (!m_slicing) {
+                compileAhead();
+            }
+        } else if (m_slicing && !m_pacing.refined()) {
             m_restTimer.start(); // one step after the other
         } else if (m_pacing.refine()) {
             if (m_renderer && drawsInSlices(m_viewFeed.drawn())) {
@@ -132,6 +141,14 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     connect(&selection, &SelectionModel::selectionChanged, this, &ViewportWidget::updateSoon);
     connect(&m_hand, &ViewportHand::cameraMoved, this, &ViewportWidget::touch);
     connect(&m_hand, &ViewportHand::clicked, this, &ViewportWidget::pickAt);
+    connect(&m_hand, &ViewportHand::doubleClicked, this, [this](const QPointF& position) {
+        if (m_wall.isOn())
+            m_wallState->enlarge(m_wallState->enlarged() ? std::nullopt
+                                                         : m_wallLayout.cellAt(position));
+    });
+    m_wall.setReady(
+        [this](const std::vector<render::FrameKind>& frames) { return m_gate.admitCells(frames); });
+    connect(&m_wall, &WallPainter::changed, this, &ViewportWidget::updateSoon);
     connect(&m_viewFeed, &ViewFeed::changed, this, [this] {
         hurry(); // the next frame shows it, however slow the GPU is
         update();
@@ -150,6 +167,10 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     connect(&m_bounces, &BounceFeed::changed, this, &ViewportWidget::lookChanged);
     connect(&m_nearShadows, &NearShadowFeed::changed, this, &ViewportWidget::lookChanged);
     connect(&m_projections, &ProjectionFeed::changed, this, &ViewportWidget::lookChanged);
+    connect(&m_preview, &PreviewFeed::changed, &m_wall, &WallPainter::invalidate);
+    connect(&m_projections, &ProjectionFeed::changed, &m_wall, &WallPainter::invalidate);
+    connect(&m_nearShadows, &NearShadowFeed::changed, this,
+            [this] { m_wall.setNearShadows(m_nearShadows.shown()); });
     // Between frames and input, so that neither waits for an environment.
     m_environmentTimer.setSingleShot(true);
     m_environmentTimer.setInterval(0);
@@ -266,6 +287,8 @@ void ViewportWidget::releaseGl() {
     stopSlices();
     m_lastFrameSize = {};
     makeCurrent();
+    m_wall.release();
+    m_wallShown = false;
     m_thumbnails.reset();
     m_renderer.reset();
     m_scene.reset();
@@ -323,6 +346,12 @@ void ViewportWidget::paintGL() {
         gl->glClear(GL_COLOR_BUFFER_BIT);
         return;
     }
+    if (m_wall.isOn()) {
+        paintWall();
+        return;
+    }
+    if (m_wallShown)
+        leaveWall();
     QElapsedTimer clock;
     clock.start();
     if (m_pacing.moving())
@@ -389,13 +418,17 @@ void ViewportWidget::letOthersDraw() {
     if (!m_renderer)
         return; // no context, or it is on its way
     const bool rests = !m_pacing.moving();
-    m_sheets.setResting(rests);
+    m_sheets.setResting(rests && !(m_wallShown && m_slicing));
     if (rests)
         m_gate.prepareSheets(m_sheets.wanted());
     m_picker.setReady(m_gate.isOpenForInspection());
 }
 
 void ViewportWidget::gateOpened() {
+    if (m_wall.isOn() && m_wall.preparing()) {
+        m_wall.recompose();
+        update();
+    }
     if (m_gate.waiting()) {
         hurry();
         update();
@@ -420,14 +453,18 @@ void ViewportWidget::feedEnvironment() {
     if (!m_renderer)
         return; // its making starts this again
     makeCurrent();
-    if (EnvironmentTexelsPtr next = m_ibl->take())
+    if (EnvironmentTexelsPtr next = m_ibl->take()) {
+        m_environmentOnItsWay = next->image;
         m_scene->beginEnvironment(std::move(next));
+    }
     const bool complete = m_scene->proceedEnvironment(kEnvironmentBytes);
     doneCurrent();
     if (!complete) {
         m_environmentTimer.start();
         return;
     }
+    if (m_environmentOnItsWay)
+        m_wall.setSceneLight(std::exchange(m_environmentOnItsWay, nullptr));
     m_pacing.pictureChanged();
     m_restTimer.start();
     lookChanged();
@@ -437,6 +474,8 @@ Result<std::vector<Image>> ViewportWidget::drawSheet(const render::ViewSheet& sh
     if (!m_renderer)
         return Error{ErrorKind::NoOpenGl, "there is no OpenGL to draw with", {}, {}};
     makeCurrent();
+    if (m_wallShown)
+        m_scene->setDocument(m_controller.document()); // it shows a cell's
     render::FrameSettings frame;
     frame.camera = m_controller.document().view.camera;
     // The middle of what the viewport shows: a narrow one shows less to the sides.
@@ -475,7 +514,7 @@ void ViewportWidget::followLuminance() {
 bool ViewportWidget::isSettled() const {
     return m_renderer && !m_gate.waiting() && m_ibl->finished() && !m_environmentTimer.isActive() &&
            !m_pacing.moving() && !m_restTimer.isActive() && !m_adaptationTimer.isActive() &&
-           !m_accumulationTimer.isActive() && !m_slicing;
+           !m_accumulationTimer.isActive() && !m_slicing && !(m_wall.isOn() && m_wall.preparing());
 }
 
 double ViewportWidget::takeSlowestFrameMs() {
@@ -495,7 +534,7 @@ void ViewportWidget::applyChange(const Change& change) {
     if (touches(change.affects, Affects::EnvironmentMap))
         m_ibl->request(shownEnvironment(m_controller.document()).image);
     // Camera moves affect nothing: the camera travels with each frame.
-    if (m_renderer && change.affects != Affects::Nothing) {
+    if (m_renderer && !m_wallShown && change.affects != Affects::Nothing) {
         makeCurrent();
         m_scene->setDocument(m_controller.document());
         doneCurrent();
@@ -551,7 +590,7 @@ void ViewportWidget::resetCamera() {
 
 void ViewportWidget::setOverlaysVisible(bool visible) {
     m_overlays = visible;
-    m_hand.setHandlesVisible(visible);
+    m_hand.setHandlesVisible(visible && !m_wall.isOn());
     update();
 }
 
@@ -577,6 +616,10 @@ QImage ViewportWidget::smallPicture(const QSize& largest) {
 }
 
 void ViewportWidget::pickAt(const QPointF& position) {
+    if (m_wall.isOn()) {
+        m_wallState->setCurrent(m_wallLayout.cellAt(position));
+        return;
+    }
     if (!m_renderer || m_lastFrameSize.isEmpty())
         return;
     makeCurrent();

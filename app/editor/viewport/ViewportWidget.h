@@ -12,6 +12,8 @@
 #include "app/editor/viewport/ViewFeed.h"
 #include "app/editor/viewport/ViewGate.h"
 #include "app/editor/viewport/ViewportHand.h"
+#include "app/editor/wall/WallLayout.h"
+#include "app/editor/wall/WallPainter.h"
 #include "core/document/Document.h"
 #include "core/math/Camera.h"
 #include "render/SceneRenderer.h"
@@ -43,6 +45,7 @@ class JobManager;
 class LobeOnSurface;
 class SelectionModel;
 class ViewState;
+class WallState;
 
 // How far the picture of the scene has come: drawn for speed, on its way to be as fine as it gets,
 // or there.
@@ -63,6 +66,7 @@ class ViewportWidget : public QOpenGLWidget {
     void setDisplays(DisplayLoader& displays); // whose view of OpenColorIO is shown
     void setViews(ViewState& views);           // what of the scene is shown
     void setLobe(LobeOnSurface& lobe);         // which is drawn with the overlays
+    void setWall(WallState& wall);             // whether many of it are shown beside each other
     void setProbe(PixelProbe& probe);          // who is told what pixels are made of
     void setLuminanceWanted(bool wanted);      // even where the picture does not depend on it
 
@@ -138,6 +142,14 @@ class ViewportWidget : public QOpenGLWidget {
     void takeDisplay();
     void followLuminance();
     void pickAt(const QPointF& position);
+    // --- ViewportWall.cpp
+    void wallChanged();
+    void setWallLayout();
+    void leaveWall(); // the scene is the document's again
+    void paintWall();
+    void prepareWall(); // what its cells are to show
+    void drawWallSlice();
+    void wallDrawn(const Result<bool>& drawn, std::size_t due, double milliseconds);
     [[nodiscard]] float viewAspect() const;
     [[nodiscard]] PictureState pictureState() const; // of the frame that was drawn last
 
@@ -156,13 +168,20 @@ class ViewportWidget : public QOpenGLWidget {
     ViewGate m_gate;
     SheetScheduler m_sheets;
     PixelPicker m_picker;
+    WallState* m_wallState = nullptr;
+    WallLayout m_wallLayout;
 
     std::unique_ptr<gl::Context> m_context;
     // Null until there is a context.
     std::unique_ptr<render::SceneRenderer> m_scene;
     std::unique_ptr<render::ViewRenderer> m_renderer; // of what is shown
     std::unique_ptr<render::SheetRenderer> m_thumbnails;
-    bool m_displayPending = true; // m_displays->transform() is not in the renderer yet
+    WallPainter m_wall;             // what it has on the GPU goes with the scene
+    bool m_wallShown = false;       // by the last frame
+    double m_wallMs = 0.0;          // that its cells have taken since they were due
+    std::size_t m_wallCells = 0;    // that have been drawn meanwhile
+    ImagePtr m_environmentOnItsWay; // whose light the scene is being given
+    bool m_displayPending = true;   // m_displays->transform() is not in the renderer yet
     bool m_luminanceWanted = false;
     std::optional<Luminance> m_luminance; // as announced last
     AdaptationClock m_adaptation;

@@ -2,6 +2,7 @@
 #include "core/cells/Cell.h"
 #include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
+#include "core/edit/EditSession.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 #include "tests/support/SecondEnvironment.h"
@@ -148,6 +149,30 @@ TEST_F(Cells, PicturesThatItsParametersMakeAreGenerated) {
     high.environment().sky.sunElevationDeg = 70.0f;
     resolveCell(high, {});
     EXPECT_EQ(*own.environment().image, *high.environment().image);
+}
+
+// In one step, which undo takes back.
+TEST_F(Cells, ACellBecomesTheScene) {
+    MeshInstance other = document.meshes[0];
+    other.id = document.takeId();
+    document.meshes.push_back(other);
+    Material gold;
+    gold.name = "Gold";
+    const Id second = addMaterial(document, gold);
+    const Document before = document;
+    EditSession session;
+    session.replace(document);
+    Cell cell;
+    cell.environment = environment;
+    for (const MeshInstance& mesh : document.meshes)
+        cell.own.push_back(edit("mesh.material", {Scope::Mesh, mesh.id}, static_cast<int>(second)));
+    cell.own.push_back(edit("environment.rotationDeg", {Scope::Environment, 0}, 77.0f));
+    cell.own.push_back(edit("view.exposureEv", {Scope::View, 0}, 2.0f));
+    putIntoScene(session, cell);
+    EXPECT_EQ(session.count(), 1);
+    EXPECT_EQ(session.document(), shown(cell));
+    session.undo();
+    EXPECT_EQ(session.document(), before);
 }
 
 } // namespace

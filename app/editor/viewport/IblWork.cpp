@@ -1,0 +1,63 @@
+#include "app/editor/viewport/IblWork.h"
+
+#include <QFile>
+#include <QStandardPaths>
+#include <utility>
+
+namespace patina::editor {
+namespace {
+
+constexpr IblSettings kFull;
+
+} // namespace
+
+std::filesystem::path iblCacheFolder() {
+    const QString folder = QStandardPaths::writableLocation(QStandardPaths::CacheLocation);
+    return std::filesystem::path(QFile::encodeName(folder).toStdString()) / "ibl";
+}
+
+Result<IblLight> firstIbl(const IblCache& cache, const ImagePtr& environment,
+                          const JobContext& job) {
+    IblLight light;
+    light.environment = environment;
+    light.key = IblCache::key(*environment, kFull);
+    std::optional<IblMaps> found = cache.find(light.key);
+    light.full = found.has_value();
+    const Result<HalfMipmapsPtr> background = makeBackground(*environment, job);
+    if (!background)
+        return background.error();
+    light.background = *background;
+    Result<IblMaps> maps =
+        found ? std::move(*found) : computeIbl(*environment, IblSettings::quick(), job);
+    if (!maps)
+        return maps.error();
+    light.maps = std::make_shared<const IblMaps>(std::move(*maps));
+    light.texels = std::make_shared<const EnvironmentTexels>(
+        makeEnvironmentTexels(environment, *light.maps, light.background));
+    return light;
+}
+
+Result<IblLight> refinedIbl(IblLight light, const JobContext& job) {
+    Result<IblMaps> maps = computeIbl(*light.environment, kFull, job);
+    if (!maps)
+        return maps.error();
+    light.maps = std::make_shared<const IblMaps>(std::move(*maps));
+    light.texels = std::make_shared<const EnvironmentTexels>(
+        makeEnvironmentTexels(light.environment, *light.maps, light.background));
+    light.full = true;
+    return light;
+}
+
+Result<IblLight> fullIblMaps(const IblCache& cache, const ImagePtr& environment,
+                             const JobContext& job) {
+    IblLight light;
+    light.environment = environment;
+    std::optional<IblMaps> found = cache.find(IblCache::key(*environment, kFull));
+    Result<IblMaps> maps = found ? std::move(*found) : computeIbl(*environment, kFull, job);
+    if (!maps)
+        return maps.error();
+    light.maps = std::make_shared<const IblMaps>(std::move(*maps));
+    return light;
+}
+
+} // namespace patina::editor

@@ -1,0 +1,30 @@
+// Where the cells of a wall and their captions lie in the viewport.
+#pragma once
+
+#include <QFontMetrics>
+#include <QRect>
+#include <QSize>
+#include <QString>
+#include <optional>
+#include <vector>
+
+namespace patina::editor {
+
+class WallState;
+
+struct WallLayout {
+    struct Caption {
+        QRect place;
+        QString text; // in full; what does not fit is elided
+        Qt::Alignment alignment;
+    };
+    QSize size;
+    std::vector<QRect> cells; // device-independent pixels; null: not shown
+    std::vector<Caption> captions;
+
+    // Cells fill `size`, apart from captions and gaps; all on whole device pixels.
+    static WallLayout of(const WallState& wall, const QSize& size, const QFontMetrics& metrics);
+    [[nodiscard]] std::optional<std::size_t> cellAt(const QPointF& position) const;
+};
+
+} // namespace patina::editor

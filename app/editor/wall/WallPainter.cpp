@@ -1,0 +1,247 @@
+#include "app/editor/wall/WallPainter.h"
+
+#include "app/editor/document/DocumentController.h"
+#include "app/editor/document/QtText.h"
+#include "app/editor/style/Tokens.h"
+#include "app/editor/wall/WallState.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
+#include "core/mix/LightMix.h"
+#include "render/SceneRenderer.h"
+#include "render/ViewRenderer.h"
+#include "render/WarmUp.h"
+
+#include <QColor>
+#include <QOpenGLContext>
+#include <QOpenGLFunctions>
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+
+namespace patina::editor {
+namespace {
+
+// Whether they show the same of a document, however fine.
+bool sameLook(const render::FrameSettings& a, const render::FrameSettings& b) {
+    return a.camera == b.camera && a.view == b.view;
+}
+
+// Whether cells drawn with these look the same, apart from what is in their documents.
+bool sameFrame(const render::FrameSettings& a, const render::FrameSettings& b) {
+    return showSameScene(a, b) && a.view.flags == b.view.flags;
+}
+
+} // namespace
+
+WallPainter::WallPainter(DocumentController& controller, const std::filesystem::path& cacheFolder,
+                         QObject* parent)
+    : QObject(parent)
+    , m_controller(controller)
+    , m_lights(controller.runner(), cacheFolder) {
+    const auto again = [this] {
+        recompose();
+        Q_EMIT changed();
+    };
+    connect(&m_lights, &WallLights::changed, this, again);
+    connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
+        if (change.affects != Affects::Nothing)
+            recompose();
+    });
+}
+
+void WallPainter::setWall(WallState& wall) {
+    m_wall = &wall;
+    connect(&wall, &WallState::changed, this, [this] {
+        recompose();
+        m_sameCells = false;
+        if (!m_wall->isOn())
+            m_lights.clear();
+        Q_EMIT changed();
+    });
+    connect(&wall, &WallState::cellsChosen, this, &WallPainter::changed);
+}
+
+bool WallPainter::isOn() const {
+    return m_wall != nullptr && m_wall->isOn();
+}
+
+void WallPainter::setSceneLight(const ImagePtr& picture) {
+    m_sceneLight = picture;
+    invalidate();
+    recompose();
+}
+
+void WallPainter::setNearShadows(const NearShadowsPtr& shadows) {
+    if (shadows != m_nearShadows)
+        recompose();
+    m_nearShadows = shadows;
+}
+
+void WallPainter::invalidate() {
+    if (m_renderer)
+        m_renderer->invalidate();
+}
+
+void WallPainter::release() {
+    m_renderer.reset();
+    m_views.clear();
+    m_places.clear();
+    m_composed = m_sameCells = false;
+}
+
+bool WallPainter::complete() const {
+    return !m_renderer || m_renderer->complete();
+}
+
+std::size_t WallPainter::due() const {
+    return m_renderer ? m_renderer->due() : 0;
+}
+
+bool WallPainter::preparing() const {
+    return m_lights.busy() || std::ranges::any_of(m_absences, [](const Absence& absence) {
+               return absence.passes && !absence.text.isEmpty();
+           });
+}
+
+// --- What the cells show -------------------------------------------------------------------------
+
+void WallPainter::composeCell(std::size_t index, const render::FrameSettings& frame) {
+    render::CellView& view = m_views[index];
+    QString& text = m_absences[index].text;
+    m_absences[index] = {};
+    const Document& document = m_controller.document();
+    Result<Document> shown = documentOf(document, m_wall->cells()[index].cell);
+    if (!shown) {
+        m_absences[index] = {toQString(shown.error().message), false};
+        return;
+    }
+    const bool resolved = m_lights.resolve(*shown, document);
+    const bool lit = !environmentParts(*shown).empty();
+    const ImagePtr picture = resolved && lit ? shownEnvironment(*shown).image : nullptr;
+    // Cells that cross-fade set the scene's light: none relies on it then.
+    const bool sceneLight = picture && picture == m_sceneLight &&
+                            document.secondEnvironment() == nullptr &&
+                            shown->secondEnvironment() == nullptr;
+    const EnvironmentTexelsPtr light = picture && !sceneLight ? m_lights.light(picture) : nullptr;
+    if (lit && !sceneLight && !light) {
+        text = tr("Preparing light…");
+        return;
+    }
+    render::ViewSettings settings = frame.view;
+    settings.split.reset();
+    if (m_ready && !m_ready(render::frameKinds(settings, *shown))) {
+        text = tr("Preparing shaders…");
+        return;
+    }
+    // Of lights that are where they were, on what is where it was.
+    const bool shadowed = shown->lights == document.lights && shown->meshes == document.meshes;
+    const NearShadowsPtr shadows = shadowed ? m_nearShadows : nullptr;
+    shown->view.camera = view.document.view.camera; // see frameOf()
+    m_edited[index] = m_edited[index] || light != view.light || sceneLight != view.sceneLight ||
+                      shadows != view.nearShadows || *shown != view.document;
+    view.light = light;
+    view.sceneLight = sceneLight;
+    view.nearShadows = shadows;
+    view.document = std::move(*shown);
+}
+
+void WallPainter::compose(const render::FrameSettings& frame) {
+    const std::size_t count = m_wall->cells().size();
+    if (!m_sameCells)
+        m_views.clear();
+    m_views.resize(count);
+    m_absences.resize(count);
+    m_edited.assign(count, false);
+    for (std::size_t i = 0; i < count; ++i)
+        composeCell(i, frame);
+    m_lights.sweep();
+    m_composed = true;
+}
+
+render::FrameSettings WallPainter::frameOf(const render::FrameSettings& frame, const QRect& cell,
+                                           float scale) const {
+    const auto scaled = [&](int pixels) {
+        return std::max(1, static_cast<int>(std::lround(static_cast<float>(pixels) * scale)));
+    };
+    render::FrameSettings own;
+    own.width = scaled(cell.width());
+    own.height = scaled(cell.height());
+    own.samples = frame.samples;
+    own.accumulate = frame.accumulate;
+    own.coarse = frame.coarse;
+    own.dither = frame.dither;
+    own.view = frame.view;
+    own.view.split.reset();
+    own.camera = frame.camera;
+    // What the viewport shows of the scene stays in the picture: a narrow cell sees wider.
+    const float wanted =
+        std::min(static_cast<float>(frame.width) / static_cast<float>(frame.height), 1.0f);
+    const float aspect = static_cast<float>(own.width) / static_cast<float>(own.height);
+    if (aspect < wanted)
+        own.camera.fovDeg = glm::degrees(
+            2.0f * std::atan(wanted / aspect * std::tan(0.5f * glm::radians(own.camera.fovDeg))));
+    return own;
+}
+
+void WallPainter::set(render::SceneRenderer& scene, const render::FrameSettings& frame,
+                      const std::vector<QRect>& cells, float scale) {
+    if (!m_renderer)
+        m_renderer = std::make_unique<render::WallRenderer>(scene);
+    const bool composes = !m_composed;
+    if (composes)
+        compose(frame);
+    bool differs = composes || cells != m_places;
+    const std::vector<QRect> before = std::exchange(m_places, cells);
+    m_places.resize(m_views.size());
+    for (std::size_t i = 0; i < m_views.size(); ++i) {
+        render::CellView& view = m_views[i];
+        render::FrameSettings own = frameOf(frame, m_places[i], scale);
+        // What input leaves alone stays as fine as it is.
+        const bool kept = scale < 1.0f && !m_edited[i] && i < before.size() &&
+                          before[i] == m_places[i] && sameLook(own, view.frame) &&
+                          m_renderer->hasPicture(i);
+        if (kept)
+            own = view.frame;
+        const bool waits = m_places[i].isEmpty() || !m_absences[i].text.isEmpty();
+        differs = differs || waits != view.waits || !sameFrame(own, view.frame);
+        view.waits = waits;
+        view.frame = own;
+        view.document.view.camera = own.camera;
+    }
+    if (differs)
+        m_renderer->set(m_views, m_sameCells);
+    m_sameCells = true;
+    std::vector<QString> texts;
+    for (std::size_t i = 0; i < m_views.size(); ++i) {
+        const bool shows = m_absences[i].passes && m_renderer->hasPicture(i);
+        texts.push_back(shows ? QString() : m_absences[i].text);
+    }
+    m_wall->setTexts(std::move(texts));
+}
+
+Result<bool> WallPainter::draw(double budgetMs) {
+    return m_renderer ? m_renderer->proceed(budgetMs) : true;
+}
+
+Result<void> WallPainter::present(unsigned framebuffer, const QSize& size) {
+    QOpenGLFunctions* gl = QOpenGLContext::currentContext()->functions();
+    gl->glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    const QColor well(tokens::kWell);
+    gl->glClearColor(well.redF(), well.greenF(), well.blueF(), 1.0f);
+    gl->glClear(GL_COLOR_BUFFER_BIT);
+    if (!m_renderer)
+        return {};
+    for (std::size_t i = 0; i < m_places.size(); ++i) {
+        const QRect& place = m_places[i];
+        if (place.isEmpty() || !m_renderer->hasPicture(i))
+            continue;
+        const int bottom = size.height() - place.y() - place.height();
+        if (auto done = m_renderer->picture(i).present(
+                framebuffer, {place.x(), bottom, place.width(), place.height()});
+            !done)
+            return done;
+    }
+    return {};
+}
+
+} // namespace patina::editor

@@ -1,0 +1,90 @@
+// Draws the cells of the wall into the viewport: makes of the document what each shows, has their
+// light prepared, and draws what has changed, piece by piece.
+#pragma once
+
+#include "app/editor/wall/WallLights.h"
+#include "render/WallRenderer.h"
+
+#include <QObject>
+#include <QRect>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace patina::render {
+class SceneRenderer;
+struct FrameKind;
+} // namespace patina::render
+
+namespace patina::editor {
+
+class DocumentController;
+class WallState;
+
+class WallPainter : public QObject {
+    Q_OBJECT
+  public:
+    // `cacheFolder`: of IblCache.
+    WallPainter(DocumentController& controller, const std::filesystem::path& cacheFolder,
+                QObject* parent = nullptr);
+
+    void setWall(WallState& wall);
+    [[nodiscard]] bool isOn() const;
+    // Whether frames of these kinds are drawn without a stall; else it sees to that, and calls
+    // recompose() when they are.
+    using Ready = std::function<bool(const std::vector<render::FrameKind>&)>;
+    void setReady(Ready ready) { m_ready = std::move(ready); }
+    // The light that the scene holds for the document is of this picture; null: of none yet.
+    void setSceneLight(const ImagePtr& picture);
+    void setNearShadows(const NearShadowsPtr& shadows); // of the document's local lights
+
+    // --- With the scene's context current
+    // --------------------------------------------------------- What the next frame shows: `frame`
+    // is that of the whole viewport, of whose camera, view, samples and marks cells take theirs;
+    // `cells`: their places in pixels of the viewport, from its top left corner; null: not drawn.
+    // `scale`: sides of what is drawn to those.
+    void set(render::SceneRenderer& scene, const render::FrameSettings& frame,
+             const std::vector<QRect>& cells, float scale);
+    // As WallRenderer::proceed().
+    Result<bool> draw(double budgetMs);
+    // All cells as they are into a framebuffer of `size` pixels.
+    Result<void> present(unsigned framebuffer, const QSize& size);
+    void release(); // what it has in the scene; the document is to be set again
+
+    // The scene looks different in a way that the document does not say.
+    void invalidate();
+    void recompose() { m_composed = false; } // cells of the document anew
+    [[nodiscard]] bool complete() const;
+    [[nodiscard]] std::size_t due() const; // cells that show what they showed before
+    [[nodiscard]] std::size_t size() const { return m_views.size(); } // cells
+    [[nodiscard]] bool preparing() const; // some wait for light or programs
+
+  Q_SIGNALS:
+    void changed(); // set() would show something else
+
+  private:
+    void compose(const render::FrameSettings& frame);
+    void composeCell(std::size_t index, const render::FrameSettings& frame);
+    [[nodiscard]] render::FrameSettings frameOf(const render::FrameSettings& frame,
+                                                const QRect& cell, float scale) const;
+
+    DocumentController& m_controller;
+    WallState* m_wall = nullptr;
+    WallLights m_lights;
+    Ready m_ready;
+    ImagePtr m_sceneLight;
+    NearShadowsPtr m_nearShadows;
+    std::unique_ptr<render::WallRenderer> m_renderer; // null until it is on, with a scene
+    std::vector<render::CellView> m_views;
+    std::vector<QRect> m_places;
+    struct Absence {
+        QString text;       // why the cell cannot be drawn; empty: it can
+        bool passes = true; // by itself; what it showed before stays meanwhile
+    };
+    std::vector<Absence> m_absences; // by cell
+    std::vector<bool> m_edited;      // by cell: it is another one than before compose()
+    bool m_composed = false;         // m_views are of the document and the wall as they are
+    bool m_sameCells = false;        // since the last set(): cells are those that they were
+};
+
+} // namespace patina::editor
