@@ -153,12 +153,15 @@ Result<void> ViewRenderer::render(const FrameSettings& wanted, unsigned targetFr
     return done;
 }
 
-Result<void> ViewRenderer::present(unsigned targetFramebuffer, const PixelRectangle& part) const {
+Result<void> ViewRenderer::present(unsigned targetFramebuffer, const Presentation& how) const {
     const Impl& r = *m_impl;
     CHECK(r.targets.width() > 0);
     const Impl::GlScope scope(r.shared, targetFramebuffer);
-    return r.shared.screen.present(r.targets,
-                                   {targetFramebuffer, part.width, part.height, part.x, part.y});
+    const PixelRectangle& part = how.part;
+    const glm::vec3 side =
+        how.split ? rightSide(*how.split, part.width, part.height) : glm::vec3(0.0f);
+    return r.shared.screen.present(
+        r.targets, {targetFramebuffer, part.width, part.height, part.x, part.y}, side, how.opacity);
 }
 
 void ViewRenderer::resume() {

@@ -29,9 +29,8 @@ class ViewRenderer {
     // Instead of a framebuffer: the picture is only drawn, and present() shows it. Of overlays such
     // a picture has those that are drawn at its own size.
     static constexpr unsigned kNowhere = ~0u;
-    // Shows the last picture as it is, whatever has been set since, stretched to a part of a
-    // framebuffer. CHECKs that there was a frame.
-    Result<void> present(unsigned targetFramebuffer, const PixelRectangle& part) const;
+    // Shows the last picture as it is, whatever has been set since. CHECKs that there was a frame.
+    Result<void> present(unsigned targetFramebuffer, const Presentation& how) const;
 
     // Draws a slice of a frame's scene beside the one that is shown, and waits for it: of about
     // `budgetMs`, by the time that slices before took. True: the frame is complete, and render()

@@ -16,15 +16,6 @@ namespace {
 
 using namespace shading;
 
-// The half-plane right of the limit, in pixels from the bottom left: see shaders/include/side.glsl.
-glm::vec3 rightOf(const ViewSplit& split, int width, int height) {
-    const float angle = glm::radians(split.angleDeg);
-    const glm::vec2 normal(std::cos(angle), -std::sin(angle));
-    const glm::vec2 through(split.position.x * static_cast<float>(width),
-                            (1.0f - split.position.y) * static_cast<float>(height));
-    return {normal, -glm::dot(normal, through)};
-}
-
 // A frame moved by a fraction of a pixel, the first one by none: the points of the R2 sequence
 // (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences") fill a pixel evenly.
 glm::mat4 besideBy(int frame, int width, int height, const glm::mat4& worldToClip) {
@@ -102,7 +93,7 @@ std::vector<ViewRenderer::Impl::Side> ViewRenderer::Impl::sidesOf(const FrameSet
     const std::optional<ViewSplit>& split = frame.view.split;
     if (!split)
         return {Side{frame.view.shown, glm::vec3(0.0f), 0, false}};
-    const glm::vec3 right = rightOf(*split, frame.width, frame.height);
+    const glm::vec3 right = rightSide(*split, frame.width, frame.height);
     const auto index = [](const glm::vec3& plane) -> std::size_t { return plane.x < 0.0f ? 1 : 0; };
     return {Side{split->other, right, index(right), true},
             Side{frame.view.shown, -right, index(-right), false}};

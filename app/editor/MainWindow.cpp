@@ -32,6 +32,7 @@
 #include "app/editor/viewport/DropTarget.h"
 #include "app/editor/viewport/EquationBar.h"
 #include "app/editor/viewport/SceneProgress.h"
+#include "app/editor/viewport/SplitHandle.h"
 #include "app/editor/viewport/ViewOverlay.h"
 #include "app/editor/viewport/ViewStrip.h"
 #include "app/editor/viewport/ViewportWidget.h"
@@ -94,16 +95,18 @@ MainWindow::MainWindow(Session& session)
     m_viewport->setDisplays(session.displays);
     m_viewport->setLobe(session.lobe);
     m_viewport->setViews(session.views);
-    m_viewport->setWall(session.wall);
+    m_viewport->setWall(session.wall, session.comparison);
     m_viewport->setProbe(session.probe);
 
     auto* centre = new QWidget;
     auto* layout = new QVBoxLayout(centre);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
-    layout->addWidget(new WallBar(session.wall, session.controller, session.selection));
+    layout->addWidget(
+        new WallBar(session.wall, session.comparison, session.controller, session.selection));
     layout->addWidget(m_viewport, 1);
-    new WallOverlay(session.wall, *m_viewport);
+    new WallOverlay(session.wall, session.comparison, *m_viewport);
+    new SplitHandle(session.comparison, *m_viewport);
     m_overlay = new ViewOverlay(session.views, session.controller, *m_viewport);
     m_progress = new SceneProgress(session.controller, *m_viewport);
     new DropTarget(*this, *m_viewport, session.controller, session.selection);

@@ -15,6 +15,7 @@
 #include "app/editor/viewport/LobeOnSurface.h"
 #include "app/editor/viewport/PixelProbe.h"
 #include "app/editor/viewport/ViewState.h"
+#include "app/editor/wall/WallComparison.h"
 #include "app/editor/wall/WallState.h"
 #include "app/editor/widget/Thumbnails.h"
 #include "core/worker/WorkerClient.h"
@@ -33,6 +34,7 @@ struct Session {
     IblUpdater ibl{tasks, iblCacheFolder()};
     ViewState views;
     WallState wall{controller};
+    WallComparison comparison{wall, tasks};
     PixelProbe probe;
     LobeOnSurface lobe{controller, probe};
     JobManager jobs{controller};

@@ -151,7 +151,8 @@ void Canvas::bind() const {
     glViewport(x, y, width, height);
 }
 
-Result<void> ScreenPasses::present(const Targets& targets, const Canvas& canvas) {
+Result<void> ScreenPasses::present(const Targets& targets, const Canvas& canvas,
+                                   const glm::vec3& side, float opacity) {
     // A context without a surface has no window to show anything in.
     if (glCheckNamedFramebufferStatus(canvas.framebuffer, GL_DRAW_FRAMEBUFFER) ==
         GL_FRAMEBUFFER_UNDEFINED)
@@ -164,9 +165,16 @@ Result<void> ScreenPasses::present(const Targets& targets, const Canvas& canvas)
     canvas.bind();
     (*shader)->use();
     (*shader)->set("u_origin", glm::vec2(canvas.x, canvas.y));
+    (*shader)->set("u_side", side);
+    (*shader)->set("u_opacity", opacity);
     targets.displayed().bind(kPictureUnit);
     glDisable(GL_DEPTH_TEST);
-    glDisable(GL_BLEND);
+    if (opacity < 1.0f) {
+        glEnable(GL_BLEND);
+        glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    } else {
+        glDisable(GL_BLEND);
+    }
     drawTriangle();
     return {};
 }

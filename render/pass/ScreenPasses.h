@@ -62,8 +62,10 @@ class ScreenPasses {
     Result<void> showMean(const Targets& targets, std::size_t side);
 
     // displayed() into a framebuffer of the window system, multisampled or not, stretched to its
-    // size.
-    Result<void> present(const Targets& targets, const Canvas& canvas);
+    // size. `side`: shaders/include/side.glsl, in pixels of the canvas. Less opaque: over what is
+    // there.
+    Result<void> present(const Targets& targets, const Canvas& canvas,
+                         const glm::vec3& side = glm::vec3(0.0f), float opacity = 1.0f);
 
     // Compiles the programs, so that a broken one is found when the renderer is made.
     Result<void> compile();

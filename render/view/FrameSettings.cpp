@@ -1,5 +1,9 @@
 #include "render/view/FrameSettings.h"
 
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
 namespace patina::render {
 namespace {
 
@@ -13,6 +17,14 @@ bool sameLook(const std::optional<View>& a, const std::optional<View>& b) {
 }
 
 } // namespace
+
+glm::vec3 rightSide(const ViewSplit& split, int width, int height) {
+    const float angle = glm::radians(split.angleDeg);
+    const glm::vec2 normal(std::cos(angle), -std::sin(angle));
+    const glm::vec2 through(split.position.x * static_cast<float>(width),
+                            (1.0f - split.position.y) * static_cast<float>(height));
+    return {normal, -glm::dot(normal, through)};
+}
 
 bool isStretched(const FrameSettings& frame) {
     return frame.shownWidth > 0 &&

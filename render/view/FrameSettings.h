@@ -60,6 +60,17 @@ struct PixelRectangle {
     friend bool operator==(const PixelRectangle&, const PixelRectangle&) = default;
 };
 
+// How a picture is shown in a framebuffer, over what is there.
+struct Presentation {
+    PixelRectangle part;            // which it is stretched to
+    std::optional<ViewSplit> split; // shown on its right alone
+    float opacity = 1.0f;
+};
+
+// The half-plane right of a split's line, in pixels from the bottom left: of
+// shaders/include/side.glsl.
+[[nodiscard]] glm::vec3 rightSide(const ViewSplit& split, int width, int height);
+
 // Whether frames show the same radiance or numbers of what has been set, from the same camera.
 [[nodiscard]] bool showSameScene(const FrameSettings& a, const FrameSettings& b);
 // Whether they have the same overlays, over as many pixels.

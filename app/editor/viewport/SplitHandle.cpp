@@ -1,7 +1,6 @@
 #include "app/editor/viewport/SplitHandle.h"
 
 #include "app/editor/style/Tokens.h"
-#include "app/editor/viewport/ViewState.h"
 #include "app/editor/widget/StatusHint.h"
 
 #include <QKeyEvent>
@@ -22,15 +21,6 @@ constexpr double kRingDistance = 64.0;  // from the disc
 constexpr double kCaptionDistance = 84; // from the disc, the other way
 constexpr double kSnapDeg = 15.0;
 constexpr float kDiscMargin = 0.02f; // the disc stays inside
-
-QString choiceName(const render::ViewChoice& choice) {
-    const ViewInfo& info = viewInfo(choice.kind);
-    const QString label =
-        QString::fromUtf8(info.label.data(), static_cast<qsizetype>(info.label.size()));
-    return choice.mode == render::ViewMode::Contribution
-               ? SplitHandle::tr("%1, contribution").arg(label)
-               : label;
-}
 
 double length(const QPointF& v) {
     return std::hypot(v.x(), v.y());
@@ -54,22 +44,23 @@ double SplitLine::distance(const QPointF& point) const {
     return QPointF::dotProduct(point - center, right);
 }
 
-SplitHandle::SplitHandle(ViewState& views, QWidget& viewport)
+SplitHandle::SplitHandle(SplitModel& model, QWidget& viewport)
     : QWidget(&viewport)
-    , m_views(views)
+    , m_model(model)
     , m_viewport(viewport) {
     setObjectName(QStringLiteral("splitHandle"));
     setAttribute(Qt::WA_TransparentForMouseEvents);
-    setAccessibleName(tr("Limit between two views"));
+    setAccessibleName(tr("Split line"));
     hide();
     viewport.installEventFilter(this);
-    connect(&m_views, &ViewState::changed, this, &SplitHandle::refresh);
+    connect(&m_model, &SplitModel::lineChanged, this, &SplitHandle::refresh);
     refresh();
 }
 
 void SplitHandle::refresh() {
-    setVisible(m_views.settings().split.has_value());
-    if (!m_views.settings().split) {
+    setGeometry(m_model.area(m_viewport.size()));
+    setVisible(m_model.line().has_value());
+    if (!m_model.line()) {
         m_dragged = Part::None;
         hover(Part::None);
     }
@@ -78,9 +69,8 @@ void SplitHandle::refresh() {
 
 // --- Painting --------------------------------------------------------------------------------
 
-void SplitHandle::paintCaption(QPainter& painter, const SplitLine& line,
-                               const render::ViewChoice& choice, double side) const {
-    const QString name = choiceName(choice);
+void SplitHandle::paintCaption(QPainter& painter, const SplitLine& line, const QString& name,
+                               double side) const {
     const QSizeF half(0.5 * fontMetrics().horizontalAdvance(name) + 8,
                       0.5 * fontMetrics().height() + 3);
     // Beside the line, below the disc, wherever the line is turned to.
@@ -103,7 +93,7 @@ void SplitHandle::paintCaption(QPainter& painter, const SplitLine& line,
 }
 
 void SplitHandle::paintEvent(QPaintEvent*) {
-    const auto& split = m_views.settings().split;
+    const auto split = m_model.line();
     if (!split)
         return;
     QPainter painter(this);
@@ -135,14 +125,14 @@ void SplitHandle::paintEvent(QPaintEvent*) {
     painter.setBrush(color(Part::Ring));
     painter.drawEllipse(line.ring(), 1.5, 1.5);
 
-    paintCaption(painter, line, m_views.settings().shown, -1.0);
-    paintCaption(painter, line, split->other, 1.0);
+    paintCaption(painter, line, m_model.leftName(), -1.0);
+    paintCaption(painter, line, m_model.rightName(), 1.0);
 }
 
 // --- Mouse and keys --------------------------------------------------------------------------
 
 SplitHandle::Part SplitHandle::partAt(const QPointF& point) const {
-    const auto& split = m_views.settings().split;
+    const auto split = m_model.line();
     if (!split)
         return Part::None;
     const SplitLine line(*split, size());
@@ -162,9 +152,10 @@ void SplitHandle::hover(Part part) {
         m_viewport.unsetCursor();
     else
         m_viewport.setCursor(part == Part::Ring ? Qt::PointingHandCursor : Qt::SizeAllCursor);
-    showHint(m_viewport, part == Part::None   ? QString()
-                         : part == Part::Ring ? tr("Drag to turn the split; Shift: in steps of 15°")
-                                              : tr("Drag to move the split; Esc takes it away"));
+    showHint(m_viewport, part == Part::None ? QString()
+                         : part == Part::Ring
+                             ? tr("Drag to rotate the split; Shift: in steps of 15°")
+                             : tr("Drag to move the split; Esc removes it"));
 }
 
 bool SplitHandle::press(const QPointF& point) {
@@ -172,16 +163,16 @@ bool SplitHandle::press(const QPointF& point) {
     m_otherDrag = m_dragged == Part::None;
     if (m_otherDrag)
         return false;
-    m_beforeDrag = *m_views.settings().split;
+    m_beforeDrag = *m_model.line();
     m_grab = SplitLine(m_beforeDrag, size()).center - point;
     hover(m_dragged);
     return true;
 }
 
 void SplitHandle::drag(const QPointF& point, bool inSteps) {
-    if (!m_views.settings().split)
+    if (!m_model.line())
         return;
-    render::ViewSplit split = *m_views.settings().split;
+    render::ViewSplit split = *m_model.line();
     if (m_dragged == Part::Ring) {
         const QPointF from = point - SplitLine(split, size()).center;
         if (length(from) < 1.0)
@@ -198,7 +189,7 @@ void SplitHandle::drag(const QPointF& point, bool inSteps) {
         };
         split.position = {inside(center.x(), width()), inside(center.y(), height())};
     }
-    m_views.edit([&](render::ViewSettings& settings) { settings.split = split; });
+    m_model.moveLine(split);
 }
 
 bool SplitHandle::escape() {
@@ -206,20 +197,16 @@ bool SplitHandle::escape() {
         return false;
     if (m_dragged != Part::None) {
         m_dragged = Part::None;
-        // Keys may have changed what is shown meanwhile; only the line goes back.
-        m_views.edit([this](render::ViewSettings& settings) {
-            settings.split->position = m_beforeDrag.position;
-            settings.split->angleDeg = m_beforeDrag.angleDeg;
-        });
+        m_model.moveLine(m_beforeDrag);
     } else {
-        m_views.toggleSplit();
+        m_model.removeLine();
     }
     return true;
 }
 
 bool SplitHandle::eventFilter(QObject*, QEvent* event) {
     if (event->type() == QEvent::Resize)
-        resize(m_viewport.size());
+        setGeometry(m_model.area(m_viewport.size()));
     if (!isVisible())
         return false;
     switch (event->type()) {
@@ -232,16 +219,16 @@ bool SplitHandle::eventFilter(QObject*, QEvent* event) {
             m_otherDrag = true;
             return false;
         }
-        return press(mouse.position());
+        return press(mouse.position() - pos());
     }
     case QEvent::MouseMove: {
         const auto& mouse = *static_cast<QMouseEvent*>(event);
         if (m_dragged != Part::None) {
-            drag(mouse.position(), mouse.modifiers() & Qt::ShiftModifier);
+            drag(mouse.position() - pos(), mouse.modifiers() & Qt::ShiftModifier);
             return true;
         }
         if (!m_otherDrag)
-            hover(partAt(mouse.position()));
+            hover(partAt(mouse.position() - pos()));
         return m_hovered != Part::None;
     }
     case QEvent::MouseButtonRelease: {

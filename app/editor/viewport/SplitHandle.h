@@ -1,22 +1,42 @@
-// The limit between two views, over the viewport: its line, its handles, the names on both sides.
-// Dragging the line moves it, dragging the ring turns it (Shift: in steps), Esc takes the split
-// away, or a drag back.
+// The line between the two sides of a picture (two views, two cells that are compared), over the
+// viewport: its handles, the names on both sides. Dragging the line moves it, dragging the ring
+// rotates it (Shift: in steps), Esc removes the split, or takes a drag back.
 #pragma once
 
 #include "render/view/ViewSettings.h"
 
+#include <QObject>
 #include <QPointF>
+#include <QRect>
+#include <QString>
 #include <QWidget>
+#include <optional>
 
 namespace patina::editor {
 
-class ViewState;
+// What a SplitHandle shows and moves.
+class SplitModel : public QObject {
+    Q_OBJECT
+  public:
+    using QObject::QObject;
+    // Position and angle; nothing: there is no line.
+    [[nodiscard]] virtual std::optional<render::ViewSplit> line() const = 0;
+    virtual void moveLine(const render::ViewSplit& line) = 0;
+    virtual void removeLine() = 0;
+    [[nodiscard]] virtual QString leftName() const = 0;
+    [[nodiscard]] virtual QString rightName() const = 0;
+    // Of a viewport of this size, the part that is divided.
+    [[nodiscard]] virtual QRect area(const QSize& viewport) const { return {{}, viewport}; }
 
-// The limit in pixels of a viewport, y downwards.
+  Q_SIGNALS:
+    void lineChanged();
+};
+
+// The line in pixels of the area, y downwards.
 struct SplitLine {
     QPointF center;
     QPointF along; // unit, upwards at 0°
-    QPointF right; // unit, towards the other view
+    QPointF right; // unit, towards the other side
 
     SplitLine(const render::ViewSplit& split, const QSizeF& size);
     [[nodiscard]] QPointF ring() const;                        // what turns it
@@ -26,8 +46,8 @@ struct SplitLine {
 class SplitHandle : public QWidget {
     Q_OBJECT
   public:
-    // Covers `viewport` and sees its events before those that have listened for longer.
-    SplitHandle(ViewState& views, QWidget& viewport);
+    // Covers the area in `viewport` and sees its events before those that have listened for longer.
+    SplitHandle(SplitModel& model, QWidget& viewport);
 
   protected:
     void paintEvent(QPaintEvent* event) override;
@@ -41,10 +61,10 @@ class SplitHandle : public QWidget {
     bool press(const QPointF& point);
     void drag(const QPointF& point, bool inSteps);
     bool escape();
-    void paintCaption(QPainter& painter, const SplitLine& line, const render::ViewChoice& choice,
+    void paintCaption(QPainter& painter, const SplitLine& line, const QString& name,
                       double side) const;
 
-    ViewState& m_views;
+    SplitModel& m_model;
     QWidget& m_viewport;
     Part m_hovered = Part::None, m_dragged = Part::None;
     QPointF m_grab;                 // from the pointer to the centre

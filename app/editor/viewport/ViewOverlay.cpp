@@ -3,6 +3,7 @@
 #include "app/editor/style/Tokens.h"
 #include "app/editor/viewport/SplitHandle.h"
 #include "app/editor/viewport/ViewLegend.h"
+#include "app/editor/viewport/ViewSplitModel.h"
 #include "app/editor/viewport/ViewState.h"
 
 #include <QEvent>
@@ -13,7 +14,7 @@ ViewOverlay::ViewOverlay(ViewState& views, DocumentController& controller, QWidg
     : QObject(&viewport)
     , m_views(views)
     , m_viewport(viewport)
-    , m_split(new SplitHandle(views, viewport))
+    , m_split(new SplitHandle(*new ViewSplitModel(views, this), viewport))
     , m_shown(new ViewLegend(views, controller, ViewSide::Shown, &viewport))
     , m_other(new ViewLegend(views, controller, ViewSide::Other, &viewport)) {
     for (ViewLegend* legend : {m_shown, m_other}) {

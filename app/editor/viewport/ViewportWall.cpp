@@ -21,9 +21,9 @@ constexpr double kSliceMs = 25.0; // as slices of a single picture
 
 } // namespace
 
-void ViewportWidget::setWall(WallState& wall) {
+void ViewportWidget::setWall(WallState& wall, WallComparison& comparison) {
     m_wallState = &wall;
-    m_wall.setWall(wall);
+    m_wall.setWall(wall, comparison);
     connect(&wall, &WallState::changed, this, &ViewportWidget::wallChanged);
     connect(&wall, &WallState::cellsChosen, this, &ViewportWidget::wallChanged);
 }
@@ -99,6 +99,8 @@ void ViewportWidget::paintWall() {
     }
     if (const Result<void> shown = m_wall.present(defaultFramebufferObject(), sizeAt(1.0f)); !shown)
         logError("the wall could not be drawn: {}", shown.error().text());
+    if (!m_pacing.moving())
+        m_wall.measure();
     m_nearShadows.endFrame(*m_scene);
     context()->functions()->glFinish();
     m_slowestFrameMs = std::max(m_slowestFrameMs, static_cast<double>(clock.nsecsElapsed()) * 1e-6);

@@ -14,6 +14,7 @@
 #include "core/mix/LightMix.h"
 #include "render/gl/Context.h"
 
+#include <QGuiApplication>
 #include <QOpenGLContext>
 #include <QOpenGLExtraFunctions>
 #include <QOpenGLFramebufferObject>
@@ -617,7 +618,11 @@ QImage ViewportWidget::smallPicture(const QSize& largest) {
 
 void ViewportWidget::pickAt(const QPointF& position) {
     if (m_wall.isOn()) {
-        m_wallState->setCurrent(m_wallLayout.cellAt(position));
+        const std::optional<std::size_t> cell = m_wallLayout.cellAt(position);
+        if (QGuiApplication::keyboardModifiers().testFlag(Qt::ControlModifier))
+            m_wallState->compareWith(cell);
+        else if (!m_wallState->enlarged())
+            m_wallState->setCurrent(cell);
         return;
     }
     if (!m_renderer || m_lastFrameSize.isEmpty())

@@ -45,6 +45,7 @@ class JobManager;
 class LobeOnSurface;
 class SelectionModel;
 class ViewState;
+class WallComparison;
 class WallState;
 
 // How far the picture of the scene has come: drawn for speed, on its way to be as fine as it gets,
@@ -66,9 +67,10 @@ class ViewportWidget : public QOpenGLWidget {
     void setDisplays(DisplayLoader& displays); // whose view of OpenColorIO is shown
     void setViews(ViewState& views);           // what of the scene is shown
     void setLobe(LobeOnSurface& lobe);         // which is drawn with the overlays
-    void setWall(WallState& wall);             // whether many of it are shown beside each other
-    void setProbe(PixelProbe& probe);          // who is told what pixels are made of
-    void setLuminanceWanted(bool wanted);      // even where the picture does not depend on it
+    void setWall(WallState& wall,
+                 WallComparison& comparison); // whether many of it are shown beside each other
+    void setProbe(PixelProbe& probe);         // who is told what pixels are made of
+    void setLuminanceWanted(bool wanted);     // even where the picture does not depend on it
 
     // Thumbnails of views with this viewport's camera, drawn while it rests.
     [[nodiscard]] SheetScheduler& sheets() { return m_sheets; }

@@ -2,18 +2,21 @@
 
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/wall/CompareControls.h"
 #include "app/editor/wall/WallAxisControls.h"
+#include "app/editor/wall/WallComparison.h"
 #include "app/editor/wall/WallState.h"
 #include "app/editor/widget/FlowLayout.h"
 #include "app/editor/widget/ListButton.h"
 #include "app/editor/widget/TextButton.h"
 
 #include <QToolButton>
+#include <QVBoxLayout>
 
 namespace patina::editor {
 
-WallBar::WallBar(WallState& wall, DocumentController& controller, SelectionModel& selection,
-                 QWidget* parent)
+WallBar::WallBar(WallState& wall, WallComparison& comparison, DocumentController& controller,
+                 SelectionModel& selection, QWidget* parent)
     : QFrame(parent)
     , m_wall(wall)
     , m_columns(new WallAxisControls(WallAxisControls::Axis::Columns, wall, controller, selection))
@@ -28,8 +31,12 @@ WallBar::WallBar(WallState& wall, DocumentController& controller, SelectionModel
     QToolButton* close =
         makeListButton(QStringLiteral("close"), {}, tr("Show one picture again (F3 or Esc)"));
     constexpr int kBetween = 3 * tokens::kGap / 4; // on one line in a window of 1366 pixels
-    auto* row = new FlowLayout(kBetween, tokens::kGap / 2, this);
-    row->setContentsMargins(tokens::kGap, tokens::kGap / 2, tokens::kGap, tokens::kGap / 2);
+    auto* row = new FlowLayout(kBetween, tokens::kGap / 2);
+    auto* rows = new QVBoxLayout(this);
+    rows->setContentsMargins(tokens::kGap, tokens::kGap / 2, tokens::kGap, tokens::kGap / 2);
+    rows->setSpacing(tokens::kGap / 2);
+    rows->addLayout(row);
+    rows->addWidget(new CompareControls(wall, comparison));
     for (QWidget* widget : {static_cast<QWidget*>(m_columns), static_cast<QWidget*>(m_rows),
                             static_cast<QWidget*>(m_enlarge), static_cast<QWidget*>(m_use),
                             static_cast<QWidget*>(close)})

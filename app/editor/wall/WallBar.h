@@ -12,13 +12,14 @@ namespace patina::editor {
 class DocumentController;
 class SelectionModel;
 class WallAxisControls;
+class WallComparison;
 class WallState;
 
 class WallBar : public QFrame {
     Q_OBJECT
   public:
-    WallBar(WallState& wall, DocumentController& controller, SelectionModel& selection,
-            QWidget* parent = nullptr);
+    WallBar(WallState& wall, WallComparison& comparison, DocumentController& controller,
+            SelectionModel& selection, QWidget* parent = nullptr);
 
   private:
     void refresh();

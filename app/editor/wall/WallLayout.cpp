@@ -13,13 +13,6 @@ namespace {
 constexpr int kCellGap = 4;
 constexpr int kMostRowHead = 4; // captions of rows take a fourth of the width at most
 
-QString captionOf(const WallCell& cell) {
-    QStringList parts;
-    for (const std::string& part : cell.captions)
-        parts << toQString(part);
-    return parts.join(QStringLiteral("  ·  "));
-}
-
 // The pieces of `length` from `start` that `count` cells with gaps between them get, as equal as
 // whole pixels allow.
 QPair<int, int> piece(int start, int length, std::size_t count, std::size_t index) {
@@ -30,6 +23,13 @@ QPair<int, int> piece(int start, int length, std::size_t count, std::size_t inde
 }
 
 } // namespace
+
+QString captionOf(const WallCell& cell) {
+    QStringList parts;
+    for (const std::string& part : cell.captions)
+        parts << toQString(part);
+    return parts.join(QStringLiteral("  ·  "));
+}
 
 WallLayout WallLayout::of(const WallState& state, const QSize& size, const QFontMetrics& metrics) {
     WallLayout layout;
@@ -42,8 +42,15 @@ WallLayout WallLayout::of(const WallState& state, const QSize& size, const QFont
     layout.cells.resize(cells.size());
     if (const auto enlarged = state.enlarged()) {
         layout.cells[*enlarged] = {0, line, size.width(), std::max(size.height() - line, 1)};
+        const auto compared = state.compared();
+        if (compared)
+            layout.cells[*compared] = layout.cells[*enlarged];
         layout.captions.push_back(
-            {{0, 0, size.width(), line}, captionOf(cells[*enlarged]), Qt::AlignCenter});
+            {{0, 0, size.width(), line},
+             compared ? QStringLiteral("A  %1      B  %2")
+                            .arg(captionOf(cells[*enlarged]), captionOf(cells[*compared]))
+                      : captionOf(cells[*enlarged]),
+             Qt::AlignCenter});
         return layout;
     }
     QRect room(QPoint(0, 0), size);

@@ -1,6 +1,8 @@
 // Where the cells of a wall and their captions lie in the viewport.
 #pragma once
 
+#include "core/cells/Wall.h"
+
 #include <QFontMetrics>
 #include <QRect>
 #include <QSize>
@@ -11,6 +13,8 @@
 namespace patina::editor {
 
 class WallState;
+
+[[nodiscard]] QString captionOf(const WallCell& cell); // of its column and row
 
 struct WallLayout {
     struct Caption {

@@ -1,7 +1,9 @@
 #include "app/editor/wall/WallOverlay.h"
 
 #include "app/editor/style/Tokens.h"
+#include "app/editor/wall/WallComparison.h"
 #include "app/editor/wall/WallState.h"
+#include "core/image/ColorMap.h"
 
 #include <QKeyEvent>
 #include <QPainter>
@@ -11,12 +13,15 @@ namespace patina::editor {
 namespace {
 
 constexpr int kFrame = 2;
+constexpr int kLegendWidth = 160, kLegendHeight = 10;
+constexpr double kMark = 8.0; // radius
 
 } // namespace
 
-WallOverlay::WallOverlay(WallState& wall, QWidget& viewport)
+WallOverlay::WallOverlay(WallState& wall, WallComparison& comparison, QWidget& viewport)
     : QWidget(&viewport)
     , m_wall(wall)
+    , m_comparison(comparison)
     , m_viewport(viewport) {
     setObjectName(QStringLiteral("wallOverlay"));
     setAttribute(Qt::WA_TransparentForMouseEvents);
@@ -25,6 +30,8 @@ WallOverlay::WallOverlay(WallState& wall, QWidget& viewport)
     connect(&wall, &WallState::changed, this, &WallOverlay::follow);
     connect(&wall, &WallState::cellsChosen, this, &WallOverlay::follow);
     connect(&wall, &WallState::textsChanged, this, qOverload<>(&QWidget::update));
+    connect(&comparison, &WallComparison::changed, this, qOverload<>(&QWidget::update));
+    connect(&comparison, &WallComparison::measuredChanged, this, qOverload<>(&QWidget::update));
 }
 
 void WallOverlay::follow() {
@@ -43,8 +50,19 @@ void WallOverlay::follow() {
 bool WallOverlay::eventFilter(QObject*, QEvent* event) {
     if (event->type() == QEvent::Resize)
         follow();
-    if (event->type() == QEvent::KeyPress && m_wall.isOn()) {
+    if (!m_wall.isOn())
+        return false;
+    if (event->type() == QEvent::FocusOut)
+        m_comparison.setPeeking(false);
+    if (event->type() == QEvent::KeyRelease || event->type() == QEvent::KeyPress) {
         const auto* key = static_cast<QKeyEvent*>(event);
+        if (key->key() == Qt::Key_Space && m_comparison.isOn()) {
+            if (!key->isAutoRepeat())
+                m_comparison.setPeeking(event->type() == QEvent::KeyPress);
+            return true;
+        }
+        if (event->type() == QEvent::KeyRelease)
+            return false;
         const bool plain = (key->modifiers() & ~Qt::KeypadModifier) == Qt::NoModifier;
         return plain && pressKey(key->key());
     }
@@ -74,6 +92,40 @@ bool WallOverlay::pressKey(int key) {
     }
 }
 
+// In the place of both pictures, with what its colours stand for and where it is largest.
+void WallOverlay::paintDifference(QPainter& painter, const QRect& area) const {
+    const auto& measured = m_comparison.measured();
+    if (!measured || measured->map.isNull())
+        return;
+    painter.drawImage(area, measured->map);
+    const auto number = [](float value) { return QString::number(value, 'g', 3); };
+    const QFontMetrics metrics = fontMetrics();
+    const QRect box(area.left() + tokens::kMargin,
+                    area.bottom() - tokens::kMargin - kLegendHeight - metrics.height(),
+                    kLegendWidth, kLegendHeight + metrics.height());
+    painter.fillRect(box.adjusted(-tokens::kGap, -tokens::kGap / 2, tokens::kGap, tokens::kGap / 2),
+                     QColor(tokens::kWell));
+    for (int x = 0; x < box.width(); ++x) {
+        const glm::vec3 color =
+            mapColor(measured->colors, static_cast<float>(x) / static_cast<float>(box.width() - 1));
+        painter.fillRect(box.left() + x, box.top(), 1, kLegendHeight,
+                         QColor::fromRgbF(color.r, color.g, color.b));
+    }
+    painter.setPen(QColor(tokens::kText));
+    const QRect scale = box.adjusted(0, kLegendHeight, 0, 0);
+    painter.drawText(scale, Qt::AlignLeft | Qt::AlignVCenter, number(measured->from));
+    painter.drawText(scale, Qt::AlignRight | Qt::AlignVCenter, number(measured->to));
+    // FLIP's largest value: what a viewer would notice first.
+    if (measured->flip.max <= 0.0)
+        return;
+    const double x = (measured->flip.maxPosition.x + 0.5) / measured->map.width();
+    const double y = (measured->flip.maxPosition.y + 0.5) / measured->map.height();
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(QPen(QColor(tokens::kAccent), 1.5));
+    painter.drawEllipse(QPointF(area.left() + x * area.width(), area.top() + y * area.height()),
+                        kMark, kMark);
+}
+
 void WallOverlay::paintEvent(QPaintEvent*) {
     QPainter painter(this);
     const auto say = [&](const QRect& place, const QString& text) {
@@ -93,6 +145,8 @@ void WallOverlay::paintEvent(QPaintEvent*) {
     for (std::size_t i = 0; i < m_layout.cells.size(); ++i)
         if (const QString text = m_wall.text(i); !text.isEmpty() && !m_layout.cells[i].isNull())
             say(m_layout.cells[i], text);
+    if (m_comparison.showsDifference() && m_wall.enlarged())
+        paintDifference(painter, m_layout.cells[*m_wall.enlarged()]);
     const auto current = m_wall.current();
     if (current && *current < m_layout.cells.size() && !m_wall.enlarged()) {
         painter.setPen(QPen(QColor(tokens::kAccent), kFrame));

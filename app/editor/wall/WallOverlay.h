@@ -1,5 +1,6 @@
-// Captions of the wall over the viewport, the frame of the current cell, and what stands in the
-// place of pictures that are not there. Keys: the arrows choose a cell, Enter enlarges it.
+// Captions of the wall over the viewport, the frame of the current cell, what stands in the place
+// of pictures that are not there, the difference of two that are compared. Keys: the arrows choose
+// a cell, Enter enlarges it, Space shows the other one of two.
 #pragma once
 
 #include "app/editor/wall/WallLayout.h"
@@ -8,13 +9,14 @@
 
 namespace patina::editor {
 
+class WallComparison;
 class WallState;
 
 class WallOverlay : public QWidget {
     Q_OBJECT
   public:
     // Covers `viewport` while the wall is on.
-    WallOverlay(WallState& wall, QWidget& viewport);
+    WallOverlay(WallState& wall, WallComparison& comparison, QWidget& viewport);
 
     [[nodiscard]] const WallLayout& layoutOfWall() const { return m_layout; }
 
@@ -25,8 +27,10 @@ class WallOverlay : public QWidget {
   private:
     void follow();
     [[nodiscard]] bool pressKey(int key);
+    void paintDifference(QPainter& painter, const QRect& area) const;
 
     WallState& m_wall;
+    WallComparison& m_comparison;
     QWidget& m_viewport;
     WallLayout m_layout;
 };

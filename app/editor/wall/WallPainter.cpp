@@ -3,6 +3,7 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/QtText.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/wall/WallComparison.h"
 #include "app/editor/wall/WallState.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
@@ -49,8 +50,10 @@ WallPainter::WallPainter(DocumentController& controller, const std::filesystem::
     });
 }
 
-void WallPainter::setWall(WallState& wall) {
+void WallPainter::setWall(WallState& wall, WallComparison& comparison) {
     m_wall = &wall;
+    m_comparison = &comparison;
+    connect(&comparison, &WallComparison::changed, this, &WallPainter::changed);
     connect(&wall, &WallState::changed, this, [this] {
         recompose();
         m_sameCells = false;
@@ -78,8 +81,10 @@ void WallPainter::setNearShadows(const NearShadowsPtr& shadows) {
 }
 
 void WallPainter::invalidate() {
-    if (m_renderer)
-        m_renderer->invalidate();
+    if (!m_renderer)
+        return;
+    m_renderer->invalidate();
+    m_comparison->outdate();
 }
 
 void WallPainter::release() {
@@ -208,8 +213,11 @@ void WallPainter::set(render::SceneRenderer& scene, const render::FrameSettings&
         view.frame = own;
         view.document.view.camera = own.camera;
     }
-    if (differs)
+    if (differs) {
         m_renderer->set(m_views, m_sameCells);
+        if (!m_renderer->complete())
+            m_comparison->outdate();
+    }
     m_sameCells = true;
     std::vector<QString> texts;
     for (std::size_t i = 0; i < m_views.size(); ++i) {
@@ -231,17 +239,32 @@ Result<void> WallPainter::present(unsigned framebuffer, const QSize& size) {
     gl->glClear(GL_COLOR_BUFFER_BIT);
     if (!m_renderer)
         return {};
-    for (std::size_t i = 0; i < m_places.size(); ++i) {
-        const QRect& place = m_places[i];
-        if (place.isEmpty() || !m_renderer->hasPicture(i))
-            continue;
+    const auto show = [&](std::size_t cell, const WallComparison::Shown& how) -> Result<void> {
+        const QRect& place = m_places[cell];
+        if (place.isEmpty() || !m_renderer->hasPicture(cell))
+            return {};
         const int bottom = size.height() - place.y() - place.height();
-        if (auto done = m_renderer->picture(i).present(
-                framebuffer, {place.x(), bottom, place.width(), place.height()});
-            !done)
-            return done;
-    }
-    return {};
+        return m_renderer->picture(cell).present(
+            framebuffer,
+            {{place.x(), bottom, place.width(), place.height()}, how.split, how.opacity});
+    };
+    const std::optional<std::size_t> other = m_wall->compared();
+    for (std::size_t i = 0; i < m_places.size(); ++i)
+        if (i != other)
+            if (auto done = show(i, {}); !done)
+                return done;
+    const WallComparison::Shown shown = m_comparison->shown();
+    return other && *other < m_places.size() && shown.any ? show(*other, shown) : Result<void>();
+}
+
+// Once both cells that are compared are as fine as they get.
+void WallPainter::measure() {
+    const std::optional<std::size_t> a = m_wall->enlarged(), b = m_wall->compared();
+    if (!m_comparison->isOutdated() || !a || !b || !complete() || preparing() ||
+        !m_renderer->hasPicture(*a) || !m_renderer->hasPicture(*b))
+        return;
+    m_comparison->measure(m_renderer->picture(*a).readDisplayed(),
+                          m_renderer->picture(*b).readDisplayed());
 }
 
 } // namespace patina::editor

@@ -19,6 +19,7 @@ struct FrameKind;
 namespace patina::editor {
 
 class DocumentController;
+class WallComparison;
 class WallState;
 
 class WallPainter : public QObject {
@@ -28,7 +29,7 @@ class WallPainter : public QObject {
     WallPainter(DocumentController& controller, const std::filesystem::path& cacheFolder,
                 QObject* parent = nullptr);
 
-    void setWall(WallState& wall);
+    void setWall(WallState& wall, WallComparison& comparison);
     [[nodiscard]] bool isOn() const;
     // Whether frames of these kinds are drawn without a stall; else it sees to that, and calls
     // recompose() when they are.
@@ -49,6 +50,7 @@ class WallPainter : public QObject {
     Result<bool> draw(double budgetMs);
     // All cells as they are into a framebuffer of `size` pixels.
     Result<void> present(unsigned framebuffer, const QSize& size);
+    void measure(); // the cells that are compared, when they rest
     void release(); // what it has in the scene; the document is to be set again
 
     // The scene looks different in a way that the document does not say.
@@ -70,6 +72,7 @@ class WallPainter : public QObject {
 
     DocumentController& m_controller;
     WallState* m_wall = nullptr;
+    WallComparison* m_comparison = nullptr;
     WallLights m_lights;
     Ready m_ready;
     ImagePtr m_sceneLight;

@@ -28,7 +28,7 @@ void WallState::setOn(bool on) {
     if (on == m_on)
         return;
     m_on = on;
-    m_current = m_enlarged = std::nullopt;
+    m_current = m_enlarged = m_compared = std::nullopt;
     if (on && !std::exchange(m_planned, true))
         m_plan = defaultWallPlan(m_controller.document());
     m_wall = {};
@@ -44,7 +44,7 @@ void WallState::setPlan(const WallPlan& plan) {
         return;
     m_plan = plan;
     m_planned = true;
-    m_current = m_enlarged = std::nullopt;
+    m_current = m_enlarged = m_compared = std::nullopt;
     if (m_on)
         make();
     Q_EMIT changed();
@@ -60,7 +60,7 @@ void WallState::make() {
     m_problem = problem;
     m_cells = cellsOf(m_wall);
     m_texts.clear();
-    for (std::optional<std::size_t>* cell : {&m_current, &m_enlarged})
+    for (std::optional<std::size_t>* cell : {&m_current, &m_enlarged, &m_compared})
         if (*cell && **cell >= m_cells.size())
             cell->reset();
     Q_EMIT changed();
@@ -74,6 +74,8 @@ void WallState::setCurrent(std::optional<std::size_t> cell) {
     m_current = cell;
     if (m_enlarged)
         m_enlarged = cell;
+    if (!m_enlarged || m_compared == m_enlarged)
+        m_compared.reset();
     Q_EMIT cellsChosen();
 }
 
@@ -104,8 +106,28 @@ void WallState::enlarge(std::optional<std::size_t> cell) {
     if (cell == m_enlarged)
         return;
     m_enlarged = cell;
+    m_compared.reset();
     if (cell)
         m_current = cell;
+    Q_EMIT cellsChosen();
+}
+
+void WallState::compareWith(std::optional<std::size_t> cell) {
+    if (cell && *cell >= m_cells.size())
+        cell.reset();
+    const std::size_t shown = m_enlarged.value_or(m_current.value_or(0));
+    if (cell == m_compared || cell == shown)
+        return;
+    if (cell)
+        m_current = m_enlarged = shown;
+    m_compared = cell;
+    Q_EMIT cellsChosen();
+}
+
+void WallState::swapCompared() {
+    if (!m_compared)
+        return;
+    m_current = m_enlarged = std::exchange(m_compared, m_enlarged);
     Q_EMIT cellsChosen();
 }
 

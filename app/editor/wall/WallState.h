@@ -40,6 +40,11 @@ class WallState : public QObject {
     // The one that fills the viewport; nothing: all are shown.
     [[nodiscard]] std::optional<std::size_t> enlarged() const { return m_enlarged; }
     void enlarge(std::optional<std::size_t> cell);
+    // The one that the enlarged one is compared with, in its place; nothing: none. Setting it
+    // enlarges the current cell, or the first one.
+    [[nodiscard]] std::optional<std::size_t> compared() const { return m_compared; }
+    void compareWith(std::optional<std::size_t> cell);
+    void swapCompared(); // the other one becomes the current one
     // Makes the scene what the current cell shows, as one step.
     void useInScene();
 
@@ -49,7 +54,7 @@ class WallState : public QObject {
 
   Q_SIGNALS:
     void changed();      // on or off, the plan, what cells there are
-    void cellsChosen();  // current() or enlarged()
+    void cellsChosen();  // current(), enlarged() or compared()
     void textsChanged(); // text()
 
   private:
@@ -62,7 +67,7 @@ class WallState : public QObject {
     Wall m_wall;
     std::vector<WallCell> m_cells;
     QString m_problem;
-    std::optional<std::size_t> m_current, m_enlarged;
+    std::optional<std::size_t> m_current, m_enlarged, m_compared;
     std::vector<QString> m_texts;
 };
 

@@ -1,78 +1,20 @@
 // The wall in the real window, by real keys and mouse: what it compares, which cell is current or
 // enlarged, edits, the way back. PATINA_SCREENSHOTS keeps pictures.
-#include "app/editor/viewport/ViewState.h"
 #include "app/editor/wall/WallBar.h"
-#include "app/editor/wall/WallOverlay.h"
 #include "app/editor/widget/NumberField.h"
-#include "core/cells/WallAxes.h"
 #include "core/document/ViewChoices.h"
-#include "core/edit/Edit.h"
 #include "core/edit/EditSession.h"
-#include "core/light/Light.h"
-#include "core/material/Material.h"
-#include "tests/app/editor/EditorFixture.h"
-#include "tests/support/Events.h"
+#include "tests/app/wall/WallFixture.h"
 
-#include <QComboBox>
-#include <QDir>
-#include <QMenu>
 #include <QPushButton>
-#include <QToolButton>
 
 namespace patina::editor {
 namespace {
 
 using ::testing::HasSubstr;
 
-class WallWindowTest : public EditorTest {
+class WallWindowTest : public WallWindow {
   protected:
-    void SetUp() override {
-        session->wall.setOn(false);
-        EditorTest::SetUp();
-        window->viewport().setFixedSize(360, 240); // software OpenGL pays for each pixel
-        session->views.set({});
-        controller().editStructure(QStringLiteral("Materials"), [](Document& document) {
-            document.materials.resize(1);
-            for (MeshInstance& mesh : document.meshes)
-                mesh.material = document.materials[0].id;
-            for (const char* name : {"Gold", "Clay"}) {
-                Material material;
-                material.name = name;
-                material.baseColor = name[0] == 'G' ? glm::vec3(1.0f, 0.7f, 0.2f) : glm::vec3(0.4f);
-                material.metallic = name[0] == 'G' ? 1.0f : 0.0f;
-                addMaterial(document, material);
-            }
-        });
-        steps = undoCount();
-        window->activateWindow();
-        ASSERT_TRUE(QTest::qWaitForWindowActive(window.get(), 30'000));
-        viewport().setFocus();
-    }
-    void TearDown() override { session->wall.setOn(false); }
-
-    static ViewportWidget& viewport() { return window->viewport(); }
-    static WallState& wall() { return session->wall; }
-    static void key(Qt::Key code) { QTest::keyClick(&viewport(), code); }
-    static bool isSettled() {
-        return eventually([] { return viewport().isSettled(); });
-    }
-    static WallOverlay& overlay() { return *viewport().findChild<WallOverlay*>(); }
-    static QPoint centreOf(std::size_t cell) {
-        return overlay().layoutOfWall().cells[cell].center();
-    }
-    static void click(std::size_t cell) {
-        QTest::mouseClick(&viewport(), Qt::LeftButton, Qt::NoModifier, centreOf(cell));
-    }
-    static void compare(const char* side, const char* what) {
-        auto* box = find<QComboBox>(*window, QLatin1String(side));
-        ASSERT_NE(box, nullptr);
-        const int index = box->findText(QLatin1String(what));
-        ASSERT_GE(index, 0);
-        box->setFocus();
-        box->setCurrentIndex(index);
-        Q_EMIT box->activated(index);
-        viewport().setFocus();
-    }
     static QMenu& menuOf(const char* button) {
         QMenu* menu = find<QToolButton>(*window, QLatin1String(button))->menu();
         Q_EMIT menu->aboutToShow();
@@ -87,7 +29,7 @@ class WallWindowTest : public EditorTest {
     // Of what the viewport shows, over the middle of a cell.
     static double brightness(std::size_t cell) {
         const QImage shown = viewport().grabFramebuffer();
-        const QRect place = overlay().layoutOfWall().cells[cell];
+        const QRect place = placeOf(cell);
         double sum = 0.0;
         int count = 0;
         for (int y = place.top(); y < place.bottom(); ++y)
@@ -95,24 +37,12 @@ class WallWindowTest : public EditorTest {
                 sum += qGray(shown.pixel(x, y));
         return sum / count;
     }
-    static QImage pictureOf(std::size_t cell) {
-        return viewport().grabFramebuffer().copy(overlay().layoutOfWall().cells[cell]);
-    }
     static std::vector<std::string> columns() {
         std::vector<std::string> captions;
         for (const WallEntry& entry : wall().wall().columns.entries)
             captions.push_back(entry.caption);
         return captions;
     }
-    static void keepPicture(const char* name) {
-        const QString pictures = qEnvironmentVariable("PATINA_SCREENSHOTS");
-        if (pictures.isEmpty())
-            return;
-        ASSERT_TRUE(QDir().mkpath(pictures));
-        EXPECT_TRUE(window->grab().save(QDir(pictures).filePath(QLatin1String(name))));
-    }
-
-    int steps = 0; // that the scene took
 };
 
 TEST_F(WallWindowTest, F3ComparesWhatTheSceneHasAndEscReturns) {
@@ -189,7 +119,7 @@ TEST_F(WallWindowTest, AnEditShowsInTheCellsThatHaveIt) {
 
 TEST_F(WallWindowTest, ColumnsAndRowsAreChosen) {
     key(Qt::Key_F3);
-    compare("Rows", "Tone Curves");
+    choose("Rows", "Tone Curves");
     EXPECT_TRUE(wall().wall().isTable());
     EXPECT_EQ(wall().wall().width, 3u);
     QMenu& curves = menuOf("Shown in rows");
@@ -198,13 +128,13 @@ TEST_F(WallWindowTest, ColumnsAndRowsAreChosen) {
     EXPECT_EQ(action(menuOf("Shown in rows"), "AgX")->isChecked(), false);
     action(menuOf("Shown in rows"), "Show All")->trigger();
     EXPECT_EQ(wall().wall().height, rows + 1);
-    compare("Rows", "Nothing");
+    choose("Rows", "Nothing");
     EXPECT_FALSE(wall().wall().isTable());
-    compare("Columns", "Nothing");
+    choose("Columns", "Nothing");
     EXPECT_THAT(wall().problem().toStdString(), HasSubstr("one or two"));
     ASSERT_TRUE(isSettled());
     keepPicture("wall-nothing.png");
-    compare("Columns", "Lighting Modes");
+    choose("Columns", "Lighting Modes");
     EXPECT_TRUE(wall().problem().isEmpty());
     ASSERT_TRUE(isSettled());
     for (std::size_t i = 0; i < wall().cells().size(); ++i)
@@ -214,7 +144,7 @@ TEST_F(WallWindowTest, ColumnsAndRowsAreChosen) {
 
 TEST_F(WallWindowTest, ValuesOfAParameterAreCompared) {
     key(Qt::Key_F3);
-    compare("Columns", "Values");
+    choose("Columns", "Values");
     EXPECT_EQ(columns().size(), 5u) << "roughness of all materials";
     QMenu& parameters = menuOf("Parameter of columns");
     QMenu* environment = action(parameters, "Environment")->menu();
@@ -237,7 +167,7 @@ TEST_F(WallWindowTest, ValuesOfAParameterAreCompared) {
 
 TEST_F(WallWindowTest, TheCurrentCellMovesWithTheArrows) {
     key(Qt::Key_F3);
-    compare("Rows", "Tone Curves");
+    choose("Rows", "Tone Curves");
     key(Qt::Key_Right);
     EXPECT_EQ(wall().current(), 0u) << "the first one, before any was chosen";
     key(Qt::Key_Right);
@@ -312,7 +242,7 @@ TEST_F(WallWindowTest, ASplitIsOfOnePicture) {
 
 TEST_F(WallWindowTest, CaptionsAndCellsFillTheViewport) {
     key(Qt::Key_F3);
-    compare("Rows", "Tone Curves");
+    choose("Rows", "Tone Curves");
     for (const QSize size : {QSize(360, 240), QSize(701, 455)}) {
         const WallLayout layout = WallLayout::of(wall(), size, viewport().fontMetrics());
         QRegion covered;

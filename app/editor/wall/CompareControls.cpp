@@ -1,0 +1,154 @@
+#include "app/editor/wall/CompareControls.h"
+
+#include "app/editor/style/Tokens.h"
+#include "app/editor/wall/WallComparison.h"
+#include "app/editor/wall/WallLayout.h"
+#include "app/editor/wall/WallState.h"
+#include "app/editor/widget/FlowLayout.h"
+#include "app/editor/widget/ListButton.h"
+#include "app/editor/widget/NumberField.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QToolButton>
+#include <cmath>
+
+namespace patina::editor {
+namespace {
+
+constexpr int kCompareWidth = 64;
+
+void describe(QWidget& widget, const QString& name, const QString& tip) {
+    widget.setAccessibleName(name);
+    widget.setToolTip(tip);
+    widget.setStatusTip(tip);
+}
+
+NumberField* makeNumber(double least, double most, int decimals, const QString& unit) {
+    NumberFormat format;
+    format.softMin = format.hardMin = least;
+    format.softMax = format.hardMax = most;
+    format.decimals = decimals;
+    format.unit = unit;
+    auto* field = new NumberField(format);
+    field->setFixedWidth(kCompareWidth);
+    return field;
+}
+
+} // namespace
+
+CompareControls::CompareControls(WallState& wall, WallComparison& comparison, QWidget* parent)
+    : QWidget(parent)
+    , m_wall(wall)
+    , m_comparison(comparison)
+    , m_other(new QComboBox)
+    , m_mode(new QComboBox)
+    , m_blend(makeNumber(0.0, 100.0, 0, QStringLiteral(" %")))
+    , m_rate(makeNumber(0.5, 10.0, 1, tr(" Hz")))
+    , m_visible(new QCheckBox(tr("Only visible")))
+    , m_swap(makeListButton(QStringLiteral("redo"), {}, tr("Swap A and B")))
+    , m_numbers(new QLabel) {
+    auto* row = new FlowLayout(tokens::kGap, tokens::kGap / 2, this);
+    row->setContentsMargins(0, 0, 0, 0);
+    auto* label = new QLabel(tr("Compare with"));
+    describe(*m_other, tr("Compare with"),
+             tr("The cell that the enlarged one is compared with (Ctrl + click a cell)"));
+    describe(*m_mode, tr("Compare by"), tr("How both cells are shown; hold Space to see B alone"));
+    m_mode->addItem(tr("Wipe"), static_cast<int>(CompareMode::Wipe));
+    m_mode->addItem(tr("Flicker"), static_cast<int>(CompareMode::Flicker));
+    m_mode->addItem(tr("Blend"), static_cast<int>(CompareMode::Blend));
+    m_mode->addItem(tr("Difference, signed"), static_cast<int>(CompareMode::Signed));
+    m_mode->addItem(tr("Difference, absolute"), static_cast<int>(CompareMode::Absolute));
+    m_mode->addItem(tr("Difference, relative"), static_cast<int>(CompareMode::Relative));
+    m_mode->addItem(tr("Visible difference (FLIP)"), static_cast<int>(CompareMode::Visible));
+    describe(*m_blend, tr("Share of B"), tr("How much of B is shown: 0 % is A, 100 % is B"));
+    describe(*m_rate, tr("Flicker rate"), tr("How many pictures are shown per second"));
+    describe(*m_visible, tr("Only visible"),
+             tr("Hides differences that a viewer would not notice"));
+    m_numbers->setObjectName(QStringLiteral("compareNumbers"));
+    m_numbers->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    m_numbers->setToolTip(tr(
+        "A against B, of the pictures as displayed: root mean square error, peak signal-to-noise "
+        "ratio, relative mean square error, and FLIP: how visible the difference is, 0 to 1"));
+    for (QWidget* widget : {static_cast<QWidget*>(label), static_cast<QWidget*>(m_other),
+                            static_cast<QWidget*>(m_mode), static_cast<QWidget*>(m_blend),
+                            static_cast<QWidget*>(m_rate), static_cast<QWidget*>(m_visible),
+                            static_cast<QWidget*>(m_swap), static_cast<QWidget*>(m_numbers)})
+        row->addWidget(widget);
+
+    connect(m_other, &QComboBox::activated, this, [this](int index) {
+        const QVariant cell = m_other->itemData(index);
+        m_wall.compareWith(cell.isValid() ? std::optional<std::size_t>(cell.toUInt())
+                                          : std::nullopt);
+    });
+    connect(m_mode, &QComboBox::activated, this, [this](int index) {
+        m_comparison.setMode(static_cast<CompareMode>(m_mode->itemData(index).toInt()));
+    });
+    for (const auto signal : {&NumberField::dragged, &NumberField::stepped, &NumberField::edited}) {
+        connect(m_blend, signal, this, [this](double percent) {
+            m_comparison.setBlend(static_cast<float>(percent / 100.0));
+        });
+        connect(m_rate, signal, this, [this](double hz) { m_comparison.setFlickerHz(hz); });
+    }
+    connect(m_visible, &QCheckBox::toggled, &comparison, &WallComparison::setOnlyVisible);
+    connect(m_swap, &QToolButton::clicked, &wall, &WallState::swapCompared);
+    connect(&wall, &WallState::changed, this, &CompareControls::refresh);
+    connect(&wall, &WallState::cellsChosen, this, &CompareControls::refresh);
+    connect(&comparison, &WallComparison::changed, this, &CompareControls::refresh);
+    connect(&comparison, &WallComparison::measuredChanged, this, &CompareControls::showNumbers);
+    refresh();
+}
+
+void CompareControls::refresh() {
+    const bool enlarged = m_wall.enlarged().has_value();
+    setVisible(enlarged && m_wall.cells().size() > 1);
+    if (!enlarged)
+        return;
+    const QSignalBlocker quietOther(m_other), quietMode(m_mode), quietVisible(m_visible);
+    const bool rebuilt = m_other->count() != static_cast<int>(m_wall.cells().size());
+    if (rebuilt || m_other->property("of") != QVariant::fromValue(*m_wall.enlarged())) {
+        m_other->clear();
+        m_other->addItem(tr("Nothing"));
+        for (std::size_t i = 0; i < m_wall.cells().size(); ++i)
+            if (i != *m_wall.enlarged())
+                m_other->addItem(captionOf(m_wall.cells()[i]), static_cast<uint>(i));
+        m_other->setProperty("of", QVariant::fromValue(*m_wall.enlarged()));
+    }
+    const auto compared = m_wall.compared();
+    m_other->setCurrentIndex(compared ? m_other->findData(static_cast<uint>(*compared)) : 0);
+    m_mode->setCurrentIndex(m_mode->findData(static_cast<int>(m_comparison.mode())));
+    m_mode->setVisible(compared.has_value());
+    m_swap->setVisible(compared.has_value());
+    m_numbers->setVisible(compared.has_value());
+    m_blend->setVisible(compared && m_comparison.mode() == CompareMode::Blend);
+    m_rate->setVisible(compared && m_comparison.mode() == CompareMode::Flicker);
+    m_visible->setVisible(m_comparison.showsDifference());
+    m_blend->setValue(std::round(100.0 * static_cast<double>(m_comparison.blend())));
+    m_rate->setValue(m_comparison.flickerHz());
+    m_visible->setChecked(m_comparison.onlyVisible());
+    showNumbers();
+}
+
+void CompareControls::showNumbers() {
+    if (!m_comparison.measured()) {
+        m_numbers->setText(m_comparison.problem().isEmpty() ? tr("Comparing…")
+                                                            : m_comparison.problem());
+        return;
+    }
+    const ImageMetrics& metrics = m_comparison.measured()->metrics;
+    const ErrorSummary& flip = m_comparison.measured()->flip;
+    const QString psnr =
+        std::isfinite(metrics.psnr) ? QString::number(metrics.psnr, 'f', 1) : QStringLiteral("∞");
+    m_numbers->setText(tr("RMSE %1   PSNR %2 dB   relMSE %3   FLIP %4, largest %5 at %6, %7")
+                           .arg(metrics.rmse, 0, 'g', 3)
+                           .arg(psnr)
+                           .arg(metrics.relMse, 0, 'g', 3)
+                           .arg(flip.mean, 0, 'f', 3)
+                           .arg(flip.max, 0, 'f', 2)
+                           .arg(flip.maxPosition.x)
+                           .arg(flip.maxPosition.y));
+}
+
+} // namespace patina::editor
