@@ -58,6 +58,8 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
                     tr("Show or hide what runs in the background")))
     , logDock(make(tr("Log"), QStringLiteral("log"), {tr("Ctrl+Shift+9")},
                    tr("Show or hide the messages of this session")))
+    , historyDock(make(tr("Histor&y"), QStringLiteral("history"), {tr("Ctrl+Shift+0")},
+                       tr("Show or hide the list of steps, to go back and forth among them")))
     , nextDock(make(tr("Next Dock"), {}, {tr("Ctrl+Tab")},
                     tr("Move the keyboard focus to the next dock, or to the viewport")))
     , previousDock(make(tr("Previous Dock"), {}, {tr("Ctrl+Shift+Tab")},
@@ -134,7 +136,7 @@ void Actions::describe(QAction* action, const QString& sentence) {
 
 QList<QAction*> Actions::docks() const {
     return {sceneDock, materialDock, environmentDock, lightsDock, viewDock,
-            bakeDock,  modelDock,    jobsDock,        logDock};
+            bakeDock,  modelDock,    jobsDock,        logDock,    historyDock};
 }
 
 QList<QAction*> Actions::instruments() const {

@@ -22,7 +22,7 @@ class Actions : public QObject {
     QAction *undo, *redo;
     QAction *frame, *home, *overlays, *wall, *lightingIbl, *lightingPrt;
     QAction *sceneDock, *materialDock, *environmentDock, *lightsDock, *viewDock, *bakeDock;
-    QAction *modelDock, *jobsDock, *logDock;
+    QAction *modelDock, *jobsDock, *logDock, *historyDock;
     QAction *nextDock, *previousDock;                             // by key
     QAction *pixel, *lightLab, *lens, *energy, *mixer, *transfer; // docks to look closer with
     QAction* pinPixel;

@@ -260,7 +260,18 @@ void Docks::refreshTitles() {
 }
 
 void Docks::reset() {
-    enum { Scene, MaterialDock, EnvironmentDock, Lights, ViewDock, Bake, Model, Jobs, Log };
+    enum {
+        Scene,
+        MaterialDock,
+        EnvironmentDock,
+        Lights,
+        ViewDock,
+        Bake,
+        Model,
+        Jobs,
+        Log,
+        History
+    };
     for (QDockWidget* dock : std::as_const(m_docks)) {
         dock->setFloating(false);
         m_window.removeDockWidget(dock);
@@ -269,6 +280,8 @@ void Docks::reset() {
     m_window.addDockWidget(Qt::LeftDockWidgetArea, m_docks[EnvironmentDock]);
     m_window.tabifyDockWidget(m_docks[EnvironmentDock], m_docks[Lights]);
     m_window.tabifyDockWidget(m_docks[Lights], m_docks[ViewDock]);
+    m_window.addDockWidget(Qt::LeftDockWidgetArea, m_docks[History]);
+    m_window.tabifyDockWidget(m_docks[ViewDock], m_docks[History]);
     m_window.addDockWidget(Qt::RightDockWidgetArea, m_docks[MaterialDock]);
     m_window.tabifyDockWidget(m_docks[MaterialDock], m_docks[Model]);
     m_window.tabifyDockWidget(m_docks[Model], m_docks[Bake]);
@@ -278,7 +291,7 @@ void Docks::reset() {
         m_window.tabifyDockWidget(m_docks[Log], dock);
     for (QDockWidget* dock : std::as_const(m_docks))
         dock->setVisible(dock != m_docks[Jobs] && dock != m_docks[Log] &&
-                         !m_instruments.contains(dock));
+                         dock != m_docks[History] && !m_instruments.contains(dock));
     m_docks[EnvironmentDock]->raise();
     m_docks[MaterialDock]->raise();
     m_window.resizeDocks({m_docks[Scene], m_docks[MaterialDock]}, {304, 356}, Qt::Horizontal);

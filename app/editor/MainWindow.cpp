@@ -16,6 +16,7 @@
 #include "app/editor/panel/BrdfLensPanel.h"
 #include "app/editor/panel/EnergyPanel.h"
 #include "app/editor/panel/EnvironmentPanel.h"
+#include "app/editor/panel/HistoryPanel.h"
 #include "app/editor/panel/JobsPanel.h"
 #include "app/editor/panel/LightLabPanel.h"
 #include "app/editor/panel/LightsPanel.h"
@@ -56,6 +57,7 @@
 #include <QMimeData>
 #include <QScreen>
 #include <QSettings>
+#include <QTimer>
 #include <QToolBar>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -65,7 +67,7 @@ namespace {
 
 constexpr QSize kComfortable(1440, 900);
 constexpr int kFrameHeight = 60;     // more than a title bar needs; what it is is known too late
-constexpr int kLayoutVersion = 4;    // raise when docks come or go: older layouts are ignored
+constexpr int kLayoutVersion = 5;    // raise when docks come or go: older layouts are ignored
 constexpr qint64 kFrameTimeMs = 250; // how often the number changes, so that it can be read
 
 QStringList droppedFiles(const QMimeData* data) {
@@ -213,6 +215,24 @@ void MainWindow::makeDocks() {
                  new ModelPanel(controller, m_session.selection, m_session.thumbnails));
     m_docks->add(a.jobsDock, QStringLiteral("jobs"), new JobsPanel(m_session.jobs));
     m_docks->add(a.logDock, QStringLiteral("log"), new LogPanel);
+    auto* history = new HistoryPanel(controller, [this](const QSize& largest) {
+        const bool rests = m_viewport->isSettled() && !m_session.wall.isOn();
+        return rests ? m_viewport->smallPicture(largest) : QImage();
+    });
+    m_docks->add(a.historyDock, QStringLiteral("history"), history);
+    // Not from within the painting of the frame.
+    connect(m_viewport, &ViewportWidget::frameRendered, history,
+            [this, history](double, PictureState state) {
+                if (state != PictureState::Refined ||
+                    m_picturedRevision == m_session.controller.revision())
+                    return;
+                QTimer::singleShot(0, history, [this, history] {
+                    if (!m_viewport->isSettled())
+                        return;
+                    m_picturedRevision = m_session.controller.revision();
+                    history->viewportRests();
+                });
+            });
     m_docks->addInstrument(a.pixel, QStringLiteral("pixel"),
                            new PixelPanel(controller, m_session.probe, m_viewport->picker()));
     auto* lightLab = new LightLabPanel(controller, m_session.ibl, m_session.probe);

@@ -77,6 +77,14 @@ std::string EditSession::redoText() const {
     return canRedo() ? m_steps[static_cast<std::size_t>(m_index)]->text() : std::string();
 }
 
+EditSession::HistoryEntry EditSession::historyEntry(int index) const {
+    CHECK(index >= 0 && index <= count());
+    if (index == 0)
+        return {{}, {}, {m_history, m_steps.empty() ? m_step : m_steps.front()->m_stateBefore, {}}};
+    const EditStep& step = *m_steps[static_cast<std::size_t>(index - 1)];
+    return {step.text(), step.values(), {m_history, step.m_stateAfter, {}}};
+}
+
 void EditSession::clearHistory() {
     m_steps.clear();
     m_index = 0;

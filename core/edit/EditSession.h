@@ -65,7 +65,13 @@ class EditSession {
     // Of the steps that undo and redo would take; empty where there is none.
     [[nodiscard]] std::string undoText() const;
     [[nodiscard]] std::string redoText() const;
-    void clearHistory(); // the document stays
+    // The document after so many steps: what the last of them was, and which state it is.
+    struct HistoryEntry {
+        std::string text, values; // EditStep; empty before the first step
+        DocumentState state;      // without bakes
+    };
+    [[nodiscard]] HistoryEntry historyEntry(int index) const; // 0 … count()
+    void clearHistory();                                      // the document stays
 
     // Taken with a copy of the document it tells later whether the copy is still what is there.
     [[nodiscard]] DocumentState state() const;

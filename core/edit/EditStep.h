@@ -25,6 +25,9 @@ class EditStep {
     EditStep& operator=(const EditStep&) = delete;
 
     [[nodiscard]] const std::string& text() const { return m_text; } // "Change Roughness of Gold"
+    // Its values before and after, "0.3 → 0.9", where it is about one number, colour or choice;
+    // else empty.
+    [[nodiscard]] virtual std::string values() const { return {}; }
     // Makes the edit, or takes it back.
     virtual Change swap(Document& document, bool forward) = 0;
     // Makes `next`, which was done right after this one, a part of it; false: they stay two.

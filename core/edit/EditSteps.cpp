@@ -1,10 +1,12 @@
 #include "core/edit/EditSteps.h"
 
 #include "core/edit/Edit.h"
+#include "core/image/Srgb.h"
 #include "core/light/GeneratedEnvironment.h"
 #include "core/material/MaterialInputs.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <map>
 #include <utility>
 
@@ -36,6 +38,28 @@ std::map<const void*, std::size_t> payloads(const Elements& elements) {
             if (*image)
                 result[image->get()] = imageBytes(*image);
     return result;
+}
+
+// As the panel shows it; empty for what has no short text.
+std::string shownValue(const ParameterEdit& edit) {
+    const ParameterInfo& info = *edit.info;
+    const std::string_view unit = info.unit;
+    switch (info.type) {
+    case ParameterType::Float:
+        return fmt::format("{:.{}f}{}{}", std::get<float>(edit.value), info.decimals,
+                           unit.empty() || unit == "°" ? "" : " ", unit);
+    case ParameterType::Bool:
+        return std::get<bool>(edit.value) ? "on" : "off";
+    case ParameterType::Choice:
+        return std::string(info.choiceLabels[static_cast<std::size_t>(std::get<int>(edit.value))]);
+    case ParameterType::Color: {
+        const glm::vec3 color = std::get<glm::vec3>(edit.value);
+        return fmt::format("#{:02x}{:02x}{:02x}", linearToSrgb8(color.r), linearToSrgb8(color.g),
+                           linearToSrgb8(color.b));
+    }
+    default:
+        return {};
+    }
 }
 
 // The same part of the same file was read twice.
@@ -71,6 +95,21 @@ bool SetParametersStep::merge(const EditStep& step) {
         return false;
     m_after = next->m_after;
     return true;
+}
+
+std::string SetParametersStep::values() const {
+    const ParameterEdit *before = nullptr, *after = nullptr;
+    for (std::size_t i = 0; i < m_after.size(); ++i) {
+        if (m_before[i].value == m_after[i].value)
+            continue;
+        if (before != nullptr)
+            return {}; // several: none stands for the others
+        before = &m_before[i];
+        after = &m_after[i];
+    }
+    if (before == nullptr || shownValue(*before).empty())
+        return {};
+    return fmt::format("{} → {}", shownValue(*before), shownValue(*after));
 }
 
 bool SetParametersStep::isEmpty() const {

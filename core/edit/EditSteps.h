@@ -23,6 +23,7 @@ class SetParametersStep : public EditStep {
                       std::vector<ParameterEdit> after, DragSession session);
     Change swap(Document& document, bool forward) override;
     bool merge(const EditStep& next) override;
+    [[nodiscard]] std::string values() const override;
     [[nodiscard]] bool isEmpty() const override;
     [[nodiscard]] std::size_t payloadBytes() const override;
 
