@@ -121,6 +121,7 @@ struct EnvironmentOptions {
     int bands = 0; // of spherical harmonics; 0: the environment itself
     ShMethod method = ShMethod::Exact;
     int samples = 200 * 200; // of the other methods
+    int extract = 0;         // sources that lights are to stand for
 };
 
 struct ExportOptions {

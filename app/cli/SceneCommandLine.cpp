@@ -2,6 +2,7 @@
 #include "app/cli/CommandParser.h"
 #include "app/cli/RenderViews.h"
 #include "core/edit/Parameters.h"
+#include "core/light/BrightSources.h"
 #include "core/math/SphericalHarmonics.h"
 
 #include <algorithm>
@@ -189,11 +190,18 @@ void CommandParser::addEnvironment() {
     c->add_flag("--openexr-envmap", o.openExrEnvmap,
                 "Write a lat-long or vertical strip in OpenEXR's own convention, with its "
                 "envmap attribute");
+    CLI::Option* extract =
+        c->add_option("--extract", o.extract,
+                      "Without its N brightest sources (the sun, lamps), for which lights are to "
+                      "stand: they are listed, with --json under \"sources\"")
+            ->check(plain(CLI::Range(1, kMostBrightSources)))
+            ->type_name("1…8");
     CLI::Option* bands =
         c->add_option("--bands", o.bands,
                       "Only what the first N bands of spherical harmonics hold of it; sums go "
                       "below zero beside what is bright, which .exr keeps and .hdr cuts")
             ->check(plain(CLI::Range(1, kMaxShOrder)))
+            ->excludes(extract)
             ->type_name("1…8");
     CLI::Option* method =
         c->add_option("--method", o.method,

@@ -119,6 +119,7 @@ Result<void> setEnvironment(Session& session, Environment& environment, const st
     environment.kind = EnvironmentKind::Image;
     environment.source = normalized;
     environment.layout = layout;
+    environment.removedSources = 0;
     environment.image = environment.fileImage = *image;
     environment.problem.clear();
     return {};

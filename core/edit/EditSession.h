@@ -17,6 +17,7 @@
 namespace patina {
 
 class GroupStep;
+struct BrightSource;
 enum class LightType;
 
 // Who follows a session.
@@ -131,6 +132,9 @@ class EditSession {
     Id duplicateEnvironment(Id environment);
     void removeEnvironment(Id environment); // the last one stays
     void lightWith(Id environment);         // it becomes the first of the mix
+    // A light takes the place of a bright source of the environment's image, which is the last of
+    // `removed` ones: extractBrightSources(). Returns the light.
+    Id extractSource(Id environment, const BrightSource& source, int removed);
     // Of the environment that lights the scene.
     void setSoftboxes(const std::string& text, const std::vector<Softbox>& softboxes);
     Id addSoftbox(float azimuthDeg, float elevationDeg); // 0: there are too many

@@ -165,7 +165,7 @@ Change ReplaceElementsStep::swap(Document& document, bool forward) {
     document.mix.blended = blended;
     for (const Environment& before : shown)
         if (Environment* environment = document.environment(before.id);
-            environment && before.kind != EnvironmentKind::Image &&
+            environment && isGenerated(environmentRecipe(before)) &&
             environmentRecipe(*environment) == environmentRecipe(before))
             environment->image = before.image;
     document.nextId = elements.nextId;

@@ -6,6 +6,7 @@
 #include "core/edit/EditSession.h"
 #include "core/edit/EditSteps.h"
 #include "core/edit/ResetValue.h"
+#include "core/light/BrightSources.h"
 #include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "core/material/Material.h"
@@ -195,6 +196,21 @@ void EditSession::lightWith(Id id) {
                  editsFor(m_document, parameter("environment.first"), scene,
                           static_cast<int>(environment->id)),
                  fmt::format("Light with {}", environmentTitle(*environment)));
+}
+
+Id EditSession::extractSource(Id id, const BrightSource& source, int removed) {
+    const Environment* environment = m_document.environment(id);
+    if (!environment)
+        return 0;
+    Id light = 0;
+    group("Extract Sun", [&] {
+        editStructure("Add Light", [&](Document& document) {
+            light = patina::addLight(document, lightOf(source, *document.environment(id)));
+        });
+        setParameter(parameter("environment.removedSources"), {Scope::Environment, id},
+                     static_cast<float>(removed));
+    });
+    return light;
 }
 
 // --- Softboxes -----------------------------------------------------------------------------------

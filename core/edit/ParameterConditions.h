@@ -55,6 +55,8 @@ inline constexpr Condition kInRoughDiffuse{
     diffuseIsOne<Diffuse::OrenNayar, Diffuse::Eon>,
     "only the diffuse models Oren-Nayar and EON have it (model.diffuse)"};
 
+inline constexpr Condition kInImage{environmentIs<EnvironmentKind::Image>,
+                                    "the environment is no image (environment.kind)"};
 inline constexpr Condition kInSky{environmentIs<EnvironmentKind::Sky>,
                                   "the environment is no sky (environment.kind)"};
 inline constexpr Condition kInSoftboxes{environmentIs<EnvironmentKind::Softboxes>,

@@ -62,6 +62,9 @@ struct Environment {
     // F32 linear, 3 channels, w = 2h: of the file, or generated from `sky` or the softboxes
     // (resolveEnvironment() of core/light/GeneratedEnvironment.h).
     ImagePtr image;
+    // Image: how many of its brightest sources are taken out of `image`, because lights stand for
+    // them (core/light/BrightSources.h), 0 … kMostBrightSources.
+    int removedSources = 0;
     ImagePtr fileImage;  // what `source` holds, kept while another kind lights the scene
     std::string problem; // why it could not be read; a neutral grey stands in
     Sky sky;

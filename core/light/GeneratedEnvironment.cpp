@@ -1,6 +1,8 @@
 #include "core/light/GeneratedEnvironment.h"
 
+#include "core/light/BrightSources.h"
 #include "core/light/ClearSky.h"
+#include "core/light/EnvironmentResample.h"
 #include "core/light/Softboxes.h"
 
 #include <memory>
@@ -22,7 +24,16 @@ EnvironmentRecipe environmentRecipe(const Environment& environment) {
             kept.name.clear();
         }
     }
+    if (environment.kind == EnvironmentKind::Image && environment.removedSources > 0 &&
+        environment.fileImage) {
+        recipe.file = environment.fileImage;
+        recipe.removedSources = environment.removedSources;
+    }
     return recipe;
+}
+
+bool isGenerated(const EnvironmentRecipe& recipe) {
+    return recipe.kind != EnvironmentKind::Image || recipe.removedSources > 0;
 }
 
 ImagePtr generateEnvironment(const EnvironmentRecipe& recipe, int height, const JobContext& job) {
@@ -31,6 +42,12 @@ ImagePtr generateEnvironment(const EnvironmentRecipe& recipe, int height, const 
         image = clearSkyImage(recipe.sky, height, job);
     else if (recipe.kind == EnvironmentKind::Softboxes)
         image = softboxImage(recipe.softboxes, recipe.softboxAmbient, height, job);
+    else if (recipe.removedSources > 0 && height < kEnvironmentHeight) // a draft
+        image = extractBrightSources(shrinkLatLong(*recipe.file, 2 * height), recipe.removedSources,
+                                     job)
+                    .picture;
+    else if (recipe.removedSources > 0)
+        image = extractBrightSources(*recipe.file, recipe.removedSources, job).picture;
     if (image.empty() || job.cancelled())
         return nullptr;
     return std::make_shared<const Image>(std::move(image));
@@ -38,9 +55,9 @@ ImagePtr generateEnvironment(const EnvironmentRecipe& recipe, int height, const 
 
 void resolveEnvironment(Environment& environment, const JobContext& job) {
     const EnvironmentRecipe recipe = environmentRecipe(environment);
-    const ImagePtr image = recipe.kind == EnvironmentKind::Image
-                               ? environment.fileImage
-                               : generateEnvironment(recipe, kEnvironmentHeight, job);
+    const ImagePtr image = isGenerated(recipe)
+                               ? generateEnvironment(recipe, kEnvironmentHeight, job)
+                               : environment.fileImage;
     if (image)
         environment.image = image;
 }

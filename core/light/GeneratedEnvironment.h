@@ -1,4 +1,5 @@
-// The picture of an environment that is made, not photographed: from its sky or its softboxes.
+// The picture of an environment that is made: from its sky or its softboxes, or from a photograph
+// without its brightest sources.
 #pragma once
 
 #include "core/image/Image.h"
@@ -19,12 +20,17 @@ struct EnvironmentRecipe {
     Sky sky;                        // of a Sky only
     glm::vec3 softboxAmbient{0.0f}; // of Softboxes only
     std::vector<Softbox> softboxes; // enabled ones, without ids and names
+    ImagePtr file;                  // of an Image that sources are removed from only
+    int removedSources = 0;         // likewise
     friend bool operator==(const EnvironmentRecipe&, const EnvironmentRecipe&) = default;
 };
 [[nodiscard]] EnvironmentRecipe environmentRecipe(const Environment& environment);
+// Whether the picture is made; else it is that of the file.
+[[nodiscard]] bool isGenerated(const EnvironmentRecipe& recipe);
 
-// Lat-long, F32, 3 channels, 2 height × height, the same on any number of threads. Null after a
-// cancel, and for a recipe of an Image.
+// Lat-long, F32, 3 channels, 2 height × height, the same on any number of threads; an Image
+// as large as the file, but in drafts (below kEnvironmentHeight). Null after a cancel, and where
+// nothing is generated.
 [[nodiscard]] ImagePtr generateEnvironment(const EnvironmentRecipe& recipe, int height,
                                            const JobContext& job = {});
 

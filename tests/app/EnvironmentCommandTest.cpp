@@ -142,3 +142,28 @@ TEST(EnvironmentCommand, ALayoutThatIsSetIsTakenByRender) {
     EXPECT_GT(rmse("angular.png", "original.png"), 2.0 * rmse("ball.png", "original.png"));
     EXPECT_EQ(render("x.png", {"--environment-layout", "sphere"}).status, 2);
 }
+
+// With a light for each the scene is as bright as before.
+TEST(EnvironmentCommand, BrightSourcesAreTakenOutAndListed) {
+    const TemporaryFolder folder;
+    const std::string sky = folder / "sky.exr", rest = folder / "rest.exr";
+    ASSERT_EQ(runPatina({"environment", "builtin:clear-sky", "-o", sky, "--size", "512", "--quiet"})
+                  .status,
+              0);
+    const Outcome made = runPatina({"environment", sky, "--extract", "1", "-o", rest, "--json"});
+    ASSERT_EQ(made.status, 0) << made.err;
+    ASSERT_EQ(made.json()["sources"].size(), 1u);
+    const auto source = made.json()["sources"][0];
+    EXPECT_TRUE(source["standsOut"].get<bool>());
+    EXPECT_GT(source["elevationDeg"].get<double>(), 5.0);
+    EXPECT_GT(source["shareOfLight"].get<double>(), 0.1);
+    const Outcome again =
+        runPatina({"environment", rest, "--extract", "1", "-o", folder / "x.exr", "--json"});
+    ASSERT_EQ(again.status, 0) << again.err;
+    EXPECT_LT(again.json()["sources"][0]["shareOfLight"].get<double>(),
+              0.1 * source["shareOfLight"].get<double>());
+    const Outcome both =
+        runPatina({"environment", sky, "--extract", "1", "--bands", "3", "-o", folder / "y.exr"});
+    EXPECT_EQ(both.status, 2);
+    EXPECT_THAT(folder.files(), ElementsAre("rest.exr", "sky.exr", "x.exr"));
+}

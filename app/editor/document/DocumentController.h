@@ -98,6 +98,9 @@ class DocumentController : public QObject, private EditObserver {
     void removeEnvironment(Id environment) { m_session.removeEnvironment(environment); }
     void lightWith(Id environment) { m_session.lightWith(environment); }
     void fadeTo(Id environment); // 0: to none
+    // The brightest source of the image that lights the scene becomes a light, found in the
+    // background; again: the next one. A notice says where there is none that stands out.
+    void extractSun();
 
     // --- Generated environments: the image follows each edit, a draft first --------------------
     void setEnvironmentKind(EnvironmentKind kind);        // Softboxes without one get the first rig

@@ -7,10 +7,12 @@
 #include "app/editor/document/ImportNotice.h"
 #include "app/editor/document/QtText.h"
 #include "core/base/Check.h"
+#include "core/document/EnvironmentTitle.h"
 #include "core/document/ViewChoices.h"
 #include "core/edit/EditSession.h"
 #include "core/io/DisplayTransform.h"
 #include "core/library/Library.h"
+#include "core/light/BrightSources.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 #include "core/scene/DocumentIO.h"
@@ -25,6 +27,7 @@ namespace {
 
 const QString environmentTask = QStringLiteral("environment");
 const QString addedEnvironmentTask = QStringLiteral("added environment");
+const QString extractionTask = QStringLiteral("extraction of a source");
 
 // How a source is called in messages: "teapot.obj", "Shader Ball".
 QString shortName(const QString& source) {
@@ -336,12 +339,50 @@ void DocumentController::readEnvironment(Id asked, const QString& source, Enviro
                         environment,
                         {{&parameter("environment.kind"), static_cast<int>(EnvironmentKind::Image)},
                          {&parameter("environment.image"), sky},
-                         {&parameter("environment.layout"), static_cast<int>(layout)}},
+                         {&parameter("environment.layout"), static_cast<int>(layout)},
+                         {&parameter("environment.removedSources"), 0.0f}},
                         undoText);
                 });
                 const UserNotice notice = UserNotice::fromImport(title, *notices, {});
                 if (!notice.text.isEmpty())
                     Q_EMIT noticed(notice);
+            };
+        });
+}
+
+void DocumentController::extractSun() {
+    const Environment& lit = document().environment();
+    if (lit.kind != EnvironmentKind::Image || !lit.fileImage)
+        return;
+    const int removed = lit.removedSources + 1;
+    const QString title = toQString(environmentTitle(lit));
+    const auto tell = [this](const QString& text) { Q_EMIT noticed({NoticeKind::Info, text, {}}); };
+    if (removed > kMostBrightSources) {
+        tell(tr("%1 sources have been extracted from %2; that is as many as can be.")
+                 .arg(kMostBrightSources)
+                 .arg(title));
+        return;
+    }
+    m_tasks.start(
+        extractionTask, tr("Finding the sun of %1").arg(title),
+        [this, tell, image = lit.fileImage, asked = lit.id, removed, title,
+         scene = m_session.documentNumber(),
+         begun = begun()](const JobContext& job) -> BackgroundTasks::Apply {
+            auto found =
+                std::make_shared<BrightSources>(extractBrightSources(*image, removed, job));
+            return [this, tell, asked, removed, title, scene, begun, found] {
+                if (scene != m_session.documentNumber())
+                    return;
+                if (std::ssize(found->sources) < removed || !found->sources.back().isClear) {
+                    tell(removed == 1
+                             ? tr("%1 has no source that stands out from what surrounds it.")
+                                   .arg(title)
+                             : tr("%1 has no further source that stands out.").arg(title));
+                    return;
+                }
+                deliver(begun, title, [this, asked, removed, found] {
+                    m_session.extractSource(asked, found->sources.back(), removed);
+                });
             };
         });
 }

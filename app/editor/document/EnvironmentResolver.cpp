@@ -83,7 +83,7 @@ bool EnvironmentResolver::updateImage(Environment& environment) {
         return false;
     Known& known = m_known[environment.id] = {std::move(recipe), false};
     ImagePtr image = environment.fileImage;
-    if (known.recipe.kind != EnvironmentKind::Image) {
+    if (isGenerated(known.recipe)) {
         const auto made = std::find_if(m_made.begin(), m_made.end(),
                                        [&](const Made& m) { return m.recipe == known.recipe; });
         known.isDraft = made == m_made.end();

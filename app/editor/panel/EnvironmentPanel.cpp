@@ -15,6 +15,7 @@
 #include "app/editor/widget/MapSlotWidget.h"
 #include "app/editor/widget/PanelScroll.h"
 #include "app/editor/widget/SkyGallery.h"
+#include "app/editor/widget/TextButton.h"
 #include "core/document/Source.h"
 #include "core/edit/EditSession.h"
 
@@ -131,10 +132,16 @@ QWidget* EnvironmentPanel::makeImageControls() {
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(tokens::kGap);
     layout->addWidget(m_gallery);
+    QPushButton* extract = makeTextButton(
+        tr("Extract Sun"), tr("Make the image's brightest source a light, and remove it from the "
+                              "image; once more: the next one"));
+    extract->setIcon(icon(QStringLiteral("light-sun")));
+    connect(extract, &QPushButton::clicked, &m_controller, &DocumentController::extractSun);
     auto* file = new QHBoxLayout;
     file->addWidget(m_source, 1);
     file->addWidget(browseButton);
     layout->addLayout(file);
+    layout->addWidget(extract, 0, Qt::AlignLeft);
     connect(m_gallery, &SkyGallery::chosen, this, [this](const QString& source) {
         m_controller.setEnvironment(source);
         refresh(); // the mark follows the document, not the click

@@ -25,7 +25,7 @@ bool WallLights::resolve(Document& shown, const Document& document) {
         const Environment* linked = document.environment(environment.id);
         if (linked != nullptr && environmentRecipe(*linked) == recipe)
             continue;
-        if (recipe.kind == EnvironmentKind::Image) {
+        if (!isGenerated(recipe)) {
             environment.image = environment.fileImage;
             continue;
         }

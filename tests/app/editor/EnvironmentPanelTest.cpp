@@ -13,13 +13,16 @@
 #include "core/base/InputFile.h"
 #include "core/edit/EditSession.h"
 #include "core/library/SoftboxRigs.h"
+#include "core/light/BrightSources.h"
 #include "core/light/GeneratedEnvironment.h"
 #include "core/light/LatLongGrid.h"
+#include "core/light/Light.h"
 #include "core/scene/EnvironmentSave.h"
 
 #include <QFile>
 #include <QListWidget>
 #include <QMenu>
+#include <QPushButton>
 #include <QToolButton>
 #include <cmath>
 
@@ -616,6 +619,40 @@ TEST_F(EnvironmentPanelTest, AReadPictureGoesToTheEnvironmentItWasAskedFor) {
     ASSERT_TRUE(eventually([] { return !controller().tasks().busy(); }));
     EXPECT_EQ(document().environment(studio)->source, "builtin:night");
     EXPECT_EQ(document().environment(sky)->kind, EnvironmentKind::Sky);
+}
+
+// The brightest source of the image becomes a light, in one step, and the picture loses it.
+TEST_F(EnvironmentPanelTest, TheSunIsExtracted) {
+    controller().setEnvironment(QStringLiteral("builtin:clear-sky"));
+    ASSERT_TRUE(eventually([] {
+        return !controller().tasks().busy() && environment().source == "builtin:clear-sky";
+    }));
+    const Document before = document();
+    const int steps = undoCount();
+    auto* extract = find<QPushButton>(panel(), tr("Extract Sun"));
+    ASSERT_NE(extract, nullptr);
+    extract->click();
+    ASSERT_TRUE(eventually([] { return !document().lights.empty(); }));
+    EXPECT_EQ(undoCount(), steps + 1);
+    EXPECT_EQ(environment().removedSources, 1);
+    const BrightSources found = extractBrightSources(*environment().fileImage, 1);
+    EXPECT_EQ(document().lights[0].intensity, lightOf(found.sources[0], environment()).intensity);
+    EXPECT_TRUE(eventually([&] { return *environment().image == found.picture; }))
+        << "a draft at once, then the full picture";
+    controller().undoStack().undo();
+    EXPECT_EQ(document(), before);
+    EXPECT_EQ(environment().image, environment().fileImage);
+    controller().undoStack().redo();
+    EXPECT_EQ(environment().removedSources, 1);
+
+    // Another image has its own.
+    controller().setEnvironment(QStringLiteral("builtin:white"));
+    ASSERT_TRUE(eventually([] { return environment().source == "builtin:white"; }));
+    EXPECT_EQ(environment().removedSources, 0);
+    const std::size_t lights = document().lights.size();
+    extract->click();
+    ASSERT_TRUE(eventually([] { return !controller().tasks().busy(); }));
+    EXPECT_EQ(document().lights.size(), lights) << "nothing stands out from a white sky";
 }
 
 } // namespace patina::editor
