@@ -33,6 +33,8 @@ std::size_t texelsOf(std::size_t size) {
 
 template <class T>
 void append(Bytes& bytes, const T* values, std::size_t count) {
+    if (count == 0)
+        return; // an empty vector's data may be null
     const std::size_t before = bytes.size();
     bytes.resize(before + count * sizeof(T));
     std::memcpy(bytes.data() + before, values, count * sizeof(T));
