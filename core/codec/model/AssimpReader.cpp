@@ -6,6 +6,7 @@
 #include "core/codec/model/ObjMeshes.h"
 
 #include <algorithm>
+#include <assimp/BaseImporter.h>
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/IOStream.hpp>
 #include <assimp/IOSystem.hpp>
@@ -88,8 +89,11 @@ void keepOnlyImporter(Assimp::Importer& importer, const std::string& extension) 
         bool wanted = false;
         for (std::string word; extensions >> word;)
             wanted = wanted || word == extension;
-        if (!wanted)
-            importer.UnregisterLoader(importer.GetImporter(i)); // the child's end frees it
+        if (wanted)
+            continue;
+        Assimp::BaseImporter* unwanted = importer.GetImporter(i);
+        importer.UnregisterLoader(unwanted); // which leaves it to us
+        delete unwanted;
     }
 }
 
