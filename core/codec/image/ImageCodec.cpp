@@ -463,13 +463,13 @@ Reply encodeImage(const json& request, std::span<const std::byte> payload) {
 
     shareDisplayWindow(specs);
 
-    auto output = OIIO::ImageOutput::create(format);
-    if (!output)
-        throw Refusal("this image format cannot be written", OIIO::geterror());
     // OpenImageIO writes into memory, except OpenEXR files of several parts: those it opens by name
     // only, which here is the name of a memory file.
     std::vector<unsigned char> bytes;
-    OIIO::Filesystem::IOVecOutput proxy(bytes);
+    OIIO::Filesystem::IOVecOutput proxy(bytes); // outlives the output, whose end may write to it
+    auto output = OIIO::ImageOutput::create(format);
+    if (!output)
+        throw Refusal("this image format cannot be written", OIIO::geterror());
     const bool byName = specs.size() > 1;
     FileDescriptor named;
     std::string name = "memory." + format;
@@ -479,9 +479,14 @@ Reply encodeImage(const json& request, std::span<const std::byte> payload) {
     } else {
         output->set_ioproxy(&proxy);
     }
+    // After a failure the output's end may use a stream that is gone; the process frees it.
+    const auto fail = [&](const std::string& reason) {
+        (void)output.release();
+        throw Refusal("the image cannot be encoded", reason);
+    };
     const auto check = [&](bool ok) {
         if (!ok)
-            throw Refusal("the image cannot be encoded", libraryText(format, output->geterror()));
+            fail(libraryText(format, output->geterror()));
     };
     if (specs.size() == 1)
         check(output->open(name, specs[0]));
@@ -495,11 +500,12 @@ Reply encodeImage(const json& request, std::span<const std::byte> payload) {
                                  static_cast<std::size_t>(specs[i].height) *
                                  static_cast<std::size_t>(specs[i].nchannels) * samples[i].size;
         if (offset + size > payload.size())
-            throw Refusal("the image cannot be encoded", "pixels are missing");
+            fail("pixels are missing");
         check(output->write_image(samples[i].type, payload.data() + offset));
         offset += (size + 15) / 16 * 16;
     }
     check(output->close());
+    output.reset(); // OpenEXR's environment maps are complete only now, however closed they are
 
     Reply reply;
     reply.header = "{}";
