@@ -7,6 +7,7 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfDeepFrameBuffer.h>
 #include <OpenEXR/ImfDeepScanLineOutputFile.h>
+#include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfRgbaFile.h>
@@ -132,6 +133,15 @@ TEST_F(EnvironmentFile, OpenExrsEnvmapAttributeDecides) {
     const EnvironmentMapping common = mapping(L::LatLong, 64);
     const glm::vec3 d = glm::normalize(glm::vec3(1.0f, 0.5f, 0.7f));
     EXPECT_LT(glm::length(common.lookup(*plain, d) - octant({-d.x, d.y, -d.z})), 1e-3f);
+}
+
+// OpenEXR's readers repair a file that was cut off while it was written; others refuse it.
+TEST_F(EnvironmentFile, EnvironmentMapsAreWrittenToTheirEnd) {
+    for (const char* envmap : {"latlong", "cube"}) {
+        const L layout = std::string(envmap) == "cube" ? L::VerticalStrip : L::LatLong;
+        const std::string file = saveExr(octants(layout, 32, C::OpenExr), "map.exr", envmap);
+        EXPECT_TRUE(Imf::InputFile(file.c_str()).isComplete()) << envmap;
+    }
 }
 
 TEST_F(EnvironmentFile, SixFilesAreFoundByTheirNames) {
