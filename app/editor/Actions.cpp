@@ -33,7 +33,7 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
                 tr("Show the whole scene from where the camera began")))
     , overlays(make(tr("&Grid and Outlines"), QStringLiteral("tiling"), {tr("G")},
                     tr("Show the ground grid, the outline of the selection and the lights")))
-    , wall(make(tr("&Wall"), QStringLiteral("wall"), {tr("F3")},
+    , wall(make(tr("Wall"), QStringLiteral("wall"), {tr("F3")},
                 tr("Compare environments, materials or values beside each other; once more: one "
                    "picture again")))
     , lightingIbl(make(tr("&Image-Based Light"), {}, {tr("Ctrl+L")},

@@ -515,7 +515,8 @@ void ViewportWidget::followLuminance() {
 bool ViewportWidget::isSettled() const {
     return m_renderer && !m_gate.waiting() && m_ibl->finished() && !m_environmentTimer.isActive() &&
            !m_pacing.moving() && !m_restTimer.isActive() && !m_adaptationTimer.isActive() &&
-           !m_accumulationTimer.isActive() && !m_slicing && !(m_wall.isOn() && m_wall.preparing());
+           !m_accumulationTimer.isActive() && !m_slicing &&
+           !(m_wall.isOn() && (m_wall.preparing() || !m_wall.isCurrent()));
 }
 
 double ViewportWidget::takeSlowestFrameMs() {

@@ -56,7 +56,9 @@ class WallPainter : public QObject {
     // The scene looks different in a way that the document does not say.
     void invalidate();
     void recompose() { m_composed = false; } // cells of the document anew
-    [[nodiscard]] bool complete() const;
+    [[nodiscard]] bool complete() const;     // draw() has nothing to do
+    // What it would present is the document as it is, as far as that is prepared.
+    [[nodiscard]] bool isCurrent() const { return m_composed && complete(); }
     [[nodiscard]] std::size_t due() const; // cells that show what they showed before
     [[nodiscard]] std::size_t size() const { return m_views.size(); } // cells
     [[nodiscard]] bool preparing() const; // some wait for light or programs
