@@ -28,7 +28,9 @@ EnvironmentTexelsPtr prepare(const ImagePtr& image) {
         makeEnvironmentTexels(image, *maps, *makeBackground(*image, JobContext())));
 }
 
-void wallOfTwelve(benchmark::State& state) {
+// `coarse`: as the editor draws cells during interaction, with the triangles that such small
+// pictures show.
+void wallOfTwelve(benchmark::State& state, bool coarse) {
     auto context = gl::Context::createHeadless();
     auto scene = context ? SceneRenderer::create(**context)
                          : Result<std::unique_ptr<SceneRenderer>>(context.error());
@@ -65,6 +67,7 @@ void wallOfTwelve(benchmark::State& state) {
         view.frame.width = 1280 / kRows;
         view.frame.height = 720 / kColumns;
         view.frame.samples = 1;
+        view.frame.coarse = coarse;
         view.frame.camera = frameBounds(document.view.camera, document.bounds(), 4.0f / 3.0f);
     }
     const auto milliseconds = [&](const auto& draw) {
@@ -77,6 +80,7 @@ void wallOfTwelve(benchmark::State& state) {
     };
     // The frame is as full of the scene as a cell is: its proportions.
     FrameSettings frame = cells.front().frame;
+    frame.coarse = false;
     frame.width *= kRows;
     frame.height *= kColumns;
 
@@ -110,7 +114,10 @@ void wallOfTwelve(benchmark::State& state) {
     state.counters["ratio"] = wallMs / frameMs;
     state.SetLabel((*context)->info().renderer);
 }
-BENCHMARK(wallOfTwelve)->Unit(benchmark::kMillisecond)->Iterations(10);
+BENCHMARK_CAPTURE(wallOfTwelve, at_rest, false)->Unit(benchmark::kMillisecond)->Iterations(10);
+BENCHMARK_CAPTURE(wallOfTwelve, during_interaction, true)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(10);
 
 } // namespace
 } // namespace patina::render
