@@ -21,7 +21,7 @@ class WallWindow : public EditorTest {
     void SetUp() override {
         session->wall.setOn(false);
         EditorTest::SetUp();
-        window->viewport().setFixedSize(360, 240); // software OpenGL pays for each pixel
+        window->viewport().setFixedSize(360, 240);  // software OpenGL pays for each pixel
         window->viewport().setAddsSlowFrames(true); // pictures are compared, on busy machines too
         session->views.set({});
         controller().editStructure(QStringLiteral("Materials"), [](Document& document) {
