@@ -191,9 +191,10 @@ void CommandParser::addEnvironment() {
                 "Write a lat-long or vertical strip in OpenEXR's own convention, with its "
                 "envmap attribute");
     CLI::Option* extract =
-        c->add_option("--extract", o.extract,
-                      "Without its N brightest sources (the sun, lamps), for which lights are to "
-                      "stand: they are listed, with --json under \"sources\"")
+        c->add_option(
+             "--extract", o.extract,
+             "Without its N brightest sources (the sun, light fixtures), for which lights are to "
+             "stand: they are listed, with --json under \"sources\"")
             ->check(plain(CLI::Range(1, kMostBrightSources)))
             ->type_name("1…8");
     CLI::Option* bands =

@@ -57,7 +57,6 @@
 #include <QMimeData>
 #include <QScreen>
 #include <QSettings>
-#include <QTimer>
 #include <QToolBar>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -215,24 +214,8 @@ void MainWindow::makeDocks() {
                  new ModelPanel(controller, m_session.selection, m_session.thumbnails));
     m_docks->add(a.jobsDock, QStringLiteral("jobs"), new JobsPanel(m_session.jobs));
     m_docks->add(a.logDock, QStringLiteral("log"), new LogPanel);
-    auto* history = new HistoryPanel(controller, [this](const QSize& largest) {
-        const bool rests = m_viewport->isSettled() && !m_session.wall.isOn();
-        return rests ? m_viewport->smallPicture(largest) : QImage();
-    });
-    m_docks->add(a.historyDock, QStringLiteral("history"), history);
-    // Not from within the painting of the frame.
-    connect(m_viewport, &ViewportWidget::frameRendered, history,
-            [this, history](double, PictureState state) {
-                if (state != PictureState::Refined ||
-                    m_picturedRevision == m_session.controller.revision())
-                    return;
-                QTimer::singleShot(0, history, [this, history] {
-                    if (!m_viewport->isSettled())
-                        return;
-                    m_picturedRevision = m_session.controller.revision();
-                    history->viewportRests();
-                });
-            });
+    m_docks->add(a.historyDock, QStringLiteral("history"),
+                 new HistoryPanel(controller, *m_viewport, m_session.wall));
     m_docks->addInstrument(a.pixel, QStringLiteral("pixel"),
                            new PixelPanel(controller, m_session.probe, m_viewport->picker()));
     auto* lightLab = new LightLabPanel(controller, m_session.ibl, m_session.probe);

@@ -76,7 +76,6 @@ class MainWindow : public QMainWindow {
     BusyIndicator* m_busy = nullptr;
     QLabel *m_gpu = nullptr, *m_frameTime = nullptr, *m_triangles = nullptr;
     QElapsedTimer m_frameTimeShown;
-    quint64 m_picturedRevision = 0; // of the document that the history has a picture of
     bool m_mayClose = false;
 };
 

@@ -16,9 +16,9 @@ namespace patina {
 namespace {
 
 constexpr int kPlaceRows = 90;       // 2° each: where to look
-constexpr double kSourceEdge = 0.05; // of the peak over what surrounds it: still the source
+constexpr double kSourceEdge = 0.05; // of the peak over what is around it: still the source
 constexpr double kReachDeg = 15.0;   // of a source from its brightest texel
-constexpr double kRingFrom = 8.0, kRingTo = 16.0; // degrees: what surrounds it
+constexpr double kRingFrom = 8.0, kRingTo = 16.0; // degrees: what is around it
 constexpr int kRim = 2;          // texels around what is above that: covered in part, or filtered
 constexpr int kFillPasses = 400; // of Gauss-Seidel over some hundred texels
 
@@ -26,7 +26,7 @@ double luminanceOf(const glm::vec3& color) {
     return static_cast<double>(shading::luminance(color));
 }
 
-// A picture that sources are taken out of, with neighbours around the sphere.
+// A picture that sources are removed from, with neighbours around the sphere.
 class Panorama {
   public:
     explicit Panorama(const Image& image)
@@ -135,7 +135,7 @@ void forAround(const Panorama& sky, const glm::dvec3& centre, double degrees, Us
         }
 }
 
-double surroundingLuminance(const Panorama& sky, const glm::dvec3& centre) {
+double luminanceAround(const Panorama& sky, const glm::dvec3& centre) {
     std::vector<double> ring;
     const double inside = std::cos(glm::radians(kRingFrom));
     forAround(sky, centre, kRingTo, [&](std::size_t texel, double cosine) {
@@ -209,9 +209,9 @@ void fillRegion(Panorama& sky, const std::vector<std::size_t>& region) {
         }
 }
 
-// Takes the source around the peak out of the sky.
+// Removes the source around the peak from the sky.
 BrightSource takeOut(Panorama& sky, std::size_t peak) {
-    const double around = surroundingLuminance(sky, sky.direction(peak));
+    const double around = luminanceAround(sky, sky.direction(peak));
     const double highest = luminanceOf(sky.at(peak));
     const std::vector<std::size_t> region =
         regionOf(sky, peak, around + kSourceEdge * std::max(highest - around, 0.0));

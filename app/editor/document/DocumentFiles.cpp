@@ -375,7 +375,7 @@ void DocumentController::extractSun() {
                     return;
                 if (std::ssize(found->sources) < removed || !found->sources.back().isClear) {
                     tell(removed == 1
-                             ? tr("%1 has no source that stands out from what surrounds it.")
+                             ? tr("%1 has no source that stands out from what is around it.")
                                    .arg(title)
                              : tr("%1 has no further source that stands out.").arg(title));
                     return;

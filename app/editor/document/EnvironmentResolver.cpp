@@ -87,8 +87,14 @@ bool EnvironmentResolver::updateImage(Environment& environment) {
         const auto made = std::find_if(m_made.begin(), m_made.end(),
                                        [&](const Made& m) { return m.recipe == known.recipe; });
         known.isDraft = made == m_made.end();
-        image = known.isDraft ? generateEnvironment(known.recipe, kDraftEnvironmentHeight)
-                              : made->image;
+        if (known.isDraft) {
+            EnvironmentRecipe small = known.recipe;
+            if (small.file) // reduced once for all counts
+                small.file = draftOf(small.file);
+            image = generateEnvironment(small, kDraftEnvironmentHeight);
+        } else {
+            image = made->image;
+        }
     }
     if (image)
         environment.image = std::move(image);

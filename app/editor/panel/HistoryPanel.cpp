@@ -3,6 +3,8 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/QtText.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/viewport/ViewportWidget.h"
+#include "app/editor/wall/WallState.h"
 #include "core/edit/EditSession.h"
 
 #include <QListWidget>
@@ -35,11 +37,12 @@ bool isSameState(const DocumentState& a, const DocumentState& b) {
 
 } // namespace
 
-HistoryPanel::HistoryPanel(DocumentController& controller,
-                           std::function<QImage(const QSize&)> picture, QWidget* parent)
+HistoryPanel::HistoryPanel(DocumentController& controller, ViewportWidget& viewport,
+                           const WallState& wall, QWidget* parent)
     : QWidget(parent)
     , m_controller(controller)
-    , m_picture(std::move(picture))
+    , m_viewport(viewport)
+    , m_wall(wall)
     , m_list(new QListWidget) {
     m_list->setAccessibleName(tr("History"));
     m_list->setStatusTip(tr("Click a step to go there; the ones after it stay until you edit"));
@@ -58,6 +61,10 @@ HistoryPanel::HistoryPanel(DocumentController& controller,
     connect(m_list, &QListWidget::itemActivated, this,
             [this](QListWidgetItem* item) { go(m_list->row(item)); });
     connect(&controller.undoStack(), &UndoStack::stepsChanged, this, &HistoryPanel::follow);
+    connect(&viewport, &ViewportWidget::frameRendered, this, [this](double, PictureState state) {
+        if (state == PictureState::Refined && m_picturedRevision != m_controller.revision())
+            QTimer::singleShot(0, this, &HistoryPanel::takePicture); // the frame is being painted
+    });
     refresh();
 }
 
@@ -119,12 +126,15 @@ void HistoryPanel::refresh() {
     m_list->scrollToItem(m_list->currentItem());
 }
 
-void HistoryPanel::viewportRests() {
+void HistoryPanel::takePicture() {
+    if (!m_viewport.isSettled() || m_wall.isOn())
+        return;
     const DocumentState state =
         m_controller.session().historyEntry(m_controller.undoStack().index()).state;
-    QImage picture = m_picture(kPicture * devicePixelRatioF());
+    QImage picture = m_viewport.smallPicture(kPicture * devicePixelRatioF());
     if (picture.isNull())
         return;
+    m_picturedRevision = m_controller.revision();
     picture.setDevicePixelRatio(devicePixelRatioF());
     std::erase_if(m_pictures, [&](const auto& entry) { return isSameState(entry.first, state); });
     m_pictures.emplace_back(state, picture);

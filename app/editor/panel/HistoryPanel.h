@@ -9,7 +9,6 @@
 #include <QTimer>
 #include <QWidget>
 #include <deque>
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -18,6 +17,8 @@ class QListWidget;
 namespace patina::editor {
 
 class DocumentController;
+class ViewportWidget;
+class WallState;
 
 class HistoryPanel : public QWidget {
     Q_OBJECT
@@ -25,27 +26,28 @@ class HistoryPanel : public QWidget {
     // Pictures of the newest states alone are kept.
     static constexpr std::size_t kMostPictures = 200;
 
-    // `picture`: what the viewport shows, small; null where that is not the scene at rest.
-    HistoryPanel(DocumentController& controller, std::function<QImage(const QSize&)> picture,
+    // `viewport`: whose pictures are taken, while it shows the scene and no wall.
+    HistoryPanel(DocumentController& controller, ViewportWidget& viewport, const WallState& wall,
                  QWidget* parent = nullptr);
-
-    void viewportRests(); // it shows the document as it is
 
   protected:
     void showEvent(QShowEvent* event) override;
 
   private:
     void follow();
+    void takePicture(); // where the viewport is settled on the document as it is
     void refresh();
     void go(int row);
     [[nodiscard]] QImage pictureOf(const DocumentState& state) const;
 
     DocumentController& m_controller;
-    std::function<QImage(const QSize&)> m_picture;
+    ViewportWidget& m_viewport;
+    const WallState& m_wall;
     QListWidget* m_list;
     std::vector<DocumentState> m_states; // by row
     std::deque<std::pair<DocumentState, QImage>> m_pictures;
-    QTimer m_refresh; // after an edit, so that a drag costs nothing
+    quint64 m_picturedRevision = 0; // of the document that has a picture
+    QTimer m_refresh;               // after an edit, so that a drag costs nothing
 };
 
 } // namespace patina::editor

@@ -57,7 +57,7 @@ void IblUpdater::refine(const IblLight& small) {
         [this](const Result<IblLight>& light) {
             if (!light)
                 return fail(light.error());
-            keep(*light);
+            keepIbl(m_tasks, m_cache, *light);
             deliver(*light);
         });
 }
@@ -77,22 +77,6 @@ void IblUpdater::requestMaps() {
                 return; // its own are under way
             m_maps = light->maps;
             Q_EMIT mapsReady();
-        });
-}
-
-// The disk may take its time: nobody waits for it. What a drag passes over never comes here.
-void IblUpdater::keep(const IblLight& full) {
-    m_tasks.run(
-        {.tag = "keeping image-based light",
-         .policy = TaskPolicy::Exclusive,
-         .priority = TaskPriority::Low},
-        [this, key = full.key, maps = full.maps](const JobContext&) {
-            return m_cache.store(key, *maps);
-        },
-        [](const Result<void>& stored) {
-            if (!stored)
-                logWarning("The light of this environment could not be kept for next time: {}",
-                           stored.error().text());
         });
 }
 

@@ -46,7 +46,6 @@ class IblUpdater : public QObject {
   private:
     void prepare();
     void refine(const IblLight& small);
-    void keep(const IblLight& full);
     void deliver(const IblLight& light);
     void fail(const Error& error);
 

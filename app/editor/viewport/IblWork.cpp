@@ -1,5 +1,7 @@
 #include "app/editor/viewport/IblWork.h"
 
+#include "core/base/Log.h"
+
 #include <QFile>
 #include <QStandardPaths>
 #include <utility>
@@ -58,6 +60,21 @@ Result<IblLight> fullIblMaps(const IblCache& cache, const ImagePtr& environment,
         return maps.error();
     light.maps = std::make_shared<const IblMaps>(std::move(*maps));
     return light;
+}
+
+void keepIbl(TaskGroup& tasks, const IblCache& cache, const IblLight& full) {
+    tasks.run(
+        {.tag = "keeping image-based light",
+         .policy = TaskPolicy::Exclusive,
+         .priority = TaskPriority::Low},
+        [&cache, key = full.key, maps = full.maps](const JobContext&) {
+            return cache.store(key, *maps);
+        },
+        [](const Result<void>& stored) {
+            if (!stored)
+                logWarning("The light of this environment could not be kept for next time: {}",
+                           stored.error().text());
+        });
 }
 
 } // namespace patina::editor

@@ -4,6 +4,7 @@
 
 #include "core/image/Image.h"
 #include "core/job/JobContext.h"
+#include "core/job/TaskRunner.h"
 #include "core/light/EnvironmentTexels.h"
 #include "core/light/IblCache.h"
 
@@ -32,5 +33,9 @@ Result<IblLight> refinedIbl(IblLight light, const JobContext& job);
 // Its maps in full, as firstIbl() finds them or refinedIbl() computes them; no texels.
 Result<IblLight> fullIblMaps(const IblCache& cache, const ImagePtr& environment,
                              const JobContext& job);
+
+// Writes full light into the cache when nobody is in a hurry: nobody waits for the disk. `cache`
+// outlives the tasks.
+void keepIbl(TaskGroup& tasks, const IblCache& cache, const IblLight& full);
 
 } // namespace patina::editor

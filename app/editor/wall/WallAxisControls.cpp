@@ -6,7 +6,6 @@
 #include "app/editor/style/Tokens.h"
 #include "app/editor/wall/WallState.h"
 #include "app/editor/widget/NumberField.h"
-#include "core/document/EnvironmentTitle.h"
 #include "core/edit/Edit.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"

@@ -31,7 +31,7 @@ class WallAxisControls : public QWidget {
     [[nodiscard]] AxisPlan plan() const;
     void setPlan(const AxisPlan& plan);
     void compare(Compared compared);
-    [[nodiscard]] AxisPlan firstValues() const; // of the selected material's roughness
+    [[nodiscard]] AxisPlan firstValues() const; // of the roughness of all materials
     void fillChoices();
     void fillChoice(const AxisChoice& choice);
     void fillMeshes();

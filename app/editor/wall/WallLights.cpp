@@ -166,7 +166,7 @@ bool WallLights::refineNext() {
         [this, picture = next->picture](const Result<IblLight>& light) {
             const auto entry = std::ranges::find(m_prepared, picture, &Prepared::picture);
             if (light)
-                keep(*light);
+                keepIbl(m_tasks, m_cache, *light);
             if (entry != m_prepared.end()) {
                 entry->failed = !light; // the small one stays
                 if (light)
@@ -175,21 +175,6 @@ bool WallLights::refineNext() {
             ended();
         });
     return true;
-}
-
-void WallLights::keep(const IblLight& full) {
-    m_tasks.run(
-        {.tag = "keeping image-based light",
-         .policy = TaskPolicy::Exclusive,
-         .priority = TaskPriority::Low},
-        [this, key = full.key, maps = full.maps](const JobContext&) {
-            return m_cache.store(key, *maps);
-        },
-        [](const Result<void>& stored) {
-            if (!stored)
-                logWarning("The light of an environment could not be kept for next time: {}",
-                           stored.error().text());
-        });
 }
 
 } // namespace patina::editor

@@ -57,7 +57,6 @@ class WallLights : public QObject {
     bool blendNext();
     bool prepareNext();
     bool refineNext();
-    void keep(const IblLight& full); // on disk
     void ended();
 
     IblCache m_cache;
