@@ -282,7 +282,7 @@ Result<void> SceneRenderer::Impl::drawPicture(const SceneDraw& draw) {
     SurfaceSettings settings = surfaceSettings(frame, draw.block, draw.output, draw.kind);
     settings.floats = draw.floats;
     if (frame.coarse)
-        settings.coarseView = draw.block.worldToClip;
+        settings.coarseView = {draw.block.worldToClip, frame.height};
     shadows.bind();
     const DrawList list = visibleItems(draw);
     settings.clip = sliceClip(draw);

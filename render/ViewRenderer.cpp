@@ -99,7 +99,33 @@ bool ViewRenderer::Impl::isDisplayed(const FrameSettings& frame) const {
            frame.view.flags == lastFrame.view.flags && showSameOverlays(frame, lastFrame);
 }
 
-Result<void> ViewRenderer::render(const FrameSettings& wanted, unsigned targetFramebuffer) {
+bool ViewRenderer::Impl::isPlain(const FrameSettings& frame) const {
+    return !frame.view.split && !frame.keepPicture && !frame.showOverlays &&
+           frame.view.shown.kind != shading::kViewWireframe &&
+           hasRadiance(frame, frame.view.shown) && !wantsLuminance(frame);
+}
+
+Result<void> ViewRenderer::render(const FrameSettings& frame, unsigned targetFramebuffer) {
+    return render(frame, targetFramebuffer, false);
+}
+
+Result<bool> ViewRenderer::begin(const FrameSettings& frame) {
+    if (auto done = render(frame, kNowhere, true); !done)
+        return done.error();
+    return !m_impl->unfinished;
+}
+
+Result<void> ViewRenderer::finish() {
+    Impl& r = *m_impl;
+    CHECK(r.unfinished.has_value());
+    FrameSettings frame = r.lastFrame;
+    frame.look = std::exchange(r.unfinished, std::nullopt);
+    const Impl::GlScope scope(r.shared);
+    return r.displaySide(frame, r.sidesOf(frame).front());
+}
+
+Result<void> ViewRenderer::render(const FrameSettings& wanted, unsigned targetFramebuffer,
+                                  bool begins) {
     Impl& r = *m_impl;
     FrameSettings frame = wanted;
     const bool keeps = frame.keepPicture && r.targets.width() > 0;
@@ -145,6 +171,15 @@ Result<void> ViewRenderer::render(const FrameSettings& wanted, unsigned targetFr
         r.lastBlock = r.shared.packFrame(frame);
     r.shared.useFrame(r.lastBlock);
 
+    r.unfinished.reset();
+    if (begins && drawsScene && r.isPlain(frame)) {
+        Result<void> done = r.drawScene(frame, frame.view.shown, 0);
+        r.drawnRevision = done ? r.shared.revision(frame) : 0;
+        r.luminanceIsNew = frame.view.isOrdinary(frame.view.shown);
+        if (done)
+            r.unfinished = r.shared.lookOf(frame);
+        return done;
+    }
     Result<void> done = displayed ? Result<void>() : r.drawViews(frame, drawsScene);
     if (drawsScene)
         r.drawnRevision = done ? r.shared.revision(frame) : 0;

@@ -26,6 +26,14 @@ class ViewRenderer {
     // (0: the window's), viewport 0,0 … width,height or shownWidth,shownHeight.
     Result<void> render(const FrameSettings& frame, unsigned targetFramebuffer);
 
+    // render() to kNowhere in two calls, so that the scenes of several pictures are drawn before
+    // the first is waited for, which is what making its picture takes on software OpenGL. False:
+    // finish() is to follow, which may find the scene set to something else. True: all is done, as
+    // it is where the frame shows more than a picture of the scene (a split, numbers, overlays, an
+    // eye that adapts).
+    Result<bool> begin(const FrameSettings& frame);
+    Result<void> finish();
+
     // Instead of a framebuffer: the picture is only drawn, and present() shows it. Of overlays such
     // a picture has those that are drawn at its own size.
     static constexpr unsigned kNowhere = ~0u;
@@ -92,6 +100,8 @@ class ViewRenderer {
     [[nodiscard]] Id pick(int x, int y) const;
 
   private:
+    Result<void> render(const FrameSettings& frame, unsigned targetFramebuffer, bool begins);
+
     friend class SheetRenderer;
     struct Impl;
     std::unique_ptr<Impl> m_impl;

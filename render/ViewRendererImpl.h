@@ -33,6 +33,9 @@ struct ViewRenderer::Impl {
     Targets targets;
     FrameBlock lastBlock; // of the last frame
     FrameSettings lastFrame;
+    // Of the last frame, whose scene is drawn and whose picture finish() makes; nothing: it is
+    // made.
+    std::optional<View> unfinished;
     int accumulated = 0;             // frames that the last one is the mean of
     std::uint64_t drawnRevision = 0; // of the scene that the last frame shows; 0: it shows none
     bool luminanceIsNew = true;      // the last frame's scene has not been measured
@@ -108,6 +111,8 @@ struct ViewRenderer::Impl {
     [[nodiscard]] std::vector<float> costsOfTiles(const FrameSettings& frame);
 
     // --- ViewRenderer.cpp
+    // Whether all of a frame but its scene can be drawn whatever the scene has become.
+    [[nodiscard]] bool isPlain(const FrameSettings& frame) const;
     // targets.displayed(), with overlays unless they have been drawn.
     Result<void> show(const FrameSettings& frame, bool overlaysDrawn, unsigned targetFramebuffer);
     Result<void> adapt(const FrameSettings& frame);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <epoxy/gl.h>
 #include <optional>
 #include <utility>
@@ -29,9 +30,10 @@ struct Shown {
     CellView cell;
     std::unique_ptr<ViewRenderer> view;
     bool hasPicture = false;
-    bool drawn = false;   // the picture is that of the cell
-    int frames = 0;       // that it is the mean of
-    std::size_t turn = 0; // when it was drawn last: Counts::pictures
+    bool drawn = false;      // the picture is that of the cell
+    bool unfinished = false; // its scene is drawn, its picture is not: only within proceed()
+    int frames = 0;          // that it is the mean of
+    std::size_t turn = 0;    // when it was drawn last: Counts::pictures
 
     // Whether another frame would change it.
     [[nodiscard]] bool isDue() const {
@@ -63,6 +65,7 @@ struct WallRenderer::Impl {
     LightId lightOf(const CellView& cell);
     LightId show(const CellView& cell); // returns what lights it
     Result<void> draw(Shown& shown);
+    Result<void> finish(Shown& shown);
     [[nodiscard]] Shown* next(); // null: all are drawn
     void letLightsGo();          // that no cell has
 
@@ -112,12 +115,21 @@ Result<void> WallRenderer::Impl::draw(Shown& shown) {
     frame.look.reset();
     if (shown.drawn)
         shown.view->resume();
-    if (auto done = shown.view->render(frame, ViewRenderer::kNowhere); !done)
-        return done;
+    const Result<bool> complete = shown.view->begin(frame);
+    if (!complete)
+        return complete.error();
     shown.drawn = shown.hasPicture = true;
+    shown.unfinished = !*complete;
     shown.frames = shown.view->accumulatedFrames();
     shown.turn = ++counts.pictures;
     return {};
+}
+
+Result<void> WallRenderer::Impl::finish(Shown& shown) {
+    shown.unfinished = false;
+    Result<void> done = shown.view->finish();
+    shown.drawn = done.ok();
+    return done;
 }
 
 // What is to show something else first, in turn, so that none waits for long while all of them
@@ -196,15 +208,40 @@ void WallRenderer::invalidate() {
 Result<bool> WallRenderer::proceed(double budgetMs) {
     Impl& r = *m_impl;
     const auto start = std::chrono::steady_clock::now();
+    const bool endless = std::isinf(budgetMs);
+    // Some scenes are drawn ahead of the picture that is finished next: making that waits for its
+    // scene, and those of the others give software OpenGL something to do meanwhile.
+    constexpr std::size_t kAhead = 2;
+    std::deque<Shown*> begun;
+    Result<void> done;
+    const auto finishAllBut = [&](std::size_t ahead) {
+        for (; done && begun.size() > ahead; begun.pop_front())
+            if (begun.front()->unfinished)
+                done = r.finish(*begun.front());
+    };
     while (Shown* shown = r.next()) {
-        if (auto done = r.draw(*shown); !done)
-            return done.error();
-        if (std::isinf(budgetMs))
-            continue;
-        glFinish();
-        if (millisecondsSince(start) >= budgetMs)
+        if (std::ranges::find(begun, shown) != begun.end())
+            finishAllBut(0); // another frame of it
+        if (done)
+            done = r.draw(*shown);
+        if (!done)
+            break;
+        begun.push_back(shown);
+        finishAllBut(kAhead);
+        if (!done)
+            break;
+        if (!endless && millisecondsSince(start) >= budgetMs)
             break;
     }
+    finishAllBut(0);
+    // Those that an error left behind.
+    for (Shown* shown : begun)
+        if (std::exchange(shown->unfinished, false))
+            shown->drawn = false;
+    if (!done)
+        return done.error();
+    if (!endless)
+        glFinish();
     if (!complete())
         return false;
     r.letLightsGo(); // only now: what is new may share textures with what goes

@@ -167,7 +167,8 @@ std::vector<std::string> modelDefines(const ShadingModel& model) {
     return defines;
 }
 
-void drawItem(const DrawItem& item, bool cull, bool coarse, std::span<const TriangleRange> ranges) {
+void drawItem(const DrawItem& item, bool cull, const GpuMesh::Coarse* coarse,
+              std::span<const TriangleRange> ranges) {
     (cull ? glEnable : glDisable)(GL_CULL_FACE);
     glFrontFace(item.mirrored ? GL_CW : GL_CCW);
     item.instanceBlock->bindUniform(kInstanceBinding);
@@ -179,11 +180,11 @@ void drawItem(const DrawItem& item, bool cull, bool coarse, std::span<const Tria
                        reinterpret_cast<const void*>(
                            static_cast<std::uintptr_t>(firstIndex * sizeof(std::uint32_t))));
     };
-    const auto all = static_cast<std::uint64_t>(mesh.indexCount);
-    if (coarse && mesh.coarseCount > 0)
-        return draw(all, static_cast<std::uint64_t>(mesh.coarseCount));
+    if (coarse != nullptr)
+        return draw(static_cast<std::uint64_t>(coarse->first),
+                    static_cast<std::uint64_t>(coarse->count));
     if (ranges.empty())
-        return draw(0, all);
+        return draw(0, static_cast<std::uint64_t>(mesh.indexCount));
     for (const TriangleRange& range : ranges)
         draw(3 * range.first, 3 * range.count);
 }
@@ -294,7 +295,7 @@ Result<void> SurfacePass::draw(const GpuScene& scene, const std::vector<const Dr
             item->visibility->bindStorage(kVisibilityBinding);
         bindTransfer(*item, features, settings);
         drawItem(*item, !item->material->doubleSided,
-                 settings.coarseView && coarseSuffices(*item, *settings.coarseView), ranges);
+                 settings.coarseView ? coarseFor(*item, *settings.coarseView) : nullptr, ranges);
     }
     return {};
 }

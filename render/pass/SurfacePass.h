@@ -31,8 +31,8 @@ struct SurfaceSettings {
     // code on disk by the program's code, which compiling for a first format changes: under a
     // second one it would not be found.
     bool floats = false;
-    // Set: meshes may be drawn with fewer triangles where this view (worldToClip) hides it.
-    std::optional<glm::mat4> coarseView = std::nullopt;
+    // Set: meshes may be drawn with fewer triangles where this view hides it.
+    std::optional<CoarseView> coarseView = std::nullopt;
     TriangleRange triangles = {}; // of the items that are drawn; not with coarseView
     // Set: only triangles that lie in this clip space are drawn, and counted.
     std::optional<glm::mat4> clip = std::nullopt;
@@ -92,8 +92,8 @@ struct SurfaceBakes {
 [[nodiscard]] std::vector<std::string> modelDefines(const ShadingModel& model);
 
 // Binds blocks and buffers of an item and issues the draw call; front faces and culling included.
-// `coarse`: with fewer triangles, if its mesh has any; else those of `ranges`, empty: all.
-void drawItem(const DrawItem& item, bool cull, bool coarse = false,
+// `coarse`: of its mesh, drawn instead of all of it; null: those of `ranges`, empty: all.
+void drawItem(const DrawItem& item, bool cull, const GpuMesh::Coarse* coarse = nullptr,
               std::span<const TriangleRange> ranges = {});
 
 } // namespace patina::render

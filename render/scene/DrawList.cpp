@@ -25,26 +25,36 @@ bool insideFrustum(const Bounds& bounds, const glm::mat4& worldToClip) {
     });
 }
 
-bool coarseSuffices(const DrawItem& item, const glm::mat4& worldToClip) {
-    constexpr float kShare = 1.0f / 45.0f;
-    if (item.mesh->coarseCount == 0)
-        return false;
+const GpuMesh::Coarse* coarseFor(const DrawItem& item, const CoarseView& view) {
+    constexpr float kShare = 1.0f / 45.0f, kPixels = 4.0f;
+    if (item.mesh->coarse.empty())
+        return nullptr;
     // The world's size of a cell: the box of the instance has as many as the mesh's own, and
     // turning it makes it larger.
     const glm::vec3 own = item.mesh->bounds.size(), world = item.bounds.size();
-    const float cell = item.mesh->coarseCell * std::max({world.x, world.y, world.z}) /
-                       std::max({own.x, own.y, own.z});
+    const float scale = std::max({world.x, world.y, world.z}) / std::max({own.x, own.y, own.z});
     // Where the box is nearest, w is the distance along the view (1 when it is orthographic).
+    const glm::mat4& clip = view.worldToClip;
     float nearest = std::numeric_limits<float>::max();
     for (int corner = 0; corner < 8; ++corner) {
         const Bounds& b = item.bounds;
         const glm::vec4 at =
-            worldToClip * glm::vec4(corner & 1 ? b.max.x : b.min.x, corner & 2 ? b.max.y : b.min.y,
-                                    corner & 4 ? b.max.z : b.min.z, 1.0f);
+            clip * glm::vec4(corner & 1 ? b.max.x : b.min.x, corner & 2 ? b.max.y : b.min.y,
+                             corner & 4 ? b.max.z : b.min.z, 1.0f);
         nearest = std::min(nearest, at.w);
     }
-    const glm::vec3 up(worldToClip[0][1], worldToClip[1][1], worldToClip[2][1]);
-    return nearest > 0.0f && 0.5f * glm::length(up) * cell < kShare * nearest;
+    if (!(nearest > 0.0f))
+        return nullptr;
+    const glm::vec3 up(clip[0][1], clip[1][1], clip[2][1]);
+    const float share = 0.5f * glm::length(up) * scale / nearest; // of the height, per metre
+    const GpuMesh::Coarse* chosen = nullptr;
+    for (const GpuMesh::Coarse& coarse : item.mesh->coarse) {
+        const float height = share * coarse.cell;
+        if (height < kShare &&
+            (chosen == nullptr || height * static_cast<float>(view.height) < kPixels))
+            chosen = &coarse;
+    }
+    return chosen;
 }
 
 std::vector<TriangleRange> visibleTriangles(const DrawItem& item,

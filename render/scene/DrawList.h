@@ -14,9 +14,15 @@ namespace patina::render {
 // False only when the box lies wholly outside one of the six clip planes.
 [[nodiscard]] bool insideFrustum(const Bounds& bounds, const glm::mat4& worldToClip);
 
-// Whether the cells to which the mesh's coarse triangles are rounded stay below a 45th of the
-// picture's height: 16 pixels of 720, 4 when a frame is drawn at a quarter.
-[[nodiscard]] bool coarseSuffices(const DrawItem& item, const glm::mat4& worldToClip);
+// The view of a frame drawn for speed.
+struct CoarseView {
+    glm::mat4 worldToClip;
+    int height = 1; // of the picture, pixels
+};
+// The fewest of the mesh's coarse triangles that suffice; null: none do. The cells to which they
+// are rounded stay below a 45th of the picture's height (16 pixels of 720, 4 when a frame is drawn
+// at a quarter), and all but the finest below four pixels.
+[[nodiscard]] const GpuMesh::Coarse* coarseFor(const DrawItem& item, const CoarseView& view);
 
 // The triangles of an item that lie in clip space, by lots; without a matrix all of them.
 [[nodiscard]] std::vector<TriangleRange>

@@ -4,6 +4,7 @@
 #include "core/mesh/CoarseMesh.h"
 
 #include <algorithm>
+#include <array>
 
 namespace patina::render {
 
@@ -16,8 +17,28 @@ struct Vertex {
 };
 static_assert(sizeof(Vertex) == 48);
 
-constexpr std::size_t kManyToReduce = 30'000;
-constexpr float kCoarseCells = 64.0f; // along the longest side
+constexpr std::size_t kManyToReduce = 4'000; // triangles
+// Along the longest side: each has half the triangles of the one before.
+constexpr std::array kCoarseCells{64.0f, 45.0f, 32.0f, 23.0f, 16.0f};
+
+void addCoarse(GpuMesh& result, const Mesh& mesh, std::vector<std::uint32_t>& indices) {
+    const glm::vec3 size = result.bounds.size();
+    const float side = std::max({size.x, size.y, size.z});
+    if (mesh.triangleCount() < kManyToReduce || !(side > 0.0f))
+        return;
+    std::size_t finer = indices.size();
+    for (const float cells : kCoarseCells) {
+        const std::vector<std::uint32_t> coarse = coarseTriangles(mesh, side / cells);
+        if (coarse.empty())
+            return;
+        if (coarse.size() > 2 * finer / 3)
+            continue; // not worth its memory
+        result.coarse.push_back(
+            {static_cast<int>(indices.size()), static_cast<int>(coarse.size()), side / cells});
+        indices.insert(indices.end(), coarse.begin(), coarse.end());
+        finer = coarse.size();
+    }
+}
 
 } // namespace
 
@@ -42,16 +63,7 @@ GpuMesh makeGpuMesh(gl::Context& context, const Mesh& mesh) {
         result.lots[i / (3 * std::size_t{GpuMesh::kLot})].add(mesh.positions[mesh.indices[i]]);
     result.vertices = gl::Buffer::of<Vertex>(context, "vertices", vertices);
     std::vector<std::uint32_t> indices = mesh.indices;
-    const glm::vec3 size = result.bounds.size();
-    const float cell = std::max({size.x, size.y, size.z}) / kCoarseCells;
-    if (mesh.triangleCount() >= kManyToReduce && cell > 0.0f) {
-        const std::vector<std::uint32_t> coarse = coarseTriangles(mesh, cell);
-        if (!coarse.empty() && coarse.size() < indices.size() / 2) {
-            indices.insert(indices.end(), coarse.begin(), coarse.end());
-            result.coarseCount = static_cast<int>(coarse.size());
-            result.coarseCell = cell;
-        }
-    }
+    addCoarse(result, mesh, indices);
     result.indices = gl::Buffer::of<std::uint32_t>(context, "indices", indices);
     result.array = gl::VertexArray(context, "mesh");
     result.array.setFloats(0, 3, result.vertices, offsetof(Vertex, position), sizeof(Vertex));

@@ -13,9 +13,13 @@ struct GpuMesh {
     gl::Buffer vertices, indices;
     gl::VertexArray array;
     int indexCount = 0;
-    // For small pictures, after the others in the buffer; 0: the mesh is simple enough as it is.
-    int coarseCount = 0;
-    float coarseCell = 0.0f; // no vertex of them is farther away than this cube's diagonal
+    // Fewer triangles for small pictures, after the others in the buffer, finest first; none: the
+    // mesh is simple enough as it is.
+    struct Coarse {
+        int first = 0, count = 0; // indices
+        float cell = 0.0f;        // no vertex is farther away than this cube's diagonal
+    };
+    std::vector<Coarse> coarse;
     std::size_t vertexCount = 0;
     Bounds bounds;
     // Of each lot of so many triangles, in the order of the buffer.

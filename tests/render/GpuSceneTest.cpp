@@ -65,6 +65,34 @@ TEST(DrawListTest, OpaqueFromTheFrontBlendedFromTheBack) {
     EXPECT_EQ(ids(list.blended), (std::vector<Id>{2, 6, 4}));
 }
 
+// Fewer triangles the fewer pixels there are: cells of a wall have few.
+TEST(DrawListTest, SmallerPicturesAreDrawnWithFewerTriangles) {
+    GpuMesh mesh;
+    mesh.bounds = {glm::vec3(-1.0f), glm::vec3(1.0f)};
+    mesh.indexCount = 300'000;
+    for (const float cells : {64.0f, 45.0f, 32.0f, 23.0f, 16.0f})
+        mesh.coarse.push_back({mesh.indexCount, 1, 2.0f / cells});
+    DrawItem item;
+    item.mesh = &mesh;
+    item.bounds = mesh.bounds;
+    // Its near side, 4 in front of the eye, is half as high as the picture: 2 of 4.
+    const glm::mat4 clip = glm::perspective(2.0f * std::atan(0.5f), 1.0f, 0.1f, 100.0f) *
+                           glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 0.0f, -5.0f));
+    const auto cells = [&](int height) {
+        const GpuMesh::Coarse* coarse = coarseFor(item, {clip, height});
+        return coarse ? 2.0f / coarse->cell : 0.0f;
+    };
+    EXPECT_FLOAT_EQ(cells(2000), 64.0f) << "a 128th of the height is no more than a 45th";
+    EXPECT_FLOAT_EQ(cells(359), 45.0f); // 3.99 pixels
+    EXPECT_FLOAT_EQ(cells(361), 64.0f); // 4.01 of the next
+    EXPECT_FLOAT_EQ(cells(240), 32.0f);
+    EXPECT_FLOAT_EQ(cells(60), 23.0f) << "of the next a cell is more than a 45th of the height";
+    mesh.coarse.resize(1);
+    EXPECT_FLOAT_EQ(cells(60), 64.0f);
+    mesh.coarse.clear();
+    EXPECT_FLOAT_EQ(cells(60), 0.0f);
+}
+
 class GpuSceneTest : public gl::GlTest {};
 
 TEST_F(GpuSceneTest, UploadsEachPayloadOnceAndDropsWhatIsUnused) {
