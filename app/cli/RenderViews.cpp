@@ -1,12 +1,12 @@
 #include "app/cli/RenderViews.h"
 
 #include "app/cli/Report.h"
-#include "app/cli/SheetCanvas.h"
 #include "core/edit/Edit.h"
 #include "core/edit/ViewReasons.h"
 #include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "core/mix/LightMix.h"
+#include "core/sheet/SheetCanvas.h"
 
 #include <algorithm>
 #include <array>
@@ -69,16 +69,16 @@ void drawLegend(Image& sheet, const TextRaster& text, int x, int baseline, const
                 const ViewRange& range) {
     constexpr int kBar = 84;
     const std::string low = number(range.min);
-    text.draw(sheet, x, baseline, kSmall, kGrey, low);
+    text.draw(sheet, x, baseline, kSmall, sheet::kGrey, low);
     x += text.width(low, kSmall) + 6;
     for (int i = 0; i < kBar; ++i)
-        fillRectangle(sheet, x + i, baseline - 8, 1, 8,
-                      mapColor(info.colorMap, static_cast<float>(i) / (kBar - 1)));
+        sheet::fillRectangle(sheet, x + i, baseline - 8, 1, 8,
+                             mapColor(info.colorMap, static_cast<float>(i) / (kBar - 1)));
     x += kBar + 6;
     const std::string high =
         fmt::format("{}{}{}{}", number(range.max), info.unit.empty() ? "" : " ", info.unit,
                     info.logarithmic ? "  log" : "");
-    text.draw(sheet, x, baseline, kSmall, kGrey, high);
+    text.draw(sheet, x, baseline, kSmall, sheet::kGrey, high);
 }
 
 struct Sheet {
@@ -273,22 +273,22 @@ Result<Image> contactSheet(Session& session, render::ViewRenderer& renderer,
     const int below = sheet.layOut([](int, std::string_view) {}, [](int, int, const ViewInfo&) {});
     const int height =
         below + (left.empty() ? 0 : kHeadingRow + static_cast<int>(left.size()) * kLine + kMargin);
-    if (std::max(width, height) > kMostSheetSide)
+    if (std::max(width, height) > sheet::kMostSheetSide)
         return usageError(
             fmt::format("the contact sheet would have more than {} pixels a side; choose a "
                         "smaller --size for its pictures",
-                        kMostSheetSide));
+                        sheet::kMostSheetSide));
     // Numbers are drawn without anti-aliasing: twice as large, then averaged.
     if (frame.samples > 1) {
         frame.width *= 2;
         frame.height *= 2;
     }
-    Image image = makePaper(width, height);
+    Image image = sheet::makePaper(width, height);
 
     Result<void> done;
     sheet.layOut(
         [&](int y, std::string_view label) {
-            text->draw(image, kMargin, y + 28, kHeading, kWhite, label);
+            text->draw(image, kMargin, y + 28, kHeading, sheet::kWhite, label);
         },
         [&](int x, int y, const ViewInfo& info) {
             if (!done || session.job().cancelled())
@@ -297,30 +297,32 @@ Result<Image> contactSheet(Session& session, render::ViewRenderer& renderer,
             done = renderer.render(frame, 0);
             if (!done)
                 return;
-            paste(
+            sheet::paste(
                 image, x, y,
                 shrinkImage(renderer.readDisplayed(), std::max(sheet.tileWidth, sheet.tileHeight)));
             const int first = y + sheet.tileHeight + 18, second = first + 17;
-            text->draw(image, x, first, kLabel, kWhite,
-                       fitting(*text, info.label, kLabel, sheet.tileWidth));
+            text->draw(image, x, first, kLabel, sheet::kWhite,
+                       sheet::fitting(*text, info.label, kLabel, sheet.tileWidth));
             const auto range = mode == ViewMode::Raw ? renderer.shownRange() : std::nullopt;
             if (range)
                 drawLegend(image, *text, x, second, info, *range);
             else
-                text->draw(image, x, second, kSmall, kGrey,
-                           fitting(*text, mode == ViewMode::Raw ? info.help : info.contribution,
-                                   kSmall, sheet.tileWidth));
+                text->draw(image, x, second, kSmall, sheet::kGrey,
+                           sheet::fitting(*text,
+                                          mode == ViewMode::Raw ? info.help : info.contribution,
+                                          kSmall, sheet.tileWidth));
         });
     if (!done)
         return done.error();
     if (!left.empty())
-        text->draw(image, kMargin, below + 28, kHeading, kWhite, "Does not apply to this scene");
+        text->draw(image, kMargin, below + 28, kHeading, sheet::kWhite,
+                   "Does not apply to this scene");
     int baseline = below + kHeadingRow + kLine - 4;
     for (const LeftOut& one : left) {
-        text->draw(image, kMargin, baseline, kLabel, kWhite, one.view->label);
+        text->draw(image, kMargin, baseline, kLabel, sheet::kWhite, one.view->label);
         const int x = kMargin + kReasonIndent;
-        text->draw(image, x, baseline, kLabel, kAmber,
-                   fitting(*text, one.reason, kLabel, width - kMargin - x));
+        text->draw(image, x, baseline, kLabel, sheet::kAmber,
+                   sheet::fitting(*text, one.reason, kLabel, width - kMargin - x));
         baseline += kLine;
     }
     return image;

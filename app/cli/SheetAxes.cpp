@@ -180,24 +180,4 @@ std::string sheetTitle(const SheetOptions& options) {
     return found != models.end() ? found->title : name;
 }
 
-std::string sheetSubtitle(const SheetOptions& options, const Wall& wall, const Document& document) {
-    std::vector<std::string> parts{wall.isTable()
-                                       ? fmt::format("{} × {}", wall.columns.title, wall.rows.title)
-                                       : wall.columns.title};
-    const View& view = document.view;
-    const auto choice = [&](const char* name, int value) {
-        parts.emplace_back(findParameter(name)->choiceLabels[static_cast<std::size_t>(value)]);
-    };
-    if (!has(options, AxisKind::Environments))
-        parts.push_back(environmentTitle(document.environment()));
-    if (!has(options, AxisKind::Lightings) && view.lighting != LightingMode::Ibl)
-        choice("view.lighting", static_cast<int>(view.lighting));
-    choice("view.toneMap", static_cast<int>(view.toneMap));
-    if (view.exposureMode == ExposureMode::Automatic)
-        parts.emplace_back("automatic exposure");
-    else if (view.exposureEv != 0.0f)
-        parts.push_back(fmt::format("{:+.3g} EV", view.exposureEv));
-    return fmt::format("{}", fmt::join(parts, "  ·  "));
-}
-
 } // namespace patina::cli

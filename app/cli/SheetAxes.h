@@ -23,9 +23,7 @@ struct SheetWall {
 // Usage errors say what exists. InputMissing for files that are not there, unless they are skipped.
 Result<SheetWall> makeSheetWall(Session& session, const SheetOptions& options, Document& document);
 
-// What stands above the cells: the scene's name, and what all of them have in common.
+// What stands above the cells: the scene's name.
 [[nodiscard]] std::string sheetTitle(const SheetOptions& options);
-[[nodiscard]] std::string sheetSubtitle(const SheetOptions& options, const Wall& wall,
-                                        const Document& document);
 
 } // namespace patina::cli

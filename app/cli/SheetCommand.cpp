@@ -6,7 +6,6 @@
 #include "app/cli/Report.h"
 #include "app/cli/SceneSetup.h"
 #include "app/cli/SheetAxes.h"
-#include "app/cli/WallSheet.h"
 #include "core/base/Limits.h"
 #include "core/document/EnvironmentTitle.h"
 #include "core/document/Source.h"
@@ -14,6 +13,7 @@
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 #include "core/mix/LightMix.h"
+#include "core/sheet/SheetPictures.h"
 #include "render/SceneRenderer.h"
 #include "render/ViewRenderer.h"
 #include "render/WallRenderer.h"
@@ -195,20 +195,12 @@ class SheetDrawer {
     std::vector<Followed> m_followed;
 };
 
-// A cell's picture, or why there is none.
-struct DrawnCell {
-    Image picture;
-    std::string problem;
-    std::string part; // of an .exr
-    double seconds = 0.0;
-};
-
 // Environment by environment, so that one at a time is in memory; the result is in the order of
 // `cells`.
-Result<std::vector<DrawnCell>> drawCells(Session& session, SheetDrawer& drawer,
-                                         const SheetWall& wall, const Document& document,
-                                         const std::vector<WallCell>& cells) {
-    std::vector<DrawnCell> drawn(cells.size());
+Result<std::vector<sheet::DrawnCell>> drawCells(Session& session, SheetDrawer& drawer,
+                                                const SheetWall& wall, const Document& document,
+                                                const std::vector<WallCell>& cells) {
+    std::vector<sheet::DrawnCell> drawn(cells.size());
     std::vector<Id> environments;
     for (const WallCell& cell : cells)
         if (std::ranges::find(environments, cell.cell.environment) == environments.end())
@@ -251,45 +243,6 @@ Result<std::vector<DrawnCell>> drawCells(Session& session, SheetDrawer& drawer,
     return drawn;
 }
 
-// "Studio, Gold": unlike any other part's.
-std::string partName(const WallCell& cell, std::set<std::string>& taken) {
-    const std::string wanted = fmt::format("{}", fmt::join(cell.captions, ", "));
-    std::string name = wanted;
-    for (int number = 2; !taken.insert(name).second; ++number)
-        name = fmt::format("{} ({})", wanted, number);
-    return name;
-}
-
-// The sheet with its pictures.
-Image pictureOf(const WallSheet& sheet, const Wall& wall, const std::vector<WallCell>& cells,
-                std::vector<DrawnCell>& drawn) {
-    Image paper = sheet.draw(wall);
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        if (!drawn[i].problem.empty()) {
-            sheet.drawProblem(paper, cells[i], "Cannot be read: " + drawn[i].problem);
-            continue;
-        }
-        const glm::ivec2 place = sheet.place(cells[i]);
-        paste(paper, place.x, place.y, drawn[i].picture);
-        drawn[i].picture = {}; // large sheets have no room for the same pixels twice
-    }
-    return paper;
-}
-
-// Each cell as a part of its own.
-std::vector<ImagePart> partsOf(const std::vector<WallCell>& cells, std::vector<DrawnCell>& drawn) {
-    std::vector<ImagePart> parts;
-    std::set<std::string> names;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        if (!drawn[i].problem.empty())
-            continue;
-        ImagePart& part = parts.emplace_back();
-        part.name = drawn[i].part = partName(cells[i], names);
-        part.image = std::move(drawn[i].picture);
-    }
-    return parts;
-}
-
 nlohmann::ordered_json describeAxis(const WallAxis& axis) {
     auto captions = nlohmann::ordered_json::array();
     for (const WallEntry& entry : axis.entries)
@@ -298,8 +251,8 @@ nlohmann::ordered_json describeAxis(const WallAxis& axis) {
 }
 
 // `sheet`: null where cells are parts.
-void describeCells(nlohmann::ordered_json& json, const Wall& wall, const WallSheet* sheet,
-                   const std::vector<WallCell>& cells, const std::vector<DrawnCell>& drawn,
+void describeCells(nlohmann::ordered_json& json, const Wall& wall, const sheet::WallSheet* sheet,
+                   const std::vector<WallCell>& cells, const std::vector<sheet::DrawnCell>& drawn,
                    const render::FrameSettings& frame) {
     json["columns"] = describeAxis(wall.columns);
     if (wall.isTable())
@@ -367,23 +320,20 @@ Result<void> run(Session& session, const SheetOptions& options) {
     if (!wall)
         return wall.error();
     const std::vector<WallCell> cells = cellsOf(wall->wall);
-    std::optional<WallSheet> sheet;
+    std::optional<sheet::WallSheet> paper;
     if (linear) {
-        const std::size_t bytes = cells.size() * static_cast<std::size_t>(frame->width) *
-                                  static_cast<std::size_t>(frame->height) * 4 * sizeof(float);
-        if (bytes > limits::kMaxImageBytes)
-            return usageError(
-                fmt::format("the cells would take more than {} MiB, which no picture may; "
-                            "choose a smaller --size",
-                            limits::kMaxImageBytes >> 20));
+        if (Result<void> fit = sheet::checkPartsFit(cells.size(), frame->width, frame->height);
+            !fit)
+            return fit;
     } else {
-        std::optional<WallSheetText> text;
+        std::optional<sheet::WallSheetText> text;
         if (!options.noCaptions)
-            text = {sheetTitle(options), sheetSubtitle(options, wall->wall, *document)};
-        Result<WallSheet> made = WallSheet::create(wall->wall, frame->width, frame->height, text);
+            text = {sheetTitle(options), sheet::commonText(wall->wall, *document)};
+        Result<sheet::WallSheet> made =
+            sheet::WallSheet::create(wall->wall, frame->width, frame->height, text);
         if (!made)
             return made.error();
-        sheet = std::move(*made);
+        paper = std::move(*made);
     }
     warnOfStaleBakes(session, *document);
     for (const render::LightLimit& limit : render::lightLimits(*document))
@@ -393,19 +343,21 @@ Result<void> run(Session& session, const SheetOptions& options) {
     SheetDrawer drawer(session, options, *document, *wall, request.isProject, *frame);
     if (Result<void> begun = drawer.begin(); !begun)
         return begun;
-    Result<std::vector<DrawnCell>> drawn = drawCells(session, drawer, *wall, *document, cells);
+    Result<std::vector<sheet::DrawnCell>> drawn =
+        drawCells(session, drawer, *wall, *document, cells);
     if (!drawn)
         return drawn.error();
     reportBroken(session.report(), *wall);
-    if (std::ranges::all_of(*drawn, [](const DrawnCell& cell) { return !cell.problem.empty(); }))
+    if (std::ranges::all_of(*drawn,
+                            [](const sheet::DrawnCell& cell) { return !cell.problem.empty(); }))
         return Error{ErrorKind::InputBroken, "none of the environments can be read", {}, {}};
 
     std::vector<ImagePart> parts;
-    if (sheet)
-        parts.push_back({{}, pictureOf(*sheet, wall->wall, cells, *drawn), {}});
+    if (paper)
+        parts.push_back({{}, sheet::pictureOf(*paper, wall->wall, cells, *drawn), {}});
     else
-        parts = partsOf(cells, *drawn);
-    describeCells(json, wall->wall, sheet ? &*sheet : nullptr, cells, *drawn, *frame);
+        parts = sheet::partsOf(cells, *drawn);
+    describeCells(json, wall->wall, paper ? &*paper : nullptr, cells, *drawn, *frame);
     if (session.job().cancelled())
         return cancelled();
     return writePictures(session, options.output, std::move(parts), *format);

@@ -1,10 +1,10 @@
-#include "app/cli/WallSheet.h"
+#include "core/sheet/WallSheet.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
-namespace patina::cli {
+namespace patina::sheet {
 namespace {
 
 // Of cells of 320 × 240: pixels.
@@ -167,4 +167,4 @@ void WallSheet::drawProblem(Image& sheet, const WallCell& cell, const std::strin
     }
 }
 
-} // namespace patina::cli
+} // namespace patina::sheet

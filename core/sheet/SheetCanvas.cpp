@@ -1,11 +1,11 @@
-#include "app/cli/SheetCanvas.h"
+#include "core/sheet/SheetCanvas.h"
 
 #include "core/base/Check.h"
 
 #include <algorithm>
 #include <cstddef>
 
-namespace patina::cli {
+namespace patina::sheet {
 
 Image makePaper(int width, int height) {
     Image paper(width, height, 3, PixelType::U8, ColorEncoding::Srgb);
@@ -92,4 +92,4 @@ std::vector<std::string> wrapped(const TextRaster& text, std::string_view line, 
     return lines;
 }
 
-} // namespace patina::cli
+} // namespace patina::sheet

@@ -1,15 +1,15 @@
 // A wall of pictures on paper: title, captions of columns and rows, the cells.
 #pragma once
 
-#include "app/cli/SheetCanvas.h"
 #include "core/cells/Wall.h"
+#include "core/sheet/SheetCanvas.h"
 
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace patina::cli {
+namespace patina::sheet {
 
 struct WallSheetText {
     std::string title;
@@ -48,4 +48,4 @@ class WallSheet {
     glm::ivec2 m_headings{0};             // baselines of the axes' titles and of the first captions
 };
 
-} // namespace patina::cli
+} // namespace patina::sheet

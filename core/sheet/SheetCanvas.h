@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace patina::cli {
+namespace patina::sheet {
 
 // Display values.
 inline constexpr glm::vec3 kPaper{0.085f}, kWhite{0.94f}, kGrey{0.62f}, kAmber{0.95f, 0.70f, 0.30f};
@@ -30,4 +30,4 @@ void paste(Image& sheet, int x, int y, const Image& picture);
 [[nodiscard]] std::vector<std::string> wrapped(const TextRaster& text, std::string_view line,
                                                int size, int width, std::size_t mostLines);
 
-} // namespace patina::cli
+} // namespace patina::sheet
