@@ -263,6 +263,20 @@ Result<void> WallRenderer::draw(std::span<const CellView> cells) {
     return done ? Result<void>() : Result<void>(done.error());
 }
 
+Result<void> WallRenderer::drawFrame(const CellView& cell, ViewRenderer& picture, bool continues) {
+    FrameSettings frame = cell.frame;
+    frame.light = m_impl->show(cell);
+    frame.look.reset();
+    if (continues)
+        picture.resume();
+    return picture.render(frame, ViewRenderer::kNowhere);
+}
+
+bool WallRenderer::isFine(const CellView& cell, const ViewRenderer& picture) {
+    const int frames = picture.accumulatedFrames();
+    return !cell.frame.accumulate || frames == 0 || frames >= ViewRenderer::kSteadyFrames;
+}
+
 std::size_t WallRenderer::size() const {
     return m_impl->cells.size();
 }

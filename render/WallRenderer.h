@@ -55,6 +55,10 @@ class WallRenderer {
     [[nodiscard]] std::size_t due() const; // cells that do not show yet what they are to show
     // set() and proceed() to the end.
     Result<void> draw(std::span<const CellView> cells);
+    // A frame of a cell that need not be one of these, into a picture elsewhere; `continues`: the
+    // last frame there was this cell's, too. It is as fine as it gets when isFine().
+    Result<void> drawFrame(const CellView& cell, ViewRenderer& picture, bool continues);
+    [[nodiscard]] static bool isFine(const CellView& cell, const ViewRenderer& picture);
 
     [[nodiscard]] std::size_t size() const; // cells
     [[nodiscard]] bool hasPicture(std::size_t cell) const;

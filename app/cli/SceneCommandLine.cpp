@@ -143,6 +143,9 @@ void CommandParser::addSheet() {
         ->needs(environments);
     addEnvironmentOption(c, o);
     addPicture(c, o);
+    c->get_option("--samples")
+        ->description("Samples per pixel against jagged edges (MSAA); 8: the mean of eight frames, "
+                      "as the editor shows cells at rest");
     addSets(c);
     addThreads(c);
     m_select[c] = [&o, c, environments, materials, lightings, wedge] {

@@ -300,6 +300,11 @@ Result<void> run(Session& session, const SheetOptions& options) {
         return output;
     const bool linear = isLinear(*format);
     frame->floats = linear;
+    // As the editor shows cells at rest, on any driver.
+    if (frame->samples == render::ViewRenderer::kSteadyFrames) {
+        frame->samples = 1;
+        frame->accumulate = true;
+    }
 
     if (!needsImageLibraries(options) && std::ranges::all_of(options.environments, isBuiltin))
         session.expectNoImages();

@@ -37,6 +37,7 @@
 #include "app/editor/viewport/ViewOverlay.h"
 #include "app/editor/viewport/ViewStrip.h"
 #include "app/editor/viewport/ViewportWidget.h"
+#include "app/editor/wall/SheetSaveDialog.h"
 #include "app/editor/wall/WallBar.h"
 #include "app/editor/wall/WallOverlay.h"
 #include "app/editor/widget/BusyIndicator.h"
@@ -103,8 +104,13 @@ MainWindow::MainWindow(Session& session)
     auto* layout = new QVBoxLayout(centre);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
-    layout->addWidget(
-        new WallBar(session.wall, session.comparison, session.controller, session.selection));
+    auto* wallBar =
+        new WallBar(session.wall, session.comparison, session.controller, session.selection);
+    layout->addWidget(wallBar);
+    connect(wallBar, &WallBar::sheetWanted, this, [this] {
+        SheetSaveDialog::open(m_session.wall, *m_viewport, m_session.controller, m_session.jobs,
+                              this);
+    });
     layout->addWidget(m_viewport, 1);
     new WallOverlay(session.wall, session.comparison, *m_viewport);
     new SplitHandle(session.comparison, *m_viewport);

@@ -43,7 +43,7 @@ Image pictureOf(const WallSheet& sheet, const Wall& wall, const std::vector<Wall
     Image paper = sheet.draw(wall);
     for (std::size_t i = 0; i < cells.size(); ++i) {
         if (!drawn[i].problem.empty()) {
-            sheet.drawProblem(paper, cells[i], "Cannot be read: " + drawn[i].problem);
+            sheet.drawProblem(paper, cells[i], "No picture: " + drawn[i].problem);
             continue;
         }
         const glm::ivec2 place = sheet.place(cells[i]);

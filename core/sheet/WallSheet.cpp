@@ -105,13 +105,20 @@ glm::ivec2 WallSheet::place(const WallCell& cell) const {
 
 Image WallSheet::draw(const Wall& wall) const {
     Image sheet = makePaper(m_size.x, m_size.y);
+    for (const SheetText& line : texts(wall))
+        m_text->draw(sheet, line.x, line.baseline, line.size, line.color, line.text);
+    return sheet;
+}
+
+std::vector<SheetText> WallSheet::texts(const Wall& wall) const {
+    std::vector<SheetText> result;
     if (!m_text)
-        return sheet;
+        return result;
     const int margin = scaled(kSheetMargin), caption = scaled(kCellCaption);
     const auto write = [&](int x, int baseline, float size, const glm::vec3& color,
                            const Lines& lines) {
         for (const std::string& text : lines) {
-            m_text->draw(sheet, x, baseline, scaled(size), color, text);
+            result.push_back({x, baseline, scaled(size), color, text});
             baseline += scaled(size * kCellLine);
         }
         return baseline;
@@ -126,7 +133,7 @@ Image WallSheet::draw(const Wall& wall) const {
             write(corner.x, corner.y + m_cell.y + caption + m_gap / 2, kCellCaption, kWhite,
                   m_columns[i]);
         }
-        return sheet;
+        return result;
     }
     write(m_first.x, m_headings.x, kAxis, kGrey, {wall.columns.title});
     write(margin, m_headings.y, kAxis, kGrey, {wall.rows.title});
@@ -147,7 +154,7 @@ Image WallSheet::draw(const Wall& wall) const {
                   lines);
         }
     }
-    return sheet;
+    return result;
 }
 
 void WallSheet::drawProblem(Image& sheet, const WallCell& cell, const std::string& reason) const {

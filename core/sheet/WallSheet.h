@@ -16,6 +16,13 @@ struct WallSheetText {
     std::string subtitle; // what all cells have in common
 };
 
+// A line of text on a sheet.
+struct SheetText {
+    int x = 0, baseline = 0, size = 0; // pixels
+    glm::vec3 color{1.0f};             // display values
+    std::string text;
+};
+
 // Where everything lies, in pixels; text grows with the cells.
 class WallSheet {
   public:
@@ -25,9 +32,12 @@ class WallSheet {
                                     const std::optional<WallSheetText>& text);
 
     [[nodiscard]] glm::ivec2 size() const { return m_size; }
+    [[nodiscard]] glm::ivec2 cellSize() const { return m_cell; }
     [[nodiscard]] glm::ivec2 place(const WallCell& cell) const; // its top left pixel
 
-    // The sheet with its captions, before there are pictures.
+    // Title and captions; none without text.
+    [[nodiscard]] std::vector<SheetText> texts(const Wall& wall) const;
+    // The sheet with them, before there are pictures.
     [[nodiscard]] Image draw(const Wall& wall) const;
     // In place of a picture: that there is none, and why.
     void drawProblem(Image& sheet, const WallCell& cell, const std::string& reason) const;

@@ -153,4 +153,22 @@ void ViewportWidget::drawWallSlice() {
         m_sliceTimer.start();
 }
 
+Result<std::optional<Image>> ViewportWidget::drawSheetFrame(const render::CellView& cell,
+                                                            bool begins, bool linear) {
+    if (!m_scene || !m_wallShown)
+        return Error{ErrorKind::Cancelled, "the wall is not shown any more", {}, {}};
+    makeCurrent();
+    Result<std::optional<Image>> drawn = m_wall.drawSheetFrame(*m_scene, cell, begins, linear);
+    doneCurrent();
+    return drawn;
+}
+
+void ViewportWidget::endSheet() {
+    if (!m_scene)
+        return;
+    makeCurrent();
+    m_wall.endSheet();
+    doneCurrent();
+}
+
 } // namespace patina::editor

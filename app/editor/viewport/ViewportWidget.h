@@ -81,6 +81,12 @@ class ViewportWidget : public QOpenGLWidget {
     void setOverlaysVisible(bool visible); // ground grid, selection outline, light icons
     [[nodiscard]] bool overlaysVisible() const { return m_overlays; }
 
+    // The wall's cells for a sheet, drawn one frame at a time: see WallPainter.
+    [[nodiscard]] const WallPainter& wallPainter() const { return m_wall; }
+    Result<std::optional<Image>> drawSheetFrame(const render::CellView& cell, bool begins,
+                                                bool linear);
+    void endSheet();
+
     // What it shows, reduced to fit; null while nothing was drawn. Draws nothing.
     [[nodiscard]] QImage smallPicture(const QSize& largest);
 

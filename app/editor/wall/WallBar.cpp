@@ -25,7 +25,9 @@ WallBar::WallBar(WallState& wall, WallComparison& comparison, DocumentController
                            tr("Make the scene what the current cell shows, as one step")))
     , m_enlarge(makeListButton(
           QStringLiteral("full-screen"), {},
-          tr("Show the current cell alone, or all of them again (double-click or Enter)"))) {
+          tr("Show the current cell alone, or all of them again (double-click or Enter)")))
+    , m_save(makeListButton(QStringLiteral("save-as"), {},
+                            tr("Save the wall as a sheet: PNG, JPEG, TIFF, OpenEXR or PDF"))) {
     setObjectName(QStringLiteral("wallBar"));
     m_enlarge->setCheckable(true);
     QToolButton* close =
@@ -39,11 +41,14 @@ WallBar::WallBar(WallState& wall, WallComparison& comparison, DocumentController
     rows->addWidget(new CompareControls(wall, comparison));
     for (QWidget* widget : {static_cast<QWidget*>(m_columns), static_cast<QWidget*>(m_rows),
                             static_cast<QWidget*>(m_enlarge), static_cast<QWidget*>(m_use),
-                            static_cast<QWidget*>(close)})
+                            static_cast<QWidget*>(m_save), static_cast<QWidget*>(close)})
         row->addWidget(widget);
     connect(m_use, &QPushButton::clicked, &wall, &WallState::useInScene);
     connect(m_enlarge, &QPushButton::clicked, this,
             [this] { m_wall.enlarge(m_wall.enlarged() ? std::nullopt : m_wall.current()); });
+    m_save->setObjectName(QStringLiteral("saveSheet"));
+    m_save->setAccessibleName(tr("Save Sheet"));
+    connect(m_save, &QToolButton::clicked, this, &WallBar::sheetWanted);
     connect(close, &QToolButton::clicked, this, [this] { m_wall.setOn(false); });
     connect(&wall, &WallState::changed, this, &WallBar::refresh);
     connect(&wall, &WallState::cellsChosen, this, &WallBar::refresh);
@@ -63,6 +68,7 @@ void WallBar::refresh() {
     m_use->setEnabled(m_wall.current().has_value());
     m_enlarge->setEnabled(m_wall.current().has_value());
     m_enlarge->setChecked(m_wall.enlarged().has_value());
+    m_save->setEnabled(!m_wall.cells().empty());
 }
 
 } // namespace patina::editor

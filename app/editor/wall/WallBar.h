@@ -21,13 +21,16 @@ class WallBar : public QFrame {
     WallBar(WallState& wall, WallComparison& comparison, DocumentController& controller,
             SelectionModel& selection, QWidget* parent = nullptr);
 
+  Q_SIGNALS:
+    void sheetWanted(); // the wall is to be saved
+
   private:
     void refresh();
 
     WallState& m_wall;
     WallAxisControls *m_columns, *m_rows;
     QPushButton* m_use;
-    QToolButton* m_enlarge;
+    QToolButton *m_enlarge, *m_save;
 };
 
 } // namespace patina::editor

@@ -88,6 +88,7 @@ void WallPainter::invalidate() {
 }
 
 void WallPainter::release() {
+    m_sheetPicture.reset();
     m_renderer.reset();
     m_views.clear();
     m_places.clear();
@@ -265,6 +266,64 @@ void WallPainter::measure() {
         return;
     m_comparison->measure(m_renderer->picture(*a).readDisplayed(),
                           m_renderer->picture(*b).readDisplayed());
+}
+
+// --- Sheets --------------------------------------------------------------------------------------
+
+std::optional<std::size_t> WallPainter::shownCell() const {
+    for (std::size_t i = 0; i < std::min(m_places.size(), m_views.size()); ++i)
+        if (!m_places[i].isEmpty())
+            return i;
+    return std::nullopt;
+}
+
+QSize WallPainter::sheetCellSize(int width) const {
+    const std::optional<std::size_t> shown = shownCell();
+    if (!shown)
+        return {};
+    const QRect& place = m_places[*shown];
+    const double height = static_cast<double>(width) * place.height() / place.width();
+    return {width, std::max(1, static_cast<int>(std::lround(height)))};
+}
+
+std::optional<std::vector<WallPainter::SheetCell>> WallPainter::sheetCells(int width) const {
+    const std::optional<std::size_t> shown = shownCell();
+    if (!isOn() || !m_composed || preparing() || !shown)
+        return std::nullopt;
+    const QSize size = sheetCellSize(width);
+    std::vector<SheetCell> cells;
+    for (std::size_t i = 0; i < m_views.size(); ++i) {
+        SheetCell& cell = cells.emplace_back(SheetCell{m_views[i], m_absences[i].text});
+        render::FrameSettings& frame = cell.view.frame;
+        frame = m_views[*shown].frame; // the camera is all cells' own
+        frame.width = size.width();
+        frame.height = size.height();
+        frame.samples = 1; // the mean of some frames is as smooth
+        frame.accumulate = true;
+        frame.coarse = frame.dither = false;
+        cell.view.document.view.camera = frame.camera;
+        cell.view.waits = false;
+    }
+    return cells;
+}
+
+Result<std::optional<Image>> WallPainter::drawSheetFrame(render::SceneRenderer& scene,
+                                                         const render::CellView& cell, bool begins,
+                                                         bool linear) {
+    if (!m_renderer)
+        m_renderer = std::make_unique<render::WallRenderer>(scene);
+    begins = begins || !m_sheetPicture;
+    if (!m_sheetPicture)
+        m_sheetPicture = std::make_unique<render::ViewRenderer>(scene);
+    if (auto done = m_renderer->drawFrame(cell, *m_sheetPicture, !begins); !done)
+        return done.error();
+    if (!render::WallRenderer::isFine(cell, *m_sheetPicture))
+        return std::optional<Image>();
+    return std::optional(linear ? m_sheetPicture->readLinear() : m_sheetPicture->readDisplayed());
+}
+
+void WallPainter::endSheet() {
+    m_sheetPicture.reset();
 }
 
 } // namespace patina::editor

@@ -9,6 +9,7 @@
 #include <QRect>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace patina::render {
@@ -51,6 +52,13 @@ class WallPainter : public QObject {
     // All cells as they are into a framebuffer of `size` pixels.
     Result<void> present(unsigned framebuffer, const QSize& size);
     void measure(); // the cells that are compared, when they rest
+    // A frame of a cell of a sheet (sheetCells()); nothing while another one is to be added to it.
+    // `linear`: half floats as they are before the tone curve, else the picture as displayed.
+    // `begins`: the cell's first.
+    Result<std::optional<Image>> drawSheetFrame(render::SceneRenderer& scene,
+                                                const render::CellView& cell, bool begins,
+                                                bool linear);
+    void endSheet();
     void release(); // what it has in the scene; the document is to be set again
 
     // The scene looks different in a way that the document does not say.
@@ -62,6 +70,14 @@ class WallPainter : public QObject {
     [[nodiscard]] std::size_t due() const; // cells that show what they showed before
     [[nodiscard]] std::size_t size() const { return m_views.size(); } // cells
     [[nodiscard]] bool preparing() const; // some wait for light or programs
+    // All cells as fine as they get, `width` pixels wide and as high as they are shown, the one
+    // that is enlarged as all of them. Nothing while what they show is not complete.
+    struct SheetCell {
+        render::CellView view;
+        QString problem; // why there will be no picture
+    };
+    [[nodiscard]] std::optional<std::vector<SheetCell>> sheetCells(int width) const;
+    [[nodiscard]] QSize sheetCellSize(int width) const; // null: nothing is shown
 
   Q_SIGNALS:
     void changed(); // set() would show something else
@@ -69,6 +85,7 @@ class WallPainter : public QObject {
   private:
     void compose(const render::FrameSettings& frame);
     void composeCell(std::size_t index, const render::FrameSettings& frame);
+    [[nodiscard]] std::optional<std::size_t> shownCell() const; // the enlarged one, or any
     [[nodiscard]] render::FrameSettings frameOf(const render::FrameSettings& frame,
                                                 const QRect& cell, float scale) const;
 
@@ -79,7 +96,8 @@ class WallPainter : public QObject {
     Ready m_ready;
     ImagePtr m_sceneLight;
     NearShadowsPtr m_nearShadows;
-    std::unique_ptr<render::WallRenderer> m_renderer; // null until it is on, with a scene
+    std::unique_ptr<render::WallRenderer> m_renderer;     // null until it is on, with a scene
+    std::unique_ptr<render::ViewRenderer> m_sheetPicture; // of the sheet that is being drawn
     std::vector<render::CellView> m_views;
     std::vector<QRect> m_places;
     struct Absence {

@@ -1,0 +1,196 @@
+#include "app/editor/wall/SheetSave.h"
+
+#include "app/editor/document/DocumentController.h"
+#include "app/editor/document/FileOnDisk.h"
+#include "app/editor/document/QtText.h"
+#include "app/editor/document/UserNotice.h"
+#include "app/editor/job/JobManager.h"
+#include "app/editor/viewport/ViewportWidget.h"
+#include "app/editor/wall/SheetPdf.h"
+#include "app/editor/wall/WallState.h"
+#include "core/base/AtomicFile.h"
+#include "core/io/ImageIO.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
+
+#include <QFileInfo>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+namespace patina::editor {
+
+struct SheetSave::Hand {
+    std::mutex mutex;
+    std::condition_variable changed;
+    std::vector<sheet::DrawnCell> drawn; // in the cells' order
+    std::size_t count = 0;               // of cells
+    std::optional<Error> error;          // drawing ended with it
+    bool jobEnded = false;               // nobody waits for pictures any more
+    std::string common;                  // sheet::commonText()
+};
+
+namespace {
+
+constexpr int kReadyMs = 50; // between looks whether the wall is complete
+
+Result<void> writeSheet(WorkerClient& worker, const SheetOrder& order, const Wall& wall,
+                        std::vector<sheet::DrawnCell> drawn, const std::string& common,
+                        const glm::ivec2& size) {
+    const std::filesystem::path file = absolutePath(order.file);
+    const std::vector<WallCell> cells = cellsOf(wall);
+    if (order.format == SheetFormat::Exr) {
+        ImageSaveOptions options;
+        options.half = true; // as the viewport holds them
+        const Result<Bytes> bytes =
+            encodeImage(worker, sheet::partsOf(cells, drawn), ImageFileFormat::Exr, options);
+        return bytes ? writeFileAtomically(file, *bytes) : Result<void>(bytes.error());
+    }
+    std::optional<sheet::WallSheetText> text;
+    if (order.captions)
+        text = {order.title.toStdString(), common};
+    const Result<sheet::WallSheet> paper = sheet::WallSheet::create(wall, size.x, size.y, text);
+    if (!paper)
+        return paper.error();
+    if (order.format == SheetFormat::Pdf)
+        return writeFileAtomically(file, sheetPdf(*paper, wall, cells, drawn));
+    return saveImage(worker, sheet::pictureOf(*paper, wall, cells, drawn), file);
+}
+
+// Opaque pictures carry no alpha.
+Image opaque(const Image& image) {
+    Image result(image.width(), image.height(), 3, PixelType::U8, image.encoding());
+    const auto from = image.u8();
+    const auto to = result.u8();
+    for (std::size_t i = 0; 4 * i < from.size(); ++i)
+        std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(4 * i), 3,
+                    to.begin() + static_cast<std::ptrdiff_t>(3 * i));
+    return result;
+}
+
+} // namespace
+
+SheetSave::SheetSave(SheetOrder order, const WallState& wall, ViewportWidget& viewport,
+                     DocumentController& controller, JobManager& jobs)
+    : QObject(&viewport)
+    , m_order(std::move(order))
+    , m_viewport(viewport)
+    , m_wall(wall.wall())
+    , m_cells(wall.cells())
+    , m_hand(std::make_shared<Hand>()) {
+    m_hand->count = m_cells.size();
+    if (m_cells.empty())
+        m_hand->error = Error{ErrorKind::Cancelled, "there is no wall", {}, {}};
+    else
+        m_hand->common = sheet::commonText(m_wall, controller.document());
+    connect(&m_timer, &QTimer::timeout, this, &SheetSave::draw);
+    connect(&wall, &WallState::changed, this, [this, &wall] {
+        if (wall.wall() != m_wall) // else it is the same of an edited document
+            fail({ErrorKind::Cancelled, "the wall was changed before its sheet was drawn", {}, {}});
+    });
+    m_timer.start(0);
+
+    const auto work = [hand = m_hand, order = m_order, shown = m_wall,
+                       size = viewport.wallPainter().sheetCellSize(m_order.cellWidth),
+                       worker = &controller.worker(),
+                       target = &controller](const JobContext& job) -> JobOutcome {
+        std::vector<sheet::DrawnCell> drawn;
+        {
+            std::unique_lock lock(hand->mutex);
+            while (!hand->error && hand->drawn.size() < hand->count && !job.cancelled()) {
+                job.setActivity("drawing cells");
+                job.setProgress(0.9 * static_cast<double>(hand->drawn.size()) /
+                                static_cast<double>(hand->count));
+                hand->changed.wait_for(lock, std::chrono::milliseconds(kReadyMs));
+            }
+            hand->jobEnded = true;
+            if (job.cancelled())
+                return {Error{ErrorKind::Cancelled, "cancelled", {}, {}}, {}, {}};
+            if (hand->error)
+                return {hand->error, {}, {}};
+            drawn = std::move(hand->drawn);
+        }
+        job.setActivity("writing");
+        if (auto written = writeSheet(*worker, order, shown, std::move(drawn), hand->common,
+                                      {size.width(), size.height()});
+            !written)
+            return {written.error(), {}, {}};
+        return {std::nullopt, order.file, [target, file = order.file] {
+                    UserNotice notice;
+                    notice.text = SheetSave::tr("Saved the sheet to %1").arg(file);
+                    Q_EMIT target->noticed(notice);
+                }};
+    };
+    jobs.start(tr("Save sheet: %1").arg(QFileInfo(m_order.file).fileName()), false, work);
+}
+
+SheetSave::~SheetSave() {
+    const std::lock_guard lock(m_hand->mutex);
+    if (m_hand->drawn.size() < m_hand->count && !m_hand->error)
+        m_hand->error = Error{ErrorKind::Cancelled, "the window was closed", {}, {}};
+    m_hand->changed.notify_all();
+}
+
+void SheetSave::fail(const Error& error) {
+    {
+        const std::lock_guard lock(m_hand->mutex);
+        m_hand->error = error;
+    }
+    m_hand->changed.notify_all();
+    m_timer.stop();
+    m_viewport.endSheet();
+    deleteLater();
+}
+
+void SheetSave::draw() {
+    {
+        const std::lock_guard lock(m_hand->mutex);
+        if (m_hand->jobEnded || m_hand->error) {
+            m_timer.stop();
+            m_viewport.endSheet();
+            deleteLater();
+            return;
+        }
+    }
+    if (m_views.empty()) {
+        std::optional<std::vector<WallPainter::SheetCell>> views =
+            m_viewport.wallPainter().sheetCells(m_order.cellWidth);
+        m_timer.setInterval(views ? 0 : kReadyMs);
+        if (!views)
+            return;
+        if (views->size() != m_cells.size())
+            return fail(
+                {ErrorKind::Cancelled, "the wall was changed before its sheet was drawn", {}, {}});
+        m_views = std::move(*views);
+    }
+    sheet::DrawnCell cell;
+    const WallPainter::SheetCell& view = m_views[m_next];
+    if (view.problem.isEmpty()) {
+        Result<std::optional<Image>> drawn =
+            m_viewport.drawSheetFrame(view.view, m_begins, m_order.format == SheetFormat::Exr);
+        if (!drawn)
+            return fail(drawn.error());
+        m_begins = false;
+        if (!*drawn)
+            return;
+        cell.picture = m_order.format == SheetFormat::Exr ? std::move(**drawn) : opaque(**drawn);
+    } else {
+        cell.problem = view.problem.toStdString();
+    }
+    m_begins = true;
+    ++m_next;
+    {
+        const std::lock_guard lock(m_hand->mutex);
+        m_hand->drawn.push_back(std::move(cell));
+    }
+    m_hand->changed.notify_all();
+    if (m_next == m_views.size()) {
+        m_timer.stop();
+        m_viewport.endSheet();
+        deleteLater();
+    }
+}
+
+} // namespace patina::editor
