@@ -51,13 +51,13 @@ struct RenderOptions : PictureOptions {
 
 struct SheetOptions : PictureOptions {
     SheetOptions() { size = "320x240"; } // of a cell
-    enum class AxisKind { Environments, Materials, Lightings, Wedge };
+    enum class AxisKind { Environments, Materials, Lightings, Snapshots, Wedge };
     struct Axis {
         AxisKind kind;
         std::string wedge; // NAME=FROM:TO:COUNT
     };
     std::vector<Axis> axes; // in the order of the command line: columns, rows
-    std::vector<std::string> environments, materials, lightings, wedges;
+    std::vector<std::string> environments, materials, lightings, snapshots, wedges;
     std::vector<std::string> meshes; // that materials are put on; empty: all that are visible
     int columns = 0;                 // of a single axis; 0: chosen
     bool noCaptions = false;

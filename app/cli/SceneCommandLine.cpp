@@ -121,6 +121,8 @@ void CommandParser::addSheet() {
                                   "Materials of the scene, else built-in ones, by name");
     CLI::Option* lightings =
         many("--lightings", o.lightings, "NAME …", "Lighting modes, named as for --lighting");
+    CLI::Option* snapshots = many("--snapshots", o.snapshots, "NAME …",
+                                  "Snapshots of a project, by name: looks kept in the editor");
     CLI::Option* wedge =
         c->add_option("--wedge", o.wedges,
                       "Values of a number of patina parameters, evenly spaced, both ends among "
@@ -148,7 +150,7 @@ void CommandParser::addSheet() {
                       "as the editor shows cells at rest");
     addSets(c);
     addThreads(c);
-    m_select[c] = [&o, c, environments, materials, lightings, wedge] {
+    m_select[c] = [&o, c, environments, materials, lightings, snapshots, wedge] {
         using Kind = SheetOptions::AxisKind;
         std::size_t wedges = 0;
         for (const CLI::Option* option : c->parse_order()) {
@@ -162,6 +164,8 @@ void CommandParser::addSheet() {
                 once(Kind::Materials);
             else if (option == lightings)
                 once(Kind::Lightings);
+            else if (option == snapshots)
+                once(Kind::Snapshots);
             else if (option == wedge)
                 o.axes.push_back({Kind::Wedge, o.wedges.at(wedges++)});
         }

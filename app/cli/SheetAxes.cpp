@@ -108,6 +108,13 @@ Result<WallAxis> lightings(const SheetOptions& options, const Document& document
     return axis;
 }
 
+Result<WallAxis> snapshots(const SheetOptions& options, const Document& document) {
+    const Result<std::vector<Id>> ids = snapshotsNamed(document, options.snapshots);
+    if (!ids)
+        return ids.error();
+    return snapshotAxis(document, *ids);
+}
+
 Result<WallAxis> wedge(Session& session, const std::string& text, const Document& document) {
     const Result<Wedge> parsed = parseWedge(text);
     if (!parsed)
@@ -122,7 +129,7 @@ Result<WallAxis> wedge(Session& session, const std::string& text, const Document
 Result<void> checkConflicts(const SheetOptions& options) {
     if (options.axes.empty() || options.axes.size() > 2)
         return usageError("a sheet compares one or two things: --environments, --materials, "
-                          "--lightings, --wedge (two wedges are two)");
+                          "--lightings, --snapshots, --wedge (two wedges are two)");
     if (has(options, AxisKind::Environments) && !options.environment.empty())
         return usageError(
             "--environment has no effect beside --environments; leave one of them out");
@@ -149,6 +156,8 @@ Result<SheetWall> makeSheetWall(Session& session, const SheetOptions& options, D
             return materials(options, document);
         case AxisKind::Lightings:
             return lightings(options, document);
+        case AxisKind::Snapshots:
+            return snapshots(options, document);
         case AxisKind::Wedge:
             break;
         }

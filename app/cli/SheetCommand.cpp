@@ -1,5 +1,5 @@
-// `patina sheet`: environments, materials, lighting modes and values of a parameter beside each
-// other.
+// `patina sheet`: environments, materials, lighting modes, snapshots and values of a parameter
+// beside each other.
 #include "app/cli/Commands.h"
 #include "app/cli/LocalShadows.h"
 #include "app/cli/PictureSetup.h"
@@ -25,6 +25,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <tuple>
 
 namespace patina::cli {
 namespace {
@@ -60,6 +61,7 @@ class SheetDrawer {
             m_frame.floats ? DisplayTransformPtr() : openDisplay(m_session, m_document.view);
         if (!display)
             return display.error();
+        m_displayOf = m_document.view;
         Result<std::unique_ptr<gl::Context>> context = createContext(m_session, m_frame);
         if (!context)
             return context.error();
@@ -112,6 +114,8 @@ class SheetDrawer {
             return cancelled();
         if (Result<void> followed = follow(*shown); !followed)
             return followed.error();
+        if (Result<void> fits = fitDisplay(shown->view); !fits)
+            return fits.error();
         render::CellView view;
         const float aspect = static_cast<float>(m_frame.width) / static_cast<float>(m_frame.height);
         const Result<Camera> camera = chooseCamera(m_options, *shown, m_isProject, aspect);
@@ -139,6 +143,21 @@ class SheetDrawer {
     }
 
   private:
+    // A snapshot may be shown through another display of OpenColorIO.
+    Result<void> fitDisplay(const View& view) {
+        const auto display = [](const View& of) {
+            return std::tie(of.toneMap, of.ocioConfig, of.ocioDisplay, of.ocioView);
+        };
+        if (m_frame.floats || view.toneMap != ToneMap::OpenColorIo ||
+            display(view) == display(m_displayOf))
+            return {};
+        const Result<DisplayTransformPtr> other = openDisplay(m_session, view);
+        if (!other)
+            return other.error();
+        m_displayOf = view;
+        return m_scene->setDisplay(*other);
+    }
+
     // Of the last picture, which most often is the next one's, too.
     Result<EnvironmentTexelsPtr> lightOf(const ImagePtr& image) {
         if (!image || image == m_lightImage)
@@ -189,6 +208,7 @@ class SheetDrawer {
     std::unique_ptr<gl::Context> m_context; // outlives what it holds
     std::unique_ptr<render::SceneRenderer> m_scene;
     std::unique_ptr<render::WallRenderer> m_cells;
+    View m_displayOf;
     ImagePtr m_lightImage;
     EnvironmentTexelsPtr m_light;
     NearShadowsPtr m_shadows;

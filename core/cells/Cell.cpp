@@ -1,7 +1,9 @@
 #include "core/cells/Cell.h"
 
+#include "core/document/Snapshot.h"
 #include "core/edit/Edit.h"
 #include "core/edit/EditSession.h"
+#include "core/edit/Looks.h"
 #include "core/light/GeneratedEnvironment.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
@@ -17,14 +19,25 @@ Cell combined(Cell below, const Cell& above) {
         below.environment = above.environment;
     if (above.camera)
         below.camera = above.camera;
+    if (above.snapshot != 0)
+        below.snapshot = above.snapshot;
     below.own.insert(below.own.end(), above.own.begin(), above.own.end());
     return below;
 }
 
 Result<Document> documentOf(const Document& document, const Cell& cell) {
     Document shown = document;
+    if (cell.snapshot != 0) {
+        const Snapshot* snapshot = document.snapshot(cell.snapshot);
+        if (snapshot == nullptr)
+            return Error{ErrorKind::Usage,
+                         "the snapshot of this cell was removed; choose another one",
+                         {},
+                         {}};
+        shown = withLook(std::move(shown), *snapshot->look);
+    }
     if (cell.environment != 0) {
-        if (document.environment(cell.environment) == nullptr)
+        if (shown.environment(cell.environment) == nullptr)
             return Error{ErrorKind::Usage,
                          "the environment of this cell is no longer in the scene; choose another "
                          "one",
@@ -53,6 +66,8 @@ Result<Document> documentOf(const Document& document, const Cell& cell) {
 
 void putIntoScene(EditSession& session, const Cell& cell) {
     session.group("Use Cell in Scene", [&] {
+        if (cell.snapshot != 0)
+            session.restoreSnapshot(cell.snapshot);
         if (cell.environment != 0) {
             session.lightWith(cell.environment);
             session.setParameter(*findParameter("environment.second"), {Scope::Environment, 0}, 0);

@@ -26,6 +26,9 @@ struct Cell {
     Id environment = 0;
     std::vector<CellEdit> own; // in this order
     std::optional<Camera> camera;
+    // One of Document::snapshots, whose look the cell shows; what else it has of its own comes on
+    // top. 0: none.
+    Id snapshot = 0;
     friend bool operator==(const Cell&, const Cell&) = default;
 };
 

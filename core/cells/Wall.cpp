@@ -44,7 +44,7 @@ const ParameterInfo* inBoth(const WallAxis& a, const WallAxis& b) {
 Result<Wall> makeWall(std::vector<WallAxis> axes, std::size_t gridWidth) {
     if (axes.empty() || axes.size() > 2)
         return usage(fmt::format("a wall has one or two of environments, materials, lighting "
-                                 "modes and values of a parameter, not {}",
+                                 "modes, snapshots and values of a parameter, not {}",
                                  axes.size()));
     for (WallAxis& axis : axes) {
         if (axis.entries.empty())
@@ -56,6 +56,13 @@ Result<Wall> makeWall(std::vector<WallAxis> axes, std::size_t gridWidth) {
             return usage(fmt::format("columns and rows would both set {}; compare something else "
                                      "in one of them",
                                      both->id));
+    const auto showsSnapshots = [](const WallAxis& axis) {
+        return std::ranges::any_of(axis.entries,
+                                   [](const WallEntry& entry) { return entry.cell.snapshot != 0; });
+    };
+    if (axes.size() == 2 && showsSnapshots(axes[0]) && showsSnapshots(axes[1]))
+        return usage("columns and rows would both show snapshots; compare something else in one "
+                     "of them");
     Wall wall;
     wall.columns = std::move(axes[0]);
     const std::size_t count = wall.columns.entries.size();

@@ -1,6 +1,7 @@
 #include "core/cells/WallAxes.h"
 
 #include "core/document/EnvironmentTitle.h"
+#include "core/document/Snapshot.h"
 #include "core/document/Source.h"
 #include "core/edit/Edit.h"
 #include "core/library/Library.h"
@@ -118,6 +119,36 @@ WallAxis materialAxis(const Document& document, std::span<const Id> materials,
         give(entry.cell, *info, targets, static_cast<int>(material));
     }
     return axis;
+}
+
+WallAxis snapshotAxis(const Document& document, std::span<const Id> snapshots) {
+    WallAxis axis{"Snapshot", {}};
+    for (const Id id : snapshots) {
+        WallEntry& entry = axis.entries.emplace_back();
+        entry.caption = document.snapshot(id)->name;
+        entry.cell.snapshot = id;
+    }
+    return axis;
+}
+
+Result<std::vector<Id>> snapshotsNamed(const Document& document,
+                                       std::span<const std::string> names) {
+    std::vector<Id> ids;
+    if (document.snapshots.empty())
+        return axisUsage("the scene has no snapshots: keep some in the Snapshots dock of the "
+                         "editor and save the project");
+    for (const std::string& name : names) {
+        const auto found = std::ranges::find(document.snapshots, name, &Snapshot::name);
+        if (found == document.snapshots.end()) {
+            std::vector<std::string> known;
+            for (const Snapshot& snapshot : document.snapshots)
+                known.push_back(fmt::format("\"{}\"", snapshot.name));
+            return axisUsage(fmt::format("there is no snapshot \"{}\"; the project has {}", name,
+                                         fmt::join(known, ", ")));
+        }
+        ids.push_back(found->id);
+    }
+    return ids;
 }
 
 Result<WallAxis> choiceAxis(const Document& document, std::string_view parameter,

@@ -1,5 +1,5 @@
-// What a wall can compare: environments, materials, choices (lighting modes, tone curves) and a
-// number's values.
+// What a wall can compare: environments, materials, snapshots, choices (lighting modes, tone
+// curves) and a number's values.
 #pragma once
 
 #include "core/cells/Wall.h"
@@ -20,6 +20,12 @@ Result<Id> materialNamed(Document& document, const std::string& name);
 // Materials of the document on all visible meshes, or on `meshes` alone.
 [[nodiscard]] WallAxis materialAxis(const Document& document, std::span<const Id> materials,
                                     std::span<const Id> meshes = {});
+
+// Snapshots of the document, by id.
+[[nodiscard]] WallAxis snapshotAxis(const Document& document, std::span<const Id> snapshots);
+// The ids of the snapshots of these names. Usage error with the names that exist.
+[[nodiscard]] Result<std::vector<Id>> snapshotsNamed(const Document& document,
+                                                     std::span<const std::string> names);
 
 // Choices of a parameter by their names in files: "view.lighting", {"ibl", "prt"}. Whether the
 // document offers each of them is for the caller to ask (whyUnavailable()). Usage error for a

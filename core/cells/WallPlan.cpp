@@ -2,6 +2,7 @@
 
 #include "core/cells/WallAxes.h"
 #include "core/document/EnvironmentTitle.h"
+#include "core/document/Snapshot.h"
 #include "core/edit/Edit.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
@@ -72,6 +73,12 @@ Result<WallAxis> axisOf(const Document& document, const AxisPlan& plan, std::siz
             ids.push_back(choice.id);
     if (plan.compared == Compared::Environments)
         return environmentAxis(document, ids);
+    if (plan.compared == Compared::Snapshots) {
+        if (document.snapshots.empty())
+            return planError("the scene has no snapshots any more; keep one (Edit menu), or "
+                             "choose something else to compare");
+        return snapshotAxis(document, ids);
+    }
     if (plan.compared == Compared::Materials) {
         // Those that are left; all visible meshes were not meant where none is.
         std::vector<Id> meshes = plan.meshes;
@@ -128,6 +135,10 @@ std::vector<AxisChoice> choicesOf(const Document& document, const AxisPlan& plan
     case Compared::Materials:
         for (const Material& material : document.materials)
             choices.push_back({material.id, material.name, {}, false});
+        break;
+    case Compared::Snapshots:
+        for (const Snapshot& snapshot : document.snapshots)
+            choices.push_back({snapshot.id, snapshot.name, {}, false});
         break;
     case Compared::LightingModes:
     case Compared::ToneCurves:

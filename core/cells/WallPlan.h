@@ -9,13 +9,21 @@
 
 namespace patina {
 
-enum class Compared { Nothing, Environments, Materials, LightingModes, ToneCurves, Values };
+enum class Compared {
+    Nothing,
+    Environments,
+    Materials,
+    LightingModes,
+    ToneCurves,
+    Values,
+    Snapshots
+};
 
 // Of columns or rows.
 struct AxisPlan {
     Compared compared = Compared::Nothing;
-    // What is not shown: ids of environments or materials, indexes of lighting modes or tone
-    // curves. What is added to the scene is shown, so that it is not missed.
+    // What is not shown: ids of environments, materials or snapshots, indexes of lighting modes or
+    // tone curves. What is added to the scene is shown, so that it is not missed.
     std::vector<Id> hidden;
     std::vector<Id> meshes; // Materials: that are given them; empty: all visible ones
     // Values of a number: of one element, or, where its id is 0, of all that the scope has.

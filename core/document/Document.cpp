@@ -1,6 +1,7 @@
 #include "core/document/Document.h"
 
 #include "core/base/Check.h"
+#include "core/document/Snapshot.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 
@@ -24,7 +25,7 @@ Document::Document() {
     mix.first = first.id = takeId();
 }
 
-// Here, where materials and lights are known.
+// Here, where materials, lights and snapshots are known.
 Document::Document(const Document& other) = default;
 Document::Document(Document&& other) noexcept = default;
 Document& Document::operator=(const Document& other) = default;
@@ -78,6 +79,10 @@ const MeshInstance* Document::mesh(Id id) const {
 }
 MeshInstance* Document::mesh(Id id) {
     return findById(meshes, id);
+}
+
+const Snapshot* Document::snapshot(Id id) const {
+    return findById(snapshots, id);
 }
 
 Bounds Document::bounds() const {

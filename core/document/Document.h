@@ -15,6 +15,7 @@ namespace patina {
 
 struct Light;
 struct Material;
+struct Snapshot;
 
 struct Document {
     Document(); // with one environment, which lights the scene
@@ -32,6 +33,7 @@ struct Document {
     ShadingModel model;
     View view;
     std::vector<BakeArtifactPtr> bakes; // at most one of each BakeKind, in their order
+    std::vector<Snapshot> snapshots;    // kept looks, in the order they were kept
     Id nextId = 1;
     UnknownKeys unknownKeys; // of its project
 
@@ -52,6 +54,7 @@ struct Document {
     [[nodiscard]] Softbox* softbox(Id id);
     [[nodiscard]] const MeshInstance* mesh(Id id) const;
     [[nodiscard]] MeshInstance* mesh(Id id);
+    [[nodiscard]] const Snapshot* snapshot(Id id) const;
     [[nodiscard]] Bounds bounds() const;             // of the visible meshes, in the world
     [[nodiscard]] std::size_t triangleCount() const; // visible
     bool operator==(const Document& other) const;

@@ -1,49 +1,17 @@
 #include "core/edit/DocumentDifference.h"
 
 #include "core/document/EnvironmentTitle.h"
-#include "core/edit/Edit.h"
+#include "core/document/Snapshot.h"
+#include "core/edit/ComparedValue.h"
 #include "core/edit/Parameters.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 
 #include <fmt/format.h>
 #include <map>
-#include <optional>
-#include <variant>
 
 namespace patina {
 namespace {
-
-std::string shown(const ParameterInfo& info, const ParameterValue& value,
-                  const Document& document) {
-    if (info.type == ParameterType::Choice) {
-        const auto index = static_cast<std::size_t>(std::get<int>(value));
-        if (index < info.choiceLabels.size())
-            return std::string(info.choiceLabels[index]);
-    }
-    if (info.type == ParameterType::Bool)
-        return std::get<bool>(value) ? "on" : "off";
-    if (info.type == ParameterType::Reference) {
-        const Id id = static_cast<Id>(std::get<int>(value));
-        const std::string name = id == 0 ? "none" : nameOf(document, {info.refersTo, id});
-        if (!name.empty())
-            return name;
-    }
-    if (info.type == ParameterType::Map) {
-        const std::string& source = std::get<MapSlot>(value).source;
-        return source.empty() ? "none" : source;
-    }
-    return formatParameterValue(info, value);
-}
-
-// Images are derived from their source, or read from it.
-ParameterValue withoutPayload(ParameterValue value) {
-    if (auto* slot = std::get_if<MapSlot>(&value)) {
-        slot->image = nullptr;
-        slot->problem.clear();
-    }
-    return value;
-}
 
 class Comparison {
   public:
@@ -71,6 +39,26 @@ class Comparison {
             found.push_back({fmt::format("{} {}", kind, name), {}, {}, "removed"});
     }
 
+    // Their looks never change: there are others, or other names.
+    void snapshots() {
+        std::map<Id, std::string> gone;
+        for (const Snapshot& snapshot : m_before.snapshots)
+            gone[snapshot.id] = snapshot.name;
+        for (const Snapshot& snapshot : m_after.snapshots) {
+            const std::string element = "Snapshot " + snapshot.name;
+            const auto known = gone.find(snapshot.id);
+            if (known == gone.end()) {
+                found.push_back({element, {}, {}, "added"});
+                continue;
+            }
+            if (known->second != snapshot.name)
+                found.push_back({element, "Name", known->second, snapshot.name});
+            gone.erase(known);
+        }
+        for (const auto& [id, name] : gone)
+            found.push_back({"Snapshot " + name, {}, {}, "removed"});
+    }
+
     std::vector<DocumentDifference> found;
 
   private:
@@ -87,11 +75,9 @@ class Comparison {
             const ParameterValue after = withoutPayload(info.get(m_after, id));
             if (before == after)
                 continue;
-            const std::string_view unit = info.unitFor(m_after, id);
-            std::string label(info.label);
-            if (!unit.empty())
-                label += fmt::format(" ({})", unit);
-            std::string from = shown(info, before, m_before), to = shown(info, after, m_after);
+            std::string label = comparedLabel(info, m_after, id);
+            std::string from = comparedText(info, before, m_before);
+            std::string to = comparedText(info, after, m_after);
             if (from == to) // a map's channel or placement
                 to += " (adjusted)";
             found.push_back({element, std::move(label), std::move(from), std::move(to)});
@@ -123,6 +109,7 @@ std::vector<DocumentDifference> differences(const Document& before, const Docume
     comparison.single(Scope::View, "View");
     if (before.view.camera != after.view.camera)
         comparison.found.push_back({"View", "Camera", {}, "moved"});
+    comparison.snapshots();
     return std::move(comparison.found);
 }
 

@@ -18,6 +18,8 @@ namespace patina {
 
 class GroupStep;
 struct BrightSource;
+struct Look;
+struct LookDifference;
 enum class LightType;
 
 // Who follows a session.
@@ -141,6 +143,18 @@ class EditSession {
     Id duplicateSoftbox(Id softbox);                     // beside the original
     void removeSoftbox(Id softbox);
 
+    // --- Snapshots, each a step. Of looks restored, see restoreLook() of core/edit/Looks.h -------
+    // The document's look under a name that no other snapshot has; the empty name becomes
+    // "Snapshot 1". `picture`: of the scene, or null (Snapshot::picture). 0: there are
+    // kMaxSnapshots.
+    Id keepSnapshot(std::string_view name, const ImagePtr& picture);
+    void renameSnapshot(Id snapshot, std::string_view name); // not to nothing
+    void removeSnapshot(Id snapshot);
+    void restoreSnapshot(Id snapshot); // its whole look
+    // Those of the differences that can be restored, to what `look` has.
+    void restoreLook(const Look& look, const std::vector<LookDifference>& differences,
+                     const std::string& text);
+
     // --- Bakes -----------------------------------------------------------------------------------
     // A bake that has been made, in place of one of its kind: no step, as it takes nothing back of
     // what the user did, and an hour's rays must not go by an undo of something else.
@@ -157,6 +171,8 @@ class EditSession {
     // this id where it is still there; EnvironmentMix::blended).
     void setEnvironmentImage(Id environment, const ImagePtr& image);
     void setBlendedImage(const ImagePtr& image);
+    // Of a snapshot that was kept before the scene was drawn (where it is still there).
+    void setSnapshotPicture(Id snapshot, const ImagePtr& picture);
 
   private:
     void apply(EditStep& step, bool forward);

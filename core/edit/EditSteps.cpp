@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace patina {
@@ -171,6 +172,50 @@ Change ReplaceElementsStep::swap(Document& document, bool forward) {
     document.nextId = elements.nextId;
     return {Affects::Structure | Affects::Geometry | Affects::Picture | Affects::Bakes,
             std::nullopt};
+}
+
+ReplaceSnapshotsStep::ReplaceSnapshotsStep(std::string text, const Document& before,
+                                           std::vector<Snapshot> after, Id nextId)
+    : EditStep(std::move(text))
+    , m_before(before.snapshots)
+    , m_after(std::move(after))
+    , m_nextIdBefore(before.nextId)
+    , m_nextIdAfter(nextId) {
+    // What snapshots that are gone afterwards show, and nothing else: an image, as a rule none.
+    std::set<const void*> used;
+    for (const auto& [address, size] :
+         payloads({before.meshes, before.materials, before.lights, before.environments, {}, 0}))
+        used.insert(address);
+    const auto count = [&](const std::vector<Snapshot>& snapshots) {
+        std::size_t bytes = 0;
+        for (const Snapshot& snapshot : snapshots) {
+            const ImagePtr& picture = snapshot.picture;
+            if (picture && used.insert(picture.get()).second)
+                bytes += imageBytes(picture);
+            for (const auto& material : snapshot.look->materials)
+                forEachMap(*material, [&](const MapSlot& map) {
+                    if (map.image && used.insert(map.image.get()).second)
+                        bytes += imageBytes(map.image);
+                });
+            for (const auto& environment : snapshot.look->environments)
+                if (environment->fileImage && used.insert(environment->fileImage.get()).second)
+                    bytes += imageBytes(environment->fileImage);
+        }
+        return bytes;
+    };
+    count(m_after);
+    m_payloadBytes = count(m_before);
+}
+
+Change ReplaceSnapshotsStep::swap(Document& document, bool forward) {
+    // Pictures may have come after the step.
+    (forward ? m_before : m_after) = document.snapshots;
+    for (Snapshot& snapshot : forward ? m_after : m_before)
+        if (const Snapshot* known = document.snapshot(snapshot.id); known != nullptr)
+            snapshot.picture = known->picture;
+    document.snapshots = forward ? m_after : m_before;
+    document.nextId = forward ? m_nextIdAfter : m_nextIdBefore;
+    return {Affects::Structure, std::nullopt};
 }
 
 std::size_t RemoveBakeStep::payloadBytes() const {

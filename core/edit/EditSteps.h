@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/document/Document.h"
+#include "core/document/Snapshot.h"
 #include "core/edit/EditStep.h"
 #include "core/edit/Parameters.h"
 #include "core/light/Light.h"
@@ -52,6 +53,20 @@ class ReplaceElementsStep : public EditStep {
 
   private:
     Elements m_before, m_after;
+};
+
+// The list of snapshots as a whole: their looks are shared, so that it is small.
+class ReplaceSnapshotsStep : public EditStep {
+  public:
+    ReplaceSnapshotsStep(std::string text, const Document& before, std::vector<Snapshot> after,
+                         Id nextId);
+    Change swap(Document& document, bool forward) override;
+    [[nodiscard]] std::size_t payloadBytes() const override { return m_payloadBytes; }
+
+  private:
+    std::vector<Snapshot> m_before, m_after;
+    Id m_nextIdBefore, m_nextIdAfter;
+    std::size_t m_payloadBytes = 0;
 };
 
 // A bake is taken away. Undone it is there again, unless there is another one of its kind by then:

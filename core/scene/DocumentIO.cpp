@@ -11,6 +11,7 @@
 #include "core/material/Material.h"
 #include "core/scene/ProjectBakes.h"
 #include "core/scene/ProjectJson.h"
+#include "core/scene/ProjectSnapshots.h"
 #include "core/scene/SceneLoader.h"
 
 #include <algorithm>
@@ -183,11 +184,18 @@ Result<OpenedScene> loadProjectText(WorkerClient& worker, const std::string& jso
     SceneLoader loader(&worker, job);
     if (!parsed->unknown.empty())
         loader.addNotice(aboutUnknown(parsed->unknown), projectFile);
+    for (const std::string& reason : parsed->leftOut)
+        loader.addNotice("a snapshot of this project cannot be read and is left out (" +
+                             printableLine(reason) +
+                             "); the rest is as it was saved. Saving the project removes it",
+                         projectFile);
     resolveMeshes(loader, opened.document);
     if (!loader.cancelled())
         loader.loadMaps(opened.document.materials);
     if (!loader.cancelled())
         loader.loadEnvironments(opened.document);
+    if (!loader.cancelled())
+        project::loadSnapshotImages(loader, opened.document);
     loadBakes(loader, worker, opened.document, parsed->bakes);
     if (loader.cancelled())
         return Error{ErrorKind::Cancelled, "opening was cancelled", projectFile, {}};

@@ -48,7 +48,8 @@ struct BakeReference {
     std::string file; // absolute
 };
 struct ParsedProject {
-    Document document; // every payload null
+    Document document;                // every payload null
+    std::vector<std::string> leftOut; // snapshots that cannot be read: why
     std::vector<BakeReference> bakes;
     std::vector<std::string>
         unknown; // keys that are kept, by their place: "materials[3].clearcoat"

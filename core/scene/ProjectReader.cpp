@@ -6,7 +6,8 @@
 #include "core/material/Material.h"
 #include "core/scene/DocumentIO.h"
 #include "core/scene/ProjectJson.h"
-#include "core/scene/ProjectPath.h"
+#include "core/scene/ProjectSnapshots.h"
+#include "core/scene/ProjectValues.h"
 
 #include <algorithm>
 #include <cctype>
@@ -23,230 +24,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A sorted map, unlike the writer's: objects with many keys must not take quadratic time.
-using ReadJson = nlohmann::basic_json<std::map, std::vector, std::string, bool, std::int64_t,
-                                      std::uint64_t, float>;
-
 // A project of the largest size is refused before it fills the memory with tiny values.
 constexpr std::size_t kMaxValues = 8'000'000;
 constexpr std::size_t kMaxElements = limits::kMaxMeshes; // of each list
 
-// Leaves the reader from any depth; caught in parseProject, its only way out.
-struct Broken {
-    std::string message;
-};
-
-// A value and where it stands: "materials[3].metallic".
-struct Node {
-    const ReadJson* json;
-    std::string key;
-    std::string path{}; // the same as a JSON pointer: "/materials/3/metallic"; of objects and lists
-};
-
-std::string describe(const ReadJson& json) {
-    constexpr std::size_t kShown = 40;
-    if (json.is_structured())
-        return json.is_array() ? "a list" : "an object";
-    std::string text = json.dump(-1, ' ', false, ReadJson::error_handler_t::replace);
-    if (text.size() > kShown)
-        text = makeValidUtf8(text.substr(0, kShown)) + "…";
-    return text;
-}
-
-[[noreturn]] void fail(const Node& node, const std::string& expected) {
-    throw Broken{fmt::format("{} should be {}, not {}; the project is damaged", node.key, expected,
-                             describe(*node.json))};
-}
-
-// A key that this version does not know, in an object that is kept by that name
-// (UnknownKeys::of()).
-struct UnknownKey {
-    std::string parent, path; // where the object stands: "materials[3]", "/materials/3"
-    std::string object, key;
-};
-
-// An object whose keys are known, or kept: a key that is not known comes from a newer version of
-// Patina, and ignoring it would lose it at the next save.
-class ObjectReader {
-  public:
-    explicit ObjectReader(Node node)
-        : m_node(std::move(node)) {
-        if (!m_node.json->is_object())
-            fail(m_node, "an object");
-    }
-    [[nodiscard]] std::optional<Node> find(const std::string& key) {
-        const auto found = m_node.json->find(key);
-        if (found == m_node.json->end())
-            return std::nullopt;
-        m_used.insert(key);
-        return Node{&*found, m_node.key.empty() ? key : m_node.key + "." + key,
-                    m_node.path + "/" + key};
-    }
-    [[nodiscard]] Node require(const std::string& key) {
-        std::optional<Node> found = find(key);
-        if (!found)
-            throw Broken{fmt::format("{} is missing; the project is damaged",
-                                     m_node.key.empty() ? key : m_node.key + "." + key)};
-        return *std::move(found);
-    }
-    void keepUnknownKeys(const std::string& object, std::vector<UnknownKey>& unknown) const {
-        for (const auto& [key, value] : m_node.json->items())
-            if (!m_used.contains(key))
-                unknown.push_back({m_node.key, m_node.path, object, key});
-    }
-
-  private:
-    Node m_node;
-    std::set<std::string> m_used;
-};
-
-std::vector<Node> readList(const Node& node, std::size_t maxSize) {
-    if (!node.json->is_array())
-        fail(node, "a list");
-    if (node.json->size() > maxSize)
-        throw Broken{fmt::format("{} has {} elements, more than the {} that Patina reads", node.key,
-                                 node.json->size(), maxSize)};
-    std::vector<Node> nodes;
-    nodes.reserve(node.json->size());
-    for (std::size_t i = 0; i < node.json->size(); ++i)
-        nodes.push_back({&(*node.json)[i], fmt::format("{}[{}]", node.key, i),
-                         fmt::format("{}/{}", node.path, i)});
-    return nodes;
-}
-
-float readFloat(const Node& node, const std::string& expected = "a number") {
-    if (!node.json->is_number())
-        fail(node, expected);
-    const float value = node.json->get<float>();
-    if (!std::isfinite(value))
-        fail(node, expected);
-    return value;
-}
-
-template <std::size_t Count>
-std::array<float, Count> readFloats(const Node& node, const std::string& expected) {
-    if (!node.json->is_array() || node.json->size() != Count)
-        fail(node, expected);
-    std::array<float, Count> values{};
-    for (std::size_t i = 0; i < Count; ++i)
-        values[i] = readFloat({&(*node.json)[i], fmt::format("{}[{}]", node.key, i)});
-    return values;
-}
-
-std::int64_t readInteger(const Node& node, std::int64_t min, std::int64_t max) {
-    const std::string expected = fmt::format("a whole number from {} to {}", min, max);
-    if (!node.json->is_number_integer())
-        fail(node, expected);
-    if (node.json->is_number_unsigned() &&
-        node.json->get<std::uint64_t>() > static_cast<std::uint64_t>(max))
-        fail(node, expected);
-    const std::int64_t value = node.json->get<std::int64_t>();
-    if (value < min || value > max)
-        fail(node, expected);
-    return value;
-}
-
-std::string readText(const Node& node, const std::string& expected = "a text") {
-    if (!node.json->is_string())
-        fail(node, expected);
-    return node.json->get<std::string>();
-}
-
-std::string readSource(const Node& node, const fs::path& projectFile) {
-    std::optional<std::string> source =
-        fromProjectPath(readText(node, "the path of a file or builtin:NAME"), projectFile);
-    if (!source)
-        fail(node, "the path of a file or builtin:NAME");
-    return *std::move(source);
-}
-
-// Where a project lies, and what of it is not known.
-struct Reading {
-    const fs::path& projectFile;
-    std::vector<UnknownKey> unknown;
-};
-
-// `object`: what its unknown keys are kept under.
-MapSlot readMap(const Node& node, bool hasAdjustments, const std::string& object,
-                Reading& reading) {
-    MapSlot slot;
-    if (node.json->is_null())
-        return slot;
-    ObjectReader map(node);
-    slot.source = readSource(map.require("source"), reading.projectFile);
-    if (hasAdjustments) {
-        if (const auto channel = map.find("channel")) {
-            const std::string name = readText(*channel, "one of rgb, r, g, b, a");
-            const auto found = std::find(kMapChannels.begin(), kMapChannels.end(), name);
-            if (found != kMapChannels.end())
-                slot.channel =
-                    static_cast<MapChannel>(static_cast<std::size_t>(MapChannel::R) +
-                                            static_cast<std::size_t>(found - kMapChannels.begin()));
-            else if (name != kRgbChannel)
-                fail(*channel, "one of rgb, r, g, b, a");
-        }
-        if (const auto scale = map.find("uvScale")) {
-            const auto v = readFloats<2>(*scale, "two numbers");
-            slot.uvScale = {v[0], v[1]};
-        }
-        if (const auto offset = map.find("uvOffset")) {
-            const auto v = readFloats<2>(*offset, "two numbers");
-            slot.uvOffset = {v[0], v[1]};
-        }
-        if (const auto rotation = map.find("uvRotationDeg"))
-            slot.uvRotationDeg = readFloat(*rotation);
-    }
-    map.keepUnknownKeys(object, reading.unknown);
-    return slot;
-}
-
-ParameterValue readParameter(const ParameterInfo& info, const Node& node,
-                             const std::string& element, Reading& reading) {
-    const std::string expected = describeExpected(info);
-    ParameterValue value;
-    switch (info.type) {
-    case ParameterType::Bool:
-        if (!node.json->is_boolean())
-            fail(node, expected);
-        return node.json->get<bool>();
-    case ParameterType::Float:
-        value = readFloat(node, expected);
-        break;
-    case ParameterType::Color:
-    case ParameterType::Vector: {
-        const auto v = readFloats<3>(node, expected);
-        value = glm::vec3(v[0], v[1], v[2]);
-        break;
-    }
-    case ParameterType::Choice: {
-        const std::string name = readText(node, expected);
-        const auto found = std::find(info.choices.begin(), info.choices.end(), name);
-        if (found == info.choices.end())
-            fail(node, expected);
-        return static_cast<int>(found - info.choices.begin());
-    }
-    case ParameterType::Text:
-        return readText(node, expected);
-    case ParameterType::Map:
-        return readMap(node, info.scope == Scope::Material, element + "." + keyOf(info), reading);
-    case ParameterType::Reference:
-        return static_cast<int>(readInteger(node, 0, kMaxId));
-    }
-    ParameterValue clamped = clampToRange(info, value);
-    if (clamped != value && !info.wraps)
-        fail(node, expected);
-    return clamped;
-}
-
-// A parameter that is absent (it is younger than the file) keeps its default.
-// `element`: what its unknown keys are kept under.
-void readParameters(ObjectReader& object, Document& document, Scope scope, Id id,
-                    const std::string& element, Reading& reading) {
-    for (const ParameterInfo& info : parameters())
-        if (info.scope == scope && (!info.ofScene || id == 0))
-            if (const auto node = object.find(keyOf(info)))
-                info.set(document, id, readParameter(info, *node, element, reading));
-}
 // Of an element with an id: those that are read here are all of it.
 void readElement(ObjectReader& object, Document& document, Scope scope, Id id, Reading& reading) {
     readParameters(object, document, scope, id, std::to_string(id), reading);
@@ -282,6 +63,8 @@ class ProjectReader {
         if (!m_ids.empty() && *m_ids.rbegin() >= document().nextId)
             fail(nextId,
                  fmt::format("larger than every id, the largest being {}", *m_ids.rbegin()));
+        if (const auto snapshots = root.find("snapshots"))
+            readSnapshots(*snapshots, document(), m_reading, m_project.leftOut);
         root.keepUnknownKeys("", m_reading.unknown);
         return std::move(m_project);
     }
@@ -317,22 +100,8 @@ class ProjectReader {
         ObjectReader object(node);
         readParameters(object, document(), Scope::View, 0, "view", m_reading);
         if (const auto camera = object.find("camera"))
-            readCamera(*camera, document().view.camera);
+            readCamera(*camera, document().view.camera, "view.camera", m_reading);
         object.keepUnknownKeys("view", m_reading.unknown);
-    }
-
-    void readCamera(const Node& node, Camera& camera) {
-        ObjectReader object(node);
-        const Node target = object.require("target");
-        const auto v = readFloats<3>(target, "three numbers");
-        camera.target = {v[0], v[1], v[2]};
-        camera.yawDeg = readFloat(object.require("yawDeg"));
-        camera.pitchDeg = readFloat(object.require("pitchDeg"));
-        camera.distance = readFloat(object.require("distance"));
-        object.keepUnknownKeys("view.camera", m_reading.unknown);
-        if (!(sanitizeCamera(camera) == camera))
-            fail(node, "a camera with sensible numbers (pitchDeg from -89 to 89, distance from "
-                       "1e-6 to 1e9)");
     }
 
     // The environment that lights the scene stands alone, the others in a list.

@@ -5,6 +5,8 @@
 #include "core/scene/ProjectBakes.h"
 #include "core/scene/ProjectJson.h"
 #include "core/scene/ProjectPath.h"
+#include "core/scene/ProjectSnapshots.h"
+#include "core/scene/ProjectWriting.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,93 +41,7 @@ Camera sanitizeCamera(Camera camera) {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Keys in the order they are written; single precision, so that 0.8f is written as 0.8.
-using Json = nlohmann::basic_json<nlohmann::ordered_map, std::vector, std::string, bool,
-                                  std::int64_t, std::uint64_t, float>;
-
-Json vectorToJson(const glm::vec3& v) {
-    return Json::array({v.x, v.y, v.z});
-}
-
-Json mapToJson(const MapSlot& slot, bool hasAdjustments, const fs::path& projectFile) {
-    MapSlot saved = slot;
-    saved.image = nullptr;
-    saved.problem.clear();
-    if (saved == MapSlot{})
-        return nullptr;
-    Json json;
-    json["source"] = toProjectPath(saved.source, projectFile);
-    if (!hasAdjustments)
-        return json;
-    json["channel"] =
-        std::string(saved.channel == MapChannel::Rgb
-                        ? project::kRgbChannel
-                        : project::kMapChannels[static_cast<std::size_t>(saved.channel) -
-                                                static_cast<std::size_t>(MapChannel::R)]);
-    const auto number = [](float value, float fallback) {
-        return std::isfinite(value) ? value : fallback;
-    };
-    json["uvScale"] = Json::array({number(saved.uvScale.x, 1.0f), number(saved.uvScale.y, 1.0f)});
-    json["uvOffset"] =
-        Json::array({number(saved.uvOffset.x, 0.0f), number(saved.uvOffset.y, 0.0f)});
-    json["uvRotationDeg"] = number(saved.uvRotationDeg, 0.0f);
-    return json;
-}
-
-Json parameterToJson(const ParameterInfo& info, const ParameterValue& value,
-                     const fs::path& projectFile) {
-    switch (info.type) {
-    case ParameterType::Bool:
-        return std::get<bool>(value);
-    case ParameterType::Float:
-        return std::get<float>(value);
-    case ParameterType::Color:
-    case ParameterType::Vector:
-        return vectorToJson(std::get<glm::vec3>(value));
-    case ParameterType::Choice:
-        return formatParameterValue(info, value);
-    case ParameterType::Text:
-        return std::get<std::string>(value);
-    case ParameterType::Map:
-        return mapToJson(std::get<MapSlot>(value), info.scope == Scope::Material, projectFile);
-    case ParameterType::Reference:
-        return std::get<int>(value);
-    }
-    return nullptr;
-}
-
-// Stands in an object for the text of keys that are only kept (UnknownKeys). No key of ours.
-constexpr const char* kKept = "\n";
-
-void addKept(Json& json, const Document& document, const std::string& object) {
-    const UnknownKeys::Entries* entries = document.unknownKeys.of(object);
-    if (entries == nullptr)
-        return;
-    Json kept = Json::array();
-    for (const auto& [key, value] : *entries)
-        kept.push_back(Json(key).dump() + ": " + value);
-    json[kKept] = std::move(kept);
-}
-
-struct Writing {
-    const Document& document;
-    const fs::path& projectFile;
-};
-
-// Every parameter of the element, clamped: what is saved can be opened again. `holder`: the
-// document that holds it; `element`: what its unknown keys are kept under.
-void addParameters(Json& json, const Document& holder, Scope scope, Id id,
-                   const std::string& element, const Writing& writing) {
-    for (const ParameterInfo& info : parameters())
-        if (info.scope == scope && (!info.ofScene || id == 0)) {
-            const std::string key = project::keyOf(info);
-            Json& value = json[key] = parameterToJson(
-                info, clampToRange(info, info.get(holder, id)), writing.projectFile);
-            if (value.is_object())
-                addKept(value, writing.document, element + "." + key);
-        }
-}
+using namespace project;
 
 // An element with an id: `holder` has it alone, where it is found at once however many there are.
 Json elementToJson(const Document& holder, Scope scope, Id id, const Writing& writing) {
@@ -180,14 +96,6 @@ Json meshToJson(const MeshInstance& mesh, const Writing& writing) {
         }
     json["transform"] = std::move(transform);
     return json;
-}
-
-Json cameraToJson(const Camera& camera) {
-    const Camera saved = project::sanitizeCamera(camera);
-    return {{"target", vectorToJson(saved.target)},
-            {"yawDeg", saved.yawDeg},
-            {"pitchDeg", saved.pitchDeg},
-            {"distance", saved.distance}};
 }
 
 // Lists of plain values stay on one line, everything else is indented.
@@ -300,6 +208,8 @@ std::string project::projectText(const Document& document, const fs::path& proje
                 addKept(one, document, "bake." + std::string(name));
                 json["bakes"].push_back(std::move(one));
             }
+    if (!document.snapshots.empty())
+        json["snapshots"] = snapshotsToJson(writing);
     addKept(json, document, "");
 
     std::string text;

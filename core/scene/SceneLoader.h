@@ -43,6 +43,8 @@ class SceneLoader {
     // The same for the environments. The first one's image is then that of its kind, and a neutral
     // grey stands in for a file that cannot be read; the second one is then left out of the mix.
     void loadEnvironments(Document& document);
+    // Environment::fileImage alone.
+    void loadEnvironmentFile(Environment& environment);
 
     void addNotice(std::string message, const std::filesystem::path& file = {});
     void addMissing(const std::string& file); // noted once
@@ -58,7 +60,6 @@ class SceneLoader {
 
   private:
     Result<Model> readModel(const std::string& source);
-    void loadEnvironmentFile(Environment& environment);
 
     WorkerClient* m_worker;
     JobContext m_job;

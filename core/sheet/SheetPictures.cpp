@@ -29,6 +29,11 @@ bool setsEnvironment(const WallAxis& axis) {
                                [](const WallEntry& entry) { return entry.cell.environment != 0; });
 }
 
+bool showsSnapshots(const WallAxis& axis) {
+    return std::ranges::any_of(axis.entries,
+                               [](const WallEntry& entry) { return entry.cell.snapshot != 0; });
+}
+
 bool sets(const WallAxis& axis, const ParameterInfo* info) {
     return std::ranges::any_of(axis.entries, [&](const WallEntry& entry) {
         return std::ranges::any_of(entry.cell.own,
@@ -83,6 +88,8 @@ std::string commonText(const Wall& wall, const Document& document) {
     std::vector<std::string> parts{wall.isTable()
                                        ? fmt::format("{} × {}", wall.columns.title, wall.rows.title)
                                        : wall.columns.title};
+    if (showsSnapshots(wall.columns) || showsSnapshots(wall.rows))
+        return parts.front(); // they may differ in anything
     const View& view = document.view;
     const auto common = [&](const char* name) {
         const ParameterInfo* info = findParameter(name);

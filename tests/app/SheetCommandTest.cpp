@@ -1,5 +1,10 @@
 // patina sheet on built-in scenes.
 #include "CommandsFixture.h"
+#include "core/base/AtomicFile.h"
+#include "core/edit/EditSession.h"
+#include "core/light/Light.h"
+#include "core/scene/DocumentIO.h"
+#include "core/scene/Scene.h"
 
 #include <algorithm>
 #include <csignal>
@@ -239,6 +244,55 @@ TEST_F(Sheets, WrongOnesAreRefusedBeforeAnythingIsDrawn) {
     EXPECT_EQ(idle.status, 0) << idle.err;
     EXPECT_THAT(idle.json()["warnings"][0].get<std::string>(),
                 HasSubstr("--wedge view.displayGamma has no effect"));
+}
+
+// A project with two looks, its own being a third.
+TEST_F(Sheets, SnapshotsAreWhatTheProjectLookedLike) {
+    EditSession session;
+    session.replace(startDocument());
+    const Target material{Scope::Material, session.document().meshes.front().material};
+    const auto project = [&](const std::string& name) {
+        const std::string file = m_folder / name;
+        EXPECT_TRUE(writeFileAtomically(file, documentToJson(session.document(), file)).ok());
+        return file;
+    };
+    session.setParameter(parameter("material.metallic"), material, 1.0f);
+    session.setParameter(parameter("view.toneMap"), {Scope::View, 0}, 6);
+    const std::string metal = project("metal.patina");
+    session.keepSnapshot("Metal", nullptr);
+    session.setParameter(parameter("environment.rotationDeg"), {Scope::Environment, 0}, 90.0f);
+    session.setParameter(parameter("view.exposureEv"), {Scope::View, 0}, -1.0f);
+    session.addLight(LightType::Directional);
+    const std::string dark = project("dark.patina");
+    session.keepSnapshot("Dark", nullptr);
+    session.setParameter(parameter("material.baseColor"), material, glm::vec3(0.1f, 0.2f, 0.9f));
+    session.setParameter(parameter("environment.image"), {Scope::Environment, 0}, [] {
+        MapSlot slot;
+        slot.source = "builtin:sunset";
+        return slot;
+    }());
+    const std::string file = project("looks.patina");
+
+    const Outcome outcome = sheet(file, {"--snapshots", "Dark", "Metal", "--wedge",
+                                         "material.perceptualRoughness=0.1:0.6:2"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.json()["columns"]["title"], "Snapshot");
+    EXPECT_EQ(outcome.json()["columns"]["captions"], nlohmann::json({"Dark", "Metal"}));
+    const Image whole = load(m_folder / "sheet.png");
+    for (const nlohmann::json& cell : outcome.json()["cells"]) {
+        SCOPED_TRACE(cell.dump());
+        const Image single =
+            picture(cell["column"] == 0 ? dark : metal,
+                    {"--set", cell["row"] == 0 ? "material.perceptualRoughness=0.1"
+                                               : "material.perceptualRoughness=0.6"});
+        EXPECT_EQ(bytes(cellOf(whole, cell)), bytes(single));
+    }
+
+    const Outcome unknown = sheet(file, {"--snapshots", "Bright"});
+    EXPECT_EQ(unknown.status, 2);
+    EXPECT_THAT(unknown.out, HasSubstr("\\\"Metal\\\", \\\"Dark\\\""));
+    EXPECT_EQ(sheet("builtin:sphere", {"--snapshots", "Metal"}).status, 2);
+    EXPECT_EQ(sheet(file, {"--snapshots"}).status, 2);
 }
 
 TEST_F(Sheets, ASignalLeavesNothing) {

@@ -121,6 +121,7 @@ void WallPainter::composeCell(std::size_t index, const render::FrameSettings& fr
         m_absences[index] = {toQString(shown.error().message), false};
         return;
     }
+    shown->snapshots.clear(); // keeping one changes no picture
     const bool resolved = m_lights.resolve(*shown, document);
     const bool lit = !environmentParts(*shown).empty();
     const ImagePtr picture = resolved && lit ? shownEnvironment(*shown).image : nullptr;

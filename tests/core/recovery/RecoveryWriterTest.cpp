@@ -1,6 +1,7 @@
 // What is kept of a document that changes, and that it comes back.
 
 #include "core/recovery/RecoveryWriter.h"
+#include "core/document/Snapshot.h"
 #include "core/recovery/RecoveryBakes.h"
 #include "core/recovery/RecoveryLoader.h"
 #include "core/scene/DocumentIO.h"
@@ -72,6 +73,8 @@ TEST_F(RecoveryWriterTest, TheNewestStateComesBack) {
     auto writer = makeWriter();
     for (int i = 1; i <= 50; ++i) {
         document.environment().rotationDeg = static_cast<float>(i);
+        if (i == 20)
+            document.snapshots.push_back({document.takeId(), "Kept", lookOf(document), nullptr});
         writer->keep(snapshot());
     }
     ASSERT_TRUE(writer->flush(kLong));
@@ -81,6 +84,8 @@ TEST_F(RecoveryWriterTest, TheNewestStateComesBack) {
     EXPECT_EQ(works.works[0].record.lastStep, "Change Rotation");
     const Document back = recovered(works.works[0]);
     EXPECT_EQ(documentToJson(back, "/x.patina"), documentToJson(document, "/x.patina"));
+    ASSERT_THAT(back.snapshots, SizeIs(1));
+    EXPECT_EQ(back.snapshots[0].look->environments[0]->rotationDeg, 20.0f);
     EXPECT_FALSE(back.meshes.empty());
     EXPECT_GT(back.meshes.front().mesh->vertexCount(), 0u);
     EXPECT_THAT(notices, IsEmpty());
