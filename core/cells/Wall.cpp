@@ -84,18 +84,19 @@ Result<Wall> makeWall(std::vector<WallAxis> axes, std::size_t gridWidth) {
 std::vector<WallCell> cellsOf(const Wall& wall) {
     std::vector<WallCell> cells;
     const std::vector<WallEntry>&columns = wall.columns.entries, &rows = wall.rows.entries;
+    const auto add = [&](std::size_t column, std::size_t row, std::vector<std::string> captions,
+                         const Cell& cell) {
+        cells.push_back({column, row, std::move(captions), cell, cell, {}});
+    };
     if (!wall.isTable()) {
         for (std::size_t i = 0; i < columns.size(); ++i)
-            cells.push_back(
-                {i % wall.width, i / wall.width, {columns[i].caption}, columns[i].cell});
+            add(i % wall.width, i / wall.width, {columns[i].caption}, columns[i].cell);
         return cells;
     }
     for (std::size_t row = 0; row < rows.size(); ++row)
         for (std::size_t column = 0; column < columns.size(); ++column)
-            cells.push_back({column,
-                             row,
-                             {columns[column].caption, rows[row].caption},
-                             combined(columns[column].cell, rows[row].cell)});
+            add(column, row, {columns[column].caption, rows[row].caption},
+                combined(columns[column].cell, rows[row].cell));
     return cells;
 }
 

@@ -40,7 +40,10 @@ struct Wall {
 struct WallCell {
     std::size_t column = 0, row = 0;
     std::vector<std::string> captions; // of its column and row, or its only one
-    Cell cell;
+    Cell cell;                         // all that it has of its own
+    Cell shared;                       // of it what its column and row give it
+    std::vector<CellEdit> own;         // and the rest (OwnValues.h)
+    friend bool operator==(const WallCell&, const WallCell&) = default;
 };
 [[nodiscard]] std::vector<WallCell> cellsOf(const Wall& wall); // row by row
 

@@ -26,6 +26,10 @@ void ViewportWidget::setWall(WallState& wall, WallComparison& comparison) {
     m_wall.setWall(wall, comparison);
     connect(&wall, &WallState::changed, this, &ViewportWidget::wallChanged);
     connect(&wall, &WallState::cellsChosen, this, &ViewportWidget::wallChanged);
+    connect(&wall, &WallState::ownChanged, this, [this] {
+        hurry();
+        update();
+    });
 }
 
 void ViewportWidget::wallChanged() {

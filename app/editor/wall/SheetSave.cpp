@@ -10,6 +10,7 @@
 #include "app/editor/wall/WallState.h"
 #include "core/base/AtomicFile.h"
 #include "core/io/ImageIO.h"
+#include "core/document/Snapshot.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 

@@ -3,6 +3,7 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/wall/CompareControls.h"
+#include "app/editor/wall/OwnValueControls.h"
 #include "app/editor/wall/WallAxisControls.h"
 #include "app/editor/wall/WallComparison.h"
 #include "app/editor/wall/WallState.h"
@@ -38,10 +39,13 @@ WallBar::WallBar(WallState& wall, WallComparison& comparison, DocumentController
     rows->setContentsMargins(tokens::kGap, tokens::kGap / 2, tokens::kGap, tokens::kGap / 2);
     rows->setSpacing(tokens::kGap / 2);
     rows->addLayout(row);
+    auto* own = new OwnValueControls(wall, controller);
+    rows->addWidget(own);
     rows->addWidget(new CompareControls(wall, comparison));
     for (QWidget* widget : {static_cast<QWidget*>(m_columns), static_cast<QWidget*>(m_rows),
-                            static_cast<QWidget*>(m_enlarge), static_cast<QWidget*>(m_use),
-                            static_cast<QWidget*>(m_save), static_cast<QWidget*>(close)})
+                            static_cast<QWidget*>(m_enlarge), static_cast<QWidget*>(own->button()),
+                            static_cast<QWidget*>(m_use), static_cast<QWidget*>(m_save),
+                            static_cast<QWidget*>(close)})
         row->addWidget(widget);
     connect(m_use, &QPushButton::clicked, &wall, &WallState::useInScene);
     connect(m_enlarge, &QPushButton::clicked, this,

@@ -1,6 +1,7 @@
 #include "app/editor/wall/WallOverlay.h"
 
 #include "app/editor/style/Tokens.h"
+#include "app/editor/wall/OwnValueControls.h"
 #include "app/editor/wall/WallComparison.h"
 #include "app/editor/wall/WallState.h"
 #include "core/image/ColorMap.h"
@@ -8,6 +9,9 @@
 #include <QKeyEvent>
 #include <QPainter>
 #include <QStringList>
+#include <algorithm>
+#include <array>
+#include <vector>
 
 namespace patina::editor {
 namespace {
@@ -30,6 +34,7 @@ WallOverlay::WallOverlay(WallState& wall, WallComparison& comparison, QWidget& v
     connect(&wall, &WallState::changed, this, &WallOverlay::follow);
     connect(&wall, &WallState::cellsChosen, this, &WallOverlay::follow);
     connect(&wall, &WallState::textsChanged, this, qOverload<>(&QWidget::update));
+    connect(&wall, &WallState::ownChanged, this, qOverload<>(&QWidget::update));
     connect(&comparison, &WallComparison::changed, this, qOverload<>(&QWidget::update));
     connect(&comparison, &WallComparison::measuredChanged, this, qOverload<>(&QWidget::update));
 }
@@ -126,6 +131,38 @@ void WallOverlay::paintDifference(QPainter& painter, const QRect& area) const {
                         kMark, kMark);
 }
 
+// At the lower edge of cells that have values of their own: which, in one colour for all cells
+// that have the same.
+void WallOverlay::paintOwnValues(QPainter& painter) const {
+    constexpr std::array<QRgb, 4> kColors{tokens::kAccent, tokens::kCopper, 0xff7aa7e0, 0xffc58fd9};
+    std::vector<const std::vector<CellEdit>*> seen;
+    for (std::size_t i = 0; i < std::min(m_layout.cells.size(), m_wall.cells().size()); ++i) {
+        const std::vector<CellEdit>& own = m_wall.cells()[i].own;
+        const QRect& cell = m_layout.cells[i];
+        if (own.empty() || cell.isNull())
+            continue;
+        const auto known =
+            std::ranges::find_if(seen, [&](const auto* other) { return *other == own; });
+        const auto group = static_cast<std::size_t>(known - seen.begin());
+        if (known == seen.end())
+            seen.push_back(&own);
+        QStringList texts;
+        for (const CellEdit& edit : own)
+            texts << ownValueText(edit);
+        const QString text =
+            fontMetrics().elidedText(texts.join(QStringLiteral(" · ")), Qt::ElideRight,
+                                     std::max(cell.width() - 3 * tokens::kGap, 0));
+        QRect label = fontMetrics().boundingRect(text).adjusted(-tokens::kGap / 2, 0,
+                                                                tokens::kGap / 2, tokens::kGap / 4);
+        label.moveBottomLeft(cell.bottomLeft() + QPoint(tokens::kGap / 2, -tokens::kGap / 2));
+        painter.fillRect(label, QColor(tokens::kWell));
+        painter.fillRect(QRect(label.left(), label.top(), kFrame, label.height()),
+                         QColor(kColors[group % kColors.size()]));
+        painter.setPen(QColor(tokens::kText));
+        painter.drawText(label, Qt::AlignCenter, text);
+    }
+}
+
 void WallOverlay::paintEvent(QPaintEvent*) {
     QPainter painter(this);
     const auto say = [&](const QRect& place, const QString& text) {
@@ -145,6 +182,7 @@ void WallOverlay::paintEvent(QPaintEvent*) {
     for (std::size_t i = 0; i < m_layout.cells.size(); ++i)
         if (const QString text = m_wall.text(i); !text.isEmpty() && !m_layout.cells[i].isNull())
             say(m_layout.cells[i], text);
+    paintOwnValues(painter);
     if (m_comparison.showsDifference() && m_wall.enlarged())
         paintDifference(painter, m_layout.cells[*m_wall.enlarged()]);
     const auto current = m_wall.current();

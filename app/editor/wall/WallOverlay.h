@@ -27,6 +27,7 @@ class WallOverlay : public QWidget {
   private:
     void follow();
     [[nodiscard]] bool pressKey(int key);
+    void paintOwnValues(QPainter& painter) const;
     void paintDifference(QPainter& painter, const QRect& area) const;
 
     WallState& m_wall;

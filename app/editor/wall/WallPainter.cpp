@@ -5,6 +5,7 @@
 #include "app/editor/style/Tokens.h"
 #include "app/editor/wall/WallComparison.h"
 #include "app/editor/wall/WallState.h"
+#include "core/document/Snapshot.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 #include "core/mix/LightMix.h"
@@ -62,6 +63,10 @@ void WallPainter::setWall(WallState& wall, WallComparison& comparison) {
         Q_EMIT changed();
     });
     connect(&wall, &WallState::cellsChosen, this, &WallPainter::changed);
+    connect(&wall, &WallState::ownChanged, this, [this] { // the same cells, one of them edited
+        recompose();
+        Q_EMIT changed();
+    });
 }
 
 bool WallPainter::isOn() const {

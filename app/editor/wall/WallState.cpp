@@ -18,6 +18,7 @@ WallState::WallState(DocumentController& controller, QObject* parent)
 void WallState::follow(const Change& change) {
     if (change.isAnotherDocument()) {
         m_planned = false; // what it names is of the document before
+        m_own.clear();
         setOn(false);
     } else if (m_on && change.affects != Affects::Nothing) {
         make();
@@ -58,7 +59,7 @@ void WallState::make() {
         return;
     m_wall = std::move(wall);
     m_problem = problem;
-    m_cells = cellsOf(m_wall);
+    m_cells = cellsOf(m_wall, m_own);
     m_texts.clear();
     for (std::optional<std::size_t>* cell : {&m_current, &m_enlarged, &m_compared})
         if (*cell && **cell >= m_cells.size())
@@ -129,6 +130,22 @@ void WallState::swapCompared() {
         return;
     m_current = m_enlarged = std::exchange(m_compared, m_enlarged);
     Q_EMIT cellsChosen();
+}
+
+void WallState::setOwnValue(const CellEdit& value) {
+    if (!m_current)
+        return;
+    patina::setOwnValue(m_own, m_cells[*m_current], value);
+    m_cells = cellsOf(m_wall, m_own);
+    Q_EMIT ownChanged();
+}
+
+void WallState::linkValue(const Target& target, const ParameterInfo& info) {
+    if (!m_current)
+        return;
+    patina::linkValue(m_own, m_cells[*m_current], target, info);
+    m_cells = cellsOf(m_wall, m_own);
+    Q_EMIT ownChanged();
 }
 
 void WallState::useInScene() {

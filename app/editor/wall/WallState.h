@@ -2,6 +2,7 @@
 // is current or enlarged. Like a view it is no part of the document: never undone, never saved.
 #pragma once
 
+#include "core/cells/OwnValues.h"
 #include "core/cells/WallPlan.h"
 
 #include <QObject>
@@ -45,6 +46,9 @@ class WallState : public QObject {
     [[nodiscard]] std::optional<std::size_t> compared() const { return m_compared; }
     void compareWith(std::optional<std::size_t> cell);
     void swapCompared(); // the other one becomes the current one
+    // Gives the current cell a value of its own, or takes it away again: WallCell::own.
+    void setOwnValue(const CellEdit& value);
+    void linkValue(const Target& target, const ParameterInfo& info);
     // Makes the scene what the current cell shows, as one step.
     void useInScene();
 
@@ -56,6 +60,7 @@ class WallState : public QObject {
     void changed();      // on or off, the plan, what cells there are
     void cellsChosen();  // current(), enlarged() or compared()
     void textsChanged(); // text()
+    void ownChanged();   // own values of a cell; cells() are those they were otherwise
 
   private:
     void follow(const Change& change);
@@ -65,6 +70,7 @@ class WallState : public QObject {
     bool m_on = false, m_planned = false;
     WallPlan m_plan;
     Wall m_wall;
+    std::vector<OwnValues> m_own;
     std::vector<WallCell> m_cells;
     QString m_problem;
     std::optional<std::size_t> m_current, m_enlarged, m_compared;

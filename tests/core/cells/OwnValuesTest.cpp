@@ -1,0 +1,86 @@
+#include "core/cells/OwnValues.h"
+#include "core/cells/WallAxes.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
+#include "core/scene/Scene.h"
+
+#include <gtest/gtest.h>
+
+namespace patina {
+namespace {
+
+const ParameterInfo& rotation() {
+    return *findParameter("environment.rotationDeg");
+}
+
+class OwnValuesTest : public testing::Test {
+  protected:
+    void SetUp() override {
+        document = startDocument();
+        environments = {document.mix.first, addEnvironment(document, Environment()),
+                        addEnvironment(document, Environment())};
+        wall = *makeWall({environmentAxis(document, environments)});
+    }
+    [[nodiscard]] float rotationOf(std::size_t cell) const {
+        return documentOf(document, cellsOf(wall, own)[cell].cell)->environment().rotationDeg;
+    }
+    [[nodiscard]] CellEdit turned(float degrees) const {
+        return {{Scope::Environment, 0}, &rotation(), degrees};
+    }
+
+    Document document;
+    std::vector<Id> environments;
+    Wall wall;
+    std::vector<OwnValues> own;
+};
+
+TEST_F(OwnValuesTest, AValueIsOneCellsAlone) {
+    setOwnValue(own, cellsOf(wall)[1], turned(90.0f));
+    EXPECT_FLOAT_EQ(rotationOf(0), 0.0f);
+    EXPECT_FLOAT_EQ(rotationOf(1), 90.0f);
+    EXPECT_FLOAT_EQ(rotationOf(2), 0.0f);
+    setOwnValue(own, cellsOf(wall, own)[1], turned(45.0f)); // of the cell as it is now
+    EXPECT_FLOAT_EQ(rotationOf(1), 45.0f);
+    ASSERT_EQ(own.size(), 1u);
+    EXPECT_EQ(own[0].values.size(), 1u) << "one value of a parameter";
+    // What it does not have of its own follows the document.
+    document.environment(environments[0])->rotationDeg = 10.0f;
+    document.environment(environments[1])->rotationDeg = 10.0f;
+    EXPECT_FLOAT_EQ(rotationOf(0), 10.0f);
+    EXPECT_FLOAT_EQ(rotationOf(1), 45.0f);
+}
+
+TEST_F(OwnValuesTest, LinkedAgainItShowsTheDocuments) {
+    const CellEdit exposure{{Scope::View, 0}, findParameter("view.exposureEv"), 1.0f};
+    setOwnValue(own, cellsOf(wall)[2], turned(90.0f));
+    setOwnValue(own, cellsOf(wall)[2], exposure);
+    linkValue(own, cellsOf(wall)[1], {Scope::Environment, 0}, rotation()); // has none
+    linkValue(own, cellsOf(wall)[2], {Scope::Environment, 0}, rotation());
+    EXPECT_FLOAT_EQ(rotationOf(2), 0.0f);
+    EXPECT_EQ(cellsOf(wall, own)[2].own, std::vector<CellEdit>{exposure});
+    linkValue(own, cellsOf(wall)[2], exposure.target, *exposure.info);
+    EXPECT_TRUE(own.empty());
+    EXPECT_EQ(cellsOf(wall, own), cellsOf(wall));
+}
+
+TEST_F(OwnValuesTest, ItGoesWithItsCell) {
+    setOwnValue(own, cellsOf(wall)[2], turned(90.0f));
+    wall = *makeWall({environmentAxis(document, std::vector{environments[2], environments[0]})});
+    EXPECT_FLOAT_EQ(rotationOf(0), 90.0f);
+    EXPECT_FLOAT_EQ(rotationOf(1), 0.0f);
+    wall = *makeWall({environmentAxis(document, std::vector{environments[0], environments[1]})});
+    EXPECT_FLOAT_EQ(rotationOf(1), 0.0f);
+}
+
+// Of a column's value and the cell's own, the cell's wins.
+TEST_F(OwnValuesTest, ItIsAboveItsColumnsValue) {
+    const Target target{Scope::Environment, 0};
+    wall = *makeWall({*valueAxis(document, rotation(), {&target, 1}, 0.0f, 90.0f, 3, false)});
+    setOwnValue(own, cellsOf(wall)[1], turned(7.0f));
+    EXPECT_FLOAT_EQ(rotationOf(0), 0.0f);
+    EXPECT_FLOAT_EQ(rotationOf(1), 7.0f);
+    EXPECT_FLOAT_EQ(rotationOf(2), 90.0f);
+}
+
+} // namespace
+} // namespace patina
