@@ -29,7 +29,9 @@ namespace {
 constexpr int kOwnNumberWidth = 64;
 
 bool canBeOwn(const ParameterInfo& info) {
-    return info.type == ParameterType::Float || info.type == ParameterType::Choice;
+    // Choices of other elements say what they are made of.
+    const bool looks = info.scope == Scope::View || info.scope == Scope::Model;
+    return info.type == ParameterType::Float || (info.type == ParameterType::Choice && looks);
 }
 
 QString literal(QString name) {
