@@ -154,17 +154,6 @@ void warnOfStaleBakes(Session& session, const Document& document) {
             session.report().warn(fmt::format("a bake is stale: {}; bake it anew", reason));
 }
 
-Image withoutAlpha(const Image& image) {
-    Image result(image.width(), image.height(), 3, image.type(), image.encoding());
-    const std::size_t pixels =
-        static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height());
-    const std::size_t bytes = result.bytesPerPixel();
-    for (std::size_t i = 0; i < pixels; ++i)
-        std::copy_n(image.bytes().begin() + static_cast<std::ptrdiff_t>(i * image.bytesPerPixel()),
-                    bytes, result.bytes().begin() + static_cast<std::ptrdiff_t>(i * bytes));
-    return result;
-}
-
 Result<DisplayTransformPtr> openDisplay(Session& session, const View& view) {
     if (view.toneMap != ToneMap::OpenColorIo)
         return DisplayTransformPtr();

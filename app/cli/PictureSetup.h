@@ -51,7 +51,6 @@ Result<std::unique_ptr<gl::Context>> createContext(Session& session,
                                                    const render::FrameSettings& frame);
 
 [[nodiscard]] bool isLinear(ImageFileFormat format);  // its pictures are not tone mapped
-[[nodiscard]] Image withoutAlpha(const Image& image); // opaque pictures carry none
 
 // The parts of one file, which the report names.
 Result<void> writePictures(Session& session, const std::filesystem::path& output,

@@ -6,6 +6,7 @@
 #include "app/cli/Report.h"
 #include "app/cli/SceneSetup.h"
 #include "core/document/Lighting.h"
+#include "core/image/Channels.h"
 #include "core/io/DisplayTransform.h"
 #include "core/io/ImageIO.h"
 #include "core/mix/LightMix.h"

@@ -10,6 +10,7 @@
 #include "core/document/EnvironmentTitle.h"
 #include "core/document/Source.h"
 #include "core/document/ViewChoices.h"
+#include "core/image/Channels.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 #include "core/mix/LightMix.h"

@@ -34,7 +34,7 @@ struct Session {
     IblUpdater ibl{tasks, iblCacheFolder()};
     ViewState views;
     WallState wall{controller};
-    WallComparison comparison{wall, tasks};
+    WallComparison comparison{wall, tasks, worker};
     PixelProbe probe;
     LobeOnSurface lobe{controller, probe};
     JobManager jobs{controller};

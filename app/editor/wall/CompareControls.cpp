@@ -10,15 +10,20 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QFileDialog>
 #include <QLabel>
+#include <QList>
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <cmath>
+#include <utility>
 
 namespace patina::editor {
 namespace {
 
 constexpr int kCompareWidth = 64;
+// Beside the numbers of cells.
+constexpr int kNothing = -1, kThisFile = -2, kChooseFile = -3;
 
 void describe(QWidget& widget, const QString& name, const QString& tip) {
     widget.setAccessibleName(name);
@@ -48,13 +53,16 @@ CompareControls::CompareControls(WallState& wall, WallComparison& comparison, QW
     , m_blend(makeNumber(0.0, 100.0, 0, QStringLiteral(" %")))
     , m_rate(makeNumber(0.5, 10.0, 1, tr(" Hz")))
     , m_visible(new QCheckBox(tr("Only visible")))
+    , m_stretch(new QCheckBox(tr("Stretch")))
+    , m_match(new QCheckBox(tr("Match exposure")))
     , m_swap(makeListButton(QStringLiteral("redo"), {}, tr("Swap A and B")))
     , m_numbers(new QLabel) {
     auto* row = new FlowLayout(tokens::kGap, tokens::kGap / 2, this);
     row->setContentsMargins(0, 0, 0, 0);
     auto* label = new QLabel(tr("Compare with"));
     describe(*m_other, tr("Compare with"),
-             tr("The cell that the enlarged one is compared with (Ctrl + click a cell)"));
+             tr("What the enlarged cell is compared with: another one (Ctrl + click it), or a "
+                "picture from a file"));
     describe(*m_mode, tr("Compare by"), tr("How both cells are shown; hold Space to see B alone"));
     m_mode->addItem(tr("Wipe"), static_cast<int>(CompareMode::Wipe));
     m_mode->addItem(tr("Flicker"), static_cast<int>(CompareMode::Flicker));
@@ -67,6 +75,10 @@ CompareControls::CompareControls(WallState& wall, WallComparison& comparison, QW
     describe(*m_rate, tr("Flicker rate"), tr("How many pictures are shown per second"));
     describe(*m_visible, tr("Only visible"),
              tr("Hides differences that a viewer would not notice"));
+    describe(*m_stretch, tr("Stretch"),
+             tr("Gives the picture the cell's proportions, which are others"));
+    describe(*m_match, tr("Match exposure"),
+             tr("Brightens the picture until its mean luminance is that of the cell"));
     m_numbers->setObjectName(QStringLiteral("compareNumbers"));
     m_numbers->setTextInteractionFlags(Qt::TextSelectableByMouse);
     m_numbers->setToolTip(tr(
@@ -75,13 +87,19 @@ CompareControls::CompareControls(WallState& wall, WallComparison& comparison, QW
     for (QWidget* widget : {static_cast<QWidget*>(label), static_cast<QWidget*>(m_other),
                             static_cast<QWidget*>(m_mode), static_cast<QWidget*>(m_blend),
                             static_cast<QWidget*>(m_rate), static_cast<QWidget*>(m_visible),
+                            static_cast<QWidget*>(m_stretch), static_cast<QWidget*>(m_match),
                             static_cast<QWidget*>(m_swap), static_cast<QWidget*>(m_numbers)})
         row->addWidget(widget);
 
     connect(m_other, &QComboBox::activated, this, [this](int index) {
-        const QVariant cell = m_other->itemData(index);
-        m_wall.compareWith(cell.isValid() ? std::optional<std::size_t>(cell.toUInt())
-                                          : std::nullopt);
+        const int cell = m_other->itemData(index).toInt();
+        if (cell == kChooseFile) {
+            chooseFile();
+        } else if (cell != kThisFile) {
+            m_comparison.setFile({});
+            m_wall.compareWith(cell >= 0 ? std::optional(static_cast<std::size_t>(cell))
+                                         : std::nullopt);
+        }
     });
     connect(m_mode, &QComboBox::activated, this, [this](int index) {
         m_comparison.setMode(static_cast<CompareMode>(m_mode->itemData(index).toInt()));
@@ -93,6 +111,10 @@ CompareControls::CompareControls(WallState& wall, WallComparison& comparison, QW
         connect(m_rate, signal, this, [this](double hz) { m_comparison.setFlickerHz(hz); });
     }
     connect(m_visible, &QCheckBox::toggled, &comparison, &WallComparison::setOnlyVisible);
+    for (QCheckBox* box : {m_stretch, m_match})
+        connect(box, &QCheckBox::toggled, this, [this] {
+            m_comparison.setFileSettings({m_stretch->isChecked(), m_match->isChecked()});
+        });
     connect(m_swap, &QToolButton::clicked, &wall, &WallState::swapCompared);
     connect(&wall, &WallState::changed, this, &CompareControls::refresh);
     connect(&wall, &WallState::cellsChosen, this, &CompareControls::refresh);
@@ -103,25 +125,21 @@ CompareControls::CompareControls(WallState& wall, WallComparison& comparison, QW
 
 void CompareControls::refresh() {
     const bool enlarged = m_wall.enlarged().has_value();
-    setVisible(enlarged && m_wall.cells().size() > 1);
+    setVisible(enlarged);
     if (!enlarged)
         return;
-    const QSignalBlocker quietOther(m_other), quietMode(m_mode), quietVisible(m_visible);
-    const bool rebuilt = m_other->count() != static_cast<int>(m_wall.cells().size());
-    if (rebuilt || m_other->property("of") != QVariant::fromValue(*m_wall.enlarged())) {
-        m_other->clear();
-        m_other->addItem(tr("Nothing"));
-        for (std::size_t i = 0; i < m_wall.cells().size(); ++i)
-            if (i != *m_wall.enlarged())
-                m_other->addItem(captionOf(m_wall.cells()[i]), static_cast<uint>(i));
-        m_other->setProperty("of", QVariant::fromValue(*m_wall.enlarged()));
-    }
-    const auto compared = m_wall.compared();
-    m_other->setCurrentIndex(compared ? m_other->findData(static_cast<uint>(*compared)) : 0);
+    const QSignalBlocker quietMode(m_mode), quietVisible(m_visible), quietStretch(m_stretch),
+        quietMatch(m_match);
+    fillOthers();
+    const bool compared = m_comparison.isOn(), file = m_comparison.hasFile();
     m_mode->setCurrentIndex(m_mode->findData(static_cast<int>(m_comparison.mode())));
-    m_mode->setVisible(compared.has_value());
-    m_swap->setVisible(compared.has_value());
-    m_numbers->setVisible(compared.has_value());
+    m_mode->setVisible(compared);
+    m_swap->setVisible(compared && !file);
+    m_numbers->setVisible(compared);
+    m_stretch->setVisible(file && m_comparison.needsStretch());
+    m_stretch->setChecked(m_comparison.fileSettings().stretch);
+    m_match->setVisible(file);
+    m_match->setChecked(m_comparison.fileSettings().matchExposure);
     m_blend->setVisible(compared && m_comparison.mode() == CompareMode::Blend);
     m_rate->setVisible(compared && m_comparison.mode() == CompareMode::Flicker);
     m_visible->setVisible(m_comparison.showsDifference());
@@ -131,7 +149,50 @@ void CompareControls::refresh() {
     showNumbers();
 }
 
+// Nothing, the other cells, the file that is compared, and the way to another one.
+void CompareControls::fillOthers() {
+    QList<std::pair<QString, int>> entries{{tr("Nothing"), kNothing}};
+    for (std::size_t i = 0; i < m_wall.cells().size(); ++i)
+        if (i != *m_wall.enlarged())
+            entries.append({captionOf(m_wall.cells()[i]), static_cast<int>(i)});
+    if (m_comparison.hasFile())
+        entries.append({m_comparison.fileName(), kThisFile});
+    entries.append({tr("File…"), kChooseFile});
+    const QSignalBlocker quiet(m_other);
+    bool same = entries.size() == m_other->count();
+    for (int i = 0; same && i < m_other->count(); ++i)
+        same = m_other->itemText(i) == entries[i].first &&
+               m_other->itemData(i).toInt() == entries[i].second;
+    if (!same) {
+        m_other->clear();
+        for (const auto& [text, data] : entries)
+            m_other->addItem(text, data);
+    }
+    const auto compared = m_wall.compared();
+    const int shown = m_comparison.hasFile() ? kThisFile
+                      : compared             ? static_cast<int>(*compared)
+                                             : kNothing;
+    m_other->setCurrentIndex(m_other->findData(shown));
+}
+
+void CompareControls::chooseFile() {
+    refresh(); // what is compared until one is chosen
+    auto* dialog = new QFileDialog(window(), tr("Compare with a Picture"));
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setFileMode(QFileDialog::ExistingFile);
+    dialog->setNameFilters(
+        {tr("Pictures (*.png *.jpg *.jpeg *.exr *.hdr *.tif *.tiff *.tga)"), tr("All files (*)")});
+    connect(dialog, &QFileDialog::fileSelected, &m_comparison, &WallComparison::setFile);
+    dialog->open();
+}
+
 void CompareControls::showNumbers() {
+    m_stretch->setVisible(m_comparison.hasFile() && m_comparison.needsStretch());
+    if (m_comparison.hasFile() && m_comparison.filePicture().isNull()) {
+        m_numbers->setText(m_comparison.fileNote().isEmpty() ? tr("Comparing…")
+                                                             : m_comparison.fileNote());
+        return;
+    }
     if (!m_comparison.measured()) {
         m_numbers->setText(m_comparison.problem().isEmpty() ? tr("Comparing…")
                                                             : m_comparison.problem());
@@ -149,6 +210,8 @@ void CompareControls::showNumbers() {
                            .arg(flip.max, 0, 'f', 2)
                            .arg(flip.maxPosition.x)
                            .arg(flip.maxPosition.y));
+    if (m_comparison.hasFile() && !m_comparison.fileNote().isEmpty())
+        m_numbers->setText(m_numbers->text() + QStringLiteral("   ") + m_comparison.fileNote());
 }
 
 } // namespace patina::editor

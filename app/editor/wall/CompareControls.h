@@ -1,4 +1,4 @@
-// With which cell the enlarged one is compared, and how.
+// With which cell or file the enlarged cell is compared, and how.
 #pragma once
 
 #include <QWidget>
@@ -21,13 +21,15 @@ class CompareControls : public QWidget {
     void refresh();
 
   private:
+    void fillOthers();
+    void chooseFile();
     void showNumbers();
 
     WallState& m_wall;
     WallComparison& m_comparison;
     QComboBox *m_other, *m_mode;
     NumberField *m_blend, *m_rate;
-    QCheckBox* m_visible;
+    QCheckBox *m_visible, *m_stretch, *m_match;
     QToolButton* m_swap;
     QLabel* m_numbers;
 };

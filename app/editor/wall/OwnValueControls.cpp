@@ -9,8 +9,8 @@
 #include "app/editor/widget/ListButton.h"
 #include "app/editor/widget/NumberField.h"
 #include "core/document/Document.h"
-#include "core/edit/Edit.h"
 #include "core/document/Snapshot.h"
+#include "core/edit/Edit.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 

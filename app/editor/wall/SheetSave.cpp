@@ -9,8 +9,9 @@
 #include "app/editor/wall/SheetPdf.h"
 #include "app/editor/wall/WallState.h"
 #include "core/base/AtomicFile.h"
-#include "core/io/ImageIO.h"
 #include "core/document/Snapshot.h"
+#include "core/image/Channels.h"
+#include "core/io/ImageIO.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 
@@ -58,17 +59,6 @@ Result<void> writeSheet(WorkerClient& worker, const SheetOrder& order, const Wal
     if (order.format == SheetFormat::Pdf)
         return writeFileAtomically(file, sheetPdf(*paper, wall, cells, drawn));
     return saveImage(worker, sheet::pictureOf(*paper, wall, cells, drawn), file);
-}
-
-// Opaque pictures carry no alpha.
-Image opaque(const Image& image) {
-    Image result(image.width(), image.height(), 3, PixelType::U8, image.encoding());
-    const auto from = image.u8();
-    const auto to = result.u8();
-    for (std::size_t i = 0; 4 * i < from.size(); ++i)
-        std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(4 * i), 3,
-                    to.begin() + static_cast<std::ptrdiff_t>(3 * i));
-    return result;
 }
 
 } // namespace
@@ -176,7 +166,8 @@ void SheetSave::draw() {
         m_begins = false;
         if (!*drawn)
             return;
-        cell.picture = m_order.format == SheetFormat::Exr ? std::move(**drawn) : opaque(**drawn);
+        cell.picture =
+            m_order.format == SheetFormat::Exr ? std::move(**drawn) : withoutAlpha(**drawn);
     } else {
         cell.problem = view.problem.toStdString();
     }

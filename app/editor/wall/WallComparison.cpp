@@ -5,8 +5,11 @@
 #include "app/editor/wall/WallState.h"
 #include "core/compare/DifferencePicture.h"
 #include "core/compare/Flip.h"
+#include "core/io/ImageIO.h"
 
 #include <QApplication>
+#include <QFile>
+#include <QFileInfo>
 #include <algorithm>
 #include <utility>
 
@@ -67,10 +70,13 @@ Result<Measured> measureBoth(const Image& a, const Image& b, CompareMode mode, b
 
 } // namespace
 
-WallComparison::WallComparison(WallState& wall, TaskRunner& runner, QObject* parent)
+WallComparison::WallComparison(WallState& wall, TaskRunner& runner, WorkerClient& worker,
+                               QObject* parent)
     : SplitModel(parent)
     , m_wall(wall)
-    , m_tasks(runner) {
+    , m_worker(worker)
+    , m_tasks(runner)
+    , m_reading(runner) {
     connect(&wall, &WallState::changed, this, &WallComparison::follow);
     connect(&wall, &WallState::cellsChosen, this, &WallComparison::follow);
     connect(this, &WallComparison::changed, this, &SplitModel::lineChanged);
@@ -81,10 +87,12 @@ WallComparison::WallComparison(WallState& wall, TaskRunner& runner, QObject* par
 }
 
 bool WallComparison::isOn() const {
-    return m_wall.compared().has_value();
+    return m_wall.compared().has_value() || (hasFile() && m_wall.enlarged().has_value());
 }
 
 void WallComparison::follow() {
+    if (hasFile() && (m_wall.compared() || !m_wall.enlarged()))
+        forgetFile();
     m_peeking = m_turn = false;
     runFlicker();
     outdate();
@@ -188,6 +196,105 @@ void WallComparison::measureAgain() {
         });
 }
 
+// --- A picture from a file -----------------------------------------------------------------------
+
+QString WallComparison::fileName() const {
+    return QFileInfo(m_filePath).fileName();
+}
+
+void WallComparison::forgetFile() {
+    m_reading.cancelAll();
+    m_filePath.clear();
+    m_fileNote.clear();
+    m_file = nullptr;
+    m_filePicture = {};
+    m_fileSettings = {};
+}
+
+void WallComparison::setFile(const QString& path) {
+    forgetFile();
+    if (!path.isEmpty() && m_wall.enlarged()) {
+        m_wall.compareWith(std::nullopt);
+        m_filePath = path;
+        m_fileNote = tr("Reading %1…").arg(fileName());
+        m_reading.run(
+            {.tag = "picture to compare with", .name = "reading a picture to compare with"},
+            [worker = &m_worker, path](const JobContext&) -> Result<ImagePtr> {
+                ImageLoadOptions options;
+                options.integerEncoding = ColorEncoding::Srgb;
+                options.colorOnly = true;
+                Result<LoadedImage> loaded = loadImage(
+                    *worker, std::filesystem::path(QFile::encodeName(path).toStdString()), options);
+                if (!loaded)
+                    return loaded.error();
+                return std::make_shared<const Image>(std::move(loaded->parts.front().image));
+            },
+            [this](const Result<ImagePtr>& read) {
+                m_file = read ? *read : nullptr;
+                m_fileNote = read ? QString()
+                                  : tr("%1: %2").arg(fileName(), toQString(read.error().message));
+                outdate();
+                Q_EMIT measuredChanged();
+                Q_EMIT changed();
+            });
+    }
+    m_peeking = m_turn = false;
+    runFlicker();
+    outdate();
+    Q_EMIT changed();
+}
+
+bool WallComparison::needsStretch() const {
+    return m_file && !m_fileCell.isEmpty() &&
+           hasOtherProportions(*m_file, m_fileCell.width(), m_fileCell.height());
+}
+
+bool WallComparison::wantsRadiance() const {
+    return m_file && isRadiance(*m_file);
+}
+
+void WallComparison::setFileSettings(const ReferenceSettings& settings) {
+    m_fileSettings = settings;
+    outdate();
+    Q_EMIT changed();
+}
+
+void WallComparison::measureFile(Image displayed, Image radiance, const View& view) {
+    if (!m_file)
+        return; // it is being read
+    m_outdated = false;
+    m_fileCell = QSize(displayed.width(), displayed.height());
+    auto a = std::make_shared<const Image>(std::move(displayed));
+    struct Fitted {
+        ImagePtr b;
+        QImage picture;
+        QString note;
+    };
+    m_tasks.run(
+        {.tag = "comparing two cells"},
+        [a, radiance = std::make_shared<const Image>(std::move(radiance)), view, file = m_file,
+         settings = m_fileSettings](const JobContext&) -> Result<Fitted> {
+            Result<ReferencePicture> made =
+                referencePicture(*file, radiance->empty() ? *a : *radiance, view, settings);
+            if (!made)
+                return made.error();
+            auto b = std::make_shared<const Image>(std::move(made->displayed));
+            return Fitted{b, toQImage(*b), toQString(made->note)};
+        },
+        [this, a](const Result<Fitted>& fitted) {
+            m_filePicture = fitted ? fitted->picture : QImage();
+            m_fileNote = fitted ? fitted->note
+                                : tr("%1: %2").arg(fileName(), toQString(fitted.error().message));
+            if (fitted) {
+                m_a = a;
+                m_b = fitted->b;
+                measureAgain();
+            }
+            Q_EMIT measuredChanged();
+            Q_EMIT changed();
+        });
+}
+
 // --- The line of a wipe --------------------------------------------------------------------------
 
 std::optional<render::ViewSplit> WallComparison::line() const {
@@ -202,6 +309,8 @@ void WallComparison::moveLine(const render::ViewSplit& line) {
 }
 
 void WallComparison::removeLine() {
+    if (hasFile())
+        setFile({});
     m_wall.compareWith(std::nullopt);
 }
 
@@ -214,7 +323,7 @@ QString WallComparison::leftName() const {
 }
 
 QString WallComparison::rightName() const {
-    return nameOf(m_wall.compared());
+    return hasFile() ? fileName() : nameOf(m_wall.compared());
 }
 
 QRect WallComparison::area(const QSize& viewport) const {

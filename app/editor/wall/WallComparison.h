@@ -1,9 +1,10 @@
-// Two cells of the wall against each other in the place of the enlarged one: A is the current cell,
-// B another. How both are shown (a split line, turns, a blend, their difference), and how far they
-// are apart, measured in the background of the pictures as displayed.
+// Two pictures against each other in the place of the enlarged cell: A is that cell, B another one
+// or a picture from a file. How both are shown (a split line, turns, a blend, their difference),
+// and how far they are apart, measured in the background of the pictures as displayed.
 #pragma once
 
 #include "app/editor/viewport/SplitHandle.h"
+#include "core/cells/ReferencePicture.h"
 #include "core/compare/ErrorMap.h"
 #include "core/compare/Metrics.h"
 #include "core/image/ColorMap.h"
@@ -12,6 +13,10 @@
 #include <QImage>
 #include <QTimer>
 #include <memory>
+
+namespace patina {
+class WorkerClient;
+}
 
 namespace patina::editor {
 
@@ -25,9 +30,24 @@ inline constexpr float kVisibleFlip = 0.05f;
 class WallComparison : public SplitModel {
     Q_OBJECT
   public:
-    WallComparison(WallState& wall, TaskRunner& runner, QObject* parent = nullptr);
+    // `worker` reads files.
+    WallComparison(WallState& wall, TaskRunner& runner, WorkerClient& worker,
+                   QObject* parent = nullptr);
 
-    [[nodiscard]] bool isOn() const; // there is a B: WallState::compared()
+    [[nodiscard]] bool isOn() const; // there is a B: WallState::compared(), or a file
+    // B is this picture, which is read in the background; empty: none. A cell that is chosen takes
+    // its place.
+    void setFile(const QString& path);
+    [[nodiscard]] bool hasFile() const { return !m_filePath.isEmpty(); }
+    [[nodiscard]] QString fileName() const;
+    // Why it is not shown, or what was done to it: "1920 × 1080 fitted to 640 × 360".
+    [[nodiscard]] const QString& fileNote() const { return m_fileNote; }
+    [[nodiscard]] bool needsStretch() const; // its proportions are not the cell's
+    [[nodiscard]] const ReferenceSettings& fileSettings() const { return m_fileSettings; }
+    void setFileSettings(const ReferenceSettings& settings);
+    [[nodiscard]] bool wantsRadiance() const; // measureFile() needs A before its tone curve
+    // As it is shown; null: not ready.
+    [[nodiscard]] const QImage& filePicture() const { return m_filePicture; }
     [[nodiscard]] CompareMode mode() const { return m_mode; }
     void setMode(CompareMode mode);
     [[nodiscard]] bool showsDifference() const { return isOn() && m_mode >= CompareMode::Signed; }
@@ -62,6 +82,9 @@ class WallComparison : public SplitModel {
     [[nodiscard]] bool isOutdated() const { return isOn() && m_outdated; }
     [[nodiscard]] bool isMeasuring() const { return m_tasks.busy(); }
     void measure(Image a, Image b); // both as displayed; the newest wins
+    // The file against A as displayed and, if wantsRadiance(), before exposure and tone curve;
+    // `view`: of A.
+    void measureFile(Image displayed, Image radiance, const View& view);
 
     // --- The line of a wipe
     // -----------------------------------------------------------------------
@@ -80,6 +103,7 @@ class WallComparison : public SplitModel {
     void follow();
     void runFlicker();
     void measureAgain();
+    void forgetFile();
     [[nodiscard]] QString nameOf(std::optional<std::size_t> cell) const;
 
     WallState& m_wall;
@@ -92,7 +116,13 @@ class WallComparison : public SplitModel {
     std::shared_ptr<const Image> m_a, m_b; // measured last
     std::optional<Measured> m_measured;
     QString m_problem;
-    TaskGroup m_tasks; // last: it ends first
+    WorkerClient& m_worker;
+    QString m_filePath, m_fileNote;
+    ImagePtr m_file; // as it was read; null: it is being read, or could not be
+    ReferenceSettings m_fileSettings;
+    QImage m_filePicture;
+    QSize m_fileCell;             // of A, when it was measured last
+    TaskGroup m_tasks, m_reading; // last: they end first
 };
 
 } // namespace patina::editor

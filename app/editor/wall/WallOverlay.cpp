@@ -8,9 +8,13 @@
 
 #include <QKeyEvent>
 #include <QPainter>
+#include <QPainterPath>
+#include <QPolygonF>
 #include <QStringList>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <glm/trigonometric.hpp>
 #include <vector>
 
 namespace patina::editor {
@@ -19,6 +23,27 @@ namespace {
 constexpr int kFrame = 2;
 constexpr int kLegendWidth = 160, kLegendHeight = 10;
 constexpr double kMark = 8.0; // radius
+
+// The part of the area on the right of the line: where the other picture is.
+QPolygonF rightOf(const render::ViewSplit& line, const QRectF& area) {
+    const double angle = glm::radians(static_cast<double>(line.angleDeg));
+    const QPointF normal(std::cos(angle), std::sin(angle)); // y points down
+    const QPointF through(area.left() + static_cast<double>(line.position.x) * area.width(),
+                          area.top() + static_cast<double>(line.position.y) * area.height());
+    const auto side = [&](const QPointF& p) { return QPointF::dotProduct(normal, p - through); };
+    const std::array corners{area.topLeft(), area.topRight(), area.bottomRight(),
+                             area.bottomLeft()};
+    QPolygonF inside; // Sutherland and Hodgman, 1974
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const QPointF &from = corners[i], &to = corners[(i + 1) % corners.size()];
+        const double a = side(from), b = side(to);
+        if (a >= 0.0)
+            inside << from;
+        if ((a < 0.0) != (b < 0.0))
+            inside << from + (to - from) * (a / (a - b));
+    }
+    return inside;
+}
 
 } // namespace
 
@@ -131,6 +156,23 @@ void WallOverlay::paintDifference(QPainter& painter, const QRect& area) const {
                         kMark, kMark);
 }
 
+// A picture from a file as the other one of two, over the cell that it is compared with.
+void WallOverlay::paintFile(QPainter& painter, const QRect& area) const {
+    const WallComparison::Shown shown = m_comparison.shown();
+    if (!shown.any || m_comparison.filePicture().isNull())
+        return;
+    painter.save();
+    painter.setRenderHint(QPainter::SmoothPixmapTransform);
+    if (shown.split) {
+        QPainterPath part;
+        part.addPolygon(rightOf(*shown.split, area));
+        painter.setClipPath(part);
+    }
+    painter.setOpacity(static_cast<double>(shown.opacity));
+    painter.drawImage(area, m_comparison.filePicture());
+    painter.restore();
+}
+
 // At the lower edge of cells that have values of their own: which, in one colour for all cells
 // that have the same.
 void WallOverlay::paintOwnValues(QPainter& painter) const {
@@ -174,15 +216,20 @@ void WallOverlay::paintEvent(QPaintEvent*) {
     if (m_layout.cells.empty())
         say(rect(), m_wall.problem());
     for (const WallLayout::Caption& caption : m_layout.captions) {
+        const QString text =
+            m_wall.enlarged() && m_comparison.hasFile()
+                ? QStringLiteral("A  %1      B  %2").arg(caption.text, m_comparison.fileName())
+                : caption.text;
         painter.setPen(QColor(tokens::kText));
-        painter.drawText(
-            caption.place, static_cast<int>(caption.alignment),
-            fontMetrics().elidedText(caption.text, Qt::ElideMiddle, caption.place.width()));
+        painter.drawText(caption.place, static_cast<int>(caption.alignment),
+                         fontMetrics().elidedText(text, Qt::ElideMiddle, caption.place.width()));
     }
     for (std::size_t i = 0; i < m_layout.cells.size(); ++i)
         if (const QString text = m_wall.text(i); !text.isEmpty() && !m_layout.cells[i].isNull())
             say(m_layout.cells[i], text);
     paintOwnValues(painter);
+    if (m_comparison.hasFile() && m_wall.enlarged())
+        paintFile(painter, m_layout.cells[*m_wall.enlarged()]);
     if (m_comparison.showsDifference() && m_wall.enlarged())
         paintDifference(painter, m_layout.cells[*m_wall.enlarged()]);
     const auto current = m_wall.current();

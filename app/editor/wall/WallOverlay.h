@@ -28,6 +28,7 @@ class WallOverlay : public QWidget {
     void follow();
     [[nodiscard]] bool pressKey(int key);
     void paintOwnValues(QPainter& painter) const;
+    void paintFile(QPainter& painter, const QRect& area) const;
     void paintDifference(QPainter& painter, const QRect& area) const;
 
     WallState& m_wall;

@@ -6,6 +6,7 @@
 #include "app/editor/wall/WallComparison.h"
 #include "app/editor/wall/WallState.h"
 #include "core/document/Snapshot.h"
+#include "core/image/Channels.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 #include "core/mix/LightMix.h"
@@ -266,12 +267,23 @@ Result<void> WallPainter::present(unsigned framebuffer, const QSize& size) {
 
 // Once both cells that are compared are as fine as they get.
 void WallPainter::measure() {
-    const std::optional<std::size_t> a = m_wall->enlarged(), b = m_wall->compared();
+    const std::optional<std::size_t> a = m_wall->enlarged();
+    if (m_comparison->hasFile()) {
+        if (!m_comparison->isOutdated() || !a || !complete() || preparing() ||
+            !m_renderer->hasPicture(*a))
+            return;
+        const render::ViewRenderer& picture = m_renderer->picture(*a);
+        m_comparison->measureFile(withoutAlpha(picture.readDisplayed()),
+                                  m_comparison->wantsRadiance() ? picture.readLinear() : Image(),
+                                  m_views[*a].document.view);
+        return;
+    }
+    const std::optional<std::size_t> b = m_wall->compared();
     if (!m_comparison->isOutdated() || !a || !b || !complete() || preparing() ||
         !m_renderer->hasPicture(*a) || !m_renderer->hasPicture(*b))
         return;
-    m_comparison->measure(m_renderer->picture(*a).readDisplayed(),
-                          m_renderer->picture(*b).readDisplayed());
+    m_comparison->measure(withoutAlpha(m_renderer->picture(*a).readDisplayed()),
+                          withoutAlpha(m_renderer->picture(*b).readDisplayed()));
 }
 
 // --- Sheets --------------------------------------------------------------------------------------

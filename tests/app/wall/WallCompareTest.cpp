@@ -4,6 +4,7 @@
 #include "app/editor/widget/NumberField.h"
 #include "tests/app/wall/WallFixture.h"
 
+#include <QCheckBox>
 #include <QLabel>
 #include <cmath>
 
@@ -46,6 +47,16 @@ class WallCompareTest : public WallWindow {
                     most = std::max(most, std::abs(d));
             }
         return most;
+    }
+    // The share of pixels that differ by more than the dither.
+    static double differing(const QImage& a, const QImage& b) {
+        int count = 0;
+        for (int y = 0; y < a.height(); ++y)
+            for (int x = 0; x < a.width(); ++x) {
+                const QRgb p = a.pixel(x, y), q = b.pixel(x, y);
+                count += std::abs(qRed(p) - qRed(q)) > 2 || std::abs(qBlue(p) - qBlue(q)) > 2;
+            }
+        return static_cast<double>(count) / (a.width() * a.height());
     }
     static QRect left(const QImage& image) { return {0, 0, image.width() / 2 - 1, image.height()}; }
     static QRect right(const QImage& image) {
@@ -127,8 +138,7 @@ TEST_F(WallCompareTest, NumbersAreThoseOfTheShownPictures) {
             }
         }
     const ImageMetrics& metrics = comparison().measured()->metrics;
-    // Alpha, which is 1 in both, is among the samples.
-    const double samples = 4.0 * gold.width() * gold.height();
+    const double samples = 3.0 * gold.width() * gold.height();
     EXPECT_NEAR(metrics.rmse, std::sqrt(squares / samples), 1e-6);
     EXPECT_NEAR(metrics.max, most / 255.0, 1e-6);
     EXPECT_GT(comparison().measured()->flip.mean, 0.0);
@@ -188,6 +198,65 @@ TEST_F(WallCompareTest, EscLeavesStepByStep) {
     click(0);
     click(0, Qt::ControlModifier);
     EXPECT_FALSE(wall().compared()) << "not with itself";
+}
+
+// B is a picture from a file: what the cell showed before, so that it is known.
+TEST_F(WallCompareTest, AFileIsComparedWithACell) {
+    const QString same = folder.filePath(QStringLiteral("clay.png")),
+                  square = folder.filePath(QStringLiteral("square.png"));
+    ASSERT_TRUE(clay.save(same));
+    ASSERT_TRUE(clay.scaled(64, 64).save(square));
+    comparison().setFile(same);
+    EXPECT_FALSE(wall().compared().has_value()) << "the file takes the cell's place";
+    ASSERT_TRUE(eventually([] { return comparison().measured().has_value(); }))
+        << comparison().fileNote().toStdString();
+    EXPECT_EQ(comparison().fileNote(), QString());
+    EXPECT_GT(comparison().measured()->metrics.rmse, 0.02);
+    const QImage both = viewport().grab().toImage().copy(placeOf(1));
+    // But for the line with its handle and names, each side is its picture.
+    const auto sideIs = [&](const QRect& side, const QImage& one, const QImage& other) {
+        const double own = differing(both.copy(side), one.copy(side));
+        EXPECT_LT(own, 0.5 * differing(both.copy(side), other.copy(side))) << own;
+    };
+    sideIs(right(both), clay, gold);
+    sideIs(left(both), gold, clay);
+    comparison().setMode(CompareMode::Visible);
+    ASSERT_TRUE(eventually(
+        [] { return comparison().measured() && !comparison().measured()->map.isNull(); }));
+    comparison().setMode(CompareMode::Wipe);
+
+    // The very cell: no difference but the dither's.
+    wall().setCurrent(2);
+    comparison().setFile(same);
+    ASSERT_TRUE(eventually([] { return comparison().measured().has_value(); }));
+    EXPECT_LT(comparison().measured()->metrics.rmse, 0.003);
+
+    // Other proportions are stretched when the user says so.
+    comparison().setFile(square);
+    auto* numbers = window->findChild<QLabel*>(QStringLiteral("compareNumbers"));
+    auto* stretch = find<QCheckBox>(*window, QStringLiteral("Stretch"));
+    ASSERT_TRUE(eventually([&] {
+        return numbers->text().contains(QStringLiteral("proportions are others"));
+    })) << numbers->text().toStdString();
+    EXPECT_TRUE(stretch->isVisible());
+    EXPECT_FALSE(comparison().measured().has_value());
+    QTest::mouseClick(stretch, Qt::LeftButton, {}, QPoint(8, stretch->height() / 2));
+    ASSERT_TRUE(eventually([] { return comparison().measured().has_value(); }));
+    EXPECT_TRUE(numbers->text().contains(QStringLiteral("64 × 64 stretched to")));
+    keepPicture("compare-file.png");
+
+    // One that is not there says so; Nothing ends it.
+    comparison().setFile(folder.filePath(QStringLiteral("none.png")));
+    ASSERT_TRUE(eventually([&] {
+        return numbers->text().contains(QStringLiteral("none.png")) &&
+               !numbers->text().startsWith(QStringLiteral("Reading"));
+    })) << numbers->text().toStdString();
+    choose("Compare with", "Nothing");
+    EXPECT_FALSE(comparison().isOn());
+    comparison().setFile(same);
+    key(Qt::Key_Escape);
+    EXPECT_FALSE(comparison().hasFile());
+    EXPECT_EQ(undoCount(), steps);
 }
 
 } // namespace
