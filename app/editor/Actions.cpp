@@ -27,6 +27,9 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
                    tr("Show work that was not saved when an editor ended")))
     , undo(undoStack.createUndoAction(this, tr("&Undo")))
     , redo(undoStack.createRedoAction(this, tr("&Redo")))
+    , keepSnapshot(make(tr("&Keep Snapshot"), QStringLiteral("snapshots"), {tr("Ctrl+K")},
+                        tr("Keep what the scene looks like, to compare with it and to return to "
+                           "it")))
     , frame(make(tr("&Frame"), QStringLiteral("frame"), {tr("F")},
                  tr("Bring the selected mesh, or the whole scene, into view")))
     , home(make(tr("&Reset Camera"), QStringLiteral("home"), {tr("Home")},
@@ -60,6 +63,9 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
                    tr("Show or hide the messages of this session")))
     , historyDock(make(tr("Histor&y"), QStringLiteral("history"), {tr("Ctrl+Shift+0")},
                        tr("Show or hide the list of steps, to go back and forth among them")))
+    , snapshotsDock(make(tr("Snapshots"), QStringLiteral("snapshots"), {tr("Ctrl+Shift+K")},
+                         tr("Show or hide the looks that were kept, with what differs between "
+                            "them")))
     , nextDock(make(tr("Next Dock"), {}, {tr("Ctrl+Tab")},
                     tr("Move the keyboard focus to the next dock, or to the viewport")))
     , previousDock(make(tr("Previous Dock"), {}, {tr("Ctrl+Shift+Tab")},
@@ -135,8 +141,8 @@ void Actions::describe(QAction* action, const QString& sentence) {
 }
 
 QList<QAction*> Actions::docks() const {
-    return {sceneDock, materialDock, environmentDock, lightsDock, viewDock,
-            bakeDock,  modelDock,    jobsDock,        logDock,    historyDock};
+    return {sceneDock, materialDock, environmentDock, lightsDock,  viewDock,     bakeDock,
+            modelDock, jobsDock,     logDock,         historyDock, snapshotsDock};
 }
 
 QList<QAction*> Actions::instruments() const {
@@ -144,9 +150,10 @@ QList<QAction*> Actions::instruments() const {
 }
 
 QList<QAction*> Actions::all() const {
-    return QList<QAction*>{newScene,    open, addModel,    save,       saveAs, saveEnvironment,
-                           exportScene, quit, undo,        redo,       frame,  home,
-                           overlays,    wall, lightingIbl, lightingPrt} +
+    return QList<QAction*>{newScene,        open,        addModel, save,     saveAs,
+                           saveEnvironment, exportScene, quit,     undo,     redo,
+                           keepSnapshot,    frame,       home,     overlays, wall,
+                           lightingIbl,     lightingPrt} +
            docks() + QList<QAction*>{nextDock, previousDock} + instruments() +
            QList<QAction*>{pinPixel, furnace, fullScreen, resetLayout, shortcuts, about, recover};
 }

@@ -19,10 +19,10 @@ class Actions : public QObject {
 
     QAction *newScene, *open, *addModel, *save, *saveAs, *saveEnvironment, *exportScene, *quit;
     QAction* recover;
-    QAction *undo, *redo;
+    QAction *undo, *redo, *keepSnapshot;
     QAction *frame, *home, *overlays, *wall, *lightingIbl, *lightingPrt;
     QAction *sceneDock, *materialDock, *environmentDock, *lightsDock, *viewDock, *bakeDock;
-    QAction *modelDock, *jobsDock, *logDock, *historyDock;
+    QAction *modelDock, *jobsDock, *logDock, *historyDock, *snapshotsDock;
     QAction *nextDock, *previousDock;                             // by key
     QAction *pixel, *lightLab, *lens, *energy, *mixer, *transfer; // docks to look closer with
     QAction* pinPixel;

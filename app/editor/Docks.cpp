@@ -270,7 +270,8 @@ void Docks::reset() {
         Model,
         Jobs,
         Log,
-        History
+        History,
+        Snapshots
     };
     for (QDockWidget* dock : std::as_const(m_docks)) {
         dock->setFloating(false);
@@ -285,13 +286,16 @@ void Docks::reset() {
     m_window.addDockWidget(Qt::RightDockWidgetArea, m_docks[MaterialDock]);
     m_window.tabifyDockWidget(m_docks[MaterialDock], m_docks[Model]);
     m_window.tabifyDockWidget(m_docks[Model], m_docks[Bake]);
+    m_window.addDockWidget(Qt::RightDockWidgetArea, m_docks[Snapshots]);
+    m_window.tabifyDockWidget(m_docks[Bake], m_docks[Snapshots]);
     m_window.addDockWidget(Qt::BottomDockWidgetArea, m_docks[Jobs]);
     m_window.tabifyDockWidget(m_docks[Jobs], m_docks[Log]);
     for (QDockWidget* dock : std::as_const(m_instruments))
         m_window.tabifyDockWidget(m_docks[Log], dock);
     for (QDockWidget* dock : std::as_const(m_docks))
         dock->setVisible(dock != m_docks[Jobs] && dock != m_docks[Log] &&
-                         dock != m_docks[History] && !m_instruments.contains(dock));
+                         dock != m_docks[History] && dock != m_docks[Snapshots] &&
+                         !m_instruments.contains(dock));
     m_docks[EnvironmentDock]->raise();
     m_docks[MaterialDock]->raise();
     m_window.resizeDocks({m_docks[Scene], m_docks[MaterialDock]}, {304, 356}, Qt::Horizontal);

@@ -27,6 +27,7 @@
 #include "app/editor/panel/ParameterRow.h"
 #include "app/editor/panel/PixelPanel.h"
 #include "app/editor/panel/ScenePanel.h"
+#include "app/editor/panel/SnapshotsPanel.h"
 #include "app/editor/panel/TransferPanel.h"
 #include "app/editor/panel/ViewPanel.h"
 #include "app/editor/style/Icons.h"
@@ -67,7 +68,7 @@ namespace {
 
 constexpr QSize kComfortable(1440, 900);
 constexpr int kFrameHeight = 60;     // more than a title bar needs; what it is is known too late
-constexpr int kLayoutVersion = 5;    // raise when docks come or go: older layouts are ignored
+constexpr int kLayoutVersion = 6;    // raise when docks come or go: older layouts are ignored
 constexpr qint64 kFrameTimeMs = 250; // how often the number changes, so that it can be read
 
 QStringList droppedFiles(const QMimeData* data) {
@@ -222,6 +223,9 @@ void MainWindow::makeDocks() {
     m_docks->add(a.logDock, QStringLiteral("log"), new LogPanel);
     m_docks->add(a.historyDock, QStringLiteral("history"),
                  new HistoryPanel(controller, *m_viewport, m_session.wall));
+    auto* snapshots = new SnapshotsPanel(controller, *m_viewport, m_session.wall);
+    connect(a.keepSnapshot, &QAction::triggered, snapshots, &SnapshotsPanel::keep);
+    m_docks->add(a.snapshotsDock, QStringLiteral("snapshots"), snapshots);
     m_docks->addInstrument(a.pixel, QStringLiteral("pixel"),
                            new PixelPanel(controller, m_session.probe, m_viewport->picker()));
     auto* lightLab = new LightLabPanel(controller, m_session.ibl, m_session.probe);
@@ -298,6 +302,8 @@ void MainWindow::makeMenus() {
 
     QMenu* edit = menuBar()->addMenu(tr("&Edit"));
     edit->addActions({a.undo, a.redo});
+    edit->addSeparator();
+    edit->addAction(a.keepSnapshot);
 
     QMenu* view = menuBar()->addMenu(tr("&View"));
     view->addActions({a.frame, a.home, a.overlays});
@@ -310,8 +316,8 @@ void MainWindow::makeMenus() {
     view->addActions(a.docks());
     view->addActions({a.nextDock, a.previousDock});
     view->addSeparator();
-    view->addActions(
-        {a.pixel, a.lightLab, a.lens, a.energy, a.mixer, a.transfer, a.pinPixel, a.furnace});
+    view->addActions(a.instruments());
+    view->addActions({a.pinPixel, a.furnace});
     view->addSeparator();
     view->addAction(a.resetLayout);
     view->addSeparator();

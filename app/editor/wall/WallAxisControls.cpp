@@ -6,6 +6,7 @@
 #include "app/editor/style/Tokens.h"
 #include "app/editor/wall/WallState.h"
 #include "app/editor/widget/NumberField.h"
+#include "core/document/Snapshot.h"
 #include "core/edit/Edit.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
@@ -151,6 +152,14 @@ void WallAxisControls::refresh() {
     const AxisPlan shown = plan();
     {
         const QSignalBlocker quiet(m_compared);
+        // Offered where there are some.
+        const int snapshots = m_compared->findData(static_cast<int>(Compared::Snapshots));
+        const bool offered =
+            !m_controller.document().snapshots.empty() || shown.compared == Compared::Snapshots;
+        if (offered && snapshots < 0)
+            m_compared->addItem(tr("Snapshots"), static_cast<int>(Compared::Snapshots));
+        else if (!offered && snapshots >= 0)
+            m_compared->removeItem(snapshots);
         m_compared->setCurrentIndex(m_compared->findData(static_cast<int>(shown.compared)));
     }
     const bool values = shown.compared == Compared::Values && shown.info != nullptr;

@@ -1,5 +1,5 @@
 // What the columns or rows of the wall compare: environments, materials, lighting modes, tone
-// curves, which of them, or the values of a parameter.
+// curves, snapshots, which of them, or the values of a parameter.
 #pragma once
 
 #include "core/cells/WallPlan.h"

@@ -20,7 +20,7 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kFrame = 2;
+constexpr int kCellFrame = 2;
 constexpr int kLegendWidth = 160, kLegendHeight = 10;
 constexpr double kMark = 8.0; // radius
 
@@ -234,7 +234,7 @@ void WallOverlay::paintEvent(QPaintEvent*) {
         paintDifference(painter, m_layout.cells[*m_wall.enlarged()]);
     const auto current = m_wall.current();
     if (current && *current < m_layout.cells.size() && !m_wall.enlarged()) {
-        painter.setPen(QPen(QColor(tokens::kAccent), kFrame));
+        painter.setPen(QPen(QColor(tokens::kAccent), kCellFrame));
         painter.drawRect(m_layout.cells[*current].adjusted(1, 1, -1, -1));
     }
 }

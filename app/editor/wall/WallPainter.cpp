@@ -6,6 +6,7 @@
 #include "app/editor/wall/WallComparison.h"
 #include "app/editor/wall/WallState.h"
 #include "core/document/Snapshot.h"
+#include "core/document/ViewChoices.h"
 #include "core/image/Channels.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
@@ -20,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+#include <tuple>
 
 namespace patina::editor {
 namespace {
@@ -128,6 +130,17 @@ void WallPainter::composeCell(std::size_t index, const render::FrameSettings& fr
         return;
     }
     shown->snapshots.clear(); // keeping one changes no picture
+    // The viewport has one display.
+    const auto display = [](const View& of) {
+        return std::tie(of.ocioConfig, of.ocioDisplay, of.ocioView);
+    };
+    if (shown->view.toneMap == ToneMap::OpenColorIo &&
+        display(shown->view) != display(document.view)) {
+        m_absences[index] = {tr("This snapshot has another OpenColorIO display than the scene; "
+                                "restore it to see it"),
+                             false};
+        return;
+    }
     const bool resolved = m_lights.resolve(*shown, document);
     const bool lit = !environmentParts(*shown).empty();
     const ImagePtr picture = resolved && lit ? shownEnvironment(*shown).image : nullptr;
