@@ -18,8 +18,9 @@
 namespace patina::cli {
 namespace {
 
-constexpr std::array kCommands = {"info",        "render", "sheet",  "bake",    "merge",
-                                  "environment", "export", "refine", "compare", "parameters"};
+constexpr std::array kCommands = {"info",   "render",  "sheet",       "rank",
+                                  "bake",   "merge",   "environment", "export",
+                                  "refine", "compare", "parameters"};
 
 constexpr const char* kAbout =
     "Patina: a desktop editor for physically based materials you can trust.\n\n"
@@ -45,6 +46,7 @@ CommandParser::CommandParser()
     addInfo();
     addRender();
     addSheet();
+    addRank();
     addBakes();
     addMerge();
     addEnvironment();

@@ -78,7 +78,9 @@ class CommandParser {
     void addInfo();
     void addRender();
     void addSheet();
-    // What `render` and `sheet` have in common.
+    void addRank();
+    // What `render` and `sheet` have in common; addLook(): `rank`, too.
+    void addLook(CLI::App* command, PictureOptions& options);
     void addEnvironmentOption(CLI::App* command, PictureOptions& options);
     void addPicture(CLI::App* command, PictureOptions& options);
     void addEnvironment();
@@ -92,6 +94,7 @@ class CommandParser {
     InfoOptions m_info;
     RenderOptions m_render;
     SheetOptions m_sheet;
+    RankOptions m_rank;
     BakeAoOptions m_ao;
     BakePrtOptions m_prt;
     BakeIblOptions m_ibl;

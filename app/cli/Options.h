@@ -64,6 +64,17 @@ struct SheetOptions : PictureOptions {
     bool skipBroken = false; // environments that cannot be read
 };
 
+struct RankOptions : PictureOptions {
+    RankOptions() { size = "128x128"; }
+    std::vector<std::string> environments; // folders, files, builtin:NAME
+    int rotations = 36;
+    std::string by = "difference"; // or clipping, contrast
+    std::string reference;         // ENV[@DEG]; empty: the mean look
+    std::string sensitivity;       // a picture of it; empty: none
+    bool unshadowed = false;
+    bool skipBroken = false;
+};
+
 enum class BakeTarget { Texel, Vertex };
 
 // How a long bake is split, kept and gone on with.
@@ -165,9 +176,9 @@ struct ParametersOptions {
 
 struct Invocation {
     CommonOptions common;
-    std::variant<InfoOptions, RenderOptions, SheetOptions, BakeAoOptions, BakePrtOptions,
-                 BakeIblOptions, MergeOptions, EnvironmentOptions, ExportOptions, RefineOptions,
-                 CompareOptions, ParametersOptions>
+    std::variant<InfoOptions, RenderOptions, SheetOptions, RankOptions, BakeAoOptions,
+                 BakePrtOptions, BakeIblOptions, MergeOptions, EnvironmentOptions, ExportOptions,
+                 RefineOptions, CompareOptions, ParametersOptions>
         options;
 };
 

@@ -35,11 +35,7 @@ void CommandParser::addEnvironmentOption(CLI::App* c, PictureOptions& o) {
     addLayout(c, o.environmentLayout);
 }
 
-void CommandParser::addPicture(CLI::App* c, PictureOptions& o) {
-    c->add_option("--samples", o.samples, "Samples per pixel against jagged edges (MSAA)")
-        ->check(plain(CLI::IsMember({1, 2, 4, 8, 16})))
-        ->capture_default_str()
-        ->type_name("N");
+void CommandParser::addLook(CLI::App* c, PictureOptions& o) {
     c->add_option("--camera", o.camera,
                   "Orbit in degrees and metres; without DISTANCE the scene fills the picture")
         ->type_name("YAW,PITCH[,DISTANCE]");
@@ -50,6 +46,14 @@ void CommandParser::addPicture(CLI::App* c, PictureOptions& o) {
     c->add_option("--tone-map", o.toneMap,
                   fmt::format("One of {}", fmt::join(findParameter("view.toneMap")->choices, ", ")))
         ->type_name("NAME");
+}
+
+void CommandParser::addPicture(CLI::App* c, PictureOptions& o) {
+    c->add_option("--samples", o.samples, "Samples per pixel against jagged edges (MSAA)")
+        ->check(plain(CLI::IsMember({1, 2, 4, 8, 16})))
+        ->capture_default_str()
+        ->type_name("N");
+    addLook(c, o);
     c->add_option("--background", o.background,
                   "visible, blurred, transparent (or off), or a colour as R,G,B or #rrggbb")
         ->type_name("NAME");
@@ -171,6 +175,51 @@ void CommandParser::addSheet() {
         }
         return decltype(m_invocation.options)(o);
     };
+}
+
+void CommandParser::addRank() {
+    RankOptions& o = m_rank;
+    CLI::App* c = addCommand(m_app, "rank",
+                             "Environments and their rotations, in the order of what a scene loses "
+                             "in them",
+                             o);
+    addSceneAndOutput(c, o, "Ranking: .json");
+    c->add_option("--environments", o.environments,
+                  "Environments: folders of .hdr and .exr, files, builtin:NAME")
+        ->required()
+        ->type_name("FOLDER|HDR …");
+    addLayout(c, o.environmentLayout);
+    c->add_flag("--skip-broken", o.skipBroken,
+                "Rank the others when environments that are named cannot be read; those of "
+                "folders are always listed");
+    c->add_option("--rotations", o.rotations, "Of each environment, evenly spaced from 0°")
+        ->check(plain(CLI::Range(1, 3600)))
+        ->capture_default_str()
+        ->type_name("N");
+    c->add_option("--by", o.by,
+                  "What the worst light has most of: clipping (share of the pixels at either end "
+                  "of the display), contrast (what is lost of it), difference (FLIP of the worst "
+                  "thousandth of the pixels)")
+        ->check(plain(CLI::IsMember({"clipping", "contrast", "difference"})))
+        ->capture_default_str()
+        ->type_name("NAME");
+    c->add_option("--reference", o.reference,
+                  "Light whose look the others are compared with: an environment by its name or "
+                  "file, and a rotation in degrees (default: the mean look)")
+        ->type_name("ENV[@DEG]");
+    c->add_option("--sensitivity", o.sensitivity,
+                  "Also write where the light decides what is seen: standard deviation in stops, "
+                  "as numbers into an .exr, as colours into .png, .jpg, .tif, .tga")
+        ->type_name("FILE");
+    c->add_option("--size", o.size, "Pixels of a picture, which no file shows")
+        ->capture_default_str()
+        ->type_name("WxH");
+    addLook(c, o);
+    addBakeFiles(c, "--bake", o.bakes,
+                 "Radiance transfer of the scene (default: the project's, else a quick bake)");
+    c->add_flag("--unshadowed", o.unshadowed, "Without a bake: nothing hides the environment");
+    addSets(c);
+    addThreads(c);
 }
 
 void CommandParser::addEnvironment() {

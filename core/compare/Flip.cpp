@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 namespace patina {
@@ -18,8 +17,6 @@ using compare::FlipKernels;
 using compare::FlipRow;
 using compare::FlipTile;
 using compare::TileRect;
-
-constexpr float kSqrtHalf = 1.0f / std::numbers::sqrt2_v<float>;
 
 bool isHdr(const Image& image) {
     return image.type() == PixelType::F32 && image.encoding() != ColorEncoding::Srgb;
@@ -55,13 +52,6 @@ Result<void> forEachTile(const Image& image, const Image& reference, const FlipK
     return {};
 }
 
-// ΔE = ΔE_c^(1 - ΔE_f) (2020, eq. 9): nothing where colours are the same, more than their
-// difference where edges or points differ, too.
-float combined(float color, float edge, float point) {
-    const float feature = std::sqrt(std::min(1.0f, std::max(edge, point) * kSqrtHalf));
-    return color > 0.0f ? std::pow(color, 1.0f - feature) : 0.0f;
-}
-
 } // namespace
 
 Result<Flip> computeFlip(const Image& image, const Image& reference, const JobContext& job,
@@ -89,8 +79,8 @@ Result<Flip> computeFlip(const Image& image, const Image& reference, const JobCo
                 static_cast<std::size_t>(rect.y + y) * static_cast<std::size_t>(image.width()) +
                 static_cast<std::size_t>(rect.x);
             for (std::size_t x = 0; x < row.color.size(); ++x)
-                out[first + x] =
-                    std::max(out[first + x], combined(row.color[x], row.edge[x], row.point[x]));
+                out[first + x] = std::max(
+                    out[first + x], compare::flipError(row.color[x], row.edge[x], row.point[x]));
         };
         if (!flip.exposures)
             return tile.evaluate(nullptr, keepLarger);

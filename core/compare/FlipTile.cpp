@@ -138,4 +138,47 @@ void FlipTile::evaluate(const float* exposure,
     }
 }
 
+FlipFeatures FlipTile::features(const Image& image, const TileRect& rect) {
+    m_rect = rect;
+    Picture& picture = m_pictures[0];
+    readPicture(image, picture);
+    filterAlongX(picture, nullptr);
+    FlipFeatures features;
+    const auto append = [&](std::vector<float>& all, const Plane& row) {
+        all.insert(all.end(), row.begin(), row.begin() + rect.width);
+    };
+    for (int y = 0; y < rect.height; ++y) {
+        filterRow(picture, y);
+        for (std::size_t c = 0; c < 3; ++c)
+            append(features.color[c], picture.color[c]);
+        append(features.edge, picture.edge);
+        append(features.point, picture.point);
+    }
+    return features;
+}
+
+void FlipTile::evaluateAgainst(const FlipFeatures& reference, const Image& image,
+                               const TileRect& rect,
+                               const std::function<void(int, const FlipRow&)>& take) {
+    m_rect = rect;
+    Picture& a = m_pictures[0];
+    readPicture(image, a);
+    filterAlongX(a, nullptr);
+    const auto columns = static_cast<std::size_t>(rect.width);
+    for (int y = 0; y < rect.height; ++y) {
+        filterRow(a, y);
+        const std::size_t first = static_cast<std::size_t>(y) * columns;
+        for (std::size_t x = 0; x < columns; ++x) {
+            const glm::vec3 mine(a.color[0][x], a.color[1][x], a.color[2][x]);
+            const glm::vec3 other(reference.color[0][first + x], reference.color[1][first + x],
+                                  reference.color[2][first + x]);
+            m_color[x] = mine == other ? 0.0f : m_colorDifference(mine, other);
+            m_edge[x] = std::abs(a.edge[x] - reference.edge[first + x]);
+            m_point[x] = std::abs(a.point[x] - reference.point[first + x]);
+        }
+        take(y, {std::span(m_color).first(columns), std::span(m_edge).first(columns),
+                 std::span(m_point).first(columns)});
+    }
+}
+
 } // namespace patina::compare

@@ -5,8 +5,11 @@
 #include "core/compare/FlipKernels.h"
 #include "core/image/Image.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -19,6 +22,20 @@ struct TileRect {
 // One row of a tile: the two differences of features as in FlipTerms, and that of colours.
 struct FlipRow {
     std::span<const float> color, edge, point;
+};
+
+// ΔE = ΔE_c^(1 - ΔE_f) (2020, eq. 9): nothing where colours are the same, more than their
+// difference where edges or points differ, too.
+inline float flipError(float color, float edge, float point) {
+    constexpr float kSqrtHalf = 1.0f / std::numbers::sqrt2_v<float>;
+    const float feature = std::sqrt(std::min(1.0f, std::max(edge, point) * kSqrtHalf));
+    return color > 0.0f ? std::pow(color, 1.0f - feature) : 0.0f;
+}
+
+// What FLIP sees of a tile of one picture, in rows: Hunt-adjusted L*a*b*, and magnitudes.
+struct FlipFeatures {
+    std::array<std::vector<float>, 3> color;
+    std::vector<float> edge, point;
 };
 
 // The buffers of one thread.
@@ -34,6 +51,12 @@ class FlipTile {
     // Calls take(y, row) for each row, y from the tile's top. With an exposure both pictures are
     // multiplied by 2^exposure and tone mapped, else cut to 0…1.
     void evaluate(const float* exposure, const std::function<void(int, const FlipRow&)>& take);
+
+    // Of one picture, cut to 0…1.
+    [[nodiscard]] FlipFeatures features(const Image& image, const TileRect& rect);
+    // As evaluate() without an exposure, of `image` and of features that are known.
+    void evaluateAgainst(const FlipFeatures& reference, const Image& image, const TileRect& rect,
+                         const std::function<void(int, const FlipRow&)>& take);
 
   private:
     using Plane = std::vector<float>;

@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 TEST(CommandLine, HelpListsTheCommandsThatExistAndNoOthers) {
     const Outcome help = runPatina({"--help"});
     EXPECT_EQ(help.status, 0);
-    for (const char* command :
-         {"info", "render", "sheet", "bake", "merge", "export", "refine", "compare", "parameters"})
+    for (const char* command : {"info", "render", "sheet", "rank", "bake", "merge", "export",
+                                "refine", "compare", "parameters"})
         EXPECT_THAT(help.out, HasSubstr(std::string("\n  ") + command + " "));
     EXPECT_THAT(help.err, IsEmpty());
     const Outcome bake = runPatina({"bake", "--help"});
@@ -37,8 +37,8 @@ TEST(CommandLine, HelpStandsInTwoColumns) {
         return std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; });
     };
     const std::vector<std::vector<std::string>> commands{
-        {"bake", "prt"}, {"bake", "ao"}, {"bake", "ibl"}, {"render"},
-        {"sheet"},       {"merge"},      {"refine"},      {"compare"}};
+        {"bake", "prt"}, {"bake", "ao"}, {"bake", "ibl"}, {"render"}, {"sheet"},
+        {"rank"},        {"merge"},      {"refine"},      {"compare"}};
     for (std::vector<std::string> command : commands) {
         SCOPED_TRACE(command.back());
         command.emplace_back("--help");
@@ -123,6 +123,27 @@ TEST(CommandLine, WrongUsageIsStatus2WithAHint) {
         {{"sheet", "builtin:sphere", "-o", "x.png"}, "one or two things: --environments"},
         {{"sheet", "builtin:sphere", "--wedge", "view.exposureEv=0:1:2"}, "--output"},
         {{"sheet", "-o", "x.png", "--environments", "builtin:studio"}, "SCENE"},
+        {{"rank", "builtin:sphere", "-o", "x.json"}, "--environments"},
+        {{"rank", "builtin:sphere", "--environments", "builtin:studio"}, "--output"},
+        {{"rank", "builtin:sphere", "-o", "x.csv", "--environments", "builtin:studio"}, ".json"},
+        {{"rank", "builtin:sphere", "-o", "x.json", "--environments", "builtin:studio", "--by",
+          "beauty"},
+         "--by"},
+        {{"rank", "builtin:sphere", "-o", "x.json", "--environments", "builtin:studio",
+          "--rotations", "0"},
+         "--rotations"},
+        {{"rank", "builtin:sphere", "-o", "x.json", "--environments", "builtin:studio", "--size",
+          "4000x3"},
+         "1024 pixels a side"},
+        {{"rank", "builtin:sphere", "-o", "x.json", "--environments", "builtin:studio",
+          "--sensitivity", "x.hdr"},
+         "--sensitivity"},
+        {{"rank", "builtin:sphere", "-o", "x.json", "--environments", "builtin:studio", "--bake",
+          "x.exr", "--unshadowed"},
+         "exclude each other"},
+        {{"rank", "builtin:sphere", "-o", "x.json", "--environments", "builtin:studio",
+          "--reference", "moon@30"},
+         "moon@30"},
         {{"bake", "ao", "builtin:sphere", "-o", "x.jpg"}, ".png or .exr"},
         {{"bake", "ao", "builtin:sphere", "-o", "x.png", "--target", "vertex"}, ".exr"},
         {{"bake", "ao", "builtin:sphere", "-o", "x.png", "--preset", "best"}, "draft,good,final"},
