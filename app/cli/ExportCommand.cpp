@@ -46,6 +46,7 @@ Result<void> run(Session& session, const ExportOptions& options) {
     settings.includeTransfer = !options.noTransfer;
     settings.transferBands = options.transferBands;
     settings.includeLights = !options.noLights;
+    settings.includeVariants = !options.noVariants;
     settings.visibleOnly = !options.hidden;
     settings.includeEnvironment = options.environmentLight || !options.environment.empty();
 
@@ -57,6 +58,7 @@ Result<void> run(Session& session, const ExportOptions& options) {
                                  {"transfer", settings.includeTransfer},
                                  {"transferBands", settings.transferBands},
                                  {"lights", settings.includeLights},
+                                 {"variants", settings.includeVariants},
                                  {"hidden", options.hidden},
                                  {"environmentLight", settings.includeEnvironment}};
     session.beginPhase();

@@ -145,7 +145,8 @@ struct ExportOptions {
     bool environmentLight = false; // takes the scene's along
     int transferBands = 0;         // 0: all
     bool hidden = false;           // takes hidden meshes along
-    bool noLights = false, noBakedAo = false, noTransfer = false, dryRun = false;
+    bool noLights = false, noBakedAo = false, noTransfer = false, noVariants = false;
+    bool dryRun = false;
 };
 
 struct RefineOptions {

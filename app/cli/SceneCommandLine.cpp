@@ -313,6 +313,9 @@ void CommandParser::addExport() {
     addLayout(c, o.environmentLayout)->needs(environment);
     c->add_flag("--hidden", o.hidden, "Take hidden meshes along");
     c->add_flag("--no-lights", o.noLights, "Leave the lights out");
+    c->add_flag("--no-variants", o.noVariants,
+                "Leave a project's snapshots out, whose materials are written as variants "
+                "(KHR_materials_variants)");
     c->add_flag("--dry-run", o.dryRun, "Say what would be written, and write nothing");
     addSets(c);
     addThreads(c);

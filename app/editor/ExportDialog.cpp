@@ -9,6 +9,7 @@
 #include "app/editor/widget/OutputFile.h"
 #include "core/edit/Edit.h"
 #include "core/export/TransferExport.h"
+#include "core/export/Variants.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -148,13 +149,16 @@ QWidget* ExportDialog::makeSettings() {
         m_bands->addItem(tr("The first %1").arg(bands), bands);
     m_lights = withHelp(new QCheckBox(tr("Lights (KHR_lights_punctual)")),
                         tr("Writes point and directional lights"));
+    m_variants = withHelp(
+        new QCheckBox(tr("Snapshots as material variants (KHR_materials_variants)")),
+        tr("Writes the materials of each snapshot, for programs that can switch between them"));
     m_visible = withHelp(new QCheckBox(tr("Visible meshes only")), tr("Leaves hidden meshes out"));
     m_environment = withHelp(
         new QCheckBox(tr("Environment's light (EXT_lights_image_based)")),
         tr("Writes the environment's light into the file; few programs read it, Babylon.js does"));
     m_environment->setObjectName(QStringLiteral("exportEnvironment"));
     m_visible->setObjectName(QStringLiteral("exportVisible"));
-    for (QCheckBox* box : {m_bakedAo, m_transfer, m_lights, m_environment, m_visible}) {
+    for (QCheckBox* box : {m_bakedAo, m_transfer, m_lights, m_environment, m_variants, m_visible}) {
         box->setChecked(box != m_environment);
         form->addRow(QString(), box);
         connect(box, &QCheckBox::toggled, this, &ExportDialog::refresh);
@@ -163,6 +167,7 @@ QWidget* ExportDialog::makeSettings() {
     }
     // What no bake is there for is not asked.
     form->setRowVisible(m_bands, transfer != nullptr);
+    form->setRowVisible(m_variants, hasMaterialVariants(m_controller.document()));
     connect(m_transfer, &QCheckBox::toggled, m_bands, &QWidget::setEnabled);
 
     connect(m_bands, &QComboBox::currentIndexChanged, this, &ExportDialog::refresh);
@@ -182,6 +187,7 @@ ExportSettings ExportDialog::settings() const {
     settings.transferBands = m_bands->currentData().toInt();
     settings.includeLights = m_lights->isChecked();
     settings.includeEnvironment = m_environment->isChecked();
+    settings.includeVariants = m_variants->isChecked();
     settings.visibleOnly = m_visible->isChecked();
     return settings;
 }

@@ -42,6 +42,7 @@ class ExportDialog : public QDialog {
     QComboBox* m_bands = nullptr; // of the transfer
     QCheckBox* m_lights = nullptr;
     QCheckBox* m_environment = nullptr;
+    QCheckBox* m_variants = nullptr;
     QCheckBox* m_visible = nullptr;
     QTableWidget* m_files = nullptr;
     QLabel* m_warnings = nullptr;

@@ -32,6 +32,8 @@ struct ExportSettings {
     int transferBands = 0;           // the first so many of its bands; 0: all
     bool includeLights = true;       // KHR_lights_punctual
     bool includeEnvironment = false; // EXT_lights_image_based
+    bool includeVariants = true;     // KHR_materials_variants: one for each snapshot, where any has
+                                     // other materials (core/export/Variants.h)
     bool visibleOnly = true;
 };
 

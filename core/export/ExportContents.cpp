@@ -4,9 +4,11 @@
 #include "core/bake/document/DocumentBakeInputs.h"
 #include "core/base/ById.h"
 #include "core/document/AbsentBake.h"
+#include "core/document/Snapshot.h"
 #include "core/edit/Edit.h"
 #include "core/export/GltfEnvironment.h"
 #include "core/export/Names.h"
+#include "core/export/Variants.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 #include "core/material/ModelPresets.h"
@@ -46,6 +48,30 @@ void addInstances(const Document& document, const ExportSettings& settings,
         }
         contents.instances.push_back(std::move(exported));
     }
+}
+
+// The snapshots, whose materials come behind those of the document; equal ones once.
+void addVariants(const Document& document, const ExportSettings& settings,
+                 ExportContents& contents) {
+    if (!settings.includeVariants || !hasMaterialVariants(document))
+        return;
+    bool differs = false; // in what is exported
+    for (ExportedInstance& exported : contents.instances)
+        for (const Material* variant : variantsOf(document, *exported.instance)) {
+            exported.variants.push_back(-1);
+            if (variant == nullptr)
+                continue;
+            const auto known = std::ranges::find_if(contents.materials, [&](const Material* other) {
+                return other == variant || *other == *variant;
+            });
+            exported.variants.back() = static_cast<int>(known - contents.materials.begin());
+            if (known == contents.materials.end())
+                contents.materials.push_back(variant);
+            differs = true;
+        }
+    if (differs)
+        for (const Snapshot& snapshot : document.snapshots)
+            contents.variants.push_back(snapshot.name);
 }
 
 // Bakes that glTF cannot carry, and those that no longer fit.
@@ -155,6 +181,7 @@ std::filesystem::path ExportContents::environmentPath(const ExportSettings& sett
 ExportContents gatherContents(const Document& document, const ExportSettings& settings) {
     ExportContents contents;
     addInstances(document, settings, contents);
+    addVariants(document, settings, contents);
     addTransfer(document, settings, contents);
     if (settings.includeLights)
         for (const Light& light : document.lights)

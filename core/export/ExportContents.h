@@ -19,12 +19,14 @@ struct ExportedInstance {
     std::vector<NodeTransform> transform; // nested nodes, outermost first
     int material = -1;                    // index into ExportContents::materials; -1: none
     const VertexBake* transfer = nullptr;
+    std::vector<int> variants{}; // of each of ExportContents::variants the material; -1: `material`
 };
 
 // Points into the document it was made from.
 struct ExportContents {
     std::vector<ExportedInstance> instances;
     std::vector<const Material*> materials; // used by an instance
+    std::vector<std::string> variants;      // their names; empty: none are written
     std::vector<const Light*> lights;
     std::shared_ptr<const Environment> environment; // of the mix, its light is exported; or null
     BakeArtifactPtr transfer;                       // or null

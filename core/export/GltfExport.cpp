@@ -108,15 +108,18 @@ ExportPlan planGltf(const Document& document, const ExportSettings& settings) {
                         {}};
 
     const bool textured = !contents.textures.textures.empty();
-    const char* all = textured ? "Geometry, materials and textures" : "Geometry and materials";
+    std::string all = textured ? "Geometry, materials and textures" : "Geometry and materials";
+    std::string scene = "Scene and materials";
+    if (const std::size_t count = contents.variants.size(); count > 0)
+        for (std::string* text : {&all, &scene})
+            *text += fmt::format(", {} variant{}", count, count == 1 ? "" : "s");
     const auto job = [gltf](auto member) -> MakeFile {
         return [gltf, member](WorkerClient&, const JobContext& of) {
             return (gltf.get()->*member)(of);
         };
     };
-    plan.files.push_back({settings.output, glb ? all : "Scene and materials", "",
-                          glb ? "GLB" : "glTF (JSON)", false, false, job(&GltfExport::makeScene),
-                          kScene});
+    plan.files.push_back({settings.output, glb ? all : scene, "", glb ? "GLB" : "glTF (JSON)",
+                          false, false, job(&GltfExport::makeScene), kScene});
     if (!glb)
         plan.files.push_back({contents.buffer, "Geometry", "", "binary", false, false,
                               job(&GltfExport::makeBuffer), kBuffer});

@@ -28,6 +28,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kRepeat = 10497, kLinear = 9729, kLinearMipmapLinear = 9987;
 constexpr std::uint32_t kGlbMagic = 0x46546c67, kGlbJson = 0x4e4f534a, kGlbBinary = 0x004e4942;
 constexpr std::uint64_t kMaxBytes = 0xffffffffu;
+constexpr const char* kVariants = "KHR_materials_variants";
 
 template <class Vector>
 Json toJson(const Vector& v) {
@@ -61,23 +62,28 @@ class Writer {
     void writeInstances() {
         // A mesh is written once for each material it is seen with, and for each place whose light
         // is baked; its numbers only once.
-        std::map<std::tuple<const Mesh*, int, const VertexBake*>, int> known;
+        std::map<std::tuple<const Mesh*, int, const VertexBake*, std::vector<int>>, int> known;
         std::set<const Mesh*> needTangents;
+        const auto hasNormalMap = [&](int material) {
+            return material >= 0 && textures(material)[MaterialInput::Normal].texture >= 0;
+        };
         for (const ExportedInstance& exported : m_contents.instances)
-            if (exported.material >= 0 &&
-                textures(exported.material)[MaterialInput::Normal].texture >= 0)
+            if (hasNormalMap(exported.material) ||
+                std::ranges::any_of(exported.variants, hasNormalMap))
                 needTangents.insert(exported.instance->mesh.get());
 
         UniqueNames nodeNames, meshNames;
         for (const ExportedInstance& exported : m_contents.instances) {
             const MeshInstance& instance = *exported.instance;
             const Mesh& mesh = *instance.mesh;
-            const auto [entry, isNew] = known.try_emplace(
-                {&mesh, exported.material, exported.transfer}, static_cast<int>(m_meshes.size()));
+            const auto [entry, isNew] =
+                known.try_emplace({&mesh, exported.material, exported.transfer, exported.variants},
+                                  static_cast<int>(m_meshes.size()));
             if (isNew) {
                 Json primitive = m_geometry.primitive(mesh, needTangents.contains(&mesh));
                 if (exported.material >= 0)
                     primitive["material"] = exported.material;
+                addVariants(primitive, exported.variants);
                 if (exported.transfer != nullptr)
                     addTransfer(primitive["attributes"], *exported.transfer);
                 const std::string name = cleanName(mesh.name, cleanName(instance.name, "Mesh"));
@@ -88,6 +94,22 @@ class Writer {
             addNode(node, exported.transform, {{"mesh", entry->second}});
         }
         m_nodeNames = std::move(nodeNames);
+    }
+
+    // A mapping for each material: the variants that show it. One that is in none of them shows
+    // the primitive's own.
+    void addVariants(Json& primitive, const std::vector<int>& materials) {
+        std::map<int, Json> variants;
+        for (std::size_t i = 0; i < materials.size() && !m_contents.variants.empty(); ++i)
+            if (materials[i] >= 0)
+                variants[materials[i]].push_back(i);
+        if (variants.empty())
+            return;
+        Json mappings = Json::array();
+        for (auto& [material, of] : variants)
+            mappings.push_back({{"material", material}, {"variants", std::move(of)}});
+        primitive["extensions"][kVariants]["mappings"] = std::move(mappings);
+        m_extensions.insert(kVariants);
     }
 
     void addTransfer(Json& attributes, const VertexBake& bake) {
@@ -310,6 +332,13 @@ class Writer {
         root["buffers"] = Json::array({buffer});
         if (!m_lights.empty())
             root["extensions"]["KHR_lights_punctual"]["lights"] = m_lights;
+        if (!m_contents.variants.empty()) {
+            Json variants = Json::array();
+            UniqueNames names;
+            for (const std::string& name : m_contents.variants)
+                variants.push_back({{"name", names.take(cleanName(name, "Snapshot"))}});
+            root["extensions"][kVariants]["variants"] = std::move(variants);
+        }
         if (!m_environmentLight.is_null()) {
             root["extensions"]["EXT_lights_image_based"]["lights"] =
                 Json::array({m_environmentLight});

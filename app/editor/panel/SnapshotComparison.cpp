@@ -55,6 +55,7 @@ SnapshotComparison::SnapshotComparison(DocumentController& controller, QWidget* 
     , m_pictures(new LookPictures(controller.runner()))
     , m_table(new QTreeWidget)
     , m_hint(makeComparisonHint())
+    , m_same(makeComparisonHint())
     , m_content(new QWidget)
     , m_restoreA(new QPushButton(tr("Restore All")))
     , m_restoreB(new QPushButton(tr("Restore All"))) {
@@ -80,6 +81,8 @@ SnapshotComparison::SnapshotComparison(DocumentController& controller, QWidget* 
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(tokens::kGap);
     column->addWidget(m_pictures);
+    m_same->setText(tr("No value differs."));
+    column->addWidget(m_same, 1);
     column->addWidget(m_table, 1);
     auto* buttons = new QHBoxLayout;
     buttons->setSpacing(tokens::kGap);
@@ -112,6 +115,8 @@ void SnapshotComparison::setSides(const Side& a, const Side& b) {
     m_differences = differencesOf(*a.look, *b.look);
     fillTable();
     refreshButtons();
+    m_same->setVisible(m_differences.empty());
+    m_table->setVisible(!m_differences.empty());
     m_hint->hide();
     m_content->show();
 }

@@ -54,7 +54,7 @@ class SnapshotComparison : public QWidget {
     std::vector<LookDifference> m_differences;
     LookPictures* m_pictures;
     QTreeWidget* m_table;
-    QLabel* m_hint;
+    QLabel *m_hint, *m_same; // instead of all; instead of the table
     QWidget* m_content;
     QPushButton *m_restoreA, *m_restoreB;
 };
