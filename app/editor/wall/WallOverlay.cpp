@@ -198,7 +198,7 @@ void WallOverlay::paintOwnValues(QPainter& painter) const {
                                                                 tokens::kGap / 2, tokens::kGap / 4);
         label.moveBottomLeft(cell.bottomLeft() + QPoint(tokens::kGap / 2, -tokens::kGap / 2));
         painter.fillRect(label, QColor(tokens::kWell));
-        painter.fillRect(QRect(label.left(), label.top(), kFrame, label.height()),
+        painter.fillRect(QRect(label.left(), label.top(), kCellFrame, label.height()),
                          QColor(kColors[group % kColors.size()]));
         painter.setPen(QColor(tokens::kText));
         painter.drawText(label, Qt::AlignCenter, text);
