@@ -19,14 +19,14 @@ using namespace patina;
 
 namespace {
 
-struct Case {
+struct MemoryCase {
     const char* name;
     int segments, sides; // of a torus knot
     int order, samples;
 };
-constexpr Case kCases[] = {{"100k vertices, 5 bands, 1024 rays", 3124, 32, 5, 1024},
-                           {"1M vertices, 4 bands, 256 rays", 10'000, 100, 4, 256},
-                           {"5M triangles, 4 bands, 32 rays", 16'667, 150, 4, 32}};
+constexpr MemoryCase kMemoryCases[] = {{"100k vertices, 5 bands, 1024 rays", 3124, 32, 5, 1024},
+                                       {"1M vertices, 4 bands, 256 rays", 10'000, 100, 4, 256},
+                                       {"5M triangles, 4 bands, 32 rays", 16'667, 150, 4, 32}};
 
 // "VmHWM:   12345 kB" of this process, MiB.
 double statusMiB(const std::string& key) {
@@ -51,7 +51,7 @@ class Peak {
 };
 
 void peakMemory(benchmark::State& state) {
-    const Case& c = kCases[state.range(0)];
+    const MemoryCase& c = kMemoryCases[state.range(0)];
     Document document;
     BakeInputs inputs;
     {
