@@ -1,35 +1,16 @@
 #include "app/editor/MainWindow.h"
 
 #include "app/editor/Actions.h"
-#include "app/editor/ActivityStatus.h"
 #include "app/editor/Docks.h"
 #include "app/editor/EnvironmentSaveDialog.h"
 #include "app/editor/EscapeKey.h"
 #include "app/editor/ExportDialog.h"
 #include "app/editor/FileFlow.h"
-#include "app/editor/HelpDialogs.h"
 #include "app/editor/Session.h"
 #include "app/editor/ViewActions.h"
 #include "app/editor/document/PrintableNotice.h"
 #include "app/editor/document/QtText.h"
-#include "app/editor/panel/BakePanel.h"
-#include "app/editor/panel/BrdfLensPanel.h"
-#include "app/editor/panel/EnergyPanel.h"
-#include "app/editor/panel/EnvironmentPanel.h"
-#include "app/editor/panel/HistoryPanel.h"
-#include "app/editor/panel/JobsPanel.h"
-#include "app/editor/panel/LightLabPanel.h"
-#include "app/editor/panel/LightsPanel.h"
-#include "app/editor/panel/LogPanel.h"
-#include "app/editor/panel/MaterialPanel.h"
-#include "app/editor/panel/MixerPanel.h"
-#include "app/editor/panel/ModelPanel.h"
 #include "app/editor/panel/ParameterRow.h"
-#include "app/editor/panel/PixelPanel.h"
-#include "app/editor/panel/ScenePanel.h"
-#include "app/editor/panel/SnapshotsPanel.h"
-#include "app/editor/panel/TransferPanel.h"
-#include "app/editor/panel/ViewPanel.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/viewport/DropTarget.h"
 #include "app/editor/viewport/EquationBar.h"
@@ -48,17 +29,13 @@
 #include "core/document/ViewChoices.h"
 #include "core/edit/EditSession.h"
 #include "core/library/Library.h"
-#include "core/light/Light.h"
 
 #include <QCloseEvent>
-#include <QDockWidget>
 #include <QFileInfo>
 #include <QLabel>
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QMimeData>
-#include <QScreen>
-#include <QSettings>
 #include <QToolBar>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -66,18 +43,7 @@
 namespace patina::editor {
 namespace {
 
-constexpr QSize kComfortable(1440, 900);
-constexpr int kFrameHeight = 60;     // more than a title bar needs; what it is is known too late
-constexpr int kLayoutVersion = 6;    // raise when docks come or go: older layouts are ignored
 constexpr qint64 kFrameTimeMs = 250; // how often the number changes, so that it can be read
-
-QStringList droppedFiles(const QMimeData* data) {
-    QStringList files;
-    for (const QUrl& url : data->urls())
-        if (url.isLocalFile())
-            files << url.toLocalFile();
-    return files;
-}
 
 } // namespace
 
@@ -113,11 +79,12 @@ MainWindow::MainWindow(Session& session)
                               this);
     });
     layout->addWidget(m_viewport, 1);
-    new WallOverlay(session.wall, session.comparison, *m_viewport);
+    auto* wallOverlay = new WallOverlay(session.wall, session.comparison, *m_viewport);
     new SplitHandle(session.comparison, *m_viewport);
     m_overlay = new ViewOverlay(session.views, session.controller, *m_viewport);
     m_progress = new SceneProgress(session.controller, *m_viewport);
-    new DropTarget(*this, *m_viewport, session.controller, session.selection);
+    m_drop = new DropTarget(*this, *m_viewport, session.controller, session.selection,
+                            {session.wall, session.controller, *wallOverlay});
     auto* equation = new EquationBar(session.views, session.controller, m_viewport->sheets());
     layout->addWidget(equation);
     connect(m_looks->equation, &QAction::toggled, equation,
@@ -166,8 +133,6 @@ MainWindow::MainWindow(Session& session)
 
 MainWindow::~MainWindow() = default;
 
-// --- Docks ---------------------------------------------------------------------------------------
-
 // Narrow, its name below it: it stands among thumbnails.
 QWidget* MainWindow::makeReflectionMix() {
     constexpr int kWidth = 160;
@@ -192,90 +157,7 @@ QWidget* MainWindow::makeReflectionMix() {
     return box;
 }
 
-void MainWindow::makeDocks() {
-    const Actions& a = *m_actions;
-    DocumentController& controller = m_session.controller;
-    auto* scene = new ScenePanel(controller, m_session.selection, m_session.thumbnails);
-    connect(scene, &ScenePanel::frameRequested, m_viewport, &ViewportWidget::frameSelection);
-    m_docks->add(a.sceneDock, QStringLiteral("scene"), scene);
-    m_docks->add(a.materialDock, QStringLiteral("material"),
-                 new MaterialPanel(controller, m_session.selection, m_session.thumbnails));
-    auto* environment = new EnvironmentPanel(controller, m_session.thumbnails);
-    connect(environment, &EnvironmentPanel::saveRequested, a.saveEnvironment, &QAction::trigger);
-    m_docks->add(a.environmentDock, QStringLiteral("environment"), environment);
-    m_docks->add(a.lightsDock, QStringLiteral("lights"),
-                 new LightsPanel(controller, m_session.selection, m_session.thumbnails));
-    auto* view = new ViewPanel(controller, m_session.displays, m_session.thumbnails);
-    connect(m_viewport, &ViewportWidget::luminanceMeasured, view, &ViewPanel::setLuminance);
-    connect(m_docks->add(a.viewDock, QStringLiteral("view"), view), &QDockWidget::visibilityChanged,
-            m_viewport, &ViewportWidget::setLuminanceWanted);
-    auto* bake = new BakePanel(controller, m_session.bakes, m_session.jobs);
-    m_docks->add(a.bakeDock, QStringLiteral("bake"), bake);
-    connect(m_overlay, &ViewOverlay::remedyWanted, this, [&controller, bake](ViewRemedy remedy) {
-        if (remedy == ViewRemedy::AddLight)
-            controller.addLight(LightType::Directional);
-        else
-            bake->bakeTransfer(remedy == ViewRemedy::BakeBounces);
-    });
-    m_docks->add(a.modelDock, QStringLiteral("model"),
-                 new ModelPanel(controller, m_session.selection, m_session.thumbnails));
-    m_docks->add(a.jobsDock, QStringLiteral("jobs"), new JobsPanel(m_session.jobs));
-    m_docks->add(a.logDock, QStringLiteral("log"), new LogPanel);
-    m_docks->add(a.historyDock, QStringLiteral("history"),
-                 new HistoryPanel(controller, *m_viewport, m_session.wall));
-    auto* snapshots = new SnapshotsPanel(controller, *m_viewport, m_session.wall);
-    connect(a.keepSnapshot, &QAction::triggered, snapshots, &SnapshotsPanel::keep);
-    m_docks->add(a.snapshotsDock, QStringLiteral("snapshots"), snapshots);
-    m_docks->addInstrument(a.pixel, QStringLiteral("pixel"),
-                           new PixelPanel(controller, m_session.probe, m_viewport->picker()));
-    auto* lightLab = new LightLabPanel(controller, m_session.ibl, m_session.probe);
-    connect(m_viewport, &ViewportWidget::luminanceMeasured, lightLab, &LightLabPanel::setLuminance);
-    connect(m_docks->addInstrument(a.lightLab, QStringLiteral("lightLab"), lightLab),
-            &QDockWidget::visibilityChanged, lightLab, &LightLabPanel::setSeen);
-    m_docks->addInstrument(
-        a.lens, QStringLiteral("lens"),
-        new BrdfLensPanel(controller, m_session.selection, m_session.probe, m_session.lobe));
-    m_docks->addInstrument(a.energy, QStringLiteral("energy"),
-                           new EnergyPanel(controller, m_session.selection, m_session.views));
-    m_docks->addInstrument(a.mixer, QStringLiteral("mixer"), new MixerPanel(controller));
-    auto* transfer =
-        new TransferPanel(controller, m_session.probe, m_session.lobe, m_session.nearShadows);
-    connect(transfer, &TransferPanel::bakeWanted, bake, [bake] { bake->bakeTransfer(false); });
-    m_docks->addInstrument(a.transfer, QStringLiteral("transfer"), transfer);
-    m_docks->reset();
-}
-
-// Of the menu bar and the titles of docks. Qt's own would close docks that are behind a tab.
-QMenu* MainWindow::createPopupMenu() {
-    auto* menu = new QMenu(this);
-    menu->addActions(m_actions->docks());
-    menu->addSeparator();
-    menu->addActions(m_actions->instruments());
-    return menu;
-}
-
-QSize MainWindow::firstSize(const QSize& available) {
-    return kComfortable.boundedTo(available - QSize(0, kFrameHeight));
-}
-
-void MainWindow::restoreLayout() {
-    QSettings settings;
-    // Small screens, and scaled ones, which are small in device-independent pixels, are filled.
-    const QSize available = screen()->availableSize();
-    resize(firstSize(available));
-    if (firstSize(available) != kComfortable)
-        setWindowState(windowState() | Qt::WindowMaximized);
-    if (!restoreGeometry(settings.value(QStringLiteral("window/geometry")).toByteArray()) ||
-        !m_docks->restore(settings.value(QStringLiteral("window/state")).toByteArray(),
-                          kLayoutVersion))
-        m_docks->reset();
-}
-
-void MainWindow::resetLayout() {
-    m_docks->reset();
-}
-
-// --- Menus, tool bar, status bar -----------------------------------------------------------------
+// --- Menus, tool bar, status bar ----------------------------------------------------------------
 
 void MainWindow::makeMenus() {
     Actions& a = *m_actions;
@@ -399,105 +281,7 @@ void MainWindow::showFrame(double milliseconds, PictureState state) {
                              .arg(qRound(1000.0 / std::max(milliseconds, 1.0))));
 }
 
-// --- Connections ---------------------------------------------------------------------------------
-
-void MainWindow::connectActions() {
-    Actions& a = *m_actions;
-    DocumentController& controller = m_session.controller;
-    connect(a.newScene, &QAction::triggered, m_files, &FileFlow::newScene);
-    connect(a.open, &QAction::triggered, m_files, &FileFlow::openWithDialog);
-    connect(a.addModel, &QAction::triggered, m_files, &FileFlow::addModelWithDialog);
-    connect(a.save, &QAction::triggered, m_files, qOverload<>(&FileFlow::save));
-    connect(a.saveAs, &QAction::triggered, m_files, qOverload<>(&FileFlow::saveAs));
-    connect(a.exportScene, &QAction::triggered, this, &MainWindow::openExportDialog);
-    connect(a.saveEnvironment, &QAction::triggered, this, &MainWindow::openEnvironmentSaveDialog);
-    connect(a.quit, &QAction::triggered, this, &QWidget::close);
-    connect(a.frame, &QAction::triggered, m_viewport, &ViewportWidget::frameSelection);
-    connect(a.home, &QAction::triggered, m_viewport, &ViewportWidget::resetCamera);
-    connect(a.overlays, &QAction::toggled, m_viewport, &ViewportWidget::setOverlaysVisible);
-    connect(a.wall, &QAction::triggered, &m_session.wall, &WallState::setOn);
-    connect(&m_session.wall, &WallState::changed, this, [this] {
-        m_actions->wall->setChecked(m_session.wall.isOn());
-        if (m_session.wall.isOn() && m_session.views.settings().split)
-            m_session.views.toggleSplit(); // cells show one view each
-    });
-    const auto lighting = [this](LightingMode mode) {
-        m_session.controller.setParameter(parameter("view.lighting"), {Scope::View, 0},
-                                          static_cast<int>(mode));
-        refreshView();
-    };
-    connect(a.lightingIbl, &QAction::triggered, this, [=] { lighting(LightingMode::Ibl); });
-    connect(a.lightingPrt, &QAction::triggered, this, [=] { lighting(LightingMode::Prt); });
-    connect(a.furnace, &QAction::triggered, this, [this](bool on) {
-        m_session.views.edit([on](render::ViewSettings& s) {
-            s.furnace = on ? std::optional(glm::vec3(1.0f)) : std::nullopt;
-        });
-    });
-    connect(&m_session.views, &ViewState::changed, this, [this] {
-        if (m_session.views.settings().split)
-            m_session.wall.setOn(false); // that is of one picture
-        m_actions->furnace->setChecked(m_session.views.settings().furnace.has_value());
-    });
-    connect(a.fullScreen, &QAction::toggled, this,
-            [this](bool on) { setWindowState(windowState().setFlag(Qt::WindowFullScreen, on)); });
-    connect(a.resetLayout, &QAction::triggered, this, &MainWindow::resetLayout);
-    connect(a.nextDock, &QAction::triggered, m_docks, &Docks::focusNext);
-    connect(a.previousDock, &QAction::triggered, m_docks, &Docks::focusPrevious);
-    connect(a.pinPixel, &QAction::triggered, &m_viewport->picker(), &PixelPicker::togglePin);
-    connect(&m_viewport->picker(), &PixelPicker::pinned, this, [this] {
-        if (!m_session.probe.wanted()) // nobody shows what was asked for
-            m_actions->pixel->trigger();
-    });
-    connect(a.shortcuts, &QAction::triggered, this,
-            [this] { makeShortcutsDialog(m_actions->all(), m_looks->listed(), this)->show(); });
-    connect(a.about, &QAction::triggered, this, [this] { makeAboutDialog(this)->show(); });
-
-    connect(m_files, &FileFlow::recentFilesChanged, this, &MainWindow::fillRecentMenu);
-    connect(&controller, &DocumentController::fileChanged, this, &MainWindow::refreshTitle);
-    connect(m_progress, &SceneProgress::sceneShown, this, &MainWindow::refreshTitle);
-    connect(m_files, &FileFlow::openingChanged, m_progress, &SceneProgress::setOpening);
-    connect(&controller, &DocumentController::noticed, this, &MainWindow::notice);
-    connect(&controller, &DocumentController::changed, m_notices, [this](const Change& change) {
-        if (change.isAnotherDocument())
-            m_notices->sceneReplaced(m_session.controller.isPristine());
-    });
-    auto* activity = new ActivityStatus(m_session, *m_busy, this);
-    connect(activity, &ActivityStatus::jobsWanted, this, [this] {
-        if (!m_actions->jobsDock->isChecked())
-            m_actions->jobsDock->trigger();
-    });
-    connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
-        if (touches(change.affects, Affects::Geometry | Affects::Structure))
-            refreshTriangles();
-        if (!change.target || change.target->scope == Scope::View ||
-            touches(change.affects, Affects::Bakes))
-            refreshView();
-    });
-    connect(m_viewport, &ViewportWidget::frameRendered, this, &MainWindow::showFrame);
-    connect(m_viewport, &ViewportWidget::displayRefused, &m_session.displays,
-            &DisplayLoader::refuse);
-    connect(&m_session.displays, &DisplayLoader::noticed, this, &MainWindow::notice);
-    connect(m_viewport, &ViewportWidget::contextReady, this,
-            [this](const QString& gpu, const QString& version) {
-                m_gpu->setText(
-                    tr("%1   OpenGL %2").arg(gpu, version.section(QLatin1Char(' '), 0, 0)));
-                m_gpu->setToolTip(tr("%1\nOpenGL %2").arg(gpu, version));
-            });
-    connect(m_viewport, &ViewportWidget::contextFailed, this, [this](const QString& reason) {
-        m_gpu->setText(tr("No OpenGL 4.5"));
-        notice({NoticeKind::Error, reason, {}, {}, NoticeAbout::Program});
-    });
-    connect(m_viewport, &ViewportWidget::shaderProblems, this, [this](const QStringList& messages) {
-        notice({NoticeKind::Error,
-                tr("A shader does not compile; the last good one stays in use."),
-                messages,
-                {},
-                NoticeAbout::Program});
-    });
-    fillRecentMenu();
-    refreshTriangles();
-    refreshView();
-}
+// --- What is shown ------------------------------------------------------------------------------
 
 void MainWindow::fillRecentMenu() {
     m_recentMenu->clear();
@@ -564,7 +348,7 @@ void MainWindow::openEnvironmentSaveDialog() {
     dialog->open();
 }
 
-// --- Window events -------------------------------------------------------------------------------
+// --- Window events ------------------------------------------------------------------------------
 
 // Window managers have ways of their own into full screen and out of it.
 void MainWindow::changeEvent(QEvent* event) {
@@ -583,21 +367,21 @@ void MainWindow::closeEvent(QCloseEvent* event) {
         });
         return;
     }
-    QSettings settings;
-    settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
-    settings.setValue(QStringLiteral("window/state"), saveState(kLayoutVersion));
+    saveLayout();
     m_session.jobs.shutDown();
     event->accept();
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
-    if (!droppedFiles(event->mimeData()).isEmpty())
+    if (!draggedFiles(*event->mimeData()).isEmpty())
         event->acceptProposedAction();
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
     event->acceptProposedAction();
-    m_files->dropped(droppedFiles(event->mimeData()), mapToGlobal(event->position().toPoint()));
+    const QStringList files = draggedFiles(*event->mimeData());
+    if (!m_drop->drop(files, event->position()))
+        m_files->dropped(files, mapToGlobal(event->position().toPoint()));
 }
 
 } // namespace patina::editor

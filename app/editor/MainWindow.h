@@ -12,6 +12,7 @@ namespace patina::editor {
 class Actions;
 class BusyIndicator;
 class Docks;
+class DropTarget;
 class FileFlow;
 class MaterialPanel;
 class NoticeArea;
@@ -50,6 +51,7 @@ class MainWindow : public QMainWindow {
   private:
     QWidget* makeReflectionMix();
     void makeDocks();
+    void saveLayout() const;
     void makeMenus();
     void makeToolBar();
     void makeStatusBar();
@@ -71,7 +73,8 @@ class MainWindow : public QMainWindow {
     ViewportWidget* m_viewport;
     ViewOverlay* m_overlay = nullptr;    // over the viewport
     SceneProgress* m_progress = nullptr; // likewise
-    NoticeArea* m_notices;               // over the viewport
+    DropTarget* m_drop = nullptr;
+    NoticeArea* m_notices; // over the viewport
     QMenu* m_recentMenu = nullptr;
     BusyIndicator* m_busy = nullptr;
     QLabel *m_gpu = nullptr, *m_frameTime = nullptr, *m_triangles = nullptr;

@@ -31,7 +31,8 @@ struct Session {
     DisplayLoader displays{controller};
     SelectionModel selection{controller};
     Thumbnails thumbnails{tasks};
-    IblUpdater ibl{tasks, iblCacheFolder()};
+    PreparedLights lights{iblCacheFolder()};
+    IblUpdater ibl{tasks, lights};
     ViewState views;
     WallState wall{controller};
     WallComparison comparison{wall, tasks, worker};

@@ -14,6 +14,16 @@ std::vector<OwnValues>::iterator ownOf(std::vector<OwnValues>& own, const WallCe
     return std::ranges::find(own, cell.shared, &OwnValues::of);
 }
 
+OwnValues& addedOwnOf(std::vector<OwnValues>& own, const WallCell& cell) {
+    const auto found = ownOf(own, cell);
+    return found != own.end() ? *found : own.emplace_back(OwnValues{cell.shared, 0, {}});
+}
+
+void dropEmpty(std::vector<OwnValues>& own) {
+    std::erase_if(own,
+                  [](const OwnValues& one) { return one.environment == 0 && one.values.empty(); });
+}
+
 } // namespace
 
 std::vector<WallCell> cellsOf(const Wall& wall, std::span<const OwnValues> own) {
@@ -22,23 +32,28 @@ std::vector<WallCell> cellsOf(const Wall& wall, std::span<const OwnValues> own) 
         const auto found = std::ranges::find(own, cell.shared, &OwnValues::of);
         if (found == own.end())
             continue;
+        cell.ownEnvironment = found->environment;
         cell.own = found->values;
         Cell above;
+        above.environment = found->environment;
         above.own = found->values;
         cell.cell = combined(cell.shared, above);
     }
     return cells;
 }
 
+void setOwnEnvironment(std::vector<OwnValues>& own, const WallCell& cell, Id environment) {
+    addedOwnOf(own, cell).environment = environment;
+    dropEmpty(own);
+}
+
 void setOwnValue(std::vector<OwnValues>& own, const WallCell& cell, const CellEdit& value) {
-    auto found = ownOf(own, cell);
-    if (found == own.end())
-        found = own.insert(own.end(), OwnValues{cell.shared, {}});
-    const auto known = std::ranges::find_if(found->values, isOf(value.target, value.info));
-    if (known != found->values.end())
+    std::vector<CellEdit>& values = addedOwnOf(own, cell).values;
+    const auto known = std::ranges::find_if(values, isOf(value.target, value.info));
+    if (known != values.end())
         *known = value;
     else
-        found->values.push_back(value);
+        values.push_back(value);
 }
 
 void linkValue(std::vector<OwnValues>& own, const WallCell& cell, const Target& target,
@@ -47,8 +62,7 @@ void linkValue(std::vector<OwnValues>& own, const WallCell& cell, const Target& 
     if (found == own.end())
         return;
     std::erase_if(found->values, isOf(target, &info));
-    if (found->values.empty())
-        own.erase(found);
+    dropEmpty(own);
 }
 
 } // namespace patina

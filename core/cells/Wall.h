@@ -42,7 +42,8 @@ struct WallCell {
     std::vector<std::string> captions; // of its column and row, or its only one
     Cell cell;                         // all that it has of its own
     Cell shared;                       // of it what its column and row give it
-    std::vector<CellEdit> own;         // and the rest (OwnValues.h)
+    Id ownEnvironment = 0;             // and the rest (OwnValues.h)
+    std::vector<CellEdit> own;
     friend bool operator==(const WallCell&, const WallCell&) = default;
 };
 [[nodiscard]] std::vector<WallCell> cellsOf(const Wall& wall); // row by row

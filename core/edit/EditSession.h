@@ -131,6 +131,8 @@ class EditSession {
     // Environments light the scene when they are added; 0: there are too many, or none to copy.
     Id addEnvironment(const Environment& environment, const std::string& text);
     Id addSecondEnvironment(const Environment& environment, const std::string& text); // to fade to
+    // For cells of a wall: the scene's light stays as it is.
+    Id addUnusedEnvironment(const Environment& environment, const std::string& text);
     Id duplicateEnvironment(Id environment);
     void removeEnvironment(Id environment); // the last one stays
     void lightWith(Id environment);         // it becomes the first of the mix

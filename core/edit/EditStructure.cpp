@@ -165,6 +165,15 @@ Id EditSession::addSecondEnvironment(const Environment& environment, const std::
     return id;
 }
 
+Id EditSession::addUnusedEnvironment(const Environment& environment, const std::string& text) {
+    if (m_document.environments.size() >= kMaxEnvironments)
+        return 0;
+    Id id = 0;
+    editStructure(text,
+                  [&](Document& document) { id = patina::addEnvironment(document, environment); });
+    return id;
+}
+
 Id EditSession::duplicateEnvironment(Id original) {
     const Environment* environment = m_document.environment(original);
     if (!environment || m_document.environments.size() >= kMaxEnvironments)

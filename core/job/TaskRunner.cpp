@@ -411,11 +411,13 @@ void TaskGroup::cancel(const std::string& tag) {
 
 void TaskGroup::cancelAll(const std::vector<std::string>& but) {
     std::vector<TaskRunner::Impl::TaskPtr> out;
+    const auto stays = [&](const std::string& tag) {
+        return std::ranges::any_of(but, [&](const auto& begin) { return tag.starts_with(begin); });
+    };
     {
         const std::lock_guard lock(m_runner->mutex);
         for (const TaskRunner::Impl::TaskPtr& task : m_runner->tasks)
-            if (task->group == m_state.get() && !task->mustBeDone() &&
-                std::ranges::count(but, task->spec.tag) == 0)
+            if (task->group == m_state.get() && !task->mustBeDone() && !stays(task->spec.tag))
                 m_runner->drop(task, out);
         m_runner->erase(out);
         m_runner->wake();

@@ -128,7 +128,7 @@ class TaskGroup {
 
     // Nothing of these is applied any more; those that must be done (Exclusive) are left alone.
     void cancel(const std::string& tag);
-    void cancelAll(const std::vector<std::string>& but = {}); // except those of such tags
+    void cancelAll(const std::vector<std::string>& but = {}); // except where the tag begins so
     // False when something still runs after so long. Applies nothing.
     bool waitForDone(std::chrono::milliseconds patience);
 

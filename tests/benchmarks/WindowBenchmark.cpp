@@ -158,6 +158,7 @@ int main(int argc, char* argv[]) {
         return 1;
     registerFrameBenchmarks(stage);
     registerBakeEditBenchmarks(stage);
+    registerComparisonBenchmarks(stage);
     registerRefinementBenchmarks(stage);
     benchmark::RunSpecifiedBenchmarks();
     return 0;

@@ -61,6 +61,7 @@ inline double quantile(std::vector<double> times, double q) {
 // Each registers what it measures; `stage` outlives the benchmarks.
 void registerFrameBenchmarks(WindowStage& stage);
 void registerBakeEditBenchmarks(WindowStage& stage);
+void registerComparisonBenchmarks(WindowStage& stage);
 void registerRefinementBenchmarks(WindowStage& stage);
 
 } // namespace patina::editor

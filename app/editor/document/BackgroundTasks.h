@@ -35,7 +35,7 @@ class BackgroundTasks : public QObject {
                      .name = activity.toStdString()},
                     std::move(work), std::move(apply));
     }
-    // But those that must be done, and those of the keys in `but`.
+    // But those that must be done, and those whose keys begin with one of `but`.
     void cancelAll(const QStringList& but = {});
 
     [[nodiscard]] bool busy() const { return m_tasks.busy(); }

@@ -89,10 +89,14 @@ class DocumentController : public QObject, private EditObserver {
     void setMap(const ParameterInfo& map, Target target, const QString& source);
     void clearMap(const ParameterInfo& map, Target target);
     void setEnvironment(const QString& source); // a file or "builtin:NAME"; its layout is guessed
-    // Another environment of the scene, as a step: it lights the scene, or is the one to fade to. A
-    // file or "builtin:NAME" that one of them shows already is not added again.
-    enum class EnvironmentUse { Light, FadeTo };
-    void addEnvironment(const QString& source, EnvironmentUse use);
+    // As setEnvironment(), of one that need not light the scene.
+    void replaceEnvironment(Id environment, const QString& source);
+    // Another environment of the scene, as a step: it lights the scene, is the one to fade to, or
+    // is there for cells of a wall. A file or "builtin:NAME" that one of them shows already is not
+    // added again. `added`, once it is there: which one.
+    enum class EnvironmentUse { Light, FadeTo, Cells };
+    void addEnvironment(const QString& source, EnvironmentUse use,
+                        std::function<void(Id)> added = {});
     void addEnvironment(EnvironmentKind kind); // a sky or softboxes, to light the scene
     void duplicateEnvironment(Id environment) { m_session.duplicateEnvironment(environment); }
     void removeEnvironment(Id environment) { m_session.removeEnvironment(environment); }

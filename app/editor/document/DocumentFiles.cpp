@@ -25,8 +25,8 @@
 namespace patina::editor {
 namespace {
 
-const QString environmentTask = QStringLiteral("environment");
-const QString addedEnvironmentTask = QStringLiteral("added environment");
+const QString environmentTask = QStringLiteral("environment ");            // and its id
+const QString addedEnvironmentTask = QStringLiteral("added environment "); // and for cells its file
 const QString extractionTask = QStringLiteral("extraction of a source");
 
 // How a source is called in messages: "teapot.obj", "Shader Ball".
@@ -260,25 +260,42 @@ void DocumentController::setEnvironment(const QString& source) {
                     tr("Light with %1").arg(shortName(source)));
 }
 
-void DocumentController::addEnvironment(const QString& source, EnvironmentUse use) {
+void DocumentController::replaceEnvironment(Id environment, const QString& source) {
+    const Environment* replaced = document().environment(environment);
+    CHECK(replaced != nullptr);
+    readEnvironment(
+        environment, source, EnvironmentLayout::Automatic,
+        tr("Replace %1 by %2").arg(toQString(environmentTitle(*replaced)), shortName(source)));
+}
+
+void DocumentController::addEnvironment(const QString& source, EnvironmentUse use,
+                                        std::function<void(Id)> added) {
     const std::string name = normalizeSource(source.toStdString());
     const auto known = std::ranges::find_if(document().environments, [&](const Environment& e) {
         return e.kind == EnvironmentKind::Image && e.source == name && e.problem.empty();
     });
     const Id first = document().mix.first;
     if (known != document().environments.end() &&
-        (use == EnvironmentUse::Light || known->id != first)) {
-        use == EnvironmentUse::Light ? lightWith(known->id) : fadeTo(known->id);
+        (use != EnvironmentUse::FadeTo || known->id != first)) {
+        const Id id = known->id;
+        if (use == EnvironmentUse::Light)
+            lightWith(id);
+        else if (use == EnvironmentUse::FadeTo)
+            fadeTo(id);
+        if (added)
+            added(id);
         return;
     }
     const QString title = shortName(source);
     m_tasks.start(
-        addedEnvironmentTask, tr("Reading %1").arg(title),
-        [this, name, title, use, begun = begun()](const JobContext& job) -> BackgroundTasks::Apply {
+        use == EnvironmentUse::Cells ? addedEnvironmentTask + source : addedEnvironmentTask,
+        tr("Reading %1").arg(title),
+        [this, name, title, use, added,
+         begun = begun()](const JobContext& job) -> BackgroundTasks::Apply {
             auto notices = std::make_shared<std::vector<Notice>>();
             auto image = std::make_shared<Result<ImagePtr>>(
                 loadEnvironmentImage(m_worker, name, *notices, EnvironmentLayout::Automatic, job));
-            return [this, title, name, use, begun, notices, image] {
+            return [this, title, name, use, added, begun, notices, image] {
                 if (!image->ok()) {
                     Q_EMIT noticed(UserNotice::fromError(image->error()));
                     return;
@@ -286,14 +303,17 @@ void DocumentController::addEnvironment(const QString& source, EnvironmentUse us
                 Environment environment;
                 environment.source = name;
                 environment.image = environment.fileImage = image->value();
-                deliver(begun, title, [this, title, use, environment] {
-                    const Id added =
-                        use == EnvironmentUse::Light
-                            ? m_session.addEnvironment(environment,
-                                                       tr("Add %1").arg(title).toStdString())
-                            : m_session.addSecondEnvironment(
-                                  environment, tr("Fade to %1").arg(title).toStdString());
-                    if (added == 0)
+                deliver(begun, title, [this, title, use, added, environment] {
+                    const std::string add = tr("Add %1").arg(title).toStdString();
+                    const Id id = use == EnvironmentUse::Light
+                                      ? m_session.addEnvironment(environment, add)
+                                  : use == EnvironmentUse::Cells
+                                      ? m_session.addUnusedEnvironment(environment, add)
+                                      : m_session.addSecondEnvironment(
+                                            environment, tr("Fade to %1").arg(title).toStdString());
+                    if (id != 0 && added)
+                        added(id);
+                    if (id == 0)
                         Q_EMIT noticed({NoticeKind::Warning,
                                         tr("%1 was not added: a scene holds at most %2 "
                                            "environments. Remove one first.")
@@ -312,7 +332,7 @@ void DocumentController::readEnvironment(Id asked, const QString& source, Enviro
                                          const QString& undoText) {
     const QString title = shortName(source);
     m_tasks.start(
-        environmentTask, tr("Reading %1").arg(title),
+        environmentTask + QString::number(asked), tr("Reading %1").arg(title),
         [this, source, layout, title, undoText, asked, scene = m_session.documentNumber(),
          begun = begun()](const JobContext& job) -> BackgroundTasks::Apply {
             const std::string name = normalizeSource(source.toStdString());

@@ -10,6 +10,7 @@
 #include <QPainter>
 #include <QUrl>
 #include <algorithm>
+#include <utility>
 
 namespace patina::editor {
 namespace {
@@ -35,8 +36,9 @@ DropHint::DropHint(QWidget& viewport)
     hide();
 }
 
-void DropHint::setLines(const QStringList& lines) {
+void DropHint::setLines(const QStringList& lines, const QRect& target) {
     m_lines = lines;
+    m_target = target;
     setAccessibleName(m_lines.join(QLatin1Char('\n')));
     setVisible(!m_lines.isEmpty());
     if (m_lines.isEmpty())
@@ -51,8 +53,9 @@ void DropHint::paintEvent(QPaintEvent*) {
     QColor veil(tokens::kWell);
     veil.setAlpha(kVeilAlpha);
     painter.fillRect(rect(), veil);
+    const QRect target = m_target.isNull() ? rect() : m_target;
     painter.setPen(QPen(QColor(tokens::kAccent), kTargetFrame));
-    painter.drawRect(rect().adjusted(kTargetFrame / 2, kTargetFrame / 2, -kTargetFrame / 2 - 1,
+    painter.drawRect(target.adjusted(kTargetFrame / 2, kTargetFrame / 2, -kTargetFrame / 2 - 1,
                                      -kTargetFrame / 2 - 1));
 
     QStringList shown = m_lines.mid(0, kMostLines);
@@ -65,7 +68,10 @@ void DropHint::paintEvent(QPaintEvent*) {
         widest = std::max(widest, fontMetrics().horizontalAdvance(text));
     }
     QRect box(0, 0, widest + 2 * margin, static_cast<int>(shown.size()) * line + 2 * margin);
-    box.moveCenter(rect().center());
+    box.moveCenter(target.center());
+    const QRect room = rect().adjusted(margin, margin, -margin, -margin);
+    box.moveLeft(std::clamp(box.left(), room.left(), std::max(room.right() - box.width(), 0)));
+    box.moveTop(std::clamp(box.top(), room.top(), std::max(room.bottom() - box.height(), 0)));
     painter.setPen(Qt::NoPen);
     painter.setBrush(QColor(tokens::kPanel));
     painter.drawRoundedRect(box, tokens::kRadius, tokens::kRadius);
@@ -79,19 +85,23 @@ void DropHint::paintEvent(QPaintEvent*) {
 }
 
 DropTarget::DropTarget(QWidget& window, QWidget& viewport, DocumentController& controller,
-                       SelectionModel& selection)
+                       SelectionModel& selection, WallDrop wall)
     : QObject(&window)
+    , m_window(window)
+    , m_viewport(viewport)
     , m_controller(controller)
     , m_selection(selection)
+    , m_wall(std::move(wall))
     , m_hint(new DropHint(viewport)) {
     window.installEventFilter(this);
 }
 
 bool DropTarget::eventFilter(QObject*, QEvent* event) {
     switch (event->type()) {
-    case QEvent::DragEnter: {
-        const QStringList files = draggedFiles(*static_cast<QDragEnterEvent*>(event)->mimeData());
-        m_hint->setLines(planDrop(files).lines(m_controller.document(), m_selection.material()));
+    case QEvent::DragEnter:
+    case QEvent::DragMove: {
+        const auto* drag = static_cast<QDragMoveEvent*>(event); // which entering is, too
+        showHint(draggedFiles(*drag->mimeData()), drag->position());
         break;
     }
     case QEvent::DragLeave:
@@ -102,6 +112,24 @@ bool DropTarget::eventFilter(QObject*, QEvent* event) {
         break;
     }
     return false; // the window takes or refuses it
+}
+
+QPointF DropTarget::inViewport(const QPointF& position) const {
+    return m_viewport.mapFrom(&m_window, position);
+}
+
+void DropTarget::showHint(const QStringList& files, const QPointF& position) {
+    const WallDropPlan plan = m_wall.plan(files, inViewport(position));
+    if (plan.parts.empty())
+        m_hint->setLines(planDrop(files).lines(m_controller.document(), m_selection.material()));
+    else
+        m_hint->setLines(plan.lines, plan.area);
+}
+
+bool DropTarget::drop(const QStringList& files, const QPointF& position) {
+    const WallDropPlan plan = m_wall.plan(files, inViewport(position));
+    m_wall.drop(plan);
+    return !plan.parts.empty();
 }
 
 } // namespace patina::editor

@@ -2,7 +2,10 @@
 // and frames the picture as their target.
 #pragma once
 
+#include "app/editor/wall/WallDrop.h"
+
 #include <QObject>
+#include <QRect>
 #include <QStringList>
 #include <QWidget>
 
@@ -20,7 +23,8 @@ class DropHint : public QWidget {
     Q_OBJECT
   public:
     explicit DropHint(QWidget& viewport);
-    void setLines(const QStringList& lines); // covers the viewport; none: hides
+    // Covers the viewport; no lines: hides. `target`: what they are dropped onto; null: all of it.
+    void setLines(const QStringList& lines, const QRect& target = {});
     [[nodiscard]] const QStringList& lines() const { return m_lines; }
 
   protected:
@@ -28,6 +32,7 @@ class DropHint : public QWidget {
 
   private:
     QStringList m_lines;
+    QRect m_target;
 };
 
 class DropTarget : public QObject {
@@ -35,14 +40,23 @@ class DropTarget : public QObject {
   public:
     // Watches `window`, which takes the drops itself; `viewport` shows what they will do.
     DropTarget(QWidget& window, QWidget& viewport, DocumentController& controller,
-               SelectionModel& selection);
+               SelectionModel& selection, WallDrop wall);
+
+    // True: cells of the wall take them. `position` in the window.
+    [[nodiscard]] bool drop(const QStringList& files, const QPointF& position);
 
   protected:
     bool eventFilter(QObject* window, QEvent* event) override;
 
   private:
+    void showHint(const QStringList& files, const QPointF& position);
+    [[nodiscard]] QPointF inViewport(const QPointF& position) const; // from the window's
+
+    QWidget& m_window;
+    QWidget& m_viewport;
     DocumentController& m_controller;
     SelectionModel& m_selection;
+    WallDrop m_wall;
     DropHint* m_hint; // owned by the viewport
 };
 

@@ -12,11 +12,9 @@ constexpr const char* kMaps = "image-based light to look at";
 
 } // namespace
 
-IblUpdater::IblUpdater(TaskRunner& runner, const std::filesystem::path& cacheFolder,
-                       QObject* parent)
+IblUpdater::IblUpdater(TaskRunner& runner, PreparedLights& prepared, QObject* parent)
     : QObject(parent)
-    , m_cacheFolder(cacheFolder)
-    , m_cache(cacheFolder)
+    , m_prepared(prepared)
     , m_tasks(runner) {}
 
 void IblUpdater::request(ImagePtr environment) {
@@ -38,7 +36,7 @@ void IblUpdater::prepare() {
     m_tasks.run(
         {.tag = kFirst, .policy = TaskPolicy::Follow, .priority = TaskPriority::High},
         [this, environment = m_environment](const JobContext& job) {
-            return firstIbl(m_cache, environment, job);
+            return m_prepared.first(environment, job);
         },
         [this](const Result<IblLight>& light) {
             if (!light)
@@ -57,7 +55,8 @@ void IblUpdater::refine(const IblLight& small) {
         [this](const Result<IblLight>& light) {
             if (!light)
                 return fail(light.error());
-            keepIbl(m_tasks, m_cache, *light);
+            m_prepared.keep(*light);
+            keepIbl(m_tasks, m_prepared.disk(), *light);
             deliver(*light);
         });
 }
@@ -68,7 +67,7 @@ void IblUpdater::requestMaps() {
     m_tasks.run(
         {.tag = kMaps},
         [this, environment = m_environment](const JobContext& job) {
-            return fullIblMaps(m_cache, environment, job);
+            return fullIblMaps(m_prepared.disk(), environment, job);
         },
         [this](const Result<IblLight>& light) {
             if (!light)

@@ -3,11 +3,10 @@
 // The newest environment wins.
 #pragma once
 
-#include "app/editor/viewport/IblWork.h"
+#include "app/editor/viewport/PreparedLights.h"
 #include "core/job/TaskRunner.h"
 
 #include <QObject>
-#include <filesystem>
 #include <utility>
 
 namespace patina::editor {
@@ -15,12 +14,10 @@ namespace patina::editor {
 class IblUpdater : public QObject {
     Q_OBJECT
   public:
-    // `cacheFolder`: of IblCache.
-    // Its end waits for what is being written there.
-    IblUpdater(TaskRunner& runner, const std::filesystem::path& cacheFolder,
-               QObject* parent = nullptr);
+    // Its end waits for what is being written to disk.
+    IblUpdater(TaskRunner& runner, PreparedLights& prepared, QObject* parent = nullptr);
 
-    [[nodiscard]] const std::filesystem::path& cacheFolder() const { return m_cacheFolder; }
+    [[nodiscard]] PreparedLights& prepared() { return m_prepared; }
 
     // Does nothing when `environment` is the one already prepared or under way. Requests that
     // follow each other quickly wait for the small version of the first, so that light keeps
@@ -49,13 +46,12 @@ class IblUpdater : public QObject {
     void deliver(const IblLight& light);
     void fail(const Error& error);
 
-    std::filesystem::path m_cacheFolder;
-    IblCache m_cache;
+    PreparedLights& m_prepared;
     ImagePtr m_environment;
     bool m_finished = false;
     EnvironmentTexelsPtr m_texels; // until it is taken
     std::weak_ptr<const IblMaps> m_maps;
-    TaskGroup m_tasks; // last: it ends before the cache
+    TaskGroup m_tasks; // last: it ends before the rest
 };
 
 } // namespace patina::editor

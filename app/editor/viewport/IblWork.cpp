@@ -18,11 +18,15 @@ std::filesystem::path iblCacheFolder() {
     return std::filesystem::path(QFile::encodeName(folder).toStdString()) / "ibl";
 }
 
-Result<IblLight> firstIbl(const IblCache& cache, const ImagePtr& environment,
+Hash iblKey(const Image& environment) {
+    return IblCache::key(environment, kFull);
+}
+
+Result<IblLight> firstIbl(const IblCache& cache, const ImagePtr& environment, const Hash& key,
                           const JobContext& job) {
     IblLight light;
     light.environment = environment;
-    light.key = IblCache::key(*environment, kFull);
+    light.key = key;
     std::optional<IblMaps> found = cache.find(light.key);
     light.full = found.has_value();
     const Result<HalfMipmapsPtr> background = makeBackground(*environment, job);
@@ -54,7 +58,7 @@ Result<IblLight> fullIblMaps(const IblCache& cache, const ImagePtr& environment,
                              const JobContext& job) {
     IblLight light;
     light.environment = environment;
-    std::optional<IblMaps> found = cache.find(IblCache::key(*environment, kFull));
+    std::optional<IblMaps> found = cache.find(iblKey(*environment));
     Result<IblMaps> maps = found ? std::move(*found) : computeIbl(*environment, kFull, job);
     if (!maps)
         return maps.error();

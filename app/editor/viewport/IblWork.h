@@ -25,8 +25,10 @@ struct IblLight {
     bool full = false; // else small: some ten milliseconds' worth
 };
 
-// From the cache in full, or else small. Errors: Cancelled.
-Result<IblLight> firstIbl(const IblCache& cache, const ImagePtr& environment,
+[[nodiscard]] Hash iblKey(const Image& environment); // of IblCache, for light in full
+
+// From the cache in full, or else small. `key`: of the environment. Errors: Cancelled.
+Result<IblLight> firstIbl(const IblCache& cache, const ImagePtr& environment, const Hash& key,
                           const JobContext& job);
 // Of what firstIbl() made small. Errors: Cancelled.
 Result<IblLight> refinedIbl(IblLight light, const JobContext& job);

@@ -45,7 +45,7 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
     , m_viewFeed(controller)
     , m_gate(controller)
     , m_picker(controller, *this)
-    , m_wall(controller, ibl.cacheFolder()) {
+    , m_wall(controller, ibl.prepared()) {
     setObjectName(QStringLiteral("viewport"));
     setAccessibleName(tr("Viewport"));
     setAccessibleDescription(

@@ -9,6 +9,7 @@
 #include "app/editor/widget/ListButton.h"
 #include "app/editor/widget/NumberField.h"
 #include "core/document/Document.h"
+#include "core/document/EnvironmentTitle.h"
 #include "core/document/Snapshot.h"
 #include "core/edit/Edit.h"
 #include "core/light/Light.h"
@@ -87,6 +88,10 @@ OwnValueControls::OwnValueControls(WallState& wall, DocumentController& controll
     connect(&wall, &WallState::changed, this, &OwnValueControls::refresh);
     connect(&wall, &WallState::cellsChosen, this, &OwnValueControls::refresh);
     connect(&wall, &WallState::ownChanged, this, &OwnValueControls::refresh);
+    connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
+        if (m_environment != nullptr && touches(change.affects, Affects::Structure))
+            refresh(); // one may have come, or gone
+    });
     refresh();
 }
 
@@ -95,24 +100,32 @@ const std::vector<CellEdit>& OwnValueControls::shownValues() const {
     return m_wall.current() ? m_wall.cells()[*m_wall.current()].own : none;
 }
 
+Id OwnValueControls::shownEnvironment() const {
+    return m_wall.current() ? m_wall.cells()[*m_wall.current()].ownEnvironment : 0;
+}
+
 void OwnValueControls::refresh() {
     m_add->setEnabled(m_wall.current().has_value());
-    const bool shown = m_wall.isOn() && !shownValues().empty();
+    const bool shown = m_wall.isOn() && (shownEnvironment() != 0 || !shownValues().empty());
     setVisible(shown);
     if (!shown) {
         abandonEdits(*this);
         return;
     }
     const WallCell& cell = m_wall.cells()[*m_wall.current()];
-    if (cell.shared != m_of || !sameFields(cell.own, m_values)) {
+    if (cell.shared != m_of || (cell.ownEnvironment != 0) != (m_environment != nullptr) ||
+        !sameFields(cell.own, m_values)) {
         makeFields();
         m_of = cell.shared;
     }
+    if (m_environment != nullptr)
+        fillEnvironments(cell.ownEnvironment);
     m_values = cell.own;
-    for (std::size_t i = 0; i < m_fields.size(); ++i) {
-        if (auto* number = m_fields[i]->findChild<NumberField*>())
+    const std::size_t first = m_environment != nullptr ? 1 : 0; // of the fields
+    for (std::size_t i = 0; i < m_values.size(); ++i) {
+        if (auto* number = m_fields[first + i]->findChild<NumberField*>())
             number->setValue(static_cast<double>(std::get<float>(cell.own[i].value)));
-        if (auto* choice = m_fields[i]->findChild<QComboBox*>()) {
+        if (auto* choice = m_fields[first + i]->findChild<QComboBox*>()) {
             const QSignalBlocker quiet(choice);
             choice->setCurrentIndex(std::get<int>(cell.own[i].value));
         }
@@ -125,18 +138,64 @@ void OwnValueControls::makeFields() {
         retire(field);
     }
     m_fields.clear();
+    m_environment = nullptr;
+    if (shownEnvironment() != 0)
+        addEnvironmentField();
     for (const CellEdit& edit : shownValues())
         addField(edit);
 }
 
-void OwnValueControls::addField(const CellEdit& edit) {
+QHBoxLayout* OwnValueControls::startField(const QString& label) {
     auto* field = new QWidget;
     auto* row = new QHBoxLayout(field);
     row->setContentsMargins(0, 0, 0, 0);
     row->setSpacing(tokens::kGap / 2);
+    row->addWidget(new QLabel(label));
+    m_fields.push_back(field);
+    return row;
+}
+
+template <class Link>
+void OwnValueControls::endField(const QString& label, Link unlinked) {
+    QToolButton* link = makeListButton(QStringLiteral("close"), {},
+                                       tr("Link it again: this cell shows the scene's value"));
+    link->setAccessibleName(tr("Link %1").arg(label));
+    connect(link, &QToolButton::clicked, this, unlinked);
+    QWidget* field = m_fields.back();
+    field->layout()->addWidget(link);
+    m_row->addWidget(field);
+    field->show();
+}
+
+void OwnValueControls::addEnvironmentField() {
+    const QString label = tr("Environment");
+    QHBoxLayout* row = startField(label);
+    m_environment = new QComboBox;
+    m_environment->setAccessibleName(label);
+    m_environment->setToolTip(tr("The environment that lights this cell"));
+    m_environment->setPlaceholderText(tr("Removed"));
+    m_environment->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+    connect(m_environment, &QComboBox::activated, this, [this](int index) {
+        m_wall.setOwnEnvironment({m_wall.cells()[*m_wall.current()]},
+                                 m_environment->itemData(index).value<Id>());
+    });
+    row->addWidget(m_environment);
+    endField(label, [this] { m_wall.setOwnEnvironment({m_wall.cells()[*m_wall.current()]}, 0); });
+}
+
+void OwnValueControls::fillEnvironments(Id shown) {
+    const QSignalBlocker quiet(m_environment);
+    m_environment->clear();
+    for (const Environment& environment : m_controller.document().environments)
+        m_environment->addItem(toQString(environmentTitle(environment)),
+                               QVariant::fromValue(environment.id));
+    m_environment->setCurrentIndex(m_environment->findData(QVariant::fromValue(shown)));
+}
+
+void OwnValueControls::addField(const CellEdit& edit) {
     const ParameterInfo& info = *edit.info;
     const QString label = toQString(info.label);
-    row->addWidget(new QLabel(label));
+    QHBoxLayout* row = startField(label);
     const auto set = [this, target = edit.target, &info](const ParameterValue& value) {
         m_wall.setOwnValue({target, &info, value});
     };
@@ -166,15 +225,7 @@ void OwnValueControls::addField(const CellEdit& edit) {
             connect(number, signal, this, [set](double value) { set(static_cast<float>(value)); });
         row->addWidget(number);
     }
-    QToolButton* link = makeListButton(QStringLiteral("close"), {},
-                                       tr("Link it again: this cell shows the scene's value"));
-    link->setAccessibleName(tr("Link %1").arg(label));
-    connect(link, &QToolButton::clicked, this,
-            [this, target = edit.target, &info] { m_wall.linkValue(target, info); });
-    row->addWidget(link);
-    m_row->addWidget(field);
-    field->show();
-    m_fields.push_back(field);
+    endField(label, [this, target = edit.target, &info] { m_wall.linkValue(target, info); });
 }
 
 // --- Which there are -----------------------------------------------------------------------------
@@ -204,6 +255,16 @@ void OwnValueControls::addParameters(QMenu& menu, const QString& title, const Ta
     }
 }
 
+// One of its own, which is the one that it shows at first.
+void OwnValueControls::addEnvironment(Id shown) {
+    QAction* action = m_menu->addAction(tr("Which Environment"));
+    action->setCheckable(true);
+    action->setChecked(shownEnvironment() != 0);
+    connect(action, &QAction::toggled, this, [this, shown](bool own) {
+        m_wall.setOwnEnvironment({m_wall.cells()[*m_wall.current()]}, own ? shown : 0);
+    });
+}
+
 void OwnValueControls::fillMenu() {
     m_menu->clear();
     if (!m_wall.current())
@@ -214,6 +275,7 @@ void OwnValueControls::fillMenu() {
         m_menu->addAction(toQString(shown.error().message))->setEnabled(false);
         return;
     }
+    addEnvironment(shown->mix.first);
     addParameters(*m_menu, tr("Environment"), {Scope::Environment, 0}, *shown);
     addParameters(*m_menu, tr("Camera"), {Scope::View, 0}, *shown);
     addParameters(*m_menu, tr("Shading"), {Scope::Model, 0}, *shown);

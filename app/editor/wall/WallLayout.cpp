@@ -50,7 +50,8 @@ WallLayout WallLayout::of(const WallState& state, const QSize& size, const QFont
              compared ? QStringLiteral("A  %1      B  %2")
                             .arg(captionOf(cells[*enlarged]), captionOf(cells[*compared]))
                       : captionOf(cells[*enlarged]),
-             Qt::AlignCenter});
+             Qt::AlignCenter,
+             {*enlarged}});
         return layout;
     }
     QRect room(QPoint(0, 0), size);
@@ -68,20 +69,30 @@ WallLayout WallLayout::of(const WallState& state, const QSize& size, const QFont
         layout.cells[i] = {x, y, width, std::max(height - below, 1)};
         if (below > 0)
             layout.captions.push_back(
-                {{x, y + height - below, width, below}, captionOf(cells[i]), Qt::AlignCenter});
+                {{x, y + height - below, width, below}, captionOf(cells[i]), Qt::AlignCenter, {i}});
     }
     if (!wall.isTable())
         return layout;
+    const auto cellsWhere = [&](auto place, std::size_t at) {
+        std::vector<std::size_t> found;
+        for (std::size_t i = 0; i < cells.size(); ++i)
+            if (cells[i].*place == at)
+                found.push_back(i);
+        return found;
+    };
     for (std::size_t i = 0; i < wall.width; ++i) {
         const auto [x, width] = piece(room.left(), room.width(), wall.width, i);
-        layout.captions.push_back(
-            {{x, 0, width, line}, toQString(wall.columns.entries[i].caption), Qt::AlignCenter});
+        layout.captions.push_back({{x, 0, width, line},
+                                   toQString(wall.columns.entries[i].caption),
+                                   Qt::AlignCenter,
+                                   cellsWhere(&WallCell::column, i)});
     }
     for (std::size_t i = 0; i < wall.height; ++i) {
         const auto [y, height] = piece(room.top(), room.height(), wall.height, i);
         layout.captions.push_back({{tokens::kGap / 2, y, room.left() - tokens::kGap, height},
                                    toQString(wall.rows.entries[i].caption),
-                                   Qt::AlignRight | Qt::AlignVCenter});
+                                   Qt::AlignRight | Qt::AlignVCenter,
+                                   cellsWhere(&WallCell::row, i)});
     }
     return layout;
 }
@@ -91,6 +102,22 @@ std::optional<std::size_t> WallLayout::cellAt(const QPointF& position) const {
         if (cells[i].contains(position.toPoint()))
             return i;
     return std::nullopt;
+}
+
+std::vector<std::size_t> WallLayout::cellsAt(const QPointF& position) const {
+    if (const auto cell = cellAt(position))
+        return {*cell};
+    for (const Caption& caption : captions)
+        if (caption.place.contains(position.toPoint()))
+            return caption.of;
+    return {};
+}
+
+QRect WallLayout::areaOf(const std::vector<std::size_t>& indices) const {
+    QRect area;
+    for (const std::size_t cell : indices)
+        area = area.united(cells[cell]);
+    return area;
 }
 
 } // namespace patina::editor

@@ -21,6 +21,7 @@ struct WallLayout {
         QRect place;
         QString text; // in full; what does not fit is elided
         Qt::Alignment alignment;
+        std::vector<std::size_t> of; // cells
     };
     QSize size;
     std::vector<QRect> cells; // device-independent pixels; null: not shown
@@ -29,6 +30,9 @@ struct WallLayout {
     // Cells fill `size`, apart from captions and gaps; all on whole device pixels.
     static WallLayout of(const WallState& wall, const QSize& size, const QFontMetrics& metrics);
     [[nodiscard]] std::optional<std::size_t> cellAt(const QPointF& position) const;
+    // That cell, or at a caption all that it is of: a column, a row. None elsewhere.
+    [[nodiscard]] std::vector<std::size_t> cellsAt(const QPointF& position) const;
+    [[nodiscard]] QRect areaOf(const std::vector<std::size_t>& cells) const; // around them
 };
 
 } // namespace patina::editor

@@ -12,10 +12,9 @@ constexpr const char* kTag = "light of the wall";
 
 } // namespace
 
-WallLights::WallLights(TaskRunner& runner, const std::filesystem::path& cacheFolder,
-                       QObject* parent)
+WallLights::WallLights(TaskRunner& runner, PreparedLights& lights, QObject* parent)
     : QObject(parent)
-    , m_cache(cacheFolder)
+    , m_lights(lights)
     , m_tasks(runner) {}
 
 bool WallLights::resolve(Document& shown, const Document& document) {
@@ -135,7 +134,7 @@ bool WallLights::prepareNext() {
     m_tasks.run(
         {.tag = kTag, .priority = TaskPriority::High, .name = "image-based light of a cell"},
         [this, picture = next->picture](const JobContext& job) {
-            return firstIbl(m_cache, picture, job);
+            return m_lights.first(picture, job);
         },
         [this, picture = next->picture](const Result<IblLight>& light) {
             const auto entry = std::ranges::find(m_prepared, picture, &Prepared::picture);
@@ -165,8 +164,10 @@ bool WallLights::refineNext() {
         [todo](const JobContext& job) { return refinedIbl(todo, job); },
         [this, picture = next->picture](const Result<IblLight>& light) {
             const auto entry = std::ranges::find(m_prepared, picture, &Prepared::picture);
-            if (light)
-                keepIbl(m_tasks, m_cache, *light);
+            if (light) {
+                m_lights.keep(*light);
+                keepIbl(m_tasks, m_lights.disk(), *light);
+            }
             if (entry != m_prepared.end()) {
                 entry->failed = !light; // the small one stays
                 if (light)

@@ -4,14 +4,13 @@
 // it.
 #pragma once
 
-#include "app/editor/viewport/IblWork.h"
+#include "app/editor/viewport/PreparedLights.h"
 #include "core/document/Document.h"
 #include "core/job/TaskRunner.h"
 #include "core/light/GeneratedEnvironment.h"
 #include "core/mix/EnvironmentBlend.h"
 
 #include <QObject>
-#include <filesystem>
 #include <vector>
 
 namespace patina::editor {
@@ -19,9 +18,7 @@ namespace patina::editor {
 class WallLights : public QObject {
     Q_OBJECT
   public:
-    // `cacheFolder`: of IblCache.
-    WallLights(TaskRunner& runner, const std::filesystem::path& cacheFolder,
-               QObject* parent = nullptr);
+    WallLights(TaskRunner& runner, PreparedLights& lights, QObject* parent = nullptr);
 
     // Gives a cell's document the pictures of environments that its own values ask for
     // (resolveCell() of core/cells). False while some are being made; changed() follows.
@@ -59,11 +56,11 @@ class WallLights : public QObject {
     bool refineNext();
     void ended();
 
-    IblCache m_cache;
+    PreparedLights& m_lights;
     std::vector<Generated> m_generated;
     std::vector<Blended> m_blended;
     std::vector<Prepared> m_prepared;
-    TaskGroup m_tasks; // last: it ends before the cache
+    TaskGroup m_tasks; // last: it ends before the rest
 };
 
 } // namespace patina::editor

@@ -1,9 +1,13 @@
 #include "app/editor/wall/WallOverlay.h"
 
+#include "app/editor/document/DocumentController.h"
+#include "app/editor/document/QtText.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/wall/OwnValueControls.h"
 #include "app/editor/wall/WallComparison.h"
 #include "app/editor/wall/WallState.h"
+#include "core/document/Document.h"
+#include "core/document/EnvironmentTitle.h"
 #include "core/image/ColorMap.h"
 
 #include <QKeyEvent>
@@ -177,19 +181,25 @@ void WallOverlay::paintFile(QPainter& painter, const QRect& area) const {
 // that have the same.
 void WallOverlay::paintOwnValues(QPainter& painter) const {
     constexpr std::array<QRgb, 4> kColors{tokens::kAccent, tokens::kCopper, 0xff7aa7e0, 0xffc58fd9};
-    std::vector<const std::vector<CellEdit>*> seen;
+    std::vector<const WallCell*> seen;
     for (std::size_t i = 0; i < std::min(m_layout.cells.size(), m_wall.cells().size()); ++i) {
-        const std::vector<CellEdit>& own = m_wall.cells()[i].own;
+        const WallCell& own = m_wall.cells()[i];
         const QRect& cell = m_layout.cells[i];
-        if (own.empty() || cell.isNull())
+        if ((own.own.empty() && own.ownEnvironment == 0) || cell.isNull())
             continue;
-        const auto known =
-            std::ranges::find_if(seen, [&](const auto* other) { return *other == own; });
+        const auto known = std::ranges::find_if(seen, [&](const WallCell* other) {
+            return other->own == own.own && other->ownEnvironment == own.ownEnvironment;
+        });
         const auto group = static_cast<std::size_t>(known - seen.begin());
         if (known == seen.end())
             seen.push_back(&own);
         QStringList texts;
-        for (const CellEdit& edit : own)
+        const Document& document = m_wall.controller().document();
+        if (const Environment* environment = document.environment(own.ownEnvironment))
+            texts << toQString(environmentTitle(*environment));
+        else if (own.ownEnvironment != 0)
+            texts << tr("Environment removed");
+        for (const CellEdit& edit : own.own)
             texts << ownValueText(edit);
         const QString text =
             fontMetrics().elidedText(texts.join(QStringLiteral(" · ")), Qt::ElideRight,

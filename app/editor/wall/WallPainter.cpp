@@ -38,11 +38,10 @@ bool sameFrame(const render::FrameSettings& a, const render::FrameSettings& b) {
 
 } // namespace
 
-WallPainter::WallPainter(DocumentController& controller, const std::filesystem::path& cacheFolder,
-                         QObject* parent)
+WallPainter::WallPainter(DocumentController& controller, PreparedLights& lights, QObject* parent)
     : QObject(parent)
     , m_controller(controller)
-    , m_lights(controller.runner(), cacheFolder) {
+    , m_lights(controller.runner(), lights) {
     const auto again = [this] {
         recompose();
         Q_EMIT changed();

@@ -26,9 +26,7 @@ class WallState;
 class WallPainter : public QObject {
     Q_OBJECT
   public:
-    // `cacheFolder`: of IblCache.
-    WallPainter(DocumentController& controller, const std::filesystem::path& cacheFolder,
-                QObject* parent = nullptr);
+    WallPainter(DocumentController& controller, PreparedLights& lights, QObject* parent = nullptr);
 
     void setWall(WallState& wall, WallComparison& comparison);
     [[nodiscard]] bool isOn() const;

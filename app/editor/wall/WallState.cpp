@@ -132,6 +132,13 @@ void WallState::swapCompared() {
     Q_EMIT cellsChosen();
 }
 
+void WallState::setOwnEnvironment(const std::vector<WallCell>& cells, Id environment) {
+    for (const WallCell& cell : cells)
+        patina::setOwnEnvironment(m_own, cell, environment);
+    m_cells = cellsOf(m_wall, m_own);
+    Q_EMIT ownChanged();
+}
+
 void WallState::setOwnValue(const CellEdit& value) {
     if (!m_current)
         return;

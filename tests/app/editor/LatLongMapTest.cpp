@@ -110,7 +110,8 @@ ImagePtr evenEnvironment(float radiance) {
 TEST(IblUpdater, ADragIsNotStarved) {
     QTemporaryDir cache;
     TaskRunner runner(postToThisThread());
-    IblUpdater updater{runner, std::filesystem::path(cache.path().toStdString())};
+    PreparedLights prepared{cache.path().toStdString()};
+    IblUpdater updater{runner, prepared};
     std::vector<float> lights;
     int side = 0;
     QObject::connect(&updater, &IblUpdater::ready, &updater, [&] {

@@ -29,7 +29,8 @@ struct LightLabTest : testing::Test {
     static void SetUpTestSuite() {
         s_cache = std::make_unique<QTemporaryDir>();
         s_session = std::make_unique<Session>();
-        s_ibl = std::make_unique<IblUpdater>(s_session->tasks, s_cache->path().toStdString());
+        s_lights = std::make_unique<PreparedLights>(s_cache->path().toStdString());
+        s_ibl = std::make_unique<IblUpdater>(s_session->tasks, *s_lights);
         QObject::connect(&controller(), &DocumentController::changed, s_ibl.get(),
                          [] { s_ibl->request(document().environment().image); });
         s_panel = std::make_unique<LightLabPanel>(controller(), *s_ibl, s_session->probe);
@@ -37,6 +38,7 @@ struct LightLabTest : testing::Test {
     static void TearDownTestSuite() {
         s_panel.reset();
         s_ibl.reset();
+        s_lights.reset();
         s_session.reset();
         s_cache.reset();
     }
@@ -109,12 +111,14 @@ struct LightLabTest : testing::Test {
 
     static std::unique_ptr<QTemporaryDir> s_cache;
     static std::unique_ptr<Session> s_session;
+    static std::unique_ptr<PreparedLights> s_lights;
     static std::unique_ptr<IblUpdater> s_ibl;
     static std::unique_ptr<LightLabPanel> s_panel;
 };
 
 std::unique_ptr<QTemporaryDir> LightLabTest::s_cache;
 std::unique_ptr<Session> LightLabTest::s_session;
+std::unique_ptr<PreparedLights> LightLabTest::s_lights;
 std::unique_ptr<IblUpdater> LightLabTest::s_ibl;
 std::unique_ptr<LightLabPanel> LightLabTest::s_panel;
 
@@ -386,7 +390,8 @@ TEST_F(LightLabWindowTest, OpensByItsKeysAtAUsefulHeight) {
 TEST(LightLabWithoutADocument, SaysThatThereIsNoEnvironment) {
     Session session;
     const QTemporaryDir folder;
-    IblUpdater ibl(session.tasks, folder.path().toStdString());
+    PreparedLights lights(folder.path().toStdString());
+    IblUpdater ibl(session.tasks, lights);
     LightLabPanel panel(session.controller, ibl, session.probe);
     panel.resize(700, 260);
     panel.show();

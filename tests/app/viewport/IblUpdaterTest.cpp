@@ -5,10 +5,13 @@
 
 #include <QSignalSpy>
 #include <QTest>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <vector>
 
 namespace patina::editor {
 namespace {
@@ -44,7 +47,8 @@ struct IblUpdaterTest : ::testing::Test {
 
 TEST_F(IblUpdaterTest, AnswersSoonThenInFull) {
     const test::TemporaryFolder folder;
-    IblUpdater updater(runner, folder.path());
+    PreparedLights lights(folder.path());
+    IblUpdater updater(runner, lights);
     QSignalSpy ready(&updater, &IblUpdater::ready);
     std::shared_ptr<const IblMaps> maps; // somebody shows them
     QObject::connect(&updater, &IblUpdater::mapsReady, [&] { maps = updater.maps(); });
@@ -74,7 +78,8 @@ TEST_F(IblUpdaterTest, AnswersSoonThenInFull) {
 
 TEST_F(IblUpdaterTest, KeepsNoMapsThatNobodyShowsAndMakesThemAgain) {
     const test::TemporaryFolder folder;
-    IblUpdater updater(runner, folder.path());
+    PreparedLights lights(folder.path());
+    IblUpdater updater(runner, lights);
     QSignalSpy ready(&updater, &IblUpdater::ready);
     updater.requestMaps(); // of nothing
     updater.request(sky(2.0f));
@@ -101,13 +106,15 @@ TEST_F(IblUpdaterTest, RemembersAcrossSessions) {
     const test::TemporaryFolder folder;
     EnvironmentTexelsPtr computed;
     {
-        IblUpdater updater(runner, folder.path());
+        PreparedLights lights(folder.path());
+        IblUpdater updater(runner, lights);
         QSignalSpy ready(&updater, &IblUpdater::ready);
         updater.request(sky(3.0f));
         computed = takeFull(updater, ready);
     } // its end waits for the file
     ASSERT_EQ(folder.files().size(), 1u);
-    IblUpdater updater(runner, folder.path());
+    PreparedLights lights(folder.path());
+    IblUpdater updater(runner, lights);
     QSignalSpy ready(&updater, &IblUpdater::ready);
     updater.request(sky(3.0f)); // another image of the same content
     ASSERT_TRUE(ready.wait(30'000));
@@ -120,7 +127,8 @@ TEST_F(IblUpdaterTest, RemembersAcrossSessions) {
 // A new OpenGL context has lost what was taken.
 TEST_F(IblUpdaterTest, PreparesAgainWhatWasLost) {
     const test::TemporaryFolder folder;
-    IblUpdater updater(runner, folder.path());
+    PreparedLights lights(folder.path());
+    IblUpdater updater(runner, lights);
     QSignalSpy ready(&updater, &IblUpdater::ready);
     updater.renew(); // nothing was there
     const ImagePtr image = sky(2.0f);
@@ -133,9 +141,78 @@ TEST_F(IblUpdaterTest, PreparesAgainWhatWasLost) {
     EXPECT_EQ(again->prefiltered.texels, before->prefiltered.texels);
 }
 
+// The next frame has it: not a small version first, and nothing is read from disk.
+TEST_F(IblUpdaterTest, AnEnvironmentThatWasShownIsPreparedStill) {
+    const test::TemporaryFolder folder;
+    PreparedLights lights(folder.path());
+    IblUpdater updater(runner, lights);
+    QSignalSpy ready(&updater, &IblUpdater::ready);
+    updater.request(sky(1.0f));
+    ASSERT_NE(takeFull(updater, ready), nullptr);
+    EXPECT_EQ(lights.bytes(), 0u) << "a scene with one environment keeps nothing for later";
+    updater.request(sky(2.0f));
+    ASSERT_NE(takeFull(updater, ready), nullptr);
+    updater.request(sky(3.0f));
+    ASSERT_NE(takeFull(updater, ready), nullptr);
+    EXPECT_GT(lights.bytes(), 0u);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return folder.files().size() == 3u; }, 60'000));
+    for (const std::filesystem::path& file : folder.files())
+        std::filesystem::remove(file);
+    ready.clear();
+    const ImagePtr again = sky(2.0f); // its file was read again
+    updater.request(again);
+    ASSERT_TRUE(ready.wait(60'000));
+    const EnvironmentTexelsPtr texels = updater.take();
+    ASSERT_NE(texels, nullptr);
+    EXPECT_EQ(texels->side, IblSettings().cubeSize) << "in full at once";
+    EXPECT_EQ(texels->image, again);
+    EXPECT_NEAR(brightness(*texels), 2.0f, 1e-4f);
+    EXPECT_TRUE(updater.finished());
+}
+
+// What was used longest ago goes.
+TEST_F(IblUpdaterTest, PreparedLightsKeepToTheirBudget) {
+    const test::TemporaryFolder folder;
+    const JobContext job;
+    const std::array pictures{sky(1.0f), sky(2.0f), sky(3.0f), sky(4.0f)};
+    std::vector<IblLight> full;
+    for (const ImagePtr& picture : pictures) {
+        const Result<IblLight> small =
+            firstIbl(IblCache(folder.path()), picture, iblKey(*picture), job);
+        ASSERT_TRUE(small);
+        const Result<IblLight> light = refinedIbl(*small, job);
+        ASSERT_TRUE(light);
+        full.push_back(*light);
+    }
+    PreparedLights measuring(folder.path());
+    for (const IblLight& light : full)
+        measuring.keep(light);
+    const std::size_t three = measuring.bytes(); // the first came when it was the only one
+    PreparedLights lights(folder.path(), three * 2 / 3);
+    for (const IblLight& light : full)
+        lights.keep(light);
+    EXPECT_EQ(lights.bytes(), three * 2 / 3);
+    const auto isFull = [&](std::size_t i) {
+        const Result<IblLight> light = lights.first(pictures[i], job);
+        return light && light->full;
+    };
+    EXPECT_TRUE(isFull(2));
+    EXPECT_TRUE(isFull(3));
+    EXPECT_FALSE(isFull(1)) << "it was used longest ago";
+    EXPECT_TRUE(isFull(2)); // and is the one used last now …
+    lights.keep(full[0]);
+    EXPECT_TRUE(isFull(2)) << "… so that another one goes";
+    EXPECT_FALSE(isFull(3));
+    PreparedLights none(folder.path(), 1);
+    none.keep(full[0]);
+    none.keep(full[1]);
+    EXPECT_EQ(none.bytes(), 0u);
+}
+
 TEST_F(IblUpdaterTest, TheNewestWins) {
     const test::TemporaryFolder folder;
-    IblUpdater updater(runner, folder.path());
+    PreparedLights lights(folder.path());
+    IblUpdater updater(runner, lights);
     QSignalSpy ready(&updater, &IblUpdater::ready);
     ImagePtr last;
     for (int i = 1; i <= 20; ++i)
@@ -154,7 +231,8 @@ TEST_F(IblUpdaterTest, TheNewestWins) {
 TEST_F(IblUpdaterTest, WorksWithoutAFolderToWriteTo) {
     const test::TemporaryFolder folder;
     std::ofstream(folder / "file") << "in the way";
-    IblUpdater updater(runner, folder.path() / "file" / "cache");
+    PreparedLights lights(folder.path() / "file" / "cache");
+    IblUpdater updater(runner, lights);
     QSignalSpy ready(&updater, &IblUpdater::ready);
     updater.request(sky(1.0f));
     EXPECT_NE(takeFull(updater, ready), nullptr);

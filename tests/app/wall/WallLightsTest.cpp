@@ -46,7 +46,8 @@ struct WallLightsTest : ::testing::Test {
 
     test::TemporaryFolder folder;
     TaskRunner runner{postToThisThread()};
-    WallLights lights{runner, folder.path()};
+    PreparedLights prepared{folder.path()};
+    WallLights lights{runner, prepared};
     Document document;
 };
 

@@ -569,14 +569,14 @@ TEST_F(TaskRunnerTest, TellsWhatItDoes) {
     const auto work = [&](const JobContext&) { go.wait(); };
     EXPECT_EQ(tasks.activity(), "");
     tasks.run({.tag = "a", .name = "Opening a"}, work, ignore);
-    tasks.run({.tag = "b", .name = "Opening b"}, work, ignore);
+    tasks.run({.tag = "b 1", .name = "Opening b"}, work, ignore);
     tasks.run({.tag = "c", .policy = TaskPolicy::Exclusive, .name = "Saving c"}, work, ignore);
     EXPECT_EQ(changes, 3);
     EXPECT_EQ(tasks.activity(), "Saving c");
     EXPECT_TRUE(tasks.busy("a"));
     tasks.cancelAll({"b"});
     EXPECT_FALSE(tasks.busy("a"));
-    EXPECT_TRUE(tasks.busy("b"));
+    EXPECT_TRUE(tasks.busy("b 1"));
     EXPECT_TRUE(tasks.busy("c"));
     EXPECT_FALSE(tasks.waitForDone(1ms));
     go.open();

@@ -82,5 +82,32 @@ TEST_F(OwnValuesTest, ItIsAboveItsColumnsValue) {
     EXPECT_FLOAT_EQ(rotationOf(2), 90.0f);
 }
 
+TEST_F(OwnValuesTest, AnEnvironmentIsOneCellsAlone) {
+    const auto lightOf = [&](std::size_t cell) {
+        return documentOf(document, cellsOf(wall, own)[cell].cell)->mix.first;
+    };
+    setOwnEnvironment(own, cellsOf(wall)[0], environments[2]);
+    EXPECT_EQ(lightOf(0), environments[2]);
+    EXPECT_EQ(lightOf(1), environments[1]);
+    EXPECT_EQ(cellsOf(wall, own)[0].ownEnvironment, environments[2]);
+    EXPECT_EQ(cellsOf(wall, own)[0].shared.environment, environments[0]);
+    // A value beside it is that of the environment which lights the cell.
+    setOwnValue(own, cellsOf(wall, own)[0], turned(90.0f));
+    ASSERT_EQ(own.size(), 1u);
+    EXPECT_FLOAT_EQ(rotationOf(0), 90.0f);
+    linkValue(own, cellsOf(wall, own)[0], {Scope::Environment, 0}, rotation());
+    EXPECT_EQ(lightOf(0), environments[2]) << "the other one stays";
+    setOwnEnvironment(own, cellsOf(wall, own)[0], 0);
+    EXPECT_EQ(lightOf(0), environments[0]);
+    EXPECT_TRUE(own.empty());
+
+    // Removed from the scene: the cell says so.
+    setOwnEnvironment(own, cellsOf(wall)[1], environments[2]);
+    removeEnvironment(document, environments[2]);
+    const Result<Document> shown = documentOf(document, cellsOf(wall, own)[1].cell);
+    ASSERT_FALSE(shown);
+    EXPECT_NE(shown.error().message.find("no longer in the scene"), std::string::npos);
+}
+
 } // namespace
 } // namespace patina

@@ -1,0 +1,118 @@
+// The part of MainWindow that connects actions, the session and what the window shows of them.
+#include "app/editor/MainWindow.h"
+
+#include "app/editor/Actions.h"
+#include "app/editor/ActivityStatus.h"
+#include "app/editor/Docks.h"
+#include "app/editor/FileFlow.h"
+#include "app/editor/HelpDialogs.h"
+#include "app/editor/Session.h"
+#include "app/editor/ViewActions.h"
+#include "app/editor/viewport/SceneProgress.h"
+#include "app/editor/viewport/ViewportWidget.h"
+#include "app/editor/widget/NoticeArea.h"
+#include "core/document/ViewChoices.h"
+
+#include <QLabel>
+
+namespace patina::editor {
+
+void MainWindow::connectActions() {
+    Actions& a = *m_actions;
+    DocumentController& controller = m_session.controller;
+    connect(a.newScene, &QAction::triggered, m_files, &FileFlow::newScene);
+    connect(a.open, &QAction::triggered, m_files, &FileFlow::openWithDialog);
+    connect(a.addModel, &QAction::triggered, m_files, &FileFlow::addModelWithDialog);
+    connect(a.save, &QAction::triggered, m_files, qOverload<>(&FileFlow::save));
+    connect(a.saveAs, &QAction::triggered, m_files, qOverload<>(&FileFlow::saveAs));
+    connect(a.exportScene, &QAction::triggered, this, &MainWindow::openExportDialog);
+    connect(a.saveEnvironment, &QAction::triggered, this, &MainWindow::openEnvironmentSaveDialog);
+    connect(a.quit, &QAction::triggered, this, &QWidget::close);
+    connect(a.frame, &QAction::triggered, m_viewport, &ViewportWidget::frameSelection);
+    connect(a.home, &QAction::triggered, m_viewport, &ViewportWidget::resetCamera);
+    connect(a.overlays, &QAction::toggled, m_viewport, &ViewportWidget::setOverlaysVisible);
+    connect(a.wall, &QAction::triggered, &m_session.wall, &WallState::setOn);
+    connect(&m_session.wall, &WallState::changed, this, [this] {
+        m_actions->wall->setChecked(m_session.wall.isOn());
+        if (m_session.wall.isOn() && m_session.views.settings().split)
+            m_session.views.toggleSplit(); // cells show one view each
+    });
+    const auto lighting = [this](LightingMode mode) {
+        m_session.controller.setParameter(parameter("view.lighting"), {Scope::View, 0},
+                                          static_cast<int>(mode));
+        refreshView();
+    };
+    connect(a.lightingIbl, &QAction::triggered, this, [=] { lighting(LightingMode::Ibl); });
+    connect(a.lightingPrt, &QAction::triggered, this, [=] { lighting(LightingMode::Prt); });
+    connect(a.furnace, &QAction::triggered, this, [this](bool on) {
+        m_session.views.edit([on](render::ViewSettings& s) {
+            s.furnace = on ? std::optional(glm::vec3(1.0f)) : std::nullopt;
+        });
+    });
+    connect(&m_session.views, &ViewState::changed, this, [this] {
+        if (m_session.views.settings().split)
+            m_session.wall.setOn(false); // that is of one picture
+        m_actions->furnace->setChecked(m_session.views.settings().furnace.has_value());
+    });
+    connect(a.fullScreen, &QAction::toggled, this,
+            [this](bool on) { setWindowState(windowState().setFlag(Qt::WindowFullScreen, on)); });
+    connect(a.resetLayout, &QAction::triggered, this, &MainWindow::resetLayout);
+    connect(a.nextDock, &QAction::triggered, m_docks, &Docks::focusNext);
+    connect(a.previousDock, &QAction::triggered, m_docks, &Docks::focusPrevious);
+    connect(a.pinPixel, &QAction::triggered, &m_viewport->picker(), &PixelPicker::togglePin);
+    connect(&m_viewport->picker(), &PixelPicker::pinned, this, [this] {
+        if (!m_session.probe.wanted()) // nobody shows what was asked for
+            m_actions->pixel->trigger();
+    });
+    connect(a.shortcuts, &QAction::triggered, this,
+            [this] { makeShortcutsDialog(m_actions->all(), m_looks->listed(), this)->show(); });
+    connect(a.about, &QAction::triggered, this, [this] { makeAboutDialog(this)->show(); });
+
+    connect(m_files, &FileFlow::recentFilesChanged, this, &MainWindow::fillRecentMenu);
+    connect(&controller, &DocumentController::fileChanged, this, &MainWindow::refreshTitle);
+    connect(m_progress, &SceneProgress::sceneShown, this, &MainWindow::refreshTitle);
+    connect(m_files, &FileFlow::openingChanged, m_progress, &SceneProgress::setOpening);
+    connect(&controller, &DocumentController::noticed, this, &MainWindow::notice);
+    connect(&controller, &DocumentController::changed, m_notices, [this](const Change& change) {
+        if (change.isAnotherDocument())
+            m_notices->sceneReplaced(m_session.controller.isPristine());
+    });
+    auto* activity = new ActivityStatus(m_session, *m_busy, this);
+    connect(activity, &ActivityStatus::jobsWanted, this, [this] {
+        if (!m_actions->jobsDock->isChecked())
+            m_actions->jobsDock->trigger();
+    });
+    connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
+        if (touches(change.affects, Affects::Geometry | Affects::Structure))
+            refreshTriangles();
+        if (!change.target || change.target->scope == Scope::View ||
+            touches(change.affects, Affects::Bakes))
+            refreshView();
+    });
+    connect(m_viewport, &ViewportWidget::frameRendered, this, &MainWindow::showFrame);
+    connect(m_viewport, &ViewportWidget::displayRefused, &m_session.displays,
+            &DisplayLoader::refuse);
+    connect(&m_session.displays, &DisplayLoader::noticed, this, &MainWindow::notice);
+    connect(m_viewport, &ViewportWidget::contextReady, this,
+            [this](const QString& gpu, const QString& version) {
+                m_gpu->setText(
+                    tr("%1   OpenGL %2").arg(gpu, version.section(QLatin1Char(' '), 0, 0)));
+                m_gpu->setToolTip(tr("%1\nOpenGL %2").arg(gpu, version));
+            });
+    connect(m_viewport, &ViewportWidget::contextFailed, this, [this](const QString& reason) {
+        m_gpu->setText(tr("No OpenGL 4.5"));
+        notice({NoticeKind::Error, reason, {}, {}, NoticeAbout::Program});
+    });
+    connect(m_viewport, &ViewportWidget::shaderProblems, this, [this](const QStringList& messages) {
+        notice({NoticeKind::Error,
+                tr("A shader does not compile; the last good one stays in use."),
+                messages,
+                {},
+                NoticeAbout::Program});
+    });
+    fillRecentMenu();
+    refreshTriangles();
+    refreshView();
+}
+
+} // namespace patina::editor
