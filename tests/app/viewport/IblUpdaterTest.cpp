@@ -156,8 +156,8 @@ TEST_F(IblUpdaterTest, AnEnvironmentThatWasShownIsPreparedStill) {
     ASSERT_NE(takeFull(updater, ready), nullptr);
     EXPECT_GT(lights.bytes(), 0u);
     ASSERT_TRUE(QTest::qWaitFor([&] { return folder.files().size() == 3u; }, 60'000));
-    for (const std::filesystem::path& file : folder.files())
-        std::filesystem::remove(file);
+    for (const std::string& file : folder.files())
+        std::filesystem::remove(folder / file);
     ready.clear();
     const ImagePtr again = sky(2.0f); // its file was read again
     updater.request(again);
