@@ -47,6 +47,9 @@ struct RenderOptions : PictureOptions {
     std::string view;    // of core/document/Views.h, or all
     std::string inspect; // X,Y of a pixel to explain
     std::string viewMode = "raw", viewRange, viewLight;
+    int turntable = 0,
+        lightTurn = 0;        // pictures round the camera's target, of a turning environment
+    int framesPerSecond = 24; // of a video
 };
 
 struct SheetOptions : PictureOptions {

@@ -2,6 +2,7 @@
 #include "app/cli/InspectPixel.h"
 #include "app/cli/LocalShadows.h"
 #include "app/cli/PictureSetup.h"
+#include "app/cli/RenderSequence.h"
 #include "app/cli/RenderViews.h"
 #include "app/cli/Report.h"
 #include "app/cli/SceneSetup.h"
@@ -9,6 +10,7 @@
 #include "core/image/Channels.h"
 #include "core/io/DisplayTransform.h"
 #include "core/io/ImageIO.h"
+#include "core/io/VideoWriter.h"
 #include "core/mix/LightMix.h"
 #include "render/SceneRenderer.h"
 #include "render/ViewRenderer.h"
@@ -106,8 +108,12 @@ Result<void> run(Session& session, const RenderOptions& options) {
     if (!writes && options.inspect.empty())
         return usageError(
             "--output is required: where the picture goes; only --inspect does without");
-    Result<ImageFileFormat> format =
-        writes ? imageFormatForPath(options.output) : ImageFileFormat::Png;
+    const Result<std::optional<SequenceRequest>> sequence = sequenceRequest(options);
+    if (!sequence)
+        return sequence.error();
+    Result<ImageFileFormat> format = writes && !isVideoFile(options.output)
+                                         ? imageFormatForPath(options.output)
+                                         : ImageFileFormat::Png;
     if (!format)
         return format.error();
     Result<render::FrameSettings> frame = frameSettings(options);
@@ -173,6 +179,11 @@ Result<void> run(Session& session, const RenderOptions& options) {
     if (!shadows)
         return shadows.error();
     prepared->scene->setNearShadows(*shadows);
+    json["counts"] = {{"meshes", document->meshes.size()},
+                      {"triangles", document->triangleCount()}};
+    if (*sequence)
+        return renderSequence(session, options, **sequence, *document, *prepared->scene, renderer,
+                              *frame, *format);
     if (Result<void> drawn = renderer.render(*frame, 0); !drawn)
         return drawn;
     if (const std::optional<Luminance> luminance = renderer.readLuminance())
@@ -195,8 +206,6 @@ Result<void> run(Session& session, const RenderOptions& options) {
         if (Result<void> done = explainPixel(session, renderer, *document, *shadows, **inspected);
             !done)
             return done;
-    json["counts"] = {{"meshes", document->meshes.size()},
-                      {"triangles", document->triangleCount()}};
     return {};
 }
 

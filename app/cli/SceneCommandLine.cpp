@@ -1,7 +1,9 @@
 // What is done with models, pictures and environments without baking.
 #include "app/cli/CommandParser.h"
 #include "app/cli/RenderViews.h"
+#include "core/cells/Sequence.h"
 #include "core/edit/Parameters.h"
+#include "core/io/VideoWriter.h"
 #include "core/light/BrightSources.h"
 #include "core/math/SphericalHarmonics.h"
 
@@ -74,7 +76,8 @@ void CommandParser::addRender() {
     addScene(c, o);
     // With --inspect a picture need not be written: run() sees to that.
     c->add_option("-o,--output", o.output,
-                  "Picture: .png, .jpg, .tif, .tga as displayed, .exr or .hdr linear")
+                  "Picture: .png, .jpg, .tif, .tga as displayed, .exr or .hdr linear; with a turn "
+                  "numbered pictures, or a video: .mp4, .webm")
         ->type_name("OUT");
     addEnvironmentOption(c, o);
     c->add_option("--size", o.size, "Pixels")->capture_default_str()->type_name("WxH");
@@ -97,6 +100,18 @@ void CommandParser::addRender() {
                   "Explain this pixel, counted from the top left: maps, factors, formulas, "
                   "sum, display; with --json as JSON. OUT may then be left out")
         ->type_name("X,Y");
+    const auto turn = [&](const char* name, int& count, const char* help) {
+        c->add_option(name, count, help)
+            ->check(plain(CLI::Range(2, kMostSequenceFrames)))
+            ->type_name("N");
+    };
+    turn("--turntable", o.turntable,
+         "The camera goes once round its target in N pictures: OUT-0001.png …, or a video");
+    turn("--light-turn", o.lightTurn, "The same with the environment, which turns round the scene");
+    c->add_option("--fps", o.framesPerSecond, "Pictures per second of a video")
+        ->check(plain(CLI::Range(1, kMostVideoRate)))
+        ->capture_default_str()
+        ->type_name("N");
     c->add_flag_callback(
          "--list-views", [] { throw ListViews(); }, "Print the names of all views")
         ->trigger_on_parse();

@@ -251,3 +251,55 @@ colorspaces:
                   .status,
               0);
 }
+
+TEST_F(Commands, RenderTurnsTheCameraOrTheEnvironment) {
+    const std::vector<std::string> scene{"render", "builtin:shader-ball", "--size",
+                                         "48x32",  "--environment",       "builtin:sunset"};
+    const auto with = [&](std::vector<std::string> more, const RunOptions& options = {}) {
+        std::vector<std::string> arguments = scene;
+        if (std::ranges::count(more, "--camera") == 0)
+            more.insert(more.end(), {"--camera", "10,5,3"});
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runPatina(arguments, options);
+    };
+    const Outcome turn = with({"-o", m_folder / "turn.png", "--turntable", "3", "--json"});
+    ASSERT_EQ(turn.status, 0) << turn.err;
+    EXPECT_EQ(turn.json()["outputs"],
+              nlohmann::json({m_folder / "turn-0001.png", m_folder / "turn-0002.png",
+                              m_folder / "turn-0003.png"}));
+    EXPECT_EQ(with({"-o", m_folder / "light.png", "--light-turn", "4"}).status, 0);
+    // Each is the picture that the command draws alone.
+    ASSERT_EQ(with({"-o", m_folder / "one.png"}).status, 0);
+    EXPECT_EQ(readBytes(m_folder / "turn-0001.png"), readBytes(m_folder / "one.png"));
+    EXPECT_EQ(readBytes(m_folder / "light-0001.png"), readBytes(m_folder / "one.png"));
+    ASSERT_EQ(with({"-o", m_folder / "two.png", "--camera", "130,5,3"}).status, 0);
+    EXPECT_EQ(readBytes(m_folder / "turn-0002.png"), readBytes(m_folder / "two.png"));
+    ASSERT_EQ(with({"-o", m_folder / "lit.png", "--set", "environment.rotationDeg=90"}).status, 0);
+    EXPECT_EQ(readBytes(m_folder / "light-0002.png"), readBytes(m_folder / "lit.png"));
+
+    // A video, by a program of ours that keeps what it is sent.
+    writeBytes(m_folder / "ffmpeg", "#!/bin/sh\nfor last in \"$@\"; do :; done\ncat > \"$last\"\n");
+    std::filesystem::permissions(m_folder / "ffmpeg", std::filesystem::perms::owner_all);
+    RunOptions ours;
+    ours.environment["PATH"] = m_folder.path().string() + ":/usr/bin:/bin";
+    const Outcome video = with({"-o", m_folder / "turn.mp4", "--turntable", "3"}, ours);
+    ASSERT_EQ(video.status, 0) << video.err;
+    EXPECT_EQ(readBytes(m_folder / "turn.mp4").size(), 3u * 48 * 32 * 3);
+    EXPECT_THAT(video.err, HasSubstr("video of 3 pictures"));
+
+    for (const auto& [more, said] : std::vector<std::pair<std::vector<std::string>, const char*>>{
+             {{"-o", m_folder / "no.mp4"}, "--turntable N"},
+             {{"-o", m_folder / "no.png", "--turntable", "3", "--light-turn", "3"}, "exclude"},
+             {{"-o", m_folder / "no.png", "--turntable", "1"}, "--turntable"},
+             {{"-o", m_folder / "no.png", "--turntable", "3", "--inspect", "1,1"}, "--inspect"}}) {
+        const Outcome outcome = with(more);
+        EXPECT_EQ(outcome.status, 2) << said;
+        EXPECT_THAT(outcome.err, HasSubstr(said));
+    }
+    RunOptions none;
+    none.environment["PATH"] = m_folder.path().string() + "/nothing";
+    const Outcome missing = with({"-o", m_folder / "no.mp4", "--turntable", "3"}, none);
+    EXPECT_NE(missing.status, 0);
+    EXPECT_THAT(missing.err, HasSubstr("ffmpeg, which is not installed"));
+    EXPECT_FALSE(std::filesystem::exists(m_folder / "no.mp4"));
+}
