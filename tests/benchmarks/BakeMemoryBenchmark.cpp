@@ -26,7 +26,8 @@ struct MemoryCase {
 };
 constexpr MemoryCase kMemoryCases[] = {{"100k vertices, 5 bands, 1024 rays", 3124, 32, 5, 1024},
                                        {"1M vertices, 4 bands, 256 rays", 10'000, 100, 4, 256},
-                                       {"5M triangles, 4 bands, 32 rays", 16'667, 150, 4, 32}};
+                                       {"5M triangles, 4 bands, 32 rays", 16'667, 150, 4, 32},
+                                       {"10M triangles, 3 bands, 16 rays", 33'334, 150, 3, 16}};
 
 // "VmHWM:   12345 kB" of this process, MiB.
 double statusMiB(const std::string& key) {
@@ -105,4 +106,4 @@ void peakMemory(benchmark::State& state) {
 
 } // namespace
 
-BENCHMARK(peakMemory)->DenseRange(0, 2)->ArgName("case")->Iterations(1)->Unit(benchmark::kSecond);
+BENCHMARK(peakMemory)->DenseRange(0, 3)->ArgName("case")->Iterations(1)->Unit(benchmark::kSecond);
