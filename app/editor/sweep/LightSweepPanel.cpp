@@ -13,6 +13,7 @@
 #include "app/editor/sweep/SweepTexts.h"
 #include "app/editor/sweep/UseLight.h"
 #include "app/editor/widget/ColorScale.h"
+#include "app/editor/widget/ElidedLabel.h"
 #include "app/editor/widget/StatusHint.h"
 #include "app/editor/widget/TextButton.h"
 
@@ -21,7 +22,6 @@
 #include <QLabel>
 #include <QListWidget>
 #include <QPointer>
-#include <QShortcut>
 #include <QSortFilterProxyModel>
 #include <QSplitter>
 #include <QStackedWidget>
@@ -34,12 +34,16 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kSweptHeight = 128;             // pixels of a swept picture
+constexpr int kSweptHeight = 128; // pixels of a swept picture
+// At most 2.5 times as wide as high: what a flat viewport shows beyond at its sides is hardly the
+// material.
 constexpr int kNarrowest = 64, kWidest = 320; // of it
 constexpr int kSweepProgressMs = 100;         // between looks at the running job
 constexpr int kSweepRow = 24;                 // of the table
 constexpr int kProblemsHeight = 3 * 24;       // at most
 constexpr int kTableShare = 55, kPicturesShare = 45;
+constexpr int kScaleWidth = 150; // of the colours of sensitivity
+constexpr int kSortArrow = 12;
 
 int pictureWidth(const QSize& viewport) {
     const double aspect = static_cast<double>(viewport.width()) / std::max(viewport.height(), 1);
@@ -68,7 +72,7 @@ LightSweepPanel::LightSweepPanel(DocumentController& controller, JobManager& job
     , m_jobs(jobs)
     , m_viewport(viewport)
     , m_controls(new SweepControls(controller))
-    , m_status(wrappedLabel())
+    , m_status(new ElidedLabel)
     , m_warning(wrappedLabel())
     , m_empty(wrappedLabel())
     , m_again(makeTextButton(tr("Run Again"), tr("Sweep the scene as it is now")))
@@ -83,6 +87,12 @@ LightSweepPanel::LightSweepPanel(DocumentController& controller, JobManager& job
                         "Diffuse light is looked at, with its shadows, through the camera."));
     m_empty->setAlignment(Qt::AlignCenter);
     m_empty->setMargin(tokens::kMargin);
+    m_use = makeTextButton(tr("Use in Scene"),
+                           tr("Light the scene with the chosen environment at its rotation, as one "
+                              "undo step (Enter)"));
+    m_use->setObjectName(QStringLiteral("sweepUse"));
+    connect(m_use, &QPushButton::clicked, this, &LightSweepPanel::useSelected);
+    m_controls->add(m_use);
     m_pages->addWidget(m_empty);
     m_pages->addWidget(makeResult());
 
@@ -175,7 +185,8 @@ QWidget* LightSweepPanel::makeLights() {
                 if (!m_refreshing && current.isValid())
                     select(m_model->lightOf(m_sorted->mapToSource(current).row()));
             });
-    connect(m_table, &QTableView::doubleClicked, this, &LightSweepPanel::useSelected);
+    // By a double-click or Enter.
+    connect(m_table, &QTableView::activated, this, &LightSweepPanel::useSelected);
     return lights;
 }
 
@@ -189,42 +200,27 @@ QWidget* LightSweepPanel::makePictures() {
            "stops"));
     m_scale = new ColorScale(ColorMap::Sequential, false);
     m_scale->setAccessibleName(tr("Range of sensitivity"));
+    m_scale->setFixedWidth(kScaleWidth);
     connect(m_scale, &ColorScale::dragged, this, &LightSweepPanel::showSensitivity);
     connect(m_scale, &ColorScale::resetRequested, this, &LightSweepPanel::refreshPictures);
-    auto* sensitivity = new QVBoxLayout;
-    sensitivity->setSpacing(2);
-    sensitivity->addWidget(m_sensitivity, 1);
-    sensitivity->addWidget(m_scale);
     auto* pictures = new QHBoxLayout;
     pictures->setSpacing(tokens::kGap);
     pictures->addWidget(m_light, 1);
     pictures->addWidget(m_reference, 1);
-    pictures->addLayout(sensitivity, 1);
-
-    m_stripTitle = new QLabel;
+    pictures->addWidget(m_sensitivity, 1);
+    m_stripTitle = new ElidedLabel;
     setSweepColor(*m_stripTitle, tokens::kTextDim);
-    m_use = makeTextButton(tr("Use in Scene"),
-                           tr("Light the scene with the chosen environment at its rotation, as one "
-                              "undo step (Enter)"));
-    m_use->setObjectName(QStringLiteral("sweepUse"));
-    connect(m_use, &QPushButton::clicked, this, &LightSweepPanel::useSelected);
     auto* heading = new QHBoxLayout;
-    heading->addWidget(m_stripTitle, 1);
-    heading->addWidget(m_use);
+    heading->addWidget(m_stripTitle, 1, Qt::AlignBottom);
+    heading->addWidget(m_scale); // under the map that it is of
     m_strip = new SweepStrip(m_controller.runner());
     m_strip->setObjectName(QStringLiteral("sweepStrip"));
     connect(m_strip, &SweepStrip::chosen, this, &LightSweepPanel::select);
     connect(m_strip, &SweepStrip::picturesChanged, this, &LightSweepPanel::refreshPictures);
-    connect(m_strip, &QListWidget::itemDoubleClicked, this, &LightSweepPanel::useSelected);
-    for (QWidget* list : {static_cast<QWidget*>(m_table), static_cast<QWidget*>(m_strip)})
-        for (const Qt::Key key : {Qt::Key_Return, Qt::Key_Enter}) {
-            auto* enter = new QShortcut(QKeySequence(key), list);
-            enter->setContext(Qt::WidgetShortcut);
-            connect(enter, &QShortcut::activated, this, &LightSweepPanel::useSelected);
-        }
+    connect(m_strip, &QListWidget::activated, this, &LightSweepPanel::useSelected);
     auto* side = new QWidget;
     auto* column = new QVBoxLayout(side);
-    column->setContentsMargins(0, 0, 0, 0);
+    column->setContentsMargins(tokens::kGap / 2, 0, 0, 0); // the splitter's handle
     column->setSpacing(tokens::kGap / 2);
     column->addLayout(pictures, 1);
     column->addLayout(heading);
@@ -305,11 +301,18 @@ void LightSweepPanel::take(const SweepOutcomePtr& outcome) {
     m_problems->setVisible(m_problems->count() > 0);
     rank();
     if (outcome) {
-        m_table->resizeColumnsToContents();
+        fitColumns();
         m_table->scrollToTop();
     }
     checkState();
     refresh();
+}
+
+// The style's hints leave no room for the arrow that says what rows are sorted by.
+void LightSweepPanel::fitColumns() {
+    m_table->resizeColumnsToContents();
+    for (int column = 0; column < SweepModel::Flags; ++column)
+        m_table->setColumnWidth(column, m_table->columnWidth(column) + kSortArrow);
 }
 
 void LightSweepPanel::rank() {
@@ -348,8 +351,8 @@ void LightSweepPanel::refreshPictures() {
                         QPoint(score.worstPixel.x, score.worstPixel.y));
     m_reference->setPicture(referenceText(outcome),
                             displayedImage(outcome.sweep.reference, outcome.settings.view));
-    m_stripTitle->setText(tr("%1: %n rotation(s)", nullptr, outcome.settings.rotations)
-                              .arg(toQString(outcome.environments[score.light.environment].title)));
+    m_stripTitle->setText(
+        tr("Rotations of %1").arg(toQString(outcome.environments[score.light.environment].title)));
     const double most = largestSensitivity(outcome.sweep.sensitivity);
     showSensitivity(0.0, most > 0.0 ? most : 1.0);
 }
@@ -387,6 +390,7 @@ void LightSweepPanel::refresh() {
     m_pages->setCurrentIndex(m_outcome ? 1 : 0);
     if (m_job == 0)
         m_status->setText(m_outcome ? summaryText(*m_outcome) : QString());
+    m_status->setToolTip(m_status->text());
     QStringList warnings;
     if (!m_ended.isEmpty())
         warnings << m_ended;

@@ -65,6 +65,7 @@ class LightSweepPanel : public QWidget {
     void jobsChanged();
     void showProgress();
     void rank();
+    void fitColumns();
     void refresh(); // texts and pages
     void refreshPictures();
     void showSensitivity(double from, double to);

@@ -55,7 +55,7 @@ SweepControls::SweepControls(DocumentController& controller, QWidget* parent)
     : QWidget(parent)
     , m_controller(controller)
     , m_folder(QSettings().value(QLatin1String(kSweepFolder)).toString())
-    , m_ofDocument(described(new QCheckBox(tr("Scene's environments")), tr("Scene's environments"),
+    , m_ofDocument(described(new QCheckBox(tr("Scene")), tr("Scene's environments"),
                              tr("Sweep the environments of the scene")))
     , m_shipped(described(new QCheckBox(tr("Built-in skies")), tr("Built-in skies"),
                           tr("Sweep the skies that come with Patina")))
@@ -126,6 +126,10 @@ void SweepControls::setFolder(const QString& folder) {
     QSettings().setValue(QLatin1String(kSweepFolder), folder);
     showFolder();
     m_ofFolder->setChecked(true);
+}
+
+void SweepControls::add(QWidget* more) {
+    layout()->addWidget(more);
 }
 
 void SweepControls::browse() {

@@ -25,6 +25,7 @@ class SweepControls : public QWidget {
     [[nodiscard]] RankBy by() const;
     void setFolder(const QString& folder); // and that it is swept; remembered
     void setRunning(bool running);
+    void add(QWidget* more); // behind the rest
 
   Q_SIGNALS:
     void startWanted();

@@ -164,8 +164,7 @@ QVariant SweepModel::headerData(int section, Qt::Orientation orientation, int ro
     if (role == Qt::ToolTipRole)
         return kHelp[section];
     if (role == Qt::TextAlignmentRole)
-        return QVariant(section == Name || section == Flags ? Qt::AlignLeft | Qt::AlignVCenter
-                                                            : Qt::AlignRight | Qt::AlignVCenter);
+        return QVariant(Qt::AlignLeft | Qt::AlignVCenter); // the arrow of sorting is at the right
     return {};
 }
 

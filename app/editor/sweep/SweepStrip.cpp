@@ -11,8 +11,8 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kStripHeight = 56; // of its pictures
-constexpr int kStripWidest = 112;
+constexpr int kStripHeight = 44; // of its pictures
+constexpr int kStripWidest = 88;
 
 QIcon stripIcon(const QImage& picture, const QSize& size, qreal ratio) {
     QPixmap pixmap = QPixmap::fromImage(
@@ -117,7 +117,7 @@ void SweepStrip::fill() {
         one.setToolTip(tr("%1 at %2: difference %3")
                            .arg(toQString(m_outcome->environments[m_environment].title), one.text(),
                                 scoreText(score.difference.worst, RankBy::Difference)));
-        one.setSizeHint(size + QSize(tokens::kGap, fontMetrics().height() + tokens::kGap));
+        one.setSizeHint(size + QSize(tokens::kGap, fontMetrics().height() + tokens::kGap / 2));
         one.setIcon(m_pictures.empty() ? QIcon()
                                        : stripIcon(m_pictures[static_cast<std::size_t>(row)], size,
                                                    devicePixelRatioF()));

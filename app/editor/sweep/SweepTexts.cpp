@@ -25,8 +25,7 @@ QString countText(const SweepOutcome& outcome) {
 QString summaryText(const SweepOutcome& outcome) {
     const SweepTransfer& transfer = outcome.transfer;
     const QString bake =
-        (transfer.quick ? SweepTr::tr("quick bake, %1 bands, %2 rays per vertex; the Bake dock "
-                                      "makes a better one")
+        (transfer.quick ? SweepTr::tr("quick bake, %1 bands, %2 rays per vertex")
                         : SweepTr::tr("the scene's bake, %1 bands, %2 rays"))
             .arg(QLocale().toString(transfer.bands), QLocale().toString(transfer.rays));
     return SweepTr::tr("%1 in %2 s   ·   %3")
@@ -36,13 +35,13 @@ QString summaryText(const SweepOutcome& outcome) {
 QStringList warningTexts(const SweepOutcome& outcome) {
     QStringList texts;
     const SweepPixels& pixels = outcome.pixels;
-    if (pixels.count() < pixels.covered)
+    if (pixels.count() < pixels.covered) {
+        const double percent = 100.0 - 100.0 * static_cast<double>(pixels.count()) /
+                                           static_cast<double>(pixels.covered);
         texts << SweepTr::tr("%1 % of the pixels of surfaces are metal or black, which radiance "
                              "transfer does not light; they are left out.")
-                     .arg(
-                         QLocale().toString(100.0 * (1.0 - static_cast<double>(pixels.count()) /
-                                                               static_cast<double>(pixels.covered)),
-                                            'f', 0));
+                     .arg(QLocale().toString(percent, 'f', percent < 10.0 ? 1 : 0));
+    }
     for (const std::string& reason : outcome.transfer.stale)
         texts << SweepTr::tr("The bake is stale: %1; bake it anew.").arg(toQString(reason));
     return texts;

@@ -22,7 +22,7 @@
 #include <QPushButton>
 #include <QSpinBox>
 #include <QTableView>
-#include <cmath>
+#include <vector>
 
 namespace patina::editor {
 namespace {
@@ -277,7 +277,7 @@ TEST_F(LightSweepTest, AnEditMakesTheResultOneOfAnEarlierStateUntilItIsUndoneOrR
     QPushButton& again = *find<QPushButton>(panel(), QStringLiteral("Run Again"));
     EXPECT_FALSE(again.isVisible());
     // What is behind the scene is in no picture of the sweep.
-    controller().setParameter(parameter("view.background"), {Scope::View, 0},
+    controller().setParameter(parameter("environment.background"), {Scope::Environment, 0},
                               static_cast<int>(BackgroundMode::Color));
     EXPECT_FALSE(panel().isOfEarlierState());
     const Id material = document().materials.front().id;
@@ -319,9 +319,12 @@ TEST_F(LightSweepTest, SaysWhyThereIsNothingToRank) {
     check("Scene's environments", false);
     EXPECT_FALSE(button("sweepStart").isEnabled()) << "nothing is chosen";
     check("Scene's environments", true);
+    std::vector<Id> materials;
     for (const Material& material : document().materials)
-        controller().setParameter(parameter("material.metallic"), {Scope::Material, material.id},
-                                  1.0f);
+        materials.push_back(material.id);
+    for (const Id material : materials)
+        controller().setParameter(parameter("material.baseColor"), {Scope::Material, material},
+                                  glm::vec3(0.0f));
     EXPECT_FALSE(swept());
     EXPECT_EQ(panel().outcome(), nullptr);
     EXPECT_THAT(panel().warning().toStdString(), HasSubstr("is metal or black"));
