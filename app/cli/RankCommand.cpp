@@ -5,16 +5,14 @@
 #include "app/cli/RankEnvironments.h"
 #include "app/cli/Report.h"
 #include "app/cli/SceneSetup.h"
-#include "core/bake/Bake.h"
-#include "core/bake/document/DocumentBakeInputs.h"
 #include "core/base/AtomicFile.h"
 #include "core/base/LowerCase.h"
 #include "core/compare/DifferencePicture.h"
 #include "core/document/ViewChoices.h"
-#include "core/edit/Edit.h"
 #include "core/image/ColorMap.h"
 #include "core/light/LatLongGrid.h"
 #include "core/rank/LightSweep.h"
+#include "core/rank/SweepBake.h"
 
 #include <algorithm>
 #include <chrono>
@@ -32,7 +30,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kQuickOrder = 5, kQuickRays = 256;
 constexpr int kLargestSide = 1024; // a side of the pictures
 constexpr std::size_t kShown = 10; // lights that people are shown
 
@@ -53,37 +50,30 @@ Result<RankTransfer> chooseTransfer(Session& session, const RankOptions& options
         return RankTransfer{
             nullptr, "unshadowed",
             fmt::format("none: nothing is hidden, {} bands in closed form", kUnshadowedOrder)};
-    const auto attached = [&] {
-        BakeArtifactPtr bake = findBake(document, BakeKind::PrtVertex);
-        return bake && bake->missingFile.empty() ? bake : findBake(document, BakeKind::PrtTexel);
-    };
-    if (BakeArtifactPtr bake = attached(); bake && bake->missingFile.empty()) {
+    if (attachedSweepBake(document)) {
         warnOfStaleBakes(session, document);
         document.view.lighting = LightingMode::Prt;
         if (Result<void> followed = followBounces(session, {}, document); !followed)
             return followed.error();
-        bake = attached();
-        return RankTransfer{
-            bake, options.bakes.empty() ? "project" : "file",
-            fmt::format("{}, {} bands, {} rays",
-                        options.bakes.empty() ? "the project's bake" : options.bakes.back(),
-                        bake->order, bake->samplesDone)};
-    }
-    if (!options.bakes.empty())
+    } else if (!options.bakes.empty()) {
         return usageError("the bake holds no radiance transfer; compute one with \"patina bake "
                           "prt\"");
-    session.beginPhase();
-    PrtSettings settings;
-    settings.order = kQuickOrder;
-    settings.samples = kQuickRays;
-    TileSink sink;
-    Result<BakeArtifact> baked = bakePrtVertex(bakeInputs(document), settings, sink, session.job());
-    if (!baked)
-        return baked.error();
-    return RankTransfer{std::make_shared<const BakeArtifact>(std::move(*baked)), "quick",
-                        fmt::format("a quick bake, {} bands, {} rays per vertex; --bake FILE "
-                                    "takes a better one",
-                                    kQuickOrder, kQuickRays)};
+    } else {
+        session.beginPhase();
+    }
+    const Result<SweepBake> chosen = chooseSweepBake(document, session.job());
+    if (!chosen)
+        return chosen.error();
+    if (chosen->quick)
+        return RankTransfer{chosen->bake, "quick",
+                            fmt::format("a quick bake, {} bands, {} rays per vertex; --bake FILE "
+                                        "takes a better one",
+                                        kQuickSweepBands, kQuickSweepRays)};
+    return RankTransfer{
+        chosen->bake, options.bakes.empty() ? "project" : "file",
+        fmt::format("{}, {} bands, {} rays",
+                    options.bakes.empty() ? "the project's bake" : options.bakes.back(),
+                    chosen->bake->order, chosen->bake->samplesDone)};
 }
 
 // ENV[@DEG]

@@ -86,6 +86,9 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
     , transfer(make(tr("&Transfer"), QStringLiteral("transfer"), {tr("Ctrl+6")},
                     tr("Show how light comes to a point by the baked transfer: its lobe, its "
                        "coefficients, what it sees of the environment")))
+    , lightSweep(make(tr("Light Sweep"), QStringLiteral("light-sweep"), {tr("Ctrl+7")},
+                      tr("Find the light, among environments and their rotations, in which the "
+                         "material fails")))
     , pinPixel(make(tr("Pin Pixel"), QStringLiteral("pin"), {tr("P")},
                     tr("Keep looking at the point of the surface under the pointer; once more: "
                        "take the pin away")))
@@ -146,7 +149,7 @@ QList<QAction*> Actions::docks() const {
 }
 
 QList<QAction*> Actions::instruments() const {
-    return {pixel, lightLab, lens, energy, mixer, transfer};
+    return {pixel, lightLab, lens, energy, mixer, transfer, lightSweep};
 }
 
 QList<QAction*> Actions::all() const {

@@ -23,8 +23,9 @@ class Actions : public QObject {
     QAction *frame, *home, *overlays, *wall, *lightingIbl, *lightingPrt;
     QAction *sceneDock, *materialDock, *environmentDock, *lightsDock, *viewDock, *bakeDock;
     QAction *modelDock, *jobsDock, *logDock, *historyDock, *snapshotsDock;
-    QAction *nextDock, *previousDock;                             // by key
-    QAction *pixel, *lightLab, *lens, *energy, *mixer, *transfer; // docks to look closer with
+    QAction *nextDock, *previousDock; // by key
+    // Docks to look closer with.
+    QAction *pixel, *lightLab, *lens, *energy, *mixer, *transfer, *lightSweep;
     QAction* pinPixel;
     QAction* furnace;
     QAction *fullScreen, *resetLayout;

@@ -21,6 +21,7 @@
 #include "app/editor/panel/SnapshotsPanel.h"
 #include "app/editor/panel/TransferPanel.h"
 #include "app/editor/panel/ViewPanel.h"
+#include "app/editor/sweep/LightSweepPanel.h"
 #include "app/editor/viewport/ViewOverlay.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "core/light/Light.h"
@@ -35,7 +36,7 @@ namespace {
 
 constexpr QSize kComfortable(1440, 900);
 constexpr int kFrameHeight = 60;  // more than a title bar needs; what it is is known too late
-constexpr int kLayoutVersion = 6; // raise when docks come or go: older layouts are ignored
+constexpr int kLayoutVersion = 7; // raise when docks come or go: older layouts are ignored
 
 } // namespace
 
@@ -89,6 +90,8 @@ void MainWindow::makeDocks() {
         new TransferPanel(controller, m_session.probe, m_session.lobe, m_session.nearShadows);
     connect(transfer, &TransferPanel::bakeWanted, bake, [bake] { bake->bakeTransfer(false); });
     m_docks->addInstrument(a.transfer, QStringLiteral("transfer"), transfer);
+    m_docks->addInstrument(a.lightSweep, QStringLiteral("lightSweep"),
+                           new LightSweepPanel(controller, m_session.jobs, *m_viewport));
     m_docks->reset();
 }
 
