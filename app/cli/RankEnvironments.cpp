@@ -2,13 +2,12 @@
 
 #include "app/cli/Report.h"
 #include "app/cli/SceneSetup.h"
-#include "core/base/LowerCase.h"
 #include "core/document/Document.h"
 #include "core/document/EnvironmentTitle.h"
 #include "core/document/Source.h"
 #include "core/scene/EnvironmentFile.h"
+#include "core/scene/FolderEnvironments.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <system_error>
@@ -24,29 +23,15 @@ struct Candidate {
     bool ofFolder = false;
 };
 
-// .hdr and .exr of a folder by name, not of folders in it; of six faces the first one alone, which
-// stands for all.
+// The environments of a folder by name, not of folders in it.
 Result<std::vector<Candidate>> filesOf(const fs::path& folder) {
-    std::vector<fs::path> files;
-    std::error_code error;
-    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
-         entry.increment(error)) {
-        const std::string extension = extensionOf(entry->path());
-        std::error_code unknown;
-        if ((extension != ".hdr" && extension != ".exr") || entry->is_directory(unknown))
-            continue;
-        const std::vector<fs::path> faces = sixFaceFiles(entry->path());
-        if (!faces.empty() && faces.front() != entry->path() && fs::exists(faces.front(), unknown))
-            continue;
-        files.push_back(entry->path());
-    }
-    if (error)
-        return Error{ErrorKind::InputMissing, "the folder cannot be read", folder, error.message()};
-    if (files.empty())
+    const Result<FolderEnvironments> found = environmentFilesOf(folder);
+    if (!found)
+        return found.error();
+    if (found->files.empty())
         return Error{ErrorKind::Usage, "there is no .hdr and no .exr in this folder", folder, {}};
-    std::ranges::sort(files);
     std::vector<Candidate> candidates;
-    for (const fs::path& file : files)
+    for (const fs::path& file : found->files)
         candidates.push_back({file.string(), true});
     return candidates;
 }
