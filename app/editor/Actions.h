@@ -21,10 +21,12 @@ class Actions : public QObject {
     QAction* recover;
     QAction *undo, *redo, *keepSnapshot;
     QAction *frame, *home, *overlays, *wall, *lightingIbl, *lightingPrt;
+    QAction *nextEnvironment, *previousEnvironment; // of the library, in the viewport
     QAction *sceneDock, *materialDock, *environmentDock, *lightsDock, *viewDock, *bakeDock;
     QAction *modelDock, *jobsDock, *logDock, *historyDock, *snapshotsDock;
-    QAction *nextDock, *previousDock;                             // by key
-    QAction *pixel, *lightLab, *lens, *energy, *mixer, *transfer; // docks to look closer with
+    QAction *nextDock, *previousDock; // by key
+    QAction *pixel, *lightLab, *lens, *energy, *mixer, *transfer,
+        *library; // docks to look closer with
     QAction* pinPixel;
     QAction* furnace;
     QAction *fullScreen, *resetLayout;

@@ -12,6 +12,7 @@
 #include "app/editor/ViewActions.h"
 #include "app/editor/document/PrintableNotice.h"
 #include "app/editor/document/QtText.h"
+#include "app/editor/library/LibraryPanel.h"
 #include "app/editor/panel/BakePanel.h"
 #include "app/editor/panel/BrdfLensPanel.h"
 #include "app/editor/panel/EnergyPanel.h"
@@ -68,16 +69,8 @@ namespace {
 
 constexpr QSize kComfortable(1440, 900);
 constexpr int kFrameHeight = 60;     // more than a title bar needs; what it is is known too late
-constexpr int kLayoutVersion = 6;    // raise when docks come or go: older layouts are ignored
+constexpr int kLayoutVersion = 7;    // raise when docks come or go: older layouts are ignored
 constexpr qint64 kFrameTimeMs = 250; // how often the number changes, so that it can be read
-
-QStringList droppedFiles(const QMimeData* data) {
-    QStringList files;
-    for (const QUrl& url : data->urls())
-        if (url.isLocalFile())
-            files << url.toLocalFile();
-    return files;
-}
 
 } // namespace
 
@@ -242,6 +235,8 @@ void MainWindow::makeDocks() {
         new TransferPanel(controller, m_session.probe, m_session.lobe, m_session.nearShadows);
     connect(transfer, &TransferPanel::bakeWanted, bake, [bake] { bake->bakeTransfer(false); });
     m_docks->addInstrument(a.transfer, QStringLiteral("transfer"), transfer);
+    m_docks->addInstrument(a.library, QStringLiteral("library"),
+                           new LibraryPanel(m_session.library));
     m_docks->reset();
 }
 
@@ -311,7 +306,7 @@ void MainWindow::makeMenus() {
     view->addAction(a.wall);
     m_looks->fillMenu(*view->addMenu(tr("L&ook At")));
     view->addSeparator();
-    view->addActions({a.lightingIbl, a.lightingPrt});
+    view->addActions({a.lightingIbl, a.lightingPrt, a.previousEnvironment, a.nextEnvironment});
     view->addSeparator();
     view->addActions(a.docks());
     view->addActions({a.nextDock, a.previousDock});
@@ -452,6 +447,7 @@ void MainWindow::connectActions() {
             [this] { makeShortcutsDialog(m_actions->all(), m_looks->listed(), this)->show(); });
     connect(a.about, &QAction::triggered, this, [this] { makeAboutDialog(this)->show(); });
 
+    connectLibrary(m_session.library, a, *m_files, *m_viewport);
     connect(m_files, &FileFlow::recentFilesChanged, this, &MainWindow::fillRecentMenu);
     connect(&controller, &DocumentController::fileChanged, this, &MainWindow::refreshTitle);
     connect(m_progress, &SceneProgress::sceneShown, this, &MainWindow::refreshTitle);
@@ -591,13 +587,13 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
-    if (!droppedFiles(event->mimeData()).isEmpty())
+    if (!draggedFiles(*event->mimeData()).isEmpty())
         event->acceptProposedAction();
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
     event->acceptProposedAction();
-    m_files->dropped(droppedFiles(event->mimeData()), mapToGlobal(event->position().toPoint()));
+    m_files->dropped(draggedFiles(*event->mimeData()), mapToGlobal(event->position().toPoint()));
 }
 
 } // namespace patina::editor

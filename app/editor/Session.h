@@ -10,6 +10,7 @@
 #include "app/editor/job/JobManager.h"
 #include "app/editor/job/NearShadowUpdater.h"
 #include "app/editor/job/UiTasks.h"
+#include "app/editor/library/EnvironmentLibrary.h"
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/LightLimitNotice.h"
 #include "app/editor/viewport/LobeOnSurface.h"
@@ -31,6 +32,7 @@ struct Session {
     DisplayLoader displays{controller};
     SelectionModel selection{controller};
     Thumbnails thumbnails{tasks};
+    EnvironmentLibrary library{controller, libraryCacheFolder()};
     IblUpdater ibl{tasks, iblCacheFolder()};
     ViewState views;
     WallState wall{controller};
