@@ -5,6 +5,7 @@
 #include "core/document/Document.h"
 #include "core/document/EnvironmentTitle.h"
 #include "core/document/Source.h"
+#include "core/scene/EnvironmentFile.h"
 #include "core/scene/FolderEnvironments.h"
 
 #include <filesystem>
@@ -22,6 +23,19 @@ struct Candidate {
     bool ofFolder = false;
 };
 
+// The environments of a folder by name, not of folders in it.
+Result<std::vector<Candidate>> filesOf(const fs::path& folder) {
+    const Result<FolderEnvironments> found = environmentFilesOf(folder);
+    if (!found)
+        return found.error();
+    if (found->files.empty())
+        return Error{ErrorKind::Usage, "there is no .hdr and no .exr in this folder", folder, {}};
+    std::vector<Candidate> candidates;
+    for (const fs::path& file : found->files)
+        candidates.push_back({file.string(), true});
+    return candidates;
+}
+
 Result<std::vector<Candidate>> candidatesOf(const RankOptions& options) {
     std::vector<Candidate> candidates;
     for (const std::string& name : options.environments) {
@@ -30,11 +44,10 @@ Result<std::vector<Candidate>> candidatesOf(const RankOptions& options) {
             candidates.push_back({name, false});
             continue;
         }
-        const Result<std::vector<fs::path>> files = environmentFilesOf(name);
+        const Result<std::vector<Candidate>> files = filesOf(name);
         if (!files)
             return files.error();
-        for (const fs::path& file : *files)
-            candidates.push_back({file.string(), true});
+        candidates.insert(candidates.end(), files->begin(), files->end());
     }
     return candidates;
 }

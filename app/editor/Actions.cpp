@@ -43,6 +43,12 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
                        tr("Light from the environment, with every reflection")))
     , lightingPrt(make(tr("&Precomputed Transfer"), {}, {tr("Ctrl+Shift+L")},
                        tr("Light through the baked transfer, with its soft shadows")))
+    , nextEnvironment(make(tr("Next Environment"), {}, {tr("PgDown")},
+                           tr("Light the scene with the next environment of the library, in the "
+                              "order of the Library dock")))
+    , previousEnvironment(make(tr("Previous Environment"), {}, {tr("PgUp")},
+                               tr("Light the scene with the environment of the library before, in "
+                                  "the order of the Library dock")))
     , sceneDock(make(tr("S&cene"), QStringLiteral("scene"), {tr("Ctrl+Shift+1")},
                      tr("Show or hide the list of meshes and materials")))
     , materialDock(make(tr("Material"), QStringLiteral("material"), {tr("Ctrl+Shift+2")},
@@ -89,6 +95,9 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
     , lightSweep(make(tr("Light Sweep"), QStringLiteral("light-sweep"), {tr("Ctrl+7")},
                       tr("Find the light, among environments and their rotations, in which the "
                          "material fails")))
+    , library(make(tr("Library"), QStringLiteral("library"), {tr("Ctrl+B")},
+                   tr("Show or hide the environments of your folders, with what was measured of "
+                      "them, to pick light from")))
     , pinPixel(make(tr("Pin Pixel"), QStringLiteral("pin"), {tr("P")},
                     tr("Keep looking at the point of the surface under the pointer; once more: "
                        "take the pin away")))
@@ -118,6 +127,9 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
     wall->setCheckable(true);
     furnace->setCheckable(true);
     fullScreen->setCheckable(true);
+    // Elsewhere these keys scroll.
+    for (QAction* step : {nextEnvironment, previousEnvironment})
+        step->setShortcutContext(Qt::WidgetShortcut);
     auto* lighting = new QActionGroup(this);
     for (QAction* action : {lightingIbl, lightingPrt}) {
         action->setCheckable(true);
@@ -149,14 +161,29 @@ QList<QAction*> Actions::docks() const {
 }
 
 QList<QAction*> Actions::instruments() const {
-    return {pixel, lightLab, lens, energy, mixer, transfer, lightSweep};
+    return {pixel, lightLab, lens, energy, mixer, transfer, lightSweep, library};
 }
 
 QList<QAction*> Actions::all() const {
-    return QList<QAction*>{newScene,        open,        addModel, save,     saveAs,
-                           saveEnvironment, exportScene, quit,     undo,     redo,
-                           keepSnapshot,    frame,       home,     overlays, wall,
-                           lightingIbl,     lightingPrt} +
+    return QList<QAction*>{newScene,
+                           open,
+                           addModel,
+                           save,
+                           saveAs,
+                           saveEnvironment,
+                           exportScene,
+                           quit,
+                           undo,
+                           redo,
+                           keepSnapshot,
+                           frame,
+                           home,
+                           overlays,
+                           wall,
+                           lightingIbl,
+                           lightingPrt,
+                           nextEnvironment,
+                           previousEnvironment} +
            docks() + QList<QAction*>{nextDock, previousDock} + instruments() +
            QList<QAction*>{pinPixel, furnace, fullScreen, resetLayout, shortcuts, about, recover};
 }

@@ -21,11 +21,12 @@ class Actions : public QObject {
     QAction* recover;
     QAction *undo, *redo, *keepSnapshot;
     QAction *frame, *home, *overlays, *wall, *lightingIbl, *lightingPrt;
+    QAction *nextEnvironment, *previousEnvironment; // of the library, in the viewport
     QAction *sceneDock, *materialDock, *environmentDock, *lightsDock, *viewDock, *bakeDock;
     QAction *modelDock, *jobsDock, *logDock, *historyDock, *snapshotsDock;
     QAction *nextDock, *previousDock; // by key
     // Docks to look closer with.
-    QAction *pixel, *lightLab, *lens, *energy, *mixer, *transfer, *lightSweep;
+    QAction *pixel, *lightLab, *lens, *energy, *mixer, *transfer, *lightSweep, *library;
     QAction* pinPixel;
     QAction* furnace;
     QAction *fullScreen, *resetLayout;

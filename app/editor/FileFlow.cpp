@@ -107,6 +107,11 @@ void FileFlow::addModelWithDialog() {
 void FileFlow::dropped(const QStringList& files, const QPoint& globalPosition) {
     QStringList models, others;
     for (const QString& file : files) {
+        if (QFileInfo(file).isDir()) {
+            m_session.library.addFolder(file);
+            Q_EMIT folderAdded();
+            continue;
+        }
         const FileKind kind = fileKind(file);
         if (kind == FileKind::Project) {
             open(file); // replaces everything, so the rest would be lost anyway

@@ -42,6 +42,7 @@ class FileFlow : public QObject {
 
   Q_SIGNALS:
     void recentFilesChanged();
+    void folderAdded();                       // to the library, by a drop
     void openingChanged(const QString& name); // of the scene that is being read; empty: none is
 
   private:

@@ -193,7 +193,7 @@ void MainWindow::makeMenus() {
     view->addAction(a.wall);
     m_looks->fillMenu(*view->addMenu(tr("L&ook At")));
     view->addSeparator();
-    view->addActions({a.lightingIbl, a.lightingPrt});
+    view->addActions({a.lightingIbl, a.lightingPrt, a.previousEnvironment, a.nextEnvironment});
     view->addSeparator();
     view->addActions(a.docks());
     view->addActions({a.nextDock, a.previousDock});

@@ -8,6 +8,7 @@
 #include "app/editor/HelpDialogs.h"
 #include "app/editor/Session.h"
 #include "app/editor/ViewActions.h"
+#include "app/editor/library/LibraryPanel.h"
 #include "app/editor/viewport/SceneProgress.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "app/editor/widget/NoticeArea.h"
@@ -68,6 +69,7 @@ void MainWindow::connectActions() {
             [this] { makeShortcutsDialog(m_actions->all(), m_looks->listed(), this)->show(); });
     connect(a.about, &QAction::triggered, this, [this] { makeAboutDialog(this)->show(); });
 
+    connectLibrary(m_session.library, a, *m_files, *m_viewport);
     connect(m_files, &FileFlow::recentFilesChanged, this, &MainWindow::fillRecentMenu);
     connect(&controller, &DocumentController::fileChanged, this, &MainWindow::refreshTitle);
     connect(m_progress, &SceneProgress::sceneShown, this, &MainWindow::refreshTitle);

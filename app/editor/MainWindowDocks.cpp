@@ -4,6 +4,7 @@
 #include "app/editor/Actions.h"
 #include "app/editor/Docks.h"
 #include "app/editor/Session.h"
+#include "app/editor/library/LibraryPanel.h"
 #include "app/editor/panel/BakePanel.h"
 #include "app/editor/panel/BrdfLensPanel.h"
 #include "app/editor/panel/EnergyPanel.h"
@@ -36,7 +37,7 @@ namespace {
 
 constexpr QSize kComfortable(1440, 900);
 constexpr int kFrameHeight = 60;  // more than a title bar needs; what it is is known too late
-constexpr int kLayoutVersion = 7; // raise when docks come or go: older layouts are ignored
+constexpr int kLayoutVersion = 8; // raise when docks come or go: older layouts are ignored
 
 } // namespace
 
@@ -92,6 +93,8 @@ void MainWindow::makeDocks() {
     m_docks->addInstrument(a.transfer, QStringLiteral("transfer"), transfer);
     m_docks->addInstrument(a.lightSweep, QStringLiteral("lightSweep"),
                            new LightSweepPanel(controller, m_session.jobs, *m_viewport));
+    m_docks->addInstrument(a.library, QStringLiteral("library"),
+                           new LibraryPanel(m_session.library));
     m_docks->reset();
 }
 

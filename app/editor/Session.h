@@ -10,6 +10,7 @@
 #include "app/editor/job/JobManager.h"
 #include "app/editor/job/NearShadowUpdater.h"
 #include "app/editor/job/UiTasks.h"
+#include "app/editor/library/EnvironmentLibrary.h"
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/LightLimitNotice.h"
 #include "app/editor/viewport/LobeOnSurface.h"
@@ -33,6 +34,7 @@ struct Session {
     Thumbnails thumbnails{tasks};
     PreparedLights lights{iblCacheFolder()};
     IblUpdater ibl{tasks, lights};
+    EnvironmentLibrary library{controller, libraryCacheFolder()};
     ViewState views;
     WallState wall{controller};
     WallComparison comparison{wall, tasks, worker};

@@ -2,10 +2,8 @@
 
 #include "core/base/Check.h"
 #include "core/job/Parallel.h"
-#include "core/light/EnvironmentResample.h"
-#include "core/light/LatLongGrid.h"
+#include "core/light/LightSides.h"
 #include "core/math/ShRotation.h"
-#include "core/math/Shading.h"
 #include "core/math/SphericalHarmonics.h"
 
 #include <algorithm>
@@ -17,72 +15,6 @@
 
 namespace patina {
 namespace {
-
-// --- Dark sides ---
-
-struct Patch {
-    glm::dvec3 direction;
-    double light; // luminance · solid angle
-};
-
-std::vector<Patch> lightPatches(const Image& image) {
-    constexpr int kWidth =
-        64; // patches of 5.6°: the cosine between their middles and edges is .999
-    const Image small = shrinkLatLong(image, kWidth);
-    std::vector<Patch> patches;
-    if (small.height() < 2 || small.height() % 2 != 0 || small.width() != 2 * small.height())
-        return patches;
-    const LatLongGrid grid(small.height());
-    for (int y = 0; y < grid.height(); ++y)
-        for (int x = 0; x < grid.width(); ++x) {
-            const glm::vec4 radiance = small.linear(x, y);
-            const double light = shading::luminance(shading::finiteRadiance(glm::vec3(radiance)));
-            if (light > 0.0)
-                patches.push_back({grid.direction(x, y), light * grid.solidAngle(y)});
-        }
-    return patches;
-}
-
-double irradianceTowards(const std::vector<Patch>& patches, const glm::dvec3& normal) {
-    double sum = 0.0;
-    for (const Patch& patch : patches)
-        sum += patch.light * std::max(0.0, glm::dot(patch.direction, normal));
-    return sum;
-}
-
-// The side of least (sign 1) or most (sign -1) irradiance: the best of a coarse grid, then ever
-// smaller steps from there.
-glm::dvec3 extremeSide(const std::vector<Patch>& patches, double sign) {
-    const LatLongGrid coarse(12);
-    glm::dvec3 best(0.0, -1.0, 0.0);
-    double least = sign * irradianceTowards(patches, best);
-    const auto offer = [&](const glm::dvec3& side) {
-        const double value = sign * irradianceTowards(patches, side);
-        if (!(value < least))
-            return false;
-        least = value;
-        best = side;
-        return true;
-    };
-    for (int y = 0; y < coarse.height(); ++y)
-        for (int x = 0; x < coarse.width(); ++x)
-            offer(coarse.direction(x, y));
-    for (double step = 0.13; step > 0.002;) { // radians
-        const glm::dvec3 from = best;
-        const glm::dvec3 across =
-            std::abs(from.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
-        const glm::dvec3 right = glm::normalize(glm::cross(across, from)),
-                         up = glm::cross(from, right);
-        bool moved = false;
-        for (const glm::dvec3& way : {right, -right, up, -up})
-            moved = offer(glm::normalize(from + step * way)) || moved;
-        if (!moved)
-            step *= 0.5;
-    }
-    return best;
-}
-
-// --- The same light ---
 
 constexpr int kAngles = 64; // sampled; ⟨R(θ) a, b⟩ has no more than 7 waves around the circle
 constexpr double kNoRotation = 1e-4; // relative difference at 0° below which no angle is looked for
@@ -199,13 +131,12 @@ SweepEnvironment measureEnvironment(std::string name, const Image& image, const 
     environment.name = std::move(name);
     environment.texels = hashImage(image);
     environment.harmonics = projectLatLong(image, kMaxShOrder, job);
-    const std::vector<Patch> patches = lightPatches(image);
-    environment.black = patches.empty();
+    const LightSides sides(image);
+    environment.black = sides.isBlack();
     if (!environment.black) {
-        const glm::dvec3 dark = extremeSide(patches, 1.0), bright = extremeSide(patches, -1.0);
-        environment.darkestShare =
-            irradianceTowards(patches, dark) / irradianceTowards(patches, bright);
-        environment.darkestSide = glm::vec3(dark);
+        const LitSide dark = sides.darkest();
+        environment.darkestShare = dark.irradiance / sides.brightest().irradiance;
+        environment.darkestSide = glm::vec3(dark.normal);
     }
     return environment;
 }

@@ -4,12 +4,15 @@
 #include "core/edit/Parameters.h"
 #include "core/image/Chromaticities.h"
 #include "core/io/ImageIO.h"
+#include "core/job/Parallel.h"
+#include "core/light/EnvironmentResample.h"
 #include "core/scene/SceneLoader.h"
 
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
 #include <system_error>
+#include <utility>
 
 namespace patina {
 namespace {
@@ -17,9 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 using Layout = EnvironmentLayout;
 
-// Larger floating-point pictures are averaged down to this while they are read: still twice what
-// the light is kept at.
-constexpr int kMaxSide = 8192;
 constexpr int kMaxFace = 2048;
 
 // Names of the faces +X -X +Y -Y +Z -Z as they end file names.
@@ -200,6 +200,33 @@ Result<EnvironmentPicture> readSixFaces(WorkerClient& worker, const fs::path& fi
     return makePicture(std::move(stacked), Layout::SixFaces, EnvironmentConvention::Common, file);
 }
 
+// A picture of other proportions as twice as wide as high; neither side gets smaller.
+Image stretched(const Image& picture) {
+    const int width = std::max(2, std::max(picture.width(), 2 * picture.height()) / 2 * 2);
+    Image result(width, width / 2, 3, PixelType::F32, ColorEncoding::Linear);
+    const std::span<float> texels = result.f32();
+    const float halfTexel = 0.5f / static_cast<float>(picture.height());
+    parallelFor(
+        {}, static_cast<std::size_t>(result.height()), 16, [&](std::size_t begin, std::size_t end) {
+            for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
+                for (int x = 0; x < result.width(); ++x) {
+                    const float u =
+                        (static_cast<float>(x) + 0.5f) / static_cast<float>(result.width());
+                    const float v =
+                        (static_cast<float>(y) + 0.5f) / static_cast<float>(result.height());
+                    // Lookups repeat, but the sky does not continue below the ground.
+                    const glm::vec4 pixel =
+                        sampleBilinear(picture, u, std::clamp(v, halfTexel, 1.0f - halfTexel));
+                    const std::size_t at = 3 * (static_cast<std::size_t>(y) *
+                                                    static_cast<std::size_t>(result.width()) +
+                                                static_cast<std::size_t>(x));
+                    for (int c = 0; c < 3; ++c)
+                        texels[at + static_cast<std::size_t>(c)] = pixel[c];
+                }
+        });
+    return result;
+}
+
 } // namespace
 
 LayoutGuess guessLayout(const Image& image, const std::map<std::string, std::string>& attributes) {
@@ -269,7 +296,7 @@ Result<EnvironmentPicture> readEnvironmentPicture(WorkerClient& worker, const fs
                                                   EnvironmentLayout layout,
                                                   std::vector<Notice>& notices,
                                                   const JobContext& job) {
-    Result<ReadImage> read = readImage(worker, file, kMaxSide);
+    Result<ReadImage> read = readImage(worker, file, kMaxEnvironmentSide);
     if (!read)
         return read.error();
     Image& image = read->image;
@@ -308,6 +335,21 @@ Result<EnvironmentPicture> readEnvironmentPicture(WorkerClient& worker, const fs
                                        image.width(), image.height()),
                            file});
     return makePicture(std::move(image), layout, convention, file);
+}
+
+Image latLongOf(const EnvironmentPicture& picture, int maxWidth, const JobContext& job) {
+    if (picture.mapping.isCommonLatLong()) {
+        const ImageSize size = picture.mapping.size();
+        if (size.width == 2 * size.height)
+            return shrinkLatLong(picture.image, maxWidth);
+        const int limit = maxWidth / (size.height > size.width ? 2 : 1);
+        return stretched(shrinkImage(picture.image, limit));
+    }
+    const int width = std::min(picture.mapping.latLongSize().width, maxWidth);
+    const Result<EnvironmentMapping> latLong = EnvironmentMapping::create(
+        EnvironmentLayout::LatLong,
+        EnvironmentMapping::imageSize(EnvironmentLayout::LatLong, width));
+    return resampleEnvironment(picture.image, picture.mapping, *latLong, {}, job);
 }
 
 std::string_view layoutLabel(EnvironmentLayout layout) {

@@ -13,6 +13,10 @@
 
 namespace patina {
 
+// Floating-point pictures with longer sides are averaged down to it while they are read: still
+// twice what the light is kept at.
+inline constexpr int kMaxEnvironmentSide = 8192;
+
 // A picture of the environment as it is in its file (six files: on top of each other).
 struct EnvironmentPicture {
     Image image;                                           // F32 RGB, linear Rec.709
@@ -31,6 +35,11 @@ Result<EnvironmentPicture> readEnvironmentPicture(WorkerClient& worker,
                                                   EnvironmentLayout layout,
                                                   std::vector<Notice>& notices,
                                                   const JobContext& job = {});
+
+// The picture as a lat-long, F32 RGB, w = 2h, at most so wide; one of proportions that no layout
+// has is stretched. Meaningless after a cancel.
+[[nodiscard]] Image latLongOf(const EnvironmentPicture& picture, int maxWidth,
+                              const JobContext& job = {});
 
 // The guess for one picture and its file's attributes; a lat-long when nothing fits.
 struct LayoutGuess {

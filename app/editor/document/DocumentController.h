@@ -88,7 +88,9 @@ class DocumentController : public QObject, private EditObserver {
     // `map` is a parameter of type Map. An image that cannot be read leaves the slot as it was.
     void setMap(const ParameterInfo& map, Target target, const QString& source);
     void clearMap(const ParameterInfo& map, Target target);
-    void setEnvironment(const QString& source); // a file or "builtin:NAME"; its layout is guessed
+    // A file or "builtin:NAME"; its layout is guessed. Those of a session that follow each other
+    // are one step.
+    void setEnvironment(const QString& source, DragSession session = 0);
     // As setEnvironment(), of one that need not light the scene.
     void replaceEnvironment(Id environment, const QString& source);
     // Another environment of the scene, as a step: it lights the scene, is the one to fade to, or
@@ -187,9 +189,9 @@ class DocumentController : public QObject, private EditObserver {
     void historyChanged() override;
     void stepsDropped() override;
     // One step of those that differ.
-    void pushParameters(Target target, const std::vector<ParameterEdit>& edits,
-                        const QString& text) {
-        m_session.setDiffering(target, edits, text.toStdString());
+    void pushParameters(Target target, const std::vector<ParameterEdit>& edits, const QString& text,
+                        DragSession session = 0) {
+        m_session.setDiffering(target, edits, text.toStdString(), session);
     }
     void deliverWaiting();
     void noteModified(); // tells whether isModified() has changed
@@ -197,7 +199,7 @@ class DocumentController : public QObject, private EditObserver {
     void replaceWhenAllowed(const DocumentState& begun, const QString& name,
                             std::function<void()> replace);
     void readEnvironment(Id environment, const QString& source, EnvironmentLayout layout,
-                         const QString& undoText);
+                         const QString& undoText, DragSession session = 0);
     void takeOpened(OpenedScene opened, const QString& scene, const QString& name,
                     const std::optional<Hash>& version);
     // m_filePath is open here, and held this when it was read.

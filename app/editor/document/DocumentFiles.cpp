@@ -255,9 +255,12 @@ void DocumentController::clearMap(const ParameterInfo& map, Target target) {
     pushParameters(target, {{&map, map.defaultValue()}}, tr("Remove %1").arg(toQString(map.label)));
 }
 
-void DocumentController::setEnvironment(const QString& source) {
+void DocumentController::setEnvironment(const QString& source, DragSession session) {
+    // One step for several keeps the text of the first, which must not name that one alone.
     readEnvironment(document().mix.first, source, EnvironmentLayout::Automatic,
-                    tr("Light with %1").arg(shortName(source)));
+                    session == 0 ? tr("Light with %1").arg(shortName(source))
+                                 : tr("Step Through Environments"),
+                    session);
 }
 
 void DocumentController::replaceEnvironment(Id environment, const QString& source) {
@@ -329,17 +332,18 @@ void DocumentController::addEnvironment(const QString& source, EnvironmentUse us
 }
 
 void DocumentController::readEnvironment(Id asked, const QString& source, EnvironmentLayout layout,
-                                         const QString& undoText) {
+                                         const QString& undoText, DragSession session) {
     const QString title = shortName(source);
     m_tasks.start(
         environmentTask + QString::number(asked), tr("Reading %1").arg(title),
-        [this, source, layout, title, undoText, asked, scene = m_session.documentNumber(),
+        [this, source, layout, title, undoText, session, asked, scene = m_session.documentNumber(),
          begun = begun()](const JobContext& job) -> BackgroundTasks::Apply {
             const std::string name = normalizeSource(source.toStdString());
             auto notices = std::make_shared<std::vector<Notice>>();
             auto image = std::make_shared<Result<ImagePtr>>(
                 loadEnvironmentImage(m_worker, name, *notices, layout, job));
-            return [this, title, name, layout, undoText, asked, scene, begun, notices, image] {
+            return [this, title, name, layout, undoText, session, asked, scene, begun, notices,
+                    image] {
                 // A model that was opened meanwhile keeps the light, under other ids.
                 const Target environment{Scope::Environment,
                                          scene == m_session.documentNumber() ? asked : 0};
@@ -352,7 +356,7 @@ void DocumentController::readEnvironment(Id asked, const QString& source, Enviro
                 MapSlot sky;
                 sky.source = name;
                 sky.image = image->value();
-                deliver(begun, title, [this, environment, sky, layout, undoText] {
+                deliver(begun, title, [this, environment, sky, layout, undoText, session] {
                     if (!targetExists(document(), environment))
                         return; // removed meanwhile
                     pushParameters(
@@ -361,7 +365,7 @@ void DocumentController::readEnvironment(Id asked, const QString& source, Enviro
                          {&parameter("environment.image"), sky},
                          {&parameter("environment.layout"), static_cast<int>(layout)},
                          {&parameter("environment.removedSources"), 0.0f}},
-                        undoText);
+                        undoText, session);
                 });
                 const UserNotice notice = UserNotice::fromImport(title, *notices, {});
                 if (!notice.text.isEmpty())

@@ -45,6 +45,10 @@ DropPlan planDrop(const QStringList& files) {
     DropPlan plan;
     QStringList images, radiance;
     for (const QString& file : files) {
+        if (QFileInfo(file).isDir()) {
+            plan.folders << file;
+            continue;
+        }
         switch (fileKind(file)) {
         case FileKind::Project:
             plan.projects << file;
@@ -87,6 +91,7 @@ QStringList DropPlan::lines(const Document& document, Id material) const {
     add("Open the project %1", projects.mid(0, 1));
     add("Add or open the model %1", models);
     add("Light the scene with %1", environments);
+    add("Add the folder %1 to the library", folders);
     add("Show through the OpenColorIO configuration %1", displayConfigs);
     add("Left out, its name says no free map: %1", unclear);
     add("Cannot be read by Patina: %1", unknown);

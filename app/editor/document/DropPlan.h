@@ -21,6 +21,7 @@ struct MapFile {
 
 struct DropPlan {
     QStringList projects, models, environments, displayConfigs;
+    QStringList folders;       // of environments, for the library
     std::vector<MapFile> maps; // each map once
     QStringList unclear;       // images of several whose names say no map, or one that is taken
     QStringList unknown;       // nothing that Patina reads

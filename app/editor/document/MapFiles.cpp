@@ -91,7 +91,7 @@ void DocumentController::addFiles(const QStringList& files, Id material) {
              {}});
     if (!plan.unclear.isEmpty())
         Q_EMIT noticed({NoticeKind::Warning, unclearText(plan.unclear), plan.unclear});
-    for (const QString& file : plan.unknown)
+    for (const QString& file : plan.unknown + plan.folders) // those the window takes itself
         Q_EMIT noticed({NoticeKind::Error,
                         trMaps("%1 is neither a model, an image, an environment nor a project that "
                                "Patina can read.")

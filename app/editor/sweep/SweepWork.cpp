@@ -94,7 +94,10 @@ class SweepReader {
             outcome.problems.push_back({m_order.folder.string(), files.error().message});
             return;
         }
-        for (const std::filesystem::path& file : *files)
+        if (files->files.empty())
+            outcome.problems.push_back(
+                {m_order.folder.string(), "there is no .hdr and no .exr in this folder"});
+        for (const std::filesystem::path& file : files->files)
             add(file.string());
     }
 

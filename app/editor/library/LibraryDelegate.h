@@ -1,0 +1,29 @@
+// Paints an environment of the library: its thumbnail, its name, the number that is sorted by, and
+// a star that a click turns on and off.
+#pragma once
+
+#include <QStyledItemDelegate>
+
+namespace patina::editor {
+
+class LibraryDelegate : public QStyledItemDelegate {
+    Q_OBJECT
+  public:
+    using QStyledItemDelegate::QStyledItemDelegate;
+
+    void paint(QPainter* painter, const QStyleOptionViewItem& option,
+               const QModelIndex& index) const override;
+    [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& option,
+                                 const QModelIndex& index) const override;
+    // Of an item's rectangle.
+    [[nodiscard]] static QRect starRect(const QRect& item);
+
+  Q_SIGNALS:
+    void starClicked(const QString& source);
+
+  protected:
+    bool editorEvent(QEvent* event, QAbstractItemModel* model, const QStyleOptionViewItem& option,
+                     const QModelIndex& index) override;
+};
+
+} // namespace patina::editor

@@ -1,0 +1,137 @@
+#include "app/editor/library/LibraryModel.h"
+
+#include "app/editor/document/QtText.h"
+#include "app/editor/library/EnvironmentLibrary.h"
+#include "app/editor/library/LibraryTexts.h"
+
+#include <QImage>
+#include <QMimeData>
+#include <QUrl>
+#include <utility>
+
+namespace patina::editor {
+namespace {
+
+constexpr int kKeptPictures = 400; // of 128 KB each
+
+bool isFile(const QString& source) {
+    return !source.startsWith(QLatin1String("builtin:"));
+}
+
+} // namespace
+
+LibraryModel::LibraryModel(EnvironmentLibrary& library, QObject* parent)
+    : QAbstractListModel(parent)
+    , m_library(library)
+    , m_pictures(kKeptPictures) {
+    connect(&library, &EnvironmentLibrary::itemsChanged, this, &LibraryModel::follow);
+    connect(&library, &EnvironmentLibrary::currentChanged, this, [this] {
+        if (!m_rows.isEmpty())
+            Q_EMIT dataChanged(index(0), index(rowCount() - 1), {CurrentRole});
+    });
+    follow();
+}
+
+void LibraryModel::follow() {
+    QStringList rows;
+    for (const std::size_t i : m_library.shown())
+        rows << m_library.items()[i].source;
+    if (rows != m_rows) {
+        beginResetModel();
+        m_rows = std::move(rows);
+        endResetModel();
+    } else if (!m_rows.isEmpty()) {
+        Q_EMIT dataChanged(index(0), index(rowCount() - 1));
+    }
+}
+
+int LibraryModel::rowCount(const QModelIndex& parent) const {
+    return parent.isValid() ? 0 : static_cast<int>(m_rows.size());
+}
+
+const LibraryItem* LibraryModel::at(const QModelIndex& index) const {
+    const auto row = static_cast<std::size_t>(index.row());
+    if (!index.isValid() || row >= m_library.shown().size())
+        return nullptr;
+    return &m_library.items()[m_library.shown()[row]];
+}
+
+QModelIndex LibraryModel::indexOf(const QString& source) const {
+    const qsizetype row = m_rows.indexOf(source);
+    return row < 0 ? QModelIndex() : index(static_cast<int>(row));
+}
+
+QPixmap LibraryModel::picture(const LibraryItem& item) const {
+    if (!item.measured)
+        return {};
+    // Measured anew, it is another.
+    if (const auto* kept = m_pictures.object(item.source); kept && kept->first == item.entry.get())
+        return kept->second;
+    const Image& thumbnail = item.entry->thumbnail;
+    const QImage image(thumbnail.u8().data(), thumbnail.width(), thumbnail.height(),
+                       3 * thumbnail.width(), QImage::Format_RGB888);
+    const QPixmap pixmap = QPixmap::fromImage(image);
+    m_pictures.insert(item.source, new std::pair<const void*, QPixmap>(item.entry.get(), pixmap));
+    return pixmap;
+}
+
+QVariant LibraryModel::data(const QModelIndex& index, int role) const {
+    const LibraryItem* item = at(index);
+    if (!item)
+        return {};
+    switch (role) {
+    case Qt::DisplayRole:
+        return toQString(item->entry->title);
+    case Qt::ToolTipRole:
+        return toolTipText(*item);
+    case Qt::StatusTipRole:
+        return tr("Double-click or press Enter to light the scene with %1; drag it to other "
+                  "programs or onto the picture")
+            .arg(toQString(item->entry->title));
+    case Qt::AccessibleTextRole: {
+        const QString tags = tagsText(*item);
+        return tags.isEmpty() ? toQString(item->entry->title)
+                              : tr("%1, %2").arg(toQString(item->entry->title), tags);
+    }
+    case SourceRole:
+        return item->source;
+    case SubtitleRole:
+        return sortedText(*item, m_library.query().sort);
+    case FavouriteRole:
+        return m_library.isFavourite(item->source);
+    case CurrentRole:
+        return item->source == m_library.current();
+    case DuplicateRole:
+        return !item->duplicateOf.isEmpty();
+    case PictureRole:
+        return picture(*item);
+    default:
+        return {};
+    }
+}
+
+Qt::ItemFlags LibraryModel::flags(const QModelIndex& index) const {
+    const LibraryItem* item = at(index);
+    if (!item)
+        return Qt::NoItemFlags;
+    Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemNeverHasChildren;
+    if (isFile(item->source)) // a built-in sky is no file that others could read
+        flags |= Qt::ItemIsDragEnabled;
+    return flags;
+}
+
+QStringList LibraryModel::mimeTypes() const {
+    return {QStringLiteral("text/uri-list")};
+}
+
+QMimeData* LibraryModel::mimeData(const QModelIndexList& indexes) const {
+    QList<QUrl> urls;
+    for (const QModelIndex& each : indexes)
+        if (const LibraryItem* item = at(each); item && isFile(item->source))
+            urls << QUrl::fromLocalFile(item->source);
+    auto* data = new QMimeData;
+    data->setUrls(urls);
+    return data;
+}
+
+} // namespace patina::editor

@@ -1,0 +1,22 @@
+// What the Library dock says of an environment.
+#pragma once
+
+#include "core/catalog/CatalogOrder.h"
+
+#include <QString>
+
+namespace patina::editor {
+
+struct LibraryItem;
+
+// "Sun, High contrast, Neutral", and "Duplicate" for one.
+[[nodiscard]] QString tagsText(const LibraryItem& item);
+// The number that is sorted by ("12.6 : 1"); its size in pixels where that is the name; "not
+// measured yet".
+[[nodiscard]] QString sortedText(const LibraryItem& item, CatalogSort sort);
+// All that is known of it, a line for each group of facts.
+[[nodiscard]] QString detailsText(const LibraryItem& item);
+// The same as rich text for a tooltip, with what the tags mean.
+[[nodiscard]] QString toolTipText(const LibraryItem& item);
+
+} // namespace patina::editor
