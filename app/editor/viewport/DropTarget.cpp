@@ -69,6 +69,8 @@ void DropHint::paintEvent(QPaintEvent*) {
     }
     QRect box(0, 0, widest + 2 * margin, static_cast<int>(shown.size()) * line + 2 * margin);
     box.moveCenter(target.center());
+    if (!m_target.isNull()) // beside the picture that hangs from the pointer
+        box.moveTop(target.top() + margin);
     const QRect room = rect().adjusted(margin, margin, -margin, -margin);
     box.moveLeft(std::clamp(box.left(), room.left(), std::max(room.right() - box.width(), 0)));
     box.moveTop(std::clamp(box.top(), room.top(), std::max(room.bottom() - box.height(), 0)));
