@@ -43,7 +43,6 @@ constexpr int kSweepRow = 24;                 // of the table
 constexpr int kProblemsHeight = 3 * 24;       // at most
 constexpr int kTableShare = 55, kPicturesShare = 45;
 constexpr int kScaleWidth = 150; // of the colours of sensitivity
-constexpr int kSortArrow = 12;
 
 int pictureWidth(const QSize& viewport) {
     const double aspect = static_cast<double>(viewport.width()) / std::max(viewport.height(), 1);
@@ -139,6 +138,7 @@ QWidget* LightSweepPanel::makeResult() {
     splitter->addWidget(makePictures());
     splitter->setStretchFactor(0, kTableShare);
     splitter->setStretchFactor(1, kPicturesShare);
+    splitter->setSizes({100 * kTableShare, 100 * kPicturesShare}); // in proportion
     return splitter;
 }
 
@@ -210,9 +210,13 @@ QWidget* LightSweepPanel::makePictures() {
     pictures->addWidget(m_sensitivity, 1);
     m_stripTitle = new ElidedLabel;
     setSweepColor(*m_stripTitle, tokens::kTextDim);
+    m_range = new QLabel;
+    setSweepColor(*m_range, tokens::kTextDim);
     auto* heading = new QHBoxLayout;
-    heading->addWidget(m_stripTitle, 1, Qt::AlignBottom);
-    heading->addWidget(m_scale); // under the map that it is of
+    heading->addWidget(m_stripTitle, 1);
+    // Under the map that they are of.
+    heading->addWidget(m_range);
+    heading->addWidget(m_scale);
     m_strip = new SweepStrip(m_controller.runner());
     m_strip->setObjectName(QStringLiteral("sweepStrip"));
     connect(m_strip, &SweepStrip::chosen, this, &LightSweepPanel::select);
@@ -258,9 +262,18 @@ void LightSweepPanel::start() {
     jobsChanged(); // it may have ended
 }
 
+// At once, for the user: the job notices within 0.2 s, or when the sky that it makes is made.
 void LightSweepPanel::cancel() {
-    if (m_job != 0)
-        m_jobs.cancel(m_job);
+    if (m_job == 0)
+        return;
+    m_jobs.cancel(std::exchange(m_job, 0));
+    ended();
+    m_ended = cancelledText();
+    refresh();
+}
+
+QString LightSweepPanel::cancelledText() const {
+    return m_outcome ? tr("Cancelled; the result before it stays.") : tr("Cancelled.");
 }
 
 void LightSweepPanel::jobsChanged() {
@@ -269,14 +282,18 @@ void LightSweepPanel::jobsChanged() {
     const std::optional<JobRecord> job = m_jobs.job(m_job);
     if (job && !job->ended())
         return;
+    ended();
+    if (job && job->state == JobState::Failed)
+        m_ended = job->summary;
+    else if (job && job->state == JobState::Cancelled) // in the Jobs dock
+        m_ended = cancelledText();
+    refresh();
+}
+
+void LightSweepPanel::ended() {
     m_job = 0;
     m_progress.stop();
     m_controls->setRunning(false);
-    if (job && job->state == JobState::Failed)
-        m_ended = job->summary;
-    else if (job && job->state == JobState::Cancelled)
-        m_ended = m_outcome ? tr("Cancelled; the result before it stays.") : tr("Cancelled.");
-    refresh();
 }
 
 void LightSweepPanel::showProgress() {
@@ -301,18 +318,11 @@ void LightSweepPanel::take(const SweepOutcomePtr& outcome) {
     m_problems->setVisible(m_problems->count() > 0);
     rank();
     if (outcome) {
-        fitColumns();
+        m_table->resizeColumnsToContents();
         m_table->scrollToTop();
     }
     checkState();
     refresh();
-}
-
-// The style's hints leave no room for the arrow that says what rows are sorted by.
-void LightSweepPanel::fitColumns() {
-    m_table->resizeColumnsToContents();
-    for (int column = 0; column < SweepModel::Flags; ++column)
-        m_table->setColumnWidth(column, m_table->columnWidth(column) + kSortArrow);
 }
 
 void LightSweepPanel::rank() {
@@ -361,8 +371,9 @@ void LightSweepPanel::showSensitivity(double from, double to) {
     if (!m_outcome)
         return;
     m_scale->setRange(from, to);
+    m_range->setText(sensitivityText(m_outcome->sweep.sensitivity));
     m_sensitivity->setPicture(
-        sensitivityText(m_outcome->sweep.sensitivity),
+        tr("Sensitivity"),
         sensitivityImage(m_outcome->pixels, m_outcome->sweep.sensitivity, from, to));
 }
 

@@ -55,7 +55,8 @@ double largestSensitivity(const Image& sensitivity) {
 }
 
 SweepPicture::SweepPicture(const QString& help, QWidget* parent)
-    : QWidget(parent) {
+    : QWidget(parent)
+    , m_help(help) {
     setToolTip(help);
     setStatusTip(help);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
@@ -67,6 +68,7 @@ void SweepPicture::setPicture(const QString& title, const QImage& picture,
     m_picture = picture;
     m_marked = marked;
     setAccessibleName(title);
+    setToolTip(title + QLatin1Char('\n') + m_help); // the title may be cut
     update();
 }
 

@@ -31,13 +31,13 @@ class SweepPicture : public QWidget {
     [[nodiscard]] const QString& title() const { return m_title; }
     [[nodiscard]] const std::optional<QPoint>& marked() const { return m_marked; }
     [[nodiscard]] QSize sizeHint() const override { return {150, 110}; }
-    [[nodiscard]] QSize minimumSizeHint() const override { return {84, 70}; }
+    [[nodiscard]] QSize minimumSizeHint() const override { return {72, 54}; }
 
   protected:
     void paintEvent(QPaintEvent* event) override;
 
   private:
-    QString m_title;
+    QString m_help, m_title;
     QImage m_picture;
     std::optional<QPoint> m_marked;
 };

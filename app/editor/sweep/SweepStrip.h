@@ -6,6 +6,7 @@
 
 #include <QImage>
 #include <QListWidget>
+#include <QSize>
 #include <vector>
 
 namespace patina::editor {
@@ -29,10 +30,11 @@ class SweepStrip : public QListWidget {
   private:
     void draw();
     void fill();
+    [[nodiscard]] QSize thumbSize() const;
 
     SweepOutcomePtr m_outcome;
     std::size_t m_environment = 0;
-    std::vector<QImage> m_pictures;
+    std::vector<QImage> m_pictures, m_thumbs; // of each rotation
     bool m_refreshing = false;
     LatestJob m_job; // last: it ends first
 };
