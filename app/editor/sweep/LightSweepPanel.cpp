@@ -35,7 +35,7 @@ namespace patina::editor {
 namespace {
 
 constexpr int kSweptHeight = 128; // pixels of a swept picture
-// At most 2.5 times as wide as high: what a flat viewport shows beyond at its sides is hardly the
+// At most 2.5 times as wide as high: what a flat viewport shows at its sides is hardly the
 // material.
 constexpr int kNarrowest = 64, kWidest = 320; // of it
 constexpr int kSweepProgressMs = 100;         // between looks at the running job
@@ -356,13 +356,14 @@ void LightSweepPanel::refreshPictures() {
         return;
     const SweepOutcome& outcome = *m_outcome;
     const LightScore& score = outcome.sweep.scores[*m_selected];
-    const QString name = lightText(outcome, score.light);
-    m_light->setPicture(name, m_strip->picture(*m_selected),
-                        QPoint(score.worstPixel.x, score.worstPixel.y));
-    m_reference->setPicture(referenceText(outcome),
-                            displayedImage(outcome.sweep.reference, outcome.settings.view));
+    const QRect seen = surfacesRect(outcome.pixels);
+    m_light->setPicture(lightText(outcome, score.light), m_strip->picture(*m_selected),
+                        QPoint(score.worstPixel.x, score.worstPixel.y) - seen.topLeft());
+    m_reference->setPicture(
+        referenceText(outcome),
+        displayedImage(outcome.sweep.reference, outcome.settings.view).copy(seen));
     m_stripTitle->setText(
-        tr("Rotations of %1").arg(toQString(outcome.environments[score.light.environment].title)));
+        tr("%1, rotated").arg(toQString(outcome.environments[score.light.environment].title)));
     const double most = largestSensitivity(outcome.sweep.sensitivity);
     showSensitivity(0.0, most > 0.0 ? most : 1.0);
 }
@@ -374,7 +375,8 @@ void LightSweepPanel::showSensitivity(double from, double to) {
     m_range->setText(sensitivityText(m_outcome->sweep.sensitivity));
     m_sensitivity->setPicture(
         tr("Sensitivity"),
-        sensitivityImage(m_outcome->pixels, m_outcome->sweep.sensitivity, from, to));
+        sensitivityImage(m_outcome->pixels, m_outcome->sweep.sensitivity, from, to)
+            .copy(surfacesRect(m_outcome->pixels)));
 }
 
 void LightSweepPanel::useSelected() {

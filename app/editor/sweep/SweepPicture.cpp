@@ -11,7 +11,8 @@
 namespace patina::editor {
 namespace {
 
-constexpr double kMarkRadius = 6.0; // radius, of the mark
+constexpr double kMarkRadius = 6.0;
+constexpr int kAround = 6; // pixels around surfaces
 
 QRgb rgbOf(const glm::vec3& encoded) {
     const auto eight = [](float v) {
@@ -47,6 +48,16 @@ QImage sensitivityImage(const SweepPixels& pixels, const Image& sensitivity, dou
                        rgbOf(mapColor(ColorMap::Sequential, static_cast<float>(t))));
     }
     return image;
+}
+
+QRect surfacesRect(const SweepPixels& pixels) {
+    QRect rect;
+    for (const std::uint32_t place : pixels.places) {
+        const int at = static_cast<int>(place);
+        rect |= QRect(at % pixels.width, at / pixels.width, 1, 1);
+    }
+    return rect.adjusted(-kAround, -kAround, kAround, kAround) &
+           QRect(0, 0, pixels.width, pixels.height);
 }
 
 double largestSensitivity(const Image& sensitivity) {

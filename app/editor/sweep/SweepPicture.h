@@ -7,6 +7,7 @@
 
 #include <QImage>
 #include <QPoint>
+#include <QRect>
 #include <QWidget>
 #include <optional>
 
@@ -17,6 +18,8 @@ namespace patina::editor {
 // Stops from..to as colours where surfaces are; transparent elsewhere.
 [[nodiscard]] QImage sensitivityImage(const SweepPixels& pixels, const Image& sensitivity,
                                       double from, double to);
+// What of the pictures shows surfaces, with a little around them: the rest is not looked at.
+[[nodiscard]] QRect surfacesRect(const SweepPixels& pixels);
 [[nodiscard]] double largestSensitivity(const Image& sensitivity); // stops
 
 class SweepPicture : public QWidget {

@@ -84,13 +84,15 @@ void SweepStrip::draw() {
                    size = thumbSize() *
                           devicePixelRatioF()](const JobContext& job) -> LatestJob::Apply {
         std::vector<QImage> pictures, thumbs;
+        const QRect seen = surfacesRect(outcome->pixels);
         for (std::size_t r = 0; r < outcome->rotations(); ++r) {
             if (job.cancelled())
                 return {};
             const LightScore& score = outcome->sweep.scores[environment * outcome->rotations() + r];
-            pictures.push_back(displayedImage(
-                sweepPicture(outcome->pixels, outcome->measured, outcome->settings, score.light),
-                outcome->settings.view));
+            pictures.push_back(displayedImage(sweepPicture(outcome->pixels, outcome->measured,
+                                                           outcome->settings, score.light),
+                                              outcome->settings.view)
+                                   .copy(seen));
         }
         for (const QImage& picture : pictures)
             thumbs.push_back(picture.scaled(size, Qt::KeepAspectRatio, Qt::SmoothTransformation));
@@ -104,7 +106,8 @@ void SweepStrip::draw() {
 }
 
 QSize SweepStrip::thumbSize() const {
-    return QSize(m_outcome->pixels.width, m_outcome->pixels.height)
+    return surfacesRect(m_outcome->pixels)
+        .size()
         .scaled(kStripWidest, kStripHeight, Qt::KeepAspectRatio);
 }
 

@@ -19,7 +19,7 @@ class SweepStrip : public QListWidget {
     // Shows the light (an index into LightSweep::scores) among those of its environment; null:
     // nothing.
     void show(const SweepOutcomePtr& outcome, std::size_t light);
-    // Of a light of the environment that is shown; null until it is made.
+    // Of a light of the environment that is shown, its surfacesRect(); null until it is made.
     [[nodiscard]] QImage picture(std::size_t light) const;
     [[nodiscard]] bool isDrawing() const { return m_job.busy(); }
 

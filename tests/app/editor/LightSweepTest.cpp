@@ -170,17 +170,25 @@ TEST_F(LightSweepTest, PicturesShowTheLightTheLookComparedWithAndAllRotations) {
     ASSERT_TRUE(eventually([] { return !panel().lightPicture().picture().isNull(); }));
     const std::size_t worst = *panel().selected();
     const LightScore& score = outcome.sweep.scores[worst];
+    // What is around the surfaces is cut off.
+    const QRect seen = surfacesRect(outcome.pixels);
+    EXPECT_LT(seen.width(), outcome.pixels.width);
+    for (const std::uint32_t place : outcome.pixels.places)
+        ASSERT_TRUE(seen.contains(static_cast<int>(place) % outcome.pixels.width,
+                                  static_cast<int>(place) / outcome.pixels.width));
+    const QPoint ring = QPoint(score.worstPixel.x, score.worstPixel.y) - seen.topLeft();
     EXPECT_EQ(panel().lightPicture().picture(),
               displayedImage(
                   sweepPicture(outcome.pixels, outcome.measured, outcome.settings, score.light),
-                  outcome.settings.view));
-    EXPECT_EQ(panel().lightPicture().marked(), QPoint(score.worstPixel.x, score.worstPixel.y));
+                  outcome.settings.view)
+                  .copy(seen));
+    EXPECT_EQ(panel().lightPicture().marked(), ring);
     EXPECT_EQ(panel().referencePicture().picture(),
-              displayedImage(outcome.sweep.reference, outcome.settings.view));
+              displayedImage(outcome.sweep.reference, outcome.settings.view).copy(seen));
     // Where surfaces are it has colours, and nothing elsewhere.
     const QImage map = panel().sensitivityPicture().picture();
     EXPECT_EQ(qAlpha(map.pixel(0, 0)), 0);
-    EXPECT_EQ(qAlpha(map.pixel(score.worstPixel.x, score.worstPixel.y)), 255);
+    EXPECT_EQ(qAlpha(map.pixel(ring)), 255);
 
     // A picture of the strip is clicked: its light is chosen, in the table too.
     const int other = (panel().strip().currentRow() + 3) % 8;
