@@ -68,7 +68,15 @@ void JobContext::giveWay() const {
 }
 
 void JobContext::setProgress(double fraction) const {
-    m_state->fraction.store(std::clamp(fraction, 0.0, 1.0), std::memory_order_relaxed);
+    m_state->fraction.store(m_from + (m_to - m_from) * std::clamp(fraction, 0.0, 1.0),
+                            std::memory_order_relaxed);
+}
+
+JobContext JobContext::part(double from, double to) const {
+    JobContext result = *this;
+    result.m_from = m_from + (m_to - m_from) * std::clamp(from, 0.0, 1.0);
+    result.m_to = m_from + (m_to - m_from) * std::clamp(to, 0.0, 1.0);
+    return result;
 }
 
 void JobContext::setActivity(std::string_view activity) const {

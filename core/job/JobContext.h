@@ -43,11 +43,14 @@ class JobContext {
     void giveWay() const;
 
     void setProgress(double fraction) const; // clamped to 0…1
+    // The same work, whose progress is from `from` to `to` of this one's: a step among several.
+    [[nodiscard]] JobContext part(double from, double to) const;
     void setActivity(std::string_view activity) const;
     void addWork(double amount, const char* unit) const;
 
   private:
     std::shared_ptr<detail::JobState> m_state;
+    double m_from = 0.0, m_to = 1.0; // of the whole
 };
 
 class JobControl {

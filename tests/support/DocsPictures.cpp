@@ -2,6 +2,7 @@
 //   docs-pictures FOLDER             all of them
 //   docs-pictures FOLDER bounces     the Cornell box whose wall is painted
 //   docs-pictures FOLDER compare     a wall of materials and environments
+//   docs-pictures FOLDER sweep       the lights that a sweep found
 // Run by scripts/docs-pictures on a display of its own.
 
 #include "app/editor/Actions.h"
@@ -14,6 +15,8 @@
 #include "app/editor/panel/LightLabPanel.h"
 #include "app/editor/panel/SoftboxList.h"
 #include "app/editor/style/Style.h"
+#include "app/editor/sweep/LightSweepPanel.h"
+#include "app/editor/sweep/SweepStrip.h"
 #include "app/editor/viewport/EquationBar.h"
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/PixelPicker.h"
@@ -197,6 +200,22 @@ bool saveTransfer(Session& session, MainWindow& window, const QString& file) {
     return ok;
 }
 
+// The built-in skies in all rotations: the dock alone.
+bool saveSweep(Session& session, MainWindow& window, const QString& file) {
+    window.actions().lightSweep->trigger();
+    auto* dock = window.findChild<QDockWidget*>(QStringLiteral("lightSweep"));
+    auto* panel = window.findChild<LightSweepPanel*>();
+    if (!dock || !panel)
+        return false;
+    settle(session, window);
+    panel->start();
+    runUntil([&] { return panel->outcome() && !panel->strip().isDrawing(); }, 120'000);
+    settle(1000);
+    const bool ok = panel->outcome() && save(*dock, file);
+    window.actions().lightSweep->trigger();
+    return ok;
+}
+
 // A point of the worn edge pinned, its formulas open.
 bool savePixel(Session& session, MainWindow& window, const QString& file) {
     window.actions().pixel->trigger();
@@ -356,9 +375,10 @@ int main(int argc, char* argv[]) {
     const auto isAlone = [&](const char* name) {
         return argc == 3 && std::strcmp(argv[2], name) == 0;
     };
-    const bool bouncesAlone = isAlone("bounces"), compareAlone = isAlone("compare");
-    if (argc != 2 && !bouncesAlone && !compareAlone) {
-        std::fprintf(stderr, "usage: docs-pictures FOLDER [bounces | compare]\n");
+    const bool bouncesAlone = isAlone("bounces"), compareAlone = isAlone("compare"),
+               sweepAlone = isAlone("sweep");
+    if (argc != 2 && !bouncesAlone && !compareAlone && !sweepAlone) {
+        std::fprintf(stderr, "usage: docs-pictures FOLDER [bounces | compare | sweep]\n");
         return 2;
     }
     QStandardPaths::setTestModeEnabled(true); // the user's settings stay as they are
@@ -390,6 +410,9 @@ int main(int argc, char* argv[]) {
     const QString compare = folder.filePath(QStringLiteral("compare.png"));
     if (compareAlone)
         return saveCompare(session, window, compare) ? 0 : 1;
+    const QString sweep = folder.filePath(QStringLiteral("light-sweep.png"));
+    if (sweepAlone)
+        return saveSweep(session, window, sweep) ? 0 : 1;
     settle(6000); // image-based light at full resolution
     settle(session, window);
     bool ok = save(window, folder.filePath(QStringLiteral("start.png")));
@@ -471,6 +494,7 @@ int main(int argc, char* argv[]) {
     ok &= save(window, folder.filePath(QStringLiteral("lighting.png")));
     session.views.set({});
     ok &= saveTransfer(session, window, folder.filePath(QStringLiteral("transfer.png")));
+    ok &= saveSweep(session, window, sweep);
 
     window.actions().saveEnvironment->trigger();
     settle(800);

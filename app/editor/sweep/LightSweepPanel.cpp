@@ -35,7 +35,7 @@ namespace patina::editor {
 namespace {
 
 constexpr int kSweptHeight = 128; // pixels of a swept picture
-// At most 2.5 times as wide as high: what a flat viewport shows beyond at its sides is hardly the
+// At most 2.5 times as wide as high: what a flat viewport shows at its sides is hardly the
 // material.
 constexpr int kNarrowest = 64, kWidest = 320; // of it
 constexpr int kSweepProgressMs = 100;         // between looks at the running job
@@ -43,7 +43,6 @@ constexpr int kSweepRow = 24;                 // of the table
 constexpr int kProblemsHeight = 3 * 24;       // at most
 constexpr int kTableShare = 55, kPicturesShare = 45;
 constexpr int kScaleWidth = 150; // of the colours of sensitivity
-constexpr int kSortArrow = 12;
 
 int pictureWidth(const QSize& viewport) {
     const double aspect = static_cast<double>(viewport.width()) / std::max(viewport.height(), 1);
@@ -139,6 +138,7 @@ QWidget* LightSweepPanel::makeResult() {
     splitter->addWidget(makePictures());
     splitter->setStretchFactor(0, kTableShare);
     splitter->setStretchFactor(1, kPicturesShare);
+    splitter->setSizes({100 * kTableShare, 100 * kPicturesShare}); // in proportion
     return splitter;
 }
 
@@ -210,9 +210,13 @@ QWidget* LightSweepPanel::makePictures() {
     pictures->addWidget(m_sensitivity, 1);
     m_stripTitle = new ElidedLabel;
     setSweepColor(*m_stripTitle, tokens::kTextDim);
+    m_range = new QLabel;
+    setSweepColor(*m_range, tokens::kTextDim);
     auto* heading = new QHBoxLayout;
-    heading->addWidget(m_stripTitle, 1, Qt::AlignBottom);
-    heading->addWidget(m_scale); // under the map that it is of
+    heading->addWidget(m_stripTitle, 1);
+    // Under the map that they are of.
+    heading->addWidget(m_range);
+    heading->addWidget(m_scale);
     m_strip = new SweepStrip(m_controller.runner());
     m_strip->setObjectName(QStringLiteral("sweepStrip"));
     connect(m_strip, &SweepStrip::chosen, this, &LightSweepPanel::select);
@@ -258,9 +262,18 @@ void LightSweepPanel::start() {
     jobsChanged(); // it may have ended
 }
 
+// At once, for the user: the job notices within 0.2 s, or when the sky that it makes is made.
 void LightSweepPanel::cancel() {
-    if (m_job != 0)
-        m_jobs.cancel(m_job);
+    if (m_job == 0)
+        return;
+    m_jobs.cancel(std::exchange(m_job, 0));
+    ended();
+    m_ended = cancelledText();
+    refresh();
+}
+
+QString LightSweepPanel::cancelledText() const {
+    return m_outcome ? tr("Cancelled; the result before it stays.") : tr("Cancelled.");
 }
 
 void LightSweepPanel::jobsChanged() {
@@ -269,14 +282,18 @@ void LightSweepPanel::jobsChanged() {
     const std::optional<JobRecord> job = m_jobs.job(m_job);
     if (job && !job->ended())
         return;
+    ended();
+    if (job && job->state == JobState::Failed)
+        m_ended = job->summary;
+    else if (job && job->state == JobState::Cancelled) // in the Jobs dock
+        m_ended = cancelledText();
+    refresh();
+}
+
+void LightSweepPanel::ended() {
     m_job = 0;
     m_progress.stop();
     m_controls->setRunning(false);
-    if (job && job->state == JobState::Failed)
-        m_ended = job->summary;
-    else if (job && job->state == JobState::Cancelled)
-        m_ended = m_outcome ? tr("Cancelled; the result before it stays.") : tr("Cancelled.");
-    refresh();
 }
 
 void LightSweepPanel::showProgress() {
@@ -301,18 +318,11 @@ void LightSweepPanel::take(const SweepOutcomePtr& outcome) {
     m_problems->setVisible(m_problems->count() > 0);
     rank();
     if (outcome) {
-        fitColumns();
+        m_table->resizeColumnsToContents();
         m_table->scrollToTop();
     }
     checkState();
     refresh();
-}
-
-// The style's hints leave no room for the arrow that says what rows are sorted by.
-void LightSweepPanel::fitColumns() {
-    m_table->resizeColumnsToContents();
-    for (int column = 0; column < SweepModel::Flags; ++column)
-        m_table->setColumnWidth(column, m_table->columnWidth(column) + kSortArrow);
 }
 
 void LightSweepPanel::rank() {
@@ -346,13 +356,14 @@ void LightSweepPanel::refreshPictures() {
         return;
     const SweepOutcome& outcome = *m_outcome;
     const LightScore& score = outcome.sweep.scores[*m_selected];
-    const QString name = lightText(outcome, score.light);
-    m_light->setPicture(name, m_strip->picture(*m_selected),
-                        QPoint(score.worstPixel.x, score.worstPixel.y));
-    m_reference->setPicture(referenceText(outcome),
-                            displayedImage(outcome.sweep.reference, outcome.settings.view));
+    const QRect seen = surfacesRect(outcome.pixels);
+    m_light->setPicture(lightText(outcome, score.light), m_strip->picture(*m_selected),
+                        QPoint(score.worstPixel.x, score.worstPixel.y) - seen.topLeft());
+    m_reference->setPicture(
+        referenceText(outcome),
+        displayedImage(outcome.sweep.reference, outcome.settings.view).copy(seen));
     m_stripTitle->setText(
-        tr("Rotations of %1").arg(toQString(outcome.environments[score.light.environment].title)));
+        tr("%1, rotated").arg(toQString(outcome.environments[score.light.environment].title)));
     const double most = largestSensitivity(outcome.sweep.sensitivity);
     showSensitivity(0.0, most > 0.0 ? most : 1.0);
 }
@@ -361,9 +372,11 @@ void LightSweepPanel::showSensitivity(double from, double to) {
     if (!m_outcome)
         return;
     m_scale->setRange(from, to);
+    m_range->setText(sensitivityText(m_outcome->sweep.sensitivity));
     m_sensitivity->setPicture(
-        sensitivityText(m_outcome->sweep.sensitivity),
-        sensitivityImage(m_outcome->pixels, m_outcome->sweep.sensitivity, from, to));
+        tr("Sensitivity"),
+        sensitivityImage(m_outcome->pixels, m_outcome->sweep.sensitivity, from, to)
+            .copy(surfacesRect(m_outcome->pixels)));
 }
 
 void LightSweepPanel::useSelected() {

@@ -63,9 +63,10 @@ class LightSweepPanel : public QWidget {
     [[nodiscard]] QWidget* makePictures();
     void take(const SweepOutcomePtr& outcome);
     void jobsChanged();
+    void ended(); // the job is followed no more
+    [[nodiscard]] QString cancelledText() const;
     void showProgress();
     void rank();
-    void fitColumns();
     void refresh(); // texts and pages
     void refreshPictures();
     void showSensitivity(double from, double to);
@@ -81,7 +82,7 @@ class LightSweepPanel : public QWidget {
     QString m_ended; // how the last sweep ended without a result
 
     SweepControls* m_controls;
-    QLabel *m_status, *m_warning, *m_empty, *m_stripTitle;
+    QLabel *m_status, *m_warning, *m_empty, *m_stripTitle, *m_range;
     QPushButton *m_again, *m_use;
     QStackedWidget* m_pages;
     SweepModel* m_model;

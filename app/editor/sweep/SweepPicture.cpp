@@ -11,7 +11,8 @@
 namespace patina::editor {
 namespace {
 
-constexpr double kMarkRadius = 6.0; // radius, of the mark
+constexpr double kMarkRadius = 6.0;
+constexpr int kAround = 6; // pixels around surfaces
 
 QRgb rgbOf(const glm::vec3& encoded) {
     const auto eight = [](float v) {
@@ -49,13 +50,24 @@ QImage sensitivityImage(const SweepPixels& pixels, const Image& sensitivity, dou
     return image;
 }
 
+QRect surfacesRect(const SweepPixels& pixels) {
+    QRect rect;
+    for (const std::uint32_t place : pixels.places) {
+        const int at = static_cast<int>(place);
+        rect |= QRect(at % pixels.width, at / pixels.width, 1, 1);
+    }
+    return rect.adjusted(-kAround, -kAround, kAround, kAround) &
+           QRect(0, 0, pixels.width, pixels.height);
+}
+
 double largestSensitivity(const Image& sensitivity) {
     const std::span<const float> stops = sensitivity.f32();
     return stops.empty() ? 0.0 : double{*std::max_element(stops.begin(), stops.end())};
 }
 
 SweepPicture::SweepPicture(const QString& help, QWidget* parent)
-    : QWidget(parent) {
+    : QWidget(parent)
+    , m_help(help) {
     setToolTip(help);
     setStatusTip(help);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
@@ -67,6 +79,7 @@ void SweepPicture::setPicture(const QString& title, const QImage& picture,
     m_picture = picture;
     m_marked = marked;
     setAccessibleName(title);
+    setToolTip(title + QLatin1Char('\n') + m_help); // the title may be cut
     update();
 }
 

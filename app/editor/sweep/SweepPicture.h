@@ -7,6 +7,7 @@
 
 #include <QImage>
 #include <QPoint>
+#include <QRect>
 #include <QWidget>
 #include <optional>
 
@@ -17,6 +18,8 @@ namespace patina::editor {
 // Stops from..to as colours where surfaces are; transparent elsewhere.
 [[nodiscard]] QImage sensitivityImage(const SweepPixels& pixels, const Image& sensitivity,
                                       double from, double to);
+// What of the pictures shows surfaces, with a little around them: the rest is not looked at.
+[[nodiscard]] QRect surfacesRect(const SweepPixels& pixels);
 [[nodiscard]] double largestSensitivity(const Image& sensitivity); // stops
 
 class SweepPicture : public QWidget {
@@ -31,13 +34,13 @@ class SweepPicture : public QWidget {
     [[nodiscard]] const QString& title() const { return m_title; }
     [[nodiscard]] const std::optional<QPoint>& marked() const { return m_marked; }
     [[nodiscard]] QSize sizeHint() const override { return {150, 110}; }
-    [[nodiscard]] QSize minimumSizeHint() const override { return {84, 70}; }
+    [[nodiscard]] QSize minimumSizeHint() const override { return {72, 54}; }
 
   protected:
     void paintEvent(QPaintEvent* event) override;
 
   private:
-    QString m_title;
+    QString m_help, m_title;
     QImage m_picture;
     std::optional<QPoint> m_marked;
 };

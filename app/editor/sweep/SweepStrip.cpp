@@ -14,9 +14,8 @@ namespace {
 constexpr int kStripHeight = 44; // of its pictures
 constexpr int kStripWidest = 88;
 
-QIcon stripIcon(const QImage& picture, const QSize& size, qreal ratio) {
-    QPixmap pixmap = QPixmap::fromImage(
-        picture.scaled(size * ratio, Qt::KeepAspectRatio, Qt::SmoothTransformation));
+QIcon stripIcon(const QImage& thumb, qreal ratio) {
+    QPixmap pixmap = QPixmap::fromImage(thumb);
     pixmap.setDevicePixelRatio(ratio);
     QIcon icon(pixmap);
     icon.addPixmap(pixmap, QIcon::Selected); // without the tint of the selection
@@ -41,7 +40,7 @@ SweepStrip::SweepStrip(TaskRunner& runner, QWidget* parent)
     setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     setSelectionMode(QAbstractItemView::SingleSelection);
     setFixedHeight(kStripHeight + fontMetrics().height() +
-                   horizontalScrollBar()->sizeHint().height() + 3 * tokens::kGap);
+                   horizontalScrollBar()->sizeHint().height() + 2 * tokens::kGap);
     connect(this, &QListWidget::currentRowChanged, this, [this](int row) {
         if (!m_refreshing && row >= 0)
             Q_EMIT chosen(m_environment * m_outcome->rotations() + static_cast<std::size_t>(row));
@@ -53,6 +52,7 @@ void SweepStrip::show(const SweepOutcomePtr& outcome, std::size_t light) {
         m_job.cancel();
         m_outcome = nullptr;
         m_pictures.clear();
+        m_thumbs.clear();
         m_refreshing = true;
         clear();
         m_refreshing = false;
@@ -63,6 +63,7 @@ void SweepStrip::show(const SweepOutcomePtr& outcome, std::size_t light) {
         m_outcome = outcome;
         m_environment = environment;
         m_pictures.clear();
+        m_thumbs.clear();
         draw();
         fill();
     }
@@ -79,23 +80,35 @@ QImage SweepStrip::picture(std::size_t light) const {
 
 void SweepStrip::draw() {
     m_job.cancel(); // of another environment
-    m_job.request([this, outcome = m_outcome,
-                   environment = m_environment](const JobContext& job) -> LatestJob::Apply {
-        std::vector<QImage> pictures;
+    m_job.request([this, outcome = m_outcome, environment = m_environment,
+                   size = thumbSize() *
+                          devicePixelRatioF()](const JobContext& job) -> LatestJob::Apply {
+        std::vector<QImage> pictures, thumbs;
+        const QRect seen = surfacesRect(outcome->pixels);
         for (std::size_t r = 0; r < outcome->rotations(); ++r) {
             if (job.cancelled())
                 return {};
             const LightScore& score = outcome->sweep.scores[environment * outcome->rotations() + r];
-            pictures.push_back(displayedImage(
-                sweepPicture(outcome->pixels, outcome->measured, outcome->settings, score.light),
-                outcome->settings.view));
+            pictures.push_back(displayedImage(sweepPicture(outcome->pixels, outcome->measured,
+                                                           outcome->settings, score.light),
+                                              outcome->settings.view)
+                                   .copy(seen));
         }
-        return [this, pictures = std::move(pictures)]() mutable {
-            m_pictures = std::move(pictures);
+        for (const QImage& picture : pictures)
+            thumbs.push_back(picture.scaled(size, Qt::KeepAspectRatio, Qt::SmoothTransformation));
+        return [this, pictures = std::move(pictures), thumbs = std::move(thumbs)] {
+            m_pictures = pictures;
+            m_thumbs = thumbs;
             fill();
             Q_EMIT picturesChanged();
         };
     });
+}
+
+QSize SweepStrip::thumbSize() const {
+    return surfacesRect(m_outcome->pixels)
+        .size()
+        .scaled(kStripWidest, kStripHeight, Qt::KeepAspectRatio);
 }
 
 void SweepStrip::fill() {
@@ -105,8 +118,7 @@ void SweepStrip::fill() {
         delete takeItem(count() - 1);
     while (count() < rows)
         addItem(new QListWidgetItem);
-    const QSize size = QSize(m_outcome->pixels.width, m_outcome->pixels.height)
-                           .scaled(kStripWidest, kStripHeight, Qt::KeepAspectRatio);
+    const QSize size = thumbSize();
     setIconSize(size);
     for (int row = 0; row < rows; ++row) {
         const LightScore& score =
@@ -118,9 +130,9 @@ void SweepStrip::fill() {
                            .arg(toQString(m_outcome->environments[m_environment].title), one.text(),
                                 scoreText(score.difference.worst, RankBy::Difference)));
         one.setSizeHint(size + QSize(tokens::kGap, fontMetrics().height() + tokens::kGap / 2));
-        one.setIcon(m_pictures.empty() ? QIcon()
-                                       : stripIcon(m_pictures[static_cast<std::size_t>(row)], size,
-                                                   devicePixelRatioF()));
+        one.setIcon(m_thumbs.empty()
+                        ? QIcon()
+                        : stripIcon(m_thumbs[static_cast<std::size_t>(row)], devicePixelRatioF()));
     }
     m_refreshing = false;
 }

@@ -6,6 +6,7 @@
 
 #include <QImage>
 #include <QListWidget>
+#include <QSize>
 #include <vector>
 
 namespace patina::editor {
@@ -18,7 +19,7 @@ class SweepStrip : public QListWidget {
     // Shows the light (an index into LightSweep::scores) among those of its environment; null:
     // nothing.
     void show(const SweepOutcomePtr& outcome, std::size_t light);
-    // Of a light of the environment that is shown; null until it is made.
+    // Of a light of the environment that is shown, its surfacesRect(); null until it is made.
     [[nodiscard]] QImage picture(std::size_t light) const;
     [[nodiscard]] bool isDrawing() const { return m_job.busy(); }
 
@@ -29,10 +30,11 @@ class SweepStrip : public QListWidget {
   private:
     void draw();
     void fill();
+    [[nodiscard]] QSize thumbSize() const;
 
     SweepOutcomePtr m_outcome;
     std::size_t m_environment = 0;
-    std::vector<QImage> m_pictures;
+    std::vector<QImage> m_pictures, m_thumbs; // of each rotation
     bool m_refreshing = false;
     LatestJob m_job; // last: it ends first
 };

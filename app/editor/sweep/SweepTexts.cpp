@@ -65,7 +65,7 @@ QString referenceText(const SweepOutcome& outcome) {
 }
 
 QString sensitivityText(const Image& sensitivity) {
-    return SweepTr::tr("Sensitivity: 0 to %1 stops")
+    return SweepTr::tr("0 to %1 stops")
         .arg(QLocale().toString(largestSensitivity(sensitivity), 'f', 2));
 }
 

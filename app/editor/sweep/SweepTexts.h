@@ -16,6 +16,6 @@ namespace patina::editor {
 [[nodiscard]] QString problemText(const SweepProblem& problem);
 [[nodiscard]] QString lightText(const SweepOutcome& outcome, const SweepLight& light);
 [[nodiscard]] QString referenceText(const SweepOutcome& outcome);
-[[nodiscard]] QString sensitivityText(const Image& sensitivity);
+[[nodiscard]] QString sensitivityText(const Image& sensitivity); // its range
 
 } // namespace patina::editor

@@ -24,6 +24,9 @@
 namespace patina::editor {
 namespace {
 
+// Shares of the time that reading the environments and a quick bake take, for the progress.
+constexpr double kRead = 0.2, kBaked = 0.5;
+
 glm::vec3 scaleOf(const Environment& environment) {
     return environment.tint * std::exp2(environment.exposureEv);
 }
@@ -59,9 +62,14 @@ class SweepReader {
         for (std::size_t i = 0; i < m_wanted.size(); ++i) {
             m_job.setActivity(
                 fmt::format("reading environments ({} of {})", i + 1, m_wanted.size()));
-            if (Result<void> measured = measure(std::move(m_wanted[i]), outcome); !measured)
+            const auto share = [&](std::size_t done) {
+                return static_cast<double>(done) / static_cast<double>(m_wanted.size());
+            };
+            if (Result<void> measured =
+                    measure(std::move(m_wanted[i]), outcome, m_job.part(share(i), share(i + 1)));
+                !measured)
                 return measured;
-            m_job.setProgress(static_cast<double>(i + 1) / static_cast<double>(m_wanted.size()));
+            m_job.setProgress(share(i + 1));
         }
         if (outcome.measured.empty())
             return Error{ErrorKind::InputBroken,
@@ -122,12 +130,13 @@ class SweepReader {
             {environmentTitle(named), name, 0, nullptr, scaleOf(m_order.document.environment())});
     }
 
-    Result<void> measure(SweptEnvironment environment, SweepOutcome& outcome) {
+    Result<void> measure(SweptEnvironment environment, SweepOutcome& outcome,
+                         const JobContext& job) {
         ImagePtr image = environment.image;
         if (!image) {
             std::vector<Notice> notices;
             Result<ImagePtr> read = loadEnvironmentImage(m_worker, environment.source, notices,
-                                                         EnvironmentLayout::Automatic, m_job);
+                                                         EnvironmentLayout::Automatic, job);
             if (!read) {
                 const Error& error = read.error();
                 if (error.kind == ErrorKind::Cancelled || error.kind == ErrorKind::Internal)
@@ -137,7 +146,7 @@ class SweepReader {
             }
             image = std::move(*read);
         }
-        outcome.measured.push_back(measureEnvironment(environment.title, *image, m_job));
+        outcome.measured.push_back(measureEnvironment(environment.title, *image, job));
         outcome.environments.push_back(std::move(environment));
         if (m_job.cancelled())
             return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
@@ -219,10 +228,14 @@ Result<SweepOutcomePtr> runSweep(std::shared_ptr<const SweepOrder> order, Worker
     outcome->order = order;
     outcome->settings.rotations = order->rotations;
     outcome->settings.view = document.view;
-    if (Result<void> read = SweepReader(*order, worker, job).read(*outcome); !read)
-        return read.error();
+    const bool bakes = !attachedSweepBake(document);
+    const double read = bakes ? kRead : kRead / (1.0 - kBaked),
+                 baked = bakes ? read + kBaked : read;
+    const JobContext reading = job.part(0.0, read);
+    if (Result<void> done = SweepReader(*order, worker, reading).read(*outcome); !done)
+        return done.error();
     if (order->comparesWithScene)
-        if (Result<void> added = addReference(*order, *outcome, job); !added)
+        if (Result<void> added = addReference(*order, *outcome, reading); !added)
             return added.error();
     // Scaled after: the same picture under another tint is still the same environment.
     outcome->same = findSameEnvironments(outcome->measured, job);
@@ -230,19 +243,19 @@ Result<SweepOutcomePtr> runSweep(std::shared_ptr<const SweepOrder> order, Worker
         for (glm::vec3& coefficient : outcome->measured[i].harmonics)
             coefficient *= outcome->environments[i].scale;
 
-    job.setProgress(0.0);
-    const Result<BakeArtifactPtr> bake = transferFor(document, outcome->transfer, job);
+    const Result<BakeArtifactPtr> bake =
+        transferFor(document, outcome->transfer, job.part(read, baked));
     if (!bake)
         return bake.error();
-    Result<SweepPixels> pixels = traceSweepPixels(document, bake->get(), document.view.camera,
-                                                  order->width, order->height, job);
+    Result<SweepPixels> pixels =
+        traceSweepPixels(document, bake->get(), document.view.camera, order->width, order->height,
+                         job.part(baked, baked));
     if (!pixels)
         return pixels.error();
     outcome->pixels = std::move(*pixels);
-    job.setProgress(0.0);
     const auto start = std::chrono::steady_clock::now();
     Result<LightSweep> sweep =
-        sweepLights(outcome->pixels, outcome->measured, outcome->settings, job);
+        sweepLights(outcome->pixels, outcome->measured, outcome->settings, job.part(baked, 1.0));
     if (!sweep)
         return sweep.error();
     outcome->sweep = std::move(*sweep);

@@ -170,15 +170,25 @@ TEST_F(LightSweepTest, PicturesShowTheLightTheLookComparedWithAndAllRotations) {
     ASSERT_TRUE(eventually([] { return !panel().lightPicture().picture().isNull(); }));
     const std::size_t worst = *panel().selected();
     const LightScore& score = outcome.sweep.scores[worst];
+    // What is around the surfaces is cut off.
+    const QRect seen = surfacesRect(outcome.pixels);
+    EXPECT_LT(seen.width(), outcome.pixels.width);
+    for (const std::uint32_t place : outcome.pixels.places)
+        ASSERT_TRUE(seen.contains(static_cast<int>(place) % outcome.pixels.width,
+                                  static_cast<int>(place) / outcome.pixels.width));
+    const QPoint ring = QPoint(score.worstPixel.x, score.worstPixel.y) - seen.topLeft();
     EXPECT_EQ(panel().lightPicture().picture(),
               displayedImage(
                   sweepPicture(outcome.pixels, outcome.measured, outcome.settings, score.light),
-                  outcome.settings.view));
-    EXPECT_EQ(panel().lightPicture().marked(), QPoint(score.worstPixel.x, score.worstPixel.y));
+                  outcome.settings.view)
+                  .copy(seen));
+    EXPECT_EQ(panel().lightPicture().marked(), ring);
     EXPECT_EQ(panel().referencePicture().picture(),
-              displayedImage(outcome.sweep.reference, outcome.settings.view));
-    EXPECT_FALSE(panel().sensitivityPicture().picture().isNull());
-    EXPECT_THAT(panel().sensitivityPicture().title().toStdString(), HasSubstr("stops"));
+              displayedImage(outcome.sweep.reference, outcome.settings.view).copy(seen));
+    // Where surfaces are it has colours, and nothing elsewhere.
+    const QImage map = panel().sensitivityPicture().picture();
+    EXPECT_EQ(qAlpha(map.pixel(0, 0)), 0);
+    EXPECT_EQ(qAlpha(map.pixel(ring)), 255);
 
     // A picture of the strip is clicked: its light is chosen, in the table too.
     const int other = (panel().strip().currentRow() + 3) % 8;
@@ -264,12 +274,26 @@ TEST_F(LightSweepTest, ACancelLeavesTheEarlierResult) {
     ASSERT_EQ(session->jobs.runningCount(), 1) << "a row of the Jobs dock";
     EXPECT_EQ(session->jobs.jobs().back().title, QStringLiteral("Light sweep"));
     click(button("sweepStart"));
-    ASSERT_TRUE(eventually([] { return !panel().isRunning(); }));
+    EXPECT_FALSE(panel().isRunning()) << "at once";
+    ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
     EXPECT_EQ(session->jobs.jobs().back().state, JobState::Cancelled);
     EXPECT_EQ(panel().outcome(), earlier);
     EXPECT_EQ(table().model()->rowCount(), rows);
     EXPECT_THAT(panel().warning().toStdString(), HasSubstr("the result before it stays"));
     EXPECT_EQ(button("sweepStart").text(), QStringLiteral("Start"));
+
+    // In the Jobs dock, too.
+    click(button("sweepStart"));
+    session->jobs.cancelAll();
+    ASSERT_TRUE(eventually([] { return !panel().isRunning(); }));
+    EXPECT_EQ(panel().outcome(), earlier);
+    EXPECT_THAT(panel().warning().toStdString(), HasSubstr("Cancelled"));
+
+    // A result is of its document.
+    controller().newDocument();
+    ASSERT_TRUE(settled(*session));
+    EXPECT_EQ(panel().outcome(), nullptr);
+    EXPECT_TRUE(panel().warning().isEmpty());
 }
 
 TEST_F(LightSweepTest, AnEditMakesTheResultOneOfAnEarlierStateUntilItIsUndoneOrRunAgain) {

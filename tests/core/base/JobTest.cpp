@@ -54,6 +54,19 @@ TEST(Parallel, StartsNothingAfterACancel) {
     EXPECT_LE(ranges.load(), 64);
 }
 
+TEST(Job, APartsProgressIsAShareOfTheWhole) {
+    JobControl control;
+    const JobContext half = control.context().part(0.5, 1.0), quarter = half.part(0.0, 0.5);
+    quarter.setProgress(0.0);
+    EXPECT_DOUBLE_EQ(control.progress().fraction, 0.5);
+    quarter.setProgress(0.5);
+    EXPECT_DOUBLE_EQ(control.progress().fraction, 0.625);
+    half.setProgress(7.0);
+    EXPECT_DOUBLE_EQ(control.progress().fraction, 1.0);
+    control.cancel();
+    EXPECT_TRUE(quarter.cancelled()) << "it is the same work";
+}
+
 TEST(Job, GivesWayWhileTheGateIsClosed) {
     using namespace std::chrono_literals;
     using Clock = WorkGate::Clock;
