@@ -95,6 +95,7 @@ void EnvironmentLibrary::rescan() {
     m_loaded = true;
     for (int lane = 0; lane < kLanes; ++lane)
         m_tasks.cancel(laneTag(lane));
+    m_tasks.cancel(kCompareTask);
     m_toMeasure.clear();
     m_tasks.run(
         {.tag = kListTask, .priority = TaskPriority::Normal},
@@ -236,7 +237,7 @@ void EnvironmentLibrary::compare() {
             entries.push_back(m_items[i].entry);
         }
     m_tasks.run(
-        {.tag = kListTask, .priority = TaskPriority::Low},
+        {.tag = kCompareTask, .priority = TaskPriority::Low},
         [entries](const JobContext& job) { return findSameEntries(entries, job); },
         [this, places](const Result<std::vector<std::optional<SameEntry>>>& same) {
             if (!same)

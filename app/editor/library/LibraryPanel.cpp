@@ -11,6 +11,7 @@
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/viewport/DropTarget.h"
+#include "app/editor/widget/ElidedLabel.h"
 #include "app/editor/widget/ListButton.h"
 
 #include <QBoxLayout>
@@ -71,7 +72,8 @@ LibraryPanel::LibraryPanel(EnvironmentLibrary& library, QWidget* parent)
                               tr("Show the largest first, or names from Z to A")))
     , m_sort(new QComboBox)
     , m_view(new LibraryView)
-    , m_details(new QLabel)
+    , m_name(new ElidedLabel)
+    , m_measures(new ElidedLabel)
     , m_side(makeFolders())
     , m_layout(new QBoxLayout(QBoxLayout::LeftToRight, this)) {
     setAcceptDrops(true);
@@ -80,11 +82,11 @@ LibraryPanel::LibraryPanel(EnvironmentLibrary& library, QWidget* parent)
     m_view->setItemDelegate(delegate);
     m_view->setAccessibleName(tr("Environments"));
     m_view->setStatusTip(tr("Double-click or press Enter to light the scene with an environment"));
-    m_details->setWordWrap(true);
-    m_details->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    m_details->setAccessibleName(tr("Measured of the environment"));
-    m_details->setStatusTip(tr("What was measured of the environment that is chosen"));
-    m_details->setToolTip(m_details->statusTip());
+    m_name->setAccessibleName(tr("Environment that is chosen"));
+    m_measures->setAccessibleName(tr("Measured of the environment"));
+    for (QLabel* line : {m_name, m_measures})
+        line->setStatusTip(tr("What was measured of the environment that is chosen; hold the "
+                              "pointer still for all of it"));
 
     auto* content = new QWidget;
     auto* column = new QVBoxLayout(content);
@@ -92,7 +94,8 @@ LibraryPanel::LibraryPanel(EnvironmentLibrary& library, QWidget* parent)
     column->setSpacing(tokens::kGap / 2);
     column->addWidget(makeQuery());
     column->addWidget(m_view, 1);
-    column->addWidget(m_details);
+    column->addWidget(m_name);
+    column->addWidget(m_measures);
     m_layout->setContentsMargins(tokens::kGap, tokens::kGap / 2, tokens::kGap, tokens::kGap);
     m_layout->setSpacing(tokens::kGap);
     m_layout->addWidget(m_side);
@@ -111,7 +114,9 @@ LibraryPanel::LibraryPanel(EnvironmentLibrary& library, QWidget* parent)
     connect(m_model, &QAbstractItemModel::modelAboutToBeReset, this,
             [this] { m_refreshing = true; });
     connect(m_model, &QAbstractItemModel::modelReset, this, [this] {
-        if (const QModelIndex index = m_model->indexOf(m_chosen); index.isValid())
+        // At first what lights the scene.
+        const QString chosen = m_chosen.isEmpty() ? m_library.current() : m_chosen;
+        if (const QModelIndex index = m_model->indexOf(chosen); index.isValid())
             m_view->setCurrentIndex(index);
         m_refreshing = false;
     });
@@ -313,10 +318,14 @@ void LibraryPanel::refreshItems() {
 
 void LibraryPanel::refreshDetails() {
     const LibraryItem* item = m_library.item(m_view->currentSource());
-    m_details->setText(item ? detailsText(*item)
-                       : m_library.folders().size() == 1
-                           ? tr("Drop a folder of HDR or EXR files here to add its environments.")
-                           : tr("Choose an environment to see what was measured of it."));
+    const LibrarySummary summary =
+        item ? summaryOf(*item)
+             : LibrarySummary{tr("Choose an environment to see what was measured of it."),
+                              tr("Drop a folder of HDR or EXR files here to add it.")};
+    m_name->setText(summary.name);
+    m_measures->setText(summary.measures);
+    for (QLabel* line : {m_name, m_measures})
+        line->setToolTip(item ? toolTipText(*item) : line->statusTip());
 }
 
 void LibraryPanel::openMenu(const QString& source, const QPoint& globalPosition) {

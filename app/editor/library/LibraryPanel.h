@@ -54,7 +54,7 @@ class LibraryPanel : public QWidget {
     QToolButton *m_favourites, *m_descending;
     QComboBox* m_sort;
     LibraryView* m_view;
-    QLabel* m_details;
+    QLabel *m_name, *m_measures; // of the one that is chosen
     QWidget* m_side;
     QBoxLayout* m_layout;
     QString m_chosen; // kept while the grid is laid out anew

@@ -122,6 +122,28 @@ QString sortedText(const LibraryItem& item, CatalogSort sort) {
     return {};
 }
 
+LibrarySummary summaryOf(const LibraryItem& item) {
+    const CatalogEntry& entry = *item.entry;
+    LibrarySummary summary{toQString(entry.title), trLibrary("not measured yet")};
+    if (!item.measured)
+        return summary;
+    summary.name += trLibrary(" · %1 × %2").arg(entry.width).arg(entry.height);
+    if (const QString tags = tagsText(item); !tags.isEmpty())
+        summary.name += QStringLiteral(" · ") + tags;
+    const EnvironmentMeasures& m = entry.measures;
+    QStringList facts;
+    if (m.source)
+        facts << trLibrary(m.source->isClear ? "source %1 at %2" : "brightest place %1 at %2")
+                     .arg(percent(m.source->share), degrees(m.source->elevationDeg));
+    facts << trLibrary("range %1").arg(stops(m.rangeStops))
+          << trLibrary("key to fill %1").arg(ratio(m.keyToFill));
+    if (m.temperature)
+        facts << kelvins(m.temperature->kelvin);
+    facts << trLibrary("mean %1").arg(luminance(m.meanLuminance));
+    summary.measures = facts.join(QStringLiteral(" · "));
+    return summary;
+}
+
 QString detailsText(const LibraryItem& item) {
     const QString title = toQString(item.entry->title);
     if (!item.measured)

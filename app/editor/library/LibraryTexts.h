@@ -14,6 +14,11 @@ struct LibraryItem;
 // The number that is sorted by ("12.6 : 1"); its size in pixels where that is the name; "not
 // measured yet".
 [[nodiscard]] QString sortedText(const LibraryItem& item, CatalogSort sort);
+// Two short lines: what it is called and how it is tagged; what was measured.
+struct LibrarySummary {
+    QString name, measures;
+};
+[[nodiscard]] LibrarySummary summaryOf(const LibraryItem& item);
 // All that is known of it, a line for each group of facts.
 [[nodiscard]] QString detailsText(const LibraryItem& item);
 // The same as rich text for a tooltip, with what the tags mean.

@@ -46,8 +46,8 @@ class LibraryPanelTest : public EditorTest {
         window->activateWindow();
         ASSERT_TRUE(QTest::qWaitForWindowActive(window.get(), 30'000));
         // A low warm sun, a high white one, a soft cool sky, and what is none.
-        write("low.hdr", Disc{30, 10, 4, 400, 1}.picture(64), {1.0, 0.6, 0.25});
-        write("high.exr", Disc{30, 70, 4, 4000, 1}.picture(64), {1.0, 1.0, 1.0});
+        write("low.hdr", Disc{30, 10, 4, 4000, 1}.picture(128), {1.0, 0.6, 0.25});
+        write("high.exr", Disc{30, 70, 4, 20000, 1}.picture(128), {1.0, 1.0, 1.0});
         write("soft.hdr", test::uniform(glm::dvec3(2.0), 64), {0.7, 0.85, 1.4});
         QFile broken(path("broken.hdr"));
         ASSERT_TRUE(broken.open(QIODevice::WriteOnly));
@@ -371,8 +371,7 @@ TEST_F(LibraryPanelTest, ItemsAreDraggedAsFiles) {
     EXPECT_EQ(data->urls(), QList<QUrl>{QUrl::fromLocalFile(path("low.hdr"))});
     EXPECT_TRUE(item("low").flags().testFlag(Qt::ItemIsDragEnabled));
     // Dropped on the window it is a file like any other.
-    QDropEvent event(QPointF(300, 300), Qt::CopyAction, data.get(), Qt::LeftButton, {});
-    QApplication::sendEvent(window.get(), &event);
+    drop(*window, data->urls().front().toLocalFile());
     ASSERT_TRUE(settled(*session));
     EXPECT_EQ(lit(), path("low.hdr").toStdString());
 }
@@ -415,7 +414,6 @@ TEST_F(LibraryPanelTest, UprightItHasTheFoldersAboveTheGrid) {
     panel.resize(300, 700);
     panel.show();
     test::handleEvents();
-    EXPECT_LT(panel.folders().mapTo(&panel, QPoint(0, 0)).y(), panel.view().y() + 1);
     EXPECT_LE(panel.minimumSizeHint().width(), 300);
     const QRect folders(panel.folders().mapTo(&panel, QPoint(0, 0)), panel.folders().size());
     const QRect grid(panel.view().mapTo(&panel, QPoint(0, 0)), panel.view().size());
