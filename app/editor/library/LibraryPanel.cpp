@@ -26,6 +26,7 @@
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMenu>
+#include <QScrollBar>
 #include <QSettings>
 #include <QSignalBlocker>
 #include <QToolButton>
@@ -34,8 +35,9 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kSideWidth = 220;  // folders beside the grid
+constexpr int kSideWidth = 184;  // folders beside the grid
 constexpr int kSideHeight = 132; // or above it
+constexpr int kWideFrom = 520;
 constexpr int kUnreadableHeight = 96;
 constexpr int kPathRole = Qt::UserRole;
 const char* const kLibraryFolderKey = "folders/library";
@@ -111,13 +113,20 @@ LibraryPanel::LibraryPanel(EnvironmentLibrary& library, QWidget* parent)
             m_chosen = m_view->currentSource();
         refreshDetails();
     });
-    connect(m_model, &QAbstractItemModel::modelAboutToBeReset, this,
-            [this] { m_refreshing = true; });
+    connect(m_model, &QAbstractItemModel::modelAboutToBeReset, this, [this] {
+        m_refreshing = true;
+        m_scrolled = m_view->verticalScrollBar()->value();
+    });
     connect(m_model, &QAbstractItemModel::modelReset, this, [this] {
         // At first what lights the scene.
         const QString chosen = m_chosen.isEmpty() ? m_library.current() : m_chosen;
         if (const QModelIndex index = m_model->indexOf(chosen); index.isValid())
             m_view->setCurrentIndex(index);
+        // What is measured meanwhile must not move the grid away from where somebody looks.
+        if (!m_asking) {
+            m_view->doItemsLayout();
+            m_view->verticalScrollBar()->setValue(m_scrolled);
+        }
         m_refreshing = false;
     });
     connect(&library, &EnvironmentLibrary::itemsChanged, this, &LibraryPanel::refreshItems);
@@ -150,6 +159,7 @@ QWidget* LibraryPanel::makeFolders() {
     m_unreadable->setStatusTip(tr("Files of the folders that cannot be read, and why"));
     m_unreadable->setToolTip(m_unreadable->statusTip());
     m_unreadable->setWordWrap(true);
+    m_unreadable->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     m_unreadable->setSelectionMode(QAbstractItemView::NoSelection);
     m_unreadable->setMaximumHeight(kUnreadableHeight);
     m_unreadable->hide();
@@ -241,9 +251,11 @@ QWidget* LibraryPanel::makeQuery() {
 }
 
 void LibraryPanel::ask() {
+    m_asking = true;
     m_library.setQuery({m_search->text(), m_favourites->isChecked(),
                         static_cast<CatalogSort>(m_sort->currentIndex()),
                         m_descending->isChecked()});
+    m_asking = false;
 }
 
 void LibraryPanel::browse() {
@@ -362,7 +374,7 @@ void LibraryPanel::showEvent(QShowEvent* event) {
 // The folders beside the grid, or above it where the dock is upright.
 void LibraryPanel::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
-    const bool wide = width() > 2 * kSideWidth + kSideWidth / 2;
+    const bool wide = width() > kWideFrom;
     m_layout->setDirection(wide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
     m_side->setMinimumWidth(wide ? kSideWidth : 0);
     m_side->setMaximumWidth(wide ? kSideWidth : QWIDGETSIZE_MAX);

@@ -59,6 +59,8 @@ class LibraryPanel : public QWidget {
     QBoxLayout* m_layout;
     QString m_chosen; // kept while the grid is laid out anew
     bool m_refreshing = false;
+    bool m_asking = false; // for another order or selection
+    int m_scrolled = 0;    // while the grid is laid out anew
 };
 
 // Page Up and Page Down in the viewport step through the library, and the dock opens where a folder

@@ -19,9 +19,9 @@ struct LibrarySummary {
     QString name, measures;
 };
 [[nodiscard]] LibrarySummary summaryOf(const LibraryItem& item);
-// All that is known of it, a line for each group of facts.
-[[nodiscard]] QString detailsText(const LibraryItem& item);
-// The same as rich text for a tooltip, with what the tags mean.
+// All that is known of it, in words.
+[[nodiscard]] QString describedText(const LibraryItem& item);
+// The same as a table for a tooltip, with what the tags mean.
 [[nodiscard]] QString toolTipText(const LibraryItem& item);
 
 } // namespace patina::editor

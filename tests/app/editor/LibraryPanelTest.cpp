@@ -24,6 +24,7 @@
 #include <QListWidget>
 #include <QMenu>
 #include <QMimeData>
+#include <QScrollBar>
 #include <QSettings>
 #include <QToolButton>
 #include <QUrl>
@@ -407,6 +408,43 @@ TEST_F(LibraryPanelTest, ASecondLibraryReadsWhatWasKept) {
         ASSERT_NE(item, nullptr);
         EXPECT_EQ(*item->entry, *library().item(path(name))->entry);
     }
+}
+
+TEST_F(LibraryPanelTest, StepsWaitForTheListOfFiles) {
+    ASSERT_TRUE(QFile::remove(path("broken.hdr"))); // it is in the order until it was tried
+    dropFolder();
+    EnvironmentLibrary fresh(controller(), libraryCacheFolder());
+    fresh.step(1);
+    fresh.step(1);
+    EXPECT_TRUE(fresh.items().empty());
+    ASSERT_TRUE(eventually([&] { return !fresh.busy(); }));
+    ASSERT_TRUE(settled(*session));
+    EXPECT_EQ(lit(), path("low.hdr").toStdString());
+    EXPECT_EQ(undoCount(), 1);
+}
+
+TEST_F(LibraryPanelTest, TheGridStaysWhereItIsScrolledTo) {
+    for (int i = 0; i < 40; ++i)
+        ASSERT_TRUE(QFile::copy(path("soft.hdr"), path(qPrintable(QString("copy %1.hdr").arg(i)))));
+    dropFolder();
+    test::handleEvents();
+    QScrollBar& bar = *view().verticalScrollBar();
+    ASSERT_GT(bar.maximum(), 100);
+    bar.setValue(100);
+    ASSERT_TRUE(QFile::copy(path("soft.hdr"), path("zebra.hdr"))); // the last one
+    library().rescan();
+    ASSERT_TRUE(eventually([] { return !library().busy() && titles().back() == "zebra"; }));
+    EXPECT_EQ(bar.value(), 100);
+}
+
+TEST_F(LibraryPanelTest, TooltipsNameAllNumbersAndTags) {
+    dropFolder();
+    const std::string text = item("low").data(Qt::ToolTipRole).toString().toStdString();
+    for (const char* part : {"256 × 128", "Lat-long", "Brightest source", "elevation 10°", "stops",
+                             " : 1", " K", "Mean luminance", "Warm"})
+        EXPECT_THAT(text, HasSubstr(part));
+    EXPECT_THAT(item("low").data(Qt::AccessibleTextRole).toString().toStdString(),
+                HasSubstr("Sun, Warm"));
 }
 
 TEST_F(LibraryPanelTest, UprightItHasTheFoldersAboveTheGrid) {
