@@ -49,6 +49,14 @@ QString reasonOf(const Error& error) {
     return reason;
 }
 
+// As an item's; empty where a sky or softboxes light the scene.
+QString sourceLighting(const Document& document) {
+    const Environment& lit = document.environment();
+    if (lit.kind != EnvironmentKind::Image)
+        return {};
+    return isBuiltin(lit.source) ? toQString(lit.source) : fromPath(lit.source);
+}
+
 } // namespace
 
 std::filesystem::path libraryCacheFolder() {
@@ -87,14 +95,18 @@ EnvironmentLibrary::EnvironmentLibrary(DocumentController& controller,
 // --- Reading -------------------------------------------------------------------------------------
 
 void EnvironmentLibrary::load() {
-    if (!std::exchange(m_loaded, true))
-        rescan();
+    if (std::exchange(m_loaded, true))
+        return;
+    if (!m_controller.document().environments.empty()) // empty: nothing was open yet
+        m_current = sourceLighting(m_controller.document());
+    rescan();
 }
 
 void EnvironmentLibrary::rescan() {
     m_loaded = true;
     for (int lane = 0; lane < kLanes; ++lane)
         m_tasks.cancel(laneTag(lane));
+    m_tasks.cancel(kCompareTask);
     m_toMeasure.clear();
     m_tasks.run(
         {.tag = kListTask, .priority = TaskPriority::Normal},
@@ -236,7 +248,7 @@ void EnvironmentLibrary::compare() {
             entries.push_back(m_items[i].entry);
         }
     m_tasks.run(
-        {.tag = kListTask, .priority = TaskPriority::Low},
+        {.tag = kCompareTask, .priority = TaskPriority::Low},
         [entries](const JobContext& job) { return findSameEntries(entries, job); },
         [this, places](const Result<std::vector<std::optional<SameEntry>>>& same) {
             if (!same)
@@ -386,10 +398,7 @@ void EnvironmentLibrary::follow(const Change& change) {
         return;
     if (change.isAnotherDocument())
         m_stepSession = 0;
-    const Environment& lit = m_controller.document().environment();
-    const QString now = lit.kind != EnvironmentKind::Image ? QString()
-                        : isBuiltin(lit.source)            ? toQString(lit.source)
-                                                           : fromPath(lit.source);
+    const QString now = sourceLighting(m_controller.document());
     // It is there, or will not come: the controller says so when it cannot be read.
     const QString before = current();
     if (now != std::exchange(m_current, now) || change.affects == Affects::Nothing)

@@ -104,6 +104,7 @@ class EnvironmentLibrary : public QObject {
 
   private:
     static constexpr const char* kListTask = "list of the library";
+    static constexpr const char* kCompareTask = "duplicates in the library";
     struct Listing;
 
     [[nodiscard]] Listing list(std::vector<LibraryFolder> folders, const JobContext& job) const;

@@ -93,6 +93,8 @@ QVariant LibraryModel::data(const QModelIndex& index, int role) const {
         return tags.isEmpty() ? toQString(item->entry->title)
                               : tr("%1, %2").arg(toQString(item->entry->title), tags);
     }
+    case Qt::AccessibleDescriptionRole:
+        return describedText(*item);
     case SourceRole:
         return item->source;
     case SubtitleRole:

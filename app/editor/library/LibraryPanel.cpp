@@ -11,6 +11,7 @@
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/viewport/DropTarget.h"
+#include "app/editor/widget/ElidedLabel.h"
 #include "app/editor/widget/ListButton.h"
 
 #include <QBoxLayout>
@@ -25,6 +26,7 @@
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMenu>
+#include <QScrollBar>
 #include <QSettings>
 #include <QSignalBlocker>
 #include <QToolButton>
@@ -33,8 +35,9 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kSideWidth = 220;  // folders beside the grid
+constexpr int kSideWidth = 184;  // folders beside the grid
 constexpr int kSideHeight = 132; // or above it
+constexpr int kWideFrom = 520;
 constexpr int kUnreadableHeight = 96;
 constexpr int kPathRole = Qt::UserRole;
 const char* const kLibraryFolderKey = "folders/library";
@@ -71,7 +74,8 @@ LibraryPanel::LibraryPanel(EnvironmentLibrary& library, QWidget* parent)
                               tr("Show the largest first, or names from Z to A")))
     , m_sort(new QComboBox)
     , m_view(new LibraryView)
-    , m_details(new QLabel)
+    , m_name(new ElidedLabel)
+    , m_measures(new ElidedLabel)
     , m_side(makeFolders())
     , m_layout(new QBoxLayout(QBoxLayout::LeftToRight, this)) {
     setAcceptDrops(true);
@@ -80,11 +84,11 @@ LibraryPanel::LibraryPanel(EnvironmentLibrary& library, QWidget* parent)
     m_view->setItemDelegate(delegate);
     m_view->setAccessibleName(tr("Environments"));
     m_view->setStatusTip(tr("Double-click or press Enter to light the scene with an environment"));
-    m_details->setWordWrap(true);
-    m_details->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    m_details->setAccessibleName(tr("Measured of the environment"));
-    m_details->setStatusTip(tr("What was measured of the environment that is chosen"));
-    m_details->setToolTip(m_details->statusTip());
+    m_name->setAccessibleName(tr("Environment that is chosen"));
+    m_measures->setAccessibleName(tr("Measured of the environment"));
+    for (QLabel* line : {m_name, m_measures})
+        line->setStatusTip(tr("What was measured of the environment that is chosen; hold the "
+                              "pointer still for all of it"));
 
     auto* content = new QWidget;
     auto* column = new QVBoxLayout(content);
@@ -92,7 +96,8 @@ LibraryPanel::LibraryPanel(EnvironmentLibrary& library, QWidget* parent)
     column->setSpacing(tokens::kGap / 2);
     column->addWidget(makeQuery());
     column->addWidget(m_view, 1);
-    column->addWidget(m_details);
+    column->addWidget(m_name);
+    column->addWidget(m_measures);
     m_layout->setContentsMargins(tokens::kGap, tokens::kGap / 2, tokens::kGap, tokens::kGap);
     m_layout->setSpacing(tokens::kGap);
     m_layout->addWidget(m_side);
@@ -108,11 +113,20 @@ LibraryPanel::LibraryPanel(EnvironmentLibrary& library, QWidget* parent)
             m_chosen = m_view->currentSource();
         refreshDetails();
     });
-    connect(m_model, &QAbstractItemModel::modelAboutToBeReset, this,
-            [this] { m_refreshing = true; });
+    connect(m_model, &QAbstractItemModel::modelAboutToBeReset, this, [this] {
+        m_refreshing = true;
+        m_scrolled = m_view->verticalScrollBar()->value();
+    });
     connect(m_model, &QAbstractItemModel::modelReset, this, [this] {
-        if (const QModelIndex index = m_model->indexOf(m_chosen); index.isValid())
+        // At first what lights the scene.
+        const QString chosen = m_chosen.isEmpty() ? m_library.current() : m_chosen;
+        if (const QModelIndex index = m_model->indexOf(chosen); index.isValid())
             m_view->setCurrentIndex(index);
+        // What is measured meanwhile must not move the grid away from where somebody looks.
+        if (!m_asking) {
+            m_view->doItemsLayout();
+            m_view->verticalScrollBar()->setValue(m_scrolled);
+        }
         m_refreshing = false;
     });
     connect(&library, &EnvironmentLibrary::itemsChanged, this, &LibraryPanel::refreshItems);
@@ -145,6 +159,7 @@ QWidget* LibraryPanel::makeFolders() {
     m_unreadable->setStatusTip(tr("Files of the folders that cannot be read, and why"));
     m_unreadable->setToolTip(m_unreadable->statusTip());
     m_unreadable->setWordWrap(true);
+    m_unreadable->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     m_unreadable->setSelectionMode(QAbstractItemView::NoSelection);
     m_unreadable->setMaximumHeight(kUnreadableHeight);
     m_unreadable->hide();
@@ -236,9 +251,11 @@ QWidget* LibraryPanel::makeQuery() {
 }
 
 void LibraryPanel::ask() {
+    m_asking = true;
     m_library.setQuery({m_search->text(), m_favourites->isChecked(),
                         static_cast<CatalogSort>(m_sort->currentIndex()),
                         m_descending->isChecked()});
+    m_asking = false;
 }
 
 void LibraryPanel::browse() {
@@ -313,10 +330,14 @@ void LibraryPanel::refreshItems() {
 
 void LibraryPanel::refreshDetails() {
     const LibraryItem* item = m_library.item(m_view->currentSource());
-    m_details->setText(item ? detailsText(*item)
-                       : m_library.folders().size() == 1
-                           ? tr("Drop a folder of HDR or EXR files here to add its environments.")
-                           : tr("Choose an environment to see what was measured of it."));
+    const LibrarySummary summary =
+        item ? summaryOf(*item)
+             : LibrarySummary{tr("Choose an environment to see what was measured of it."),
+                              tr("Drop a folder of HDR or EXR files here to add it.")};
+    m_name->setText(summary.name);
+    m_measures->setText(summary.measures);
+    for (QLabel* line : {m_name, m_measures})
+        line->setToolTip(item ? toolTipText(*item) : line->statusTip());
 }
 
 void LibraryPanel::openMenu(const QString& source, const QPoint& globalPosition) {
@@ -353,7 +374,7 @@ void LibraryPanel::showEvent(QShowEvent* event) {
 // The folders beside the grid, or above it where the dock is upright.
 void LibraryPanel::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
-    const bool wide = width() > 2 * kSideWidth + kSideWidth / 2;
+    const bool wide = width() > kWideFrom;
     m_layout->setDirection(wide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
     m_side->setMinimumWidth(wide ? kSideWidth : 0);
     m_side->setMaximumWidth(wide ? kSideWidth : QWIDGETSIZE_MAX);

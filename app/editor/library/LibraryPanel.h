@@ -54,11 +54,13 @@ class LibraryPanel : public QWidget {
     QToolButton *m_favourites, *m_descending;
     QComboBox* m_sort;
     LibraryView* m_view;
-    QLabel* m_details;
+    QLabel *m_name, *m_measures; // of the one that is chosen
     QWidget* m_side;
     QBoxLayout* m_layout;
     QString m_chosen; // kept while the grid is laid out anew
     bool m_refreshing = false;
+    bool m_asking = false; // for another order or selection
+    int m_scrolled = 0;    // while the grid is laid out anew
 };
 
 // Page Up and Page Down in the viewport step through the library, and the dock opens where a folder

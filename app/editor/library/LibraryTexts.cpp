@@ -8,7 +8,7 @@
 #include <QCoreApplication>
 #include <QLocale>
 #include <QStringList>
-#include <cmath>
+#include <vector>
 
 namespace patina::editor {
 namespace {
@@ -25,7 +25,12 @@ QString kelvins(double kelvin) {
     return rounded;
 }
 
+// Less from one side than from all others has no direction worth stating.
+constexpr double kLeastDirectionality = 0.02;
+
 QString percent(double share) {
+    if (share < 0.001)
+        return trLibrary("less than 0.1 %");
     return trLibrary("%1 %").arg(100.0 * share, 0, 'f', share < 0.1 ? 1 : 0);
 }
 
@@ -55,32 +60,47 @@ QString fileText(const LibraryItem& item) {
                   ? trLibrary("built in")
                   : QLocale().formattedDataSize(static_cast<qint64>(entry.fileBytes), 1,
                                                 QLocale::DataSizeTraditionalFormat));
+    return facts.join(QStringLiteral(" · "));
+}
+
+QString directionText(double elevationDeg, double azimuthDeg) {
+    return trLibrary("elevation %1, azimuth %2").arg(degrees(elevationDeg), degrees(azimuthDeg));
+}
+
+struct Fact {
+    QString name, value;
+};
+
+// All that is known of it but its tags.
+std::vector<Fact> factsOf(const LibraryItem& item) {
+    std::vector<Fact> facts;
+    if (!item.measured)
+        return {{trLibrary("Measured"), trLibrary("not yet")}};
+    const EnvironmentMeasures& m = item.entry->measures;
+    facts.push_back({trLibrary("Picture"), fileText(item)});
     if (!item.duplicateOf.isEmpty())
-        facts << trLibrary("the same light as %1").arg(item.duplicateOf);
-    return facts.join(QStringLiteral(" · "));
-}
-
-QString sourceText(const EnvironmentMeasures& m) {
-    if (!m.source)
-        return trLibrary("no bright source");
-    return trLibrary(m.source->isClear
-                         ? "brightest source has %1 of the light, elevation %2, azimuth %3"
-                         : "brightest place has %1 of the light, elevation %2, azimuth %3")
-        .arg(percent(m.source->share), degrees(m.source->elevationDeg),
-             degrees(m.source->azimuthDeg));
-}
-
-QString measuresText(const EnvironmentMeasures& m) {
-    QStringList facts{sourceText(m), trLibrary("dynamic range %1").arg(stops(m.rangeStops)),
-                      trLibrary("key to fill %1").arg(ratio(m.keyToFill))};
-    facts << (m.temperature ? kelvins(m.temperature->kelvin) : trLibrary("no colour temperature"));
-    facts << trLibrary("mean luminance %1").arg(luminance(m.meanLuminance));
-    facts << trLibrary("light from elevation %1, azimuth %2 on the mean")
-                 .arg(degrees(m.dominantElevationDeg), degrees(m.dominantAzimuthDeg));
+        facts.push_back({trLibrary("Same light as"), item.duplicateOf});
+    if (m.source)
+        facts.push_back(
+            {m.source->isClear ? trLibrary("Brightest source") : trLibrary("Brightest place"),
+             trLibrary("%1 of the light, %2")
+                 .arg(percent(m.source->share),
+                      directionText(m.source->elevationDeg, m.source->azimuthDeg))});
+    facts.push_back({trLibrary("Dynamic range"), stops(m.rangeStops)});
+    facts.push_back({trLibrary("Key to fill"), ratio(m.keyToFill)});
+    facts.push_back({trLibrary("Colour temperature"),
+                     m.temperature ? kelvins(m.temperature->kelvin)
+                                   : trLibrary("none: no colour of a black body")});
+    facts.push_back({trLibrary("Mean luminance"), luminance(m.meanLuminance)});
+    if (m.directionality >= kLeastDirectionality)
+        facts.push_back({trLibrary("Light comes from"),
+                         directionText(m.dominantElevationDeg, m.dominantAzimuthDeg)});
     if (m.clippedShare > 0.0)
-        facts << trLibrary("clipped over %1 of the sphere")
-                     .arg(QStringLiteral("%1 %").arg(100.0 * m.clippedShare, 0, 'g', 2));
-    return facts.join(QStringLiteral(" · "));
+        facts.push_back({trLibrary("Clipped"),
+                         trLibrary("%1 % of the sphere").arg(100.0 * m.clippedShare, 0, 'g', 2)});
+    for (const std::string& notice : item.entry->notices)
+        facts.push_back({trLibrary("Note"), toQString(notice)});
+    return facts;
 }
 
 } // namespace
@@ -122,30 +142,48 @@ QString sortedText(const LibraryItem& item, CatalogSort sort) {
     return {};
 }
 
-QString detailsText(const LibraryItem& item) {
-    const QString title = toQString(item.entry->title);
+LibrarySummary summaryOf(const LibraryItem& item) {
+    const CatalogEntry& entry = *item.entry;
+    LibrarySummary summary{toQString(entry.title), trLibrary("not measured yet")};
     if (!item.measured)
-        return trLibrary("%1: not measured yet").arg(title);
-    QStringList lines{title + QStringLiteral(" · ") + fileText(item)};
-    lines << measuresText(item.entry->measures);
-    const QString tags = tagsText(item);
-    if (!tags.isEmpty())
-        lines << trLibrary("Tags: %1").arg(tags);
-    for (const std::string& notice : item.entry->notices)
-        lines << toQString(notice);
-    return lines.join(QLatin1Char('\n'));
+        return summary;
+    summary.name += trLibrary(" · %1 × %2").arg(entry.width).arg(entry.height);
+    if (const QString tags = tagsText(item); !tags.isEmpty())
+        summary.name += QStringLiteral(" · ") + tags;
+    const EnvironmentMeasures& m = entry.measures;
+    QStringList facts;
+    if (m.source && m.source->isClear)
+        facts << trLibrary("source %1 at %2")
+                     .arg(percent(m.source->share), degrees(m.source->elevationDeg));
+    facts << stops(m.rangeStops) << trLibrary("key to fill %1").arg(ratio(m.keyToFill));
+    if (m.temperature)
+        facts << kelvins(m.temperature->kelvin);
+    facts << trLibrary("mean %1").arg(luminance(m.meanLuminance));
+    summary.measures = facts.join(QStringLiteral(" · "));
+    return summary;
+}
+
+QString describedText(const LibraryItem& item) {
+    QStringList lines;
+    for (const Fact& fact : factsOf(item))
+        lines << trLibrary("%1: %2").arg(fact.name, fact.value);
+    return lines.join(QStringLiteral("; "));
 }
 
 QString toolTipText(const LibraryItem& item) {
-    QString text;
-    for (const QString& line : detailsText(item).split(QLatin1Char('\n')))
-        text += QStringLiteral("<p>%1</p>").arg(line.toHtmlEscaped());
+    const auto row = [](const QString& name, const QString& value) {
+        return QStringLiteral("<tr><td style='padding-right: 12px; white-space: nowrap'>%1</td>"
+                              "<td>%2</td></tr>")
+            .arg(name.toHtmlEscaped(), value.toHtmlEscaped());
+    };
+    QString text =
+        QStringLiteral("<p><b>%1</b></p><table>").arg(toQString(item.entry->title).toHtmlEscaped());
+    for (const Fact& fact : factsOf(item))
+        text += row(fact.name, fact.value);
     if (item.measured)
         for (const EnvironmentTag tag : tagsOf(item.entry->measures))
-            text += QStringLiteral("<p><b>%1</b>: %2</p>")
-                        .arg(toQString(tagLabel(tag)).toHtmlEscaped(),
-                             toQString(tagHelp(tag)).toHtmlEscaped());
-    return text;
+            text += row(toQString(tagLabel(tag)), toQString(tagHelp(tag)));
+    return text + QStringLiteral("</table>");
 }
 
 } // namespace patina::editor

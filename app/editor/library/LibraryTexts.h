@@ -14,9 +14,14 @@ struct LibraryItem;
 // The number that is sorted by ("12.6 : 1"); its size in pixels where that is the name; "not
 // measured yet".
 [[nodiscard]] QString sortedText(const LibraryItem& item, CatalogSort sort);
-// All that is known of it, a line for each group of facts.
-[[nodiscard]] QString detailsText(const LibraryItem& item);
-// The same as rich text for a tooltip, with what the tags mean.
+// Two short lines: what it is called and how it is tagged; what was measured.
+struct LibrarySummary {
+    QString name, measures;
+};
+[[nodiscard]] LibrarySummary summaryOf(const LibraryItem& item);
+// All that is known of it, in words.
+[[nodiscard]] QString describedText(const LibraryItem& item);
+// The same as a table for a tooltip, with what the tags mean.
 [[nodiscard]] QString toolTipText(const LibraryItem& item);
 
 } // namespace patina::editor

@@ -24,6 +24,7 @@
 #include <QListWidget>
 #include <QMenu>
 #include <QMimeData>
+#include <QScrollBar>
 #include <QSettings>
 #include <QToolButton>
 #include <QUrl>
@@ -46,8 +47,8 @@ class LibraryPanelTest : public EditorTest {
         window->activateWindow();
         ASSERT_TRUE(QTest::qWaitForWindowActive(window.get(), 30'000));
         // A low warm sun, a high white one, a soft cool sky, and what is none.
-        write("low.hdr", Disc{30, 10, 4, 400, 1}.picture(64), {1.0, 0.6, 0.25});
-        write("high.exr", Disc{30, 70, 4, 4000, 1}.picture(64), {1.0, 1.0, 1.0});
+        write("low.hdr", Disc{30, 10, 4, 4000, 1}.picture(128), {1.0, 0.6, 0.25});
+        write("high.exr", Disc{30, 70, 4, 20000, 1}.picture(128), {1.0, 1.0, 1.0});
         write("soft.hdr", test::uniform(glm::dvec3(2.0), 64), {0.7, 0.85, 1.4});
         QFile broken(path("broken.hdr"));
         ASSERT_TRUE(broken.open(QIODevice::WriteOnly));
@@ -371,8 +372,7 @@ TEST_F(LibraryPanelTest, ItemsAreDraggedAsFiles) {
     EXPECT_EQ(data->urls(), QList<QUrl>{QUrl::fromLocalFile(path("low.hdr"))});
     EXPECT_TRUE(item("low").flags().testFlag(Qt::ItemIsDragEnabled));
     // Dropped on the window it is a file like any other.
-    QDropEvent event(QPointF(300, 300), Qt::CopyAction, data.get(), Qt::LeftButton, {});
-    QApplication::sendEvent(window.get(), &event);
+    drop(*window, data->urls().front().toLocalFile());
     ASSERT_TRUE(settled(*session));
     EXPECT_EQ(lit(), path("low.hdr").toStdString());
 }
@@ -410,12 +410,48 @@ TEST_F(LibraryPanelTest, ASecondLibraryReadsWhatWasKept) {
     }
 }
 
+TEST_F(LibraryPanelTest, StepsWaitForTheListOfFiles) {
+    ASSERT_TRUE(QFile::remove(path("broken.hdr"))); // it is in the order until it was tried
+    dropFolder();
+    EnvironmentLibrary fresh(controller(), libraryCacheFolder());
+    fresh.step(1);
+    fresh.step(1);
+    EXPECT_TRUE(fresh.items().empty());
+    ASSERT_TRUE(eventually([&] { return !fresh.busy(); }));
+    ASSERT_TRUE(settled(*session));
+    EXPECT_EQ(lit(), path("low.hdr").toStdString());
+    EXPECT_EQ(undoCount(), 1);
+}
+
+TEST_F(LibraryPanelTest, TheGridStaysWhereItIsScrolledTo) {
+    for (int i = 0; i < 40; ++i)
+        ASSERT_TRUE(QFile::copy(path("soft.hdr"), path(qPrintable(QString("copy %1.hdr").arg(i)))));
+    dropFolder();
+    test::handleEvents();
+    QScrollBar& bar = *view().verticalScrollBar();
+    ASSERT_GT(bar.maximum(), 100);
+    bar.setValue(100);
+    ASSERT_TRUE(QFile::copy(path("soft.hdr"), path("zebra.hdr"))); // the last one
+    library().rescan();
+    ASSERT_TRUE(eventually([] { return !library().busy() && titles().back() == "zebra"; }));
+    EXPECT_EQ(bar.value(), 100);
+}
+
+TEST_F(LibraryPanelTest, TooltipsNameAllNumbersAndTags) {
+    dropFolder();
+    const std::string text = item("low").data(Qt::ToolTipRole).toString().toStdString();
+    for (const char* part : {"256 × 128", "Lat-long", "Brightest source", "elevation 10°", "stops",
+                             " : 1", " K", "Mean luminance", "Warm"})
+        EXPECT_THAT(text, HasSubstr(part));
+    EXPECT_THAT(item("low").data(Qt::AccessibleTextRole).toString().toStdString(),
+                HasSubstr("Sun, Warm"));
+}
+
 TEST_F(LibraryPanelTest, UprightItHasTheFoldersAboveTheGrid) {
     LibraryPanel panel(library());
     panel.resize(300, 700);
     panel.show();
     test::handleEvents();
-    EXPECT_LT(panel.folders().mapTo(&panel, QPoint(0, 0)).y(), panel.view().y() + 1);
     EXPECT_LE(panel.minimumSizeHint().width(), 300);
     const QRect folders(panel.folders().mapTo(&panel, QPoint(0, 0)), panel.folders().size());
     const QRect grid(panel.view().mapTo(&panel, QPoint(0, 0)), panel.view().size());
