@@ -45,10 +45,10 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
                        tr("Light through the baked transfer, with its soft shadows")))
     , nextEnvironment(make(tr("Next Environment"), {}, {tr("PgDown")},
                            tr("Light the scene with the next environment of the library, in the "
-                              "order of the Library dock")))
+                              "order of the Environment Library")))
     , previousEnvironment(make(tr("Previous Environment"), {}, {tr("PgUp")},
                                tr("Light the scene with the environment of the library before, in "
-                                  "the order of the Library dock")))
+                                  "the order of the Environment Library")))
     , sceneDock(make(tr("S&cene"), QStringLiteral("scene"), {tr("Ctrl+Shift+1")},
                      tr("Show or hide the list of meshes and materials")))
     , materialDock(make(tr("Material"), QStringLiteral("material"), {tr("Ctrl+Shift+2")},
@@ -95,7 +95,7 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
     , lightSweep(make(tr("Light Sweep"), QStringLiteral("light-sweep"), {tr("Ctrl+7")},
                       tr("Find the light, among environments and their rotations, in which the "
                          "material fails")))
-    , library(make(tr("Library"), QStringLiteral("library"), {tr("Ctrl+B")},
+    , library(make(tr("Environment Library"), QStringLiteral("library"), {tr("Ctrl+B")},
                    tr("Show or hide the environments of your folders, with what was measured of "
                       "them, to pick light from")))
     , pinPixel(make(tr("Pin Pixel"), QStringLiteral("pin"), {tr("P")},
