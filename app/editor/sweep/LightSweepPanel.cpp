@@ -362,8 +362,8 @@ void LightSweepPanel::refreshPictures() {
     m_reference->setPicture(
         referenceText(outcome),
         displayedImage(outcome.sweep.reference, outcome.settings.view).copy(seen));
-    m_stripTitle->setText(
-        tr("%1, rotated").arg(toQString(outcome.environments[score.light.environment].title)));
+    m_stripTitle->setText(toQString(outcome.environments[score.light.environment].title));
+    m_stripTitle->setToolTip(m_stripTitle->text());
     const double most = largestSensitivity(outcome.sweep.sensitivity);
     showSensitivity(0.0, most > 0.0 ? most : 1.0);
 }

@@ -120,6 +120,7 @@ void SweepStrip::fill() {
         addItem(new QListWidgetItem);
     const QSize size = thumbSize();
     setIconSize(size);
+    const QString widest = rotationText(333.3);
     for (int row = 0; row < rows; ++row) {
         const LightScore& score =
             m_outcome->sweep
@@ -129,7 +130,8 @@ void SweepStrip::fill() {
         one.setToolTip(tr("%1 at %2: difference %3")
                            .arg(toQString(m_outcome->environments[m_environment].title), one.text(),
                                 scoreText(score.difference.worst, RankBy::Difference)));
-        one.setSizeHint(size + QSize(tokens::kGap, fontMetrics().height() + tokens::kGap / 2));
+        one.setSizeHint(size.expandedTo({fontMetrics().horizontalAdvance(widest), 0}) +
+                        QSize(tokens::kGap, fontMetrics().height() + tokens::kGap / 2));
         one.setIcon(m_thumbs.empty()
                         ? QIcon()
                         : stripIcon(m_thumbs[static_cast<std::size_t>(row)], devicePixelRatioF()));

@@ -28,8 +28,7 @@ QString summaryText(const SweepOutcome& outcome) {
         (transfer.quick ? SweepTr::tr("quick bake, %1 bands, %2 rays per vertex")
                         : SweepTr::tr("the scene's bake, %1 bands, %2 rays"))
             .arg(QLocale().toString(transfer.bands), QLocale().toString(transfer.rays));
-    return SweepTr::tr("%1 in %2 s   ·   %3")
-        .arg(countText(outcome), QLocale().toString(outcome.seconds, 'f', 2), bake);
+    return SweepTr::tr("%1   ·   %2").arg(countText(outcome), bake);
 }
 
 QStringList warningTexts(const SweepOutcome& outcome) {

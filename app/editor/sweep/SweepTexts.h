@@ -9,7 +9,7 @@
 namespace patina::editor {
 
 [[nodiscard]] QString countText(const SweepOutcome& outcome); // "252 lights of 7 environments"
-// That, of which transfer, and how long it took.
+// That, and of which transfer.
 [[nodiscard]] QString summaryText(const SweepOutcome& outcome);
 // What the numbers leave out, and where they may be wrong; may be empty.
 [[nodiscard]] QStringList warningTexts(const SweepOutcome& outcome);

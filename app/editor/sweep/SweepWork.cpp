@@ -15,7 +15,6 @@
 #include "core/scene/Scene.h"
 
 #include <algorithm>
-#include <chrono>
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
@@ -253,14 +252,11 @@ Result<SweepOutcomePtr> runSweep(std::shared_ptr<const SweepOrder> order, Worker
     if (!pixels)
         return pixels.error();
     outcome->pixels = std::move(*pixels);
-    const auto start = std::chrono::steady_clock::now();
     Result<LightSweep> sweep =
         sweepLights(outcome->pixels, outcome->measured, outcome->settings, job.part(baked, 1.0));
     if (!sweep)
         return sweep.error();
     outcome->sweep = std::move(*sweep);
-    outcome->seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return SweepOutcomePtr(std::move(outcome));
 }
 

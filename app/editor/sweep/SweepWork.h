@@ -61,7 +61,6 @@ struct SweepOutcome {
     SweepPixels pixels;
     SweepSettings settings;
     LightSweep sweep;
-    double seconds = 0; // that all lights took
 
     [[nodiscard]] std::size_t rotations() const {
         return static_cast<std::size_t>(settings.rotations);
