@@ -77,7 +77,7 @@ LibraryPanel::LibraryPanel(EnvironmentLibrary& library, QWidget* parent)
     , m_name(new ElidedLabel)
     , m_measures(new ElidedLabel)
     , m_side(makeFolders())
-    , m_layout(new QBoxLayout(QBoxLayout::LeftToRight, this)) {
+    , m_layout(new QBoxLayout(QBoxLayout::TopToBottom, this)) {
     setAcceptDrops(true);
     auto* delegate = new LibraryDelegate(m_view);
     m_view->setModel(m_model);
