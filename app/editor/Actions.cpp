@@ -43,12 +43,13 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
                        tr("Light from the environment, with every reflection")))
     , lightingPrt(make(tr("&Precomputed Transfer"), {}, {tr("Ctrl+Shift+L")},
                        tr("Light through the baked transfer, with its soft shadows")))
-    , nextEnvironment(make(tr("Next Environment"), {}, {tr("PgDown")},
-                           tr("Light the scene with the next environment of the library, in the "
-                              "order of the Environment Library")))
-    , previousEnvironment(make(tr("Previous Environment"), {}, {tr("PgUp")},
-                               tr("Light the scene with the environment of the library before, in "
-                                  "the order of the Environment Library")))
+    , nextEnvironment(
+          make(tr("Next Environment"), {}, {tr("PgDown")},
+               tr("Light the scene with the next environment of the Environment Library")))
+    , previousEnvironment(
+          make(tr("Previous Environment"), {}, {tr("PgUp")},
+               tr("Light the scene with the previous environment of the Environment "
+                  "Library")))
     , sceneDock(make(tr("S&cene"), QStringLiteral("scene"), {tr("Ctrl+Shift+1")},
                      tr("Show or hide the list of meshes and materials")))
     , materialDock(make(tr("Material"), QStringLiteral("material"), {tr("Ctrl+Shift+2")},

@@ -17,6 +17,7 @@
 #include "app/editor/widget/StatusHint.h"
 #include "app/editor/widget/TextButton.h"
 
+#include <QAbstractButton>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
@@ -164,6 +165,9 @@ QWidget* LightSweepPanel::makeLights() {
     m_table->setWordWrap(false);
     m_table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     m_table->verticalHeader()->hide();
+    m_table->setCornerButtonEnabled(false); // of both headers: there is one
+    for (auto* corner : m_table->findChildren<QAbstractButton*>())
+        corner->setAccessibleName(tr("All lights"));
     m_table->verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);
     m_table->verticalHeader()->setDefaultSectionSize(kSweepRow);
     m_table->horizontalHeader()->setHighlightSections(false);
