@@ -177,6 +177,8 @@ QWidget* LightSweepPanel::makeLights() {
     m_problems->setAccessibleName(tr("Environments that cannot be read"));
     m_problems->setStatusTip(tr("Environments that were left out, and why"));
     m_problems->setMaximumHeight(kProblemsHeight);
+    m_problems->setWordWrap(true);
+    m_problems->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     auto* lights = new QWidget;
     auto* column = new QVBoxLayout(lights);
     column->setContentsMargins(0, 0, 0, 0);

@@ -10,7 +10,6 @@
 #include <QPainter>
 #include <QUrl>
 #include <algorithm>
-#include <utility>
 
 namespace patina::editor {
 namespace {
@@ -87,13 +86,13 @@ void DropHint::paintEvent(QPaintEvent*) {
 }
 
 DropTarget::DropTarget(QWidget& window, QWidget& viewport, DocumentController& controller,
-                       SelectionModel& selection, WallDrop wall)
+                       SelectionModel& selection, const WallDrop& wall)
     : QObject(&window)
     , m_window(window)
     , m_viewport(viewport)
     , m_controller(controller)
     , m_selection(selection)
-    , m_wall(std::move(wall))
+    , m_wall(wall)
     , m_hint(new DropHint(viewport)) {
     window.installEventFilter(this);
 }

@@ -40,7 +40,7 @@ class DropTarget : public QObject {
   public:
     // Watches `window`, which takes the drops itself; `viewport` shows what they will do.
     DropTarget(QWidget& window, QWidget& viewport, DocumentController& controller,
-               SelectionModel& selection, WallDrop wall);
+               SelectionModel& selection, const WallDrop& wall);
 
     // True: cells of the wall take them. `position` in the window.
     [[nodiscard]] bool drop(const QStringList& files, const QPointF& position);
