@@ -206,7 +206,10 @@ void WallOverlay::paintOwnValues(QPainter& painter) const {
                                      std::max(cell.width() - 3 * tokens::kGap, 0));
         QRect label = fontMetrics().boundingRect(text).adjusted(-tokens::kGap / 2, 0,
                                                                 tokens::kGap / 2, tokens::kGap / 4);
-        label.moveBottomLeft(cell.bottomLeft() + QPoint(tokens::kGap / 2, -tokens::kGap / 2));
+        if (m_wall.compared() == i) // in the place of the other one
+            label.moveBottomRight(cell.bottomRight() - QPoint(tokens::kGap / 2, tokens::kGap / 2));
+        else
+            label.moveBottomLeft(cell.bottomLeft() + QPoint(tokens::kGap / 2, -tokens::kGap / 2));
         painter.fillRect(label, QColor(tokens::kWell));
         painter.fillRect(QRect(label.left(), label.top(), kCellFrame, label.height()),
                          QColor(kColors[group % kColors.size()]));
