@@ -42,14 +42,18 @@ Environment colored(int index) {
 // Until a frame shows the background of that colour: milliseconds, below 0 where none came.
 template <class Act>
 double untilBackground(WindowStage& stage, bool red, Act act) {
-    bool shown = false;
+    bool shown = false, grabs = false;
     QObject here;
     QObject::connect(&stage.viewport(), &ViewportWidget::frameRendered, &here, [&] {
+        if (grabs) // which draws a frame, too
+            return;
         // Qt draws what was rendered after the signal.
         QMetaObject::invokeMethod(
             &here,
             [&] {
+                grabs = true;
                 const QColor color = stage.viewport().grabFramebuffer().pixelColor(4, 4);
+                grabs = false;
                 shown = shown || (red ? color.red() > 2 * color.blue() + 20
                                       : color.blue() > 2 * color.red() + 20);
             },
