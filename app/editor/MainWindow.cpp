@@ -251,13 +251,16 @@ void MainWindow::makeStatusBar() {
     m_frameTime->setObjectName(QStringLiteral("frameTime"));
     m_frameTime->setStatusTip(tr("During interaction the time of a frame and the frames per second "
                                  "that it allows; at rest, whether the picture is refined"));
-    m_frameTime->setMinimumWidth(
-        fontMetrics().horizontalAdvance(QStringLiteral("000.0 ms  00 fps")));
     m_frameTime->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
     m_gpu->setStatusTip(tr("The graphics processor and its version of OpenGL"));
     for (QWidget* widget : {static_cast<QWidget*>(m_busy), static_cast<QWidget*>(m_triangles),
                             static_cast<QWidget*>(m_frameTime), static_cast<QWidget*>(m_gpu)})
         bar->addPermanentWidget(widget);
+    // Its place does not move while numbers change; in the font of the bar's style.
+    m_frameTime->ensurePolished();
+    m_frameTime->setText(QStringLiteral("0000.0 ms  00 fps"));
+    m_frameTime->setMinimumWidth(m_frameTime->sizeHint().width());
+    m_frameTime->clear();
     bar->setSizeGripEnabled(false);
     setStatusBar(bar);
 }

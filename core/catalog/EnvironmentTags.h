@@ -12,7 +12,7 @@ namespace patina {
 enum class EnvironmentTag { Sun, Soft, HighContrast, Warm, Neutral, Cool, Dark, Clipped };
 inline constexpr int kEnvironmentTags = 8;
 
-// Sun: one clear source, small as a sun or a lamp far away, above the horizon, with much of the
+// Sun: one clear source, small as a sun or a distant light, above the horizon, with much of the
 // light.
 inline constexpr double kSunShare = 0.15, kSunDiameterDeg = 5.0;
 // Soft: matte surfaces get nearly as much from behind as from the front, as under a clouded sky.

@@ -2,6 +2,7 @@
 
 #include "core/base/AtomicFile.h"
 #include "core/base/Check.h"
+#include "core/base/ChildAttributes.h"
 #include "core/base/LowerCase.h"
 
 #include <algorithm>
@@ -117,27 +118,16 @@ VideoWriter::create(const std::filesystem::path& file, int width, int height, in
     posix_spawn_file_actions_adddup2(&files, writer->m_messages.get(), STDERR_FILENO);
     posix_spawn_file_actions_adddup2(&files, writer->m_video.get(), kVideoFd);
     posix_spawn_file_actions_addclosefrom_np(&files, kVideoFd + 1);
-    // A session of its own: Ctrl+C comes to Patina, which ends it.
-    posix_spawnattr_t attributes{};
-    posix_spawnattr_init(&attributes);
-    sigset_t none, all;
-    sigemptyset(&none);
-    sigfillset(&all);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setsigdefault(&attributes, &all);
-    posix_spawnattr_setflags(
-        &attributes,
-        static_cast<short>(POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSID));
+    const ChildAttributes attributes;
     std::vector<std::string> arguments =
         argumentsFor(*program, endingOf(file), width, height, framesPerSecond);
     std::vector<char*> pointers;
     for (std::string& argument : arguments)
         pointers.push_back(argument.data());
     pointers.push_back(nullptr);
-    const int failure = ::posix_spawn(&writer->m_pid, program->c_str(), &files, &attributes,
+    const int failure = ::posix_spawn(&writer->m_pid, program->c_str(), &files, attributes.get(),
                                       pointers.data(), environ);
     posix_spawn_file_actions_destroy(&files);
-    posix_spawnattr_destroy(&attributes);
     if (failure != 0) {
         writer->m_pid = -1;
         return Error{ErrorKind::Internal, "ffmpeg cannot be started", *program,

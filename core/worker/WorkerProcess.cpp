@@ -1,5 +1,6 @@
 #include "core/worker/WorkerProcess.h"
 
+#include "core/base/ChildAttributes.h"
 #include "core/worker/WorkerProtocol.h"
 
 #include <algorithm>
@@ -59,17 +60,7 @@ Result<void> WorkerProcess::ensureRunning(const std::filesystem::path& program) 
     posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&files, theirs.get(), protocol::kControlFd);
     posix_spawn_file_actions_addclosefrom_np(&files, protocol::kControlFd + 1);
-    posix_spawnattr_t attributes{};
-    posix_spawnattr_init(&attributes);
-    sigset_t none;
-    sigset_t all;
-    sigemptyset(&none);
-    sigfillset(&all);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setsigdefault(&attributes, &all);
-    posix_spawnattr_setflags(
-        &attributes,
-        static_cast<short>(POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSID));
+    const ChildAttributes attributes;
     std::string name = program.string();
     std::array<char*, 2> arguments{name.data(), nullptr};
     std::vector<char*> environment = workerEnvironment();
@@ -77,10 +68,9 @@ Result<void> WorkerProcess::ensureRunning(const std::filesystem::path& program) 
     // core dump, and a debugger that comes later needs root.)
     ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);
     pid_t pid = -1;
-    const int failure = ::posix_spawn(&pid, name.c_str(), &files, &attributes, arguments.data(),
-                                      environment.data());
+    const int failure = ::posix_spawn(&pid, name.c_str(), &files, attributes.get(),
+                                      arguments.data(), environment.data());
     posix_spawn_file_actions_destroy(&files);
-    posix_spawnattr_destroy(&attributes);
     if (failure != 0)
         return Error{ErrorKind::Internal,
                      "the program that reads files cannot be started; reinstall Patina", program,
