@@ -96,17 +96,23 @@ void SceneRenderer::setIbl(const IblMaps& maps, LightId light) {
 
 void SceneRenderer::beginEnvironment(EnvironmentTexelsPtr texels, LightId light) {
     EnvironmentLight& target = m_impl->scene.light(light);
-    const EnvironmentLight* known = m_impl->scene.lightOf(texels);
-    if (known == nullptr || known == &target) {
+    const EnvironmentTextures* known = m_impl->scene.texturesOf(texels);
+    if (known == nullptr || known == &target.textures()) {
         target.begin(std::move(texels));
         return;
     }
-    target.share(*known);
+    const EnvironmentTextures before = target.textures();
+    target.share(EnvironmentTextures(*known));
+    m_impl->scene.keepTextures(before);
     m_impl->lightChanged(light);
 }
 
 bool SceneRenderer::proceedEnvironment(std::size_t bytes, LightId light) {
-    const bool done = m_impl->scene.light(light).proceed(bytes);
+    EnvironmentLight& target = m_impl->scene.light(light);
+    const EnvironmentTextures before = target.textures();
+    const bool done = target.proceed(bytes);
+    if (done && target.textures().prefiltered != before.prefiltered)
+        m_impl->scene.keepTextures(before);
     if (done)
         m_impl->lightChanged(light);
     return done;

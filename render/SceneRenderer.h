@@ -41,7 +41,8 @@ class SceneRenderer {
     void changeLight(LightId light, const Environment& environment); // not the document's own
     void removeLight(LightId light);                                 // not the document's own
     // Light and picture of an environment; prepared elsewhere (a job in the editor, directly in the
-    // command line). Another light of the same texels shares them on the GPU.
+    // command line). Another light of the same texels shares them on the GPU, and those that were
+    // shown last stay there while anybody has their texels: some are there again at once.
     void setEnvironment(EnvironmentTexelsPtr texels, LightId light = kDocumentLight);
     void setIbl(const IblMaps& maps, LightId light = kDocumentLight); // light alone
     // setEnvironment() in pieces between frames: the old environment is shown until the new one is

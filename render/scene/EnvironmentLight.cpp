@@ -96,12 +96,12 @@ void EnvironmentLight::set(const EnvironmentTexels& texels) {
 }
 
 void EnvironmentLight::setIbl(const IblMaps& maps) {
-    set(makeEnvironmentTexels(m_backgroundImage, maps, nullptr));
+    set(makeEnvironmentTexels(m_textures.image, maps, nullptr));
 }
 
 void EnvironmentLight::begin(EnvironmentTexelsPtr texels) {
     Arriving next{texels, {makePrefiltered(m_context, texels->prefiltered)}, std::nullopt};
-    const bool shown = texels->image == m_backgroundImage && m_background != nullptr;
+    const bool shown = texels->image == m_textures.image && m_textures.background;
     if (m_arriving && m_arriving->background && m_arriving->texels->image == texels->image)
         next.background = std::move(m_arriving->background);
     else if (!shown)
@@ -110,19 +110,16 @@ void EnvironmentLight::begin(EnvironmentTexelsPtr texels) {
     m_arriving = std::move(next);
 }
 
-void EnvironmentLight::share(const EnvironmentLight& other) {
+void EnvironmentLight::share(const EnvironmentTextures& textures) {
     m_arriving.reset();
-    m_prefiltered = other.m_prefiltered;
-    m_background = other.m_background;
-    m_source = other.m_source;
-    m_backgroundImage = other.m_backgroundImage;
-    m_irradianceSh = other.m_irradianceSh;
-    m_radianceSh = other.m_radianceSh;
-    m_projections = other.m_projections;
-    m_prefilteredSide = other.m_prefilteredSide;
-    m_prefilteredLevels = other.m_prefilteredLevels;
-    m_clampedTexels = other.m_clampedTexels;
-    if (m_wanted.image == m_backgroundImage)
+    adopt(textures);
+}
+
+void EnvironmentLight::adopt(EnvironmentTextures textures) {
+    m_textures = std::move(textures);
+    if (m_textures.image)
+        setProjection(m_textures.image, m_textures.radianceSh);
+    if (m_wanted.image == m_textures.image)
         m_shown = m_wanted;
 }
 
@@ -160,30 +157,33 @@ bool EnvironmentLight::proceed(std::size_t bytes) {
         return false;
 
     // All there: from now on it is what is seen.
-    m_prefiltered = std::make_shared<const gl::Texture>(std::move(m_arriving->prefiltered.texture));
-    m_source = m_arriving->texels;
-    if (m_arriving->background) {
-        m_background =
-            std::make_shared<const gl::Texture>(std::move(m_arriving->background->texture));
-        m_backgroundImage = texels.image;
-    }
-    m_prefilteredSide = texels.side;
-    m_prefilteredLevels = texels.levels;
-    m_irradianceSh = texels.irradianceSh;
-    m_radianceSh = texels.radianceSh;
-    if (texels.image)
-        setProjection(texels.image, texels.radianceSh);
-    m_clampedTexels = texels.clamped;
-    if (m_wanted.image == texels.image)
-        m_shown = m_wanted;
-    if (m_clampedTexels > 0)
-        logInfo("{} texels of the environment exceed 65504 and were limited", m_clampedTexels);
+    const auto shared = [](Filling& filling) {
+        return std::make_shared<const gl::Texture>(std::move(filling.texture));
+    };
+    EnvironmentTextures all;
+    all.prefiltered = shared(m_arriving->prefiltered);
+    all.background =
+        m_arriving->background ? shared(*m_arriving->background) : m_textures.background;
+    all.source = m_arriving->texels;
+    all.image = texels.image;
+    all.irradianceSh = texels.irradianceSh;
+    all.radianceSh = texels.radianceSh;
+    all.side = texels.side;
+    all.levels = texels.levels;
+    all.clamped = texels.clamped;
     m_arriving.reset();
+    adopt(std::move(all));
+    if (m_textures.clamped > 0)
+        logInfo("{} texels of the environment exceed 65504 and were limited", m_textures.clamped);
     return true;
 }
 
+std::size_t EnvironmentTextures::bytes() const {
+    return prefiltered->memoryBytes() + background->memoryBytes();
+}
+
 std::size_t EnvironmentLight::memoryBytes() const {
-    std::size_t bytes = m_prefiltered->memoryBytes() + m_background->memoryBytes();
+    std::size_t bytes = m_textures.bytes();
     if (m_arriving) {
         bytes += m_arriving->prefiltered.texture.memoryBytes();
         if (m_arriving->background)
@@ -195,20 +195,20 @@ std::size_t EnvironmentLight::memoryBytes() const {
 void EnvironmentLight::show(const EnvironmentPart& part) {
     m_wanted = part;
     // Pictures of one role follow each other (drafts of a sky): the turn goes on meanwhile.
-    if (part.role == m_shown.role || part.image == m_backgroundImage)
+    if (part.role == m_shown.role || part.image == m_textures.image)
         m_shown = part;
 }
 
 void EnvironmentLight::fill(FrameBlock& frame) const {
     const float angle = glm::radians(m_shown.rotationDeg);
     frame.radianceScale = scale();
-    frame.prefilteredLevels = m_prefilteredLevels;
-    frame.prefilteredSide = static_cast<float>(m_prefilteredSide);
+    frame.prefilteredLevels = m_textures.levels;
+    frame.prefilteredSide = static_cast<float>(m_textures.side);
     // The environment rotates by `angle`, so a world direction is looked up turned back.
     frame.worldToEnvironment = glm::rotate(glm::mat4(1.0f), -angle, glm::vec3(0, 1, 0));
 
     std::array<glm::vec3, 9> irradiance{};
-    ShRotation::aboutY(angle, 3).apply(std::span<const glm::vec3>(m_irradianceSh),
+    ShRotation::aboutY(angle, 3).apply(std::span<const glm::vec3>(m_textures.irradianceSh),
                                        std::span<glm::vec3>(irradiance));
     packIrradiance(irradiance, frame);
     const DominantLight light = dominantLight(irradiance);
@@ -242,9 +242,10 @@ std::vector<glm::vec3> EnvironmentLight::transferLight(std::span<const Environme
             return std::move(*light);
     EnvironmentPart shown = m_shown;
     shown.scale = scale();
-    return *environmentLight(
-        std::span(&shown, 1), order,
-        [this](const EnvironmentPart&) -> std::span<const glm::vec3> { return m_radianceSh; });
+    return *environmentLight(std::span(&shown, 1), order,
+                             [this](const EnvironmentPart&) -> std::span<const glm::vec3> {
+                                 return m_textures.radianceSh;
+                             });
 }
 
 } // namespace patina::render

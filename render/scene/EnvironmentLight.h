@@ -18,6 +18,20 @@ namespace patina::render {
 
 using ProjectionSh = std::array<glm::vec3, kMaxTransferCount>; // of a picture's radiance
 
+// What one environment needs on the GPU, complete; copies share its textures.
+struct EnvironmentTextures {
+    std::shared_ptr<const gl::Texture> prefiltered; // a CubeAtlas
+    std::shared_ptr<const gl::Texture> background;
+    std::weak_ptr<const EnvironmentTexels> source; // that they were made of
+    ImagePtr image;                                // that the background shows; null: grey
+    std::array<glm::vec3, 9> irradianceSh{};
+    ProjectionSh radianceSh{};
+    int side = 1, levels = 1; // of the atlas
+    std::size_t clamped = 0;  // texels of the light that exceeded 65504, the largest half float
+
+    [[nodiscard]] std::size_t bytes() const; // of the textures
+};
+
 class EnvironmentLight {
   public:
     explicit EnvironmentLight(gl::Context& context); // a grey sky until something is set
@@ -26,8 +40,9 @@ class EnvironmentLight {
     void set(const EnvironmentTexels& texels);
     void setIbl(const IblMaps& maps); // light alone; the picture stays
 
-    // What another one shows, whose textures are used by both.
-    void share(const EnvironmentLight& other);
+    // Textures that are there already.
+    void share(const EnvironmentTextures& textures);
+    [[nodiscard]] const EnvironmentTextures& textures() const { return m_textures; }
 
     // set() in pieces that hold no frame up. What is there stays until all of the new is; an
     // environment that begins takes the place of an unfinished one. A picture that is there
@@ -53,16 +68,14 @@ class EnvironmentLight {
                                                        int order) const;
 
     // A CubeAtlas; its side and levels are in the frame's block.
-    [[nodiscard]] const gl::Texture& prefiltered() const { return *m_prefiltered; }
-    [[nodiscard]] const gl::Texture& background() const { return *m_background; }
-    // What is shown was made of these texels; empty once they are gone.
-    [[nodiscard]] const std::weak_ptr<const EnvironmentTexels>& source() const { return m_source; }
+    [[nodiscard]] const gl::Texture& prefiltered() const { return *m_textures.prefiltered; }
+    [[nodiscard]] const gl::Texture& background() const { return *m_textures.background; }
     [[nodiscard]] std::size_t memoryBytes() const; // of the textures
-    // Texels of the light that exceeded 65504, the largest half float.
-    [[nodiscard]] std::size_t clampedTexels() const { return m_clampedTexels; }
+    [[nodiscard]] std::size_t clampedTexels() const { return m_textures.clamped; }
 
   private:
     [[nodiscard]] glm::vec3 scale() const; // of radiance
+    void adopt(EnvironmentTextures textures);
     // A texture that is filled row by row, from the top of level 0.
     struct Filling {
         gl::Texture texture;
@@ -75,15 +88,9 @@ class EnvironmentLight {
     };
 
     gl::Context& m_context;
-    std::shared_ptr<const gl::Texture> m_prefiltered, m_background; // complete ones
-    std::weak_ptr<const EnvironmentTexels> m_source;
-    ImagePtr m_backgroundImage; // that m_background shows; null: grey
+    EnvironmentTextures m_textures; // that are shown
     std::optional<Arriving> m_arriving;
-    std::array<glm::vec3, 9> m_irradianceSh{};
-    ProjectionSh m_radianceSh{};
     std::map<std::weak_ptr<const Image>, ProjectionSh, std::owner_less<>> m_projections;
-    int m_prefilteredSide = 1, m_prefilteredLevels = 1;
-    std::size_t m_clampedTexels = 0;
     EnvironmentPart m_wanted, m_shown;
 };
 

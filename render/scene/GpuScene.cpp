@@ -26,6 +26,9 @@ namespace {
 // default material.
 constexpr Id kFallbackMaterial = 0;
 
+// Of environments that are not shown: four of 2048 × 1024, or some fifteen of 1024 × 512.
+constexpr std::size_t kKeptTextureBytes = std::size_t{96} << 20;
+
 InstanceBlock packInstance(const MeshInstance& mesh) {
     const glm::mat3 linear(mesh.transform);
     InstanceBlock block;
@@ -74,6 +77,7 @@ Dirty GpuScene::update(const Document& document) {
     const Dirty dirty = dirtyBetween(m_document, document);
     m_document = document;
 
+    std::erase_if(m_kept, [](const auto& kept) { return kept.source.expired(); });
     // Numbers of the view, the lights and the environment are read anew for each frame.
     m_documentLight.show(shownEnvironment(m_document));
     for (auto& [id, other] : m_otherLights)
@@ -119,6 +123,7 @@ void GpuScene::changeLight(LightId light, const Environment& environment) {
 }
 
 void GpuScene::removeLight(LightId light) {
+    keepTextures(this->light(light).textures());
     CHECK(m_otherLights.erase(light) == 1);
     for (auto* lit : {&m_lit, &m_litTexels})
         for (auto& [id, elements] : *lit)
@@ -145,16 +150,32 @@ const Environment& GpuScene::environment(LightId light) const {
     return found->second.environment;
 }
 
-const EnvironmentLight* GpuScene::lightOf(const EnvironmentTexelsPtr& texels) const {
-    const auto isOf = [&](const EnvironmentLight& light) {
-        return light.source().lock() == texels;
+const EnvironmentTextures* GpuScene::texturesOf(const EnvironmentTexelsPtr& texels) const {
+    const auto isOf = [&](const EnvironmentTextures& textures) {
+        return textures.source.lock() == texels;
     };
-    if (isOf(m_documentLight))
-        return &m_documentLight;
+    if (!texels)
+        return nullptr;
+    if (isOf(m_documentLight.textures()))
+        return &m_documentLight.textures();
     for (const auto& [id, other] : m_otherLights)
-        if (isOf(other.light))
-            return &other.light;
-    return nullptr;
+        if (isOf(other.light.textures()))
+            return &other.light.textures();
+    const auto kept = std::ranges::find_if(m_kept, isOf);
+    return kept == m_kept.end() ? nullptr : &*kept;
+}
+
+void GpuScene::keepTextures(const EnvironmentTextures& textures) {
+    std::erase_if(m_kept, [&](const EnvironmentTextures& kept) {
+        return kept.source.expired() || kept.prefiltered == textures.prefiltered;
+    });
+    if (!textures.source.expired())
+        m_kept.push_front(textures);
+    std::size_t bytes = 0;
+    std::erase_if(m_kept, [&](const EnvironmentTextures& kept) {
+        bytes += kept.bytes();
+        return bytes > kKeptTextureBytes;
+    });
 }
 
 // --- What a document holds -----------------------------------------------------------------------

@@ -14,6 +14,7 @@
 #include "render/scene/TransferValues.h"
 #include "render/scene/VertexValues.h"
 
+#include <list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -56,8 +57,12 @@ class GpuScene {
     [[nodiscard]] const EnvironmentLight& light(LightId light = kDocumentLight) const;
     // How it is turned, mixed and seen.
     [[nodiscard]] const Environment& environment(LightId light = kDocumentLight) const;
-    // One that was made of the same texels; null: none.
-    [[nodiscard]] const EnvironmentLight* lightOf(const EnvironmentTexelsPtr& texels) const;
+    // Of an environment that is shown, or was and is prepared still, made of the same texels; null:
+    // there are none.
+    [[nodiscard]] const EnvironmentTextures* texturesOf(const EnvironmentTexelsPtr& texels) const;
+    // Keeps what a light no longer shows, in place of what was kept longest ago, while anybody has
+    // the texels that it was made of.
+    void keepTextures(const EnvironmentTextures& textures);
 
     // AoVertex or PrtVertex.
     void previewVertices(BakeKind kind, Id mesh, int stride, std::span<const float> values);
@@ -130,6 +135,7 @@ class GpuScene {
     EnvironmentLight m_documentLight;
     std::map<LightId, OtherLight> m_otherLights;
     LightId m_lastLight = kDocumentLight;
+    std::list<EnvironmentTextures> m_kept; // of lights no more, the one kept last first
     DfgTextures m_dfgTextures;
     const gl::Texture* m_dfg; // one of them
     gl::Buffer m_modelBlock;

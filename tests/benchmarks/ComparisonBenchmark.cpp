@@ -39,14 +39,21 @@ Environment colored(int index) {
     return environment;
 }
 
-// Until a frame shows the background of that colour: milliseconds, below 0 where none came.
+struct Arrival {
+    double ms = -1.0; // below 0: none came
+    int frames = 0;   // the one that shows it, too
+};
+
+// Until a frame shows the background of that colour.
 template <class Act>
-double untilBackground(WindowStage& stage, bool red, Act act) {
+Arrival untilBackground(WindowStage& stage, bool red, Act act) {
     bool shown = false, grabs = false;
+    int frames = 0;
     QObject here;
     QObject::connect(&stage.viewport(), &ViewportWidget::frameRendered, &here, [&] {
         if (grabs) // which draws a frame, too
             return;
+        ++frames;
         // Qt draws what was rendered after the signal.
         QMetaObject::invokeMethod(
             &here,
@@ -61,9 +68,9 @@ double untilBackground(WindowStage& stage, bool red, Act act) {
     });
     const double start = WindowStage::clockMs(CLOCK_MONOTONIC);
     act();
-    return WindowStage::eventually([&] { return shown; })
-               ? WindowStage::clockMs(CLOCK_MONOTONIC) - start
-               : -1.0;
+    if (!WindowStage::eventually([&] { return shown; }))
+        return {};
+    return {WindowStage::clockMs(CLOCK_MONOTONIC) - start, frames};
 }
 
 void switchEnvironment(benchmark::State& state, WindowStage& stage, bool prepared) {
@@ -78,7 +85,7 @@ void switchEnvironment(benchmark::State& state, WindowStage& stage, bool prepare
         if (!stage.rests())
             return state.SkipWithError("the light was not prepared");
     }
-    std::vector<double> times;
+    std::vector<double> times, frames;
     for (auto _ : state) {
         state.PauseTiming();
         Environment next = colored(index); // decoded
@@ -86,12 +93,14 @@ void switchEnvironment(benchmark::State& state, WindowStage& stage, bool prepare
             return state.SkipWithError("the picture is not settled");
         state.ResumeTiming();
         const bool red = index % 2 == 0;
-        times.push_back(untilBackground(stage, red, [&] {
+        const Arrival arrival = untilBackground(stage, red, [&] {
             if (prepared)
                 stage.controller().lightWith(ids[red ? 0 : 1]);
             else
                 ids.push_back(session.addEnvironment(next, "Add"));
-        }));
+        });
+        times.push_back(arrival.ms);
+        frames.push_back(arrival.frames);
         if (times.back() < 0.0)
             return state.SkipWithError("the environment was not shown");
         if (!prepared && ids.size() > 4) { // a scene holds no more than so many
@@ -102,6 +111,7 @@ void switchEnvironment(benchmark::State& state, WindowStage& stage, bool prepare
     }
     state.counters["median_ms"] = quantile(times, 0.5);
     state.counters["slowest_ms"] = quantile(times, 1.0);
+    state.counters["median_frames"] = quantile(frames, 0.5);
 }
 
 bool showWall(WindowStage& stage, int columns, int rows) {

@@ -231,6 +231,43 @@ TEST_F(TwoViews, ASecondViewUploadsAndDrawsNothingOfTheSceneAgain) {
     EXPECT_EQ(cost(second), again) << "the other's light was not lost";
 }
 
+TEST_F(TwoViews, AnEnvironmentThatWasShownIsShownAgainWithoutAnUpload) {
+    Document document = scene();
+    document.view.lighting = LightingMode::Ibl;
+    FrameSettings frame;
+    frame.width = frame.height = 32;
+    frame.samples = 1;
+    frame.camera = document.view.camera;
+    std::vector<EnvironmentTexelsPtr> lights{prepare(sky(0)), prepare(sky(1)), prepare(sky(2))};
+    const auto show = [&](const EnvironmentTexelsPtr& light) {
+        document.environment().image = light->image;
+        sceneRenderer().setDocument(document);
+        const std::uint64_t bytes = gl::uploadedBytes();
+        sceneRenderer().setEnvironment(light);
+        return gl::uploadedBytes() - bytes;
+    };
+    for (const EnvironmentTexelsPtr& light : lights)
+        EXPECT_GT(show(light), 0u);
+    for (const EnvironmentTexelsPtr& light : lights) {
+        EXPECT_EQ(show(light), 0u);
+        EXPECT_TRUE(render(renderer(), frame) == alone(document, light, frame));
+    }
+    // Of one that was beside the document's, too.
+    const EnvironmentTexelsPtr beside = prepare(sky(1));
+    Environment other = document.environment();
+    other.image = beside->image;
+    const LightId id = sceneRenderer().addLight(other);
+    sceneRenderer().setEnvironment(beside, id);
+    sceneRenderer().removeLight(id);
+    EXPECT_EQ(show(beside), 0u);
+    // What nobody can ask for again is not kept.
+    show(lights[0]);
+    const std::weak_ptr<const Image> gone = lights[1]->image;
+    lights[1].reset();
+    sceneRenderer().setDocument(document);
+    EXPECT_TRUE(gone.expired());
+}
+
 TEST_F(TwoViews, OneEnvironmentsEditsLeaveTheOthersPicture) {
     Document document = scene();
     sceneRenderer().setDocument(document);

@@ -3,6 +3,8 @@
 #include "core/base/Log.h"
 #include "core/light/Light.h"
 
+#include <optional>
+
 namespace patina::editor {
 namespace {
 
@@ -33,6 +35,10 @@ void IblUpdater::renew() {
 void IblUpdater::prepare() {
     m_finished = false;
     m_tasks.cancel(kRefined);
+    if (const std::optional<IblLight> known = m_prepared.known(m_environment)) {
+        m_tasks.cancel(kFirst);
+        return deliver(*known);
+    }
     m_tasks.run(
         {.tag = kFirst, .policy = TaskPolicy::Follow, .priority = TaskPriority::High},
         [this, environment = m_environment](const JobContext& job) {

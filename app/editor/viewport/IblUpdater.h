@@ -19,7 +19,8 @@ class IblUpdater : public QObject {
 
     [[nodiscard]] PreparedLights& prepared() { return m_prepared; }
 
-    // Does nothing when `environment` is the one already prepared or under way. Requests that
+    // Does nothing when `environment` is the one already prepared or under way. What memory holds
+    // is ready() before this returns. Requests that
     // follow each other quickly wait for the small version of the first, so that light keeps
     // coming while something is dragged.
     void request(ImagePtr environment);

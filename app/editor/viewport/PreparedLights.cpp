@@ -24,35 +24,41 @@ PreparedLights::PreparedLights(const std::filesystem::path& cacheFolder, std::si
     : m_disk(cacheFolder)
     , m_budget(budget) {}
 
+std::optional<IblLight> PreparedLights::find(auto matches) {
+    const std::scoped_lock lock(m_mutex);
+    const auto entry = std::ranges::find_if(m_entries, matches);
+    if (entry == m_entries.end())
+        return std::nullopt;
+    m_entries.splice(m_entries.begin(), m_entries, entry);
+    IblLight light;
+    light.environment = entry->texels->image;
+    light.key = entry->key;
+    light.background = entry->texels->background;
+    light.full = true;
+    light.texels = entry->texels;
+    return light;
+}
+
+std::optional<IblLight> PreparedLights::known(const ImagePtr& environment) {
+    return find([&](const Entry& entry) { return entry.texels->image == environment; });
+}
+
 Result<IblLight> PreparedLights::first(const ImagePtr& environment, const JobContext& job) {
+    if (std::optional<IblLight> light = known(environment))
+        return std::move(*light);
     const Hash key = iblKey(*environment);
-    if (EnvironmentTexelsPtr known = find(key)) {
-        IblLight light;
-        light.environment = environment;
-        light.key = key;
-        light.background = known->background;
-        light.full = true;
-        light.texels = known;
-        if (known->image != environment) { // the same content: its file was read again
-            EnvironmentTexels texels = *known;
-            texels.image = environment;
-            light.texels = std::make_shared<const EnvironmentTexels>(std::move(texels));
-        }
-        return light;
+    if (std::optional<IblLight> light = find([&](const Entry& e) { return e.key == key; })) {
+        // The same content: its file was read again.
+        EnvironmentTexels texels = *light->texels;
+        texels.image = environment;
+        light->environment = environment;
+        light->texels = std::make_shared<const EnvironmentTexels>(std::move(texels));
+        return std::move(*light);
     }
     Result<IblLight> light = firstIbl(m_disk, environment, key, job);
     if (light && light->full)
         keep(*light);
     return light;
-}
-
-EnvironmentTexelsPtr PreparedLights::find(const Hash& key) {
-    const std::scoped_lock lock(m_mutex);
-    const auto entry = std::ranges::find(m_entries, key, &Entry::key);
-    if (entry == m_entries.end())
-        return nullptr;
-    m_entries.splice(m_entries.begin(), m_entries, entry);
-    return entry->texels;
 }
 
 void PreparedLights::keep(const IblLight& full) {

@@ -22,6 +22,9 @@ class PreparedLights {
     explicit PreparedLights(const std::filesystem::path& cacheFolder,
                             std::size_t budget = kDefaultBudget);
 
+    // What memory holds of this very picture, without its maps, or nothing. It takes no time. On
+    // any thread.
+    [[nodiscard]] std::optional<IblLight> known(const ImagePtr& environment);
     // From memory or from disk in full, or else small. Of what memory holds the maps are null.
     // Errors: Cancelled. On any thread.
     Result<IblLight> first(const ImagePtr& environment, const JobContext& job);
@@ -38,7 +41,7 @@ class PreparedLights {
         Hash key;
         EnvironmentTexelsPtr texels;
     };
-    [[nodiscard]] EnvironmentTexelsPtr find(const Hash& key);
+    [[nodiscard]] std::optional<IblLight> find(auto matches); // used last from now on
 
     IblCache m_disk;
     const std::size_t m_budget;

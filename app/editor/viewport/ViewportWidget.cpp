@@ -532,7 +532,8 @@ void ViewportWidget::applyChange(const Change& change) {
         const Document& document = m_controller.document();
         m_controller.setCamera(frameBounds(document.view.camera, document.bounds(), viewAspect()));
     }
-    if (touches(change.affects, Affects::EnvironmentMap))
+    const bool otherMap = touches(change.affects, Affects::EnvironmentMap);
+    if (otherMap)
         m_ibl->request(shownEnvironment(m_controller.document()).image);
     // Camera moves affect nothing: the camera travels with each frame.
     if (m_renderer && !m_wallShown && change.affects != Affects::Nothing) {
@@ -542,6 +543,8 @@ void ViewportWidget::applyChange(const Change& change) {
         if (touches(change.affects, Affects::Bakes))
             m_bounces.restart();
     }
+    if (otherMap && m_environmentTimer.isActive())
+        feedEnvironment(); // what is ready is seen in the next frame
     touch();
 }
 

@@ -170,6 +170,33 @@ TEST_F(IblUpdaterTest, AnEnvironmentThatWasShownIsPreparedStill) {
     EXPECT_TRUE(updater.finished());
 }
 
+TEST_F(IblUpdaterTest, WhatIsInMemoryIsReadyBeforeTheRequestReturns) {
+    const test::TemporaryFolder folder;
+    PreparedLights lights(folder.path());
+    IblUpdater updater(runner, lights);
+    QSignalSpy ready(&updater, &IblUpdater::ready);
+    std::vector<ImagePtr> pictures;
+    std::vector<EnvironmentTexelsPtr> prepared;
+    for (const float radiance : {1.0f, 2.0f, 3.0f}) {
+        pictures.push_back(sky(radiance));
+        updater.request(pictures.back());
+        prepared.push_back(takeFull(updater, ready));
+        ASSERT_NE(prepared.back(), nullptr);
+    }
+    updater.request(pictures[1]);
+    EXPECT_EQ(updater.take(), prepared[1]) << "the very texels, so that their textures are found";
+    EXPECT_TRUE(updater.finished());
+    // What is under way for another one does not come in between.
+    updater.request(sky(4.0f));
+    updater.request(pictures[2]);
+    EXPECT_EQ(updater.take(), prepared[2]);
+    ready.clear();
+    updater.request(sky(5.0f));
+    const EnvironmentTexelsPtr last = takeFull(updater, ready);
+    ASSERT_NE(last, nullptr);
+    EXPECT_NEAR(brightness(*last), 5.0f, 1e-4f);
+}
+
 // What was used longest ago goes.
 TEST_F(IblUpdaterTest, PreparedLightsKeepToTheirBudget) {
     const test::TemporaryFolder folder;
