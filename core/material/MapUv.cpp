@@ -1,6 +1,7 @@
 #include "core/material/MapUv.h"
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 namespace patina {
@@ -14,6 +15,17 @@ glm::vec4 uvMatrix(const MapSlot& map) {
 glm::vec2 mapUv(const MapSlot& map, const glm::vec2& uv) {
     const glm::vec4 m = uvMatrix(map);
     return glm::vec2(m.x * uv.x + m.y * uv.y, m.z * uv.x + m.w * uv.y) + map.uvOffset;
+}
+
+glm::vec4 normalBasis(const MapSlot& map) {
+    const glm::vec4 m = uvMatrix(map);
+    const auto unit = [](glm::vec2 d, glm::vec2 fallback) {
+        const float length = glm::length(d);
+        return length > 0.0f ? d / length : fallback;
+    };
+    const glm::vec2 x = unit({m.x, -m.y}, {1, 0});
+    const glm::vec2 y = unit({-m.z, m.w}, {0, 1});
+    return {x.x, y.x, x.y, y.y};
 }
 
 } // namespace patina

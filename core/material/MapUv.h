@@ -12,5 +12,9 @@ namespace patina {
 // everywhere (Khronos sample viewer, three.js, Babylon.js): (c sx, s sy) and (-s sx, c sy).
 [[nodiscard]] glm::vec4 uvMatrix(const MapSlot& map);
 [[nodiscard]] glm::vec2 mapUv(const MapSlot& map, const glm::vec2& uv);
+// A normal map that is turned or mirrored on the surface takes its slopes along: its x points where
+// u' grows, its y where v' shrinks, in the frame (tangent, bitangent) = (growing u, shrinking v).
+// The slopes (x, y) become (dot(xy, slopes), dot(zw, slopes)).
+[[nodiscard]] glm::vec4 normalBasis(const MapSlot& map);
 
 } // namespace patina

@@ -38,19 +38,6 @@ bool moved(const MapSlot& map) {
            map.uvRotationDeg != 0.0f;
 }
 
-// A map that is turned or mirrored on the surface takes its slopes along: its x points where u'
-// grows, its y where v' shrinks, in the frame (tangent, bitangent) = (growing u, shrinking v).
-glm::vec4 normalBasis(const MapSlot& map) {
-    const glm::vec4 m = uvMatrix(map);
-    const auto unit = [](glm::vec2 d, glm::vec2 fallback) {
-        const float length = glm::length(d);
-        return length > 0.0f ? d / length : fallback;
-    };
-    const glm::vec2 x = unit({m.x, -m.y}, {1, 0});
-    const glm::vec2 y = unit({-m.z, m.w}, {0, 1});
-    return {x.x, y.x, x.y, y.y};
-}
-
 bool missing(const MapSlot& map) {
     return map.assigned() && !map.image;
 }

@@ -1,0 +1,31 @@
+#include "core/trace/document/DocumentTraceInputs.h"
+
+#include "core/document/Document.h"
+#include "core/mix/LightMix.h"
+
+#include <algorithm>
+
+namespace patina {
+
+TraceInputs traceInputs(const Document& document) {
+    TraceInputs inputs;
+    inputs.materials = document.materials;
+    inputs.materials.emplace_back(); // of meshes whose material is not there
+    inputs.model = document.model;
+    for (const MeshInstance& instance : document.meshes) {
+        if (!instance.visible || !instance.mesh)
+            continue;
+        const auto material =
+            std::ranges::find(document.materials, instance.material, &Material::id);
+        inputs.meshes.push_back({instance.id, instance.mesh, instance.transform,
+                                 static_cast<std::size_t>(material - document.materials.begin())});
+    }
+    for (const Light* light : activeLights(document))
+        inputs.lights.push_back(*light);
+    for (const EnvironmentPart& part : environmentParts(document))
+        if (part.image)
+            inputs.environments.push_back({part.image, part.rotationDeg, part.scale});
+    return inputs;
+}
+
+} // namespace patina

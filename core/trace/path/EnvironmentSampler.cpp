@@ -1,0 +1,136 @@
+#include "core/trace/path/EnvironmentSampler.h"
+
+#include "core/base/Check.h"
+#include "core/math/Shading.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <numbers>
+#include <utility>
+
+namespace patina {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+// The entry of running shares that `u` falls into, and how far into it, 0…1.
+std::pair<int, float> chosen(const float* begin, int count, float u) {
+    const float* found = std::min(std::upper_bound(begin, begin + count, u), begin + count - 1);
+    const auto index = static_cast<int>(found - begin);
+    const float before = index == 0 ? 0.0f : found[-1];
+    const float share = *found - before;
+    return {index, share > 0.0f ? std::clamp((u - before) / share, 0.0f, 1.0f) : 0.5f};
+}
+
+float share(const float* begin, int index) {
+    return begin[index] - (index == 0 ? 0.0f : begin[index - 1]);
+}
+
+} // namespace
+
+EnvironmentSampler::EnvironmentSampler(const TraceEnvironment& environment)
+    : m_image(environment.image)
+    , m_scale(environment.scale)
+    , m_cos(std::cos(glm::radians(environment.rotationDeg)))
+    , m_sin(std::sin(glm::radians(environment.rotationDeg)))
+    , m_width(environment.image->width())
+    , m_height(environment.image->height()) {
+    CHECK(m_image->type() == PixelType::F32 && m_image->channels() >= 3);
+    // Of bilinear interpolation a texel's square holds an eighth of each neighbour.
+    const auto luminance = [&](int x, int y) {
+        return static_cast<double>(shading::luminance(
+            m_scale * texel((x + m_width) % m_width, std::clamp(y, 0, m_height - 1))));
+    };
+    const auto count = static_cast<std::size_t>(m_width);
+    std::vector<double> upright(count), sums(count);
+    m_rows.resize(static_cast<std::size_t>(m_height));
+    m_columns.resize(count * static_cast<std::size_t>(m_height));
+    std::vector<double> rows(static_cast<std::size_t>(m_height));
+    for (int y = 0; y < m_height; ++y) {
+        for (int x = 0; x < m_width; ++x)
+            upright[static_cast<std::size_t>(x)] =
+                0.125 * luminance(x, y - 1) + 0.75 * luminance(x, y) + 0.125 * luminance(x, y + 1);
+        double sum = 0.0;
+        for (std::size_t x = 0; x < count; ++x) {
+            sum += 0.125 * upright[(x + count - 1) % count] + 0.75 * upright[x] +
+                   0.125 * upright[(x + 1) % count];
+            sums[x] = sum;
+        }
+        float* columns = m_columns.data() + static_cast<std::size_t>(y) * count;
+        for (std::size_t x = 0; x < count; ++x)
+            columns[x] = sum > 0.0 ? static_cast<float>(sums[x] / sum) : 0.0f;
+        m_power += sum * solidAngle(y);
+        rows[static_cast<std::size_t>(y)] = m_power;
+    }
+    for (std::size_t y = 0; y < rows.size(); ++y)
+        m_rows[y] = m_power > 0.0 ? static_cast<float>(rows[y] / m_power) : 0.0f;
+}
+
+glm::vec3 EnvironmentSampler::texel(int x, int y) const {
+    const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(m_width) +
+                           static_cast<std::size_t>(x);
+    const float* p = m_image->f32().data() + at * static_cast<std::size_t>(m_image->channels());
+    return {p[0], p[1], p[2]};
+}
+
+double EnvironmentSampler::solidAngle(int y) const {
+    const double step = std::numbers::pi / m_height;
+    return 2.0 * std::numbers::pi / m_width * (std::cos(step * y) - std::cos(step * (y + 1)));
+}
+
+glm::vec2 EnvironmentSampler::pixelOf(const glm::vec3& direction) const {
+    // The environment is turned counter-clockwise seen from above: what is looked up, back.
+    const float x = m_cos * direction.x - m_sin * direction.z;
+    const float z = m_sin * direction.x + m_cos * direction.z;
+    const float u = 0.5f + std::atan2(x, -z) / (2.0f * kPi);
+    const float v = std::acos(std::clamp(direction.y, -1.0f, 1.0f)) / kPi;
+    return {u * static_cast<float>(m_width), v * static_cast<float>(m_height)};
+}
+
+glm::vec3 EnvironmentSampler::radiance(const glm::vec3& direction) const {
+    const glm::vec2 at = pixelOf(direction) - 0.5f;
+    const glm::vec2 low = glm::floor(at), f = at - low;
+    const int x = (static_cast<int>(low.x) + m_width) % m_width, x1 = (x + 1) % m_width;
+    const int y = std::clamp(static_cast<int>(low.y), 0, m_height - 1);
+    const int y1 = std::clamp(static_cast<int>(low.y) + 1, 0, m_height - 1);
+    return m_scale * glm::mix(glm::mix(texel(x, y), texel(x1, y), f.x),
+                              glm::mix(texel(x, y1), texel(x1, y1), f.x), f.y);
+}
+
+EnvironmentSampler::Sample EnvironmentSampler::sample(const glm::vec2& u) const {
+    if (!(m_power > 0.0))
+        return {};
+    const auto [y, fy] = chosen(m_rows.data(), m_height, u.y);
+    const float* columns =
+        m_columns.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(m_width);
+    const auto [x, fx] = chosen(columns, m_width, u.x);
+    const float step = kPi / static_cast<float>(m_height);
+    const float top = std::cos(step * static_cast<float>(y)),
+                bottom = std::cos(step * static_cast<float>(y + 1));
+    const float up = glm::mix(top, bottom, fy);
+    const float side = std::sqrt(std::max(1.0f - up * up, 0.0f));
+    const float phi =
+        2.0f * kPi * ((static_cast<float>(x) + fx) / static_cast<float>(m_width) - 0.5f);
+    const float px = side * std::sin(phi), pz = -side * std::cos(phi);
+    Sample result;
+    result.direction = {m_cos * px + m_sin * pz, up, m_cos * pz - m_sin * px};
+    result.radiance = radiance(result.direction);
+    result.pdf = static_cast<float>(static_cast<double>(share(m_rows.data(), y)) *
+                                    static_cast<double>(share(columns, x)) / solidAngle(y));
+    return result;
+}
+
+float EnvironmentSampler::pdf(const glm::vec3& direction) const {
+    if (!(m_power > 0.0))
+        return 0.0f;
+    const glm::vec2 at = pixelOf(direction);
+    const int x = std::clamp(static_cast<int>(at.x), 0, m_width - 1);
+    const int y = std::clamp(static_cast<int>(at.y), 0, m_height - 1);
+    const float* columns =
+        m_columns.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(m_width);
+    return static_cast<float>(static_cast<double>(share(m_rows.data(), y)) *
+                              static_cast<double>(share(columns, x)) / solidAngle(y));
+}
+
+} // namespace patina

@@ -1,0 +1,83 @@
+#include "core/trace/path/Film.h"
+
+#include "core/base/Check.h"
+#include "core/math/Shading.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patina {
+
+static_assert(sizeof(Film::Pixel) == 48);
+
+void Film::Pixel::add(const glm::vec3& radiance, float alpha) {
+    ++samples;
+    coverage += static_cast<double>(alpha);
+    if (!std::isfinite(radiance.x) || !std::isfinite(radiance.y) || !std::isfinite(radiance.z)) {
+        ++invalid;
+        return;
+    }
+    sum += glm::dvec3(radiance);
+    const auto luminance = static_cast<double>(shading::luminance(radiance));
+    squares += luminance * luminance;
+}
+
+Film::Film(int width, int height)
+    : m_width(width)
+    , m_height(height)
+    , m_pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+    CHECK(width > 0 && height > 0);
+}
+
+std::size_t Film::invalid() const {
+    std::size_t count = 0;
+    for (const Pixel& pixel : m_pixels)
+        count += pixel.invalid;
+    return count;
+}
+
+Image Film::radiance(bool alpha) const {
+    const int channels = alpha ? 4 : 3;
+    Image image(m_width, m_height, channels, PixelType::F32, ColorEncoding::Linear);
+    float* out = image.f32().data();
+    for (const Pixel& pixel : m_pixels) {
+        const double share = pixel.samples > 0 ? 1.0 / pixel.samples : 0.0;
+        for (int c = 0; c < 3; ++c)
+            *out++ = static_cast<float>(share * pixel.sum[c]);
+        if (alpha)
+            *out++ = static_cast<float>(share * pixel.coverage);
+    }
+    return image;
+}
+
+std::optional<double> Film::noise() const {
+    double variances = 0.0, means = 0.0;
+    for (const Pixel& pixel : m_pixels) {
+        if (pixel.samples < 2)
+            return std::nullopt;
+        const double n = pixel.samples;
+        const double mean =
+            (0.2126 * pixel.sum.x + 0.7152 * pixel.sum.y + 0.0722 * pixel.sum.z) / n;
+        variances += std::max(pixel.squares / n - mean * mean, 0.0) / (n - 1.0);
+        means += mean;
+    }
+    if (!(means > 0.0))
+        return std::nullopt;
+    const auto count = static_cast<double>(m_pixels.size());
+    return std::sqrt(variances / count) / (means / count);
+}
+
+void Film::merge(const Film& other) {
+    CHECK(m_width == other.m_width && m_height == other.m_height);
+    for (std::size_t i = 0; i < m_pixels.size(); ++i) {
+        Pixel& pixel = m_pixels[i];
+        const Pixel& more = other.m_pixels[i];
+        pixel.sum += more.sum;
+        pixel.squares += more.squares;
+        pixel.coverage += more.coverage;
+        pixel.samples += more.samples;
+        pixel.invalid += more.invalid;
+    }
+}
+
+} // namespace patina

@@ -1,0 +1,59 @@
+// What rays have brought to the pixels of a picture: sums, from which come the mean and how certain
+// it is.
+#pragma once
+
+#include "core/image/Image.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+namespace patina {
+
+class Film {
+  public:
+    // 48 bytes. Sums run in the order of the samples, so that they do not depend on threads.
+    struct Pixel {
+        glm::dvec3 sum{0.0};   // of radiance, times coverage
+        double squares = 0.0;  // of its luminance
+        double coverage = 0.0; // sum of what is in front of the background, 0…1 each
+        std::uint32_t samples = 0;
+        std::uint32_t invalid = 0; // of them: no finite number, counted as black
+
+        void add(const glm::vec3& radiance, float alpha);
+        friend bool operator==(const Pixel&, const Pixel&) = default;
+    };
+
+    Film() = default; // empty
+    Film(int width, int height);
+
+    [[nodiscard]] int width() const { return m_width; }
+    [[nodiscard]] int height() const { return m_height; }
+    [[nodiscard]] Pixel& at(int x, int y) { return m_pixels[index(x, y)]; } // row 0 on top
+    [[nodiscard]] const Pixel& at(int x, int y) const { return m_pixels[index(x, y)]; }
+    [[nodiscard]] std::size_t invalid() const; // samples of all pixels
+
+    // Mean radiance: F32, linear; 3 channels, or 4 with `alpha`, premultiplied.
+    [[nodiscard]] Image radiance(bool alpha = false) const;
+    // The standard error of the picture's pixels as a share of its mean luminance: the root mean
+    // square over the pixels. Of samples that are spread better than by chance it is an upper
+    // bound. Nothing before each pixel has two samples, and of a black picture.
+    [[nodiscard]] std::optional<double> noise() const;
+
+    // Other samples of the same picture; sizes must be the same.
+    void merge(const Film& other);
+    friend bool operator==(const Film&, const Film&) = default;
+
+  private:
+    [[nodiscard]] std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(m_width) +
+               static_cast<std::size_t>(x);
+    }
+
+    int m_width = 0, m_height = 0;
+    std::vector<Pixel> m_pixels;
+};
+
+} // namespace patina

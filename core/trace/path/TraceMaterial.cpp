@@ -1,0 +1,130 @@
+#include "core/trace/path/TraceMaterial.h"
+
+#include "core/image/Srgb.h"
+#include "core/material/MapUv.h"
+
+#include <cmath>
+#include <cstddef>
+
+namespace patina {
+
+TraceMap::TraceMap(const MapSlot& slot)
+    : m_image(slot.image)
+    , m_channel(slot.channel)
+    , m_matrix(uvMatrix(slot))
+    , m_offset(slot.uvOffset) {
+    if (!m_image)
+        return;
+    if (m_image->encoding() == ColorEncoding::Srgb)
+        m_decoded = srgbTable8();
+    else
+        for (std::size_t i = 0; i < m_decoded.size(); ++i)
+            m_decoded[i] = static_cast<float>(i) / 255.0f;
+}
+
+glm::vec4 TraceMap::texel(int x, int y) const {
+    if (m_image->type() != PixelType::U8)
+        return m_image->linear(x, y);
+    const int channels = m_image->channels();
+    const auto width = static_cast<std::size_t>(m_image->width());
+    const auto* p = reinterpret_cast<const std::uint8_t*>(m_image->bytes().data()) +
+                    (static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)) *
+                        static_cast<std::size_t>(channels);
+    const auto alpha = [](std::uint8_t byte) { return static_cast<float>(byte) / 255.0f; };
+    if (channels < 3) {
+        const float grey = m_decoded[p[0]];
+        return {grey, grey, grey, channels == 2 ? alpha(p[1]) : 1.0f};
+    }
+    return {m_decoded[p[0]], m_decoded[p[1]], m_decoded[p[2]], channels > 3 ? alpha(p[3]) : 1.0f};
+}
+
+glm::vec4 TraceMap::at(const glm::vec2& uv) const {
+    const glm::vec2 moved =
+        glm::vec2(m_matrix.x * uv.x + m_matrix.y * uv.y, m_matrix.z * uv.x + m_matrix.w * uv.y) +
+        m_offset;
+    struct Axis {
+        int low, high;
+        float fraction;
+    };
+    const auto axis = [](float coordinate, int size) -> Axis {
+        // Into 0…1 before scaling, so that far coordinates stay accurate.
+        const float wrapped = std::isfinite(coordinate) ? coordinate - std::floor(coordinate) : 0;
+        const float texel = wrapped * static_cast<float>(size) - 0.5f;
+        const float base = std::floor(texel);
+        const int low = (static_cast<int>(base) + size) % size;
+        return {low, low + 1 == size ? 0 : low + 1, texel - base};
+    };
+    const Axis x = axis(moved.x, m_image->width()), y = axis(moved.y, m_image->height());
+    return glm::mix(glm::mix(texel(x.low, y.low), texel(x.high, y.low), x.fraction),
+                    glm::mix(texel(x.low, y.high), texel(x.high, y.high), x.fraction), y.fraction);
+}
+
+glm::vec3 TraceMap::colorAt(const glm::vec2& uv) const {
+    const glm::vec4 c = at(uv);
+    switch (m_channel) {
+    case MapChannel::Rgb:
+        return glm::vec3(c);
+    case MapChannel::R:
+        return glm::vec3(c.r);
+    case MapChannel::G:
+        return glm::vec3(c.g);
+    case MapChannel::B:
+        return glm::vec3(c.b);
+    case MapChannel::A:
+        return glm::vec3(c.a);
+    }
+    return glm::vec3(c);
+}
+
+float TraceMap::numberAt(const glm::vec2& uv) const {
+    return colorAt(uv).x;
+}
+
+TraceMaterial::TraceMaterial(const Material& material)
+    : m_baseColor(material.baseColor)
+    // A missing emissive map would set the whole surface aglow.
+    , m_emissive(material.emissiveMap.assigned() && !material.emissiveMap.image
+                     ? glm::vec3(0.0f)
+                     : material.emissive * material.emissiveStrength)
+    , m_metallic(material.metallic)
+    , m_perceptualRoughness(material.perceptualRoughness)
+    , m_diffuseRoughness(material.diffuseRoughness)
+    , m_normalStrength(material.normalStrength)
+    , m_greenUp(material.normalConvention == NormalConvention::OpenGl ? 1.0f : -1.0f)
+    , m_doubleSided(material.doubleSided)
+    , m_normalBasis(normalBasis(material.normalMap))
+    , m_color(material.baseColorMap)
+    , m_metal(material.metallicMap)
+    , m_rough(material.perceptualRoughnessMap)
+    , m_normal(material.normalMap)
+    , m_glow(material.emissiveMap) {}
+
+shading::SurfaceInputs TraceMaterial::inputsAt(const glm::vec2& uv) const {
+    const auto number = [&](float factor, const TraceMap& map) {
+        return glm::clamp(map.isThere() ? factor * map.numberAt(uv) : factor, 0.0f, 1.0f);
+    };
+    shading::SurfaceInputs inputs;
+    const glm::vec3 color = m_color.isThere() ? m_baseColor * m_color.colorAt(uv) : m_baseColor;
+    inputs.baseColor = glm::clamp(color, 0.0f, 1.0f);
+    inputs.metallic = number(m_metallic, m_metal);
+    inputs.perceptualRoughness = number(m_perceptualRoughness, m_rough);
+    inputs.diffuseRoughness = m_diffuseRoughness;
+    return inputs;
+}
+
+glm::vec3 TraceMaterial::emissionAt(const glm::vec2& uv) const {
+    return emits() && m_glow.isThere() ? m_emissive * m_glow.colorAt(uv) : m_emissive;
+}
+
+glm::vec3 TraceMaterial::shadingNormal(const glm::vec3& normal, const glm::vec4& tangent,
+                                       const glm::vec2& uv) const {
+    if (!m_normal.isThere())
+        return normal;
+    const glm::vec3 slope =
+        shading::decodeNormalTs(glm::vec3(m_normal.at(uv)), m_normalStrength, m_greenUp);
+    const glm::vec3 turned(m_normalBasis.x * slope.x + m_normalBasis.y * slope.y,
+                           m_normalBasis.z * slope.x + m_normalBasis.w * slope.y, slope.z);
+    return shading::normalTsToWorld(turned, normal, tangent);
+}
+
+} // namespace patina

@@ -1,0 +1,225 @@
+#include "core/trace/path/TraceScene.h"
+
+#include "core/light/DfgTable.h"
+#include "core/material/BrdfModel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+namespace patina {
+namespace {
+
+constexpr int kDfgSize = static_cast<int>(shading::kDfgTableSize);
+
+} // namespace
+
+Result<TraceScene> TraceScene::build(const TraceInputs& inputs, const JobContext& job) {
+    TraceScene result;
+    BakeInputs geometry;
+    for (const TraceMesh& mesh : inputs.meshes) {
+        if (!mesh.mesh || mesh.mesh->indices.empty())
+            continue; // as makeBakeGeometry() does
+        const Material& material = inputs.materials.at(mesh.material);
+        geometry.meshes.push_back({mesh.id, material.id, mesh.mesh, mesh.transform,
+                                   material.doubleSided, bakeSurface(material)});
+        const glm::mat3 linear(mesh.transform);
+        result.m_instances.push_back(
+            {mesh.material, linear, glm::determinant(linear) < 0.0f ? -1.0f : 1.0f});
+    }
+    if (!geometry.meshes.empty()) {
+        Result<BakeScene> scene = BakeScene::build(geometry, job);
+        if (!scene)
+            return scene.error();
+        result.m_scene = *std::move(scene);
+        result.m_centre = result.m_scene->geometry->centre;
+        result.m_metresPerUnit = static_cast<float>(1.0 / result.m_scene->geometry->unitsPerMetre);
+    }
+    result.m_materials.reserve(inputs.materials.size());
+    for (const Material& material : inputs.materials)
+        result.m_materials.emplace_back(material);
+    for (const TraceEnvironment& environment : inputs.environments) {
+        result.m_environments.emplace_back(environment);
+        result.m_environmentPower += result.m_environments.back().power();
+    }
+    result.m_lights = LightSampler(inputs.lights);
+    result.m_model = brdfModel(inputs.model);
+    const Image table =
+        computeDfgTable(kDfgSize, inputs.model.distribution, iblVisibility(inputs.model.visibility),
+                        DfgTexels::ToTheEnds);
+    const auto texels = table.f32();
+    for (std::size_t i = 0; i < texels.size(); i += 3)
+        result.m_dfg.emplace_back(texels[i], texels[i + 1]);
+    if (job.cancelled())
+        return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
+    result.collectEmissive();
+    return result;
+}
+
+void TraceScene::collectEmissive() {
+    if (m_scene)
+        for (std::uint32_t m = 0; m < m_scene->geometry->meshes.size(); ++m) {
+            const BakeGeometryMesh& mesh = m_scene->geometry->meshes[m];
+            const TraceMaterial& material = m_materials[m_instances[m].material];
+            if (!material.emits())
+                continue;
+            const auto luminance = static_cast<double>(shading::luminance(material.emissive()));
+            const double squareMetres = static_cast<double>(m_metresPerUnit) * m_metresPerUnit;
+            const std::vector<std::uint32_t>& indices = mesh.mesh->indices;
+            for (std::size_t i = 0; i < indices.size(); i += 3) {
+                const glm::vec3 a = mesh.positions[indices[i]];
+                const glm::vec3 normal = glm::cross(mesh.positions[indices[i + 1]] - a,
+                                                    mesh.positions[indices[i + 2]] - a);
+                m_emissive.add({m, static_cast<std::uint32_t>(i / 3)},
+                               0.5 * static_cast<double>(glm::length(normal)) * squareMetres,
+                               luminance);
+            }
+        }
+    m_emissive.finish();
+}
+
+ClosestRay TraceScene::closest(const glm::vec3& origin, const glm::vec3& direction) const {
+    ClosestRay ray;
+    ray.ray.origin = origin;
+    ray.ray.direction = direction;
+    if (m_scene)
+        m_scene->rays.intersect({&ray, 1});
+    return ray;
+}
+
+bool TraceScene::occluded(const glm::vec3& origin, const glm::vec3& direction,
+                          float distance) const {
+    if (!m_scene)
+        return false;
+    OcclusionRay ray;
+    ray.origin = origin;
+    ray.direction = direction;
+    ray.maxDistance = distance;
+    m_scene->rays.occlude({&ray, 1});
+    return ray.occluded();
+}
+
+TracePoint TraceScene::pointAt(const ClosestRay& hit) const {
+    return pointAt(hit.mesh, hit.triangle, {hit.u, hit.v}, &hit.ray.direction);
+}
+
+TracePoint TraceScene::pointAt(const EmissiveTriangles::Triangle& triangle,
+                               const glm::vec2& weights) const {
+    return pointAt(triangle.mesh, triangle.index, weights, nullptr);
+}
+
+TracePoint TraceScene::pointAt(std::uint32_t meshIndex, std::uint32_t triangle,
+                               const glm::vec2& weights, const glm::vec3* direction) const {
+    const BakeGeometryMesh& mesh = m_scene->geometry->meshes[meshIndex];
+    const Instance& instance = m_instances[meshIndex];
+    const std::uint32_t* index = mesh.mesh->indices.data() + 3 * std::size_t{triangle};
+    const glm::vec3 w(1.0f - weights.x - weights.y, weights.x, weights.y);
+    const auto between = [&](const auto& values) {
+        return w.x * values[index[0]] + w.y * values[index[1]] + w.z * values[index[2]];
+    };
+    const glm::vec3 a = mesh.positions[index[0]], b = mesh.positions[index[1]],
+                    c = mesh.positions[index[2]];
+    TracePoint point;
+    point.mesh = meshIndex;
+    point.triangle = triangle;
+    point.position = w.x * a + w.y * b + w.z * c;
+    point.uv = between(mesh.mesh->uvs);
+    point.material = &m_materials[instance.material];
+    // The front: where the corners run counter-clockwise.
+    const glm::vec3 cross = mesh.winding * glm::cross(b - a, c - a);
+    const float length = glm::length(cross);
+    point.face = length > 0.0f ? cross / length : glm::vec3(0.0f, 1.0f, 0.0f);
+    point.isBack = direction != nullptr && glm::dot(point.face, *direction) > 0.0f;
+    const glm::vec3 smooth = between(mesh.normals);
+    const float smoothLength = glm::length(smooth);
+    point.normal = smoothLength > 0.0f ? smooth / smoothLength : point.face;
+    if (point.material->hasNormalMap()) {
+        const glm::vec4 tangent = between(mesh.mesh->tangents);
+        point.normal = point.material->shadingNormal(
+            point.normal,
+            glm::vec4(instance.linear * glm::vec3(tangent), tangent.w * instance.handedness),
+            point.uv);
+    }
+    if (point.isBack) {
+        point.face = -point.face;
+        point.normal = -point.normal;
+    }
+    return point;
+}
+
+// Bilinear between texels at i / (size - 1), both coordinates in 0…1.
+glm::vec2 TraceScene::dfg(float NoV, float perceptualRoughness) const {
+    const float x = std::clamp(NoV, 0.0f, 1.0f) * (kDfgSize - 1);
+    const float y = std::clamp(perceptualRoughness, 0.0f, 1.0f) * (kDfgSize - 1);
+    const int i = std::min(static_cast<int>(x), kDfgSize - 2),
+              j = std::min(static_cast<int>(y), kDfgSize - 2);
+    const glm::vec2* texel = m_dfg.data() + j * kDfgSize + i;
+    const float fx = x - static_cast<float>(i), fy = y - static_cast<float>(j);
+    return glm::mix(glm::mix(texel[0], texel[1], fx),
+                    glm::mix(texel[kDfgSize], texel[kDfgSize + 1], fx), fy);
+}
+
+shading::SurfaceTerms TraceScene::surface(const TracePoint& point, const glm::vec3& v) const {
+    const shading::SurfaceInputs inputs = point.material->inputsAt(point.uv);
+    const float NoV = glm::clamp(glm::dot(point.normal, v), shading::kMinNoV, 1.0f);
+    return shading::makeSurface(m_model, inputs, point.normal, v,
+                                dfg(NoV, inputs.perceptualRoughness));
+}
+
+glm::vec3 TraceScene::toWorld(const glm::vec3& scenePoint) const {
+    return glm::vec3(m_centre + glm::dvec3(scenePoint) * static_cast<double>(m_metresPerUnit));
+}
+
+glm::vec3 TraceScene::toScene(const glm::dvec3& worldPoint) const {
+    return glm::vec3((worldPoint - m_centre) / static_cast<double>(m_metresPerUnit));
+}
+
+// --- Environments --------------------------------------------------------------------------------
+
+glm::vec3 TraceScene::environmentRadiance(const glm::vec3& direction) const {
+    glm::vec3 sum(0.0f);
+    for (const EnvironmentSampler& environment : m_environments)
+        sum += environment.radiance(direction);
+    return sum;
+}
+
+// One of them by its power, and a direction of it; what arrives from there of all of them.
+EnvironmentSampler::Sample TraceScene::sampleEnvironment(glm::vec2 u) const {
+    if (!hasEnvironment())
+        return {};
+    const EnvironmentSampler* chosen = &m_environments.front();
+    if (m_environments.size() > 1) {
+        float before = 0.0f;
+        for (const EnvironmentSampler& environment : m_environments) {
+            const auto share = static_cast<float>(environment.power() / m_environmentPower);
+            if (!(share > 0.0f))
+                continue;
+            chosen = &environment;
+            if (u.x < before + share) {
+                u.x = std::clamp((u.x - before) / share, 0.0f, 1.0f - 0x1p-24f);
+                break;
+            }
+            before += share;
+        }
+    }
+    EnvironmentSampler::Sample sample = chosen->sample(u);
+    if (m_environments.size() > 1) {
+        sample.radiance = environmentRadiance(sample.direction);
+        sample.pdf = environmentPdf(sample.direction);
+    }
+    return sample;
+}
+
+float TraceScene::environmentPdf(const glm::vec3& direction) const {
+    if (!hasEnvironment())
+        return 0.0f;
+    double sum = 0.0;
+    for (const EnvironmentSampler& environment : m_environments)
+        sum += environment.power() / m_environmentPower *
+               static_cast<double>(environment.pdf(direction));
+    return static_cast<float>(sum);
+}
+
+} // namespace patina

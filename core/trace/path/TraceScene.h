@@ -1,0 +1,94 @@
+// A scene as path tracers and ray tracers see it: a snapshot, ready for rays from any thread. Light
+// is in the world's metres, the hierarchy in scene units (core/trace/BakeGeometry.h).
+#pragma once
+
+#include "core/base/Result.h"
+#include "core/job/JobContext.h"
+#include "core/trace/BakeScene.h"
+#include "core/trace/path/EmissiveTriangles.h"
+#include "core/trace/path/EnvironmentSampler.h"
+#include "core/trace/path/LightSampler.h"
+#include "core/trace/path/TraceInputs.h"
+#include "core/trace/path/TraceMaterial.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+namespace patina {
+
+// A place on a surface, seen from the side that a ray came from.
+struct TracePoint {
+    glm::vec3 position{0.0f}; // scene units
+    glm::vec3 face{0.0f};     // unit: the triangle's normal, on the side of the ray
+    glm::vec3 normal{0.0f};   // unit: as the surface shader has it
+    glm::vec2 uv{0.0f};
+    const TraceMaterial* material = nullptr;
+    std::uint32_t mesh = 0, triangle = 0;
+    bool isBack = false; // of the triangle
+};
+
+class TraceScene {
+  public:
+    // Errors: those of BakeScene::build(), but for a scene without triangles, which has only its
+    // environment.
+    static Result<TraceScene> build(const TraceInputs& inputs, const JobContext& job);
+
+    // A ray in scene units from `origin` along a unit vector, and what it meets first. Its distance
+    // is in closest.ray.maxDistance.
+    [[nodiscard]] ClosestRay closest(const glm::vec3& origin, const glm::vec3& direction) const;
+    [[nodiscard]] bool occluded(const glm::vec3& origin, const glm::vec3& direction,
+                                float distance) const; // scene units, may be infinite
+    [[nodiscard]] TracePoint pointAt(const ClosestRay& hit) const;
+    // Of an emissive triangle at barycentric weights, seen from its front.
+    [[nodiscard]] TracePoint pointAt(const EmissiveTriangles::Triangle& triangle,
+                                     const glm::vec2& weights) const;
+    // Clear of the surface, on the side of the face or behind it.
+    [[nodiscard]] static glm::vec3 origin(const TracePoint& point, bool behind = false) {
+        return point.position + (behind ? -kRayOffset : kRayOffset) * point.face;
+    }
+
+    // (scale, bias) of the model's lobe, as the viewport looks them up.
+    [[nodiscard]] shading::SurfaceTerms surface(const TracePoint& point, const glm::vec3& v) const;
+
+    [[nodiscard]] glm::vec3 toWorld(const glm::vec3& scenePoint) const;
+    [[nodiscard]] glm::vec3 toScene(const glm::dvec3& worldPoint) const;
+    [[nodiscard]] float metres(float sceneUnits) const { return sceneUnits * m_metresPerUnit; }
+    [[nodiscard]] float sceneUnits(float metres) const { return metres / m_metresPerUnit; }
+
+    // All environments together. Sums of what each sends.
+    [[nodiscard]] glm::vec3 environmentRadiance(const glm::vec3& direction) const;
+    [[nodiscard]] EnvironmentSampler::Sample sampleEnvironment(glm::vec2 u) const;
+    [[nodiscard]] float environmentPdf(const glm::vec3& direction) const;
+    [[nodiscard]] bool hasEnvironment() const { return m_environmentPower > 0.0; }
+    [[nodiscard]] const LightSampler& lights() const { return m_lights; }
+    [[nodiscard]] const EmissiveTriangles& emissive() const { return m_emissive; }
+    [[nodiscard]] bool isEmpty() const { return !m_scene; }
+
+  private:
+    TraceScene() = default;
+    [[nodiscard]] TracePoint pointAt(std::uint32_t mesh, std::uint32_t triangle,
+                                     const glm::vec2& weights, const glm::vec3* direction) const;
+    [[nodiscard]] glm::vec2 dfg(float NoV, float perceptualRoughness) const;
+    void collectEmissive();
+
+    std::optional<BakeScene> m_scene; // nothing: no triangles
+    struct Instance {
+        std::size_t material = 0;
+        glm::mat3 linear{1.0f}; // of the transform, for tangents
+        float handedness = 1.0f;
+    };
+    std::vector<Instance> m_instances; // of m_scene's meshes
+    std::vector<TraceMaterial> m_materials;
+    std::vector<EnvironmentSampler> m_environments;
+    double m_environmentPower = 0.0;
+    LightSampler m_lights{{}};
+    EmissiveTriangles m_emissive;
+    shading::BrdfModel m_model{};
+    std::vector<glm::vec2> m_dfg;
+    float m_metresPerUnit = 1.0f;
+    glm::dvec3 m_centre{0.0};
+};
+
+} // namespace patina

@@ -1,0 +1,362 @@
+// Pictures by paths against exact values.
+#include "core/trace/path/PathTracer.h"
+
+#include "core/job/Parallel.h"
+#include "core/light/DfgTable.h"
+#include "core/math/Sampling.h"
+#include "tests/core/trace/CornellScene.h"
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace patina {
+namespace {
+
+ImagePtr uniformSky(float radiance) {
+    Image image(8, 4, 3, PixelType::F32, ColorEncoding::Linear);
+    for (float& sample : image.f32())
+        sample = radiance;
+    return std::make_shared<const Image>(std::move(image));
+}
+
+MeshPtr ball(int rings) {
+    Mesh mesh;
+    for (int j = 0; j <= rings; ++j)
+        for (int i = 0; i <= 2 * rings; ++i) {
+            const double theta = std::numbers::pi * j / rings, phi = std::numbers::pi * i / rings;
+            const glm::vec3 n(glm::dvec3(std::sin(theta) * std::sin(phi), std::cos(theta),
+                                         std::sin(theta) * std::cos(phi)));
+            mesh.positions.push_back(n);
+            mesh.normals.push_back(n);
+            mesh.tangents.emplace_back(std::cos(phi), 0.0f, -std::sin(phi), 1.0f);
+            mesh.uvs.emplace_back(static_cast<float>(i) / (2.0f * static_cast<float>(rings)),
+                                  static_cast<float>(j) / static_cast<float>(rings));
+        }
+    const auto row = static_cast<std::uint32_t>(2 * rings + 1);
+    for (std::uint32_t j = 0; j < static_cast<std::uint32_t>(rings); ++j)
+        for (std::uint32_t i = 0; i + 1 < row; ++i) {
+            const std::uint32_t a = j * row + i, b = a + row;
+            if (j > 0)
+                mesh.indices.insert(mesh.indices.end(), {a, b + 1, a + 1});
+            if (j + 1 < static_cast<std::uint32_t>(rings))
+                mesh.indices.insert(mesh.indices.end(), {a, b, b + 1});
+        }
+    return std::make_shared<const Mesh>(std::move(mesh));
+}
+
+TraceScene sceneOf(const TraceInputs& inputs) {
+    Result<TraceScene> scene = TraceScene::build(inputs, {});
+    EXPECT_TRUE(scene.ok()) << (scene.ok() ? std::string() : scene.error().text());
+    return *std::move(scene);
+}
+
+TraceInputs ballUnderSky(const Material& material, float radiance = 1.0f) {
+    TraceInputs inputs;
+    inputs.materials = {material};
+    inputs.meshes = {{1, ball(96), glm::mat4(1.0f), 0}};
+    inputs.environments = {{uniformSky(radiance), 0.0f, glm::vec3(1.0f)}};
+    return inputs;
+}
+
+Film traced(const TraceScene& scene, const TraceView& view, std::uint32_t samples,
+            const PathSettings& settings = {}) {
+    Film film(view.width, view.height);
+    EXPECT_TRUE(tracePaths(scene, view, settings, film, 0, samples, {}).ok());
+    return film;
+}
+
+TraceView lookAtBall(int size, float distance = 3.4f) {
+    TraceView view;
+    view.width = view.height = size;
+    view.camera.distance = distance;
+    return view;
+}
+
+struct CornellPoint {
+    std::string name;
+    bool blocks;
+    glm::dvec3 place;
+    glm::vec3 normal;
+    double direct, directError;
+    std::array<double, 6> indirect, indirectError;
+};
+
+const std::vector<CornellPoint>& cornellPoints() {
+    static const std::vector<CornellPoint> points{
+#include "tests/core/trace/CornellTruth.inc"
+    };
+    return points;
+}
+
+} // namespace
+
+// 132 numbers, each within 4 standard errors, its own and that of the truth.
+TEST(PathTracer, CornellBoxHasItsIrradiance) {
+    constexpr std::uint32_t kBatches = 48;
+    for (const bool blocks : {false, true})
+        for (std::size_t set = 0; set < test::kCornellWalls.size(); ++set) {
+            const TraceScene scene = sceneOf(test::cornellBox(test::kCornellWalls[set], blocks));
+            std::vector<CornellPoint> points;
+            for (const CornellPoint& point : cornellPoints())
+                if (point.blocks == blocks)
+                    points.push_back(point);
+            // Where the lamp does not shine light comes from small bright places.
+            const auto samplesOf = [](const CornellPoint& point) {
+                return point.direct > 0.0 ? 3072u : 16384u;
+            };
+            std::vector<Film::Pixel> found(points.size() * kBatches);
+            parallelFor({}, found.size(), 1, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    const CornellPoint& point = points[i / kBatches];
+                    PathSettings settings;
+                    settings.seed = seedFor(7, static_cast<std::uint32_t>(i));
+                    traceIrradiance(scene, point.place / 1000.0, point.normal, settings,
+                                    samplesOf(point), found[i]);
+                }
+            });
+            for (std::size_t p = 0; p < points.size(); ++p)
+                for (int c = 0; c < 3; ++c) {
+                    double sum = 0.0, squares = 0.0;
+                    for (std::uint32_t b = 0; b < kBatches; ++b) {
+                        const double mean = found[p * kBatches + b].sum[c] / samplesOf(points[p]);
+                        sum += mean;
+                        squares += mean * mean;
+                    }
+                    const double mean = sum / kBatches;
+                    const double error =
+                        std::sqrt((squares / kBatches - mean * mean) / (kBatches - 1));
+                    const auto channel = 3 * set + static_cast<std::size_t>(c);
+                    const double truth = points[p].direct + points[p].indirect[channel];
+                    const double truthError =
+                        std::hypot(points[p].directError, points[p].indirectError[channel]);
+                    EXPECT_NEAR(mean, truth, 4.0 * std::hypot(error, truthError))
+                        << points[p].name << (blocks ? ", blocks" : "") << ", channel " << channel;
+                    EXPECT_LT(error, 0.003 * truth) << points[p].name;
+                }
+        }
+}
+
+// In light from all sides a white surface that loses nothing cannot be told from its surroundings,
+// and any other shows its albedo.
+TEST(PathTracer, WhiteFurnace) {
+    constexpr int kSize = 16;
+    for (const float metallic : {0.0f, 0.3f, 1.0f})
+        for (const float roughness : {0.0f, 0.2f, 0.5f, 0.8f, 1.0f}) {
+            Material material;
+            material.baseColor = glm::vec3(1.0f);
+            material.metallic = metallic;
+            material.perceptualRoughness = roughness;
+            const TraceScene scene = sceneOf(ballUnderSky(material));
+            TraceView view = lookAtBall(kSize);
+            if (metallic == 0.3f)
+                view.camera.fovDeg = 1.0f; // N·V is 1 all over
+            const Image picture = traced(scene, view, 512).radiance(true);
+            double sum = 0.0, weight = 0.0;
+            for (int y = 0; y < kSize; ++y)
+                for (int x = 0; x < kSize; ++x) {
+                    if (picture.sample(x, y, 3) < 1.0f)
+                        continue;
+                    sum += static_cast<double>(picture.sample(x, y, 1));
+                    weight += 1.0;
+                }
+            ASSERT_GT(weight, 60.0);
+            double expected = 1.0;
+            if (metallic == 0.3f) { // Turquin 2019, equation 16, under core/light/DfgTable.h
+                const double f0 = 0.04 + 0.3 * 0.96;
+                const glm::dvec3 dfg = integrateDfg(1.0f, std::max(roughness, 0.045f));
+                const double E = dfg.x + dfg.y;
+                const double specular = (f0 * dfg.x + dfg.y) * (1.0 + f0 * (1.0 / E - 1.0));
+                expected = specular + (1.0 - specular) * 0.7;
+            }
+            EXPECT_NEAR(sum / weight, expected, 0.002)
+                << "metallic " << metallic << ", roughness " << roughness;
+        }
+}
+
+// A closed sphere from inside: E0 / (1 - rho) (ground truth furnace.closed_sphere: the geometric
+// series), and its first terms where bounces are counted.
+TEST(PathTracer, ClosedSphereByBounces) {
+    TraceInputs inputs;
+    inputs.model.fresnel = Fresnel::Dielectric;
+    inputs.model.ior = 1.0f;
+    Material& wall = inputs.materials.emplace_back();
+    wall.emissive = glm::vec3(1.0f);
+    wall.doubleSided = true;
+    inputs.meshes = {{1, ball(48), glm::mat4(1.0f), 0}};
+    for (const float rho : {0.18f, 0.5f, 0.8f}) {
+        inputs.materials[0].baseColor = glm::vec3(rho);
+        const TraceScene scene = sceneOf(inputs);
+        double expected = 1.0, power = 1.0;
+        for (int bounces = 0; bounces <= 4; ++bounces) {
+            expected += power *= static_cast<double>(rho);
+            const bool endless = bounces == 4;
+            if (endless)
+                expected = 1.0 / (1.0 - static_cast<double>(rho));
+            TraceView view = lookAtBall(8, 0.01f);
+            PathSettings settings;
+            if (!endless)
+                settings.maxBounces = bounces;
+            const Film film = traced(scene, view, 256, settings);
+            double sum = 0.0;
+            for (int y = 0; y < 8; ++y)
+                for (int x = 0; x < 8; ++x)
+                    sum += film.at(x, y).sum.y / film.at(x, y).samples / 64.0;
+            EXPECT_NEAR(sum, expected, 0.005 * expected) << "rho " << rho << ", " << bounces;
+        }
+    }
+}
+
+// All ways to look for light find the same.
+TEST(PathTracer, SearchesAgree) {
+    Material material;
+    material.baseColor = {0.8f, 0.5f, 0.2f};
+    material.metallic = 0.5f;
+    material.perceptualRoughness = 0.5f;
+    TraceInputs inputs = ballUnderSky(material, 0.2f);
+    Image sky(16, 8, 3, PixelType::F32, ColorEncoding::Linear);
+    for (std::size_t i = 0; i < sky.f32().size(); ++i)
+        sky.f32()[i] = i % 7 == 0 ? 3.0f : 0.1f;
+    inputs.environments = {{std::make_shared<const Image>(sky), 30.0f, {1.0f, 0.9f, 0.8f}},
+                           {uniformSky(0.3f), 0.0f, glm::vec3(1.0f)}};
+    Material glow;
+    glow.emissive = {2.0f, 4.0f, 6.0f};
+    inputs.materials.push_back(glow);
+    glm::mat4 small(0.3f);
+    small[3] = {1.3f, 0.8f, 0.6f, 1.0f};
+    inputs.meshes.push_back({2, ball(12), small, 1});
+    for (const LightType type : {LightType::Sphere, LightType::Rectangle, LightType::Directional}) {
+        Light light;
+        light.type = type;
+        light.position = {-1.5f, 1.5f, 1.5f};
+        light.azimuthDeg = -45.0f;
+        light.elevationDeg = 30.0f;
+        light.intensity = 2.0f;
+        light.radius = 0.5f;
+        light.width = 1.5f;
+        light.height = 0.7f;
+        light.shadowSoftness = 40.0f;
+        inputs.lights.push_back(light);
+    }
+    const TraceScene scene = sceneOf(inputs);
+    constexpr int kSize = 12;
+    std::array<std::array<double, 3>, 3> means{}, errors{};
+    for (std::size_t s = 0; s < 3; ++s) {
+        PathSettings settings;
+        settings.search =
+            std::array{LightSearch::Both, LightSearch::Lights, LightSearch::Surfaces}[s];
+        constexpr int kBatches = 24;
+        std::array<double, 3> squares{};
+        for (int b = 0; b < kBatches; ++b) {
+            settings.seed = static_cast<std::uint32_t>(100 * s) + static_cast<std::uint32_t>(b);
+            const Film film = traced(scene, lookAtBall(kSize), 256, settings);
+            for (int c = 0; c < 3; ++c) {
+                double sum = 0.0;
+                for (int y = 0; y < kSize; ++y)
+                    for (int x = 0; x < kSize; ++x)
+                        sum += film.at(x, y).sum[c] / film.at(x, y).samples;
+                sum /= kSize * kSize;
+                means[s][static_cast<std::size_t>(c)] += sum / kBatches;
+                squares[static_cast<std::size_t>(c)] += sum * sum / kBatches;
+            }
+        }
+        for (std::size_t c = 0; c < 3; ++c)
+            errors[s][c] = std::sqrt((squares[c] - means[s][c] * means[s][c]) / (kBatches - 1));
+    }
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t s = 1; s < 3; ++s) {
+            EXPECT_NEAR(means[s][c], means[0][c], 4.0 * std::hypot(errors[s][c], errors[0][c]))
+                << "search " << s << ", channel " << c;
+            EXPECT_LT(errors[s][c], 0.01 * means[0][c]);
+        }
+}
+
+TEST(PathTracer, SameNumbersForAnyThreadsAndInAnyPieces) {
+    const TraceScene scene = sceneOf(test::cornellBox(test::kCornellWalls[0], true));
+    TraceView view;
+    view.width = 40;
+    view.height = 24;
+    view.camera = {{0.278f, 0.273f, 0.28f}, 180.0f, 0.0f, 1.08f, 39.3f};
+    const Film whole = traced(scene, view, 8);
+    EXPECT_GT(whole.at(20, 12).sum.y, 0.0);
+    for (const int threads : {1, 2, 7}) {
+        const ThreadLimit limit(threads);
+        EXPECT_TRUE(traced(scene, view, 8) == whole) << threads;
+    }
+    Film pieces(view.width, view.height);
+    for (const std::uint32_t first : {0u, 3u, 4u})
+        ASSERT_TRUE(tracePaths(scene, view, {}, pieces, first,
+                               first == 0   ? 3
+                               : first == 3 ? 1
+                                            : 4,
+                               {})
+                        .ok());
+    EXPECT_TRUE(pieces == whole);
+}
+
+TEST(PathTracer, NothingThereIsTheSky) {
+    TraceInputs inputs;
+    inputs.environments = {{uniformSky(2.0f), 0.0f, glm::vec3(0.5f, 1.0f, 1.5f)}};
+    const TraceScene scene = sceneOf(inputs);
+    TraceView view = lookAtBall(4);
+    const Image sky = traced(scene, view, 2).radiance(true);
+    EXPECT_FLOAT_EQ(sky.sample(1, 2, 0), 1.0f);
+    EXPECT_FLOAT_EQ(sky.sample(1, 2, 2), 3.0f);
+    EXPECT_EQ(sky.sample(1, 2, 3), 0.0f);
+    view.background = glm::vec3(0.25f);
+    EXPECT_FLOAT_EQ(traced(scene, view, 2).radiance().sample(1, 2, 0), 0.25f);
+    inputs.environments.clear();
+    EXPECT_EQ(traced(sceneOf(inputs), lookAtBall(4), 2).radiance().sample(1, 2, 0), 0.0f);
+}
+
+// What a light gives a surface, in closed form (core/light/Lights.h).
+TEST(PathTracer, LightsGiveTheirIlluminance) {
+    for (const LightType type : {LightType::Point, LightType::Spot, LightType::Directional,
+                                 LightType::Sphere, LightType::Rectangle}) {
+        Light light;
+        light.type = type;
+        light.intensity = 3.0f;
+        light.position = {0.0f, 2.0f, 0.0f};
+        light.azimuthDeg = 0.0f;
+        light.elevationDeg = 90.0f;
+        TraceInputs inputs;
+        inputs.lights = {light};
+        const TraceScene scene = sceneOf(inputs);
+        // Of a rectangle by rows: pi L F.
+        float expected = 3.0f;
+        if (type == LightType::Point || type == LightType::Spot)
+            expected = 3.0f / 4.0f;
+        if (type == LightType::Sphere)
+            expected = 3.0f * shading::kPi * shading::sphereFormFactor(1.0f, 0.25f * 0.25f / 4.0f);
+        if (type == LightType::Rectangle)
+            expected = 3.0f * shading::kPi *
+                       shading::quadFormFactor({-.5f, -.5f, 2}, {.5f, -.5f, 2}, {.5f, .5f, 2},
+                                               {-.5f, .5f, 2});
+        Film::Pixel pixel;
+        traceIrradiance(scene, glm::dvec3(0.0), {0, 1, 0}, {}, 4096, pixel);
+        EXPECT_NEAR(pixel.sum.y / 4096.0, static_cast<double>(expected),
+                    2e-3 * static_cast<double>(expected))
+            << static_cast<int>(type);
+    }
+}
+
+TEST(Film, NoiseIsThatOfTheMean) {
+    Film film(2, 1);
+    EXPECT_FALSE(film.noise().has_value());
+    for (int i = 0; i < 100; ++i) {
+        film.at(0, 0).add(glm::vec3(i % 2 == 0 ? 1.0f : 3.0f), 1.0f);
+        film.at(1, 0).add(glm::vec3(2.0f), 1.0f);
+    }
+    // Variance 1 of 100 samples: 1 / 99 in one of two pixels, mean 2.
+    ASSERT_TRUE(film.noise().has_value());
+    EXPECT_NEAR(*film.noise(), std::sqrt(0.5 / 99.0) / 2.0, 1e-6);
+    film.at(0, 0).add(glm::vec3(std::nanf("")), 1.0f);
+    EXPECT_EQ(film.invalid(), 1u);
+    EXPECT_TRUE(std::isfinite(film.radiance().sample(0, 0, 0)));
+}
+
+} // namespace patina
