@@ -82,7 +82,8 @@ class CommandParser {
     // What `render` and `sheet` have in common; addLook(): `rank`, too.
     void addLook(CLI::App* command, PictureOptions& options);
     void addEnvironmentOption(CLI::App* command, PictureOptions& options);
-    void addPicture(CLI::App* command, PictureOptions& options);
+    static CLI::Validator rasterSamples();
+    void addPicture(CLI::App* command, PictureOptions& options); // --samples unchecked
     void addEnvironment();
     void addExport();
     void addRefine();

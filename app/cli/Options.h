@@ -49,7 +49,12 @@ struct RenderOptions : PictureOptions {
     std::string viewMode = "raw", viewRange, viewLight;
     int turntable = 0,
         lightTurn = 0;        // pictures round the camera's target, of a turning environment
-    int framesPerSecond = 24; // of a video
+    int framesPerSecond = 24;        // of a video
+    std::string renderer = "raster"; // or path
+    std::optional<double> noise;     // path: ends there, percent of the mean
+    std::optional<int> maxBounces;   // path; nothing: no limit
+    unsigned seed = 0;               // path
+    bool samplesGiven = false;
 };
 
 struct SheetOptions : PictureOptions {

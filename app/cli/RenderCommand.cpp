@@ -3,6 +3,7 @@
 #include "app/cli/LocalShadows.h"
 #include "app/cli/PictureSetup.h"
 #include "app/cli/RenderSequence.h"
+#include "app/cli/RenderTraced.h"
 #include "app/cli/RenderViews.h"
 #include "app/cli/Report.h"
 #include "app/cli/SceneSetup.h"
@@ -108,6 +109,8 @@ Result<void> run(Session& session, const RenderOptions& options) {
     if (!writes && options.inspect.empty())
         return usageError(
             "--output is required: where the picture goes; only --inspect does without");
+    if (Result<void> fits = checkRenderer(options); !fits)
+        return fits;
     const Result<std::optional<SequenceRequest>> sequence = sequenceRequest(options);
     if (!sequence)
         return sequence.error();
@@ -165,6 +168,11 @@ Result<void> run(Session& session, const RenderOptions& options) {
     json["settings"]["camera"] = describeCamera(*camera);
     describeView(json["settings"], document->view);
 
+    json["counts"] = {{"meshes", document->meshes.size()},
+                      {"triangles", document->triangleCount()}};
+    if (isTraced(options))
+        return renderTraced(session, options, *document, *frame, *format);
+
     // Light that is switched off is looked at only by views and by explanations.
     const bool lit =
         !environmentParts(*document).empty() || !options.view.empty() || inspected->has_value();
@@ -179,8 +187,6 @@ Result<void> run(Session& session, const RenderOptions& options) {
     if (!shadows)
         return shadows.error();
     prepared->scene->setNearShadows(*shadows);
-    json["counts"] = {{"meshes", document->meshes.size()},
-                      {"triangles", document->triangleCount()}};
     if (*sequence)
         return renderSequence(session, options, **sequence, *document, *prepared->scene, renderer,
                               *frame, *format);

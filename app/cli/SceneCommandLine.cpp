@@ -1,5 +1,6 @@
 // What is done with models, pictures and environments without baking.
 #include "app/cli/CommandParser.h"
+#include "app/cli/RenderTraced.h"
 #include "app/cli/RenderViews.h"
 #include "core/cells/Sequence.h"
 #include "core/edit/Parameters.h"
@@ -50,9 +51,12 @@ void CommandParser::addLook(CLI::App* c, PictureOptions& o) {
         ->type_name("NAME");
 }
 
+CLI::Validator CommandParser::rasterSamples() {
+    return plain(CLI::IsMember({1, 2, 4, 8, 16}));
+}
+
 void CommandParser::addPicture(CLI::App* c, PictureOptions& o) {
     c->add_option("--samples", o.samples, "Samples per pixel against jagged edges (MSAA)")
-        ->check(plain(CLI::IsMember({1, 2, 4, 8, 16})))
         ->capture_default_str()
         ->type_name("N");
     addLook(c, o);
@@ -82,6 +86,32 @@ void CommandParser::addRender() {
     addEnvironmentOption(c, o);
     c->add_option("--size", o.size, "Pixels")->capture_default_str()->type_name("WxH");
     addPicture(c, o);
+    CLI::Option* samples = c->get_option("--samples");
+    samples->check(plain(CLI::Range(1, kMostPaths)))
+        ->description("Samples per pixel: 1, 2, 4, 8 or 16 against jagged edges (MSAA); with "
+                      "--renderer path as many paths as there are at most (default: 256)");
+    c->add_option("--renderer", o.renderer,
+                  "raster: as the viewport draws it; path: light as it goes, by paths from "
+                  "surface to surface, without shortcuts")
+        ->check(plain(CLI::IsMember({"raster", "path"})))
+        ->capture_default_str()
+        ->type_name("raster|path");
+    c->add_option("--noise", o.noise,
+                  "Path: ends when the standard error of a pixel is this many percent of the "
+                  "picture's mean, on the average over the pixels")
+        ->check(plain(CLI::Range(0.001, 100.0)))
+        ->type_name("PERCENT");
+    c->add_option("--max-bounces", o.maxBounces,
+                  "Path: on surfaces after the one that is seen (default: no limit)")
+        ->check(plain(CLI::Range(0, 10000)))
+        ->type_name("N");
+    c->add_option("--seed", o.seed, "Path: seed of the sample pattern")->type_name("N");
+    c->add_flag("--keep-partial", m_invocation.common.keepPartial,
+                "Path: when interrupted, write what has converged so far");
+    m_select[c] = [&o, samples] {
+        o.samplesGiven = samples->count() > 0;
+        return decltype(m_invocation.options)(o);
+    };
     c->add_option("--view", o.view,
                   "A term of the shading equation instead of the picture (see --list-views); "
                   "all: a part each of an .exr, else a contact sheet of pictures of this size")
@@ -165,6 +195,7 @@ void CommandParser::addSheet() {
     addEnvironmentOption(c, o);
     addPicture(c, o);
     c->get_option("--samples")
+        ->check(rasterSamples())
         ->description("Samples per pixel against jagged edges (MSAA); 8: the mean of eight frames, "
                       "as the editor shows cells at rest");
     addSets(c);

@@ -2,15 +2,13 @@
 
 #include "core/base/Check.h"
 #include "core/compare/FitImage.h"
-#include "core/document/ToneResponse.h"
-#include "core/document/ViewChoices.h"
+#include "core/document/DisplayedPicture.h"
 #include "core/image/Srgb.h"
 #include "core/math/Shading.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <string>
 
 namespace patina {
@@ -40,23 +38,14 @@ double meanLuminance(const Image& image, bool radiance) {
     return sum / (static_cast<double>(image.width()) * image.height());
 }
 
-// As AdaptationPass measures it.
-Luminance luminanceOf(const Image& image) {
-    double logs = 0.0;
-    Luminance result;
-    result.darkest = std::numeric_limits<float>::max();
-    result.brightest = 0.0f;
-    for (int y = 0; y < image.height(); ++y)
-        for (int x = 0; x < image.width(); ++x) {
-            const float value = shading::kLogDelta + shading::luminance(pixelOf(image, x, y));
-            logs += std::log(static_cast<double>(value));
-            result.darkest = std::min(result.darkest, value);
-            result.brightest = std::max(result.brightest, value);
-        }
-    result.logAverage =
-        static_cast<float>(std::exp(logs / (static_cast<double>(image.width()) * image.height())));
-    result.adapted = result.logAverage;
-    return result;
+Image colorsOf(const Image& picture) {
+    Image colors(picture.width(), picture.height(), 3, PixelType::F32, ColorEncoding::Linear);
+    float* out = colors.f32().data();
+    for (int y = 0; y < picture.height(); ++y)
+        for (int x = 0; x < picture.width(); ++x)
+            for (int c = 0; c < 3; ++c)
+                *out++ = pixelOf(picture, x, y)[c];
+    return colors;
 }
 
 } // namespace
@@ -83,13 +72,6 @@ Result<ReferencePicture> referencePicture(const Image& picture, const Image& cel
                                  picture.width(), picture.height(), width, height),
                      {},
                      {}};
-    if (radiance && view.toneMap == ToneMap::OpenColorIo)
-        return Error{ErrorKind::Usage,
-                     "its linear values cannot be shown by OpenColorIO here; choose another tone "
-                     "curve, or a picture as displayed (PNG)",
-                     {},
-                     {}};
-
     ReferencePicture result;
     const auto note = [&](const std::string& text) {
         result.note += result.note.empty() ? text : ", " + text;
@@ -113,30 +95,32 @@ Result<ReferencePicture> referencePicture(const Image& picture, const Image& cel
         note(fmt::format("exposure matched by {:+.2f} EV", result.matchedEv));
     }
 
+    if (radiance) {
+        Image colors = colorsOf(fitted);
+        Luminance luminance;
+        if (needsLuminance(view))
+            luminance = luminanceOf(colors);
+        for (float& sample : colors.f32())
+            sample *= factor;
+        Result<Image> displayed = displayedPicture(colors, view, luminance);
+        if (!displayed)
+            return displayed.error();
+        result.displayed = *std::move(displayed);
+        return result;
+    }
     result.displayed = Image(width, height, 3, PixelType::U8, ColorEncoding::Srgb);
-    const auto samples = result.displayed.u8();
-    Luminance luminance;
-    if (radiance && needsLuminance(view))
-        luminance = luminanceOf(fitted);
-    const float exposure = radiance ? exposureScale(view, luminance) : 1.0f;
+    std::uint8_t* out = result.displayed.u8().data();
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             glm::vec3 shown = pixelOf(fitted, x, y);
-            if (radiance) {
-                shown = shading::displayEncode(
-                    shading::toneMap(shown * (factor * exposure), toneCurve(view, luminance)),
-                    static_cast<int>(view.displayTransfer), view.displayGamma);
-            } else if (factor != 1.0f) {
+            if (factor != 1.0f) {
                 const glm::vec3 linear = linearPixel(fitted, x, y, false) * factor;
                 shown = {linearToSrgb(std::min(linear.r, 1.0f)),
                          linearToSrgb(std::min(linear.g, 1.0f)),
                          linearToSrgb(std::min(linear.b, 1.0f))};
             }
             for (int c = 0; c < 3; ++c)
-                samples[(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                         static_cast<std::size_t>(x)) *
-                            3 +
-                        static_cast<std::size_t>(c)] =
+                *out++ =
                     static_cast<std::uint8_t>(std::clamp(shown[c], 0.0f, 1.0f) * 255.0f + 0.5f);
         }
     return result;

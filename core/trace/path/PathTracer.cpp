@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace patina {
@@ -61,18 +62,19 @@ class Path {
 
     // From the camera; scene units. `alpha`: 0 where it meets nothing.
     glm::vec3 look(const glm::vec3& origin, const glm::vec3& direction, const Sequence& sequence,
-                   const std::optional<glm::vec3>& background, float& alpha) {
-        ClosestRay hit = m_scene.closest(origin, direction);
+                   const TraceView& view, float& alpha) {
+        ClosestRay hit = closest(origin, direction);
         TracePoint point;
         for (int backs = 0;; ++backs) {
             if (hit.mesh == ClosestRay::kNothing || backs == kMostBacks) {
                 alpha = 0.0f;
-                return background ? *background : m_scene.environmentRadiance(direction);
+                return view.background ? view.background(direction)
+                                       : m_scene.environmentRadiance(direction);
             }
             point = m_scene.pointAt(hit);
             if (!point.isBack || point.material->doubleSided())
                 break;
-            hit = m_scene.closest(TraceScene::origin(point, true), direction);
+            hit = closest(TraceScene::origin(point, true), direction);
         }
         alpha = 1.0f;
         return point.material->emissionAt(point.uv) + follow(point, -direction, sequence);
@@ -109,7 +111,7 @@ class Path {
             if (throughput == glm::vec3(0.0f))
                 return radiance;
 
-            const ClosestRay hit = m_scene.closest(from, l);
+            const ClosestRay hit = closest(from, l);
             const bool open = hit.mesh == ClosestRay::kNothing;
             const float distance = open ? kInfinite : m_scene.metres(hit.ray.maxDistance);
             radiance += throughput * lightsAlong(world, l, distance, pdf);
@@ -128,7 +130,13 @@ class Path {
         }
     }
 
+    [[nodiscard]] double takeRays() { return static_cast<double>(std::exchange(m_rays, 0)); }
+
   private:
+    ClosestRay closest(const glm::vec3& origin, const glm::vec3& direction) {
+        ++m_rays;
+        return m_scene.closest(origin, direction);
+    }
     static glm::vec3 reflected(const shading::SurfaceTerms& terms, const glm::vec3& l) {
         const shading::ShadedLight light = shading::shadeDirect(terms, l, glm::vec3(1.0f));
         return light.diffuse + light.specular;
@@ -161,9 +169,11 @@ class Path {
     }
 
     [[nodiscard]] bool isOpen(const TracePoint& point, const glm::vec3& from, const glm::vec3& l,
-                              float metres) const {
-        return glm::dot(point.face, l) > 0.0f &&
-               !m_scene.occluded(from, l,
+                              float metres) {
+        if (glm::dot(point.face, l) <= 0.0f)
+            return false;
+        ++m_rays;
+        return !m_scene.occluded(from, l,
                                  std::isinf(metres) ? kInfinite : m_scene.sceneUnits(metres));
     }
 
@@ -189,7 +199,7 @@ class Path {
 
     glm::vec3 fromLight(const TracePoint& point, const shading::SurfaceTerms& terms,
                         const glm::vec3& from, const glm::vec3& world, float u,
-                        const glm::vec2& u2) const {
+                        const glm::vec2& u2) {
         float before = 0.0f;
         std::size_t chosen = m_choices.size();
         for (std::size_t i = 0; i < m_choices.size(); ++i) {
@@ -220,7 +230,7 @@ class Path {
     }
 
     glm::vec3 fromGlow(const TracePoint& point, const shading::SurfaceTerms& terms,
-                       const glm::vec3& from, float u, const glm::vec2& u2) const {
+                       const glm::vec3& from, float u, const glm::vec2& u2) {
         const TracePoint source =
             m_scene.pointAt(m_scene.emissive().sample(u), EmissiveTriangles::point(u2));
         const glm::vec3 to = source.position - from;
@@ -264,6 +274,7 @@ class Path {
     const TraceScene& m_scene;
     const PathSettings& m_settings;
     std::vector<float> m_choices; // among the lights, at the present surface
+    std::uint64_t m_rays = 0;
 };
 
 } // namespace
@@ -304,7 +315,7 @@ Result<void> tracePaths(const TraceScene& scene, const TraceView& view,
                             float alpha = 0.0f;
                             const glm::vec3 radiance = path.look(
                                 eye, glm::normalize(forward + screen.x * right + screen.y * up),
-                                sequence, view.background, alpha);
+                                sequence, view, alpha);
                             film.at(x, y).add(radiance, alpha);
                         }
                     }

@@ -10,6 +10,7 @@
 #include "core/trace/path/TraceScene.h"
 
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <optional>
 
@@ -31,13 +32,13 @@ struct PathSettings {
 struct TraceView {
     Camera camera;
     int width = 0, height = 0;
-    // What is seen where there is no surface; nothing: the environment.
-    std::optional<glm::vec3> background;
+    // What is seen in a direction of the world where there is no surface; empty: the environment.
+    std::function<glm::vec3(const glm::vec3& direction)> background;
 };
 
 // Adds samples `first` … `first` + `count` - 1 to each pixel of a film of the view's size. The same
-// numbers for any number of threads, and for samples that are added in several calls in order.
-// Error: Cancelled; the film then has some samples in some pixels.
+// numbers for any number of threads, and for samples that are added in several calls in order. A
+// job that stops leaves rows of pixels out. Error: Cancelled. The job's work is counted in rays.
 Result<void> tracePaths(const TraceScene& scene, const TraceView& view,
                         const PathSettings& settings, Film& film, std::uint32_t first,
                         std::uint32_t count, const JobContext& job);

@@ -307,7 +307,7 @@ TEST(PathTracer, NothingThereIsTheSky) {
     EXPECT_FLOAT_EQ(sky.sample(1, 2, 0), 1.0f);
     EXPECT_FLOAT_EQ(sky.sample(1, 2, 2), 3.0f);
     EXPECT_EQ(sky.sample(1, 2, 3), 0.0f);
-    view.background = glm::vec3(0.25f);
+    view.background = [](const glm::vec3&) { return glm::vec3(0.25f); };
     EXPECT_FLOAT_EQ(traced(scene, view, 2).radiance().sample(1, 2, 0), 0.25f);
     inputs.environments.clear();
     EXPECT_EQ(traced(sceneOf(inputs), lookAtBall(4), 2).radiance().sample(1, 2, 0), 0.0f);

@@ -1,0 +1,22 @@
+// `patina render --renderer path`: a picture by paths, without OpenGL.
+#pragma once
+
+#include "app/cli/Session.h"
+#include "core/document/Document.h"
+#include "core/io/ImageIO.h"
+#include "render/view/FrameSettings.h"
+
+namespace patina::cli {
+
+inline constexpr int kMostPaths = 1 << 20; // per pixel
+inline constexpr int kUsualPaths = 256;
+
+[[nodiscard]] bool isTraced(const RenderOptions& options);
+// Usage errors: what paths do not have, or only they have.
+Result<void> checkRenderer(const RenderOptions& options);
+
+// `document` is looked at through `frame`. With --keep-partial a signal ends it early.
+Result<void> renderTraced(Session& session, const RenderOptions& options, const Document& document,
+                          const render::FrameSettings& frame, ImageFileFormat format);
+
+} // namespace patina::cli
