@@ -48,6 +48,13 @@ Result<void> ViewRenderer::Impl::drawRadiance(const FrameSettings& frame, const 
             slice->complete = true;
         return shared.screen.showMean(targets, sideIndex);
     }
+    const bool ordinary = frame.view.isOrdinary(choice);
+    if (frame.radiance && ordinary) {
+        targets.setLinear(*frame.radiance);
+        if (slice)
+            slice->complete = true;
+        return {};
+    }
     shared.views.setBlock(shared.viewsBlock(frame.view, std::span(&choice, 1), !targets.floats()));
     FrameBlock block = lastBlock;
     if (accumulated > 1) {
@@ -55,7 +62,6 @@ Result<void> ViewRenderer::Impl::drawRadiance(const FrameSettings& frame, const 
         block.clipToWorld = glm::inverse(block.worldToClip);
         shared.useFrame(block);
     }
-    const bool ordinary = frame.view.isOrdinary(choice);
     SceneDraw drawing =
         drawingOf(frame, block, targets.scene(),
                   ordinary ? SurfaceOutput::Picture : SurfaceOutput::OneView, choice.kind);

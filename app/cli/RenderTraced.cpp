@@ -30,7 +30,7 @@ Result<void> setBackground(Session& session, const Document& document, TraceView
     case BackgroundMode::Environment:
         return {}; // as it is
     case BackgroundMode::Off:
-        view.background = [](const glm::vec3&) { return glm::vec3(0.0f); };
+        view.transparent = true;
         return {};
     case BackgroundMode::Color:
         view.background = [color = look.backgroundColor](const glm::vec3&) { return color; };

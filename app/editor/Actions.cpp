@@ -39,6 +39,9 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
     , wall(make(tr("Wall"), QStringLiteral("wall"), {tr("F3")},
                 tr("Compare environments, materials or values beside each other; once more: one "
                    "picture again")))
+    , pathTraced(make(tr("Path Traced"), QStringLiteral("path-traced"), {tr("F12")},
+                      tr("Trace the picture by paths, with all shadows, reflections and bounces; "
+                         "once more: as the viewport draws it")))
     , lightingIbl(make(tr("&Image-Based Light"), {}, {tr("Ctrl+L")},
                        tr("Light from the environment, with every reflection")))
     , lightingPrt(make(tr("&Precomputed Transfer"), {}, {tr("Ctrl+Shift+L")},
@@ -126,6 +129,7 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
     for (QAction* dock : docks() + instruments())
         dock->setCheckable(true);
     wall->setCheckable(true);
+    pathTraced->setCheckable(true);
     furnace->setCheckable(true);
     fullScreen->setCheckable(true);
     // Elsewhere these keys scroll.
@@ -181,6 +185,7 @@ QList<QAction*> Actions::all() const {
                            home,
                            overlays,
                            wall,
+                           pathTraced,
                            lightingIbl,
                            lightingPrt,
                            nextEnvironment,

@@ -20,7 +20,7 @@ class Actions : public QObject {
     QAction *newScene, *open, *addModel, *save, *saveAs, *saveEnvironment, *exportScene, *quit;
     QAction* recover;
     QAction *undo, *redo, *keepSnapshot;
-    QAction *frame, *home, *overlays, *wall, *lightingIbl, *lightingPrt;
+    QAction *frame, *home, *overlays, *wall, *pathTraced, *lightingIbl, *lightingPrt;
     QAction *nextEnvironment, *previousEnvironment; // of the library, in the viewport
     QAction *sceneDock, *materialDock, *environmentDock, *lightsDock, *viewDock, *bakeDock;
     QAction *modelDock, *jobsDock, *logDock, *historyDock, *snapshotsDock;

@@ -12,6 +12,7 @@
 #include "app/editor/document/QtText.h"
 #include "app/editor/panel/ParameterRow.h"
 #include "app/editor/style/Icons.h"
+#include "app/editor/trace/PathBadge.h"
 #include "app/editor/viewport/DropTarget.h"
 #include "app/editor/viewport/EquationBar.h"
 #include "app/editor/viewport/SceneProgress.h"
@@ -65,6 +66,7 @@ MainWindow::MainWindow(Session& session)
     m_viewport->setLobe(session.lobe);
     m_viewport->setViews(session.views);
     m_viewport->setWall(session.wall, session.comparison);
+    m_viewport->setPaths(session.paths);
     m_viewport->setProbe(session.probe);
 
     auto* centre = new QWidget;
@@ -81,6 +83,7 @@ MainWindow::MainWindow(Session& session)
     layout->addWidget(m_viewport, 1);
     auto* wallOverlay = new WallOverlay(session.wall, session.comparison, *m_viewport);
     new SplitHandle(session.comparison, *m_viewport);
+    new PathBadge(session.paths, session.views, *m_viewport);
     m_overlay = new ViewOverlay(session.views, session.controller, *m_viewport);
     m_progress = new SceneProgress(session.controller, *m_viewport);
     m_drop = new DropTarget(*this, *m_viewport, session.controller, session.selection,
@@ -190,7 +193,7 @@ void MainWindow::makeMenus() {
     QMenu* view = menuBar()->addMenu(tr("&View"));
     view->addActions({a.frame, a.home, a.overlays});
     view->addSeparator();
-    view->addAction(a.wall);
+    view->addActions({a.wall, a.pathTraced});
     m_looks->fillMenu(*view->addMenu(tr("L&ook At")));
     view->addSeparator();
     view->addActions({a.lightingIbl, a.lightingPrt, a.previousEnvironment, a.nextEnvironment});
@@ -230,7 +233,7 @@ void MainWindow::makeToolBar() {
     bar->addSeparator();
     bar->addActions({a.undo, a.redo});
     bar->addSeparator();
-    bar->addActions({a.frame, a.home, a.overlays, a.wall});
+    bar->addActions({a.frame, a.home, a.overlays, a.wall, a.pathTraced});
     bar->addSeparator();
     bar->addAction(a.exportScene);
     for (QToolButton* button : bar->findChildren<QToolButton*>()) {

@@ -37,7 +37,16 @@ void MainWindow::connectActions() {
         m_actions->wall->setChecked(m_session.wall.isOn());
         if (m_session.wall.isOn() && m_session.views.settings().split)
             m_session.views.toggleSplit(); // cells show one view each
+        if (m_session.wall.isOn())
+            m_session.paths.setOn(false); // the viewport draws it
     });
+    connect(a.pathTraced, &QAction::triggered, this, [this](bool on) {
+        if (on)
+            m_session.wall.setOn(false); // that is drawn by the viewport
+        m_session.paths.setOn(on);
+    });
+    connect(&m_session.paths, &PathView::changed, this,
+            [this] { m_actions->pathTraced->setChecked(m_session.paths.isOn()); });
     const auto lighting = [this](LightingMode mode) {
         m_session.controller.setParameter(parameter("view.lighting"), {Scope::View, 0},
                                           static_cast<int>(mode));

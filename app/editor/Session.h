@@ -11,6 +11,7 @@
 #include "app/editor/job/NearShadowUpdater.h"
 #include "app/editor/job/UiTasks.h"
 #include "app/editor/library/EnvironmentLibrary.h"
+#include "app/editor/trace/PathView.h"
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/LightLimitNotice.h"
 #include "app/editor/viewport/LobeOnSurface.h"
@@ -40,6 +41,7 @@ struct Session {
     WallComparison comparison{wall, tasks, worker};
     PixelProbe probe;
     LobeOnSurface lobe{controller, probe};
+    PathView paths{controller};
     JobManager jobs{controller};
     BakeService bakes{controller, jobs};
     BounceUpdater bounces{controller, bakes.hits()};

@@ -1,8 +1,12 @@
 #include "render/pass/Targets.h"
 
+#include "core/base/Check.h"
+
 #include <algorithm>
 #include <fmt/format.h>
+#include <limits>
 #include <utility>
+#include <vector>
 
 namespace patina::render {
 
@@ -55,6 +59,21 @@ Result<void> Targets::resize(gl::Context& context, int width, int height, int sa
     m_samples = samples;
     m_floats = floats;
     return {};
+}
+
+void Targets::setLinear(const Image& picture) {
+    CHECK(picture.width() == m_width && picture.height() == m_height);
+    CHECK(picture.type() == PixelType::F32 && picture.channels() == 4);
+    // OpenGL's rows run from the bottom up; half floats end at 65504.
+    const float brightest = m_floats ? std::numeric_limits<float>::max() : 65504.0f;
+    const std::size_t row = 4 * static_cast<std::size_t>(m_width);
+    const auto samples = picture.f32();
+    std::vector<float> rows(samples.size());
+    for (std::size_t y = 0; y < static_cast<std::size_t>(m_height); ++y)
+        std::ranges::transform(samples.subspan(y * row, row),
+                               rows.end() - static_cast<std::ptrdiff_t>((y + 1) * row),
+                               [=](float sample) { return std::min(sample, brightest); });
+    m_linear.upload(0, 4, gl::SampleType::F32, rows.data());
 }
 
 Result<const gl::Framebuffer*> Targets::dataTarget(gl::Context& context) {

@@ -2,6 +2,7 @@
 // resolved) and the displayed picture.
 #pragma once
 
+#include "core/image/Image.h"
 #include "render/gl/Framebuffer.h"
 
 #include <array>
@@ -27,6 +28,8 @@ class Targets {
         return m_samples > 1 ? m_multisampled : m_resolved;
     }
     void resolve() const;
+    // Instead of resolve(): linear() is this picture, F32 RGBA of the same size, row 0 on top.
+    void setLinear(const Image& picture);
 
     [[nodiscard]] const gl::Texture& linear() const { return m_linear; } // premultiplied
     [[nodiscard]] const gl::Texture& depth() const { return m_depth; }

@@ -36,8 +36,9 @@ bool showSameScene(const FrameSettings& a, const FrameSettings& b) {
     view.flags = b.view.flags; // marks are drawn over the numbers
     return a.width == b.width && a.height == b.height && a.samples == b.samples &&
            a.floats == b.floats && a.coarse == b.coarse && a.accumulate == b.accumulate &&
-           a.camera == b.camera && a.light == b.light && sameLook(a.look, b.look) &&
-           a.transparentBackground == b.transparentBackground && view == b.view;
+           a.camera == b.camera && a.light == b.light && a.radiance == b.radiance &&
+           sameLook(a.look, b.look) && a.transparentBackground == b.transparentBackground &&
+           view == b.view;
 }
 
 bool showSameOverlays(const FrameSettings& a, const FrameSettings& b) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/document/View.h"
+#include "core/image/Image.h"
 #include "core/math/Camera.h"
 #include "render/scene/LightId.h"
 #include "render/scene/SurfaceLobe.h"
@@ -50,6 +51,11 @@ struct FrameSettings {
     // frame's, shownWidth and shownHeight this one's. A split's stays as it was displayed. Without
     // effect before the first frame.
     bool keepPicture = false;
+
+    // Radiance in place of what the scene's picture would be: F32, linear RGBA, premultiplied, row
+    // 0 on top, of the frame's size, which has no samples of its own then. For views of other than
+    // the picture without effect. There is no depth with it: overlays stay out.
+    ImagePtr radiance;
 
     ViewSettings view; // which terms of the shading equation are shown
 };

@@ -303,3 +303,60 @@ TEST_F(Commands, RenderTurnsTheCameraOrTheEnvironment) {
     EXPECT_THAT(missing.err, HasSubstr("ffmpeg, which is not installed"));
     EXPECT_FALSE(std::filesystem::exists(m_folder / "no.mp4"));
 }
+
+TEST_F(Commands, RenderTracesPaths) {
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"render", "builtin:sphere", "--size", "40x30", "--environment",
+                                   "builtin:white", "--json"});
+        return runPatina(more);
+    };
+    // In light from all sides a ball shows its albedo, and nothing of it is noise.
+    const std::vector<std::string> white{
+        "--set", "material.baseColor=1,1,1", "--set", "material.metallic=0", "--renderer", "path"};
+    const auto traced = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), white.begin(), white.end());
+        return with(std::move(more));
+    };
+    const Outcome ball = traced({"--samples", "64", "-o", m_folder / "ball.exr"});
+    ASSERT_EQ(ball.status, 0) << ball.err;
+    EXPECT_EQ(ball.json()["settings"]["renderer"], "path");
+    EXPECT_EQ(ball.json()["settings"]["samples"], 64);
+    EXPECT_LT(ball.json()["noisePercent"], 5.0);
+    const Image picture = load(m_folder / "ball.exr");
+    ASSERT_EQ(picture.channels(), 3);
+    EXPECT_NEAR(picture.sample(20, 15, 1), 1.0f, 0.02f);
+    EXPECT_NEAR(picture.sample(0, 0, 1), 1.0f, 1e-3f) << "the environment behind it";
+
+    // The same numbers for any threads; others for another seed; an end by certainty.
+    EXPECT_EQ(traced({"--samples", "64", "--threads", "1", "-o", m_folder / "one.exr"}).status, 0);
+    EXPECT_EQ(load(m_folder / "one.exr"), picture);
+    EXPECT_EQ(traced({"--samples", "64", "--seed", "9", "-o", m_folder / "seed.exr"}).status, 0);
+    EXPECT_NE(load(m_folder / "seed.exr"), picture);
+    const Outcome certain = traced({"--noise", "3", "-o", m_folder / "certain.png"});
+    ASSERT_EQ(certain.status, 0) << certain.err;
+    EXPECT_LE(certain.json()["noisePercent"], 3.0);
+    EXPECT_EQ(load(m_folder / "certain.png").channels(), 3);
+    const Outcome open = traced({"--samples", "4", "--background", "transparent", "-o",
+                                 m_folder / "open.png", "--max-bounces", "0"});
+    ASSERT_EQ(open.status, 0) << open.err;
+    EXPECT_EQ(load(m_folder / "open.png").sample(0, 0, 3), 0.0f);
+    EXPECT_EQ(load(m_folder / "open.png").sample(20, 15, 3), 1.0f);
+
+    for (const auto& [more, said] : std::vector<std::pair<std::vector<std::string>, const char*>>{
+             {{"--renderer", "path", "--view", "albedo"}, "--view"},
+             {{"--renderer", "path", "--inspect", "1,1"}, "--inspect"},
+             {{"--renderer", "path", "--turntable", "3"}, "--turntable"},
+             {{"--renderer", "path", "--lighting", "ibl"}, "--lighting"},
+             {{"--renderer", "path", "--samples", "0"}, "--samples"},
+             {{"--renderer", "rays"}, "--renderer"},
+             {{"--noise", "1"}, "--renderer path"},
+             {{"--max-bounces", "1"}, "--renderer path"},
+             {{"--samples", "3"}, "1, 2, 4, 8 or 16"}}) {
+        std::vector<std::string> arguments = more;
+        arguments.insert(arguments.end(), {"-o", m_folder / "no.png"});
+        const Outcome outcome = with(arguments);
+        EXPECT_EQ(outcome.status, 2) << said << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr(said));
+        EXPECT_FALSE(std::filesystem::exists(m_folder / "no.png"));
+    }
+}

@@ -4,6 +4,7 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/job/JobManager.h"
+#include "app/editor/trace/PathView.h"
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/LobeOnSurface.h"
 #include "app/editor/wall/WallState.h"
@@ -359,6 +360,8 @@ void ViewportWidget::paintGL() {
 
     render::FrameSettings frame = nextFrame();
     takeDisplay();
+    if (paintPaths(frame))
+        return;
     // The picture that is shown stays until the next one is complete.
     const bool sliced = drawsInSlices(frame.view);
     const bool complete = sliced && m_renderer->isPrepared(frame);
@@ -515,7 +518,8 @@ bool ViewportWidget::isSettled() const {
     return m_renderer && !m_gate.waiting() && m_ibl->finished() && !m_environmentTimer.isActive() &&
            !m_pacing.moving() && !m_restTimer.isActive() && !m_adaptationTimer.isActive() &&
            !m_accumulationTimer.isActive() && !m_slicing &&
-           !(m_wall.isOn() && (m_wall.preparing() || !m_wall.isCurrent()));
+           !(m_wall.isOn() && (m_wall.preparing() || !m_wall.isCurrent())) &&
+           !(m_paths != nullptr && m_paths->isOn() && !m_paths->progress().refined);
 }
 
 double ViewportWidget::takeSlowestFrameMs() {

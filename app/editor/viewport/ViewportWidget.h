@@ -43,6 +43,7 @@ class IblUpdater;
 class BakeService;
 class JobManager;
 class LobeOnSurface;
+class PathView;
 class SelectionModel;
 class ViewState;
 class WallComparison;
@@ -69,6 +70,7 @@ class ViewportWidget : public QOpenGLWidget {
     void setLobe(LobeOnSurface& lobe);         // which is drawn with the overlays
     void setWall(WallState& wall,
                  WallComparison& comparison); // whether many of it are shown beside each other
+    void setPaths(PathView& paths);           // whose picture is shown while it is on
     void setProbe(PixelProbe& probe);         // who is told what pixels are made of
     void setLuminanceWanted(bool wanted);     // even where the picture does not depend on it
 
@@ -138,6 +140,8 @@ class ViewportWidget : public QOpenGLWidget {
     [[nodiscard]] Result<render::Inspection> inspect(const QPoint& pixel);
     [[nodiscard]] Result<std::vector<Image>> drawSheet(const render::ViewSheet& sheet);
     [[nodiscard]] render::FrameSettings nextFrame();
+    // The traced picture in place of the frame's; false: there is none of what it shows.
+    [[nodiscard]] bool paintPaths(render::FrameSettings frame);
     [[nodiscard]] QSize sizeAt(float scale) const; // in device pixels
     void bringIn(); // what the background has prepared since the last frame
     // The rest of the frame that is shown next, in slices that input does not wait for.
@@ -165,6 +169,7 @@ class ViewportWidget : public QOpenGLWidget {
     SelectionModel& m_selection;
     DisplayLoader* m_displays = nullptr;
     LobeOnSurface* m_lobe = nullptr;
+    PathView* m_paths = nullptr;
     IblUpdater* m_ibl;
     ViewportHand m_hand;
     PreviewFeed m_preview;

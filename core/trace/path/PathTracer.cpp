@@ -9,7 +9,6 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace patina {
@@ -60,14 +59,16 @@ class Path {
         : m_scene(scene)
         , m_settings(settings) {}
 
-    // From the camera; scene units. `alpha`: 0 where it meets nothing.
+    // From the camera; scene units. `alpha`: how much is seen of that.
     glm::vec3 look(const glm::vec3& origin, const glm::vec3& direction, const Sequence& sequence,
                    const TraceView& view, float& alpha) {
         ClosestRay hit = closest(origin, direction);
         TracePoint point;
         for (int backs = 0;; ++backs) {
             if (hit.mesh == ClosestRay::kNothing || backs == kMostBacks) {
-                alpha = 0.0f;
+                alpha = view.transparent ? 0.0f : 1.0f;
+                if (view.transparent)
+                    return glm::vec3(0.0f);
                 return view.background ? view.background(direction)
                                        : m_scene.environmentRadiance(direction);
             }
@@ -130,7 +131,7 @@ class Path {
         }
     }
 
-    [[nodiscard]] double takeRays() { return static_cast<double>(std::exchange(m_rays, 0)); }
+    [[nodiscard]] std::uint64_t rays() const { return m_rays; } // so far
 
   private:
     ClosestRay closest(const glm::vec3& origin, const glm::vec3& direction) {
@@ -277,51 +278,68 @@ class Path {
     std::uint64_t m_rays = 0;
 };
 
+// Rays of the camera, in scene units.
+class Eye {
+  public:
+    Eye(const TraceScene& scene, const TraceView& view)
+        : m_width(view.width)
+        , m_height(view.height)
+        , m_origin(scene.toScene(glm::dvec3(view.camera.position())))
+        , m_forward(view.camera.forward()) {
+        const float tangent = std::tan(0.5f * glm::radians(view.camera.fovDeg));
+        const float aspect = static_cast<float>(m_width) / static_cast<float>(m_height);
+        m_right = tangent * aspect * view.camera.right();
+        m_up = tangent * view.camera.up();
+    }
+
+    [[nodiscard]] const glm::vec3& origin() const { return m_origin; }
+    // Through a point of a pixel; `at` in [0, 1)² from its upper left corner.
+    [[nodiscard]] glm::vec3 direction(int x, int y, const glm::vec2& at) const {
+        const float right =
+            2.0f * (static_cast<float>(x) + at.x) / static_cast<float>(m_width) - 1.0f;
+        const float down =
+            2.0f * (static_cast<float>(y) + at.y) / static_cast<float>(m_height) - 1.0f;
+        return glm::normalize(m_forward + right * m_right - down * m_up);
+    }
+
+  private:
+    int m_width, m_height;
+    glm::vec3 m_origin, m_forward, m_right{0.0f}, m_up{0.0f};
+};
+
 } // namespace
 
 Result<void> tracePaths(const TraceScene& scene, const TraceView& view,
                         const PathSettings& settings, Film& film, std::uint32_t first,
-                        std::uint32_t count, const JobContext& job) {
+                        std::uint32_t count, const JobContext& job, TraceRays* rays) {
     CHECK(film.width() == view.width && film.height() == view.height);
     const int columns = (view.width + kTile - 1) / kTile, rows = (view.height + kTile - 1) / kTile;
-    const glm::vec3 eye = scene.toScene(glm::dvec3(view.camera.position()));
-    const float tangent = std::tan(0.5f * glm::radians(view.camera.fovDeg));
-    const float aspect = static_cast<float>(view.width) / static_cast<float>(view.height);
-    const glm::vec3 forward = view.camera.forward(), right = tangent * aspect * view.camera.right(),
-                    up = tangent * view.camera.up();
-    parallelFor(
-        job, static_cast<std::size_t>(columns * rows), 1, [&](std::size_t begin, std::size_t end) {
-            const FlushDenormals flush;
-            Path path(scene, settings);
-            for (std::size_t tile = begin; tile < end; ++tile) {
-                const int x0 = static_cast<int>(tile) % columns * kTile,
-                          y0 = static_cast<int>(tile) / columns * kTile;
-                for (int y = y0; y < std::min(y0 + kTile, view.height); ++y) {
-                    if (job.cancelled())
-                        return;
-                    for (int x = x0; x < std::min(x0 + kTile, view.width); ++x) {
-                        const std::uint32_t seed =
-                            seedFor(settings.seed, static_cast<std::uint32_t>(y) *
-                                                           static_cast<std::uint32_t>(view.width) +
-                                                       static_cast<std::uint32_t>(x));
-                        for (std::uint32_t i = first; i < first + count; ++i) {
-                            const Sequence sequence(i, seed);
-                            const glm::vec2 at = sequence.at(0, kPixel);
-                            const glm::vec2 screen(2.0f * (static_cast<float>(x) + at.x) /
-                                                           static_cast<float>(view.width) -
-                                                       1.0f,
-                                                   1.0f - 2.0f * (static_cast<float>(y) + at.y) /
-                                                              static_cast<float>(view.height));
-                            float alpha = 0.0f;
-                            const glm::vec3 radiance = path.look(
-                                eye, glm::normalize(forward + screen.x * right + screen.y * up),
-                                sequence, view, alpha);
-                            film.at(x, y).add(radiance, alpha);
-                        }
-                    }
+    const Eye eye(scene, view);
+    const auto traceTile = [&](int tile) {
+        Path path(scene, settings);
+        const int x0 = tile % columns * kTile, y0 = tile / columns * kTile;
+        for (int y = y0; y < std::min(y0 + kTile, view.height) && !job.stopping(); ++y)
+            for (int x = x0; x < std::min(x0 + kTile, view.width); ++x) {
+                const auto pixel = static_cast<std::uint32_t>(y * view.width + x);
+                for (std::uint32_t i = first; i < first + count; ++i) {
+                    const Sequence sequence(i, seedFor(settings.seed, pixel));
+                    float alpha = 0.0f;
+                    const glm::vec3 radiance =
+                        path.look(eye.origin(), eye.direction(x, y, sequence.at(0, kPixel)),
+                                  sequence, view, alpha);
+                    film.at(x, y).add(radiance, alpha);
                 }
             }
-        });
+        job.addWork(static_cast<double>(path.rays()), "rays");
+        if (rays != nullptr)
+            rays->count += path.rays();
+    };
+    parallelFor(job, static_cast<std::size_t>(columns * rows), 1,
+                [&](std::size_t begin, std::size_t end) {
+                    const FlushDenormals flush;
+                    for (std::size_t tile = begin; tile < end; ++tile)
+                        traceTile(static_cast<int>(tile));
+                });
     if (job.cancelled())
         return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
     return {};

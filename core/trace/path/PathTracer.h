@@ -9,6 +9,7 @@
 #include "core/trace/path/Film.h"
 #include "core/trace/path/TraceScene.h"
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
@@ -34,6 +35,12 @@ struct TraceView {
     int width = 0, height = 0;
     // What is seen in a direction of the world where there is no surface; empty: the environment.
     std::function<glm::vec3(const glm::vec3& direction)> background;
+    bool transparent = false; // there: black, and without coverage
+};
+
+// Rays that were cast, to surfaces and to lights.
+struct TraceRays {
+    std::atomic<std::uint64_t> count{0};
 };
 
 // Adds samples `first` … `first` + `count` - 1 to each pixel of a film of the view's size. The same
@@ -41,7 +48,7 @@ struct TraceView {
 // job that stops leaves rows of pixels out. Error: Cancelled. The job's work is counted in rays.
 Result<void> tracePaths(const TraceScene& scene, const TraceView& view,
                         const PathSettings& settings, Film& film, std::uint32_t first,
-                        std::uint32_t count, const JobContext& job);
+                        std::uint32_t count, const JobContext& job, TraceRays* rays = nullptr);
 
 // Irradiance of a surface in the world with that unit normal: `count` samples of it go into
 // `pixel`. The settings' seed tells points apart.

@@ -18,6 +18,7 @@ struct TraceMesh {
     MeshPtr mesh;
     glm::mat4 transform{1.0f};
     std::size_t material = 0; // of TraceInputs::materials
+    friend bool operator==(const TraceMesh&, const TraceMesh&) = default;
 };
 
 // Radiance scale · image, turned about +Y.
@@ -25,6 +26,7 @@ struct TraceEnvironment {
     ImagePtr image; // lat-long, F32, 3 channels or more, finite, at least 0
     float rotationDeg = 0.0f;
     glm::vec3 scale{1.0f};
+    friend bool operator==(const TraceEnvironment&, const TraceEnvironment&) = default;
 };
 
 struct TraceInputs {
@@ -33,6 +35,8 @@ struct TraceInputs {
     ShadingModel model;
     std::vector<Light> lights;                  // those that are on
     std::vector<TraceEnvironment> environments; // their radiances add up
+    // Meshes and images compare by identity: they are immutable.
+    friend bool operator==(const TraceInputs&, const TraceInputs&) = default;
 };
 
 } // namespace patina

@@ -14,44 +14,87 @@ namespace {
 
 constexpr int kDfgSize = static_cast<int>(shading::kDfgTableSize);
 
+// Whether rays meet the same triangles, and pass through the same of them.
+bool sameGeometry(const TraceInputs& a, const TraceInputs& b) {
+    const auto solid = [](const Material& m, const Material& n) {
+        return m.alphaMode == n.alphaMode &&
+               (m.alphaMode == AlphaMode::Opaque ||
+                (m.opacity == n.opacity && m.alphaCutoff == n.alphaCutoff &&
+                 m.baseColorMap == n.baseColorMap));
+    };
+    return a.meshes == b.meshes && std::ranges::all_of(a.meshes, [&](const TraceMesh& mesh) {
+               return solid(a.materials.at(mesh.material), b.materials.at(mesh.material));
+           });
+}
+
+bool sameLobe(const ShadingModel& a, const ShadingModel& b) {
+    return a.distribution == b.distribution && a.visibility == b.visibility;
+}
+
 } // namespace
 
-Result<TraceScene> TraceScene::build(const TraceInputs& inputs, const JobContext& job) {
-    TraceScene result;
+Result<void> TraceScene::buildGeometry(const JobContext& job, const TraceScene* previous) {
     BakeInputs geometry;
-    for (const TraceMesh& mesh : inputs.meshes) {
+    for (const TraceMesh& mesh : m_inputs.meshes) {
         if (!mesh.mesh || mesh.mesh->indices.empty())
             continue; // as makeBakeGeometry() does
-        const Material& material = inputs.materials.at(mesh.material);
+        const Material& material = m_inputs.materials.at(mesh.material);
         geometry.meshes.push_back({mesh.id, material.id, mesh.mesh, mesh.transform,
                                    material.doubleSided, bakeSurface(material)});
         const glm::mat3 linear(mesh.transform);
-        result.m_instances.push_back(
+        m_instances.push_back(
             {mesh.material, linear, glm::determinant(linear) < 0.0f ? -1.0f : 1.0f});
     }
-    if (!geometry.meshes.empty()) {
+    if (geometry.meshes.empty())
+        return {};
+    if (previous != nullptr && sameGeometry(m_inputs, previous->m_inputs)) {
+        m_scene = previous->m_scene;
+    } else {
         Result<BakeScene> scene = BakeScene::build(geometry, job);
         if (!scene)
             return scene.error();
-        result.m_scene = *std::move(scene);
-        result.m_centre = result.m_scene->geometry->centre;
-        result.m_metresPerUnit = static_cast<float>(1.0 / result.m_scene->geometry->unitsPerMetre);
+        m_scene = std::make_shared<const BakeScene>(*std::move(scene));
     }
+    m_centre = m_scene->geometry->centre;
+    m_metresPerUnit = static_cast<float>(1.0 / m_scene->geometry->unitsPerMetre);
+    return {};
+}
+
+Result<TraceScene> TraceScene::build(const TraceInputs& inputs, const JobContext& job,
+                                     const TraceScene* previous) {
+    TraceScene result;
+    result.m_inputs = inputs;
+    if (Result<void> built = result.buildGeometry(job, previous); !built)
+        return built.error();
     result.m_materials.reserve(inputs.materials.size());
     for (const Material& material : inputs.materials)
         result.m_materials.emplace_back(material);
     for (const TraceEnvironment& environment : inputs.environments) {
-        result.m_environments.emplace_back(environment);
-        result.m_environmentPower += result.m_environments.back().power();
+        std::shared_ptr<const EnvironmentSampler> sampler;
+        if (previous != nullptr) {
+            const auto& known = previous->m_inputs.environments;
+            if (const auto same = std::ranges::find(known, environment); same != known.end())
+                sampler = previous->m_environments[static_cast<std::size_t>(same - known.begin())];
+        }
+        result.m_environments.push_back(
+            sampler ? sampler : std::make_shared<const EnvironmentSampler>(environment));
+        result.m_environmentPower += result.m_environments.back()->power();
+        if (job.cancelled())
+            return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
     }
     result.m_lights = LightSampler(inputs.lights);
     result.m_model = brdfModel(inputs.model);
-    const Image table =
-        computeDfgTable(kDfgSize, inputs.model.distribution, iblVisibility(inputs.model.visibility),
-                        DfgTexels::ToTheEnds);
-    const auto texels = table.f32();
-    for (std::size_t i = 0; i < texels.size(); i += 3)
-        result.m_dfg.emplace_back(texels[i], texels[i + 1]);
+    if (previous != nullptr && sameLobe(inputs.model, previous->m_inputs.model)) {
+        result.m_dfg = previous->m_dfg;
+    } else {
+        const Image table =
+            computeDfgTable(kDfgSize, inputs.model.distribution,
+                            iblVisibility(inputs.model.visibility), DfgTexels::ToTheEnds);
+        std::vector<glm::vec2> dfg;
+        for (std::size_t i = 0; i < table.f32().size(); i += 3)
+            dfg.emplace_back(table.f32()[i], table.f32()[i + 1]);
+        result.m_dfg = std::make_shared<const std::vector<glm::vec2>>(std::move(dfg));
+    }
     if (job.cancelled())
         return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
     result.collectEmissive();
@@ -155,7 +198,7 @@ glm::vec2 TraceScene::dfg(float NoV, float perceptualRoughness) const {
     const float y = std::clamp(perceptualRoughness, 0.0f, 1.0f) * (kDfgSize - 1);
     const int i = std::min(static_cast<int>(x), kDfgSize - 2),
               j = std::min(static_cast<int>(y), kDfgSize - 2);
-    const glm::vec2* texel = m_dfg.data() + j * kDfgSize + i;
+    const glm::vec2* texel = m_dfg->data() + j * kDfgSize + i;
     const float fx = x - static_cast<float>(i), fy = y - static_cast<float>(j);
     return glm::mix(glm::mix(texel[0], texel[1], fx),
                     glm::mix(texel[kDfgSize], texel[kDfgSize + 1], fx), fy);
@@ -180,8 +223,8 @@ glm::vec3 TraceScene::toScene(const glm::dvec3& worldPoint) const {
 
 glm::vec3 TraceScene::environmentRadiance(const glm::vec3& direction) const {
     glm::vec3 sum(0.0f);
-    for (const EnvironmentSampler& environment : m_environments)
-        sum += environment.radiance(direction);
+    for (const auto& environment : m_environments)
+        sum += environment->radiance(direction);
     return sum;
 }
 
@@ -189,14 +232,14 @@ glm::vec3 TraceScene::environmentRadiance(const glm::vec3& direction) const {
 EnvironmentSampler::Sample TraceScene::sampleEnvironment(glm::vec2 u) const {
     if (!hasEnvironment())
         return {};
-    const EnvironmentSampler* chosen = &m_environments.front();
+    const EnvironmentSampler* chosen = m_environments.front().get();
     if (m_environments.size() > 1) {
         float before = 0.0f;
-        for (const EnvironmentSampler& environment : m_environments) {
-            const auto share = static_cast<float>(environment.power() / m_environmentPower);
+        for (const auto& environment : m_environments) {
+            const auto share = static_cast<float>(environment->power() / m_environmentPower);
             if (!(share > 0.0f))
                 continue;
-            chosen = &environment;
+            chosen = environment.get();
             if (u.x < before + share) {
                 u.x = std::clamp((u.x - before) / share, 0.0f, 1.0f - 0x1p-24f);
                 break;
@@ -216,9 +259,9 @@ float TraceScene::environmentPdf(const glm::vec3& direction) const {
     if (!hasEnvironment())
         return 0.0f;
     double sum = 0.0;
-    for (const EnvironmentSampler& environment : m_environments)
-        sum += environment.power() / m_environmentPower *
-               static_cast<double>(environment.pdf(direction));
+    for (const auto& environment : m_environments)
+        sum += environment->power() / m_environmentPower *
+               static_cast<double>(environment->pdf(direction));
     return static_cast<float>(sum);
 }
 

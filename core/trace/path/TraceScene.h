@@ -13,7 +13,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <optional>
+#include <memory>
 #include <vector>
 
 namespace patina {
@@ -33,7 +33,9 @@ class TraceScene {
   public:
     // Errors: those of BakeScene::build(), but for a scene without triangles, which has only its
     // environment.
-    static Result<TraceScene> build(const TraceInputs& inputs, const JobContext& job);
+    // What `previous` has of the same geometry, environments and lobe is used by both.
+    static Result<TraceScene> build(const TraceInputs& inputs, const JobContext& job,
+                                    const TraceScene* previous = nullptr);
 
     // A ray in scene units from `origin` along a unit vector, and what it meets first. Its distance
     // is in closest.ray.maxDistance.
@@ -68,12 +70,14 @@ class TraceScene {
 
   private:
     TraceScene() = default;
+    Result<void> buildGeometry(const JobContext& job, const TraceScene* previous);
     [[nodiscard]] TracePoint pointAt(std::uint32_t mesh, std::uint32_t triangle,
                                      const glm::vec2& weights, const glm::vec3* direction) const;
     [[nodiscard]] glm::vec2 dfg(float NoV, float perceptualRoughness) const;
     void collectEmissive();
 
-    std::optional<BakeScene> m_scene; // nothing: no triangles
+    TraceInputs m_inputs;
+    std::shared_ptr<const BakeScene> m_scene; // null: no triangles
     struct Instance {
         std::size_t material = 0;
         glm::mat3 linear{1.0f}; // of the transform, for tangents
@@ -81,12 +85,12 @@ class TraceScene {
     };
     std::vector<Instance> m_instances; // of m_scene's meshes
     std::vector<TraceMaterial> m_materials;
-    std::vector<EnvironmentSampler> m_environments;
+    std::vector<std::shared_ptr<const EnvironmentSampler>> m_environments;
     double m_environmentPower = 0.0;
     LightSampler m_lights{{}};
     EmissiveTriangles m_emissive;
     shading::BrdfModel m_model{};
-    std::vector<glm::vec2> m_dfg;
+    std::shared_ptr<const std::vector<glm::vec2>> m_dfg;
     float m_metresPerUnit = 1.0f;
     glm::dvec3 m_centre{0.0};
 };

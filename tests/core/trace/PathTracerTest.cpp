@@ -153,6 +153,7 @@ TEST(PathTracer, WhiteFurnace) {
             material.perceptualRoughness = roughness;
             const TraceScene scene = sceneOf(ballUnderSky(material));
             TraceView view = lookAtBall(kSize);
+            view.transparent = true;
             if (metallic == 0.3f)
                 view.camera.fovDeg = 1.0f; // N·V is 1 all over
             const Image picture = traced(scene, view, 512).radiance(true);
@@ -306,7 +307,12 @@ TEST(PathTracer, NothingThereIsTheSky) {
     const Image sky = traced(scene, view, 2).radiance(true);
     EXPECT_FLOAT_EQ(sky.sample(1, 2, 0), 1.0f);
     EXPECT_FLOAT_EQ(sky.sample(1, 2, 2), 3.0f);
-    EXPECT_EQ(sky.sample(1, 2, 3), 0.0f);
+    EXPECT_EQ(sky.sample(1, 2, 3), 1.0f);
+    view.transparent = true;
+    const Image nothing = traced(scene, view, 2).radiance(true);
+    EXPECT_EQ(nothing.sample(1, 2, 0), 0.0f);
+    EXPECT_EQ(nothing.sample(1, 2, 3), 0.0f);
+    view.transparent = false;
     view.background = [](const glm::vec3&) { return glm::vec3(0.25f); };
     EXPECT_FLOAT_EQ(traced(scene, view, 2).radiance().sample(1, 2, 0), 0.25f);
     inputs.environments.clear();

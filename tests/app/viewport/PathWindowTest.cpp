@@ -1,0 +1,127 @@
+// The viewport's picture traced by paths: switched on by a key, followed through edits and moves.
+#include "app/editor/trace/PathBadge.h"
+#include "app/editor/trace/PathView.h"
+#include "core/edit/Edit.h"
+#include "core/edit/Parameters.h"
+#include "core/light/Light.h"
+#include "core/material/Material.h"
+#include "tests/app/editor/EditorFixture.h"
+
+#include <QLabel>
+#include <QPushButton>
+
+namespace patina::editor {
+namespace {
+
+class PathWindow : public EditorTest {
+  protected:
+    void SetUp() override {
+        session->paths.setOn(false);
+        session->wall.setOn(false);
+        session->views.set({});
+        EditorTest::SetUp();
+        viewport().setFixedSize(160, 120);
+        window->activateWindow();
+        ASSERT_TRUE(QTest::qWaitForWindowActive(window.get(), 30'000));
+        viewport().setFocus();
+    }
+    void TearDown() override { session->paths.setOn(false); }
+
+    static ViewportWidget& viewport() { return window->viewport(); }
+    static PathView& paths() { return session->paths; }
+    static void key(Qt::Key code) { QTest::keyClick(&viewport(), code); }
+    static PathBadge& badge() { return *viewport().findChild<PathBadge*>(); }
+    static std::string text() {
+        return badge().findChild<QLabel*>(QStringLiteral("pathBadgeText"))->text().toStdString();
+    }
+    static bool hasSamples(std::uint32_t count) {
+        return eventually([=] { return paths().progress().samples >= count; });
+    }
+    static double mean(const QImage& picture) {
+        double sum = 0.0;
+        for (int y = 0; y < picture.height(); ++y)
+            for (int x = 0; x < picture.width(); ++x)
+                sum += qGray(picture.pixel(x, y));
+        return sum / (picture.width() * picture.height());
+    }
+};
+
+TEST_F(PathWindow, AKeySwitchesItOnAndOff) {
+    ASSERT_TRUE(eventually([] { return viewport().isSettled(); }));
+    const QImage before = viewport().grabFramebuffer();
+    EXPECT_FALSE(badge().isVisible());
+    const int steps = undoCount();
+    key(Qt::Key_F12);
+    EXPECT_TRUE(paths().isOn());
+    EXPECT_TRUE(badge().isVisible());
+    ASSERT_TRUE(hasSamples(4));
+    EXPECT_FALSE(viewport().isSettled()) << "it becomes finer yet";
+    ASSERT_TRUE(eventually([] { return text().find("paths per pixel") != std::string::npos; }));
+    EXPECT_THAT(text(), testing::HasSubstr("± "));
+    ASSERT_NE(paths().picture(), nullptr);
+    EXPECT_EQ(paths().picture()->width(), 160);
+    const QImage shown = viewport().grabFramebuffer();
+    EXPECT_NE(shown, before);
+    EXPECT_NEAR(mean(shown), mean(before), 25.0) << "it is of the same scene";
+    EXPECT_EQ(undoCount(), steps) << "looking changes nothing";
+    key(Qt::Key_F12);
+    EXPECT_FALSE(paths().isOn());
+    EXPECT_FALSE(badge().isVisible());
+    EXPECT_EQ(paths().picture(), nullptr);
+    ASSERT_TRUE(eventually([] { return viewport().isSettled(); }));
+    EXPECT_EQ(viewport().grabFramebuffer(), before);
+}
+
+TEST_F(PathWindow, AnEditOrAMoveBeginsItAnewAndExposureDoesNot) {
+    key(Qt::Key_F12);
+    ASSERT_TRUE(hasSamples(2));
+    std::uint32_t before = paths().progress().samples;
+    controller().setParameter(*findParameter("view.exposureEv"), {Scope::View, 0}, 1.0f);
+    ASSERT_TRUE(hasSamples(before + 1));
+    ImagePtr picture = paths().picture();
+    controller().setParameter(*findParameter("material.metallic"),
+                              {Scope::Material, document().materials.front().id}, 0.25f);
+    ASSERT_TRUE(eventually([&] { return paths().picture() != picture; }));
+    ASSERT_TRUE(eventually([] { return paths().progress().samples <= 1; }));
+    ASSERT_TRUE(hasSamples(2));
+    Camera camera = document().view.camera;
+    camera.yawDeg += 20.0f;
+    controller().setCamera(camera);
+    ASSERT_TRUE(eventually([] { return paths().progress().samples <= 1; }));
+    ASSERT_TRUE(hasSamples(1));
+}
+
+TEST_F(PathWindow, RestsWhilePaused) {
+    key(Qt::Key_F12);
+    ASSERT_TRUE(hasSamples(2));
+    auto* pause = badge().findChild<QPushButton*>(QStringLiteral("pathPause"));
+    QTest::mouseClick(pause, Qt::LeftButton);
+    EXPECT_TRUE(paths().isPaused());
+    ASSERT_TRUE(settled(*session)); // the pass that was under way
+    const std::uint32_t samples = paths().progress().samples;
+    viewport().update();
+    QApplication::processEvents();
+    EXPECT_EQ(paths().progress().samples, samples);
+    EXPECT_EQ(pause->text(), QStringLiteral("Resume"));
+    QTest::mouseClick(pause, Qt::LeftButton);
+    EXPECT_TRUE(hasSamples(samples + 1));
+}
+
+TEST_F(PathWindow, TermsAndTheWallAreDrawnAsUsual) {
+    key(Qt::Key_F12);
+    ASSERT_TRUE(hasSamples(1));
+    session->views.edit(
+        [](render::ViewSettings& settings) { settings.shown.kind = shading::kViewBaseColor; });
+    ASSERT_TRUE(eventually([] { return text().find("as usual") != std::string::npos; }));
+    session->views.set({});
+    ASSERT_TRUE(hasSamples(1));
+    key(Qt::Key_F3); // a wall
+    EXPECT_FALSE(badge().isVisible());
+    EXPECT_FALSE(paths().isOn());
+    key(Qt::Key_F12);
+    EXPECT_TRUE(paths().isOn());
+    EXPECT_FALSE(session->wall.isOn());
+}
+
+} // namespace
+} // namespace patina::editor
