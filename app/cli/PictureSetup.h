@@ -50,8 +50,6 @@ Result<EnvironmentTexelsPtr> prepareTexels(const ImagePtr& image, const JobConte
 Result<std::unique_ptr<gl::Context>> createContext(Session& session,
                                                    const render::FrameSettings& frame);
 
-[[nodiscard]] bool isLinear(ImageFileFormat format); // its pictures are not tone mapped
-
 // The parts of one file, which the report names.
 Result<void> writePictures(Session& session, const std::filesystem::path& output,
                            std::vector<ImagePart> pictures, ImageFileFormat format);
