@@ -4,6 +4,7 @@
 
 #include "app/cli/Session.h"
 #include "core/document/Document.h"
+#include "core/edit/ViewJson.h"
 #include "core/io/DisplayTransform.h"
 #include "core/io/ImageIO.h"
 #include "core/light/EnvironmentTexels.h"
@@ -53,8 +54,5 @@ Result<std::unique_ptr<gl::Context>> createContext(Session& session,
 // The parts of one file, which the report names.
 Result<void> writePictures(Session& session, const std::filesystem::path& output,
                            std::vector<ImagePart> pictures, ImageFileFormat format);
-
-[[nodiscard]] nlohmann::ordered_json describeCamera(const Camera& camera);
-void describeView(nlohmann::ordered_json& settings, const View& view);
 
 } // namespace patina::cli
