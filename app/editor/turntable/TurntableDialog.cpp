@@ -64,11 +64,13 @@ TurntableDialog::TurntableDialog(Session& session, const ViewportWidget& viewpor
           QDir(proposedFolder(session.controller, kTurntableFolder))
               .filePath(tr("%1 turntable.png").arg(sceneName(session))),
           *this)) {
-    if (const auto program = videoProgram(); !program)
+    if (const auto program = videoProgram(); !program) {
         m_noVideo = UserNotice::fromError(program.error()).text;
+        m_noVideo[0] = m_noVideo[0].toUpper();
+    }
     setObjectName(QStringLiteral("turntableDialog"));
     setWindowTitle(tr("Export Turntable"));
-    resize(640, 400);
+    resize(640, 360);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(20, 20, 20, 20);
     layout->setSpacing(tokens::kMargin);
@@ -77,8 +79,7 @@ TurntableDialog::TurntableDialog(Session& session, const ViewportWidget& viewpor
     m_note->setObjectName(QStringLiteral("turntableNote"));
     m_note->setWordWrap(true);
     m_note->setStyleSheet(QStringLiteral("color: %1").arg(QColor(tokens::kTextDim).name()));
-    m_note->setText(tr("Video: %1").arg(m_noVideo));
-    m_note->setVisible(!m_noVideo.isEmpty());
+    m_note->setText(m_noVideo);
     layout->addWidget(m_note);
     m_summary = new QLabel;
     m_summary->setObjectName(QStringLiteral("turntableSummary"));
@@ -299,6 +300,7 @@ void TurntableDialog::refresh() {
                            : tr("; %1 files that exist will be overwritten").arg(existing);
     }
     m_summary->setText(summary);
+    m_note->setVisible(!m_noVideo.isEmpty() && summary != m_noVideo);
     m_summary->setStyleSheet(existing > 0 || !possible
                                  ? QStringLiteral("color: %1").arg(QColor(tokens::kCopper).name())
                                  : QString());
