@@ -7,6 +7,7 @@
 #include "app/editor/viewport/ViewportWidget.h"
 #include "app/editor/widget/ControlHelp.h"
 #include "app/editor/widget/OutputFile.h"
+#include "core/io/ImageIO.h"
 #include "core/io/VideoWriter.h"
 
 #include <QComboBox>
@@ -45,6 +46,23 @@ int existingFiles(const TurntableOrder& order) {
     for (int i = 0; i < order.count; ++i)
         count += QFileInfo::exists(fromPath(sequenceFile(file, i))) ? 1 : 0;
     return count;
+}
+
+// Why nothing can be written to such a file; empty: it can.
+QString turntableProblem(const QString& file, const QString& noVideo) {
+    if (file.isEmpty())
+        return TurntableDialog::tr("Choose a file.");
+    const bool video = isVideoFile(toPath(file));
+    if (video && !noVideo.isEmpty())
+        return noVideo;
+    if (!video && !imageFormatForPath(toPath(file)))
+        return TurntableDialog::tr("Pictures are written as .png, .jpg, .tif or .exr, videos as "
+                                   ".mp4 or .webm; choose one of these endings.");
+    const QFileInfo info(file);
+    if (!info.absoluteDir().exists())
+        return TurntableDialog::tr("The folder %1 does not exist; choose another one.")
+            .arg(info.absolutePath());
+    return {};
 }
 
 } // namespace
@@ -268,16 +286,14 @@ void TurntableDialog::refresh() {
     if (m_samples == nullptr || m_summary == nullptr)
         return; // it is being made
     const TurntableOrder wanted = order();
-    const bool named = !m_output->path().isEmpty();
     const bool video = isVideoFile(toPath(m_output->path()));
-    const bool possible = named && (!video || m_noVideo.isEmpty());
+    const QString problem = turntableProblem(m_output->path(), m_noVideo);
+    const bool possible = problem.isEmpty();
     const int existing = possible ? existingFiles(wanted) : 0;
     const ViewKind view = turntableScene(m_session).view.shown.kind;
     QString summary;
-    if (!named) {
-        summary = tr("Choose a file.");
-    } else if (!possible) {
-        summary = m_noVideo;
+    if (!possible) {
+        summary = problem;
     } else {
         const std::filesystem::path file = toPath(wanted.file);
         summary = video ? tr("A video of %1 pictures of %2 × %3 pixels, %4 s")

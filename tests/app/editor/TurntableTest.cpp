@@ -124,13 +124,14 @@ TEST_F(TurntableTest, PicturesAreThoseOfTheCommandLine) {
     saveTurntable(light, *session);
     ASSERT_EQ(ended().state, JobState::Done);
 
-    const auto draw = [&](const char* option, const char* count, const char* file) {
-        runCommand({QStringLiteral("render"), path("scene.patina"), QLatin1String(option),
-                    QLatin1String(count), QStringLiteral("--size"), QStringLiteral("64x40"),
-                    QStringLiteral("-o"), path(file)});
+    const auto draw = [&](const QStringList& options, const char* file) {
+        runCommand(QStringList{QStringLiteral("render"), path("scene.patina"),
+                               QStringLiteral("--size"), QStringLiteral("64x40"),
+                               QStringLiteral("-o"), path(file)} +
+                   options);
     };
-    draw("--turntable", "3", "line.png");
-    draw("--light-turn", "4", "sun.png");
+    draw({QStringLiteral("--turntable"), QStringLiteral("3")}, "line.png");
+    draw({QStringLiteral("--light-turn"), QStringLiteral("4")}, "sun.png");
     const auto numbered = [&](const char* name, int i) {
         return QImage(
             folder.filePath(QStringLiteral("%1-000%2.png").arg(QLatin1String(name)).arg(i)));
@@ -139,6 +140,17 @@ TEST_F(TurntableTest, PicturesAreThoseOfTheCommandLine) {
         EXPECT_LE(rmse(numbered("turn", i), numbered("line", i)), 0.0005) << i;
     for (int i = 1; i <= 4; ++i)
         EXPECT_LE(rmse(numbered("light", i), numbered("sun", i)), 0.0005) << i;
+    // A view of a term, too.
+    session->views.show(shading::kViewBaseColor);
+    saveTurntable(order("colour.png", 2), *session);
+    session->views.set({});
+    ASSERT_EQ(ended().state, JobState::Done);
+    draw({QStringLiteral("--turntable"), QStringLiteral("2"), QStringLiteral("--view"),
+          QStringLiteral("baseColor")},
+         "seen.png");
+    for (int i = 1; i <= 2; ++i)
+        EXPECT_LE(rmse(numbered("colour", i), numbered("seen", i)), 0.0005) << i;
+    EXPECT_GT(rmse(numbered("colour", 1), numbered("line", 1)), 0.01);
     EXPECT_GT(rmse(numbered("turn", 1), numbered("turn", 2)), 0.01);
     EXPECT_GT(rmse(numbered("light", 1), numbered("light", 3)), 0.01);
 }
@@ -236,6 +248,12 @@ TEST_F(TurntableTest, TheDialogSaysWhatItWillWrite) {
 
     file.setText(QString());
     EXPECT_FALSE(run.isEnabled());
+    file.setText(path("by-dialog.gif"));
+    EXPECT_FALSE(run.isEnabled());
+    EXPECT_THAT(summary.text().toStdString(), HasSubstr("choose one of these endings"));
+    file.setText(path("gone/by-dialog.png"));
+    EXPECT_FALSE(run.isEnabled());
+    EXPECT_THAT(summary.text().toStdString(), HasSubstr("does not exist"));
     file.setText(path("by-dialog.png"));
     EXPECT_THAT(
         summary.text().toStdString(),
