@@ -31,7 +31,7 @@ namespace {
 
 constexpr double kPrepared = 0.1, kDrawn = 0.95; // of the progress
 // Between two looks whether the job is cancelled, and whether a frame of the window waits.
-constexpr double kTurntableSliceMs = 50.0;
+constexpr double kTurntableSliceMs = 100.0;
 
 QString trTurntable(const char* text) {
     return QCoreApplication::translate("TurntableSave", text);
