@@ -394,13 +394,10 @@ void LightSweepPanel::showSensitivity(double from, double to) {
 }
 
 void LightSweepPanel::saveOutcome() {
-    if (!m_outcome || !m_selected)
-        return;
-    SweepSave save;
-    save.outcome = m_outcome;
-    save.by = m_controls->by();
-    save.environment = m_outcome->sweep.scores[*m_selected].light.environment;
-    askAndSaveSweep(std::move(save), m_controller, m_jobs, *window());
+    if (m_outcome && m_selected)
+        askAndSaveSweep({m_outcome, m_controls->by(),
+                         m_outcome->sweep.scores[*m_selected].light.environment, QString()},
+                        m_controller, m_jobs, *window());
 }
 
 void LightSweepPanel::useSelected() {
