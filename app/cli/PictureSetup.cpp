@@ -4,9 +4,9 @@
 #include "app/cli/PreparedLight.h"
 #include "app/cli/Report.h"
 #include "app/cli/SceneSetup.h"
-#include "core/bake/bounce/Interreflection.h"
 #include "core/bake/document/BakeStaleness.h"
 #include "core/bake/document/DocumentBakeInputs.h"
+#include "core/bake/document/FollowBounces.h"
 #include "core/bake/domain/BakeHash.h"
 #include "core/base/AtomicFile.h"
 #include "core/document/Lighting.h"
@@ -21,7 +21,6 @@
 #include <optional>
 
 namespace patina::cli {
-namespace {} // namespace
 
 bool needsImageLibraries(const PictureOptions& options) {
     const Result<ImageFileFormat> format = imageFormatForPath(options.output);
@@ -107,36 +106,13 @@ Result<void> applyView(Session& session, const PictureOptions& options, Document
 
 Result<void> followBounces(Session& session, const render::ViewSettings& shown,
                            Document& document) {
-    const int bounces = document.view.bounces;
-    // Less than 0 bounces: none are shown, which needs no other bake.
-    if (document.bakes.empty() || bounces < 0 ||
-        lightingOf(shown.shown.kind, document.view.lighting) != LightingMode::Prt)
-        return {};
-    const BakeInputs inputs = bakeInputs(document);
-    const Hash geometry = hashBakeInputs(inputs);
-    std::optional<Hash> albedo; // reads every texel of the maps
-    for (BakeArtifactPtr& bake : document.bakes) {
-        if (!holdsTransfer(bake->kind) || bake->transfer != TransferKind::Interreflected)
-            continue;
-        if (!albedo)
-            albedo = hashBakeAlbedo(inputs);
-        const bool otherColors = bake->albedo != *albedo;
-        const bool otherNumber = bounces != 0 && bake->bounces != bounces;
-        if (!otherColors && !otherNumber)
-            continue;
-        const bool canFollow = bake->kind == BakeKind::PrtVertex && bake->inputs == geometry;
-        if (!otherNumber && !canFollow) {
-            session.report().warn("the bounces of the bake are of other colours than the scene "
-                                  "has now, and show those; bake it anew");
-            continue;
-        }
-        session.beginPhase();
-        Result<BakeArtifactPtr> followed =
-            withBounces(*bake, inputs, bounces != 0 ? bounces : bake->bounces, session.job());
-        if (!followed)
-            return followed.error();
-        bake = std::move(*followed);
-    }
+    session.beginPhase();
+    const Result<std::vector<std::string>> followed = patina::followBounces(
+        lightingOf(shown.shown.kind, document.view.lighting), document, session.job());
+    if (!followed)
+        return followed.error();
+    for (const std::string& warning : *followed)
+        session.report().warn(warning);
     return {};
 }
 
@@ -171,10 +147,6 @@ Result<DisplayTransformPtr> openDisplay(Session& session, const View& view) {
                                                           {"view", display->view},
                                                           {"workingSpace", display->space}};
     return std::make_shared<const DisplayTransform>(std::move(*display));
-}
-
-bool isLinear(ImageFileFormat format) {
-    return format == ImageFileFormat::Exr || format == ImageFileFormat::Hdr;
 }
 
 Result<EnvironmentTexelsPtr> prepareTexels(const ImagePtr& image, const JobContext& job) {
@@ -223,24 +195,6 @@ Result<void> writePictures(Session& session, const std::filesystem::path& output
         return saved;
     session.report().output(output, what);
     return {};
-}
-
-nlohmann::ordered_json describeCamera(const Camera& camera) {
-    return {{"yawDeg", camera.yawDeg},
-            {"pitchDeg", camera.pitchDeg},
-            {"distance", camera.distance},
-            {"fovDeg", camera.fovDeg},
-            {"target", {camera.target.x, camera.target.y, camera.target.z}}};
-}
-
-void describeView(nlohmann::ordered_json& settings, const View& view) {
-    settings["exposure"] = {
-        {"mode", view.exposureMode == ExposureMode::Automatic ? "automatic" : "fixed"},
-        {"ev", view.exposureEv}};
-    settings["toneMap"] =
-        formatParameterValue(*findParameter("view.toneMap"), static_cast<int>(view.toneMap));
-    settings["lighting"] =
-        formatParameterValue(*findParameter("view.lighting"), static_cast<int>(view.lighting));
 }
 
 } // namespace patina::cli

@@ -4,6 +4,7 @@
 
 #include "app/cli/Session.h"
 #include "core/document/Document.h"
+#include "core/edit/ViewJson.h"
 #include "core/io/DisplayTransform.h"
 #include "core/io/ImageIO.h"
 #include "core/light/EnvironmentTexels.h"
@@ -50,13 +51,8 @@ Result<EnvironmentTexelsPtr> prepareTexels(const ImagePtr& image, const JobConte
 Result<std::unique_ptr<gl::Context>> createContext(Session& session,
                                                    const render::FrameSettings& frame);
 
-[[nodiscard]] bool isLinear(ImageFileFormat format); // its pictures are not tone mapped
-
 // The parts of one file, which the report names.
 Result<void> writePictures(Session& session, const std::filesystem::path& output,
                            std::vector<ImagePart> pictures, ImageFileFormat format);
-
-[[nodiscard]] nlohmann::ordered_json describeCamera(const Camera& camera);
-void describeView(nlohmann::ordered_json& settings, const View& view);
 
 } // namespace patina::cli

@@ -10,8 +10,8 @@
 #include "core/compare/DifferencePicture.h"
 #include "core/document/ViewChoices.h"
 #include "core/image/ColorMap.h"
-#include "core/light/LatLongGrid.h"
 #include "core/rank/LightSweep.h"
+#include "core/rank/RankingJson.h"
 #include "core/rank/SweepBake.h"
 
 #include <algorithm>
@@ -32,10 +32,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kLargestSide = 1024; // a side of the pictures
 constexpr std::size_t kShown = 10; // lights that people are shown
-
-const char* nameOf(RankBy by) {
-    return by == RankBy::Clipping ? "clipping" : by == RankBy::Contrast ? "contrast" : "difference";
-}
 
 // Which transfer the scene is lit with, and where it comes from.
 struct RankTransfer {
@@ -107,81 +103,16 @@ Result<std::optional<SweepLight>> parseReference(const std::string& text,
     return std::optional(light);
 }
 
-// What is said of each environment.
-struct RankFlags {
-    std::vector<std::optional<SameEnvironment>> same;
-
-    [[nodiscard]] Json ofEnvironment(const SweepEnvironment& environment, std::size_t i) const {
-        Json flags = Json::array();
-        if (environment.black)
-            flags.push_back("black");
-        if (environment.blackFromOneSide())
-            flags.push_back("blackFromOneSide");
-        if (same[i])
-            flags.push_back("duplicate");
-        return flags;
-    }
-};
-
-Json describeEnvironment(const RankEnvironments& environments, const RankFlags& flags,
-                         const LightSweep& sweep, std::size_t i) {
-    const RankedEnvironment& environment = environments.good[i];
-    const SweepEnvironment& measured = environment.measured;
-    Json json{{"name", measured.name}, {"file", environment.file}};
-    Json list = flags.ofEnvironment(measured, i);
-    const auto clipping = std::ranges::count_if(sweep.scores, [&](const LightScore& score) {
-        return score.light.environment == i && clips(score);
-    });
-    if (clipping > 0)
-        list.push_back("clips");
-    json["flags"] = std::move(list);
-    json["clippingRotations"] = clipping;
-    const glm::dvec2 side = anglesFromDirection(glm::dvec3(measured.darkestSide));
-    json["darkestSide"] = {
-        {"share", measured.darkestShare}, {"azimuthDeg", side.x}, {"elevationDeg", side.y}};
-    if (const std::optional<SameEnvironment>& same = flags.same[i])
-        json["sameAs"] = {{"name", environments.good[same->of].measured.name},
-                          {"file", environments.good[same->of].file},
-                          {"rotationDeg", same->rotationDeg},
-                          {"exactly", same->exactly},
-                          {"difference", same->difference}};
-    return json;
-}
-
-Json describeLight(const RankEnvironments& environments, const RankFlags& flags,
-                   const LightScore& score, RankBy by, std::size_t rank) {
-    const RankedEnvironment& environment = environments.good[score.light.environment];
-    Json list = flags.ofEnvironment(environment.measured, score.light.environment);
-    if (clips(score))
-        list.push_back("clips");
-    return {{"rank", rank},
-            {"environment", environment.measured.name},
-            {"file", environment.file},
-            {"rotationDeg", score.light.rotationDeg},
-            {"score", rankingScore(score, by)},
-            {"clipped",
-             {{"share", score.clipped.sum()},
-              {"highlights", score.clipped.highlights},
-              {"shadows", score.clipped.shadows}}},
-            {"contrast", {{"stops", score.contrastStops}, {"lost", score.lostContrast}}},
-            {"difference",
-             {{"worst", score.difference.worst},
-              {"mean", score.difference.mean},
-              {"max", score.difference.max},
-              {"maxPixel", {score.worstPixel.x, score.worstPixel.y}}}},
-            {"flags", std::move(list)}};
-}
-
 std::string flagText(const std::string& flag) {
     return flag == "blackFromOneSide" ? "black from one side" : flag;
 }
 
-void reportForPeople(Report& report, const RankEnvironments& environments, const RankFlags& flags,
-                     const LightSweep& sweep, const std::vector<std::size_t>& order, RankBy by) {
+void reportForPeople(Report& report, const Ranking& ranking, const Json& json) {
     std::vector<std::pair<std::string, std::string>> rows;
+    const std::vector<std::size_t> order = rankLights(*ranking.sweep, ranking.by);
     for (std::size_t k = 0; k < std::min(kShown, order.size()); ++k) {
-        const LightScore& score = sweep.scores[order[k]];
-        const Json light = describeLight(environments, flags, score, by, k + 1);
+        const LightScore& score = ranking.sweep->scores[order[k]];
+        const Json& light = json["ranking"][k];
         std::string text = fmt::format(
             "white {:.2f} %, black {:.2f} %, contrast {:.2f} stops ({:.0f} % lost), difference "
             "{:.3f} (mean {:.3f})",
@@ -193,11 +124,11 @@ void reportForPeople(Report& report, const RankEnvironments& environments, const
                                       score.light.rotationDeg),
                           std::move(text));
     }
-    report.table(fmt::format("Worst of {} lights by {}", countText(order.size()), nameOf(by)),
-                 rows);
+    report.table(
+        fmt::format("Worst of {} lights by {}", countText(order.size()), nameOf(ranking.by)), rows);
     std::vector<std::pair<std::string, std::string>> notes;
-    for (std::size_t i = 0; i < environments.good.size(); ++i) {
-        const SweepEnvironment& measured = environments.good[i].measured;
+    for (std::size_t i = 0; i < ranking.environments.size(); ++i) {
+        const SweepEnvironment& measured = ranking.environments[i];
         std::vector<std::string> texts;
         if (measured.black)
             texts.emplace_back("black all over");
@@ -205,10 +136,10 @@ void reportForPeople(Report& report, const RankEnvironments& environments, const
             texts.push_back(fmt::format("black from one side ({:.2f} % of the light of the "
                                         "brightest side)",
                                         100.0 * measured.darkestShare));
-        if (const std::optional<SameEnvironment>& same = flags.same[i])
+        if (const std::optional<SameEnvironment>& same = ranking.same[i])
             texts.push_back(fmt::format(
                 "{} {}{}", same->exactly ? "exactly the same as" : "the same light as",
-                environments.good[same->of].measured.name,
+                ranking.environments[same->of].name,
                 same->rotationDeg != 0.0f ? fmt::format(", rotated by {:.1f}°", same->rotationDeg)
                                           : std::string()));
         if (!texts.empty())
@@ -333,53 +264,46 @@ Result<void> run(Session& session, const RankOptions& options) {
         measured.push_back(environment.measured);
     session.beginPhase();
     const auto start = std::chrono::steady_clock::now();
-    const RankFlags flags{findSameEnvironments(measured, session.job())};
+    const std::vector<std::optional<SameEnvironment>> same =
+        findSameEnvironments(measured, session.job());
     Result<LightSweep> sweep = sweepLights(*pixels, measured, settings, session.job());
     if (!sweep)
         return sweep.error();
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const std::vector<std::size_t> order = rankLights(*sweep, *by);
-
-    Json& json = report.json();
-    describeView(json["settings"], document->view);
-    json["settings"].erase("lighting");
-    json["settings"]["camera"] = describeCamera(*camera);
-    json["transfer"] = {{"source", transfer->source}, {"bands", pixels->order}};
-    if (transfer->bake)
-        json["transfer"]["rays"] = transfer->bake->samplesDone;
-    json["reference"] = nullptr; // the mean look
-    if (settings.reference)
-        json["reference"] = {
-            {"environment", environments->good[settings.reference->environment].measured.name},
-            {"rotationDeg", settings.reference->rotationDeg}};
-    json["counts"] = {{"environments", measured.size()},
-                      {"broken", environments->broken.size()},
-                      {"lights", order.size()},
-                      {"pixels", pixels->count()},
-                      {"pixelsWithoutDiffuseLight", pixels->covered - pixels->count()}};
-    json["rankingSeconds"] = seconds;
-    json["environments"] = Json::array();
-    for (std::size_t i = 0; i < measured.size(); ++i)
-        json["environments"].push_back(describeEnvironment(*environments, flags, *sweep, i));
-    json["broken"] = Json::array();
+    Ranking ranking;
+    ranking.scene = options.scene;
+    ranking.by = *by;
+    ranking.camera = *camera;
+    ranking.settings = &settings;
+    ranking.pixels = &*pixels;
+    ranking.sweep = &*sweep;
+    ranking.environments = measured;
+    for (const RankedEnvironment& environment : environments->good)
+        ranking.files.push_back(environment.file);
+    ranking.same = same;
     for (const BrokenEnvironment& broken : environments->broken)
-        json["broken"].push_back({{"file", broken.file}, {"problem", broken.problem}});
+        ranking.unread.push_back({broken.file, broken.problem});
+    ranking.transfer = transfer->source;
+    ranking.rays = transfer->bake ? transfer->bake->samplesDone : 0;
 
     // In full in the file, its beginning in the report.
-    Json ranking = Json::array();
-    for (std::size_t k = 0; k < order.size(); ++k)
-        ranking.push_back(describeLight(*environments, flags, sweep->scores[order[k]], *by, k + 1));
-    Json file = json;
-    file["ranking"] = ranking;
-    ranking.erase(ranking.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, order.size())),
-                  ranking.end());
-    json["worst"] = std::move(ranking);
+    Json found = rankingJson(ranking);
+    Json& json = report.json();
+    json["settings"].update(found["settings"]);
+    found.erase("settings");
+    json.update(found);
+    json["rankingSeconds"] = seconds;
+    const Json file = json;
+    Json worst = std::move(json["ranking"]);
+    json.erase("ranking");
+    const std::size_t lights = worst.size();
+    worst.erase(worst.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, lights)), worst.end());
+    json["worst"] = std::move(worst);
 
-    report.table(
-        {}, {{"transfer", transfer->text},
-             {"speed", fmt::format("{} lights in {:.2f} s", countText(order.size()), seconds)}});
-    reportForPeople(report, *environments, flags, *sweep, order, *by);
+    report.table({}, {{"transfer", transfer->text},
+                      {"speed", fmt::format("{} lights in {:.2f} s", countText(lights), seconds)}});
+    reportForPeople(report, ranking, file);
     if (session.job().cancelled())
         return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
     if (!options.sensitivity.empty())
@@ -387,12 +311,11 @@ Result<void> run(Session& session, const RankOptions& options) {
                                                     std::move(sweep->sensitivity));
             !written)
             return written;
-    const std::string text =
-        file.dump(1, '\t', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    const std::string text = rankingText(file);
     if (Result<void> written = writeFileAtomically(options.output, std::string_view(text));
         !written)
         return written;
-    report.output(options.output, fmt::format("ranking of {} lights", countText(order.size())));
+    report.output(options.output, fmt::format("ranking of {} lights", countText(lights)));
     return {};
 }
 

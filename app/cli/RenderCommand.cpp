@@ -147,7 +147,7 @@ Result<void> run(Session& session, const RenderOptions& options) {
     if (!shown)
         return shown.error();
     frame->view = *shown;
-    frame->floats = writes && isLinear(*format);
+    frame->floats = writes && isLinearFormat(*format);
     if (wantsAllViews(options))
         reportLeftOut(session.report(), leftOutViews(*document, *shown));
     warnOfStaleBakes(session, *document);
@@ -177,8 +177,8 @@ Result<void> run(Session& session, const RenderOptions& options) {
     const bool lit =
         !environmentParts(*document).empty() || !options.view.empty() || inspected->has_value();
     // An explanation ends with the displayed colour, even where the picture is linear.
-    Result<Prepared> prepared =
-        prepare(session, *document, *frame, isLinear(*format) && !inspected->has_value(), lit);
+    Result<Prepared> prepared = prepare(session, *document, *frame,
+                                        isLinearFormat(*format) && !inspected->has_value(), lit);
     if (!prepared)
         return prepared.error();
     render::ViewRenderer renderer(*prepared->scene);
@@ -189,7 +189,7 @@ Result<void> run(Session& session, const RenderOptions& options) {
     prepared->scene->setNearShadows(*shadows);
     if (*sequence)
         return renderSequence(session, options, **sequence, *document, *prepared->scene, renderer,
-                              *frame, *format);
+                              *frame);
     if (Result<void> drawn = renderer.render(*frame, 0); !drawn)
         return drawn;
     if (const std::optional<Luminance> luminance = renderer.readLuminance())
@@ -198,7 +198,7 @@ Result<void> run(Session& session, const RenderOptions& options) {
         json["viewRange"] = {range->min, range->max};
     if (writes) {
         Result<std::vector<ImagePart>> pictures =
-            takePictures(session, renderer, *document, options, *frame, isLinear(*format));
+            takePictures(session, renderer, *document, options, *frame, isLinearFormat(*format));
         if (!pictures)
             return pictures.error();
         if (session.job().cancelled())

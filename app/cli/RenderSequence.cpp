@@ -1,17 +1,14 @@
 #include "app/cli/RenderSequence.h"
 
-#include "app/cli/PictureSetup.h"
 #include "app/cli/RenderViews.h"
 #include "app/cli/Report.h"
-#include "core/base/AtomicFile.h"
-#include "core/document/Snapshot.h"
-#include "core/image/Channels.h"
+#include "core/cells/SequenceWriter.h"
 #include "core/io/VideoWriter.h"
-#include "core/light/Light.h"
-#include "core/material/Material.h"
+#include "render/SequenceRenderer.h"
 
 #include <fmt/format.h>
 #include <memory>
+#include <string>
 #include <utility>
 
 namespace patina::cli {
@@ -42,56 +39,44 @@ Result<std::optional<SequenceRequest>> sequenceRequest(const RenderOptions& opti
 Result<void> renderSequence(Session& session, const RenderOptions& options,
                             const SequenceRequest& request, const Document& document,
                             render::SceneRenderer& scene, render::ViewRenderer& renderer,
-                            render::FrameSettings frame, ImageFileFormat format) {
-    std::unique_ptr<VideoWriter> video;
-    if (isVideoFile(options.output)) {
-        Result<std::unique_ptr<VideoWriter>> created =
-            VideoWriter::create(options.output, frame.width, frame.height, options.framesPerSecond);
-        if (!created)
-            return created.error();
-        video = std::move(*created);
-    }
-    const bool linear = video == nullptr && isLinear(format);
+                            const render::FrameSettings& frame) {
+    const bool video = isVideoFile(options.output);
+    const Result<std::unique_ptr<SequenceWriter>> writer = SequenceWriter::create(
+        session.worker(), {options.output, frame.width, frame.height, options.framesPerSecond,
+                           frame.transparentBackground});
+    if (!writer)
+        return writer.error();
     session.beginPhase();
-    for (int i = 0; i < request.count; ++i) {
-        session.job().setActivity(fmt::format("drawing picture {} of {}", i + 1, request.count));
-        session.job().setProgress(static_cast<double>(i) / request.count);
-        if (session.job().cancelled())
-            return Error{ErrorKind::Cancelled,
-                         video || i == 0 ? "cancelled"
-                                         : fmt::format("cancelled: {} of {} pictures are written",
-                                                       i, request.count),
-                         {},
-                         {}};
-        const Result<Document> shown =
-            documentOf(document, sequenceCell(document, request.turning, i, request.count));
-        if (!shown)
-            return shown.error();
-        scene.setDocument(*shown);
-        frame.camera = shown->view.camera;
-        if (Result<void> drawn = renderer.render(frame, 0); !drawn)
-            return drawn;
-        Image picture = linear ? renderer.readLinear() : renderer.readDisplayed();
-        if (video) {
-            if (Result<void> added = video->add(withoutAlpha(picture)); !added)
-                return added;
-            continue;
-        }
-        std::vector<ImagePart> parts(1);
-        parts[0].image = frame.transparentBackground ? std::move(picture) : withoutAlpha(picture);
-        if (Result<void> written =
-                writePictures(session, sequenceFile(options.output, i), std::move(parts), format);
-            !written)
-            return written;
-    }
-    if (!video)
+    const std::string size = fmt::format("{} × {}", frame.width, frame.height);
+    const auto take = [&](Image picture) -> Result<void> {
+        const auto written = (*writer)->add(std::move(picture), session.job());
+        if (!written)
+            return written.error();
+        if (*written)
+            session.report().output(**written, size + " pixels");
         return {};
-    session.job().setActivity("writing the video");
-    if (Result<void> finished = video->finish(); !finished)
+    };
+    render::SequenceSettings settings;
+    settings.turning = request.turning;
+    settings.count = request.count;
+    settings.linear = (*writer)->isLinear();
+    if (Result<void> drawn =
+            render::drawSequence(scene, renderer, document, frame, settings, take, session.job());
+        !drawn) {
+        Error error = drawn.error();
+        if (error.kind == ErrorKind::Cancelled && (*writer)->written() > 0)
+            error.message = fmt::format("cancelled: {} of {} pictures are written",
+                                        (*writer)->written(), request.count);
+        return error;
+    }
+    if (video)
+        session.job().setActivity("writing the video");
+    if (Result<void> finished = (*writer)->finish(session.job()); !finished)
         return finished;
-    session.report().output(
-        options.output, fmt::format("video of {} pictures, {} × {}, {} per second", request.count,
-                                    frame.width, frame.height, options.framesPerSecond));
+    if (video)
+        session.report().output(options.output,
+                                fmt::format("video of {} pictures, {}, {} per second",
+                                            request.count, size, options.framesPerSecond));
     return {};
 }
 

@@ -4,7 +4,6 @@
 
 #include "app/cli/Session.h"
 #include "core/cells/Sequence.h"
-#include "core/io/ImageIO.h"
 #include "render/SceneRenderer.h"
 #include "render/ViewRenderer.h"
 
@@ -25,6 +24,6 @@ struct SequenceRequest {
 Result<void> renderSequence(Session& session, const RenderOptions& options,
                             const SequenceRequest& request, const Document& document,
                             render::SceneRenderer& scene, render::ViewRenderer& renderer,
-                            render::FrameSettings frame, ImageFileFormat format);
+                            const render::FrameSettings& frame);
 
 } // namespace patina::cli

@@ -319,7 +319,7 @@ Result<void> run(Session& session, const SheetOptions& options) {
         return frame.error();
     if (Result<void> output = checkOutput(options.output); !output)
         return output;
-    const bool linear = isLinear(*format);
+    const bool linear = isLinearFormat(*format);
     frame->floats = linear;
     // As the editor shows cells at rest, on any driver.
     if (frame->samples == render::ViewRenderer::kSteadyFrames) {

@@ -22,6 +22,10 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
                            tr("Write the environment as an HDR or EXR file of any layout")))
     , exportScene(make(tr("&Export…"), QStringLiteral("export"), {tr("Ctrl+E")},
                        tr("Write the scene as glTF or GLB for other programs")))
+    , exportTurntable(make(tr("Export &Turntable…"), QStringLiteral("turntable"),
+                           {tr("Ctrl+Shift+E")},
+                           tr("Write pictures or a video of the scene with the camera, or the "
+                              "environment, going round")))
     , quit(make(tr("&Quit"), QStringLiteral("quit"), {tr("Ctrl+Q")}, tr("Leave Patina")))
     , recover(make(tr("Recover &Unsaved Work…"), {}, {},
                    tr("Show work that was not saved when an editor ended")))
@@ -177,6 +181,7 @@ QList<QAction*> Actions::all() const {
                            saveAs,
                            saveEnvironment,
                            exportScene,
+                           exportTurntable,
                            quit,
                            undo,
                            redo,

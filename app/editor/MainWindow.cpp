@@ -8,6 +8,7 @@
 #include "app/editor/FileFlow.h"
 #include "app/editor/Session.h"
 #include "app/editor/ViewActions.h"
+#include "app/editor/document/DraggedSources.h"
 #include "app/editor/document/PrintableNotice.h"
 #include "app/editor/document/QtText.h"
 #include "app/editor/panel/ParameterRow.h"
@@ -36,7 +37,6 @@
 #include <QLabel>
 #include <QMenuBar>
 #include <QMessageBox>
-#include <QMimeData>
 #include <QToolBar>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -181,7 +181,7 @@ void MainWindow::makeMenus() {
         Actions::describe(action, QString::fromStdString(entry.help));
     }
     file->addSeparator();
-    file->addActions({a.save, a.saveAs, a.saveEnvironment, a.exportScene});
+    file->addActions({a.save, a.saveAs, a.saveEnvironment, a.exportScene, a.exportTurntable});
     file->addSeparator();
     file->addAction(a.quit);
 
@@ -379,13 +379,13 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
-    if (!draggedFiles(*event->mimeData()).isEmpty())
+    if (!draggedSources(*event->mimeData()).isEmpty())
         event->acceptProposedAction();
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
     event->acceptProposedAction();
-    const QStringList files = draggedFiles(*event->mimeData());
+    const QStringList files = draggedSources(*event->mimeData());
     if (!m_drop->drop(files, event->position()))
         m_files->dropped(files, mapToGlobal(event->position().toPoint()));
 }

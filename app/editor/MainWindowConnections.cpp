@@ -9,6 +9,7 @@
 #include "app/editor/Session.h"
 #include "app/editor/ViewActions.h"
 #include "app/editor/library/LibraryPanel.h"
+#include "app/editor/turntable/TurntableDialog.h"
 #include "app/editor/viewport/SceneProgress.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "app/editor/widget/NoticeArea.h"
@@ -27,6 +28,8 @@ void MainWindow::connectActions() {
     connect(a.save, &QAction::triggered, m_files, qOverload<>(&FileFlow::save));
     connect(a.saveAs, &QAction::triggered, m_files, qOverload<>(&FileFlow::saveAs));
     connect(a.exportScene, &QAction::triggered, this, &MainWindow::openExportDialog);
+    connect(a.exportTurntable, &QAction::triggered, this,
+            [this] { TurntableDialog::open(m_session, *m_viewport, this); });
     connect(a.saveEnvironment, &QAction::triggered, this, &MainWindow::openEnvironmentSaveDialog);
     connect(a.quit, &QAction::triggered, this, &QWidget::close);
     connect(a.frame, &QAction::triggered, m_viewport, &ViewportWidget::frameSelection);

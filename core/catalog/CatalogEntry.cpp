@@ -47,7 +47,7 @@ Error cancelledError(const std::string& source) {
 Result<Image> readPicture(WorkerClient& worker, const std::string& source, CatalogEntry& entry,
                           const JobContext& job) {
     if (isBuiltin(source)) {
-        const Result<ImagePtr> image = library::environment(builtinName(source));
+        const Result<ImagePtr> image = library::environment(builtinName(source), job);
         if (!image)
             return image.error();
         entry.width = (*image)->width();

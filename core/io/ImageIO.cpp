@@ -226,4 +226,8 @@ Result<ImageFileFormat> imageFormatForPath(const std::filesystem::path& file) {
     return it->second;
 }
 
+bool isLinearFormat(ImageFileFormat format) {
+    return format == ImageFileFormat::Exr || format == ImageFileFormat::Hdr;
+}
+
 } // namespace patina

@@ -70,6 +70,7 @@ Result<ImageInfo> inspectImage(WorkerClient& worker, const std::filesystem::path
 enum class ImageFileFormat { Png, Jpeg, Exr, Hdr, Tiff, Tga };
 // By extension, case-insensitively; Usage error naming the supported ones otherwise.
 Result<ImageFileFormat> imageFormatForPath(const std::filesystem::path& file);
+[[nodiscard]] bool isLinearFormat(ImageFileFormat format); // its pictures are not tone mapped
 
 struct ImageSaveOptions {
     bool half = false; // EXR: store 16-bit floats

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <span>
 #include <spawn.h>
 #include <string_view>
@@ -27,6 +28,7 @@ namespace patina {
 namespace {
 
 constexpr int kVideoFd = 3;              // what ffmpeg writes to, in its own numbers
+constexpr int kPollMs = 20;              // between looks whether it is cancelled
 constexpr off_t kMostMessageBytes = 600; // the end of what ffmpeg says, where its reason is
 
 std::string endingOf(const std::filesystem::path& file) {
@@ -58,6 +60,10 @@ std::vector<std::string> argumentsFor(const std::filesystem::path& program,
 
 FileDescriptor memoryFile(const char* name) {
     return FileDescriptor(::memfd_create(name, MFD_CLOEXEC));
+}
+
+Error cancelledVideo() {
+    return {ErrorKind::Cancelled, "cancelled", {}, {}};
 }
 
 } // namespace
@@ -161,14 +167,24 @@ Error VideoWriter::failure() {
             m_file, said.empty() ? "it said nothing" : said};
 }
 
-Result<void> VideoWriter::add(const Image& picture) {
+Result<void> VideoWriter::add(const Image& picture, const JobContext& job) {
     CHECK(picture.width() == m_width && picture.height() == m_height);
     CHECK(picture.channels() == 3 && picture.type() == PixelType::U8);
     std::span<const std::byte> rest = picture.bytes();
     while (!rest.empty()) {
-        const ssize_t sent = ::send(m_pictures.get(), rest.data(), rest.size(), MSG_NOSIGNAL);
+        if (job.cancelled()) {
+            end();
+            return cancelledVideo();
+        }
+        const ssize_t sent =
+            ::send(m_pictures.get(), rest.data(), rest.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
         if (sent < 0 && errno == EINTR)
             continue;
+        if (sent < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) { // it encodes what it has
+            pollfd room{m_pictures.get(), POLLOUT, 0};
+            ::poll(&room, 1, kPollMs);
+            continue;
+        }
         if (sent < 0) { // it has ended
             end();
             return failure();
@@ -178,11 +194,19 @@ Result<void> VideoWriter::add(const Image& picture) {
     return {};
 }
 
-Result<void> VideoWriter::finish() {
+Result<void> VideoWriter::finish(const JobContext& job) {
     m_pictures.reset();
-    while (m_pid > 0 && ::waitpid(m_pid, &m_status, 0) < 0 && errno == EINTR) {
+    while (m_pid > 0) {
+        const pid_t ended = ::waitpid(m_pid, &m_status, WNOHANG);
+        if (ended == m_pid || (ended < 0 && errno != EINTR)) {
+            m_pid = -1;
+        } else if (job.cancelled()) {
+            end();
+            return cancelledVideo();
+        } else {
+            ::poll(nullptr, 0, kPollMs);
+        }
     }
-    m_pid = -1;
     struct stat info {};
     if (!WIFEXITED(m_status) || WEXITSTATUS(m_status) != 0 || ::fstat(m_video.get(), &info) != 0 ||
         info.st_size == 0)

@@ -5,6 +5,7 @@
 #include "core/base/FileDescriptor.h"
 #include "core/base/Result.h"
 #include "core/image/Image.h"
+#include "core/job/JobContext.h"
 
 #include <filesystem>
 #include <memory>
@@ -31,10 +32,11 @@ class VideoWriter {
     VideoWriter(const VideoWriter&) = delete;
     VideoWriter& operator=(const VideoWriter&) = delete;
 
-    // 8-bit sRGB of 3 channels. Error: Internal with what ffmpeg said, when it ended early.
-    Result<void> add(const Image& picture);
+    // 8-bit sRGB of 3 channels. Waits while ffmpeg has enough to do. Errors: Internal with what
+    // ffmpeg said, when it ended early; Cancelled.
+    Result<void> add(const Image& picture, const JobContext& job = {});
     // Waits for ffmpeg and writes the file. Errors: as add(), those of writeFileAtomically().
-    Result<void> finish();
+    Result<void> finish(const JobContext& job = {});
 
   private:
     VideoWriter() = default;

@@ -31,14 +31,17 @@ class Field {
     std::vector<float> m_values;
 };
 
-// Calls body(y) for every row, on all cores.
+// Calls body(y) for every row, on all cores; for no more once the job is cancelled.
+template <class Body>
+void forRows(const JobContext& job, int rows, const Body& body) {
+    parallelFor(job, static_cast<std::size_t>(rows), 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t y = begin; y < end; ++y)
+            body(static_cast<int>(y));
+    });
+}
 template <class Body>
 void forRows(int rows, const Body& body) {
-    parallelFor(JobContext(), static_cast<std::size_t>(rows), 16,
-                [&](std::size_t begin, std::size_t end) {
-                    for (std::size_t y = begin; y < end; ++y)
-                        body(static_cast<int>(y));
-                });
+    forRows(JobContext(), rows, body);
 }
 
 // A field whose pixels are body(x, y).

@@ -36,6 +36,8 @@ class Cache {
                     return used;
         }
         Pointer made = make();
+        if (!made) // it was cancelled
+            return nullptr;
         const std::lock_guard lock(m_mutex);
         std::weak_ptr<const Value>& kept = m_values[name];
         if (Pointer used = kept.lock())
@@ -119,12 +121,15 @@ Result<std::vector<ModelPart>> model(const std::string& name) {
     return result;
 }
 
-Result<ImagePtr> environment(const std::string& name) {
+Result<ImagePtr> environment(const std::string& name, const JobContext& job) {
     const SkyRecipe* recipe = find(skyRecipes(), name);
     if (!recipe)
         return unknown("environment", name, environments());
     static Cache<Image> cache;
-    return cache.get(name, [&] { return recipe->make(recipe->whiteFacingUp); });
+    const ImagePtr sky = cache.get(name, [&] { return recipe->make(recipe->whiteFacingUp, job); });
+    if (!sky)
+        return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
+    return sky;
 }
 
 Result<Material> material(const std::string& name) {

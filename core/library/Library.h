@@ -5,6 +5,7 @@
 
 #include "core/base/Result.h"
 #include "core/image/Image.h"
+#include "core/job/JobContext.h"
 #include "core/material/Material.h"
 #include "core/mesh/Mesh.h"
 
@@ -37,8 +38,9 @@ struct ModelPart {
 // Usage error listing the names when there is none such.
 Result<std::vector<ModelPart>> model(const std::string& name);
 
-// Lat-long F32 RGB, 1024 × 512, conventions of patina::Environment.
-Result<ImagePtr> environment(const std::string& name);
+// Lat-long F32 RGB, 1024 × 512, conventions of patina::Environment; in up to a second, which a
+// cancel ends between rows. Errors: Usage as above; Cancelled.
+Result<ImagePtr> environment(const std::string& name, const JobContext& job = {});
 
 // A material with its maps (ids 0), each map's source "builtin:MATERIAL/MAP"
 // ("builtin:wood/baseColor"). Tileable, 512² or 1024².

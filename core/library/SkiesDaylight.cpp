@@ -13,15 +13,15 @@
 
 namespace patina::library {
 
-ImagePtr whiteSky(double whiteFacingUp) {
-    SkyCanvas canvas;
+ImagePtr whiteSky(double whiteFacingUp, const JobContext& job) {
+    SkyCanvas canvas(job);
     canvas.fill(0, kSkyHeight,
                 [&](const glm::vec3&) { return glm::vec3(static_cast<float>(whiteFacingUp)); });
     return canvas.finish();
 }
 
 // A clear morning, turbidity 2.6, sun 44° high; two thirds of the light come from the sun's disc.
-ImagePtr clearSky(double whiteFacingUp) {
+ImagePtr clearSky(double whiteFacingUp, const JobContext& job) {
     constexpr double kTurbidity = 2.6, kSunRadiusDeg = 0.2666;
     const glm::dvec3 kHaze(0.925, 1.0, 1.22); // of luminance 1
     const glm::vec3 sun = directionFromAngles(-22.0, 43.8);
@@ -29,8 +29,8 @@ ImagePtr clearSky(double whiteFacingUp) {
     const PreethamSky sky(kTurbidity, thetaSun);
     const double cosSun = sun.y;
 
-    SkyCanvas canvas;
-    forRows(kSkyHeight / 2, [&](int row) {
+    SkyCanvas canvas(job);
+    canvas.forRows(0, kSkyHeight / 2, [&](int row) {
         // Preetham's model grows without bound towards the horizon: held at 3°.
         const double cosTheta = std::max(0.052, static_cast<double>(canvas.direction(0, row).y));
         const auto factor = [&](const Perez& p, double zenith) {
@@ -64,8 +64,8 @@ ImagePtr clearSky(double whiteFacingUp) {
 
 // CIE Standard Overcast Sky (ISO 15469, type 1 without its exponential; Moon & Spencer 1942):
 // L(elevation) = Lz (1 + 2 sin elevation) / 3, so that E = 7 pi / 9 Lz.
-ImagePtr overcastSky(double whiteFacingUp) {
-    SkyCanvas canvas;
+ImagePtr overcastSky(double whiteFacingUp, const JobContext& job) {
+    SkyCanvas canvas(job);
     const glm::vec3 tint(0.985f, 1.0f, 1.035f);
     canvas.fillSky([&](const glm::vec3& d) { return tint * ((1.0f + 2.0f * d.y) / 3.0f); });
     canvas.fillGround({0.20f, 0.19f, 0.17f}, 0.25f);

@@ -21,8 +21,9 @@ double texelSolidAngle(int y) {
     return 2.0 * kPi / kSkyWidth * (top - bottom);
 }
 
-SkyCanvas::SkyCanvas()
-    : m_pixels(static_cast<std::size_t>(kSkyWidth) * kSkyHeight)
+SkyCanvas::SkyCanvas(const JobContext& job)
+    : m_job(job)
+    , m_pixels(static_cast<std::size_t>(kSkyWidth) * kSkyHeight)
     , m_columns(kSkyWidth)
     , m_rows(kSkyHeight) {
     // u = 0.5 + atan2(x, -z) / 2 pi, v = acos(y) / pi.
@@ -60,6 +61,8 @@ void SkyCanvas::fillGround(const glm::vec3& albedo, float roughness) {
 }
 
 void SkyCanvas::addDisc(const glm::vec3& center, double radiusDeg, const glm::vec3& radiance) {
+    if (m_job.cancelled())
+        return;
     constexpr int kSub = 8;
     const double cosRadius = cosTurns(radiusDeg / 360.0);
     const double cosReach = cosTurns((radiusDeg + 0.5) / 360.0); // and a texel's diagonal
@@ -119,6 +122,8 @@ void SkyCanvas::expose(double target) {
 }
 
 ImagePtr SkyCanvas::finish() const {
+    if (m_job.cancelled())
+        return nullptr;
     auto image =
         std::make_shared<Image>(kSkyWidth, kSkyHeight, 3, PixelType::F32, ColorEncoding::Linear);
     static_assert(sizeof(glm::vec3) == 3 * sizeof(float));

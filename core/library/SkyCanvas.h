@@ -16,13 +16,18 @@ inline constexpr int kSkyHeight = 512;
 
 class SkyCanvas {
   public:
-    SkyCanvas();
+    // Once the job is cancelled nothing more is painted.
+    explicit SkyCanvas(const JobContext& job = {});
 
+    // Calls body(y) for rows [firstRow, lastRow), on all cores.
+    template <class Body>
+    void forRows(int firstRow, int lastRow, const Body& body) {
+        library::forRows(m_job, lastRow - firstRow, [&](int r) { body(firstRow + r); });
+    }
     // Sets rows [firstRow, lastRow) to body(direction).
     template <class Body>
     void fill(int firstRow, int lastRow, const Body& body) {
-        forRows(lastRow - firstRow, [&](int r) {
-            const int y = firstRow + r;
+        forRows(firstRow, lastRow, [&](int y) {
             for (int x = 0; x < kSkyWidth; ++x)
                 pixel(x, y) = body(direction(x, y));
         });
@@ -53,9 +58,10 @@ class SkyCanvas {
         return m_pixels[static_cast<std::size_t>(y) * kSkyWidth + static_cast<std::size_t>(x)];
     }
 
-    [[nodiscard]] ImagePtr finish() const;
+    [[nodiscard]] ImagePtr finish() const; // null after a cancel
 
   private:
+    JobContext m_job;
     std::vector<glm::vec3> m_pixels;
     std::vector<glm::vec2> m_columns, m_rows; // (sin, cos) of azimuth and of polar angle
 };

@@ -39,7 +39,7 @@ glm::vec3 windowColor(std::uint32_t h) {
 
 void addGlow(SkyCanvas& canvas, const glm::vec3& center, const glm::vec3& radiance) {
     const double centerElevation = 90.0 - acosPortable(center.y) * 180.0 / kPi;
-    forRows(kSkyHeight, [&](int y) {
+    canvas.forRows(0, kSkyHeight, [&](int y) {
         const double elevation = 90.0 - (y + 0.5) * 180.0 / kSkyHeight;
         if (std::fabs(elevation - centerElevation) > 15.0)
             return;
@@ -69,9 +69,9 @@ void addStars(SkyCanvas& canvas) {
 
 } // namespace
 
-ImagePtr nightSky(double whiteFacingUp) {
-    SkyCanvas canvas;
-    forRows(kSkyHeight, [&](int y) {
+ImagePtr nightSky(double whiteFacingUp, const JobContext& job) {
+    SkyCanvas canvas(job);
+    canvas.forRows(0, kSkyHeight, [&](int y) {
         const float elevation = 90.0f - (static_cast<float>(y) + 0.5f) * 180.0f / kSkyHeight;
         for (int x = 0; x < kSkyWidth; ++x) {
             const glm::vec3 d = canvas.direction(x, y);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/image/Image.h"
+#include "core/job/JobContext.h"
 
 #include <span>
 
@@ -13,16 +14,17 @@ struct SkyRecipe {
     const char* help;
     // Radiance of a perfectly white surface facing up: how bright the environment is at EV 0.
     double whiteFacingUp;
-    ImagePtr (*make)(double whiteFacingUp);
+    ImagePtr (*make)(double whiteFacingUp, const JobContext& job);
 };
 
 [[nodiscard]] std::span<const SkyRecipe> skyRecipes();
 
-ImagePtr whiteSky(double whiteFacingUp);
-ImagePtr clearSky(double whiteFacingUp);
-ImagePtr overcastSky(double whiteFacingUp);
-ImagePtr studioSky(double whiteFacingUp);
-ImagePtr sunsetSky(double whiteFacingUp);
-ImagePtr nightSky(double whiteFacingUp);
+// Null after a cancel.
+ImagePtr whiteSky(double whiteFacingUp, const JobContext& job);
+ImagePtr clearSky(double whiteFacingUp, const JobContext& job);
+ImagePtr overcastSky(double whiteFacingUp, const JobContext& job);
+ImagePtr studioSky(double whiteFacingUp, const JobContext& job);
+ImagePtr sunsetSky(double whiteFacingUp, const JobContext& job);
+ImagePtr nightSky(double whiteFacingUp, const JobContext& job);
 
 } // namespace patina::library

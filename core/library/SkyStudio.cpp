@@ -63,7 +63,7 @@ class SoftBox {
 
 } // namespace
 
-ImagePtr studioSky(double whiteFacingUp) {
+ImagePtr studioSky(double whiteFacingUp, const JobContext& job) {
     const std::array boxes = {
         // Key, left of the camera and above it.
         SoftBox(-28.0, 42.0, 8.0, {0.40f, 0.40f}, 0.03f, 0.45f, {19.0f, 18.2f, 17.2f}),
@@ -79,7 +79,7 @@ ImagePtr studioSky(double whiteFacingUp) {
     };
     const glm::vec3 cyclorama = directionFromAngles(210.0, -9.0);
 
-    SkyCanvas canvas;
+    SkyCanvas canvas(job);
     canvas.fill(0, kSkyHeight, [&](const glm::vec3& d) {
         // The room: floor, a wide cove instead of a corner, dark ceiling; a glow on the backdrop.
         const float ceiling = smoothstep(0.05f, 0.85f, d.y);

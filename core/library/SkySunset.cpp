@@ -93,10 +93,10 @@ glm::dvec3 scattered(const glm::dvec3& d, const glm::dvec3& sun) {
 // Radiance over azimuth from the sun (0…180°) and elevation, for a sun of irradiance 1 outside.
 class SkyTable {
   public:
-    explicit SkyTable(const glm::vec3& sun)
+    SkyTable(const glm::vec3& sun, const JobContext& job)
         : m_values(static_cast<std::size_t>(kAzimuths) * kElevations) {
         const glm::dvec3 s(std::sqrt(1.0 - static_cast<double>(sun.y) * sun.y), sun.y, 0.0);
-        parallelFor(JobContext(), kElevations, 1, [&](std::size_t begin, std::size_t end) {
+        parallelFor(job, kElevations, 1, [&](std::size_t begin, std::size_t end) {
             for (std::size_t e = begin; e < end; ++e) {
                 const double t = static_cast<double>(e) / (kElevations - 1);
                 const double turns = std::max(0.25 * t * t, 0.0002); // dense at the horizon
@@ -127,15 +127,15 @@ class SkyTable {
 
 } // namespace
 
-ImagePtr sunsetSky(double whiteFacingUp) {
+ImagePtr sunsetSky(double whiteFacingUp, const JobContext& job) {
     constexpr double kSunAzimuth = -44.0, kSunElevation = 4.7, kSunRadiusDeg = 0.2666;
     const glm::vec3 sun = directionFromAngles(kSunAzimuth, kSunElevation);
-    const SkyTable table(sun);
+    const SkyTable table(sun, job);
     const Field cloudNoise = fbm(512, {4, 12, 6, 0.55f, 211});
     const Field cloudCover = fbm(256, {3, 3, 3, 0.5f, 212});
 
-    SkyCanvas canvas;
-    forRows(kSkyHeight / 2, [&](int y) {
+    SkyCanvas canvas(job);
+    canvas.forRows(0, kSkyHeight / 2, [&](int y) {
         const auto elevation =
             static_cast<float>(0.25 - (static_cast<double>(y) + 0.5) / kSkyHeight * 0.5);
         for (int x = 0; x < kSkyWidth; ++x) {

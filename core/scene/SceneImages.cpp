@@ -81,7 +81,7 @@ Result<ImagePtr> readEnvironmentImage(WorkerClient* worker, const std::string& s
                                       EnvironmentLayout layout, std::vector<Notice>& notices,
                                       const JobContext& job) {
     if (isBuiltin(source))
-        return library::environment(builtinName(source));
+        return library::environment(builtinName(source), job);
     CHECK(worker != nullptr);
     const Result<EnvironmentPicture> picture =
         readEnvironmentPicture(*worker, source, layout, notices, job);

@@ -93,6 +93,12 @@ class DocumentController : public QObject, private EditObserver {
     void setEnvironment(const QString& source, DragSession session = 0);
     // As setEnvironment(), of one that need not light the scene.
     void replaceEnvironment(Id environment, const QString& source);
+    // What the two above do, for edits of one's own: reads what `source` shows, and hands `put`
+    // what makes the environment show it, unless it was removed meanwhile. A notice says why it
+    // cannot be read.
+    using PutEnvironment = std::function<void(Target, std::vector<ParameterEdit>)>;
+    void readEnvironment(Id environment, const QString& source, EnvironmentLayout layout,
+                         PutEnvironment put);
     // Another environment of the scene, as a step: it lights the scene, is the one to fade to, or
     // is there for cells of a wall. A file or "builtin:NAME" that one of them shows already is not
     // added again. `added`, once it is there: which one.

@@ -6,6 +6,7 @@
 #include "app/editor/document/FileOnDisk.h"
 #include "app/editor/document/ImportNotice.h"
 #include "app/editor/document/QtText.h"
+#include "app/editor/document/SourceName.h"
 #include "core/base/Check.h"
 #include "core/document/EnvironmentTitle.h"
 #include "core/document/ViewChoices.h"
@@ -28,20 +29,6 @@ namespace {
 const QString environmentTask = QStringLiteral("environment ");            // and its id
 const QString addedEnvironmentTask = QStringLiteral("added environment "); // and for cells its file
 const QString extractionTask = QStringLiteral("extraction of a source");
-
-// How a source is called in messages: "teapot.obj", "Shader Ball".
-QString shortName(const QString& source) {
-    const std::string name = source.toStdString();
-    if (!isBuiltin(name))
-        return QFileInfo(source).fileName();
-    const std::string key = name.substr(name.find(':') + 1);
-    for (const auto* entries :
-         {&library::models(), &library::environments(), &library::materials()})
-        for (const library::Entry& entry : *entries)
-            if (entry.name == key)
-                return QString::fromStdString(entry.title);
-    return QString::fromStdString(key);
-}
 
 // Appends what `part` holds under ids and names that are free in `document`.
 void appendScene(Document& document, const Document& part) {
@@ -138,7 +125,7 @@ void DocumentController::newDocument(std::function<void(bool)> done) {
 }
 
 void DocumentController::openScene(const QString& scene, std::function<void(bool)> done) {
-    const QString name = shortName(scene);
+    const QString name = sourceName(scene);
     const auto savesOf = [this](const QString& file) {
         const auto known = m_files.find(QFileInfo(file).absoluteFilePath());
         const auto onDisk = known == m_files.end() ? nullptr : known->second.lock();
@@ -198,7 +185,7 @@ void DocumentController::takeOpened(OpenedScene opened, const QString& scene, co
 }
 
 void DocumentController::addModel(const QString& source) {
-    const QString name = shortName(source);
+    const QString name = sourceName(source);
     m_tasks.start(
         QStringLiteral("model:") + source, tr("Adding %1").arg(name),
         [this, source, name, begun = begun()](const JobContext&) -> BackgroundTasks::Apply {
@@ -227,7 +214,7 @@ void DocumentController::setMap(const ParameterInfo& map, Target target, const Q
                             .arg(QString::fromUtf8(map.id.data(), static_cast<int>(map.id.size())))
                             .arg(target.id);
     m_tasks.start(
-        key, tr("Reading %1").arg(shortName(source)),
+        key, tr("Reading %1").arg(sourceName(source)),
         [this, &map, target, source, begun = begun()](const JobContext&) -> BackgroundTasks::Apply {
             const std::string name = normalizeSource(source.toStdString());
             auto image =
@@ -237,7 +224,7 @@ void DocumentController::setMap(const ParameterInfo& map, Target target, const Q
                     Q_EMIT noticed(UserNotice::fromError(image->error()));
                     return;
                 }
-                deliver(begun, shortName(source), [this, &map, target, name, image] {
+                deliver(begun, sourceName(source), [this, &map, target, name, image] {
                     if (!targetExists(document(), target))
                         return;
                     MapSlot slot = std::get<MapSlot>(map.get(document(), target.id));
@@ -258,7 +245,7 @@ void DocumentController::clearMap(const ParameterInfo& map, Target target) {
 void DocumentController::setEnvironment(const QString& source, DragSession session) {
     // One step for several keeps the text of the first, which must not name that one alone.
     readEnvironment(document().mix.first, source, EnvironmentLayout::Automatic,
-                    session == 0 ? tr("Light with %1").arg(shortName(source))
+                    session == 0 ? tr("Light with %1").arg(sourceName(source))
                                  : tr("Step Through Environments"),
                     session);
 }
@@ -268,7 +255,7 @@ void DocumentController::replaceEnvironment(Id environment, const QString& sourc
     CHECK(replaced != nullptr);
     readEnvironment(
         environment, source, EnvironmentLayout::Automatic,
-        tr("Replace %1 by %2").arg(toQString(environmentTitle(*replaced)), shortName(source)));
+        tr("Replace %1 by %2").arg(toQString(environmentTitle(*replaced)), sourceName(source)));
 }
 
 void DocumentController::addEnvironment(const QString& source, EnvironmentUse use,
@@ -289,7 +276,7 @@ void DocumentController::addEnvironment(const QString& source, EnvironmentUse us
             added(id);
         return;
     }
-    const QString title = shortName(source);
+    const QString title = sourceName(source);
     m_tasks.start(
         use == EnvironmentUse::Cells ? addedEnvironmentTask + source : addedEnvironmentTask,
         tr("Reading %1").arg(title),
@@ -333,17 +320,25 @@ void DocumentController::addEnvironment(const QString& source, EnvironmentUse us
 
 void DocumentController::readEnvironment(Id asked, const QString& source, EnvironmentLayout layout,
                                          const QString& undoText, DragSession session) {
-    const QString title = shortName(source);
+    readEnvironment(asked, source, layout,
+                    [this, undoText, session](Target target, std::vector<ParameterEdit> edits) {
+                        pushParameters(target, edits, undoText, session);
+                    });
+}
+
+void DocumentController::readEnvironment(Id asked, const QString& source, EnvironmentLayout layout,
+                                         PutEnvironment put) {
+    const QString title = sourceName(source);
     m_tasks.start(
         environmentTask + QString::number(asked), tr("Reading %1").arg(title),
-        [this, source, layout, title, undoText, session, asked, scene = m_session.documentNumber(),
+        [this, source, layout, title, put = std::move(put), asked,
+         scene = m_session.documentNumber(),
          begun = begun()](const JobContext& job) -> BackgroundTasks::Apply {
             const std::string name = normalizeSource(source.toStdString());
             auto notices = std::make_shared<std::vector<Notice>>();
             auto image = std::make_shared<Result<ImagePtr>>(
                 loadEnvironmentImage(m_worker, name, *notices, layout, job));
-            return [this, title, name, layout, undoText, session, asked, scene, begun, notices,
-                    image] {
+            return [this, title, name, layout, put, asked, scene, begun, notices, image] {
                 // A model that was opened meanwhile keeps the light, under other ids.
                 const Target environment{Scope::Environment,
                                          scene == m_session.documentNumber() ? asked : 0};
@@ -356,16 +351,14 @@ void DocumentController::readEnvironment(Id asked, const QString& source, Enviro
                 MapSlot sky;
                 sky.source = name;
                 sky.image = image->value();
-                deliver(begun, title, [this, environment, sky, layout, undoText, session] {
+                deliver(begun, title, [this, environment, sky, layout, put] {
                     if (!targetExists(document(), environment))
                         return; // removed meanwhile
-                    pushParameters(
-                        environment,
+                    put(environment,
                         {{&parameter("environment.kind"), static_cast<int>(EnvironmentKind::Image)},
                          {&parameter("environment.image"), sky},
                          {&parameter("environment.layout"), static_cast<int>(layout)},
-                         {&parameter("environment.removedSources"), 0.0f}},
-                        undoText, session);
+                         {&parameter("environment.removedSources"), 0.0f}});
                 });
                 const UserNotice notice = UserNotice::fromImport(title, *notices, {});
                 if (!notice.text.isEmpty())
@@ -436,7 +429,7 @@ void DocumentController::setDisplayView(const QString& display, const QString& v
 }
 
 void DocumentController::applyLibraryMaterial(Id id, const QString& name) {
-    const QString title = shortName(QStringLiteral("builtin:") + name);
+    const QString title = sourceName(QStringLiteral("builtin:") + name);
     m_tasks.start(
         QStringLiteral("preset:%1").arg(id), tr("Making %1").arg(title),
         [this, id, name, title, begun = begun()](const JobContext&) -> BackgroundTasks::Apply {

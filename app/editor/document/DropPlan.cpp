@@ -2,7 +2,9 @@
 
 #include "app/editor/document/FileKinds.h"
 #include "app/editor/document/QtText.h"
+#include "app/editor/document/SourceName.h"
 #include "core/document/Document.h"
+#include "core/document/Source.h"
 #include "core/edit/MapNames.h"
 #include "core/material/Material.h"
 
@@ -17,12 +19,8 @@ QString trDrop(const char* text) {
     return QCoreApplication::translate("DropPlan", text);
 }
 
-QString nameOf(const QString& file) {
-    return QFileInfo(file).fileName();
-}
-
 const ParameterInfo* mapOf(const QString& file) {
-    return mapForFileName(nameOf(file).toStdString());
+    return mapForFileName(sourceName(file).toStdString());
 }
 
 void assign(DropPlan& plan, const QStringList& images) {
@@ -45,6 +43,10 @@ DropPlan planDrop(const QStringList& files) {
     DropPlan plan;
     QStringList images, radiance;
     for (const QString& file : files) {
+        if (isBuiltin(file.toStdString())) { // skies alone are dragged: DraggedSources.h
+            plan.environments << file;
+            continue;
+        }
         if (QFileInfo(file).isDir()) {
             plan.folders << file;
             continue;
@@ -81,12 +83,12 @@ QStringList DropPlan::lines(const Document& document, Id material) const {
     QStringList result;
     const Material* target = document.material(material);
     for (const MapFile& one : maps)
-        result << trDrop("%1 ← %2").arg(toQString(one.map->label), nameOf(one.file));
+        result << trDrop("%1 ← %2").arg(toQString(one.map->label), sourceName(one.file));
     if (target && !maps.empty())
         result.prepend(trDrop("Onto the material “%1”:").arg(QString::fromStdString(target->name)));
     const auto add = [&](const char* text, const QStringList& files) {
         for (const QString& file : files)
-            result << trDrop(text).arg(nameOf(file));
+            result << trDrop(text).arg(sourceName(file));
     };
     add("Open the project %1", projects.mid(0, 1));
     add("Add or open the model %1", models);
@@ -101,7 +103,7 @@ QStringList DropPlan::lines(const Document& document, Id material) const {
 QString unclearText(const QStringList& files) {
     QStringList names;
     for (const QString& file : files)
-        names << nameOf(file);
+        names << sourceName(file);
     return trDrop(
                "Left out: %1. Of images that are dropped together each goes to the map that its "
                "name "

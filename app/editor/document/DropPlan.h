@@ -34,6 +34,7 @@ struct DropPlan {
 // Images go by plain names to the maps of a material (core/edit/MapNames.h); one alone whose
 // name says nothing is its base colour, of several it is left out. Radiance and OpenEXR pictures
 // light the scene, unless they come with other images and their names say a map.
+// Built-in skies ("builtin:NAME") do, too.
 [[nodiscard]] DropPlan planDrop(const QStringList& files);
 
 // "wood.png, wood 2.png: …": why images were left out, and what to do.

@@ -1,22 +1,18 @@
 #include "app/editor/library/LibraryModel.h"
 
+#include "app/editor/document/DraggedSources.h"
 #include "app/editor/document/QtText.h"
 #include "app/editor/library/EnvironmentLibrary.h"
 #include "app/editor/library/LibraryTexts.h"
 
 #include <QImage>
 #include <QMimeData>
-#include <QUrl>
 #include <utility>
 
 namespace patina::editor {
 namespace {
 
 constexpr int kKeptPictures = 400; // of 128 KB each
-
-bool isFile(const QString& source) {
-    return !source.startsWith(QLatin1String("builtin:"));
-}
 
 } // namespace
 
@@ -85,8 +81,11 @@ QVariant LibraryModel::data(const QModelIndex& index, int role) const {
     case Qt::ToolTipRole:
         return toolTipText(*item);
     case Qt::StatusTipRole:
-        return tr("Double-click or press Enter to light the scene with %1; drag it to other "
-                  "programs or onto the picture")
+        return (item->source.startsWith(QLatin1String("builtin:"))
+                    ? tr("Double-click or press Enter to light the scene with %1; drag it onto the "
+                         "picture or a cell of the wall")
+                    : tr("Double-click or press Enter to light the scene with %1; drag it to other "
+                         "programs or onto the picture"))
             .arg(toQString(item->entry->title));
     case Qt::AccessibleTextRole: {
         const QString tags = tagsText(*item);
@@ -116,23 +115,21 @@ Qt::ItemFlags LibraryModel::flags(const QModelIndex& index) const {
     const LibraryItem* item = at(index);
     if (!item)
         return Qt::NoItemFlags;
-    Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemNeverHasChildren;
-    if (isFile(item->source)) // a built-in sky is no file that others could read
-        flags |= Qt::ItemIsDragEnabled;
-    return flags;
+    return Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsDragEnabled |
+           Qt::ItemNeverHasChildren;
 }
 
 QStringList LibraryModel::mimeTypes() const {
-    return {QStringLiteral("text/uri-list")};
+    return {QStringLiteral("text/uri-list"), QLatin1String(kEnvironmentMime)};
 }
 
 QMimeData* LibraryModel::mimeData(const QModelIndexList& indexes) const {
-    QList<QUrl> urls;
+    QStringList sources;
     for (const QModelIndex& each : indexes)
-        if (const LibraryItem* item = at(each); item && isFile(item->source))
-            urls << QUrl::fromLocalFile(item->source);
+        if (const LibraryItem* item = at(each))
+            sources << item->source;
     auto* data = new QMimeData;
-    data->setUrls(urls);
+    setDraggedSources(*data, sources);
     return data;
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/editor/Actions.h"
 #include "app/editor/FileFlow.h"
+#include "app/editor/document/DraggedSources.h"
 #include "app/editor/document/QtText.h"
 #include "app/editor/library/EnvironmentLibrary.h"
 #include "app/editor/library/LibraryDelegate.h"
@@ -10,7 +11,6 @@
 #include "app/editor/library/LibraryView.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
-#include "app/editor/viewport/DropTarget.h"
 #include "app/editor/widget/ElidedLabel.h"
 #include "app/editor/widget/ListButton.h"
 

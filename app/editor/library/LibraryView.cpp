@@ -82,7 +82,7 @@ void LibraryView::contextMenuEvent(QContextMenuEvent* event) {
 void LibraryView::startDrag(Qt::DropActions) {
     const QModelIndexList indexes = selectedIndexes();
     QMimeData* data = model()->mimeData(indexes);
-    if (!data->hasUrls()) {
+    if (data->formats().isEmpty()) {
         delete data;
         return;
     }

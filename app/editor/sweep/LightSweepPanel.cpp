@@ -9,6 +9,7 @@
 #include "app/editor/sweep/SweepControls.h"
 #include "app/editor/sweep/SweepModel.h"
 #include "app/editor/sweep/SweepPicture.h"
+#include "app/editor/sweep/SweepSave.h"
 #include "app/editor/sweep/SweepStrip.h"
 #include "app/editor/sweep/SweepTexts.h"
 #include "app/editor/sweep/UseLight.h"
@@ -93,6 +94,12 @@ LightSweepPanel::LightSweepPanel(DocumentController& controller, JobManager& job
     m_use->setObjectName(QStringLiteral("sweepUse"));
     connect(m_use, &QPushButton::clicked, this, &LightSweepPanel::useSelected);
     m_controls->add(m_use);
+    m_save = makeTextButton(tr("Save…"),
+                            tr("Save the ranking as JSON, as “patina rank” does, or the rotations "
+                               "of the chosen environment as a picture"));
+    m_save->setObjectName(QStringLiteral("sweepSave"));
+    connect(m_save, &QPushButton::clicked, this, &LightSweepPanel::saveOutcome);
+    m_controls->add(m_save);
     m_pages->addWidget(m_empty);
     m_pages->addWidget(makeResult());
 
@@ -268,7 +275,7 @@ void LightSweepPanel::start() {
     jobsChanged(); // it may have ended
 }
 
-// At once, for the user: the job notices within 0.2 s, or when the sky that it makes is made.
+// At once, for the user; the job notices within 0.2 s.
 void LightSweepPanel::cancel() {
     if (m_job == 0)
         return;
@@ -358,6 +365,7 @@ void LightSweepPanel::select(std::size_t light) {
 
 void LightSweepPanel::refreshPictures() {
     m_use->setEnabled(m_selected.has_value());
+    m_save->setEnabled(m_selected.has_value());
     if (!m_outcome || !m_selected)
         return;
     const SweepOutcome& outcome = *m_outcome;
@@ -383,6 +391,13 @@ void LightSweepPanel::showSensitivity(double from, double to) {
         tr("Sensitivity"),
         sensitivityImage(m_outcome->pixels, m_outcome->sweep.sensitivity, from, to)
             .copy(surfacesRect(m_outcome->pixels)));
+}
+
+void LightSweepPanel::saveOutcome() {
+    if (m_outcome && m_selected)
+        askAndSaveSweep({m_outcome, m_controls->by(),
+                         m_outcome->sweep.scores[*m_selected].light.environment, QString()},
+                        m_controller, m_jobs, *window());
 }
 
 void LightSweepPanel::useSelected() {

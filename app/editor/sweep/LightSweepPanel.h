@@ -35,6 +35,7 @@ class LightSweepPanel : public QWidget {
     void start(); // of the document as it is, by the settings as they are
     void cancel();
     void useSelected(); // lights the scene with it
+    void saveOutcome(); // asks for the file
 
     [[nodiscard]] const SweepOutcomePtr& outcome() const { return m_outcome; } // null: none yet
     [[nodiscard]] bool isRunning() const { return m_job != 0; }
@@ -83,7 +84,7 @@ class LightSweepPanel : public QWidget {
 
     SweepControls* m_controls;
     QLabel *m_status, *m_warning, *m_empty, *m_stripTitle, *m_range;
-    QPushButton *m_again, *m_use;
+    QPushButton *m_again, *m_use, *m_save;
     QStackedWidget* m_pages;
     SweepModel* m_model;
     QSortFilterProxyModel* m_sorted;

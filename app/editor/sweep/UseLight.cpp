@@ -5,18 +5,14 @@
 #include "app/editor/sweep/SweepWork.h"
 #include "app/editor/widget/LatLongMap.h"
 #include "core/edit/EditSession.h"
-#include "core/scene/Scene.h"
 
 #include <fmt/format.h>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace patina::editor {
 namespace {
-
-const QString kUseLightTask = QStringLiteral("light of a sweep");
 
 // As one step: `edits` and the rotation of the environment that lights the scene, `first` after it
 // does, and nothing beside it.
@@ -49,34 +45,12 @@ bool useLight(DocumentController& controller, const SweptEnvironment& environmen
     case SweptUse::BySource:
         break;
     }
-    const QString title = toQString(environment.title);
-    controller.tasks().start(
-        kUseLightTask, DocumentController::tr("Reading %1").arg(title),
-        [target = &controller, source = environment.source, title, text, rotationDeg,
-         begun = controller.begun()](const JobContext& job) -> BackgroundTasks::Apply {
-            std::vector<Notice> notices; // the sweep read it, too
-            auto image = std::make_shared<Result<ImagePtr>>(loadEnvironmentImage(
-                target->worker(), source, notices, EnvironmentLayout::Automatic, job));
-            return [target, source, title, text, rotationDeg, begun, image] {
-                if (!image->ok()) {
-                    if (image->error().kind != ErrorKind::Cancelled)
-                        Q_EMIT target->noticed(UserNotice::fromError(image->error()));
-                    return;
-                }
-                MapSlot sky;
-                sky.source = source;
-                sky.image = image->value();
-                target->deliver(begun, title, [target, sky, text, rotationDeg] {
-                    lightAlone(
-                        *target, target->document().mix.first,
-                        {{&parameter("environment.kind"), static_cast<int>(EnvironmentKind::Image)},
-                         {&parameter("environment.image"), sky},
-                         {&parameter("environment.layout"),
-                          static_cast<int>(EnvironmentLayout::Automatic)},
-                         {&parameter("environment.removedSources"), 0.0f}},
-                        rotationDeg, text);
-                });
-            };
+    controller.readEnvironment(
+        controller.document().mix.first, toQString(environment.source),
+        EnvironmentLayout::Automatic,
+        [&controller, rotationDeg, text](Target target, std::vector<ParameterEdit> edits) {
+            const Id read = target.id != 0 ? target.id : controller.document().mix.first;
+            lightAlone(controller, read, std::move(edits), rotationDeg, text);
         });
     return true;
 }

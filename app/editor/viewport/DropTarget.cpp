@@ -1,6 +1,7 @@
 #include "app/editor/viewport/DropTarget.h"
 
 #include "app/editor/document/DocumentController.h"
+#include "app/editor/document/DraggedSources.h"
 #include "app/editor/document/DropPlan.h"
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/style/Tokens.h"
@@ -8,7 +9,6 @@
 #include <QDragEnterEvent>
 #include <QMimeData>
 #include <QPainter>
-#include <QUrl>
 #include <algorithm>
 
 namespace patina::editor {
@@ -19,14 +19,6 @@ constexpr int kMostLines = 12;  // of a folder full of files
 constexpr int kVeilAlpha = 150; // over the picture, of 255
 
 } // namespace
-
-QStringList draggedFiles(const QMimeData& data) {
-    QStringList files;
-    for (const QUrl& url : data.urls())
-        if (url.isLocalFile())
-            files << url.toLocalFile();
-    return files;
-}
 
 DropHint::DropHint(QWidget& viewport)
     : QWidget(&viewport) {
@@ -102,7 +94,7 @@ bool DropTarget::eventFilter(QObject*, QEvent* event) {
     case QEvent::DragEnter:
     case QEvent::DragMove: {
         const auto* drag = static_cast<QDragMoveEvent*>(event); // which entering is, too
-        showHint(draggedFiles(*drag->mimeData()), drag->position());
+        showHint(draggedSources(*drag->mimeData()), drag->position());
         break;
     }
     case QEvent::DragLeave:

@@ -9,15 +9,10 @@
 #include <QStringList>
 #include <QWidget>
 
-class QMimeData;
-
 namespace patina::editor {
 
 class DocumentController;
 class SelectionModel;
-
-// Paths of the local files that are dragged.
-[[nodiscard]] QStringList draggedFiles(const QMimeData& data);
 
 class DropHint : public QWidget {
     Q_OBJECT
@@ -42,7 +37,7 @@ class DropTarget : public QObject {
     DropTarget(QWidget& window, QWidget& viewport, DocumentController& controller,
                SelectionModel& selection, const WallDrop& wall);
 
-    // True: cells of the wall take them. `position` in the window.
+    // True: cells of the wall take them: draggedSources(). `position` in the window.
     [[nodiscard]] bool drop(const QStringList& files, const QPointF& position);
 
   protected:

@@ -108,6 +108,11 @@ class ViewportWidget : public QOpenGLWidget {
     // by default. Without, it is compiled when it is asked for, in the background, too.
     void setCompilesAhead(bool compiles);
 
+    // What draws it; null while there is none.
+    [[nodiscard]] const gl::ContextInfo* glInfo() const {
+        return m_context ? &m_context->info() : nullptr;
+    }
+
     // Milliseconds of the slowest frame since the last call (tests and the status bar).
     double takeSlowestFrameMs();
 

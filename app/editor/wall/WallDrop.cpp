@@ -3,6 +3,7 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/DropPlan.h"
 #include "app/editor/document/QtText.h"
+#include "app/editor/document/SourceName.h"
 #include "app/editor/wall/WallOverlay.h"
 #include "app/editor/wall/WallState.h"
 #include "core/document/Document.h"
@@ -10,7 +11,6 @@
 #include "core/edit/EditSession.h"
 
 #include <QCoreApplication>
-#include <QFileInfo>
 #include <QPointer>
 #include <algorithm>
 #include <numeric>
@@ -40,7 +40,7 @@ Id WallDrop::sharedEnvironment(const std::vector<std::size_t>& cells) const {
 }
 
 QString WallDrop::lineOf(const WallDropPlan::Part& part) const {
-    const QString name = QFileInfo(part.file).fileName();
+    const QString name = sourceName(part.file);
     if (part.replaces != 0)
         return trWallDrop("Replace the environment %1 by %2")
             .arg(toQString(environmentTitle(*m_controller.document().environment(part.replaces))),

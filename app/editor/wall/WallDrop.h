@@ -1,5 +1,6 @@
-// Environment files that are dropped onto a wall: onto the caption or a cell of an environment they
-// take its place, elsewhere they light the cell, or the cells of the column or row, alone.
+// Environments, files or built-in skies, that are dropped onto a wall: onto the caption or a cell
+// of an environment they take its place, elsewhere they light the cell, or the cells of the column
+// or row, alone.
 #pragma once
 
 #include "core/base/Id.h"

@@ -6,11 +6,15 @@
 #include <QLabel>
 #include <QMouseEvent>
 #include <QPainter>
+#include <algorithm>
+#include <utility>
 
 namespace patina::editor {
 namespace {
 constexpr int kArc = 14; // pixels
-constexpr int kFrameMs = 50;
+constexpr int kShortestStepMs = 50, kLongestStepMs = 1000;
+constexpr double kBusyShare = 0.05; // of the time, for showing it
+constexpr int kLargestStepDeg = 90; // a slow arc still turns one way
 } // namespace
 
 BusyIndicator::BusyIndicator(QWidget* parent)
@@ -19,12 +23,24 @@ BusyIndicator::BusyIndicator(QWidget* parent)
     auto* layout = new QHBoxLayout(this);
     layout->setContentsMargins(kArc + tokens::kGap, 0, 0, 0);
     layout->addWidget(m_text);
-    m_timer.setInterval(kFrameMs);
-    connect(&m_timer, &QTimer::timeout, this, [this] {
-        m_angleDeg = (m_angleDeg + 360 * kFrameMs / 1000) % 360;
-        update(0, 0, kArc + tokens::kGap, height());
-    });
+    m_timer.setInterval(kShortestStepMs);
+    connect(&m_timer, &QTimer::timeout, this, &BusyIndicator::turn);
     hide();
+}
+
+int BusyIndicator::stepMs(double frameMs) {
+    return static_cast<int>(std::clamp(frameMs / kBusyShare, static_cast<double>(kShortestStepMs),
+                                       static_cast<double>(kLongestStepMs)));
+}
+
+void BusyIndicator::turn() {
+    m_angleDeg = (m_angleDeg + std::min(360 * m_timer.interval() / 1000, kLargestStepDeg)) % 360;
+    m_turned = true;
+    update(0, 0, kArc + tokens::kGap, height());
+}
+
+void BusyIndicator::shown() {
+    m_timer.setInterval(stepMs(static_cast<double>(m_frame.nsecsElapsed()) * 1e-6));
 }
 
 void BusyIndicator::setActivity(const QString& activity, const QString& action) {
@@ -36,7 +52,7 @@ void BusyIndicator::setActivity(const QString& activity, const QString& action) 
     setVisible(!activity.isEmpty());
     if (activity.isEmpty())
         m_timer.stop();
-    else
+    else if (!m_timer.isActive())
         m_timer.start();
 }
 
@@ -50,6 +66,10 @@ void BusyIndicator::mouseReleaseEvent(QMouseEvent* event) {
 }
 
 void BusyIndicator::paintEvent(QPaintEvent*) {
+    if (std::exchange(m_turned, false)) {
+        m_frame.start();
+        QTimer::singleShot(0, this, &BusyIndicator::shown); // once the window has been put together
+    }
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setPen(QPen(QColor(tokens::kAccent), 2, Qt::SolidLine, Qt::RoundCap));

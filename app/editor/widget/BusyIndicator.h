@@ -1,6 +1,7 @@
 // A turning arc beside what is going on; invisible when nothing is.
 #pragma once
 
+#include <QElapsedTimer>
 #include <QTimer>
 #include <QWidget>
 
@@ -15,6 +16,9 @@ class BusyIndicator : public QWidget {
     // `activity` as it is shown; empty: idle. `action`: what a click does; empty: nothing.
     void setActivity(const QString& activity, const QString& action = {});
     [[nodiscard]] QString activity() const;
+    // Milliseconds between two steps of the arc, when the window takes `frameMs` to show one: with
+    // software OpenGL all of it is put together anew, which would take the time of what goes on.
+    [[nodiscard]] static int stepMs(double frameMs);
 
   Q_SIGNALS:
     void clicked();
@@ -24,8 +28,13 @@ class BusyIndicator : public QWidget {
     void paintEvent(QPaintEvent* event) override;
 
   private:
+    void turn();
+    void shown();
+
     QLabel* m_text;
     QTimer m_timer;
+    QElapsedTimer m_frame; // since the arc was painted, until that is shown
+    bool m_turned = false; // and not painted yet
     int m_angleDeg = 0;
 };
 

@@ -13,6 +13,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QStandardItemModel>
 #include <QToolButton>
 
 namespace patina::editor {
@@ -50,6 +51,13 @@ void OutputFile::addFileRow(QFormLayout& form) {
     label->setBuddy(m_path);
     form.addRow(label, row);
     connect(choose, &QToolButton::clicked, this, &OutputFile::browse);
+}
+
+void OutputFile::disableFormat(int index, const QString& reason) {
+    // The model that a combo box makes for itself.
+    auto* item = qobject_cast<QStandardItemModel*>(m_format->model())->item(index);
+    item->setEnabled(false);
+    item->setToolTip(reason);
 }
 
 void OutputFile::addButtons(QLayout& layout, const QString& run) {

@@ -29,6 +29,8 @@ class OutputFile : public QObject {
 
     void addFormatRow(QFormLayout& form, const QString& help);
     void addFileRow(QFormLayout& form);
+    // It can be seen, and not be chosen, for `reason`.
+    void disableFormat(int index, const QString& reason);
     void addButtons(QLayout& layout, const QString& run);
 
     [[nodiscard]] int format() const; // index

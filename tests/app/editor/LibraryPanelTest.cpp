@@ -1,6 +1,7 @@
 // The Library dock by real events: folders are dropped, environments found, sorted, marked and
 // used, and stepped through by keys.
 #include "app/editor/library/LibraryPanel.h"
+#include "app/editor/document/DraggedSources.h"
 #include "app/editor/library/LibraryDelegate.h"
 #include "app/editor/library/LibraryModel.h"
 #include "app/editor/library/LibraryTexts.h"
@@ -148,7 +149,7 @@ TEST_F(LibraryPanelTest, BuiltInSkiesAreThereAndMeasured) {
     for (int i = 0; i < view().model()->rowCount(); ++i) {
         const QModelIndex index = view().model()->index(i, 0);
         EXPECT_FALSE(index.data(LibraryModel::PictureRole).value<QPixmap>().isNull());
-        EXPECT_FALSE(index.flags().testFlag(Qt::ItemIsDragEnabled)); // they are no files
+        EXPECT_TRUE(index.flags().testFlag(Qt::ItemIsDragEnabled));
     }
 }
 
@@ -375,6 +376,34 @@ TEST_F(LibraryPanelTest, ItemsAreDraggedAsFiles) {
     drop(*window, data->urls().front().toLocalFile());
     ASSERT_TRUE(settled(*session));
     EXPECT_EQ(lit(), path("low.hdr").toStdString());
+}
+
+TEST_F(LibraryPanelTest, BuiltInSkiesAreDraggedByName) {
+    const std::unique_ptr<QMimeData> data(view().model()->mimeData({item("Sunset")}));
+    EXPECT_FALSE(data->hasUrls()) << "it is no file that others could read";
+    EXPECT_EQ(data->data(QLatin1String(kEnvironmentMime)), QByteArray("builtin:sunset"));
+    EXPECT_TRUE(view().model()->mimeTypes().contains(QLatin1String(kEnvironmentMime)));
+    // Dropped on the window it lights the scene, as one step.
+    QDragEnterEvent enter(QPoint(300, 300), Qt::CopyAction, data.get(), Qt::LeftButton, {});
+    QApplication::sendEvent(window.get(), &enter);
+    EXPECT_TRUE(enter.isAccepted());
+    EXPECT_EQ(window->findChild<DropHint*>()->lines(),
+              QStringList{QStringLiteral("Light the scene with Sunset")});
+    QDropEvent event(QPointF(300, 300), Qt::CopyAction, data.get(), Qt::LeftButton, {});
+    QApplication::sendEvent(window.get(), &event);
+    ASSERT_TRUE(settled(*session));
+    EXPECT_EQ(lit(), "builtin:sunset");
+    EXPECT_EQ(undoCount(), 1);
+    controller().undoStack().undo();
+    EXPECT_EQ(lit(), "builtin:studio");
+
+    // What another program says is none of ours is not taken.
+    QMimeData foreign;
+    foreign.setData(QLatin1String(kEnvironmentMime), "builtin:teapot\n/etc/passwd");
+    QDragEnterEvent refused(QPoint(300, 300), Qt::CopyAction, &foreign, Qt::LeftButton, {});
+    refused.ignore();
+    QApplication::sendEvent(window.get(), &refused);
+    EXPECT_FALSE(refused.isAccepted());
 }
 
 TEST_F(LibraryPanelTest, AFolderDroppedOnTheWindowOpensTheDock) {

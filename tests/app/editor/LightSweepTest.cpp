@@ -15,13 +15,19 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDir>
 #include <QDockWidget>
 #include <QFile>
+#include <QFileDialog>
 #include <QHeaderView>
+#include <QImage>
+#include <QLineEdit>
 #include <QListWidget>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QTableView>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 namespace patina::editor {
@@ -294,6 +300,75 @@ TEST_F(LightSweepTest, ACancelLeavesTheEarlierResult) {
     ASSERT_TRUE(settled(*session));
     EXPECT_EQ(panel().outcome(), nullptr);
     EXPECT_TRUE(panel().warning().isEmpty());
+}
+
+TEST_F(LightSweepTest, TheRankingAndTheRotationsAreSavedAsFiles) {
+    EXPECT_FALSE(button("sweepSave").isEnabled()) << "there is nothing to save";
+    addSky("builtin:clear-sky");
+    ASSERT_TRUE(swept());
+    const SweepOutcomePtr outcome = panel().outcome();
+    control<QComboBox>("Rank by").setCurrentIndex(1);
+    panel().select(lightOf("Clear Sky", 90.0));
+    const auto saveAs = [&](const char* name) {
+        click(button("sweepSave"));
+        auto* dialog = window->findChild<QFileDialog*>(QStringLiteral("sweepSaveDialog"));
+        ASSERT_NE(dialog, nullptr);
+        ASSERT_TRUE(eventually([&] { return dialog->isVisible(); }));
+        // What is typed, in another folder than the one that is proposed.
+        dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"))
+            ->setText(folder.filePath(QLatin1String(name)));
+        QTest::keyClick(dialog, Qt::Key_Return);
+        ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
+    };
+    saveAs("ranking.json");
+    std::ifstream file(folder.filePath(QStringLiteral("ranking.json")).toStdString());
+    const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
+    ASSERT_FALSE(json.is_discarded());
+    EXPECT_EQ(json["settings"]["by"], "clipping");
+    EXPECT_EQ(json["settings"]["rotations"], 8);
+    EXPECT_EQ(json["transfer"]["source"], "quick");
+    EXPECT_EQ(json["counts"]["environments"], 2);
+    const std::vector<std::size_t> order = rankLights(outcome->sweep, RankBy::Clipping);
+    ASSERT_EQ(json["ranking"].size(), 16u);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const LightScore& score = outcome->sweep.scores[order[k]];
+        const nlohmann::json& light = json["ranking"][k];
+        EXPECT_EQ(light["environment"], outcome->environments[score.light.environment].title);
+        EXPECT_EQ(light["file"], outcome->environments[score.light.environment].source);
+        EXPECT_EQ(light["rotationDeg"], score.light.rotationDeg);
+        EXPECT_EQ(light["score"], score.clipped.sum());
+    }
+
+    saveAs("rotations.png");
+    const QImage sheet(folder.filePath(QStringLiteral("rotations.png")));
+    ASSERT_FALSE(sheet.isNull());
+    const QRect seen = surfacesRect(outcome->pixels);
+    EXPECT_GE(sheet.width(), seen.width());
+    // The light that is chosen is on it, texel for texel.
+    const QImage picture =
+        displayedImage(sweepPicture(outcome->pixels, outcome->measured, outcome->settings,
+                                    outcome->sweep.scores[*panel().selected()].light),
+                       outcome->settings.view)
+            .copy(seen);
+    bool found = false;
+    for (int y = 0; y + picture.height() <= sheet.height() && !found; ++y)
+        for (int x = 0; x + picture.width() <= sheet.width() && !found; ++x)
+            found = sheet.pixel(x, y) == picture.pixel(0, 0) &&
+                    sheet.copy(QRect(QPoint(x, y), picture.size())) == picture;
+    EXPECT_TRUE(found);
+    if (const QString pictures = qEnvironmentVariable("PATINA_SCREENSHOTS"); !pictures.isEmpty()) {
+        EXPECT_TRUE(QDir().mkpath(pictures));
+        EXPECT_TRUE(sheet.save(QDir(pictures).filePath(QStringLiteral("sweep-rotations.png"))));
+    }
+
+    // What is neither is said, and not written.
+    QStringList said;
+    const auto listening = QObject::connect(&controller(), &DocumentController::noticed,
+                                            [&](const UserNotice& notice) { said << notice.text; });
+    saveAs("ranking.txt");
+    QObject::disconnect(listening);
+    EXPECT_THAT(said.join(QLatin1Char(' ')).toStdString(), HasSubstr(".json"));
+    EXPECT_FALSE(QFile::exists(folder.filePath(QStringLiteral("ranking.txt"))));
 }
 
 TEST_F(LightSweepTest, AnEditMakesTheResultOneOfAnEarlierStateUntilItIsUndoneOrRunAgain) {

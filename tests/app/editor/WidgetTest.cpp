@@ -1,6 +1,7 @@
 // The numeric field, the slider and the colour picker by real mouse and key events.
 
 #include "app/editor/job/UiTasks.h"
+#include "app/editor/widget/BusyIndicator.h"
 #include "app/editor/widget/ColorConversion.h"
 #include "app/editor/widget/ColorPicker.h"
 #include "app/editor/widget/MapSlotWidget.h"
@@ -497,6 +498,19 @@ TEST(OutputFileTest, FormatAndExtensionFollowEachOther) {
     EXPECT_EQ(run->text(), QStringLiteral("Overwrite"));
     run->click();
     EXPECT_EQ(accepted.count(), 1);
+}
+
+TEST(BusyIndicator, TurnsLessOftenWhereTheWindowTakesLongToShow) {
+    EXPECT_EQ(BusyIndicator::stepMs(0.5), 50) << "20 times a second";
+    EXPECT_EQ(BusyIndicator::stepMs(20.0), 400) << "a twentieth of the time at most";
+    EXPECT_EQ(BusyIndicator::stepMs(5000.0), 1000) << "it never seems to stand still";
+
+    // Measured of what is on screen, and it turns.
+    BusyIndicator indicator;
+    indicator.setActivity(QStringLiteral("Working"));
+    ASSERT_TRUE(QTest::qWaitForWindowExposed(&indicator));
+    const QImage first = indicator.grab().toImage();
+    EXPECT_TRUE(QTest::qWaitFor([&] { return indicator.grab().toImage() != first; }, 30'000));
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 // Environment files that are dropped onto cells of the wall and their captions.
+#include "app/editor/document/DraggedSources.h"
 #include "app/editor/viewport/DropTarget.h"
 #include "app/editor/wall/OwnValueControls.h"
 #include "core/document/EnvironmentTitle.h"
@@ -33,12 +34,9 @@ class WallDropTest : public WallWindow {
         return viewport().mapTo(window.get(), position);
     }
     // What the window says while they are held there; then they are let go.
-    static QStringList drop(const QStringList& files, const QPoint& position) {
+    static QStringList drop(const QStringList& sources, const QPoint& position) {
         QMimeData data;
-        QList<QUrl> urls;
-        for (const QString& file : files)
-            urls << QUrl::fromLocalFile(file);
-        data.setUrls(urls);
+        setDraggedSources(data, sources); // as the Environment Library does
         const QPoint at = inWindow(position);
         QDragEnterEvent enter(window->rect().topLeft(), Qt::CopyAction, &data, Qt::LeftButton, {});
         QApplication::sendEvent(window.get(), &enter);
@@ -146,6 +144,31 @@ TEST_F(WallDropTest, OntoAnEnvironmentTheyTakeItsPlace) {
     drop({b}, row.place.center());
     for (const std::size_t cell : row.of)
         EXPECT_EQ(environmentOf(cell), "b");
+}
+
+TEST_F(WallDropTest, BuiltInSkiesOfTheLibraryAreTakenAsFilesAre) {
+    const std::string before = environmentOf(0);
+    const QStringList lines = drop({QStringLiteral("builtin:sunset")}, centreOf(1));
+    ASSERT_EQ(lines.size(), 1);
+    EXPECT_THAT(lines[0].toStdString(), testing::HasSubstr("with Sunset"));
+    EXPECT_EQ(environmentOf(1), "Sunset");
+    EXPECT_EQ(environmentOf(0), before);
+    EXPECT_EQ(undoCount(), steps + 1) << "one environment came to the scene";
+    controller().undoStack().undo();
+    controller().undoStack().redo();
+    EXPECT_EQ(environmentOf(1), "Sunset");
+
+    // Onto one that is compared: it takes its place.
+    WallPlan plan;
+    plan.columns.compared = Compared::Environments;
+    wall().setPlan(plan);
+    ASSERT_TRUE(isSettled());
+    ASSERT_EQ(wall().cells().size(), 2u);
+    const QStringList replaced = drop({QStringLiteral("builtin:night")}, centreOf(1));
+    EXPECT_EQ(replaced, QStringList{QStringLiteral("Replace the environment Sunset by Night")});
+    EXPECT_EQ(environmentOf(1), "Night");
+    EXPECT_EQ(document().environments.size(), 2u);
+    EXPECT_EQ(undoCount(), steps + 2);
 }
 
 TEST_F(WallDropTest, OtherFilesGoTheirUsualWay) {

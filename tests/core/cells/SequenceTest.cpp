@@ -1,7 +1,10 @@
 #include "core/cells/Sequence.h"
+#include "core/cells/SequenceWriter.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 #include "core/scene/Scene.h"
+#include "core/worker/WorkerClient.h"
+#include "tests/support/TemporaryFolder.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -43,6 +46,37 @@ TEST(Sequence, TheEnvironmentTurnsAndNothingElse) {
 TEST(Sequence, FilesAreNumberedFromOne) {
     EXPECT_EQ(sequenceFile("/a/turn.png", 0), "/a/turn-0001.png");
     EXPECT_EQ(sequenceFile("turn.v2.exr", 123), "turn.v2-0124.exr");
+}
+
+TEST(Sequence, PicturesAreWrittenUnderTheirNumbers) {
+    test::TemporaryFolder folder;
+    WorkerClient worker; // PNG needs none
+    SequenceOutput output;
+    output.file = folder / "turn.png";
+    output.width = output.height = 2;
+    Image picture(2, 2, 4, PixelType::U8, ColorEncoding::Srgb);
+    const auto writer = SequenceWriter::create(worker, output);
+    ASSERT_TRUE(writer) << writer.error().text();
+    EXPECT_FALSE((*writer)->isLinear());
+    for (int i = 1; i <= 2; ++i) {
+        const auto written = (*writer)->add(picture, JobContext());
+        ASSERT_TRUE(written) << written.error().text();
+        EXPECT_EQ(*written, folder / ("turn-000" + std::to_string(i) + ".png"));
+        EXPECT_EQ((*writer)->written(), i);
+    }
+    ASSERT_TRUE((*writer)->finish(JobContext()));
+    EXPECT_EQ(folder.files(), (std::vector<std::string>{"turn-0001.png", "turn-0002.png"}));
+
+    output.file = folder / "turn.exr";
+    EXPECT_TRUE((*SequenceWriter::create(worker, output))->isLinear());
+    output.file = folder / "turn.gif";
+    const auto unknown = SequenceWriter::create(worker, output);
+    ASSERT_FALSE(unknown);
+    EXPECT_EQ(unknown.error().kind, ErrorKind::Usage);
+    output.file = folder / "gone" / "turn.png";
+    const auto failed = (*SequenceWriter::create(worker, output))->add(picture, JobContext());
+    ASSERT_FALSE(failed);
+    EXPECT_EQ(failed.error().file.filename(), "turn-0001.png");
 }
 
 } // namespace

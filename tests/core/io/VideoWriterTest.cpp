@@ -102,6 +102,29 @@ TEST_F(VideoWriterTest, AnAbandonedOneEndsItsProgram) {
     EXPECT_FALSE(std::filesystem::exists(folder / "turn.mp4"));
 }
 
+TEST_F(VideoWriterTest, ACancelIsNoticedWhileItsProgramTakesItsTime) {
+    installFfmpeg("exec sleep 1000"); // takes nothing, and does not end
+    JobControl control;
+    Result<std::unique_ptr<VideoWriter>> writer =
+        VideoWriter::create(folder / "turn.mp4", 1024, 1024, 24);
+    ASSERT_TRUE(writer);
+    std::thread cancels([&] { control.cancel(); });
+    const Result<void> added = (*writer)->add(picture(1, 1024, 1024), control.context());
+    cancels.join();
+    ASSERT_FALSE(added);
+    EXPECT_EQ(added.error().kind, ErrorKind::Cancelled);
+
+    JobControl last;
+    writer = VideoWriter::create(folder / "turn.mp4", 4, 3, 24);
+    ASSERT_TRUE(writer);
+    ASSERT_TRUE((*writer)->add(picture(1), last.context()));
+    last.cancel();
+    const Result<void> finished = (*writer)->finish(last.context());
+    ASSERT_FALSE(finished);
+    EXPECT_EQ(finished.error().kind, ErrorKind::Cancelled);
+    EXPECT_FALSE(std::filesystem::exists(folder / "turn.mp4"));
+}
+
 TEST_F(VideoWriterTest, SaysWhatIsMissing) {
     setenv("PATH", folder.path().c_str(), 1);
     const auto without = VideoWriter::create(folder / "turn.mp4", 4, 3, 24);

@@ -5,9 +5,11 @@
 #include "core/library/MaterialRecipes.h"
 #include "core/library/Meshes.h"
 #include "core/library/Noise.h"
+#include "core/library/SkyCanvas.h"
 #include "core/library/SkyRecipes.h"
 #include "core/math/PortableMath.h"
 
+#include <atomic>
 #include <cmath>
 #include <gmock/gmock.h>
 #include <thread>
@@ -98,6 +100,31 @@ TEST(Library, ServesManyThreadsAtOnce) {
         EXPECT_EQ(images[i], images[i % 2]);
 }
 
+// A sky is painted row by row: a cancel is noticed between rows, and what is unfinished is not kept
+// for whoever asks next.
+TEST(Library, ASkyThatIsCancelledIsNotMade) {
+    JobControl before;
+    before.cancel();
+    for (const library::Entry& entry : library::environments()) {
+        const auto sky = library::environment(entry.name, before.context());
+        ASSERT_FALSE(sky.ok()) << entry.name;
+        EXPECT_EQ(sky.error().kind, ErrorKind::Cancelled) << entry.name;
+    }
+    EXPECT_EQ(hashImage(**library::environment("white")),
+              hashImage(*library::whiteSky(1.0, JobContext())))
+        << "made anew";
+
+    JobControl control;
+    std::atomic<int> rows = 0;
+    library::SkyCanvas canvas(control.context());
+    canvas.forRows(0, library::kSkyHeight, [&](int) {
+        control.cancel();
+        ++rows;
+    });
+    EXPECT_LT(rows, library::kSkyHeight);
+    EXPECT_EQ(canvas.finish(), nullptr);
+}
+
 TEST(Library, SaysWhatThereIsWhenANameIsUnknown) {
     const auto model = library::model("teapot");
     ASSERT_FALSE(model.ok());
@@ -130,7 +157,7 @@ TEST(Library, DoesNotDependOnTheThreadCount) {
         for (const library::MaterialRecipe& recipe : library::materialRecipes())
             hashes.push_back(hashSurface(library::finishSurface(recipe.make())));
         for (const library::SkyRecipe& recipe : library::skyRecipes())
-            hashes.push_back(hashImage(*recipe.make(recipe.whiteFacingUp)));
+            hashes.push_back(hashImage(*recipe.make(recipe.whiteFacingUp, JobContext())));
         for (const library::ModelRecipe& recipe : library::modelRecipes())
             for (const library::ModelPart& part : recipe.make())
                 hashes.push_back(hashMesh(*part.mesh));
