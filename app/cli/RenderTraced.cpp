@@ -159,7 +159,7 @@ Result<void> renderTraced(Session& session, const RenderOptions& options, const 
 
     std::vector<ImagePart> parts(1);
     const Image radiance = film.radiance(frame.transparentBackground);
-    if (isLinear(format)) {
+    if (isLinearFormat(format)) {
         parts[0].image = radiance;
     } else {
         Result<Image> shown = displayedPicture(radiance, document.view, luminanceOf(radiance));
