@@ -66,10 +66,32 @@ Grey halved(const Grey& grey) {
 
 using Histogram = std::array<std::size_t, 256>;
 
-Histogram histogramOf(const Grey& grey) {
+// What (x, y) of one picture and (x + dx, y + dy) of another have in common, in the first one's
+// pixels.
+struct Overlap {
+    int left = 0, right = 0, top = 0, bottom = 0;
+    [[nodiscard]] std::size_t pixels() const {
+        return left < right && top < bottom
+                   ? static_cast<std::size_t>(right - left) * static_cast<std::size_t>(bottom - top)
+                   : 0;
+    }
+};
+
+Overlap overlapOf(int width, int height, PhotoShift shift) {
+    return {std::max(0, -shift.dx), std::min(width, width - shift.dx), std::max(0, -shift.dy),
+            std::min(height, height - shift.dy)};
+}
+
+Histogram histogramOf(const Grey& grey, const Overlap& part, PhotoShift shift) {
     Histogram histogram{};
-    for (const std::uint8_t code : grey.codes)
-        ++histogram[code];
+    for (int y = part.top; y < part.bottom; ++y) {
+        const std::uint8_t* row =
+            grey.codes.data() +
+            static_cast<std::size_t>(y + shift.dy) * static_cast<std::size_t>(grey.width) +
+            static_cast<std::size_t>(part.left + shift.dx);
+        for (int x = 0; x < part.right - part.left; ++x)
+            ++histogram[row[x]];
+    }
     return histogram;
 }
 
@@ -83,13 +105,17 @@ int percentile(const Histogram& histogram, std::size_t total, double share) {
 }
 
 // Codes at which both pictures are split alike: the median or, where that is clipped in one of
-// them, another percentile. Nothing when there is none.
-std::optional<std::array<int, 2>> thresholdsOf(const Grey& a, const Grey& b) {
-    const Histogram one = histogramOf(a), other = histogramOf(b);
+// them, another percentile. Of what they have in common: of the whole pictures it would split each
+// in its own middle, wherever that is in the scene. Nothing when there is none.
+std::optional<std::array<int, 2>> thresholdsOf(const Grey& a, const Grey& b, PhotoShift shift) {
+    const Overlap part = overlapOf(a.width, a.height, shift);
+    if (part.pixels() == 0)
+        return std::nullopt;
+    const Histogram one = histogramOf(a, part, {}), other = histogramOf(b, part, shift);
     constexpr std::array kShares{0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9, 0.05, 0.95};
     for (const double share : kShares) {
-        const std::array<int, 2> found{percentile(one, a.codes.size(), share),
-                                       percentile(other, b.codes.size(), share)};
+        const std::array<int, 2> found{percentile(one, part.pixels(), share),
+                                       percentile(other, part.pixels(), share)};
         if (std::all_of(found.begin(), found.end(), [](int code) {
                 return code > 2 * kExcluded && code < 255 - 2 * kExcluded;
             }))
@@ -118,11 +144,10 @@ struct Level {
 // Share of the pixels that differ when (x, y) of `a` is (x + dx, y + dy) of `b`; 1 where none can
 // be compared.
 double differing(const Level& level, PhotoShift shift, const JobContext& job) {
-    const int left = std::max(0, -shift.dx), right = std::min(level.width, level.width - shift.dx);
-    const int top = std::max(0, -shift.dy),
-              bottom = std::min(level.height, level.height - shift.dy);
-    if (left >= right || top >= bottom)
+    const Overlap part = overlapOf(level.width, level.height, shift);
+    if (part.pixels() == 0)
         return 1.0;
+    const int left = part.left, right = part.right, top = part.top, bottom = part.bottom;
     std::atomic<std::size_t> differ = 0, compared = 0;
     parallelFor(
         job, static_cast<std::size_t>(bottom - top), 64, [&](std::size_t begin, std::size_t end) {
@@ -176,6 +201,14 @@ void addNear(std::vector<Candidate>& candidates, const Level& level, PhotoShift 
         }
 }
 
+// Both pictures' bitmaps where they are about so far apart.
+std::optional<Level> levelAt(const Grey& a, const Grey& b, PhotoShift shift) {
+    const auto thresholds = thresholdsOf(a, b, shift);
+    if (!thresholds)
+        return std::nullopt;
+    return Level{a.width, a.height, bitmapOf(a, (*thresholds)[0]), bitmapOf(b, (*thresholds)[1])};
+}
+
 // How far (x, y) of `a` is away in `b`: all shifts of a small picture, then by a pixel either way
 // in pictures twice as large each. Ward follows the best shift alone; in a small picture another
 // one may look as good, so the best few are followed, half as many in each next picture.
@@ -183,29 +216,34 @@ PhotoShift shiftBetween(const std::vector<Grey>& a, const std::vector<Grey>& b,
                         const JobContext& job) {
     constexpr std::size_t kFollowed = 24; // of the smallest picture
     const int limit = std::min({kMaxPhotoShift, a.front().width / 4, a.front().height / 4});
-    std::vector<Candidate> followed{{}};
+    std::vector<PhotoShift> starts;
+    const int smallestLimit = (limit >> (a.size() - 1)) + 1;
+    for (int dy = -smallestLimit; dy <= smallestLimit; ++dy)
+        for (int dx = -smallestLimit; dx <= smallestLimit; ++dx)
+            starts.push_back({dx, dy});
     std::size_t kept = kFollowed;
     for (std::size_t k = a.size(); k-- > 0;) {
-        if (job.cancelled())
-            return {};
-        const auto thresholds = thresholdsOf(a[k], b[k]);
-        if (!thresholds)
-            return {};
-        const Level level{a[k].width, a[k].height, bitmapOf(a[k], (*thresholds)[0]),
-                          bitmapOf(b[k], (*thresholds)[1])};
-        const int scale = 1 << k;
-        const int levelLimit = (limit + scale - 1) / scale;
         const bool smallest = k + 1 == a.size();
+        const int levelLimit = smallest ? smallestLimit : (limit >> k) + (k > 0 ? 1 : 0);
         std::vector<Candidate> tried;
-        for (const Candidate& one : followed)
-            addNear(tried, level, {2 * one.shift.dx, 2 * one.shift.dy}, smallest ? levelLimit : 1,
-                    levelLimit, job);
+        for (const PhotoShift start : starts) {
+            if (job.cancelled())
+                return {};
+            if (const std::optional<Level> level = levelAt(a[k], b[k], start))
+                addNear(tried, *level, start, smallest ? 0 : 1, levelLimit, job);
+        }
+        if (tried.empty())
+            return {};
         std::sort(tried.begin(), tried.end(), isBetter);
         tried.resize(std::min(tried.size(), std::max<std::size_t>(kept, 1)));
         kept /= 2;
-        followed = std::move(tried);
+        if (k == 0)
+            return tried.front().shift;
+        starts.clear();
+        for (const Candidate& one : tried)
+            starts.push_back({2 * one.shift.dx, 2 * one.shift.dy});
     }
-    return followed.front().shift;
+    return {};
 }
 
 std::vector<Grey> pyramidOf(const Photo& photo, const JobContext& job) {
