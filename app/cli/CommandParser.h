@@ -84,6 +84,7 @@ class CommandParser {
     void addEnvironmentOption(CLI::App* command, PictureOptions& options);
     void addPicture(CLI::App* command, PictureOptions& options);
     void addEnvironment();
+    void addBracket();
     void addExport();
     void addRefine();
     void addCompare();
@@ -100,6 +101,7 @@ class CommandParser {
     BakeIblOptions m_ibl;
     MergeOptions m_merge;
     EnvironmentOptions m_environment;
+    BracketCommandOptions m_bracket;
     ExportOptions m_export;
     RefineOptions m_refine;
     CompareOptions m_compare;
