@@ -3,6 +3,7 @@
 #include "app/cli/Numbers.h"
 #include "app/cli/SceneSetup.h"
 #include "core/bracket/Bracket.h"
+#include "core/bracket/BracketPreview.h"
 #include "core/io/ImageIO.h"
 
 #include <filesystem>
@@ -136,7 +137,7 @@ Result<void> run(Session& session, const BracketCommandOptions& options) {
     session.report().output(options.output,
                             fmt::format("{} × {} pixels", image.width(), image.height()));
     if (!options.marks.empty()) {
-        const Image marks = markedPreview(bracket->merged, 0.0f, true, kAnySide);
+        const Image marks = drawPreview(shrinkMerged(bracket->merged, kAnySide), 0.0f, true);
         if (Result<void> saved = saveImage(session.worker(), marks, options.marks); !saved)
             return saved;
         session.report().output(options.marks, "clipped and disagreeing pixels");

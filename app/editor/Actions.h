@@ -17,7 +17,8 @@ class Actions : public QObject {
   public:
     Actions(UndoStack& undoStack, QObject* parent);
 
-    QAction *newScene, *open, *addModel, *save, *saveAs, *saveEnvironment, *exportScene, *quit;
+    QAction *newScene, *open, *addModel, *makeHdr, *save, *saveAs, *saveEnvironment, *exportScene,
+        *quit;
     QAction* recover;
     QAction *undo, *redo, *keepSnapshot;
     QAction *frame, *home, *overlays, *wall, *lightingIbl, *lightingPrt;

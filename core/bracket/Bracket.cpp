@@ -1,8 +1,6 @@
 #include "core/bracket/Bracket.h"
 
 #include "core/bracket/PhotoSamples.h"
-#include "core/image/AreaFilter.h"
-#include "core/image/Srgb.h"
 #include "core/io/ImageIO.h"
 #include "core/job/Parallel.h"
 
@@ -47,7 +45,7 @@ Result<std::vector<Photo>> readPhotos(WorkerClient& worker, std::span<const fs::
         ImageLoadOptions options;
         options.integerEncoding = ColorEncoding::Data; // codes
         options.colorOnly = true;
-        loaded[begin] = loadImage(worker, files[begin], options);
+        loaded[begin] = loadImage(worker, files[begin], options, job);
         job.setProgress(static_cast<double>(++done) / static_cast<double>(files.size()));
     });
     if (job.cancelled())
@@ -284,61 +282,6 @@ std::string_view responseText(ResponseKind kind) {
         return "linear";
     }
     return {};
-}
-
-Image markedPreview(const MergedPhotos& merged, float exposureEv, bool marks, int maxSide,
-                    const MarkColors& colors) {
-    const Image& image = merged.image;
-    const ImageSize size = reducedSize({image.width(), image.height()}, maxSide);
-    const Image small = size.width < image.width() ? shrinkImage(image, maxSide) : image;
-    Image result(small.width(), small.height(), 3, PixelType::U8, ColorEncoding::Srgb);
-    const float scale = std::exp2(exposureEv);
-    const std::span<const float> in = small.f32();
-    const std::span<std::uint8_t> out = result.u8();
-    for (std::size_t i = 0; i < out.size(); ++i)
-        out[i] = linearToSrgb8(scale * in[i]);
-    if (!marks)
-        return result;
-    // A small pixel has a mark's colour by the share of those it stands for that have the mark:
-    // half of them are enough for all of it, so that single pixels are seen in a picture of many.
-    struct Counts {
-        std::uint32_t all = 0, above = 0, below = 0, disagrees = 0;
-    };
-    const auto width = static_cast<std::size_t>(image.width());
-    const auto columns = static_cast<std::size_t>(small.width());
-    const auto rows = static_cast<std::size_t>(small.height());
-    std::vector<Counts> counts(columns * rows);
-    for (std::size_t at = 0; at < merged.marks.size(); ++at) {
-        const std::size_t x = at % width * columns / width;
-        const std::size_t y = at / width * rows / static_cast<std::size_t>(image.height());
-        Counts& count = counts[y * columns + x];
-        const std::uint8_t mark = merged.marks[at];
-        ++count.all;
-        if ((mark & kClippedAbove) != 0)
-            ++count.above;
-        else if ((mark & kClippedBelow) != 0)
-            ++count.below;
-        else if ((mark & kDisagrees) != 0)
-            ++count.disagrees;
-    }
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-        const Counts& count = counts[i];
-        const std::uint32_t marked = count.above + count.below + count.disagrees;
-        if (marked == 0)
-            continue;
-        const float part =
-            std::min(2.0f * static_cast<float>(marked) / static_cast<float>(count.all), 1.0f);
-        for (std::size_t c = 0; c < 3; ++c) {
-            const float color =
-                static_cast<float>(count.above * colors.above[c] + count.below * colors.below[c] +
-                                   count.disagrees * colors.disagrees[c]) /
-                static_cast<float>(marked);
-            std::uint8_t& sample = out[3 * i + c];
-            sample = static_cast<std::uint8_t>(
-                std::lround(part * color + (1.0f - part) * static_cast<float>(sample)));
-        }
-    }
-    return result;
 }
 
 } // namespace patina

@@ -6,8 +6,6 @@
 #include "core/bracket/PhotoExposure.h"
 #include "core/bracket/ResponseCurve.h"
 
-#include <array>
-#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -65,13 +63,5 @@ Result<Bracket> makeBracket(WorkerClient& worker, std::span<const std::filesyste
 
 // "sRGB", "recovered from the photos" …
 [[nodiscard]] std::string_view responseText(ResponseKind kind);
-
-// The result with clipped and disagreeing pixels in colours of their own, in 8 bits sRGB, at an
-// exposure in stops and at most so large.
-struct MarkColors {
-    std::array<std::uint8_t, 3> above{255, 64, 160}, below{64, 128, 255}, disagrees{255, 200, 0};
-};
-[[nodiscard]] Image markedPreview(const MergedPhotos& merged, float exposureEv, bool marks,
-                                  int maxSide, const MarkColors& colors = {});
 
 } // namespace patina

@@ -118,11 +118,10 @@ LogResponse solveOnce(const std::vector<ResponseSample>& samples, const Trust& t
 
     // Smoothness. Where all exposures are the same number of stops apart, waves of that period can
     // be added to g and nothing in the photos tells: only this term does, and what it takes for
-    // smooth is what is found. The paper's second differences of g itself make waves of 2 to 10 %
-    // where g bends, as each power of the exposure does in the dark; so here they are third
-    // differences, and of g less the sRGB curve's, which most cameras are near to (the paper's
-    // w(z), squared: codes at the ends are free). Chosen among 90 others by seven cameras and four
-    // brackets.
+    // smooth is what is found. The paper's second differences of g itself make waves where g bends,
+    // as each power of the exposure does in the dark; so here they are third differences, and of g
+    // less the sRGB curve's, which most cameras are near to. By the hat weight, twice: codes at the
+    // ends are free. Chosen by simulated cameras; docs/maths/bracket.md has the figures.
     constexpr double kSmoothness = 1e6;
     constexpr std::array<double, 4> kDifference{-1.0, 3.0, -3.0, 1.0};
     const LogResponse usual = srgbResponse();

@@ -5,6 +5,7 @@
 #include "core/base/AtomicFile.h"
 #include "core/base/Result.h"
 #include "core/image/Image.h"
+#include "core/job/JobContext.h"
 
 #include <filesystem>
 #include <map>
@@ -49,9 +50,10 @@ struct ImageLoadOptions {
 };
 
 // PNG, JPEG, TGA, TIFF, OpenEXR, Radiance HDR, PSD, DDS, BMP, WebP; 8/16 bit integer, half, float.
-// Errors: InputMissing, InputBroken (damaged, not an image, beyond the limits, decoder died).
+// Errors: InputMissing, InputBroken (damaged, not an image, beyond the limits, decoder died),
+// Cancelled.
 Result<LoadedImage> loadImage(WorkerClient& worker, const std::filesystem::path& file,
-                              const ImageLoadOptions& options = {});
+                              const ImageLoadOptions& options = {}, const JobContext& job = {});
 // The same from memory (textures embedded in a model); `name` stands in messages.
 Result<LoadedImage> loadImageFromMemory(WorkerClient& worker, std::span<const std::byte> data,
                                         const std::string& name,

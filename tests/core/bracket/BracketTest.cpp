@@ -1,9 +1,12 @@
 // Radiance is what the scene has, what cannot be known is counted, and what makes no bracket is
 // refused with the reason.
+#include "core/bracket/BracketPreview.h"
 #include "tests/core/bracket/Photos.h"
 
+#include <atomic>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <thread>
 
 namespace patina {
 namespace {
@@ -250,6 +253,31 @@ TEST_F(Brackets, LeaveNothingAfterACancel) {
     EXPECT_EQ(made.error().kind, ErrorKind::Cancelled);
 }
 
+// Wherever it is when the cancel comes, also while the worker decodes, nothing of it is left.
+TEST_F(Brackets, CanBeCancelledAnywhere) {
+    const auto files = writeAll(test::fiveShots("tif"), test::gammaCamera);
+    for (const double at : {0.1, 0.5, 0.6, 0.8}) {
+        JobControl control;
+        std::atomic<bool> ended = false;
+        Result<Bracket> made = Error{};
+        std::thread work([&] {
+            made = makeBracket(worker(), files, {}, control.context());
+            ended = true;
+        });
+        while (!ended && control.progress().fraction < at)
+            std::this_thread::yield();
+        control.cancel();
+        work.join();
+        if (at < 0.2) {
+            EXPECT_FALSE(made.ok()); // four photos are still to be read
+        }
+        if (!made.ok()) { // else it was faster
+            EXPECT_EQ(made.error().kind, ErrorKind::Cancelled) << at;
+        }
+        EXPECT_TRUE(worker().childProcesses().empty());
+    }
+}
+
 TEST_F(Brackets, AreToldFromOtherPhotosByTheirExif) {
     const std::vector<std::filesystem::path> files{"a.jpg", "b.jpg"};
     const auto is = [&](const PhotoExposure& a, const PhotoExposure& b) {
@@ -268,9 +296,9 @@ TEST_F(Brackets, ArePreviewedWithTheirMarks) {
     merged.marks[1] = kClippedAbove;
     merged.marks[2] = kClippedBelow | kDisagrees;
     merged.marks[7] = kDisagrees;
-    const Image plain = markedPreview(merged, 2.0f, false, 64);
+    const Image plain = drawPreview(shrinkMerged(merged, 64), 2.0f, false);
     EXPECT_EQ(plain.u8()[0], 255);
-    const Image marked = markedPreview(merged, 0.0f, true, 64);
+    const Image marked = drawPreview(shrinkMerged(merged, 64), 0.0f, true);
     const MarkColors colors;
     const auto pixel = [&](std::size_t at) {
         return std::array{marked.u8()[3 * at], marked.u8()[3 * at + 1], marked.u8()[3 * at + 2]};
@@ -279,7 +307,12 @@ TEST_F(Brackets, ArePreviewedWithTheirMarks) {
     EXPECT_EQ(pixel(1), colors.above);
     EXPECT_EQ(pixel(2), colors.below);
     EXPECT_EQ(pixel(7), colors.disagrees);
-    EXPECT_EQ(markedPreview(merged, 0.0f, true, 2).width(), 2);
+    // Of four pixels one is clipped, and one more twice over: both count once.
+    const BracketPreview small = shrinkMerged(merged, 2);
+    ASSERT_EQ(small.image.width(), 2);
+    EXPECT_EQ(small.marks[0].above, 0.25f);
+    EXPECT_EQ(small.marks[1].below, 0.25f);
+    EXPECT_EQ(small.marks[1].disagrees, 0.25f);
 }
 
 } // namespace
