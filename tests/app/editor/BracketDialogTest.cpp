@@ -113,6 +113,9 @@ class BracketDialogTest : public EditorTest {
         for (const QString& file : files)
             urls << QUrl::fromLocalFile(file);
         data.setUrls(urls);
+        QDragEnterEvent enter({300, 300}, Qt::CopyAction, &data, Qt::LeftButton, {});
+        QApplication::sendEvent(window.get(), &enter);
+        ASSERT_TRUE(enter.isAccepted());
         QDropEvent event({300, 300}, Qt::CopyAction, &data, Qt::LeftButton, {});
         QApplication::sendEvent(window.get(), &event);
     }
@@ -259,10 +262,9 @@ TEST_F(BracketDialogTest, ExposuresCanBeTyped) {
     keep(*dialog, QStringLiteral("bracket-no-exif.png"));
     auto* ev = find<QDoubleSpinBox>(*dialog, QStringLiteral("Exposure of b.tif"));
     ASSERT_NE(ev, nullptr);
-    ev->setFocus();
     ev->selectAll();
     QTest::keyClicks(ev, QStringLiteral("4"));
-    QTest::keyClick(ev, Qt::Key_Tab);
+    QTest::keyClick(ev, Qt::Key_Return);
     ASSERT_TRUE(eventually([&] { return !dialog->isBusy(); }));
     ASSERT_NE(dialog->result(), nullptr) << dialog->message().toStdString();
     EXPECT_DOUBLE_EQ(dialog->result()->report.photos[1].ev, 2.0);

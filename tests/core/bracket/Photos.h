@@ -20,9 +20,8 @@ namespace patina::test {
 
 inline constexpr int kPhotoWidth = 480, kPhotoHeight = 320;
 
-// Radiance of the scene at any place, also outside the picture: twelve stops from left to right,
-// with blocks and waves, reddish above and bluish below.
-inline double sceneRadiance(int x, int y, int channel) {
+// Twelve stops from left to right, with blocks and waves, reddish above and bluish below.
+inline double computedRadiance(int x, int y, int channel) {
     const auto wave = [](double value) { return 0.5 + 0.5 * std::sin(value); };
     // A hash of the block's place, 0 … 1.
     const auto block = [](int column, int row) {
@@ -36,6 +35,22 @@ inline double sceneRadiance(int x, int y, int channel) {
                          0.5 * wave(0.031 * x + 0.017 * y) +
                          (channel - 1) * 0.6 * (y - 160.0) / kPhotoHeight;
     return std::exp2(stops);
+}
+
+// Radiance of the scene at a pixel, also somewhat outside the picture.
+inline double sceneRadiance(int x, int y, int channel) {
+    constexpr int kAround = 80, kColumns = kPhotoWidth + 2 * kAround,
+                  kRows = kPhotoHeight + 2 * kAround;
+    static const std::vector<double> kScene = [] { // each is asked for a hundred times
+        std::vector<double> scene;
+        for (int row = 0; row < kRows; ++row)
+            for (int column = 0; column < kColumns; ++column)
+                for (int c = 0; c < 3; ++c)
+                    scene.push_back(computedRadiance(column - kAround, row - kAround, c));
+        return scene;
+    }();
+    const auto pixel = static_cast<std::size_t>((y + kAround) * kColumns + x + kAround);
+    return kScene.at(3 * pixel + static_cast<std::size_t>(channel));
 }
 
 // Code 0 … 1 of an exposure; 1 and more is clipped.
