@@ -101,6 +101,7 @@ BracketDialog::BracketDialog(DocumentController& controller, JobManager& jobs,
     connect(m_output, &OutputFile::accepted, this, &BracketDialog::save);
     connect(&m_progress, &QTimer::timeout, this, &BracketDialog::showProgress);
     m_progress.setInterval(kProgressMs);
+    m_marks->setFocus(); // not a number, which the wheel would change
     refresh();
     readExposures();
 }

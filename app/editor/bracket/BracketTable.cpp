@@ -7,6 +7,7 @@
 #include <QFileInfo>
 #include <QHeaderView>
 #include <QSignalBlocker>
+#include <QWheelEvent>
 #include <algorithm>
 
 namespace patina::editor {
@@ -14,6 +15,17 @@ namespace {
 
 constexpr double kMostStops = 30.0; // either way
 constexpr double kThirdOfAStop = 1.0 / 3.0;
+
+// Of the wheel it takes nothing that is meant for the list.
+class EvField : public QDoubleSpinBox {
+  protected:
+    void wheelEvent(QWheelEvent* event) override {
+        if (hasFocus())
+            QDoubleSpinBox::wheelEvent(event);
+        else
+            event->ignore();
+    }
+};
 
 QString shareText(double share) {
     return share > 0.0 && share < 0.001 ? BracketTable::tr("< 0.1 %")
@@ -53,7 +65,7 @@ BracketTable::BracketTable(const QStringList& photos, QWidget* parent)
     for (int row = 0; row < rowCount(); ++row) {
         const QString name = QFileInfo(photos[row]).fileName();
         set(row, Photo, name, photos[row]);
-        auto* ev = describe(new QDoubleSpinBox, tr("Exposure of %1").arg(name),
+        auto* ev = describe(new EvField, tr("Exposure of %1").arg(name),
                             tr("Exposure of this photo in stops; only the differences between "
                                "photos count"));
         ev->setObjectName(QStringLiteral("bracketEv%1").arg(row));
@@ -61,7 +73,7 @@ BracketTable::BracketTable(const QStringList& photos, QWidget* parent)
         ev->setDecimals(2);
         ev->setSingleStep(kThirdOfAStop);
         ev->setKeyboardTracking(false); // each change computes anew
-        ev->setFrame(false);
+        ev->setFocusPolicy(Qt::StrongFocus);
         setCellWidget(row, Ev, ev);
         connect(ev, &QDoubleSpinBox::valueChanged, this, [this, row](double value) {
             m_evs[static_cast<std::size_t>(row)] = value;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kDarkest = -8.0, kBrightest = 4.0; // stops against middle grey
 constexpr QRgb kChannelColors[] = {tokens::kDanger, 0xff7fc27a, 0xff6ba6ea, tokens::kTextDim};
-constexpr int kSrgbLook = 3; // of the colours; a single channel is shown in it, too
+constexpr int kSrgbLook = 3; // of the colours; of what is the same for all channels, too
 
 // Codes over stops of light.
 PlotCurve curveOf(const LogResponse& response, int look, CurveShape shape, const QString& name) {
@@ -44,12 +44,12 @@ void ResponsePlot::setReport(const BracketReport& report) {
     m_kind = toQString(responseText(report.response));
     std::vector<PlotCurve> curves;
     const std::array names{tr("Red"), tr("Green"), tr("Blue")};
-    if (report.curves.size() == names.size())
+    if (report.response == ResponseKind::Recovered && report.curves.size() == names.size())
         for (std::size_t c = 0; c < names.size(); ++c)
             curves.push_back(
                 curveOf(report.curves[c], static_cast<int>(c), CurveShape::Line, names[c]));
     else if (!report.curves.empty())
-        curves.push_back(curveOf(report.curves.front(), kSrgbLook, CurveShape::Line, tr("Grey")));
+        curves.push_back(curveOf(report.curves.front(), kSrgbLook, CurveShape::Line, tr("Code")));
     if (report.response == ResponseKind::Recovered)
         curves.push_back(curveOf(srgbResponse(), kSrgbLook, CurveShape::Thin, tr("sRGB")));
     setMessage(curves.empty() ? tr("The photos are linear: they have no response") : QString());
