@@ -81,19 +81,20 @@ BracketDialog::BracketDialog(DocumentController& controller, JobManager& jobs,
     setObjectName(QStringLiteral("bracketDialog"));
     setWindowTitle(photos.size() > 1 ? tr("Make HDR from %1 Photos").arg(photos.size())
                                      : tr("Make HDR from Photos"));
-    resize(1080, 620);
+    resize(1200, 620);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(20, 20, 20, 20);
     layout->setSpacing(tokens::kMargin);
     auto* columns = new QHBoxLayout;
     columns->setSpacing(20);
-    columns->addWidget(makePhotos(), 5);
-    columns->addWidget(makeResult(), 6);
+    columns->addWidget(makePhotos(), 1);
+    columns->addWidget(makeResult(), 1);
     layout->addLayout(columns, 1);
     m_warnings = new QLabel;
     m_warnings->setObjectName(QStringLiteral("bracketWarnings"));
     m_warnings->setWordWrap(true);
     colorWords(*m_warnings, true);
+    m_warnings->hide();
     layout->addWidget(m_warnings);
     layout->addWidget(makeOutput());
     m_output->addButtons(*layout, tr("Save"));
@@ -238,6 +239,7 @@ void BracketDialog::merge() {
     m_response->clear();
     m_table->clearFound();
     m_warnings->clear();
+    m_warnings->hide();
     m_legend->clear();
     refresh();
     BracketOptions options;
@@ -308,6 +310,7 @@ void BracketDialog::showResult() {
     if (warnings.size() > kShown)
         shown += QLatin1Char(' ') + tr("And %1 more.").arg(warnings.size() - kShown);
     m_warnings->setText(shown);
+    m_warnings->setVisible(!shown.isEmpty());
     m_warnings->setToolTip(warnings.join(QLatin1Char('\n')));
     refresh();
 }

@@ -14,6 +14,8 @@ namespace patina::editor {
 namespace {
 
 constexpr double kMostStops = 30.0; // either way
+constexpr int kLeastColumn = 62;
+constexpr int kLeastWidth = 570; // a name of a dozen letters beside an exposure in full
 constexpr double kThirdOfAStop = 1.0 / 3.0;
 
 // Of the wheel it takes nothing that is meant for the list.
@@ -52,7 +54,8 @@ BracketTable::BracketTable(const QStringList& photos, QWidget* parent)
         horizontalHeaderItem(column)->setToolTip(tr(help[column]));
     horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
     horizontalHeader()->setSectionResizeMode(Photo, QHeaderView::Stretch);
-    horizontalHeader()->setMinimumSectionSize(52);
+    horizontalHeader()->setMinimumSectionSize(kLeastColumn);
+    setMinimumWidth(kLeastWidth);
     horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     verticalHeader()->hide();
     setWordWrap(false);

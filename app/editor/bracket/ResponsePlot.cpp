@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kDarkest = -8.0, kBrightest = 4.0; // stops against middle grey
 constexpr QRgb kChannelColors[] = {tokens::kDanger, 0xff7fc27a, 0xff6ba6ea, tokens::kTextDim};
+constexpr Qt::PenStyle kChannelDashes[] = {Qt::DotLine, Qt::DashLine, Qt::SolidLine};
 constexpr int kSrgbLook = 3; // of the colours; of what is the same for all channels, too
 
 // Codes over stops of light.
@@ -77,6 +78,11 @@ QColor ResponsePlot::colorOf(const PlotCurve& curve) const {
 void ResponsePlot::paintCurve(QPainter& painter, const PlotCurve& curve) const {
     QPen pen = curvePen(curve.shape, 0);
     pen.setColor(colorOf(curve));
+    // Channels often lie on each other, red above green above blue: all of them stay in sight.
+    if (curve.shape == CurveShape::Line && curve.look < kSrgbLook) {
+        pen.setStyle(kChannelDashes[curve.look]);
+        pen.setCapStyle(Qt::FlatCap);
+    }
     painter.setPen(pen);
     painter.setBrush(Qt::NoBrush);
     painter.drawPath(pathOf(curve));

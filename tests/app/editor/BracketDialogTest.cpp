@@ -11,11 +11,13 @@
 #include "tests/app/editor/EditorFixture.h"
 #include "tests/app/editor/TextFit.h"
 #include "tests/support/Events.h"
+#include "tests/support/ExifTiff.h"
 
 #include <QCheckBox>
 #include <QDir>
 #include <QDoubleSpinBox>
 #include <QDropEvent>
+#include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMimeData>
@@ -27,54 +29,6 @@ namespace patina::editor {
 namespace {
 
 using testing::HasSubstr;
-
-// A TIFF of 8 bits with an exposure time in its Exif, as cameras' own programs write it.
-QByteArray tiffWithExposure(const Image& image, std::uint32_t microseconds) {
-    QByteArray file("II*\0", 4);
-    const auto put16 = [&](std::uint32_t value) {
-        file.append(static_cast<char>(value & 0xffu)).append(static_cast<char>(value >> 8u));
-    };
-    const auto put32 = [&](std::uint32_t value) {
-        put16(value & 0xffffu);
-        put16(value >> 16u);
-    };
-    const auto entry = [&](std::uint32_t tag, std::uint32_t type, std::uint32_t count,
-                           std::uint32_t value) {
-        put16(tag);
-        put16(type);
-        put32(count);
-        put32(value);
-    };
-    constexpr std::uint32_t kShort = 3, kLong = 4, kRational = 5;
-    constexpr std::uint32_t kEntries = 10, kFirst = 8;
-    constexpr std::uint32_t kBits = kFirst + 2 + 12 * kEntries + 4, kExif = kBits + 6,
-                            kTime = kExif + 2 + 12 + 4, kPixels = kTime + 8;
-    const auto width = static_cast<std::uint32_t>(image.width());
-    const auto height = static_cast<std::uint32_t>(image.height());
-    put32(kFirst);
-    put16(kEntries);
-    entry(256, kLong, 1, width);
-    entry(257, kLong, 1, height);
-    entry(258, kShort, 3, kBits);
-    entry(259, kShort, 1, 1); // not compressed
-    entry(262, kShort, 1, 2); // RGB
-    entry(273, kLong, 1, kPixels);
-    entry(277, kShort, 1, 3);
-    entry(278, kLong, 1, height);
-    entry(279, kLong, 1, 3 * width * height);
-    entry(34665, kLong, 1, kExif);
-    put32(0);
-    for (int channel = 0; channel < 3; ++channel)
-        put16(8);
-    put16(1);
-    entry(33434, kRational, 1, kTime); // ExposureTime
-    put32(0);
-    put32(microseconds);
-    put32(1'000'000);
-    file.append(reinterpret_cast<const char*>(image.u8().data()),
-                static_cast<qsizetype>(image.u8().size()));
-    return file;
-}
 
 class BracketDialogTest : public EditorTest {
   protected:
@@ -96,10 +50,8 @@ class BracketDialogTest : public EditorTest {
                 }
         QFile file(folder.filePath(name));
         EXPECT_TRUE(file.open(QIODevice::WriteOnly));
-        const double seconds = exif ? 0.01 * std::exp2(ev) : 0.0;
-        QByteArray bytes =
-            tiffWithExposure(image, static_cast<std::uint32_t>(std::lround(1e6 * seconds)));
-        file.write(bytes);
+        const std::string bytes = test::tiffWithExposure(image, exif ? 0.01 * std::exp2(ev) : 0.0);
+        file.write(bytes.data(), static_cast<qsizetype>(bytes.size()));
         return file.fileName();
     }
     QStringList threePhotos(int width = 256, int height = 128) {
@@ -162,7 +114,7 @@ TEST_F(BracketDialogTest, ADropOfPhotosSaysAndDoesWhatTheyBecome) {
     auto* table = part<BracketTable>(*dialog, "bracketPhotos");
     ASSERT_EQ(table->rowCount(), 3);
     EXPECT_EQ(table->item(0, 0)->text(), QStringLiteral("IMG_0001.tif"));
-    EXPECT_EQ(table->item(0, 1)->text(), QStringLiteral("1/800 s"));
+    EXPECT_EQ(table->item(0, 1)->text(), QStringLiteral("1/800 s, f/8, ISO 100"));
     EXPECT_NEAR(table->exposuresEv()[0], -3.0, 1e-3);
     EXPECT_EQ(table->item(2, 3)->text(), QStringLiteral("0, 0 px"));
     auto* plot = part<ResponsePlot>(*dialog, "bracketResponse");
@@ -178,6 +130,26 @@ TEST_F(BracketDialogTest, ADropOfPhotosSaysAndDoesWhatTheyBecome) {
     }
     keep(*dialog, QStringLiteral("bracket.png"));
     dialog->reject();
+}
+
+// What cameras write is longer than what this test's photos have.
+TEST_F(BracketDialogTest, LongExposuresLeaveRoomForNames) {
+    BracketTable table({QStringLiteral("/photos/IMG_4100.jpg"), QStringLiteral("/photos/b.jpg")});
+    table.setExposures({{1.0 / 8000, 5.6, 25600}, {30.0, 22.0, 100}}, {-12.0, 12.0});
+    BracketReport report;
+    report.photos.resize(2);
+    report.photos[0].file = "/photos/IMG_4100.jpg";
+    report.photos[0].shift = {64, -64};
+    report.photos[0].black = 0.0001;
+    report.photos[0].white = 0.995;
+    table.setFound(report);
+    table.resize(table.minimumWidth(), 200);
+    table.show();
+    test::handleEvents();
+    EXPECT_EQ(table.item(0, 3)->text(), QStringLiteral("-64, 64 px"));
+    EXPECT_EQ(cutTexts(table), QStringList());
+    EXPECT_GE(table.columnWidth(0), table.fontMetrics().horizontalAdvance("IMG_4100.jpg"));
+    EXPECT_LE(table.horizontalHeader()->length(), table.viewport()->width());
 }
 
 TEST_F(BracketDialogTest, MarksAndExposureChangeThePictureAlone) {
