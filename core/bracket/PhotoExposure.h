@@ -21,7 +21,8 @@ struct PhotoExposure {
     friend bool operator==(const PhotoExposure&, const PhotoExposure&) = default;
 };
 
-// Of what a file says about itself (ImagePart::attributes).
+// Of what a file says about itself (ImagePart::attributes). OpenImageIO 2.4 does not read the ISO
+// of TIFF files.
 [[nodiscard]] PhotoExposure exposureOf(const std::map<std::string, std::string>& attributes);
 // Of the file, whose pixels are not read. Errors: those of inspectImage().
 Result<PhotoExposure> readExposure(WorkerClient& worker, const std::filesystem::path& file);

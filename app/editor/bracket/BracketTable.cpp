@@ -1,6 +1,7 @@
 #include "app/editor/bracket/BracketTable.h"
 
 #include "app/editor/document/QtText.h"
+#include "app/editor/style/Tokens.h"
 #include "app/editor/widget/ControlHelp.h"
 
 #include <QDoubleSpinBox>
@@ -15,7 +16,7 @@ namespace {
 
 constexpr double kMostStops = 30.0; // either way
 constexpr int kLeastColumn = 62;
-constexpr int kLeastWidth = 570; // a name of a dozen letters beside an exposure in full
+constexpr int kLeastWidth = 580; // a name of a dozen letters beside an exposure in full
 constexpr double kThirdOfAStop = 1.0 / 3.0;
 
 // Of the wheel it takes nothing that is meant for the list.
@@ -78,6 +79,9 @@ BracketTable::BracketTable(const QStringList& photos, QWidget* parent)
         ev->setKeyboardTracking(false); // each change computes anew
         ev->setFocusPolicy(Qt::StrongFocus);
         setCellWidget(row, Ev, ev);
+        ev->ensurePolished(); // the style has its say in how wide it is
+        horizontalHeader()->setSectionResizeMode(Ev, QHeaderView::Fixed);
+        horizontalHeader()->resizeSection(Ev, ev->sizeHint().width() + tokens::kGap);
         connect(ev, &QDoubleSpinBox::valueChanged, this, [this, row](double value) {
             m_evs[static_cast<std::size_t>(row)] = value;
             Q_EMIT exposureTyped();

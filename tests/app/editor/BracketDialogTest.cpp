@@ -114,7 +114,7 @@ TEST_F(BracketDialogTest, ADropOfPhotosSaysAndDoesWhatTheyBecome) {
     auto* table = part<BracketTable>(*dialog, "bracketPhotos");
     ASSERT_EQ(table->rowCount(), 3);
     EXPECT_EQ(table->item(0, 0)->text(), QStringLiteral("IMG_0001.tif"));
-    EXPECT_EQ(table->item(0, 1)->text(), QStringLiteral("1/800 s, f/8, ISO 100"));
+    EXPECT_EQ(table->item(0, 1)->text(), QStringLiteral("1/800 s, f/8"));
     EXPECT_NEAR(table->exposuresEv()[0], -3.0, 1e-3);
     EXPECT_EQ(table->item(2, 3)->text(), QStringLiteral("0, 0 px"));
     auto* plot = part<ResponsePlot>(*dialog, "bracketResponse");
@@ -150,6 +150,11 @@ TEST_F(BracketDialogTest, LongExposuresLeaveRoomForNames) {
     EXPECT_EQ(cutTexts(table), QStringList());
     EXPECT_GE(table.columnWidth(0), table.fontMetrics().horizontalAdvance("IMG_4100.jpg"));
     EXPECT_LE(table.horizontalHeader()->length(), table.viewport()->width());
+    auto* ev = find<QDoubleSpinBox>(table, QStringLiteral("Exposure of b.jpg"));
+    ASSERT_NE(ev, nullptr);
+    const auto* text = ev->findChild<QLineEdit*>();
+    ASSERT_NE(text, nullptr);
+    EXPECT_GE(text->width(), text->fontMetrics().horizontalAdvance(QStringLiteral("-12.00")) + 4);
 }
 
 TEST_F(BracketDialogTest, MarksAndExposureChangeThePictureAlone) {
