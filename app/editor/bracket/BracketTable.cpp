@@ -1,7 +1,6 @@
 #include "app/editor/bracket/BracketTable.h"
 
 #include "app/editor/document/QtText.h"
-#include "app/editor/style/Tokens.h"
 #include "app/editor/widget/ControlHelp.h"
 
 #include <QDoubleSpinBox>
@@ -16,6 +15,7 @@ namespace {
 
 constexpr double kMostStops = 30.0; // either way
 constexpr int kLeastColumn = 62;
+constexpr int kFieldFrame = 20;  // of a number, which its size hint leaves out
 constexpr int kLeastWidth = 580; // a name of a dozen letters beside an exposure in full
 constexpr double kThirdOfAStop = 1.0 / 3.0;
 
@@ -79,9 +79,8 @@ BracketTable::BracketTable(const QStringList& photos, QWidget* parent)
         ev->setKeyboardTracking(false); // each change computes anew
         ev->setFocusPolicy(Qt::StrongFocus);
         setCellWidget(row, Ev, ev);
-        ev->ensurePolished(); // the style has its say in how wide it is
         horizontalHeader()->setSectionResizeMode(Ev, QHeaderView::Fixed);
-        horizontalHeader()->resizeSection(Ev, ev->sizeHint().width() + tokens::kGap);
+        horizontalHeader()->resizeSection(Ev, ev->sizeHint().width() + kFieldFrame);
         connect(ev, &QDoubleSpinBox::valueChanged, this, [this, row](double value) {
             m_evs[static_cast<std::size_t>(row)] = value;
             Q_EMIT exposureTyped();
