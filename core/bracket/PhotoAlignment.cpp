@@ -141,8 +141,8 @@ struct Level {
     std::vector<std::uint8_t> a, b;
 };
 
-// Share of the pixels that differ when (x, y) of `a` is (x + dx, y + dy) of `b`; 1 where none can
-// be compared.
+// Share of the pixels that differ when (x, y) of `a` is (x + dx, y + dy) of `b`; 1 where too few
+// can be compared.
 double differing(const Level& level, PhotoShift shift, const JobContext& job) {
     const Overlap part = overlapOf(level.width, level.height, shift);
     if (part.pixels() == 0)
@@ -172,7 +172,9 @@ double differing(const Level& level, PhotoShift shift, const JobContext& job) {
             differ += myDiffer;
             compared += myCompared;
         });
-    if (compared == 0)
+    // A few pixels agree by chance.
+    constexpr std::size_t kLeastCompared = 20; // one of so many
+    if (compared * kLeastCompared < part.pixels())
         return 1.0;
     return static_cast<double>(differ) / static_cast<double>(compared);
 }
@@ -217,7 +219,7 @@ PhotoShift shiftBetween(const std::vector<Grey>& a, const std::vector<Grey>& b,
     constexpr std::size_t kFollowed = 24; // of the smallest picture
     const int limit = std::min({kMaxPhotoShift, a.front().width / 4, a.front().height / 4});
     std::vector<PhotoShift> starts;
-    const int smallestLimit = (limit >> (a.size() - 1)) + 1;
+    const int smallestLimit = a.size() > 1 ? (limit >> (a.size() - 1)) + 1 : limit;
     for (int dy = -smallestLimit; dy <= smallestLimit; ++dy)
         for (int dx = -smallestLimit; dx <= smallestLimit; ++dx)
             starts.push_back({dx, dy});

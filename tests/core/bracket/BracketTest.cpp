@@ -202,6 +202,22 @@ TEST_F(Brackets, OfBlackPhotosHaveNoResponse) {
     EXPECT_THAT(bracket.report.warnings, ElementsAre(HasSubstr("the sRGB curve is assumed")));
 }
 
+// Of a pixel or two nothing can be said but their radiance.
+TEST_F(Brackets, CanBeAsSmallAsAPixel) {
+    for (const auto& [width, height] : {std::pair{1, 1}, std::pair{2, 1}, std::pair{3, 20}}) {
+        std::vector<std::filesystem::path> files;
+        for (const Shot& shot : test::fiveShots("tif"))
+            files.push_back(write(shot, test::srgbCamera, OIIO::TypeDesc::UINT8, width, height));
+        const Bracket bracket = make(files);
+        EXPECT_EQ(bracket.report.response, ResponseKind::Assumed);
+        EXPECT_EQ(bracket.merged.image.width(), width);
+        EXPECT_EQ(bracket.report.photos[0].shift, PhotoShift());
+        const double truth =
+            test::sceneRadiance(0, 0, 1) * test::exposureOf(test::fiveShots("")[2]);
+        EXPECT_NEAR(bracket.merged.image.f32()[1] / truth, 1.0, 0.05);
+    }
+}
+
 // Nothing changes although the exposures do: not what a camera does, and no reason to crash.
 TEST_F(Brackets, OfOnePhotoAtManyExposuresHaveNoResponse) {
     std::vector<std::filesystem::path> files;
