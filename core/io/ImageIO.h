@@ -17,10 +17,10 @@ namespace patina {
 class WorkerClient;
 
 // One part (EXR) of an image file with its string attributes ("patina:basis" …); OpenEXR's `envmap`
-// ("latlong", "cube") and `chromaticities` (CIE xy of red, green, blue, white) are among them. An
-// envmap attribute is written, too. OpenEXR sorts the
-// channels of a part: after reading they are found by name, not by place. Alpha is never multiplied
-// into the colour, neither here nor there.
+// ("latlong", "cube") and `chromaticities` (CIE xy of red, green, blue, white) are among them, and
+// as text a photo's exposure (core/bracket/PhotoExposure.h). An envmap attribute is written, too.
+// OpenEXR sorts the channels of a part: after reading they are found by name, not by place. Alpha
+// is never multiplied into the colour, neither here nor there.
 struct ImagePart {
     std::string name; // EXR part name, otherwise empty
     Image image;
