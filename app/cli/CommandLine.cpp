@@ -18,9 +18,9 @@
 namespace patina::cli {
 namespace {
 
-constexpr std::array kCommands = {"info",   "render",  "sheet",       "rank",
-                                  "bake",   "merge",   "environment", "export",
-                                  "refine", "compare", "parameters"};
+constexpr std::array kCommands = {"info",   "render", "sheet",       "rank",
+                                  "bake",   "merge",  "environment", "bracket",
+                                  "export", "refine", "compare",     "parameters"};
 
 constexpr const char* kAbout =
     "Patina: a desktop editor for physically based materials you can trust.\n\n"
@@ -50,6 +50,7 @@ CommandParser::CommandParser()
     addBakes();
     addMerge();
     addEnvironment();
+    addBracket();
     addExport();
     addRefine();
     addCompare();

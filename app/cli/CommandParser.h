@@ -85,6 +85,7 @@ class CommandParser {
     static CLI::Validator rasterSamples();
     void addPicture(CLI::App* command, PictureOptions& options); // --samples unchecked
     void addEnvironment();
+    void addBracket();
     void addExport();
     void addRefine();
     void addCompare();
@@ -101,6 +102,7 @@ class CommandParser {
     BakeIblOptions m_ibl;
     MergeOptions m_merge;
     EnvironmentOptions m_environment;
+    BracketCommandOptions m_bracket;
     ExportOptions m_export;
     RefineOptions m_refine;
     CompareOptions m_compare;

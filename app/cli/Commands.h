@@ -14,6 +14,7 @@ Result<void> run(Session& session, const BakePrtOptions& options);
 Result<void> run(Session& session, const BakeIblOptions& options);
 Result<void> run(Session& session, const MergeOptions& options);
 Result<void> run(Session& session, const EnvironmentOptions& options);
+Result<void> run(Session& session, const BracketCommandOptions& options);
 Result<void> run(Session& session, const ExportOptions& options);
 Result<void> run(Session& session, const RefineOptions& options);
 Result<void> run(Session& session, const CompareOptions& options);

@@ -143,6 +143,14 @@ struct EnvironmentOptions {
     int extract = 0;         // sources that lights are to stand for
 };
 
+struct BracketCommandOptions {
+    std::vector<std::string> photos;
+    std::string output;
+    std::string exposures; // EV,EV…; empty: Exif
+    bool noAlign = false;
+    std::string marks; // a picture of what is doubtful; empty: none
+};
+
 struct ExportOptions {
     std::string scene, output;
     std::vector<std::string> bakes;
@@ -186,8 +194,9 @@ struct ParametersOptions {
 struct Invocation {
     CommonOptions common;
     std::variant<InfoOptions, RenderOptions, SheetOptions, RankOptions, BakeAoOptions,
-                 BakePrtOptions, BakeIblOptions, MergeOptions, EnvironmentOptions, ExportOptions,
-                 RefineOptions, CompareOptions, ParametersOptions>
+                 BakePrtOptions, BakeIblOptions, MergeOptions, EnvironmentOptions,
+                 BracketCommandOptions, ExportOptions, RefineOptions, CompareOptions,
+                 ParametersOptions>
         options;
 };
 

@@ -327,6 +327,27 @@ void CommandParser::addEnvironment() {
     addThreads(c);
 }
 
+void CommandParser::addBracket() {
+    BracketCommandOptions& o = m_bracket;
+    CLI::App* c = addCommand(m_app, "bracket", "One HDR picture from photos of one scene", o);
+    c->add_option("PHOTO", o.photos,
+                  "Photos of one size, exposed differently, in any order; their exposures are read "
+                  "from Exif")
+        ->required()
+        ->type_name("…");
+    c->add_option("-o,--output", o.output, ".exr or .hdr")->required()->type_name("OUT");
+    c->add_option("--exposures", o.exposures,
+                  "Exposures of the photos in stops, in place of Exif; only their differences "
+                  "count, e.g. -2,0,2")
+        ->type_name("EV,EV…");
+    c->add_flag("--no-align", o.noAlign, "Take the photos as they are, without shifting them");
+    c->add_option("--marks", o.marks,
+                  "Also write a picture in which clipped pixels (pink: white, blue: black) and "
+                  "those in which photos disagree (yellow) are coloured")
+        ->type_name("PNG");
+    addThreads(c);
+}
+
 void CommandParser::addExport() {
     ExportOptions& o = m_export;
     CLI::App* c = addCommand(m_app, "export", "A package for another program", o);

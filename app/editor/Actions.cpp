@@ -15,6 +15,8 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
                 tr("Open a project or a model in place of the scene")))
     , addModel(make(tr("Add &Model…"), QStringLiteral("add-model"), {tr("Ctrl+I")},
                     tr("Add the meshes and materials of a model file to the scene")))
+    , makeHdr(make(tr("Make &HDR from Photos…"), QStringLiteral("bracket"), {},
+                   tr("Merge photos of one scene, exposed differently, into an HDR picture")))
     , save(make(tr("&Save"), QStringLiteral("save"), {QKeySequence::Save}, tr("Save the project")))
     , saveAs(make(tr("Save &As…"), QStringLiteral("save-as"), {tr("Ctrl+Shift+S")},
                   tr("Save the project under another name")))
@@ -177,6 +179,7 @@ QList<QAction*> Actions::all() const {
     return QList<QAction*>{newScene,
                            open,
                            addModel,
+                           makeHdr,
                            save,
                            saveAs,
                            saveEnvironment,

@@ -17,7 +17,7 @@ class Actions : public QObject {
   public:
     Actions(UndoStack& undoStack, QObject* parent);
 
-    QAction *newScene, *open, *addModel, *save, *saveAs, *saveEnvironment, *exportScene;
+    QAction *newScene, *open, *addModel, *makeHdr, *save, *saveAs, *saveEnvironment, *exportScene;
     QAction *exportTurntable, *quit;
     QAction* recover;
     QAction *undo, *redo, *keepSnapshot;

@@ -2,6 +2,7 @@
 
 #include "app/editor/OutsideQuestion.h"
 #include "app/editor/Session.h"
+#include "app/editor/bracket/BracketFlow.h"
 #include "app/editor/document/DropPlan.h"
 #include "app/editor/document/FileKinds.h"
 #include "app/editor/document/ProposedFolder.h"
@@ -35,7 +36,8 @@ QString folderKey() {
 FileFlow::FileFlow(Session& session, QWidget& window)
     : QObject(&window)
     , m_session(session)
-    , m_window(window) {
+    , m_window(window)
+    , m_brackets(new BracketFlow(session.controller, session.jobs, window)) {
     new OutsideQuestion(session, window); // the window's
     const auto remembers = [this](const QString& scene) {
         if (!isBuiltin(scene.toStdString()))
@@ -104,6 +106,10 @@ void FileFlow::addModelWithDialog() {
     dialog->open();
 }
 
+void FileFlow::makeHdrWithDialog() {
+    m_brackets->openWithDialog();
+}
+
 void FileFlow::dropped(const QStringList& files, const QPoint& globalPosition) {
     QStringList models, others;
     for (const QString& file : files) {
@@ -133,6 +139,19 @@ void FileFlow::dropped(const QStringList& files, const QPoint& globalPosition) {
                  tr("The images that came with the model were left out: drop them again, onto the "
                     "material that they belong to."),
                  images});
+    }
+    const QStringList photos = models.isEmpty() ? planDrop(others).photos() : QStringList();
+    if (!photos.isEmpty()) {
+        for (const QString& photo : photos)
+            others.removeAll(photo);
+        m_brackets->offer(photos, [this, photos] {
+            Q_EMIT m_session.controller.noticed(
+                {NoticeKind::Warning,
+                 unclearText(photos) + QLatin1Char(' ') +
+                     tr("Photos become an HDR when their files say different exposures (Exif); "
+                        "File > Make HDR from Photos lets you type them."),
+                 photos});
+        });
     }
     m_session.controller.addFiles(others, m_session.selection.material());
     if (models.isEmpty())

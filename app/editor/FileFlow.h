@@ -13,6 +13,7 @@ class QWidget;
 
 namespace patina::editor {
 
+class BracketFlow;
 struct SaveQuestion;
 struct Session;
 
@@ -25,6 +26,7 @@ class FileFlow : public QObject {
     void openWithDialog();
     void open(const QString& scene); // a file or "builtin:NAME"
     void addModelWithDialog();
+    void makeHdrWithDialog(); // from photos
     void save();
     void saveAs();
     void dropped(const QStringList& files, const QPoint& globalPosition);
@@ -57,6 +59,7 @@ class FileFlow : public QObject {
 
     Session& m_session;
     QWidget& m_window;
+    BracketFlow* m_brackets; // the window's
     QPointer<QMessageBox> m_question;
 };
 

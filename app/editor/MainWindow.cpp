@@ -181,6 +181,8 @@ void MainWindow::makeMenus() {
         Actions::describe(action, QString::fromStdString(entry.help));
     }
     file->addSeparator();
+    file->addAction(a.makeHdr);
+    file->addSeparator();
     file->addActions({a.save, a.saveAs, a.saveEnvironment, a.exportScene, a.exportTurntable});
     file->addSeparator();
     file->addAction(a.quit);

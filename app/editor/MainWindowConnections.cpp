@@ -25,6 +25,7 @@ void MainWindow::connectActions() {
     connect(a.newScene, &QAction::triggered, m_files, &FileFlow::newScene);
     connect(a.open, &QAction::triggered, m_files, &FileFlow::openWithDialog);
     connect(a.addModel, &QAction::triggered, m_files, &FileFlow::addModelWithDialog);
+    connect(a.makeHdr, &QAction::triggered, m_files, &FileFlow::makeHdrWithDialog);
     connect(a.save, &QAction::triggered, m_files, qOverload<>(&FileFlow::save));
     connect(a.saveAs, &QAction::triggered, m_files, qOverload<>(&FileFlow::saveAs));
     connect(a.exportScene, &QAction::triggered, this, &MainWindow::openExportDialog);

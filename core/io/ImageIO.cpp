@@ -148,7 +148,7 @@ Result<LoadedImage> load(const Send& send, const std::string& format,
 } // namespace
 
 Result<LoadedImage> loadImage(WorkerClient& worker, const std::filesystem::path& file,
-                              const ImageLoadOptions& options) {
+                              const ImageLoadOptions& options, const JobContext& job) {
     const auto input = openInputFile(file, kMaxFileBytes);
     if (!input)
         return input.error();
@@ -157,7 +157,7 @@ Result<LoadedImage> loadImage(WorkerClient& worker, const std::filesystem::path&
         return notAnImage(file);
     return load(
         [&](const std::string& header) {
-            return worker.request(WorkerKind::Image, header, input->fd.get(), file);
+            return worker.request(WorkerKind::Image, header, input->fd.get(), file, job);
         },
         format, file, options);
 }

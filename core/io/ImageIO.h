@@ -5,6 +5,7 @@
 #include "core/base/AtomicFile.h"
 #include "core/base/Result.h"
 #include "core/image/Image.h"
+#include "core/job/JobContext.h"
 
 #include <filesystem>
 #include <map>
@@ -16,10 +17,10 @@ namespace patina {
 class WorkerClient;
 
 // One part (EXR) of an image file with its string attributes ("patina:basis" …); OpenEXR's `envmap`
-// ("latlong", "cube") and `chromaticities` (CIE xy of red, green, blue, white) are among them. An
-// envmap attribute is written, too. OpenEXR sorts the
-// channels of a part: after reading they are found by name, not by place. Alpha is never multiplied
-// into the colour, neither here nor there.
+// ("latlong", "cube") and `chromaticities` (CIE xy of red, green, blue, white) are among them, and
+// as text a photo's exposure (core/bracket/PhotoExposure.h). An envmap attribute is written, too.
+// OpenEXR sorts the channels of a part: after reading they are found by name, not by place. Alpha
+// is never multiplied into the colour, neither here nor there.
 struct ImagePart {
     std::string name; // EXR part name, otherwise empty
     Image image;
@@ -49,9 +50,10 @@ struct ImageLoadOptions {
 };
 
 // PNG, JPEG, TGA, TIFF, OpenEXR, Radiance HDR, PSD, DDS, BMP, WebP; 8/16 bit integer, half, float.
-// Errors: InputMissing, InputBroken (damaged, not an image, beyond the limits, decoder died).
+// Errors: InputMissing, InputBroken (damaged, not an image, beyond the limits, decoder died),
+// Cancelled.
 Result<LoadedImage> loadImage(WorkerClient& worker, const std::filesystem::path& file,
-                              const ImageLoadOptions& options = {});
+                              const ImageLoadOptions& options = {}, const JobContext& job = {});
 // The same from memory (textures embedded in a model); `name` stands in messages.
 Result<LoadedImage> loadImageFromMemory(WorkerClient& worker, std::span<const std::byte> data,
                                         const std::string& name,

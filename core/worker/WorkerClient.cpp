@@ -149,10 +149,10 @@ struct WorkerClient::Impl {
     std::optional<Result<Reply>> attempt(WorkerKind kind, const protocol::Request& request,
                                          const WorkerLimits& used, Clock::time_point deadline,
                                          int headerFd, int payloadFd,
-                                         const std::filesystem::path& file);
+                                         const std::filesystem::path& file, const JobContext& job);
     Result<Reply> run(WorkerKind kind, const std::string& header, int payloadFd,
                       std::size_t payloadSize, bool payloadIsFile,
-                      const std::filesystem::path& file);
+                      const std::filesystem::path& file, const JobContext& job);
 
     WorkerPrograms programs;
     mutable std::mutex mutex; // guards everything below
@@ -236,24 +236,26 @@ Result<WorkerClient::Reply> WorkerClient::request(WorkerKind kind, const std::st
     const std::size_t size = payload.bytes().size();
     if (!payload.seal())
         return noMemory(fileForMessages);
-    return m_impl->run(kind, header, payload.fd(), size, false, fileForMessages);
+    return m_impl->run(kind, header, payload.fd(), size, false, fileForMessages, {});
 }
 
 Result<WorkerClient::Reply> WorkerClient::request(WorkerKind kind, const std::string& header,
                                                   int payloadFd,
-                                                  const std::filesystem::path& fileForMessages) {
+                                                  const std::filesystem::path& fileForMessages,
+                                                  const JobContext& job) {
     struct stat status {};
     if (::fstat(payloadFd, &status) != 0)
         return Error{ErrorKind::InputMissing, "the file cannot be read", fileForMessages,
                      std::strerror(errno)};
     return m_impl->run(kind, header, payloadFd, static_cast<std::size_t>(status.st_size), true,
-                       fileForMessages);
+                       fileForMessages, job);
 }
 
 Result<WorkerClient::Reply> WorkerClient::Impl::run(WorkerKind kind, const std::string& header,
                                                     int payloadFd, std::size_t payloadSize,
                                                     bool payloadIsFile,
-                                                    const std::filesystem::path& file) {
+                                                    const std::filesystem::path& file,
+                                                    const JobContext& job) {
     auto headerCopy = MemoryFile::copyOf(std::as_bytes(std::span(header)));
     if (!headerCopy || !headerCopy->seal())
         return noMemory(file);
@@ -273,7 +275,8 @@ Result<WorkerClient::Reply> WorkerClient::Impl::run(WorkerKind kind, const std::
                                              std::chrono::duration<double>(used.wallSeconds));
     constexpr int kAttempts = 3;
     for (int i = 0; i < kAttempts; ++i)
-        if (auto result = attempt(kind, request, used, deadline, headerCopy->fd(), payloadFd, file))
+        if (auto result =
+                attempt(kind, request, used, deadline, headerCopy->fd(), payloadFd, file, job))
             return std::move(*result);
     return Error{ErrorKind::Internal,
                  "the program that reads files does not start; reinstall Patina", program(kind),
@@ -283,7 +286,8 @@ Result<WorkerClient::Reply> WorkerClient::Impl::run(WorkerKind kind, const std::
 std::optional<Result<WorkerClient::Reply>>
 WorkerClient::Impl::attempt(WorkerKind kind, const protocol::Request& request,
                             const WorkerLimits& used, Clock::time_point deadline, int headerFd,
-                            int payloadFd, const std::filesystem::path& file) {
+                            int payloadFd, const std::filesystem::path& file,
+                            const JobContext& job) {
     std::array<int, 2> pair{};
     if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, pair.data()) != 0)
         return noMemory(file);
@@ -321,10 +325,16 @@ WorkerClient::Impl::attempt(WorkerKind kind, const protocol::Request& request,
     while (true) {
         const auto left =
             std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
+        if (job.cancelled())
+            return Error{ErrorKind::Cancelled, "reading the file was cancelled", file, {}};
         pollfd waiting{mine.get(), POLLIN, 0};
+        constexpr int kCancelPoll = 50; // milliseconds
         const int ready =
-            left <= 0 ? 0
-                      : ::poll(&waiting, 1, static_cast<int>(std::min<long long>(left, 1 << 30)));
+            left <= 0
+                ? 0
+                : ::poll(&waiting, 1, static_cast<int>(std::min<long long>(left, kCancelPoll)));
+        if (ready == 0 && left > kCancelPoll)
+            continue;
         if (ready < 0 && errno == EINTR)
             continue;
         if (ready <= 0) {

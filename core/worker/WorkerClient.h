@@ -10,6 +10,7 @@
 
 #include "core/base/Limits.h"
 #include "core/base/Result.h"
+#include "core/job/JobContext.h"
 #include "core/worker/MemoryFile.h"
 
 #include <filesystem>
@@ -68,9 +69,9 @@ class WorkerClient {
     Result<Reply> request(WorkerKind kind, const std::string& header, MemoryFile payload,
                           const std::filesystem::path& fileForMessages);
     // The same with an open file as payload: the child reads it through the descriptor, which stays
-    // the caller's.
+    // the caller's. A cancelled job ends the child. Errors, too: Cancelled.
     Result<Reply> request(WorkerKind kind, const std::string& header, int payloadFd,
-                          const std::filesystem::path& fileForMessages);
+                          const std::filesystem::path& fileForMessages, const JobContext& job = {});
 
     // For tests and diagnosis: the process id of a worker (-1 when none runs) and those of the
     // children at work.

@@ -3,12 +3,14 @@
 //   docs-pictures FOLDER bounces     the Cornell box whose wall is painted
 //   docs-pictures FOLDER compare     a wall of materials and environments
 //   docs-pictures FOLDER sweep       the lights that a sweep found
+//   docs-pictures FOLDER bracket     photos that become an HDR picture
 // Run by scripts/docs-pictures on a display of its own.
 
 #include "app/editor/Actions.h"
 #include "app/editor/FileFlow.h"
 #include "app/editor/MainWindow.h"
 #include "app/editor/Session.h"
+#include "app/editor/bracket/BracketDialog.h"
 #include "app/editor/job/BounceUpdater.h"
 #include "app/editor/panel/BakeSettingsForm.h"
 #include "app/editor/panel/BrdfLensPanel.h"
@@ -27,7 +29,9 @@
 #include "core/bake/document/DocumentBakeInputs.h"
 #include "core/cells/WallAxes.h"
 #include "core/document/ViewChoices.h"
+#include "core/library/Library.h"
 #include "core/material/Material.h"
+#include "tests/support/ExifTiff.h"
 
 #include <QApplication>
 #include <QComboBox>
@@ -44,8 +48,10 @@
 #include <QSettings>
 #include <QStandardPaths>
 #include <QSurfaceFormat>
+#include <QTemporaryDir>
 #include <QToolButton>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <functional>
@@ -369,6 +375,45 @@ bool saveCompare(Session& session, MainWindow& window, const QString& file) {
     return ok;
 }
 
+// The studio by a camera with a film's response, two stops apart, from hand.
+bool saveBracket(Session& session, MainWindow& window, const QString& file) {
+    const auto studio = patina::library::environment("studio");
+    const QTemporaryDir folder;
+    if (!studio || !folder.isValid())
+        return false;
+    const patina::Image& light = **studio;
+    QStringList photos;
+    for (int i = 0; i < 5; ++i) {
+        const double ev = 2.0 * i - 4.0;
+        patina::Image photo(light.width(), light.height(), 3, patina::PixelType::U8,
+                            patina::ColorEncoding::Data);
+        std::size_t at = 0;
+        for (int y = 0; y < light.height(); ++y)
+            for (int x = 0; x < light.width(); ++x)
+                for (int c = 0; c < 3; ++c) {
+                    const int from = (x + 3 * (i - 2) + light.width()) % light.width();
+                    const double power =
+                        std::pow(4.0 * light.linear(from, y)[c] * std::exp2(ev), 0.7);
+                    const double code = std::min(1.15 * power / (power + 0.6), 1.0);
+                    photo.u8()[at++] = static_cast<std::uint8_t>(std::lround(255.0 * code));
+                }
+        photos << folder.filePath(QStringLiteral("IMG_410%1.tif").arg(i));
+        const std::string bytes = patina::test::tiffWithExposure(photo, std::exp2(ev) / 60.0);
+        QFile output(photos.back());
+        if (!output.open(QIODevice::WriteOnly) ||
+            output.write(bytes.data(), static_cast<qsizetype>(bytes.size())) < 0)
+            return false;
+    }
+    BracketDialog dialog(session.controller, session.jobs, photos, &window);
+    dialog.show();
+    if (!runUntil([&] { return dialog.result() != nullptr; }, 120'000))
+        return false;
+    dialog.findChild<QLineEdit*>(QStringLiteral("bracketPath"))
+        ->setText(QStringLiteral("/home/artist/studio.exr"));
+    settle(800);
+    return save(dialog, file);
+}
+
 } // namespace
 
 int main(int argc, char* argv[]) {
@@ -376,9 +421,9 @@ int main(int argc, char* argv[]) {
         return argc == 3 && std::strcmp(argv[2], name) == 0;
     };
     const bool bouncesAlone = isAlone("bounces"), compareAlone = isAlone("compare"),
-               sweepAlone = isAlone("sweep");
-    if (argc != 2 && !bouncesAlone && !compareAlone && !sweepAlone) {
-        std::fprintf(stderr, "usage: docs-pictures FOLDER [bounces | compare | sweep]\n");
+               sweepAlone = isAlone("sweep"), bracketAlone = isAlone("bracket");
+    if (argc != 2 && !bouncesAlone && !compareAlone && !sweepAlone && !bracketAlone) {
+        std::fprintf(stderr, "usage: docs-pictures FOLDER [bounces | compare | sweep | bracket]\n");
         return 2;
     }
     QStandardPaths::setTestModeEnabled(true); // the user's settings stay as they are
@@ -407,6 +452,9 @@ int main(int argc, char* argv[]) {
     const QString bounces = folder.filePath(QStringLiteral("bounces.png"));
     if (bouncesAlone)
         return saveBounces(session, window, bounces) ? 0 : 1;
+    const QString bracket = folder.filePath(QStringLiteral("bracket.png"));
+    if (bracketAlone)
+        return saveBracket(session, window, bracket) ? 0 : 1;
     const QString compare = folder.filePath(QStringLiteral("compare.png"));
     if (compareAlone)
         return saveCompare(session, window, compare) ? 0 : 1;
@@ -519,6 +567,7 @@ int main(int argc, char* argv[]) {
         ok = false;
     }
     session.jobs.cancelAll();
+    ok &= saveBracket(session, window, bracket);
     ok &= saveCompare(session, window, compare);
     ok &= saveBounces(session, window, bounces);
     session.controller.tasks().cancelAll();

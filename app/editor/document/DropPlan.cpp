@@ -79,6 +79,11 @@ DropPlan planDrop(const QStringList& files) {
     return plan;
 }
 
+QStringList DropPlan::photos() const {
+    const bool others = !maps.empty() || !models.isEmpty() || !projects.isEmpty();
+    return others || unclear.size() < 2 ? QStringList() : unclear;
+}
+
 QStringList DropPlan::lines(const Document& document, Id material) const {
     QStringList result;
     const Material* target = document.material(material);
@@ -95,7 +100,11 @@ QStringList DropPlan::lines(const Document& document, Id material) const {
     add("Light the scene with %1", environments);
     add("Add the folder %1 to the library", folders);
     add("Show through the OpenColorIO configuration %1", displayConfigs);
-    add("Left out, its name says no free map: %1", unclear);
+    if (const QStringList bracket = photos(); !bracket.isEmpty())
+        result
+            << trDrop("Make an HDR from %1 photos, if their exposures differ").arg(bracket.size());
+    else
+        add("Left out, its name says no free map: %1", unclear);
     add("Cannot be read by Patina: %1", unknown);
     return result;
 }

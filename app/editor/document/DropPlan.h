@@ -26,6 +26,10 @@ struct DropPlan {
     QStringList unclear;       // images of several whose names say no map, or one that is taken
     QStringList unknown;       // nothing that Patina reads
 
+    // Images that nothing else is meant by, two or more: perhaps a bracket, which their exposures
+    // will tell.
+    [[nodiscard]] QStringList photos() const;
+
     // A line for each file, for whoever holds them over the window: "Normal map ← wood_nrm.png";
     // maps are those of `material`.
     [[nodiscard]] QStringList lines(const Document& document, Id material) const;

@@ -8,6 +8,7 @@
 #include <OpenImageIO/imageio.h>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -95,7 +96,13 @@ constexpr const char* kEnvmap = "envmap";
 constexpr const char* kLatLongFormat = "LatLong Environment";
 constexpr const char* kCubeFormat = "CubeFace Environment";
 
-// String attributes that are part of the file's content rather than of how it is stored.
+// How a photo was exposed, in Exif: seconds, f-number, ISO. Names as OpenImageIO has them; the last
+// two are the same tag, before and after Exif 2.3.
+constexpr std::array<const char*, 4> kExposure{
+    "ExposureTime", "FNumber", "Exif:PhotographicSensitivity", "Exif:ISOSpeedRatings"};
+
+// String attributes that are part of the file's content rather than of how it is stored, and the
+// exposure of photos, as text.
 json attributesOf(const OIIO::ImageSpec& spec) {
     json result = json::object();
     for (const auto& attribute : spec.extra_attribs) {
@@ -107,6 +114,10 @@ json attributesOf(const OIIO::ImageSpec& spec) {
         if (!storage && attribute.type() == OIIO::TypeDesc::STRING)
             result[name] = attribute.get_string();
     }
+    for (const char* name : kExposure)
+        if (const float value = spec.get_float_attribute(name, 0.0f);
+            std::isfinite(value) && value > 0.0f)
+            result[name] = fmt::format("{}", value);
     // OpenEXR's own attributes, as text.
     const std::string_view kind = spec.get_string_attribute("textureformat");
     if (kind == kLatLongFormat || kind == kCubeFormat)

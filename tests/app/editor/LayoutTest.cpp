@@ -11,6 +11,7 @@
 #include "app/editor/ExportDialog.h"
 #include "app/editor/HelpDialogs.h"
 #include "app/editor/ViewActions.h"
+#include "app/editor/bracket/BracketDialog.h"
 #include "app/editor/viewport/EquationBar.h"
 #include "app/editor/viewport/ViewStrip.h"
 #include "core/edit/Edit.h"
@@ -143,6 +144,11 @@ TEST_F(LayoutTest, EveryDialogFitsEveryScreen) {
         };
         check(new ExportDialog(controller(), session->jobs, window.get()), "export");
         check(new EnvironmentSaveDialog(controller(), session->jobs, window.get()), "environment");
+        check(new BracketDialog(controller(), session->jobs,
+                                {QStringLiteral("/nowhere/IMG_4100.jpg"),
+                                 QStringLiteral("/nowhere/IMG_4101.jpg")},
+                                window.get()),
+              "bracket");
         check(makeShortcutsDialog(window->actions().all(), window->looks().listed(), window.get()),
               "shortcuts");
         check(makeAboutDialog(window.get()), "about");

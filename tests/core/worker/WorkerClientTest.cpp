@@ -1,15 +1,19 @@
 // What becomes of the client when its worker misbehaves, and of the worker when it tries to.
 #include "core/worker/WorkerClient.h"
+#include "core/base/FileDescriptor.h"
+#include "tests/support/TemporaryFolder.h"
 
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string_view>
 #include <thread>
 #include <unistd.h>
 
@@ -145,6 +149,37 @@ TEST_F(Worker, AHangIsEndedByTheWallClock) {
     EXPECT_TRUE(eventually([&] { return !alive(child); }));
     EXPECT_TRUE(client.childProcesses().empty());
     client.setLimits(kLimits);
+    EXPECT_TRUE(ask({{"do", "echo"}}).ok());
+}
+
+TEST_F(Worker, ACancelEndsTheChild) {
+    client.warmUp(WorkerKind::Model);
+    const test::TemporaryFolder folder;
+    const FileDescriptor file(
+        ::open(folder.write("input", std::string_view("text")).c_str(), O_RDONLY | O_CLOEXEC));
+    ASSERT_TRUE(file.valid());
+    const auto hang = [&](const JobContext& job) {
+        return client.request(WorkerKind::Model, json{{"op", "selfTest"}, {"do", "hang"}}.dump(),
+                              file.get(), "chair.obj", job);
+    };
+    JobControl control;
+    int child = -1;
+    std::thread canceller([&] {
+        eventually([&] {
+            const auto children = client.childProcesses();
+            child = children.empty() ? -1 : children.front();
+            return child > 0;
+        });
+        control.cancel();
+    });
+    const auto reply = hang(control.context());
+    canceller.join();
+    ASSERT_FALSE(reply.ok());
+    EXPECT_EQ(reply.error().kind, ErrorKind::Cancelled);
+    ASSERT_GT(child, 0);
+    EXPECT_TRUE(eventually([&] { return !alive(child); }));
+    // One that is cancelled before it begins does not begin.
+    EXPECT_EQ(hang(control.context()).error().kind, ErrorKind::Cancelled);
     EXPECT_TRUE(ask({{"do", "echo"}}).ok());
 }
 
