@@ -23,9 +23,13 @@ void lightAlone(DocumentController& controller, Id first, std::vector<ParameterE
         if (controller.document().mix.second != 0)
             controller.fadeTo(0);
         session.lightWith(first);
-        edits.push_back(
-            {&parameter("environment.rotationDeg"), static_cast<float>(wrapDeg(rotationDeg))});
-        edits.push_back({&parameter("environment.enabled"), true});
+        // One by one: GCC 12 takes a temporary that is moved in for uninitialized.
+        const auto add = [&](const char* name, const ParameterValue& value) {
+            edits.emplace_back().info = &parameter(name);
+            edits.back().value = value;
+        };
+        add("environment.rotationDeg", static_cast<float>(wrapDeg(rotationDeg)));
+        add("environment.enabled", true);
         session.setDiffering({Scope::Environment, first}, edits, text);
     });
 }
