@@ -48,7 +48,7 @@ struct RenderOptions : PictureOptions {
     std::string inspect; // X,Y of a pixel to explain
     std::string viewMode = "raw", viewRange, viewLight;
     int turntable = 0,
-        lightTurn = 0;        // pictures round the camera's target, of a turning environment
+        lightTurn = 0;               // pictures round the camera's target, of a turning environment
     int framesPerSecond = 24;        // of a video
     std::string renderer = "raster"; // or path
     std::optional<double> noise;     // path: ends there, percent of the mean
