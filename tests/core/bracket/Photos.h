@@ -25,8 +25,8 @@ inline double computedRadiance(int x, int y, int channel) {
     const auto wave = [](double value) { return 0.5 + 0.5 * std::sin(value); };
     // A hash of the block's place, 0 … 1.
     const auto block = [](int column, int row) {
-        auto h = static_cast<std::uint32_t>(column * 73856093) ^
-                 static_cast<std::uint32_t>(row * 19349663);
+        auto h = static_cast<std::uint32_t>(column) * 73856093u ^
+                 static_cast<std::uint32_t>(row) * 19349663u;
         h = (h ^ (h >> 13u)) * 1274126177u;
         return static_cast<double>((h >> 8u) & 0xffffu) / 65535.0;
     };
