@@ -5,7 +5,6 @@
 #include "app/cli/Report.h"
 #include "core/document/DisplayedPicture.h"
 #include "core/document/ViewChoices.h"
-#include "core/light/EnvironmentLookup.h"
 #include "core/mix/LightMix.h"
 #include "core/trace/document/DocumentTraceInputs.h"
 #include "core/trace/path/PathTracer.h"
@@ -45,13 +44,8 @@ Result<void> setBackground(Session& session, const Document& document, TraceView
     Result<IblMaps> maps = prepareLight(*shown.image, session.job());
     if (!maps)
         return maps.error();
-    EnvironmentLookup lookup;
-    lookup.maps = std::make_shared<const IblMaps>(*std::move(maps));
-    lookup.rotationDeg = shown.rotationDeg;
-    lookup.setScale(shown.scale);
-    view.background = [lookup, blur = look.backgroundBlur](const glm::vec3& direction) {
-        return lookup.prefiltered(blur, direction).value_or(glm::vec3(0.0f));
-    };
+    view.background = blurredBackground(std::make_shared<const IblMaps>(*std::move(maps)), shown,
+                                        look.backgroundBlur);
     return {};
 }
 
@@ -135,7 +129,8 @@ Result<void> renderTraced(Session& session, const RenderOptions& options, const 
         }
         session.job().setProgress(share);
     }
-    if (film.at(frame.width - 1, frame.height - 1).samples == 0)
+    done = film.leastSamples(); // of a pass that was stopped some pixels have more
+    if (done == 0)
         return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
     if (const std::size_t invalid = film.invalid(); invalid > 0)
         session.report().warn(fmt::format(

@@ -3,7 +3,6 @@
 #include "app/editor/document/DocumentController.h"
 #include "core/document/Document.h"
 #include "core/document/ViewChoices.h"
-#include "core/light/EnvironmentLookup.h"
 #include "core/trace/document/DocumentTraceInputs.h"
 
 #include <algorithm>
@@ -27,9 +26,7 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
 
 // Whether both have the same behind the scene; the environment itself is part of the inputs.
 bool sameBackground(const View& a, const View& b) {
-    return (a.background == BackgroundMode::Off) == (b.background == BackgroundMode::Off) &&
-           (a.background == BackgroundMode::Color) == (b.background == BackgroundMode::Color) &&
-           (a.background == BackgroundMode::Blurred) == (b.background == BackgroundMode::Blurred) &&
+    return a.background == b.background &&
            (a.background != BackgroundMode::Color || a.backgroundColor == b.backgroundColor) &&
            (a.background != BackgroundMode::Blurred || a.backgroundBlur == b.backgroundBlur);
 }
@@ -64,6 +61,8 @@ void PathView::setOn(bool on) {
     m_scene = nullptr;
     m_blurred = {};
     m_picture = nullptr;
+    m_inputs = {};
+    m_behind = {};
     m_size = {};
     m_stale = false;
     m_progress = {};
@@ -175,13 +174,7 @@ Result<void> PathView::blurBackground(Work& work, const JobContext& job) {
             return maps.error();
         work.blurred = {work.behind->image, std::make_shared<const IblMaps>(*std::move(maps))};
     }
-    EnvironmentLookup lookup;
-    lookup.maps = work.blurred.maps;
-    lookup.rotationDeg = work.behind->rotationDeg;
-    lookup.setScale(work.behind->scale);
-    work.view.background = [lookup, blur = work.blur](const glm::vec3& direction) {
-        return lookup.prefiltered(blur, direction).value_or(glm::vec3(0.0f));
-    };
+    work.view.background = blurredBackground(work.blurred.maps, *work.behind, work.blur);
     return {};
 }
 

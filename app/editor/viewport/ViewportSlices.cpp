@@ -1,6 +1,8 @@
 // The part of ViewportWidget that uses idle time: it refines the picture in slices between events,
+// takes over environments in pieces,
 // and lets programs be compiled ahead.
 #include "app/editor/document/DocumentController.h"
+#include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "core/base/Log.h"
 #include "core/document/ToneResponse.h"
@@ -13,7 +15,31 @@ namespace {
 
 constexpr double kSliceMs = 25.0; // with Qt's part of a frame at rest input waits no 50 ms
 
+constexpr std::size_t kEnvironmentBytes = 16 << 20; // of textures between frames: some 10 ms
+
 } // namespace
+
+// A piece of the environment that has been prepared. The old one is shown until all are there.
+void ViewportWidget::feedEnvironment() {
+    if (!m_renderer)
+        return; // its making starts this again
+    makeCurrent();
+    if (EnvironmentTexelsPtr next = m_ibl->take()) {
+        m_environmentOnItsWay = next->image;
+        m_scene->beginEnvironment(std::move(next));
+    }
+    const bool complete = m_scene->proceedEnvironment(kEnvironmentBytes);
+    doneCurrent();
+    if (!complete) {
+        m_environmentTimer.start();
+        return;
+    }
+    if (m_environmentOnItsWay)
+        m_wall.setSceneLight(std::exchange(m_environmentOnItsWay, nullptr));
+    m_pacing.pictureChanged();
+    m_restTimer.start();
+    lookChanged();
+}
 
 // The sides of a split are drawn one after the other, and none is there to be displayed anew for an
 // eye that adapts: such frames are drawn in one piece.

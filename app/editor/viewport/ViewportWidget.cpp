@@ -26,12 +26,11 @@
 namespace patina::editor {
 namespace {
 
-constexpr int kRestMs = 250;                        // without movement until the picture is refined
-constexpr int kPanelsMs = 10;                       // for lists to show what was added
-constexpr int kAdaptationMs = 16;                   // between the frames of an eye that adapts
-constexpr int kAccumulationMs = 16;                 // between frames that are added up
-constexpr std::size_t kEnvironmentBytes = 16 << 20; // of textures between frames: some 10 ms
-constexpr int kShaderPollMs = 500;                  // hot reload in developers' builds
+constexpr int kRestMs = 250;        // without movement until the picture is refined
+constexpr int kPanelsMs = 10;       // for lists to show what was added
+constexpr int kAdaptationMs = 16;   // between the frames of an eye that adapts
+constexpr int kAccumulationMs = 16; // between frames that are added up
+constexpr int kShaderPollMs = 500;  // hot reload in developers' builds
 
 } // namespace
 
@@ -449,28 +448,6 @@ Result<render::Inspection> ViewportWidget::inspect(const QPoint& pixel) {
     Result<render::Inspection> inspection = m_renderer->inspect(pixel.x(), pixel.y());
     doneCurrent();
     return inspection;
-}
-
-// A piece of the environment that has been prepared. The old one is shown until all are there.
-void ViewportWidget::feedEnvironment() {
-    if (!m_renderer)
-        return; // its making starts this again
-    makeCurrent();
-    if (EnvironmentTexelsPtr next = m_ibl->take()) {
-        m_environmentOnItsWay = next->image;
-        m_scene->beginEnvironment(std::move(next));
-    }
-    const bool complete = m_scene->proceedEnvironment(kEnvironmentBytes);
-    doneCurrent();
-    if (!complete) {
-        m_environmentTimer.start();
-        return;
-    }
-    if (m_environmentOnItsWay)
-        m_wall.setSceneLight(std::exchange(m_environmentOnItsWay, nullptr));
-    m_pacing.pictureChanged();
-    m_restTimer.start();
-    lookChanged();
 }
 
 Result<std::vector<Image>> ViewportWidget::drawSheet(const render::ViewSheet& sheet) {

@@ -1,9 +1,11 @@
 #include "core/trace/document/DocumentTraceInputs.h"
 
 #include "core/document/Document.h"
+#include "core/light/EnvironmentLookup.h"
 #include "core/mix/LightMix.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace patina {
 
@@ -26,6 +28,17 @@ TraceInputs traceInputs(const Document& document) {
         if (part.image)
             inputs.environments.push_back({part.image, part.rotationDeg, part.scale});
     return inputs;
+}
+
+std::function<glm::vec3(const glm::vec3& direction)>
+blurredBackground(std::shared_ptr<const IblMaps> maps, const EnvironmentPart& shown, float blur) {
+    EnvironmentLookup lookup;
+    lookup.maps = std::move(maps);
+    lookup.rotationDeg = shown.rotationDeg;
+    lookup.setScale(shown.scale);
+    return [lookup, blur](const glm::vec3& direction) {
+        return lookup.prefiltered(blur, direction).value_or(glm::vec3(0.0f));
+    };
 }
 
 } // namespace patina

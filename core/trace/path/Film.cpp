@@ -36,6 +36,10 @@ std::size_t Film::invalid() const {
     return count;
 }
 
+std::uint32_t Film::leastSamples() const {
+    return m_pixels.empty() ? 0 : std::ranges::min(m_pixels, {}, &Pixel::samples).samples;
+}
+
 Image Film::radiance(bool alpha) const {
     const int channels = alpha ? 4 : 3;
     Image image(m_width, m_height, channels, PixelType::F32, ColorEncoding::Linear);

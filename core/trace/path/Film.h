@@ -33,7 +33,8 @@ class Film {
     [[nodiscard]] int height() const { return m_height; }
     [[nodiscard]] Pixel& at(int x, int y) { return m_pixels[index(x, y)]; } // row 0 on top
     [[nodiscard]] const Pixel& at(int x, int y) const { return m_pixels[index(x, y)]; }
-    [[nodiscard]] std::size_t invalid() const; // samples of all pixels
+    [[nodiscard]] std::size_t invalid() const;        // samples of all pixels
+    [[nodiscard]] std::uint32_t leastSamples() const; // that any pixel has
 
     // Mean radiance: F32, linear; 3 channels, or 4 with `alpha`, premultiplied.
     [[nodiscard]] Image radiance(bool alpha = false) const;

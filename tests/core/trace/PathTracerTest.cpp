@@ -362,6 +362,7 @@ TEST(Film, NoiseIsThatOfTheMean) {
     EXPECT_NEAR(*film.noise(), std::sqrt(0.5 / 99.0) / 2.0, 1e-6);
     film.at(0, 0).add(glm::vec3(std::nanf("")), 1.0f);
     EXPECT_EQ(film.invalid(), 1u);
+    EXPECT_EQ(film.leastSamples(), 100u) << "one pixel has 101";
     EXPECT_TRUE(std::isfinite(film.radiance().sample(0, 0, 0)));
 }
 
