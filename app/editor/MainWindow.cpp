@@ -87,7 +87,8 @@ MainWindow::MainWindow(Session& session)
     m_overlay = new ViewOverlay(session.views, session.controller, *m_viewport);
     m_progress = new SceneProgress(session.controller, *m_viewport);
     m_drop = new DropTarget(*this, *m_viewport, session.controller, session.selection,
-                            {session.wall, session.controller, *wallOverlay});
+                            {session.wall, session.controller, *wallOverlay},
+                            {session.wall, session.controller, *m_viewport, *wallOverlay});
     auto* equation = new EquationBar(session.views, session.controller, m_viewport->sheets());
     layout->addWidget(equation);
     connect(m_looks->equation, &QAction::toggled, equation,

@@ -29,6 +29,9 @@ struct Cell {
     // One of Document::snapshots, whose look the cell shows; what else it has of its own comes on
     // top. 0: none.
     Id snapshot = 0;
+    // One of the materials, on all visible meshes; what `own` says of meshes comes on top. 0: each
+    // has the document's.
+    Id material = 0;
     friend bool operator==(const Cell&, const Cell&) = default;
 };
 

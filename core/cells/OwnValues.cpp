@@ -14,14 +14,13 @@ std::vector<OwnValues>::iterator ownOf(std::vector<OwnValues>& own, const WallCe
     return std::ranges::find(own, cell.shared, &OwnValues::of);
 }
 
-OwnValues& addedOwnOf(std::vector<OwnValues>& own, const WallCell& cell) {
+CellOwn& addedOwnOf(std::vector<OwnValues>& own, const WallCell& cell) {
     const auto found = ownOf(own, cell);
-    return found != own.end() ? *found : own.emplace_back(OwnValues{cell.shared, 0, {}});
+    return found != own.end() ? found->own : own.emplace_back(OwnValues{cell.shared, {}}).own;
 }
 
 void dropEmpty(std::vector<OwnValues>& own) {
-    std::erase_if(own,
-                  [](const OwnValues& one) { return one.environment == 0 && one.values.empty(); });
+    std::erase_if(own, [](const OwnValues& one) { return one.own.isEmpty(); });
 }
 
 } // namespace
@@ -32,18 +31,19 @@ std::vector<WallCell> cellsOf(const Wall& wall, std::span<const OwnValues> own) 
         const auto found = std::ranges::find(own, cell.shared, &OwnValues::of);
         if (found == own.end())
             continue;
-        cell.ownEnvironment = found->environment;
-        cell.own = found->values;
+        cell.own = found->own;
         Cell above;
-        above.environment = found->environment;
-        above.own = found->values;
+        above.environment = cell.own.element(CellElement::Environment);
+        above.material = cell.own.element(CellElement::Material);
+        above.snapshot = cell.own.element(CellElement::Snapshot);
+        above.own = cell.own.values;
         cell.cell = combined(cell.shared, above);
     }
     return cells;
 }
 
-void setOwnEnvironment(std::vector<OwnValues>& own, const WallCell& cell, Id environment) {
-    addedOwnOf(own, cell).environment = environment;
+void setOwnElement(std::vector<OwnValues>& own, const WallCell& cell, CellElement element, Id id) {
+    addedOwnOf(own, cell).element(element) = id;
     dropEmpty(own);
 }
 
@@ -61,7 +61,7 @@ void linkValue(std::vector<OwnValues>& own, const WallCell& cell, const Target& 
     const auto found = ownOf(own, cell);
     if (found == own.end())
         return;
-    std::erase_if(found->values, isOf(target, &info));
+    std::erase_if(found->own.values, isOf(target, &info));
     dropEmpty(own);
 }
 

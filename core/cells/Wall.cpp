@@ -86,7 +86,7 @@ std::vector<WallCell> cellsOf(const Wall& wall) {
     const std::vector<WallEntry>&columns = wall.columns.entries, &rows = wall.rows.entries;
     const auto add = [&](std::size_t column, std::size_t row, std::vector<std::string> captions,
                          const Cell& cell) {
-        cells.push_back({column, row, std::move(captions), cell, cell, 0, {}});
+        cells.push_back({column, row, std::move(captions), cell, cell, {}});
     };
     if (!wall.isTable()) {
         for (std::size_t i = 0; i < columns.size(); ++i)

@@ -3,6 +3,7 @@
 
 #include "core/cells/Cell.h"
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -37,13 +38,31 @@ struct Wall {
 // two, an axis without entries, a parameter that both set, more than kMostOnWallSide a side.
 [[nodiscard]] Result<Wall> makeWall(std::vector<WallAxis> axes, std::size_t gridWidth = 0);
 
+// What a cell can have of its own beside values.
+enum class CellElement { Environment, Material, Snapshot };
+inline constexpr std::array kCellElements{CellElement::Environment, CellElement::Material,
+                                          CellElement::Snapshot};
+
+struct CellOwn {
+    std::array<Id, kCellElements.size()> elements{}; // by CellElement; 0: linked
+    std::vector<CellEdit> values;                    // at most one of each parameter of an element
+
+    [[nodiscard]] Id& element(CellElement which) {
+        return elements[static_cast<std::size_t>(which)];
+    }
+    [[nodiscard]] Id element(CellElement which) const {
+        return elements[static_cast<std::size_t>(which)];
+    }
+    [[nodiscard]] bool isEmpty() const { return *this == CellOwn(); }
+    friend bool operator==(const CellOwn&, const CellOwn&) = default;
+};
+
 struct WallCell {
     std::size_t column = 0, row = 0;
     std::vector<std::string> captions; // of its column and row, or its only one
     Cell cell;                         // all that it has of its own
     Cell shared;                       // of it what its column and row give it
-    Id ownEnvironment = 0;             // and the rest (OwnValues.h)
-    std::vector<CellEdit> own;
+    CellOwn own;                       // and the rest (OwnValues.h)
     friend bool operator==(const WallCell&, const WallCell&) = default;
 };
 [[nodiscard]] std::vector<WallCell> cellsOf(const Wall& wall); // row by row

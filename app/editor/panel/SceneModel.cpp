@@ -1,13 +1,16 @@
 #include "app/editor/panel/SceneModel.h"
 
 #include "app/editor/document/DocumentController.h"
+#include "app/editor/document/DraggedElements.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/widget/ColorConversion.h"
 #include "app/editor/widget/Thumbnails.h"
+#include "core/edit/EditSession.h"
 #include "core/material/Material.h"
 #include "core/scene/ImageProblem.h"
 
+#include <QMimeData>
 #include <QPainter>
 #include <QPixmap>
 #include <QStringList>
@@ -258,7 +261,40 @@ Qt::ItemFlags SceneModel::flags(const QModelIndex& index) const {
     Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemNeverHasChildren;
     if (index.column() == NameColumn)
         flags |= Qt::ItemIsEditable;
+    flags |= index.internalId() == Meshes + 1 ? Qt::ItemIsDropEnabled : Qt::ItemIsDragEnabled;
     return flags;
+}
+
+QStringList SceneModel::mimeTypes() const {
+    return {QLatin1String(kElementsMime)};
+}
+
+QMimeData* SceneModel::mimeData(const QModelIndexList& indexes) const {
+    for (const QModelIndex& index : indexes)
+        if (const auto target = targetAt(index); target && target->scope == Scope::Material) {
+            auto* data = new QMimeData;
+            setDraggedElements(*data, m_controller.session(),
+                               {CellElement::Material, {target->id}});
+            return data;
+        }
+    return nullptr;
+}
+
+bool SceneModel::canDropMimeData(const QMimeData* data, Qt::DropAction, int, int,
+                                 const QModelIndex& parent) const {
+    const auto target = targetAt(parent);
+    const auto dragged = draggedElements(*data, m_controller.session());
+    return target && target->scope == Scope::Mesh && dragged &&
+           dragged->element == CellElement::Material;
+}
+
+bool SceneModel::dropMimeData(const QMimeData* data, Qt::DropAction action, int row, int column,
+                              const QModelIndex& parent) {
+    if (!canDropMimeData(data, action, row, column, parent))
+        return false;
+    m_controller.assignMaterial(targetAt(parent)->id,
+                                draggedElements(*data, m_controller.session())->ids.front());
+    return true;
 }
 
 } // namespace patina::editor

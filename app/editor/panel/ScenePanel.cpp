@@ -28,8 +28,11 @@ ScenePanel::ScenePanel(DocumentController& controller, SelectionModel& selection
     m_tree->setContextMenuPolicy(Qt::CustomContextMenu);
     m_tree->setIconSize({16, 16});
     m_tree->setIndentation(14);
+    m_tree->setDragDropMode(QAbstractItemView::DragDrop);
     m_tree->setAccessibleName(tr("Meshes and materials of the scene"));
-    m_tree->setStatusTip(tr("Click to select, F2 to rename, right-click for more"));
+    m_tree->setStatusTip(
+        tr("Click to select, F2 to rename, right-click for more; drag a material onto a "
+           "mesh or a cell of a wall"));
     QHeaderView* header = m_tree->header();
     header->setStretchLastSection(false);
     header->setMinimumSectionSize(20);

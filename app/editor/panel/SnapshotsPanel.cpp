@@ -1,6 +1,7 @@
 #include "app/editor/panel/SnapshotsPanel.h"
 
 #include "app/editor/document/DocumentController.h"
+#include "app/editor/document/DraggedElements.h"
 #include "app/editor/document/QtText.h"
 #include "app/editor/panel/LookPictures.h"
 #include "app/editor/panel/SnapshotComparison.h"
@@ -17,6 +18,7 @@
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QListWidget>
+#include <QMimeData>
 #include <QShortcut>
 #include <QSplitter>
 #include <QToolButton>
@@ -44,6 +46,30 @@ QIcon thumbOf(const ImagePtr& picture, qreal ratio) {
     return icon;
 }
 
+// Its items can be dragged onto the viewport.
+class SnapshotList : public QListWidget {
+  public:
+    explicit SnapshotList(const EditSession& session)
+        : m_session(session) {
+        setDragDropMode(QAbstractItemView::DragOnly);
+    }
+
+  protected:
+    [[nodiscard]] QStringList mimeTypes() const override { return {QLatin1String(kElementsMime)}; }
+    [[nodiscard]] QMimeData* mimeData(const QList<QListWidgetItem*>& items) const override {
+        DraggedElements dragged{CellElement::Snapshot, {}};
+        for (int row = 0; row < count(); ++row) // in their order, however they were chosen
+            if (items.contains(item(row)))
+                dragged.ids.push_back(idOf(*item(row)));
+        auto* data = new QMimeData;
+        setDraggedElements(*data, m_session, dragged);
+        return data;
+    }
+
+  private:
+    const EditSession& m_session;
+};
+
 } // namespace
 
 SnapshotsPanel::SnapshotsPanel(DocumentController& controller, ViewportWidget& viewport,
@@ -52,7 +78,7 @@ SnapshotsPanel::SnapshotsPanel(DocumentController& controller, ViewportWidget& v
     , m_controller(controller)
     , m_viewport(viewport)
     , m_wall(wall)
-    , m_list(new QListWidget)
+    , m_list(new SnapshotList(controller.session()))
     , m_restore(makeListButton(QStringLiteral("reset"), tr("Restore"),
                                tr("Make the scene look like the snapshot, as one undo step")))
     , m_rename(makeListButton(QStringLiteral("rename"), {}, tr("Rename the snapshot (F2)")))
@@ -60,7 +86,7 @@ SnapshotsPanel::SnapshotsPanel(DocumentController& controller, ViewportWidget& v
     , m_comparison(new SnapshotComparison(controller)) {
     m_list->setAccessibleName(tr("Snapshots"));
     m_list->setStatusTip(tr("Choose one to compare it with the scene, two to compare them; "
-                            "double-click to restore"));
+                            "double-click to restore; drag one onto a cell of a wall"));
     m_list->setIconSize(kThumb);
     m_list->setUniformItemSizes(true);
     m_list->setSelectionMode(QAbstractItemView::ExtendedSelection);

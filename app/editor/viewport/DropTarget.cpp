@@ -5,6 +5,7 @@
 #include "app/editor/document/DropPlan.h"
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/style/Tokens.h"
+#include "core/edit/EditSession.h"
 
 #include <QDragEnterEvent>
 #include <QMimeData>
@@ -27,8 +28,9 @@ DropHint::DropHint(QWidget& viewport)
     hide();
 }
 
-void DropHint::setLines(const QStringList& lines, const QRect& target) {
+void DropHint::setLines(const QStringList& lines, const QRect& target, bool veiled) {
     m_lines = lines;
+    m_veiled = veiled;
     m_target = target;
     setAccessibleName(m_lines.join(QLatin1Char('\n')));
     setVisible(!m_lines.isEmpty());
@@ -43,7 +45,8 @@ void DropHint::paintEvent(QPaintEvent*) {
     QPainter painter(this);
     QColor veil(tokens::kWell);
     veil.setAlpha(kVeilAlpha);
-    painter.fillRect(rect(), veil);
+    if (m_veiled)
+        painter.fillRect(rect(), veil);
     const QRect target = m_target.isNull() ? rect() : m_target;
     painter.setPen(QPen(QColor(tokens::kAccent), kTargetFrame));
     painter.drawRect(target.adjusted(kTargetFrame / 2, kTargetFrame / 2, -kTargetFrame / 2 - 1,
@@ -78,27 +81,51 @@ void DropHint::paintEvent(QPaintEvent*) {
 }
 
 DropTarget::DropTarget(QWidget& window, QWidget& viewport, DocumentController& controller,
-                       SelectionModel& selection, const WallDrop& wall)
+                       SelectionModel& selection, const WallDrop& wall, const ElementDrop& elements)
     : QObject(&window)
     , m_window(window)
     , m_viewport(viewport)
     , m_controller(controller)
     , m_selection(selection)
     , m_wall(wall)
+    , m_elements(elements)
     , m_hint(new DropHint(viewport)) {
     window.installEventFilter(this);
+}
+
+bool DropTarget::takeElements(QDropEvent& event) {
+    const auto elements = draggedElements(*event.mimeData(), m_controller.session());
+    if (!elements)
+        return false;
+    const ElementDropPlan plan = m_elements.plan(*elements, inViewport(event.position()));
+    const bool taken = !plan.parts.empty();
+    event.setDropAction(taken ? Qt::CopyAction : Qt::IgnoreAction);
+    event.setAccepted(taken || event.type() == QEvent::DragEnter); // moves are to follow
+    if (event.type() != QEvent::Drop) {
+        m_hint->setLines(plan.lines, plan.area, false);
+        return true;
+    }
+    m_hint->setLines({});
+    m_elements.drop(elements->element, plan);
+    return true;
 }
 
 bool DropTarget::eventFilter(QObject*, QEvent* event) {
     switch (event->type()) {
     case QEvent::DragEnter:
     case QEvent::DragMove: {
+        if (takeElements(*static_cast<QDropEvent*>(event)))
+            return true;
         const auto* drag = static_cast<QDragMoveEvent*>(event); // which entering is, too
         showHint(draggedSources(*drag->mimeData()), drag->position());
         break;
     }
-    case QEvent::DragLeave:
     case QEvent::Drop:
+        if (takeElements(*static_cast<QDropEvent*>(event)))
+            return true;
+        m_hint->setLines({});
+        break;
+    case QEvent::DragLeave:
         m_hint->setLines({});
         break;
     default:

@@ -1,13 +1,16 @@
-// Says over the picture what files will do that are held over the window, before they are let go,
-// and frames the picture as their target.
+// Says over the picture what files, materials or snapshots will do that are held over the window,
+// before they are let go, and frames their target. Materials and snapshots it takes itself.
 #pragma once
 
+#include "app/editor/viewport/ElementDrop.h"
 #include "app/editor/wall/WallDrop.h"
 
 #include <QObject>
 #include <QRect>
 #include <QStringList>
 #include <QWidget>
+
+class QDropEvent;
 
 namespace patina::editor {
 
@@ -19,7 +22,8 @@ class DropHint : public QWidget {
   public:
     explicit DropHint(QWidget& viewport);
     // Covers the viewport; no lines: hides. `target`: what they are dropped onto; null: all of it.
-    void setLines(const QStringList& lines, const QRect& target = {});
+    // `veiled`: the picture is darkened; else what is aimed at in it stays clear.
+    void setLines(const QStringList& lines, const QRect& target = {}, bool veiled = true);
     [[nodiscard]] const QStringList& lines() const { return m_lines; }
 
   protected:
@@ -28,6 +32,7 @@ class DropHint : public QWidget {
   private:
     QStringList m_lines;
     QRect m_target;
+    bool m_veiled = true;
 };
 
 class DropTarget : public QObject {
@@ -35,7 +40,7 @@ class DropTarget : public QObject {
   public:
     // Watches `window`, which takes the drops itself; `viewport` shows what they will do.
     DropTarget(QWidget& window, QWidget& viewport, DocumentController& controller,
-               SelectionModel& selection, const WallDrop& wall);
+               SelectionModel& selection, const WallDrop& wall, const ElementDrop& elements);
 
     // True: cells of the wall take them: draggedSources(). `position` in the window.
     [[nodiscard]] bool drop(const QStringList& files, const QPointF& position);
@@ -44,6 +49,8 @@ class DropTarget : public QObject {
     bool eventFilter(QObject* window, QEvent* event) override;
 
   private:
+    // True: it is a material's or a snapshot's, and has been answered.
+    bool takeElements(QDropEvent& event);
     void showHint(const QStringList& files, const QPointF& position);
     [[nodiscard]] QPointF inViewport(const QPointF& position) const; // from the window's
 
@@ -52,6 +59,7 @@ class DropTarget : public QObject {
     DocumentController& m_controller;
     SelectionModel& m_selection;
     WallDrop m_wall;
+    ElementDrop m_elements;
     DropHint* m_hint; // owned by the viewport
 };
 

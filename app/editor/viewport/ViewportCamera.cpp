@@ -29,6 +29,17 @@ void ViewportWidget::resetCamera() {
     setCamera(frameBounds(camera, document.bounds(), viewAspect()));
 }
 
+Id ViewportWidget::meshAt(const QPointF& position) {
+    if (!m_renderer || m_lastFrameSize.isEmpty())
+        return 0;
+    makeCurrent();
+    const Id mesh = m_renderer->pick(
+        static_cast<int>(position.x() * m_lastFrameSize.width() / std::max(width(), 1)),
+        static_cast<int>(position.y() * m_lastFrameSize.height() / std::max(height(), 1)));
+    doneCurrent();
+    return mesh;
+}
+
 void ViewportWidget::pickAt(const QPointF& position) {
     if (m_wall.isOn()) {
         const std::optional<std::size_t> cell = m_wallLayout.cellAt(position);
@@ -40,11 +51,7 @@ void ViewportWidget::pickAt(const QPointF& position) {
     }
     if (!m_renderer || m_lastFrameSize.isEmpty())
         return;
-    makeCurrent();
-    const Id mesh = m_renderer->pick(
-        static_cast<int>(position.x() * m_lastFrameSize.width() / std::max(width(), 1)),
-        static_cast<int>(position.y() * m_lastFrameSize.height() / std::max(height(), 1)));
-    doneCurrent();
+    const Id mesh = meshAt(position);
     m_selection.selectMesh(mesh);
     if (mesh == 0) // nothing at all: the light's handles go, too
         m_selection.selectLight(0);

@@ -89,6 +89,9 @@ class ViewportWidget : public QOpenGLWidget {
                                                 bool linear);
     void endSheet();
 
+    // Of the single picture, under a position in the widget; 0: none.
+    [[nodiscard]] Id meshAt(const QPointF& position);
+
     // What it shows, reduced to fit; null while nothing was drawn. Draws nothing.
     [[nodiscard]] QImage smallPicture(const QSize& largest);
 

@@ -44,14 +44,92 @@ QString unitOf(const ParameterInfo& info) {
     return unit.isEmpty() || unit == QStringLiteral("°") ? unit : QLatin1Char(' ') + unit;
 }
 
-// The values apart, whose number is shown where they stand.
-bool sameFields(const std::vector<CellEdit>& a, const std::vector<CellEdit>& b) {
-    return std::ranges::equal(a, b, [](const CellEdit& x, const CellEdit& y) {
-        return x.target == y.target && x.info == y.info;
-    });
+// The values apart, which are shown where they stand.
+bool sameFields(const CellOwn& a, const CellOwn& b) {
+    return std::ranges::equal(a.elements, b.elements,
+                              [](Id x, Id y) { return (x != 0) == (y != 0); }) &&
+           std::ranges::equal(a.values, b.values, [](const CellEdit& x, const CellEdit& y) {
+               return x.target == y.target && x.info == y.info;
+           });
+}
+
+QString elementHelp(CellElement element) {
+    switch (element) {
+    case CellElement::Environment:
+        return OwnValueControls::tr("The environment that lights this cell");
+    case CellElement::Material:
+        return OwnValueControls::tr("The material of all visible meshes in this cell");
+    case CellElement::Snapshot:
+        return OwnValueControls::tr("The snapshot whose look this cell shows");
+    }
+    return {};
+}
+
+std::vector<Id> elementsOf(const Document& document, CellElement element) {
+    std::vector<Id> ids;
+    const auto add = [&ids](const auto& list) {
+        for (const auto& one : list)
+            ids.push_back(one.id);
+    };
+    switch (element) {
+    case CellElement::Environment:
+        add(document.environments);
+        break;
+    case CellElement::Material:
+        add(document.materials);
+        break;
+    case CellElement::Snapshot:
+        add(document.snapshots);
+        break;
+    }
+    return ids;
+}
+
+// What a cell has of its own at first; 0: there is none to choose from.
+Id firstElement(const Document& document, const Document& shown, const Cell& cell,
+                CellElement element) {
+    switch (element) {
+    case CellElement::Environment:
+        return shown.mix.first;
+    case CellElement::Material:
+        for (const MeshInstance& mesh : shown.meshes)
+            if (mesh.visible)
+                return mesh.material;
+        return 0;
+    case CellElement::Snapshot:
+        return cell.snapshot != 0           ? cell.snapshot
+               : document.snapshots.empty() ? Id{0}
+                                            : document.snapshots.back().id;
+    }
+    return 0;
 }
 
 } // namespace
+
+QString elementLabel(CellElement element) {
+    switch (element) {
+    case CellElement::Environment:
+        return OwnValueControls::tr("Environment");
+    case CellElement::Material:
+        return OwnValueControls::tr("Material");
+    case CellElement::Snapshot:
+        return OwnValueControls::tr("Snapshot");
+    }
+    return {};
+}
+
+QString elementName(const Document& document, CellElement element, Id id) {
+    if (element == CellElement::Environment) {
+        const Environment* environment = document.environment(id);
+        return environment != nullptr ? toQString(environmentTitle(*environment)) : QString();
+    }
+    if (element == CellElement::Material) {
+        const Material* material = document.material(id);
+        return material != nullptr ? toQString(material->name) : QString();
+    }
+    const Snapshot* snapshot = document.snapshot(id);
+    return snapshot != nullptr ? toQString(snapshot->name) : QString();
+}
 
 QString ownValueText(const CellEdit& edit) {
     const ParameterInfo& info = *edit.info;
@@ -89,45 +167,49 @@ OwnValueControls::OwnValueControls(WallState& wall, DocumentController& controll
     connect(&wall, &WallState::cellsChosen, this, &OwnValueControls::refresh);
     connect(&wall, &WallState::ownChanged, this, &OwnValueControls::refresh);
     connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
-        if (m_environment != nullptr && touches(change.affects, Affects::Structure))
+        const bool any = std::ranges::any_of(m_elements, [](const QComboBox* box) { return box; });
+        if (any && touches(change.affects, Affects::Structure))
             refresh(); // one may have come, or gone
     });
     refresh();
 }
 
-const std::vector<CellEdit>& OwnValueControls::shownValues() const {
-    static const std::vector<CellEdit> none;
+const CellOwn& OwnValueControls::currentOwn() const {
+    static const CellOwn none;
     return m_wall.current() ? m_wall.cells()[*m_wall.current()].own : none;
 }
 
-Id OwnValueControls::shownEnvironment() const {
-    return m_wall.current() ? m_wall.cells()[*m_wall.current()].ownEnvironment : 0;
+void OwnValueControls::setElement(CellElement element, Id id) {
+    m_wall.setOwnElement({m_wall.cells()[*m_wall.current()]}, element, id);
 }
 
 void OwnValueControls::refresh() {
     m_add->setEnabled(m_wall.current().has_value());
-    const bool shown = m_wall.isOn() && (shownEnvironment() != 0 || !shownValues().empty());
-    setVisible(shown);
-    if (!shown) {
+    const bool any = m_wall.isOn() && !currentOwn().isEmpty();
+    setVisible(any);
+    if (!any) {
         abandonEdits(*this);
         return;
     }
     const WallCell& cell = m_wall.cells()[*m_wall.current()];
-    if (cell.shared != m_of || (cell.ownEnvironment != 0) != (m_environment != nullptr) ||
-        !sameFields(cell.own, m_values)) {
+    if (cell.shared != m_of || !sameFields(cell.own, m_made)) {
         makeFields();
         m_of = cell.shared;
     }
-    if (m_environment != nullptr)
-        fillEnvironments(cell.ownEnvironment);
-    m_values = cell.own;
-    const std::size_t first = m_environment != nullptr ? 1 : 0; // of the fields
-    for (std::size_t i = 0; i < m_values.size(); ++i) {
-        if (auto* number = m_fields[first + i]->findChild<NumberField*>())
-            number->setValue(static_cast<double>(std::get<float>(cell.own[i].value)));
-        if (auto* choice = m_fields[first + i]->findChild<QComboBox*>()) {
+    m_made = cell.own;
+    std::size_t field = 0;
+    for (const CellElement element : kCellElements)
+        if (QComboBox* box = m_elements[static_cast<std::size_t>(element)]) {
+            fillElements(*box, element, cell.own.element(element));
+            ++field;
+        }
+    for (const CellEdit& edit : cell.own.values) {
+        QWidget* shownIn = m_fields[field++];
+        if (auto* number = shownIn->findChild<NumberField*>())
+            number->setValue(static_cast<double>(std::get<float>(edit.value)));
+        if (auto* choice = shownIn->findChild<QComboBox*>()) {
             const QSignalBlocker quiet(choice);
-            choice->setCurrentIndex(std::get<int>(cell.own[i].value));
+            choice->setCurrentIndex(std::get<int>(edit.value));
         }
     }
 }
@@ -138,10 +220,11 @@ void OwnValueControls::makeFields() {
         retire(field);
     }
     m_fields.clear();
-    m_environment = nullptr;
-    if (shownEnvironment() != 0)
-        addEnvironmentField();
-    for (const CellEdit& edit : shownValues())
+    m_elements = {};
+    for (const CellElement element : kCellElements)
+        if (currentOwn().element(element) != 0)
+            addElementField(element);
+    for (const CellEdit& edit : currentOwn().values)
         addField(edit);
 }
 
@@ -167,29 +250,29 @@ void OwnValueControls::endField(const QString& label, Link unlinked) {
     field->show();
 }
 
-void OwnValueControls::addEnvironmentField() {
-    const QString label = tr("Environment");
+void OwnValueControls::addElementField(CellElement element) {
+    const QString label = elementLabel(element);
     QHBoxLayout* row = startField(label);
-    m_environment = new QComboBox;
-    m_environment->setAccessibleName(label);
-    m_environment->setToolTip(tr("The environment that lights this cell"));
-    m_environment->setPlaceholderText(tr("Removed"));
-    m_environment->setSizeAdjustPolicy(QComboBox::AdjustToContents);
-    connect(m_environment, &QComboBox::activated, this, [this](int index) {
-        m_wall.setOwnEnvironment({m_wall.cells()[*m_wall.current()]},
-                                 m_environment->itemData(index).value<Id>());
+    auto* box = new QComboBox;
+    box->setAccessibleName(label);
+    box->setToolTip(elementHelp(element));
+    box->setPlaceholderText(tr("Removed"));
+    box->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+    connect(box, &QComboBox::activated, this, [this, box, element](int index) {
+        setElement(element, box->itemData(index).value<Id>());
     });
-    row->addWidget(m_environment);
-    endField(label, [this] { m_wall.setOwnEnvironment({m_wall.cells()[*m_wall.current()]}, 0); });
+    row->addWidget(box);
+    m_elements[static_cast<std::size_t>(element)] = box;
+    endField(label, [this, element] { setElement(element, 0); });
 }
 
-void OwnValueControls::fillEnvironments(Id shown) {
-    const QSignalBlocker quiet(m_environment);
-    m_environment->clear();
-    for (const Environment& environment : m_controller.document().environments)
-        m_environment->addItem(toQString(environmentTitle(environment)),
-                               QVariant::fromValue(environment.id));
-    m_environment->setCurrentIndex(m_environment->findData(QVariant::fromValue(shown)));
+void OwnValueControls::fillElements(QComboBox& box, CellElement element, Id shown) {
+    const QSignalBlocker quiet(&box);
+    const Document& document = m_controller.document();
+    box.clear();
+    for (const Id id : elementsOf(document, element))
+        box.addItem(elementName(document, element, id), QVariant::fromValue(id));
+    box.setCurrentIndex(box.findData(QVariant::fromValue(shown)));
 }
 
 void OwnValueControls::addField(const CellEdit& edit) {
@@ -244,7 +327,7 @@ void OwnValueControls::addParameters(QMenu& menu, const QString& title, const Ta
         const auto isThis = [&](const CellEdit& edit) {
             return edit.target == target && edit.info == &info;
         };
-        action->setChecked(std::ranges::any_of(shownValues(), isThis));
+        action->setChecked(std::ranges::any_of(currentOwn().values, isThis));
         const ParameterValue value = info.get(shown, target.id);
         connect(action, &QAction::toggled, this, [this, &info, target, value](bool own) {
             if (own)
@@ -255,14 +338,21 @@ void OwnValueControls::addParameters(QMenu& menu, const QString& title, const Ta
     }
 }
 
-// One of its own, which is the one that it shows at first.
-void OwnValueControls::addEnvironment(Id shown) {
-    QAction* action = m_menu->addAction(tr("Which Environment"));
-    action->setCheckable(true);
-    action->setChecked(shownEnvironment() != 0);
-    connect(action, &QAction::toggled, this, [this, shown](bool own) {
-        m_wall.setOwnEnvironment({m_wall.cells()[*m_wall.current()]}, own ? shown : 0);
-    });
+// Elements of its own, which are those that it shows at first.
+void OwnValueControls::addElements(const Document& cellDocument) {
+    const Cell& cell = m_wall.cells()[*m_wall.current()].cell;
+    for (const CellElement element : kCellElements) {
+        const Id first = firstElement(m_controller.document(), cellDocument, cell, element);
+        const bool own = currentOwn().element(element) != 0;
+        if (first == 0 && !own)
+            continue;
+        QAction* action = m_menu->addAction(tr("Which %1").arg(elementLabel(element)));
+        action->setCheckable(true);
+        action->setChecked(own);
+        connect(action, &QAction::toggled, this, [this, element, first](bool unlinked) {
+            setElement(element, unlinked ? first : 0);
+        });
+    }
 }
 
 void OwnValueControls::fillMenu() {
@@ -275,7 +365,7 @@ void OwnValueControls::fillMenu() {
         m_menu->addAction(toQString(shown.error().message))->setEnabled(false);
         return;
     }
-    addEnvironment(shown->mix.first);
+    addElements(*shown);
     addParameters(*m_menu, tr("Environment"), {Scope::Environment, 0}, *shown);
     addParameters(*m_menu, tr("Camera"), {Scope::View, 0}, *shown);
     addParameters(*m_menu, tr("Shading"), {Scope::Model, 0}, *shown);

@@ -1,10 +1,11 @@
-// What the current cell of the wall has of its own: its environment, values, and a button elsewhere
-// that chooses which. Seen while there are any.
+// What the current cell of the wall has of its own: environment, material, snapshot, values; and a
+// button elsewhere that chooses which. Seen while there are any.
 #pragma once
 
 #include "core/cells/OwnValues.h"
 
 #include <QWidget>
+#include <array>
 #include <vector>
 
 class QComboBox;
@@ -27,7 +28,7 @@ class OwnValueControls : public QWidget {
 
   private:
     void fillMenu();
-    void addEnvironment(Id shown); // to the menu
+    void addElements(const Document& cellDocument); // to the menu
     void addParameters(QMenu& menu, const QString& title, const Target& target,
                        const Document& shown);
     void makeFields();
@@ -36,10 +37,10 @@ class OwnValueControls : public QWidget {
     template <class Link>
     void endField(const QString& label, Link unlinked);
     void addField(const CellEdit& edit);
-    void addEnvironmentField();
-    void fillEnvironments(Id shown);
-    [[nodiscard]] Id shownEnvironment() const; // the current cell's own; 0: none
-    [[nodiscard]] const std::vector<CellEdit>& shownValues() const; // of the current cell
+    void addElementField(CellElement element);
+    void fillElements(QComboBox& box, CellElement element, Id shown);
+    void setElement(CellElement element, Id id);     // of the current cell; 0: links it
+    [[nodiscard]] const CellOwn& currentOwn() const; // of the current cell
 
     WallState& m_wall;
     DocumentController& m_controller;
@@ -47,10 +48,14 @@ class OwnValueControls : public QWidget {
     QMenu* m_menu;
     QToolButton* m_add;
     std::vector<QWidget*> m_fields;
-    QComboBox* m_environment = nullptr; // of the first field, where the cell has one of its own
-    Cell m_of;                          // whose values the fields are
-    std::vector<CellEdit> m_values;     // that they are made for
+    std::array<QComboBox*, kCellElements.size()> m_elements{}; // null: it has none of its own
+    Cell m_of;                                                 // whose values the fields are
+    CellOwn m_made;                                            // that they are made for
 };
+
+[[nodiscard]] QString elementLabel(CellElement element); // "Material"
+// Empty when it is no longer there.
+[[nodiscard]] QString elementName(const Document& document, CellElement element, Id id);
 
 // "Rotation 45°", "Tone curve ACES".
 [[nodiscard]] QString ownValueText(const CellEdit& edit);

@@ -34,7 +34,8 @@ Id WallDrop::sharedEnvironment(const std::vector<std::size_t>& cells) const {
     const Id first = m_wall.cells()[cells.front()].shared.environment;
     const bool all = std::ranges::all_of(cells, [&](std::size_t cell) {
         const WallCell& other = m_wall.cells()[cell];
-        return other.shared.environment == first && other.ownEnvironment == 0;
+        return other.shared.environment == first &&
+               other.own.element(CellElement::Environment) == 0;
     });
     return all && m_controller.document().environment(first) != nullptr ? first : 0;
 }
@@ -98,7 +99,7 @@ void WallDrop::drop(const WallDropPlan& plan) {
             [wall = QPointer(&m_wall), cells, &controller = m_controller,
              scene = m_controller.session().documentNumber()](Id environment) {
                 if (wall && controller.session().documentNumber() == scene)
-                    wall->setOwnEnvironment(cells, environment);
+                    wall->setOwnElement(cells, CellElement::Environment, environment);
             });
     }
     if (plan.parts.size() == 1 && plan.parts.front().cells.size() == 1 && !m_wall.enlarged())

@@ -7,7 +7,6 @@
 #include "app/editor/wall/WallComparison.h"
 #include "app/editor/wall/WallState.h"
 #include "core/document/Document.h"
-#include "core/document/EnvironmentTitle.h"
 #include "core/image/ColorMap.h"
 
 #include <QKeyEvent>
@@ -185,21 +184,23 @@ void WallOverlay::paintOwnValues(QPainter& painter) const {
     for (std::size_t i = 0; i < std::min(m_layout.cells.size(), m_wall.cells().size()); ++i) {
         const WallCell& own = m_wall.cells()[i];
         const QRect& cell = m_layout.cells[i];
-        if ((own.own.empty() && own.ownEnvironment == 0) || cell.isNull())
+        if (own.own.isEmpty() || cell.isNull())
             continue;
-        const auto known = std::ranges::find_if(seen, [&](const WallCell* other) {
-            return other->own == own.own && other->ownEnvironment == own.ownEnvironment;
-        });
+        const auto known = std::ranges::find_if(
+            seen, [&](const WallCell* other) { return other->own == own.own; });
         const auto group = static_cast<std::size_t>(known - seen.begin());
         if (known == seen.end())
             seen.push_back(&own);
         QStringList texts;
         const Document& document = m_wall.controller().document();
-        if (const Environment* environment = document.environment(own.ownEnvironment))
-            texts << toQString(environmentTitle(*environment));
-        else if (own.ownEnvironment != 0)
-            texts << tr("Environment removed");
-        for (const CellEdit& edit : own.own)
+        for (const CellElement element : kCellElements) {
+            const Id id = own.own.element(element);
+            if (id == 0)
+                continue;
+            const QString name = elementName(document, element, id);
+            texts << (name.isEmpty() ? tr("%1 removed").arg(elementLabel(element)) : name);
+        }
+        for (const CellEdit& edit : own.own.values)
             texts << ownValueText(edit);
         const QString text =
             fontMetrics().elidedText(texts.join(QStringLiteral(" · ")), Qt::ElideRight,

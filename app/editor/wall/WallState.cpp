@@ -132,9 +132,9 @@ void WallState::swapCompared() {
     Q_EMIT cellsChosen();
 }
 
-void WallState::setOwnEnvironment(const std::vector<WallCell>& cells, Id environment) {
+void WallState::setOwnElement(const std::vector<WallCell>& cells, CellElement element, Id id) {
     for (const WallCell& cell : cells)
-        patina::setOwnEnvironment(m_own, cell, environment);
+        patina::setOwnElement(m_own, cell, element, id);
     m_cells = cellsOf(m_wall, m_own);
     Q_EMIT ownChanged();
 }

@@ -46,9 +46,9 @@ class WallState : public QObject {
     [[nodiscard]] std::optional<std::size_t> compared() const { return m_compared; }
     void compareWith(std::optional<std::size_t> cell);
     void swapCompared(); // the other one becomes the current one
-    // Gives cells an environment of their own, or takes it away again (0): ownEnvironment.
-    void setOwnEnvironment(const std::vector<WallCell>& cells, Id environment);
-    // Gives the current cell a value of its own, or takes it away again: WallCell::own.
+    // Gives cells an environment, material or snapshot of their own, or takes it away again (0).
+    void setOwnElement(const std::vector<WallCell>& cells, CellElement element, Id id);
+    // Gives the current cell a value of its own, or takes it away again.
     void setOwnValue(const CellEdit& value);
     void linkValue(const Target& target, const ParameterInfo& info);
     // Makes the scene what the current cell shows, as one step.

@@ -49,7 +49,7 @@ TEST_F(OwnValueControlsTest, AnUnlinkedRotationIsOneCellsAlone) {
     QTest::keyClick(field("Rotation"), Qt::Key_Return);
     ASSERT_TRUE(isSettled());
     EXPECT_NE(pictureOf(1), same);
-    EXPECT_EQ(wall().cells()[1].own.size(), 1u);
+    EXPECT_EQ(wall().cells()[1].own.values.size(), 1u);
     EXPECT_FLOAT_EQ(document().environment().rotationDeg, 0.0f) << "the scene's is as it was";
     EXPECT_EQ(undoCount(), steps) << "looking is no edit";
     keepPicture("wall-own-value.png");
@@ -71,7 +71,7 @@ TEST_F(OwnValueControlsTest, AnUnlinkedRotationIsOneCellsAlone) {
     ASSERT_NE(link, nullptr);
     QTest::mouseClick(link, Qt::LeftButton);
     EXPECT_FALSE(controls().isVisible());
-    EXPECT_TRUE(wall().cells()[1].own.empty());
+    EXPECT_TRUE(wall().cells()[1].own.isEmpty());
 }
 
 TEST_F(OwnValueControlsTest, WhatACellHasOfItsOwnIsUsedInTheScene) {

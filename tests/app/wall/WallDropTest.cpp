@@ -87,10 +87,10 @@ TEST_F(WallDropTest, AFileLightsTheCellItIsDroppedOnto) {
     box->setCurrentIndex(0);
     Q_EMIT box->activated(0);
     EXPECT_EQ(environmentOf(2), before);
-    EXPECT_NE(wall().cells()[2].ownEnvironment, 0u);
+    EXPECT_NE(wall().cells()[2].own.element(CellElement::Environment), 0u);
     QTest::mouseClick(find<QToolButton>(controls, QStringLiteral("Link Environment")),
                       Qt::LeftButton);
-    EXPECT_EQ(wall().cells()[2].ownEnvironment, 0u);
+    EXPECT_EQ(wall().cells()[2].own.element(CellElement::Environment), 0u);
     EXPECT_FALSE(controls.isVisible());
 
     // Undone, the environment is gone: the cell says so, and others are offered.
@@ -178,7 +178,7 @@ TEST_F(WallDropTest, OtherFilesGoTheirUsualWay) {
     EXPECT_THAT(lines.join(QLatin1Char('\n')).toStdString(),
                 testing::HasSubstr("Light the scene with a.hdr"));
     EXPECT_EQ(environmentTitle(document().environment()), "a");
-    EXPECT_EQ(wall().cells()[1].ownEnvironment, 0u);
+    EXPECT_EQ(wall().cells()[1].own.element(CellElement::Environment), 0u);
 }
 
 TEST_F(WallDropTest, AFileThatCannotBeReadLeavesTheCellAsItWas) {
@@ -193,7 +193,7 @@ TEST_F(WallDropTest, AFileThatCannotBeReadLeavesTheCellAsItWas) {
                          [&](const UserNotice& notice) { said << notice.text << notice.details; });
     drop({file}, centreOf(1));
     QObject::disconnect(listening);
-    EXPECT_EQ(wall().cells()[1].ownEnvironment, 0u);
+    EXPECT_EQ(wall().cells()[1].own.element(CellElement::Environment), 0u);
     EXPECT_EQ(document().environments.size(), 1u);
     EXPECT_THAT(said.join(QLatin1Char('\n')).toStdString(), testing::HasSubstr("broken.hdr"));
 }

@@ -1,5 +1,6 @@
 #include "core/cells/OwnValues.h"
 #include "core/cells/WallAxes.h"
+#include "core/edit/EditSession.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 #include "core/scene/Scene.h"
@@ -42,7 +43,7 @@ TEST_F(OwnValuesTest, AValueIsOneCellsAlone) {
     setOwnValue(own, cellsOf(wall, own)[1], turned(45.0f)); // of the cell as it is now
     EXPECT_FLOAT_EQ(rotationOf(1), 45.0f);
     ASSERT_EQ(own.size(), 1u);
-    EXPECT_EQ(own[0].values.size(), 1u) << "one value of a parameter";
+    EXPECT_EQ(own[0].own.values.size(), 1u) << "one value of a parameter";
     // What it does not have of its own follows the document.
     document.environment(environments[0])->rotationDeg = 10.0f;
     document.environment(environments[1])->rotationDeg = 10.0f;
@@ -57,7 +58,7 @@ TEST_F(OwnValuesTest, LinkedAgainItShowsTheDocuments) {
     linkValue(own, cellsOf(wall)[1], {Scope::Environment, 0}, rotation()); // has none
     linkValue(own, cellsOf(wall)[2], {Scope::Environment, 0}, rotation());
     EXPECT_FLOAT_EQ(rotationOf(2), 0.0f);
-    EXPECT_EQ(cellsOf(wall, own)[2].own, std::vector<CellEdit>{exposure});
+    EXPECT_EQ(cellsOf(wall, own)[2].own.values, std::vector<CellEdit>{exposure});
     linkValue(own, cellsOf(wall)[2], exposure.target, *exposure.info);
     EXPECT_TRUE(own.empty());
     EXPECT_EQ(cellsOf(wall, own), cellsOf(wall));
@@ -86,10 +87,10 @@ TEST_F(OwnValuesTest, AnEnvironmentIsOneCellsAlone) {
     const auto lightOf = [&](std::size_t cell) {
         return documentOf(document, cellsOf(wall, own)[cell].cell)->mix.first;
     };
-    setOwnEnvironment(own, cellsOf(wall)[0], environments[2]);
+    setOwnElement(own, cellsOf(wall)[0], CellElement::Environment, environments[2]);
     EXPECT_EQ(lightOf(0), environments[2]);
     EXPECT_EQ(lightOf(1), environments[1]);
-    EXPECT_EQ(cellsOf(wall, own)[0].ownEnvironment, environments[2]);
+    EXPECT_EQ(cellsOf(wall, own)[0].own.element(CellElement::Environment), environments[2]);
     EXPECT_EQ(cellsOf(wall, own)[0].shared.environment, environments[0]);
     // A value beside it is that of the environment which lights the cell.
     setOwnValue(own, cellsOf(wall, own)[0], turned(90.0f));
@@ -97,16 +98,78 @@ TEST_F(OwnValuesTest, AnEnvironmentIsOneCellsAlone) {
     EXPECT_FLOAT_EQ(rotationOf(0), 90.0f);
     linkValue(own, cellsOf(wall, own)[0], {Scope::Environment, 0}, rotation());
     EXPECT_EQ(lightOf(0), environments[2]) << "the other one stays";
-    setOwnEnvironment(own, cellsOf(wall, own)[0], 0);
+    setOwnElement(own, cellsOf(wall, own)[0], CellElement::Environment, 0);
     EXPECT_EQ(lightOf(0), environments[0]);
     EXPECT_TRUE(own.empty());
 
     // Removed from the scene: the cell says so.
-    setOwnEnvironment(own, cellsOf(wall)[1], environments[2]);
+    setOwnElement(own, cellsOf(wall)[1], CellElement::Environment, environments[2]);
     removeEnvironment(document, environments[2]);
     const Result<Document> shown = documentOf(document, cellsOf(wall, own)[1].cell);
     ASSERT_FALSE(shown);
     EXPECT_NE(shown.error().message.find("no longer in the scene"), std::string::npos);
+}
+
+TEST_F(OwnValuesTest, AMaterialCoversAllVisibleMeshesOfACell) {
+    const Id gold = addMaterial(document, Material()), clay = addMaterial(document, Material());
+    document.meshes.resize(1);
+    for (const bool visible : {true, false}) {
+        MeshInstance copy = document.meshes.front();
+        copy.id = document.takeId();
+        copy.visible = visible;
+        document.meshes.push_back(copy);
+    }
+    const Id before = document.meshes.back().material;
+    // Its column sets one, too: the cell's own wins.
+    wall = *makeWall({materialAxis(document, std::array{clay, gold})});
+    const auto coverOf = [&](std::size_t cell) {
+        const Result<Document> shown = documentOf(document, cellsOf(wall, own)[cell].cell);
+        std::vector<Id> ids;
+        for (const MeshInstance& mesh : shown->meshes)
+            ids.push_back(mesh.material);
+        return ids;
+    };
+    ASSERT_EQ(coverOf(0), (std::vector{clay, clay, before}));
+    setOwnElement(own, cellsOf(wall)[0], CellElement::Material, gold);
+    EXPECT_EQ(coverOf(0), (std::vector{gold, gold, before})) << "hidden meshes keep theirs";
+    EXPECT_EQ(cellsOf(wall, own)[0].own.element(CellElement::Material), gold);
+    EXPECT_EQ(document.meshes.front().material, before) << "the scene is as it was";
+
+    EditSession session;
+    session.replace(document);
+    putIntoScene(session, cellsOf(wall, own)[0].cell);
+    EXPECT_EQ(session.document().meshes[1].material, gold);
+    EXPECT_EQ(session.document().meshes[2].material, before);
+
+    setOwnElement(own, cellsOf(wall)[0], CellElement::Material, 0);
+    EXPECT_TRUE(own.empty());
+    EXPECT_EQ(coverOf(0), (std::vector{clay, clay, before}));
+
+    setOwnElement(own, cellsOf(wall)[0], CellElement::Material, 4711);
+    const Result<Document> gone = documentOf(document, cellsOf(wall, own)[0].cell);
+    ASSERT_FALSE(gone);
+    EXPECT_NE(gone.error().message.find("material of this cell is no longer"), std::string::npos);
+}
+
+TEST_F(OwnValuesTest, ASnapshotIsBelowWhatElseACellHasOfItsOwn) {
+    EditSession session;
+    document.view.exposureEv = 2.0f;
+    session.replace(document);
+    const Id kept = session.keepSnapshot("Bright", nullptr);
+    session.setParameter(*findParameter("view.exposureEv"), {Scope::View, 0}, 0.0f);
+    document = session.document();
+    const auto exposureOf = [&](std::size_t cell) {
+        return documentOf(document, cellsOf(wall, own)[cell].cell)->view.exposureEv;
+    };
+    EXPECT_FLOAT_EQ(exposureOf(1), 0.0f);
+    setOwnElement(own, cellsOf(wall)[1], CellElement::Snapshot, kept);
+    EXPECT_FLOAT_EQ(exposureOf(1), 2.0f);
+    EXPECT_FLOAT_EQ(exposureOf(0), 0.0f);
+    setOwnValue(own, cellsOf(wall, own)[1],
+                {{Scope::View, 0}, findParameter("view.exposureEv"), 1.0f});
+    EXPECT_FLOAT_EQ(exposureOf(1), 1.0f);
+    EXPECT_EQ(documentOf(document, cellsOf(wall, own)[1].cell)->mix.first, environments[1])
+        << "its column's environment comes on top of the snapshot's";
 }
 
 } // namespace
