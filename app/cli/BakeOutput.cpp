@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Error cancelled() {
+Error bakeCancelled() {
     return {ErrorKind::Cancelled, "the bake was cancelled", {}, {}};
 }
 
@@ -24,7 +24,7 @@ Result<void> writeBakeFile(Session& session, const Document& document, const Bak
     if (!bytes)
         return bytes.error();
     if (session.job().cancelled())
-        return cancelled();
+        return bakeCancelled();
     if (Result<void> written = writeFileAtomically(output, *bytes); !written)
         return written;
     std::string what = bytesText(bytes->size());
@@ -49,7 +49,7 @@ Result<void> writeBakedPictures(Session& session, const Document& document,
         files.push_back(*std::move(file));
     }
     if (session.job().cancelled())
-        return cancelled();
+        return bakeCancelled();
     for (const auto& [path, bytes] : files) {
         if (Result<void> written = writeFileAtomically(path, bytes); !written)
             return written;
@@ -99,7 +99,7 @@ Result<void> PictureWriter::write(const TexelBake& texel) {
     if (!file)
         return file.error();
     if (m_session.job().cancelled())
-        return cancelled();
+        return bakeCancelled();
     if (Result<void> written = writeFileAtomically(file->first, file->second); !written)
         return written;
     m_session.report().output(file->first, bytesText(file->second.size()));

@@ -18,9 +18,9 @@
 namespace patina::cli {
 namespace {
 
-constexpr std::array kCommands = {"info",   "render", "sheet",       "rank",
-                                  "bake",   "merge",  "environment", "bracket",
-                                  "export", "refine", "compare",     "parameters"};
+constexpr std::array kCommands = {"info",   "render",  "sheet",       "rank",    "ladder",
+                                  "bake",   "merge",   "environment", "bracket", "export",
+                                  "refine", "compare", "parameters"};
 
 constexpr const char* kAbout =
     "Patina: a desktop editor for physically based materials you can trust.\n\n"
@@ -47,6 +47,7 @@ CommandParser::CommandParser()
     addRender();
     addSheet();
     addRank();
+    addLadder();
     addBakes();
     addMerge();
     addEnvironment();

@@ -78,6 +78,7 @@ class CommandParser {
     void addInfo();
     void addRender();
     void addSheet();
+    void addLadder(); // LadderCommandLine.cpp
     void addRank();
     // What `render` and `sheet` have in common; addLook(): `rank`, too.
     void addLook(CLI::App* command, PictureOptions& options);
@@ -95,6 +96,7 @@ class CommandParser {
     Invocation m_invocation;
     InfoOptions m_info;
     RenderOptions m_render;
+    LadderOptions m_ladder;
     SheetOptions m_sheet;
     RankOptions m_rank;
     BakeAoOptions m_ao;

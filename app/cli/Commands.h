@@ -7,6 +7,7 @@ namespace patina::cli {
 
 Result<void> run(Session& session, const InfoOptions& options);
 Result<void> run(Session& session, const RenderOptions& options);
+Result<void> run(Session& session, const LadderOptions& options);
 Result<void> run(Session& session, const SheetOptions& options);
 Result<void> run(Session& session, const RankOptions& options);
 Result<void> run(Session& session, const BakeAoOptions& options);

@@ -57,6 +57,12 @@ struct RenderOptions : PictureOptions {
     bool samplesGiven = false;
 };
 
+struct LadderOptions : PictureOptions {
+    LadderOptions() { size = "640x360"; }
+    int paths = 256;             // per pixel, at most
+    std::optional<double> noise; // ends there, percent of the mean
+    int order = 5, rays = 256;   // of what is baked
+};
 struct SheetOptions : PictureOptions {
     SheetOptions() { size = "320x240"; } // of a cell
     enum class AxisKind { Environments, Materials, Lightings, Snapshots, Wedge };
@@ -193,8 +199,8 @@ struct ParametersOptions {
 
 struct Invocation {
     CommonOptions common;
-    std::variant<InfoOptions, RenderOptions, SheetOptions, RankOptions, BakeAoOptions,
-                 BakePrtOptions, BakeIblOptions, MergeOptions, EnvironmentOptions,
+    std::variant<InfoOptions, RenderOptions, LadderOptions, SheetOptions, RankOptions,
+                 BakeAoOptions, BakePrtOptions, BakeIblOptions, MergeOptions, EnvironmentOptions,
                  BracketCommandOptions, ExportOptions, RefineOptions, CompareOptions,
                  ParametersOptions>
         options;

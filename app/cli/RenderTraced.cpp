@@ -1,11 +1,9 @@
 #include "app/cli/RenderTraced.h"
 
 #include "app/cli/PictureSetup.h"
-#include "app/cli/PreparedLight.h"
 #include "app/cli/Report.h"
+#include "app/cli/TracedBackground.h"
 #include "core/document/DisplayedPicture.h"
-#include "core/document/ViewChoices.h"
-#include "core/mix/LightMix.h"
 #include "core/trace/document/DocumentTraceInputs.h"
 #include "core/trace/path/PathTracer.h"
 
@@ -21,33 +19,6 @@ namespace {
 // Samples of a pass, and so between two looks at the noise.
 constexpr std::uint32_t kMostAtOnce = 16;
 constexpr std::array kRasterSamples{1, 2, 4, 8, 16};
-
-// Light from the environment, behind the scene, as the viewport's background has it.
-Result<void> setBackground(Session& session, const Document& document, TraceView& view) {
-    const View& look = document.view;
-    switch (look.background) {
-    case BackgroundMode::Environment:
-        return {}; // as it is
-    case BackgroundMode::Off:
-        view.transparent = true;
-        return {};
-    case BackgroundMode::Color:
-        view.background = [color = look.backgroundColor](const glm::vec3&) { return color; };
-        return {};
-    case BackgroundMode::Blurred:
-        break;
-    }
-    const EnvironmentPart shown = shownEnvironment(document);
-    if (!shown.image)
-        return {};
-    session.job().setActivity("preparing light");
-    Result<IblMaps> maps = prepareLight(*shown.image, session.job());
-    if (!maps)
-        return maps.error();
-    view.background = blurredBackground(std::make_shared<const IblMaps>(*std::move(maps)), shown,
-                                        look.backgroundBlur);
-    return {};
-}
 
 } // namespace
 

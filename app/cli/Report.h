@@ -55,6 +55,10 @@ class Report {
     return {ErrorKind::Usage, std::move(message), {}, {}};
 }
 
+[[nodiscard]] inline Error cancelledError() {
+    return {ErrorKind::Cancelled, "cancelled", {}, {}};
+}
+
 // The exit status of COMMANDS: sysexits.h where it has a number for it.
 [[nodiscard]] int exitStatus(ErrorKind kind);
 // Interrupted for now: farms put the task back into the queue. Whenever a checkpoint is there or

@@ -180,10 +180,10 @@ Result<SheetWall> makeSheetWall(Session& session, const SheetOptions& options, D
     return result;
 }
 
-std::string sheetTitle(const SheetOptions& options) {
-    if (!isBuiltin(options.scene))
-        return fs::path(options.scene).stem().string();
-    const std::string name = builtinName(options.scene);
+std::string sceneTitle(const std::string& scene) {
+    if (!isBuiltin(scene))
+        return fs::path(scene).stem().string();
+    const std::string name = builtinName(scene);
     const auto& models = library::models();
     const auto found = std::ranges::find(models, name, &library::Entry::name);
     return found != models.end() ? found->title : name;

@@ -24,6 +24,6 @@ struct SheetWall {
 Result<SheetWall> makeSheetWall(Session& session, const SheetOptions& options, Document& document);
 
 // What stands above the cells: the scene's name.
-[[nodiscard]] std::string sheetTitle(const SheetOptions& options);
+[[nodiscard]] std::string sceneTitle(const std::string& scene);
 
 } // namespace patina::cli

@@ -31,10 +31,6 @@
 namespace patina::cli {
 namespace {
 
-Error cancelled() {
-    return {ErrorKind::Cancelled, "cancelled", {}, {}};
-}
-
 Result<ImageFileFormat> sheetFormat(const std::string& output) {
     Result<ImageFileFormat> format = imageFormatForPath(output);
     if (format && *format == ImageFileFormat::Hdr)
@@ -112,7 +108,7 @@ class SheetDrawer {
             return shown.error();
         resolveCell(*shown, m_document, m_session.job());
         if (m_session.job().cancelled())
-            return cancelled();
+            return cancelledError();
         if (Result<void> followed = follow(*shown); !followed)
             return followed.error();
         if (Result<void> fits = fitDisplay(shown->view); !fits)
@@ -247,7 +243,7 @@ Result<std::vector<sheet::DrawnCell>> drawCells(Session& session, SheetDrawer& d
                 continue;
             }
             if (session.job().cancelled())
-                return cancelled();
+                return cancelledError();
             const auto start = std::chrono::steady_clock::now();
             Result<Image> picture = drawer.draw(cells[i].cell);
             if (!picture)
@@ -354,7 +350,7 @@ Result<void> run(Session& session, const SheetOptions& options) {
     } else {
         std::optional<sheet::WallSheetText> text;
         if (!options.noCaptions)
-            text = {sheetTitle(options), sheet::commonText(wall->wall, *document)};
+            text = {sceneTitle(options.scene), sheet::commonText(wall->wall, *document)};
         Result<sheet::WallSheet> made =
             sheet::WallSheet::create(wall->wall, frame->width, frame->height, text);
         if (!made)
@@ -385,7 +381,7 @@ Result<void> run(Session& session, const SheetOptions& options) {
         parts = sheet::partsOf(cells, *drawn);
     describeCells(json, wall->wall, paper ? &*paper : nullptr, cells, *drawn, *frame);
     if (session.job().cancelled())
-        return cancelled();
+        return cancelledError();
     return writePictures(session, options.output, std::move(parts), *format);
 }
 

@@ -14,6 +14,7 @@
 #include "app/editor/panel/ParameterRow.h"
 #include "app/editor/style/Icons.h"
 #include "app/editor/trace/PathBadge.h"
+#include "app/editor/trace/PathErrorOverlay.h"
 #include "app/editor/viewport/DropTarget.h"
 #include "app/editor/viewport/EquationBar.h"
 #include "app/editor/viewport/SceneProgress.h"
@@ -66,7 +67,7 @@ MainWindow::MainWindow(Session& session)
     m_viewport->setLobe(session.lobe);
     m_viewport->setViews(session.views);
     m_viewport->setWall(session.wall, session.comparison);
-    m_viewport->setPaths(session.paths);
+    m_viewport->setPaths(session.paths, session.pathError);
     m_viewport->setProbe(session.probe);
 
     auto* centre = new QWidget;
@@ -83,7 +84,8 @@ MainWindow::MainWindow(Session& session)
     layout->addWidget(m_viewport, 1);
     auto* wallOverlay = new WallOverlay(session.wall, session.comparison, *m_viewport);
     new SplitHandle(session.comparison, *m_viewport);
-    new PathBadge(session.paths, session.views, *m_viewport);
+    new PathErrorOverlay(session.pathError, *m_viewport);
+    new PathBadge(session.paths, session.pathError, session.views, *m_viewport);
     m_overlay = new ViewOverlay(session.views, session.controller, *m_viewport);
     m_progress = new SceneProgress(session.controller, *m_viewport);
     m_drop = new DropTarget(*this, *m_viewport, session.controller, session.selection,

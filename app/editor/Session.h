@@ -11,6 +11,7 @@
 #include "app/editor/job/NearShadowUpdater.h"
 #include "app/editor/job/UiTasks.h"
 #include "app/editor/library/EnvironmentLibrary.h"
+#include "app/editor/trace/PathError.h"
 #include "app/editor/trace/PathView.h"
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/LightLimitNotice.h"
@@ -42,6 +43,7 @@ struct Session {
     PixelProbe probe;
     LobeOnSurface lobe{controller, probe};
     PathView paths{controller};
+    PathError pathError{controller, paths};
     JobManager jobs{controller};
     BakeService bakes{controller, jobs};
     BounceUpdater bounces{controller, bakes.hits()};

@@ -2,35 +2,64 @@
 
 #include "app/editor/document/QtText.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/trace/PathError.h"
 #include "app/editor/trace/PathView.h"
 #include "app/editor/viewport/ViewState.h"
 
+#include <QComboBox>
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLocale>
 #include <QPushButton>
+#include <QVBoxLayout>
+#include <initializer_list>
+#include <utility>
 
 namespace patina::editor {
 
-PathBadge::PathBadge(PathView& paths, ViewState& views, QWidget& viewport)
+PathBadge::PathBadge(PathView& paths, PathError& error, ViewState& views, QWidget& viewport)
     : QFrame(&viewport)
     , m_paths(paths)
+    , m_error(error)
     , m_views(views)
     , m_viewport(viewport)
     , m_text(new QLabel)
+    , m_shown(new QComboBox)
     , m_pause(new QPushButton(tr("Pause"))) {
     setObjectName(QStringLiteral("pathBadge"));
     setProperty("overlay", true);
     setAccessibleName(tr("Path tracing"));
-    auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(tokens::kMargin, tokens::kGap, tokens::kGap, tokens::kGap);
-    row->setSpacing(tokens::kMargin);
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins(tokens::kMargin, tokens::kGap, tokens::kMargin, tokens::kGap);
+    column->setSpacing(tokens::kGap / 2);
     m_text->setObjectName(QStringLiteral("pathBadgeText"));
     m_text->setToolTip(
         tr("Paths per pixel so far, and how certain that makes the picture: the standard error of "
            "its pixels, as a share of its mean brightness. At ± 1 % it is done."));
-    row->addWidget(m_text);
+    column->addWidget(m_text);
+    auto* row = new QHBoxLayout;
+    row->setSpacing(tokens::kGap);
+    column->addLayout(row);
+    m_shown->setObjectName(QStringLiteral("pathShown"));
+    m_shown->setAccessibleName(tr("Shown of the traced picture"));
+    m_shown->setToolTip(
+        tr("The traced picture, the one that the viewport draws, or how far that is from the "
+           "traced one. Hold Space to see the drawn one."));
+    m_shown->setStatusTip(m_shown->toolTip());
+    m_shown->setFocusPolicy(Qt::TabFocus); // keys stay the viewport's
+    for (const auto& [picture, name] : std::initializer_list<std::pair<PathPicture, QString>>{
+             {PathPicture::Traced, tr("Traced picture")},
+             {PathPicture::Drawn, tr("Drawn picture")},
+             {PathPicture::Exposure, tr("Too bright, too dark")},
+             {PathPicture::Relative, tr("Relative error")},
+             {PathPicture::Visible, tr("Visible difference")}})
+        m_shown->addItem(name, static_cast<int>(picture));
+    connect(m_shown, &QComboBox::activated, this, [this](int index) {
+        m_error.setShown(static_cast<PathPicture>(m_shown->itemData(index).toInt()));
+    });
+    row->addWidget(m_shown);
+    row->addStretch(1);
     m_pause->setObjectName(QStringLiteral("pathPause"));
     m_pause->setCheckable(true);
     m_pause->setAccessibleName(tr("Pause path tracing"));
@@ -39,6 +68,7 @@ PathBadge::PathBadge(PathView& paths, ViewState& views, QWidget& viewport)
     row->addWidget(m_pause);
     connect(m_pause, &QPushButton::clicked, &paths, &PathView::setPaused);
     connect(&paths, &PathView::changed, this, &PathBadge::refresh);
+    connect(&error, &PathError::changed, this, &PathBadge::refresh);
     connect(&views, &ViewState::changed, this, &PathBadge::refresh);
     viewport.installEventFilter(this);
     refresh();
@@ -69,6 +99,7 @@ QString PathBadge::text() const {
 void PathBadge::refresh() {
     setVisible(m_paths.isOn());
     m_text->setText(text());
+    m_shown->setCurrentIndex(m_shown->findData(static_cast<int>(m_error.shown())));
     m_pause->setChecked(m_paths.isPaused());
     m_pause->setText(m_paths.isPaused() ? tr("Resume") : tr("Pause"));
     m_pause->setVisible(!m_paths.progress().refined);

@@ -1,20 +1,23 @@
-// Says over the viewport how far the traced picture has come, and how certain it is; pauses it.
+// Says over the viewport how far the traced picture has come, and how certain it is; pauses it, and
+// chooses what of it and of its difference from the drawn one is shown.
 #pragma once
 
 #include <QFrame>
 
+class QComboBox;
 class QLabel;
 class QPushButton;
 
 namespace patina::editor {
 
+class PathError;
 class PathView;
 class ViewState;
 
 class PathBadge : public QFrame {
     Q_OBJECT
   public:
-    PathBadge(PathView& paths, ViewState& views, QWidget& viewport);
+    PathBadge(PathView& paths, PathError& error, ViewState& views, QWidget& viewport);
 
   protected:
     bool eventFilter(QObject* viewport, QEvent* event) override;
@@ -25,9 +28,11 @@ class PathBadge : public QFrame {
     [[nodiscard]] QString text() const;
 
     PathView& m_paths;
+    PathError& m_error;
     ViewState& m_views;
     QWidget& m_viewport;
     QLabel* m_text;
+    QComboBox* m_shown;
     QPushButton* m_pause;
 };
 

@@ -4,6 +4,7 @@
 #include "core/document/Document.h"
 #include "core/document/ViewChoices.h"
 #include "core/trace/document/DocumentTraceInputs.h"
+#include "core/trace/error/SeenMaterials.h"
 
 #include <algorithm>
 #include <chrono>
@@ -44,6 +45,7 @@ struct PathView::Work {
     int reduction = kCoarsest; // of the next pass; 1: full size
     Film film;                 // of full size
     std::uint32_t samples = 0, next = 1;
+    std::shared_ptr<const std::vector<Id>> materials; // null: not looked for yet
 };
 
 PathView::PathView(DocumentController& controller, QObject* parent)
@@ -55,7 +57,8 @@ void PathView::setOn(bool on) {
     if (on == m_on)
         return;
     m_on = on;
-    m_paused = false;
+    m_paused = m_tells = false;
+    m_reference = {};
     m_tasks.cancel(kTag);
     m_work = nullptr;
     m_scene = nullptr;
@@ -76,6 +79,16 @@ void PathView::setPaused(bool paused) {
     if (!paused)
         proceed();
     Q_EMIT changed();
+}
+
+void PathView::setTellsCertainty(bool tells) {
+    if (!m_on || tells == m_tells)
+        return;
+    m_tells = tells;
+    if (!tells)
+        m_reference = {};
+    else if (m_work && !m_tasks.busy(kTag) && m_work->samples > 1)
+        run(false); // it rests
 }
 
 void PathView::want(const Camera& camera, const QSize& size) {
@@ -117,6 +130,8 @@ void PathView::begin() {
         m_work->blurred = m_blurred;
     }
     m_hasFirst = m_paused = false;
+    m_reference = {};
+    ++m_number;
     m_progress = {};
     m_rays = 0.0;
     proceed();
@@ -126,9 +141,15 @@ void PathView::proceed() {
     if (!m_work || m_progress.refined || m_tasks.busy(kTag) ||
         (m_paused && m_work->reduction < kCoarsest))
         return;
+    run(true);
+}
+
+void PathView::run(bool traces) {
     m_tasks.run(
         {.tag = kTag, .priority = m_work->samples == 0 ? TaskPriority::Normal : TaskPriority::Low},
-        [work = m_work](const JobContext& job) { return trace(*work, job); },
+        [work = m_work, traces, tells = m_tells](const JobContext& job) {
+            return trace(*work, traces, tells, job);
+        },
         [this, work = m_work](const Result<Pass>& pass) {
             if (work == m_work)
                 take(pass);
@@ -149,16 +170,23 @@ void PathView::take(const Result<Pass>& pass) {
     m_scene = pass->scene;
     if (pass->blurred.maps)
         m_blurred = pass->blurred;
-    m_picture = pass->picture;
+    if (pass->picture)
+        m_picture = pass->picture;
+    if (pass->reference.traced && m_tells)
+        m_reference = pass->reference;
     m_rays += pass->rays;
     m_progress.samples = m_work->samples;
-    m_progress.noise = pass->noise;
+    if (pass->noise)
+        m_progress.noise = pass->noise;
     m_progress.seconds += pass->seconds;
     m_progress.raysPerSecond = m_progress.seconds > 0.0 ? m_rays / m_progress.seconds : 0.0;
     m_progress.refined =
-        m_work->samples >= kMostSamples || (pass->noise && *pass->noise <= kCertain);
+        m_work->samples >= kMostSamples || (m_progress.noise && *m_progress.noise <= kCertain);
+    const bool rests = m_progress.refined || m_paused;
     if (m_stale)
         begin();
+    else if (rests && m_tells && !m_reference.traced && pass->traces && m_work->samples > 1)
+        run(false); // it was asked for in the last pass
     else
         proceed();
     Q_EMIT changed();
@@ -178,7 +206,28 @@ Result<void> PathView::blurBackground(Work& work, const JobContext& job) {
     return {};
 }
 
-Result<PathView::Pass> PathView::trace(Work& work, const JobContext& job) {
+PathView::Reference PathView::tell(Work& work, const JobContext& job) {
+    std::optional<TracedPicture> traced = tracedPicture(work.film);
+    if (!traced)
+        return {};
+    if (!work.materials) {
+        auto seen =
+            std::make_shared<const std::vector<Id>>(seenMaterials(*work.scene, work.view, job));
+        if (job.cancelled())
+            return {};
+        work.materials = std::move(seen);
+    }
+    return {std::make_shared<const TracedPicture>(*std::move(traced)), work.materials};
+}
+
+Result<PathView::Pass> PathView::trace(Work& work, bool traces, bool tells, const JobContext& job) {
+    if (!traces) {
+        Pass pass;
+        pass.scene = work.scene;
+        pass.blurred = work.blurred;
+        pass.reference = tell(work, job);
+        return pass;
+    }
     if (!work.scene) {
         Result<TraceScene> built = TraceScene::build(work.inputs, job, work.previous.get());
         if (!built)
@@ -193,6 +242,7 @@ Result<PathView::Pass> PathView::trace(Work& work, const JobContext& job) {
     pass.scene = work.scene;
     pass.blurred = work.blurred;
     TraceRays rays;
+    pass.traces = true;
     if (work.reduction > 1) {
         TraceView coarse = work.view;
         coarse.width = std::max(1, coarse.width / work.reduction);
@@ -213,6 +263,8 @@ Result<PathView::Pass> PathView::trace(Work& work, const JobContext& job) {
         work.samples += count;
         pass.picture = std::make_shared<const Image>(work.film.radiance(true));
         pass.noise = work.film.noise();
+        if (tells)
+            pass.reference = tell(work, job);
         if (2.0 * secondsSince(start) < kPassSeconds)
             work.next = std::min(2 * work.next, kMostAtOnce);
     }

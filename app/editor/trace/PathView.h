@@ -7,12 +7,14 @@
 #include "core/light/Ibl.h"
 #include "core/math/Camera.h"
 #include "core/mix/LightMix.h"
+#include "core/trace/error/TracedPicture.h"
 #include "core/trace/path/PathTracer.h"
 
 #include <QObject>
 #include <QSize>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace patina::editor {
 
@@ -48,6 +50,18 @@ class PathView : public QObject {
     };
     [[nodiscard]] const Progress& progress() const { return m_progress; }
 
+    // Whether reference() is wanted, which takes memory: 16 bytes per pixel, and again as much of
+    // what is under way.
+    void setTellsCertainty(bool tells);
+    struct Reference {
+        std::shared_ptr<const TracedPicture> traced;      // null: none yet
+        std::shared_ptr<const std::vector<Id>> materials; // seenMaterials() of it
+    };
+    // Of the newest picture of full size.
+    [[nodiscard]] const Reference& reference() const { return m_reference; }
+    // Grows whenever it begins anew.
+    [[nodiscard]] std::uint64_t number() const { return m_number; }
+
   Q_SIGNALS:
     void changed(); // the picture, the progress, whether it is on or paused
 
@@ -63,15 +77,19 @@ class PathView : public QObject {
         BlurredLight blurred;
         std::optional<double> noise;
         double rays = 0.0, seconds = 0.0;
+        Reference reference;
+        bool traces = false; // a pass, not only what it tells
     };
     void begin();
+    void run(bool traces); // a pass, or only what it tells
     void proceed();
     void take(const Result<Pass>& pass);
     static Result<void> blurBackground(Work& work, const JobContext& job);
-    static Result<Pass> trace(Work& work, const JobContext& job);
+    static Result<Pass> trace(Work& work, bool traces, bool tells, const JobContext& job);
+    static Reference tell(Work& work, const JobContext& job);
 
     DocumentController& m_controller;
-    bool m_on = false, m_paused = false;
+    bool m_on = false, m_paused = false, m_tells = false;
     TraceInputs m_inputs; // wanted
     Camera m_camera;
     View m_look;              // what of it stands behind the scene …
@@ -83,6 +101,8 @@ class PathView : public QObject {
     std::shared_ptr<const TraceScene> m_scene; // the one built last
     BlurredLight m_blurred;
     ImagePtr m_picture;
+    Reference m_reference;
+    std::uint64_t m_number = 0;
     Progress m_progress;
     double m_rays = 0.0;
     TaskGroup m_tasks; // last: it ends before the rest

@@ -1,4 +1,5 @@
 // The part of ViewportWidget that shows what paths bring, in place of its own frames.
+#include "app/editor/trace/PathError.h"
 #include "app/editor/trace/PathView.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "core/base/Log.h"
@@ -9,13 +10,52 @@
 
 namespace patina::editor {
 
-void ViewportWidget::setPaths(PathView& paths) {
+void ViewportWidget::setPaths(PathView& paths, PathError& error) {
     m_paths = &paths;
+    m_pathError = &error;
+    connect(&error, &PathError::drawnWanted, this, qOverload<>(&QWidget::update));
     connect(&paths, &PathView::changed, this, [this] {
         if (!m_paths->isOn())
             hurry(); // the viewport's own picture again
         update();
     });
+}
+
+// The scene as the viewport draws it, a frame at a time: those of a moving hand are not waited for.
+void ViewportWidget::drawForError(render::FrameSettings frame) {
+    if (!m_pathError->wantsDrawn()) {
+        m_drawn.reset();
+        return;
+    }
+    if (m_pacing.moving() || m_gate.waiting())
+        return;
+    const bool begins = !m_drawn || m_drawnWanted != m_pathError->wantedDrawn();
+    if (begins) {
+        bringIn();
+        m_drawn = std::make_unique<render::ViewRenderer>(*m_scene);
+        m_drawnWanted = m_pathError->wantedDrawn();
+    } else {
+        m_drawn->resume();
+    }
+    frame.width = sizeAt(1.0f).width();
+    frame.height = sizeAt(1.0f).height();
+    frame.shownWidth = frame.shownHeight = 0;
+    frame.samples = 1;
+    frame.accumulate = frame.floats = true;
+    frame.coarse = frame.dither = frame.showOverlays = frame.reuseScene = frame.keepPicture = false;
+    frame.radiance = nullptr;
+    if (const Result<void> drawn = m_drawn->render(frame, render::ViewRenderer::kNowhere); !drawn) {
+        logError("the picture to compare with could not be drawn: {}", drawn.error().text());
+        m_drawn.reset();
+        return;
+    }
+    const int frames = m_drawn->accumulatedFrames();
+    if (frames == 0 || frames >= render::ViewRenderer::kSteadyFrames) {
+        m_pathError->setDrawn(m_drawn->readLinear());
+        m_drawn.reset();
+    } else {
+        update();
+    }
 }
 
 // It has no depth: overlays and looks at pixels are for the other pictures.
@@ -25,6 +65,7 @@ bool ViewportWidget::paintPaths(render::FrameSettings frame) {
     if (!wanted)
         return false;
     m_paths->want(frame.camera, sizeAt(1.0f));
+    const render::FrameSettings ordinary = frame;
     frame.radiance = m_paths->picture();
     if (!frame.radiance)
         return false;
@@ -38,6 +79,7 @@ bool ViewportWidget::paintPaths(render::FrameSettings frame) {
     if (const Result<void> drawn = m_renderer->render(frame, defaultFramebufferObject()); !drawn)
         logError("the traced picture could not be shown: {}", drawn.error().text());
     m_viewFeed.endFrame(*m_renderer);
+    drawForError(ordinary);
     context()->functions()->glFinish();
     const double milliseconds = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
     m_slowestFrameMs = std::max(m_slowestFrameMs, milliseconds);

@@ -4,6 +4,7 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/job/JobManager.h"
+#include "app/editor/trace/PathError.h"
 #include "app/editor/trace/PathView.h"
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/LobeOnSurface.h"
@@ -181,6 +182,8 @@ ViewportWidget::ViewportWidget(DocumentController& controller, SelectionModel& s
 
 ViewportWidget::~ViewportWidget() {
     releaseGl();
+    if (context() != nullptr) // which ends after this widget's own part
+        disconnect(context(), nullptr, this, nullptr);
 }
 
 void ViewportWidget::setBakes(BakeService& bakes) {
@@ -217,6 +220,8 @@ void ViewportWidget::setProbe(PixelProbe& probe) {
 }
 
 void ViewportWidget::lookChanged() {
+    if (m_pathError != nullptr)
+        m_pathError->outdate();
     m_sheets.invalidate();
     updateSoon();
 }
@@ -290,6 +295,7 @@ void ViewportWidget::releaseGl() {
     m_wall.release();
     m_wallShown = false;
     m_thumbnails.reset();
+    m_drawn.reset();
     m_renderer.reset();
     m_scene.reset();
     m_context.reset();

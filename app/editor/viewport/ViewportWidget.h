@@ -43,6 +43,7 @@ class IblUpdater;
 class BakeService;
 class JobManager;
 class LobeOnSurface;
+class PathError;
 class PathView;
 class SelectionModel;
 class ViewState;
@@ -70,9 +71,10 @@ class ViewportWidget : public QOpenGLWidget {
     void setLobe(LobeOnSurface& lobe);         // which is drawn with the overlays
     void setWall(WallState& wall,
                  WallComparison& comparison); // whether many of it are shown beside each other
-    void setPaths(PathView& paths);           // whose picture is shown while it is on
-    void setProbe(PixelProbe& probe);         // who is told what pixels are made of
-    void setLuminanceWanted(bool wanted);     // even where the picture does not depend on it
+    // Whose picture is shown while it is on, and who measures the drawn one against it.
+    void setPaths(PathView& paths, PathError& error);
+    void setProbe(PixelProbe& probe);     // who is told what pixels are made of
+    void setLuminanceWanted(bool wanted); // even where the picture does not depend on it
 
     // Thumbnails of views with this viewport's camera, drawn while it rests.
     [[nodiscard]] SheetScheduler& sheets() { return m_sheets; }
@@ -150,6 +152,7 @@ class ViewportWidget : public QOpenGLWidget {
     [[nodiscard]] render::FrameSettings nextFrame();
     // The traced picture in place of the frame's; false: there is none of what it shows.
     [[nodiscard]] bool paintPaths(render::FrameSettings frame);
+    void drawForError(render::FrameSettings frame);
     [[nodiscard]] QSize sizeAt(float scale) const; // in device pixels
     void bringIn(); // what the background has prepared since the last frame
     // The rest of the frame that is shown next, in slices that input does not wait for.
@@ -178,6 +181,9 @@ class ViewportWidget : public QOpenGLWidget {
     DisplayLoader* m_displays = nullptr;
     LobeOnSurface* m_lobe = nullptr;
     PathView* m_paths = nullptr;
+    PathError* m_pathError = nullptr;
+    std::unique_ptr<render::ViewRenderer> m_drawn; // for it; null: none is under way
+    std::uint64_t m_drawnWanted = 0;               // which of PathError's m_drawn is
     IblUpdater* m_ibl;
     ViewportHand m_hand;
     PreviewFeed m_preview;

@@ -51,6 +51,11 @@ class TraceScene {
         return point.position + (behind ? -kRayOffset : kRayOffset) * point.face;
     }
 
+    // Material::id of what covers a mesh; TracePoint::mesh.
+    [[nodiscard]] Id materialOf(std::uint32_t mesh) const {
+        return m_inputs.materials[m_instances[mesh].material].id;
+    }
+
     // (scale, bias) of the model's lobe, as the viewport looks them up.
     [[nodiscard]] shading::SurfaceTerms surface(const TracePoint& point, const glm::vec3& v) const;
 

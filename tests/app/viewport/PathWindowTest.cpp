@@ -1,5 +1,7 @@
 // The viewport's picture traced by paths: switched on by a key, followed through edits and moves.
 #include "app/editor/trace/PathBadge.h"
+#include "app/editor/trace/PathError.h"
+#include "app/editor/trace/PathErrorOverlay.h"
 #include "app/editor/trace/PathView.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
@@ -7,6 +9,7 @@
 #include "core/material/Material.h"
 #include "tests/app/editor/EditorFixture.h"
 
+#include <QComboBox>
 #include <QLabel>
 #include <QPushButton>
 
@@ -121,6 +124,89 @@ TEST_F(PathWindow, TermsAndTheWallAreDrawnAsUsual) {
     key(Qt::Key_F12);
     EXPECT_TRUE(paths().isOn());
     EXPECT_FALSE(session->wall.isOn());
+}
+
+// --- The error of the drawn picture --------------------------------------------------------------
+
+class PathErrorWindow : public PathWindow {
+  protected:
+    static PathError& error() { return session->pathError; }
+    static PathErrorOverlay& overlay() { return *viewport().findChild<PathErrorOverlay*>(); }
+    static void show(const char* name) {
+        auto* box = badge().findChild<QComboBox*>(QStringLiteral("pathShown"));
+        const int index = box->findText(QLatin1String(name));
+        ASSERT_GE(index, 0) << name;
+        box->setCurrentIndex(index);
+        Q_EMIT box->activated(index);
+    }
+    static bool isMeasured() {
+        return eventually([] { return error().measured() != nullptr; });
+    }
+    static std::string lines() { return overlay().lines().join(QLatin1Char('\n')).toStdString(); }
+};
+
+TEST_F(PathErrorWindow, TheDrawnPictureIsMeasuredAgainstTheTracedOne) {
+    key(Qt::Key_F12);
+    ASSERT_TRUE(hasSamples(2));
+    EXPECT_FALSE(overlay().isVisible());
+    EXPECT_EQ(paths().reference().traced, nullptr) << "nobody asked";
+    show("Visible difference");
+    EXPECT_TRUE(overlay().isVisible());
+    ASSERT_TRUE(isMeasured());
+    const ErrorScore whole = error().measured()->error.whole;
+    EXPECT_EQ(whole.pixels, 160u * 120u);
+    EXPECT_GT(whole.flip, 0.0);
+    EXPECT_GT(whole.flipNoise, 0.0);
+    EXPECT_LT(std::abs(whole.biasEv), 0.5) << "it is of the same scene";
+    EXPECT_FALSE(error().measured()->error.materials.empty());
+    EXPECT_THAT(lines(), testing::HasSubstr("FLIP"));
+    EXPECT_THAT(lines(), testing::HasSubstr(document().materials.front().name));
+    EXPECT_EQ(error().picture().size(), QSize(160, 120));
+
+    show("Drawn picture");
+    const QImage drawn = error().picture();
+    const QImage visible = error().measured()->visible;
+    EXPECT_NE(drawn, visible);
+    show("Visible difference");
+    QTest::keyPress(&viewport(), Qt::Key_Space);
+    EXPECT_TRUE(error().isPeeking());
+    QTest::keyRelease(&viewport(), Qt::Key_Space);
+    EXPECT_FALSE(error().isPeeking());
+
+    key(Qt::Key_F12);
+    EXPECT_FALSE(overlay().isVisible());
+    EXPECT_EQ(error().shown(), PathPicture::Traced);
+    EXPECT_EQ(error().measured(), nullptr) << "what it took is given back";
+    viewport().setOverlaysVisible(false); // no grid in it
+    ASSERT_TRUE(eventually([] { return viewport().isSettled(); }));
+    EXPECT_NEAR(mean(viewport().grabFramebuffer()), mean(drawn), 0.5);
+    viewport().setOverlaysVisible(true);
+}
+
+TEST_F(PathErrorWindow, ItFollowsEditsAndWaitsForWhatIsNew) {
+    key(Qt::Key_F12);
+    show("Too bright, too dark");
+    ASSERT_TRUE(isMeasured());
+    auto before = error().measured();
+    // Exposure: the same light, another score; nothing is traced anew.
+    const std::uint64_t number = paths().number();
+    controller().setParameter(*findParameter("view.exposureEv"), {Scope::View, 0}, -6.0f);
+    ASSERT_TRUE(eventually([&] {
+        return error().measured() &&
+               mean(error().measured()->shownDrawn) < 0.2 * mean(before->shownDrawn);
+    }));
+    EXPECT_EQ(paths().number(), number);
+    EXPECT_LT(error().measured()->error.whole.flip, before->error.whole.flip);
+    // An edit: both are made anew.
+    before = error().measured();
+    controller().setParameter(*findParameter("material.baseColor"),
+                              {Scope::Material, document().materials.front().id},
+                              glm::vec3(0.9f, 0.1f, 0.1f));
+    ASSERT_TRUE(eventually([&] { return paths().number() != number; }));
+    ASSERT_TRUE(eventually([&] {
+        const auto& measured = error().measured();
+        return measured && measured->traced != before->traced && measured->drawn != before->drawn;
+    }));
 }
 
 } // namespace

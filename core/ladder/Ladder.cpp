@@ -1,0 +1,110 @@
+#include "core/ladder/Ladder.h"
+
+#include "core/bake/Bake.h"
+#include "core/bake/document/DocumentBakeInputs.h"
+#include "core/bake/domain/TileSink.h"
+#include "core/document/ViewChoices.h"
+#include "core/edit/Edit.h"
+#include "core/edit/Parameters.h"
+#include "core/material/Material.h"
+
+#include <algorithm>
+#include <chrono>
+#include <tuple>
+#include <utility>
+
+namespace patina {
+namespace {
+
+bool isOcclusion(BakeKind kind) {
+    return kind == BakeKind::AoTexel || kind == BakeKind::AoVertex;
+}
+
+BakeArtifactPtr attached(const Document& document, bool occlusion) {
+    const auto found = std::ranges::find_if(document.bakes, [&](const BakeArtifactPtr& bake) {
+        return isOcclusion(bake->kind) == occlusion;
+    });
+    return found != document.bakes.end() ? *found : nullptr;
+}
+
+Result<BakeArtifactPtr> timed(const BakeRequest& request, const BakeInputs& inputs,
+                              const JobContext& job, double& seconds) {
+    const auto start = std::chrono::steady_clock::now();
+    TileSink nobody;
+    Result<BakeArtifact> made = bake(request, inputs, nobody, job);
+    if (!made)
+        return made.error();
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return std::make_shared<const BakeArtifact>(*std::move(made));
+}
+
+// Without what hides light from places.
+void removeOcclusion(Document& document) {
+    std::erase_if(document.bakes,
+                  [](const BakeArtifactPtr& bake) { return isOcclusion(bake->kind); });
+    for (Material& material : document.materials)
+        material.occlusionStrength = 0.0f;
+}
+
+} // namespace
+
+Result<LadderBakes> ladderBakes(const Document& document, const LadderSettings& settings,
+                                const JobContext& job) {
+    LadderBakes bakes{attached(document, true), attached(document, false), 0.0, 0.0};
+    const BakeInputs inputs = bakeInputs(document);
+    if (!bakes.occlusion) {
+        job.setActivity("baking ambient occlusion");
+        BakeRequest request;
+        request.kind = BakeKind::AoVertex;
+        request.ao.samples = settings.rays;
+        Result<BakeArtifactPtr> made = timed(request, inputs, job, bakes.occlusionSeconds);
+        if (!made)
+            return made.error();
+        bakes.occlusion = *made;
+    }
+    if (!bakes.transfer) {
+        job.setActivity("baking transfer");
+        BakeRequest request;
+        request.kind = BakeKind::PrtVertex;
+        request.prt.order = settings.order;
+        request.prt.samples = request.prt.bounceSamples = settings.rays;
+        request.prt.bounces = settings.bounces;
+        request.prt.transfer = TransferKind::Interreflected;
+        Result<BakeArtifactPtr> made = timed(request, inputs, job, bakes.transferSeconds);
+        if (!made)
+            return made.error();
+        bakes.transfer = *made;
+    }
+    return bakes;
+}
+
+std::vector<LadderRung> ladderRungs(const Document& document, const LadderBakes& bakes) {
+    const ParameterInfo& lighting = *findParameter("view.lighting");
+    std::vector<LadderRung> rungs;
+    const auto add = [&](const char* name, const char* label, LightingMode mode) -> LadderRung& {
+        LadderRung& rung = rungs.emplace_back();
+        rung.name = name;
+        rung.label = label;
+        rung.document = document;
+        rung.document.view.lighting = mode;
+        return rung;
+    };
+    add("cosine", "N·L", LightingMode::Cosine);
+    add("sh", "SH irradiance", LightingMode::ShIrradiance);
+    removeOcclusion(add("ibl", "Image-based light", LightingMode::Ibl).document);
+    LadderRung& occluded = add("ao", "+ ambient occlusion", LightingMode::Ibl);
+    attachBake(occluded.document, bakes.occlusion);
+    occluded.bakeSeconds = bakes.occlusionSeconds;
+    for (const auto& [name, label, mode] :
+         {std::tuple{"unshadowed", "Transfer, unshadowed", LightingMode::Unshadowed},
+          std::tuple{"shadowed", "Transfer, shadowed", LightingMode::Shadowed},
+          std::tuple{"prt", "Transfer, with bounces", LightingMode::Prt}}) {
+        LadderRung& rung = add(name, label, mode);
+        attachBake(rung.document, bakes.transfer);
+        rung.bakeSeconds = bakes.transferSeconds;
+        rung.whyNot = whyUnavailable(lighting, rung.document, static_cast<int>(mode));
+    }
+    return rungs;
+}
+
+} // namespace patina

@@ -1,0 +1,87 @@
+// patina ladder on built-in scenes.
+#include "CommandsFixture.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+using namespace patina;
+using namespace patina::test;
+using testing::HasSubstr;
+
+namespace {
+
+class Ladder : public Commands {
+  protected:
+    Outcome ladder(const std::vector<std::string>& more, const std::string& name = "ladder.json") {
+        std::vector<std::string> arguments{"ladder", "builtin:sphere", "-o", m_folder / name,
+                                           "--json", "--order",        "3",  "--rays",
+                                           "16"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runPatina(arguments);
+    }
+    static std::vector<std::string> plain() { // without maps, dull
+        std::vector<std::string> sets;
+        for (const char* set :
+             {"material.baseColor.map=", "material.metallic.map=", "material.normal.map=",
+              "material.perceptualRoughness.map=", "material.occlusion.map=", "material.metallic=0",
+              "material.perceptualRoughness=1"})
+            sets.insert(sets.end(), {"--set", set});
+        return sets;
+    }
+    static const nlohmann::json& rung(const nlohmann::json& json, const std::string& name) {
+        for (const nlohmann::json& one : json["rungs"])
+            if (one["name"] == name)
+                return one;
+        ADD_FAILURE() << "no rung " << name;
+        return json;
+    }
+};
+
+// A ball under even light: nothing is hidden and nothing bounces, so that all of them are right,
+// but the one that has a single light.
+TEST_F(Ladder, UnderEvenLightOnlyTheSingleLightIsWrong) {
+    std::vector<std::string> arguments = plain();
+    arguments.insert(arguments.end(), {"--environment", "builtin:white", "--size", "64x48",
+                                       "--samples", "64", "--background", "blurred"});
+    const Outcome outcome = ladder(arguments);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    std::ifstream file(m_folder / "ladder.json");
+    const nlohmann::json json = nlohmann::json::parse(file);
+    EXPECT_EQ(json["rungs"], nlohmann::json::parse(outcome.out)["rungs"]);
+    ASSERT_EQ(json["rungs"].size(), 7u);
+    EXPECT_EQ(json["reference"]["samples"], 64);
+    EXPECT_LT(json["reference"]["noisePercent"], 5.0);
+    for (const char* name : {"sh", "ibl", "ao", "unshadowed", "shadowed", "prt"}) {
+        const nlohmann::json& error = rung(json, name)["error"];
+        EXPECT_LT(std::abs(error["biasEv"].get<double>()), 0.02) << name;
+        EXPECT_LT(error["relative"].get<double>(), 0.05) << name;
+        EXPECT_LT(error["flip"].get<double>(), 0.03) << name;
+        EXPECT_GT(rung(json, name)["milliseconds"].get<double>(), 0.0) << name;
+    }
+    EXPECT_GT(rung(json, "cosine")["error"]["flip"].get<double>(), 0.05);
+    EXPECT_LT(rung(json, "cosine")["error"]["biasEv"].get<double>(), -0.1);
+    EXPECT_GT(rung(json, "ao")["bakeSeconds"].get<double>(), 0.0) << "it has no occlusion map";
+    EXPECT_EQ(rung(json, "ibl")["bakeSeconds"].get<double>(), 0.0);
+    ASSERT_EQ(rung(json, "ibl")["error"]["materials"].size(), 1u);
+}
+
+TEST_F(Ladder, ASheetShowsThem) {
+    const Outcome outcome = ladder({"--size", "48x32", "--samples", "4"}, "ladder.png");
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const Image sheet = load(m_folder / "ladder.png");
+    EXPECT_GT(sheet.width(), 8 * 48);
+    EXPECT_GT(sheet.height(), 3 * 32);
+}
+
+TEST_F(Ladder, WhatCannotBeComparedIsRefused) {
+    EXPECT_EQ(ladder({}, "ladder.exr").status, 2);
+    EXPECT_EQ(ladder({}, "no-folder/ladder.json").status, 73);
+    EXPECT_EQ(ladder({"--samples", "1"}).status, 2) << "says nothing of its noise";
+    const Outcome missing = runPatina({"ladder", "missing.glb", "-o", m_folder / "l.json"});
+    EXPECT_EQ(missing.status, 66);
+    EXPECT_THAT(missing.err, HasSubstr("missing.glb"));
+    EXPECT_FALSE(std::filesystem::exists(m_folder / "l.json"));
+}
+
+} // namespace
