@@ -27,6 +27,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -171,8 +172,12 @@ class RungDrawer {
     NearShadowsPtr m_shadows;
 };
 
+std::string evText(double ev) {
+    return std::abs(ev) < 0.005 ? "0.00 EV" : fmt::format("{:+.2f} EV", ev);
+}
+
 std::string scoreText(const ErrorScore& score) {
-    return fmt::format("FLIP {:.3f} · {:+.2f} EV", score.flip, score.biasEv);
+    return fmt::format("FLIP {:.3f} · {}", score.flip, evText(score.biasEv));
 }
 
 // Rungs beside each other: as they are drawn, and how far they are from the truth, which stands
@@ -328,8 +333,8 @@ Result<void> run(Session& session, const LadderOptions& options) {
         const ErrorScore& score = rung->error.whole;
         table.emplace_back(
             rungs[i].label,
-            fmt::format("FLIP {:.3f} (noise {:.3f})  {:+.2f} EV  relative {:5.1f} %  {:5.0f} ms{}",
-                        score.flip, score.flipNoise, score.biasEv, 100.0 * score.relative,
+            fmt::format("FLIP {:.3f} (noise {:.3f})  {:>8}  relative {:5.1f} %  {:5.0f} ms{}",
+                        score.flip, score.flipNoise, evText(score.biasEv), 100.0 * score.relative,
                         rung->milliseconds,
                         rungs[i].bakeSeconds > 0.0
                             ? fmt::format("  baked in {:.1f} s", rungs[i].bakeSeconds)

@@ -65,6 +65,22 @@ std::string fitting(const TextRaster& text, std::string_view line, int size, int
     return shorter + "…";
 }
 
+namespace {
+
+// Where the line may break after `from`; numbers stay whole.
+std::size_t nextBreak(std::string_view line, std::size_t from) {
+    for (;; ++from) {
+        from = line.find_first_of(" _-/.", from);
+        if (from >= line.size() - 1)
+            return line.size();
+        const bool digit = line[from + 1] >= '0' && line[from + 1] <= '9';
+        if (!digit || (line[from] != '.' && line[from] != '-'))
+            return from + 1;
+    }
+}
+
+} // namespace
+
 std::vector<std::string> wrapped(const TextRaster& text, std::string_view line, int size, int width,
                                  std::size_t mostLines) {
     const auto trimmed = [](std::string_view part) {
@@ -77,7 +93,7 @@ std::vector<std::string> wrapped(const TextRaster& text, std::string_view line, 
            text.width(trimmed(line), size) > width) {
         std::size_t end = 0; // of the last piece that fits
         for (std::size_t next = 0; next < line.size();) {
-            next = std::min(line.find_first_of(" _-/.", next), line.size() - 1) + 1;
+            next = nextBreak(line, next);
             if (text.width(trimmed(line.substr(0, next)), size) > width)
                 break;
             end = next;

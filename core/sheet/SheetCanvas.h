@@ -26,7 +26,7 @@ void paste(Image& sheet, int x, int y, const Image& picture);
 [[nodiscard]] std::string fitting(const TextRaster& text, std::string_view line, int size,
                                   int width);
 // The same on several lines, which break after spaces and the signs that names of files have
-// instead.
+// instead; numbers stay whole.
 [[nodiscard]] std::vector<std::string> wrapped(const TextRaster& text, std::string_view line,
                                                int size, int width, std::size_t mostLines);
 
