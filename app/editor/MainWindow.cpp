@@ -137,7 +137,9 @@ MainWindow::MainWindow(Session& session)
     refreshTitle();
 }
 
-MainWindow::~MainWindow() = default;
+MainWindow::~MainWindow() {
+    hide(); // QWidget's own end would do that, and what is in the window would tell what has ended
+}
 
 // Narrow, its name below it: it stands among thumbnails.
 QWidget* MainWindow::makeReflectionMix() {
