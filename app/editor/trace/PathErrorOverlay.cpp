@@ -186,7 +186,7 @@ void PathErrorOverlay::paintEvent(QPaintEvent*) {
     QStringList texts = lines();
     const QString pointed = pointedLine();
     const int line = fontMetrics().lineSpacing(), margin = tokens::kMargin;
-    const int widest = std::min(fontMetrics().horizontalAdvance(QString(36, QLatin1Char('0'))),
+    const int widest = std::min(fontMetrics().horizontalAdvance(QString(42, QLatin1Char('0'))),
                                 width() - 4 * margin);
     const bool hasLegend =
         errorShown(m_error.isPeeking() ? PathPicture::Drawn : m_error.shown()).has_value();
