@@ -73,6 +73,9 @@ class CommandParser {
     void addRays(CLI::App* command, int& samples, unsigned& seed, const char* per);
     void addPreset(CLI::App* command, std::function<void(const BakePreset&)> apply);
     void addLongBake(CLI::App* command, LongBakeOptions& options);
+    // --shard, --checkpoint, --resume; `prefix`: what the help of the others begins with.
+    void addShards(CLI::App* command, LongBakeOptions& options, const char* shardHelp,
+                   const char* prefix = "");
 
     // SceneCommandLine.cpp
     void addInfo();

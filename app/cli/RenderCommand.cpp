@@ -109,14 +109,15 @@ Result<void> run(Session& session, const RenderOptions& options) {
     if (!writes && options.inspect.empty())
         return usageError(
             "--output is required: where the picture goes; only --inspect does without");
-    if (Result<void> fits = checkRenderer(options); !fits)
+    if (Result<void> fits = checkRenderer(session.options(), options); !fits)
         return fits;
     const Result<std::optional<SequenceRequest>> sequence = sequenceRequest(options);
     if (!sequence)
         return sequence.error();
-    Result<ImageFileFormat> format = writes && !isVideoFile(options.output)
-                                         ? imageFormatForPath(options.output)
-                                         : ImageFileFormat::Png;
+    Result<ImageFileFormat> format =
+        writes && !isVideoFile(options.output) && !isTracedPart(options)
+            ? imageFormatForPath(options.output)
+            : ImageFileFormat::Png;
     if (!format)
         return format.error();
     Result<render::FrameSettings> frame = frameSettings(options);

@@ -1,16 +1,20 @@
 #include "app/cli/RenderTraced.h"
 
-#include "app/cli/PictureSetup.h"
+#include "app/cli/LongBake.h"
+#include "app/cli/LongRun.h"
 #include "app/cli/PreparedLight.h"
 #include "app/cli/Report.h"
-#include "core/document/DisplayedPicture.h"
+#include "app/cli/TracedPicture.h"
+#include "core/document/Source.h"
 #include "core/document/ViewChoices.h"
 #include "core/mix/LightMix.h"
 #include "core/trace/document/DocumentTraceInputs.h"
+#include "core/trace/file/FilmTracer.h"
 #include "core/trace/path/PathTracer.h"
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -18,8 +22,6 @@
 namespace patina::cli {
 namespace {
 
-// Samples of a pass, and so between two looks at the noise.
-constexpr std::uint32_t kMostAtOnce = 16;
 constexpr std::array kRasterSamples{1, 2, 4, 8, 16};
 
 // Light from the environment, behind the scene, as the viewport's background has it.
@@ -49,18 +51,82 @@ Result<void> setBackground(Session& session, const Document& document, TraceView
     return {};
 }
 
+// Of which shard; usage errors for what a part cannot do.
+Result<TraceShard> shardOfPicture(const RenderOptions& options) {
+    if (options.work.shard.empty())
+        return TraceShard{};
+    const Result<PassShard> shard = parseShard(options.work.shard, environmentVariable);
+    if (!shard)
+        return shard.error();
+    return TraceShard{shard->index, shard->count};
+}
+
+FilmManifest filmManifest(const Session& session, const RenderOptions& options,
+                          const Document& document, const TraceInputs& inputs,
+                          const render::FrameSettings& frame, std::uint32_t samples) {
+    FilmManifest manifest;
+    manifest.width = frame.width;
+    manifest.height = frame.height;
+    manifest.settings = {{"samples", std::to_string(samples)},
+                         {"seed", std::to_string(options.seed)},
+                         {"camera", cameraText(frame.camera)},
+                         {"background", backgroundText(document.view)}};
+    if (options.noise)
+        manifest.settings["noise"] = fmt::format("{} %", *options.noise);
+    if (options.maxBounces)
+        manifest.settings["max-bounces"] = std::to_string(*options.maxBounces);
+    manifest.display = displaySettings(document);
+    manifest.inputs = hashTraceInputs(inputs);
+    manifest.transparent = frame.transparentBackground;
+    manifest.scene = isBuiltin(options.scene)
+                         ? options.scene
+                         : std::filesystem::absolute(options.scene).lexically_normal().string();
+    manifest.sets = session.options().sets;
+    return manifest;
+}
+
+void reportSamples(Session& session, const RenderOptions& options, const FilmTracer& tracer) {
+    nlohmann::ordered_json& json = session.report().json();
+    const std::uint32_t done = tracer.manifest().samples;
+    if (const std::size_t invalid = tracer.film().invalid(); invalid > 0)
+        session.report().warn(fmt::format(
+            "{} paths brought no finite number and count as black; look for values that are not "
+            "finite in the scene's maps",
+            invalid));
+    json["settings"]["renderer"] = options.renderer;
+    json["settings"]["samples"] = done;
+    json["settings"]["seed"] = options.seed;
+    if (options.maxBounces)
+        json["settings"]["maxBounces"] = *options.maxBounces;
+    if (tracer.resumedFrom())
+        json["resumedFrom"] = *tracer.resumedFrom();
+    const std::optional<double>& noise = tracer.noise();
+    if (!noise)
+        return;
+    json["noisePercent"] = 100.0 * *noise;
+    if (options.noise && 100.0 * *noise > *options.noise)
+        session.report().warn(fmt::format("± {:.2f} % of the mean after {} paths per pixel: "
+                                          "not yet the {:g} % that --noise asks for",
+                                          100.0 * *noise, done, *options.noise));
+    session.report().line(
+        fmt::format("{} paths per pixel, ± {:.2f} % of the mean", done, 100.0 * *noise));
+}
+
 } // namespace
 
 bool isTraced(const RenderOptions& options) {
     return options.renderer == "path";
 }
 
-Result<void> checkRenderer(const RenderOptions& options) {
+Result<void> checkRenderer(const CommonOptions& common, const RenderOptions& options) {
     if (!isTraced(options)) {
-        for (const auto& [given, name] : std::array<std::pair<bool, const char*>, 3>{
+        for (const auto& [given, name] : std::array<std::pair<bool, const char*>, 6>{
                  {{options.noise.has_value(), "--noise"},
                   {options.maxBounces.has_value(), "--max-bounces"},
-                  {options.seed != 0, "--seed"}}})
+                  {options.seed != 0, "--seed"},
+                  {!options.work.shard.empty(), "--shard"},
+                  {!options.work.checkpoint.empty(), "--checkpoint"},
+                  {options.work.resume, "--resume"}}})
             if (given)
                 return usageError(fmt::format("{} is for --renderer path", name));
         if (!std::ranges::count(kRasterSamples, options.samples))
@@ -79,12 +145,33 @@ Result<void> checkRenderer(const RenderOptions& options) {
             return usageError(fmt::format("{} is for --renderer raster: paths bring the light of "
                                           "the whole picture, and need no bake",
                                           name));
+    if (options.work.shard.empty())
+        return {};
+    if (common.keepPartial)
+        return usageError("--keep-partial is for whole pictures; a part that is stopped goes on "
+                          "with --checkpoint and --resume");
+    if (options.noise)
+        return usageError("--noise looks at the whole picture, of which a part sees little; give "
+                          "the parts --samples instead");
     return {};
 }
 
 Result<void> renderTraced(Session& session, const RenderOptions& options, const Document& document,
                           const render::FrameSettings& frame, ImageFileFormat format) {
-    nlohmann::ordered_json& json = session.report().json();
+    const Result<TraceShard> shard = shardOfPicture(options);
+    if (!shard)
+        return shard.error();
+    const bool isPart = isTracedPart(options);
+    const Result<LongRun> run = planLongRun(options.output, options.work);
+    if (!run)
+        return run.error();
+    if (Result<void> shown = isPart ? Result<void>() : checkDisplay(document.view, format); !shown)
+        return shown;
+    const Result<std::optional<FileLock>> lock =
+        beginLongRun(session, *run, options.output, "picture");
+    if (!lock)
+        return lock.error();
+
     session.beginPhase();
     session.job().setActivity("preparing the scene");
     TraceView view;
@@ -93,76 +180,61 @@ Result<void> renderTraced(Session& session, const RenderOptions& options, const 
     view.height = frame.height;
     if (Result<void> set = setBackground(session, document, view); !set)
         return set;
-    const Result<TraceScene> scene = TraceScene::build(traceInputs(document), session.job());
+    const TraceInputs inputs = traceInputs(document);
+    const Result<TraceScene> scene = TraceScene::build(inputs, session.job());
     if (!scene)
         return scene.error();
 
-    PathSettings settings;
-    settings.maxBounces = options.maxBounces;
-    settings.seed = options.seed;
-    const auto most =
+    PathSettings paths;
+    paths.maxBounces = options.maxBounces;
+    paths.seed = options.seed;
+    FilmTracerSettings settings;
+    settings.samples =
         static_cast<std::uint32_t>(options.samplesGiven || options.noise
                                        ? (options.samplesGiven ? options.samples : kMostPaths)
                                        : kUsualPaths);
-    Film film(frame.width, frame.height);
-    session.allowPartialResult();
-    std::uint32_t done = 0;
-    std::optional<double> noise;
-    for (std::uint32_t pass = 1; done < most && !session.job().stopping();
-         pass = std::min(2 * pass, kMostAtOnce)) {
-        pass = std::min(pass, most - done);
-        session.job().setActivity(
-            noise ? fmt::format("{} paths per pixel, ± {:.2f} %", done, 100.0 * *noise)
-                  : fmt::format("{} paths per pixel", done));
-        if (Result<void> traced =
-                tracePaths(*scene, view, settings, film, done, pass, session.job());
-            !traced)
-            return traced;
-        done += pass;
-        noise = film.noise();
-        double share = static_cast<double>(done) / most;
-        if (options.noise && noise) { // the error falls with the root of the paths
-            const double wanted = *options.noise / 100.0;
-            if (*noise <= wanted)
-                break;
-            share = std::max(share, wanted * wanted / (*noise * *noise));
-        }
-        session.job().setProgress(share);
-    }
-    done = film.leastSamples(); // of a pass that was stopped some pixels have more
-    if (done == 0)
-        return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
-    if (const std::size_t invalid = film.invalid(); invalid > 0)
+    if (options.noise)
+        settings.noise = *options.noise / 100.0;
+    settings.manifest = filmManifest(session, options, document, inputs, frame, settings.samples);
+    settings.manifest.shard = *shard;
+    settings.checkpoint = run->checkpoint;
+    settings.everySeconds = run->everySeconds;
+    settings.resume = run->resume;
+    settings.keepOnCancel = run->keepWhenInterrupted;
+    settings.warn = [&](const Error& error) {
         session.report().warn(fmt::format(
-            "{} paths brought no finite number and count as black; look for values that are not "
-            "finite in the scene's maps",
-            invalid));
-    json["settings"]["renderer"] = options.renderer;
-    json["settings"]["samples"] = done;
-    json["settings"]["seed"] = options.seed;
-    if (options.maxBounces)
-        json["settings"]["maxBounces"] = *options.maxBounces;
-    if (noise) {
-        json["noisePercent"] = 100.0 * *noise;
-        if (options.noise && 100.0 * *noise > *options.noise)
-            session.report().warn(fmt::format("± {:.2f} % of the mean after {} paths per pixel: "
-                                              "not yet the {:g} % that --noise asks for",
-                                              100.0 * *noise, done, *options.noise));
-        session.report().line(
-            fmt::format("{} paths per pixel, ± {:.2f} % of the mean", done, 100.0 * *noise));
-    }
+            "no checkpoint could be kept, the picture goes on without: {}", error.text()));
+    };
+    FilmTracer tracer(std::move(settings));
+    session.allowPartialResult();
+    session.expectCheckpoint(run->checkpoint, run->keepWhenInterrupted);
+    const Result<void> traced = tracer.trace(*scene, view, paths, session.job());
+    if (tracer.keptCheckpoint())
+        session.keptCheckpoint(run->checkpoint);
+    if (!traced)
+        return traced;
+    const FilmManifest& manifest = tracer.manifest();
+    if (!manifest.complete && manifest.samples == 0)
+        return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
+    reportSamples(session, options, tracer);
 
-    std::vector<ImagePart> parts(1);
-    const Image radiance = film.radiance(frame.transparentBackground);
-    if (isLinearFormat(format)) {
-        parts[0].image = radiance;
-    } else {
-        Result<Image> shown = displayedPicture(radiance, document.view, luminanceOf(radiance));
-        if (!shown)
-            return shown.error();
-        parts[0].image = *std::move(shown);
+    if (isPart) {
+        session.report().json()["shard"] = {shard->index + 1, shard->count};
+        if (Result<void> written =
+                writeFilm(options.output, manifest, tracer.film(), StateFileName::OfUser);
+            !written)
+            return written;
+        session.report().output(options.output, fmt::format("part {} of {}, for patina merge",
+                                                            shard->index + 1, shard->count));
+    } else if (Result<void> written =
+                   writeTracedPicture(session, manifest, tracer.film(), options.output, format);
+               !written) {
+        return written;
     }
-    return writePictures(session, options.output, std::move(parts), format);
+    // What is complete needs no checkpoint; neither does anybody need an older one.
+    if (!session.interrupted())
+        tracer.removeCheckpoint();
+    return {};
 }
 
 } // namespace patina::cli

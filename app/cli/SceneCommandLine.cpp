@@ -108,6 +108,9 @@ void CommandParser::addRender() {
     c->add_option("--seed", o.seed, "Path: seed of the sample pattern")->type_name("N");
     c->add_flag("--keep-partial", m_invocation.common.keepPartial,
                 "Path: when interrupted, write what has converged so far");
+    addShards(c, o.work,
+              "Path: trace part K of N only, for patina merge; auto: as the farm numbers its tasks",
+              "Path: ");
     m_select[c] = [&o, samples] {
         o.samplesGiven = samples->count() > 0;
         return decltype(m_invocation.options)(o);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace patina {
@@ -33,6 +34,8 @@ class Film {
     [[nodiscard]] int height() const { return m_height; }
     [[nodiscard]] Pixel& at(int x, int y) { return m_pixels[index(x, y)]; } // row 0 on top
     [[nodiscard]] const Pixel& at(int x, int y) const { return m_pixels[index(x, y)]; }
+    [[nodiscard]] std::span<Pixel> pixels() { return m_pixels; } // row by row
+    [[nodiscard]] std::span<const Pixel> pixels() const { return m_pixels; }
     [[nodiscard]] std::size_t invalid() const;        // samples of all pixels
     [[nodiscard]] std::uint32_t leastSamples() const; // that any pixel has
 

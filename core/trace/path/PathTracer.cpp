@@ -9,13 +9,14 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
+#include <mutex>
 #include <vector>
 
 namespace patina {
 namespace {
 
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
-constexpr int kTile = 16; // pixels a side
+constexpr int kTile = kTraceTile;
 
 // Pairs of dimensions of a path's samples: one of the pixel, then so many of each surface.
 enum Dimension : std::uint32_t { kPixel = 0, kLobe, kDirection, kSky, kChoice, kLight, kGlow };
@@ -311,7 +312,8 @@ class Eye {
 
 Result<void> tracePaths(const TraceScene& scene, const TraceView& view,
                         const PathSettings& settings, Film& film, std::uint32_t first,
-                        std::uint32_t count, const JobContext& job, TraceRays* rays) {
+                        std::uint32_t count, const JobContext& job, TraceRays* rays,
+                        const TraceTiles& tiles) {
     CHECK(film.width() == view.width && film.height() == view.height);
     const int columns = (view.width + kTile - 1) / kTile, rows = (view.height + kTile - 1) / kTile;
     const Eye eye(scene, view);
@@ -321,24 +323,31 @@ Result<void> tracePaths(const TraceScene& scene, const TraceView& view,
         for (int y = y0; y < std::min(y0 + kTile, view.height) && !job.stopping(); ++y)
             for (int x = x0; x < std::min(x0 + kTile, view.width); ++x) {
                 const auto pixel = static_cast<std::uint32_t>(y * view.width + x);
-                for (std::uint32_t i = first; i < first + count; ++i) {
+                Film::Pixel sum = film.at(x, y);
+                for (std::uint32_t i = std::max(first, sum.samples); i < first + count; ++i) {
                     const Sequence sequence(i, seedFor(settings.seed, pixel));
                     float alpha = 0.0f;
                     const glm::vec3 radiance =
                         path.look(eye.origin(), eye.direction(x, y, sequence.at(0, kPixel)),
                                   sequence, view, alpha);
-                    film.at(x, y).add(radiance, alpha);
+                    sum.add(radiance, alpha);
                 }
+                const auto held = tiles.film != nullptr ? std::unique_lock(*tiles.film)
+                                                        : std::unique_lock<std::mutex>();
+                film.at(x, y) = sum;
             }
         job.addWork(static_cast<double>(path.rays()), "rays");
         if (rays != nullptr)
             rays->count += path.rays();
+        if (tiles.tileDone)
+            tiles.tileDone();
     };
     parallelFor(job, static_cast<std::size_t>(columns * rows), 1,
                 [&](std::size_t begin, std::size_t end) {
                     const FlushDenormals flush;
                     for (std::size_t tile = begin; tile < end; ++tile)
-                        traceTile(static_cast<int>(tile));
+                        if (tiles.shard.holds(tile))
+                            traceTile(static_cast<int>(tile));
                 });
     if (job.cancelled())
         return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
