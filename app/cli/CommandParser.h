@@ -77,9 +77,10 @@ class CommandParser {
     void addShards(CLI::App* command, LongBakeOptions& options, const char* shardHelp,
                    const char* prefix = "");
 
+    void addRender(); // RenderCommandLine.cpp
+
     // SceneCommandLine.cpp
     void addInfo();
-    void addRender();
     void addSheet();
     void addRank();
     // What `render` and `sheet` have in common; addLook(): `rank`, too.

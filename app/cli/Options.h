@@ -63,7 +63,9 @@ struct RenderOptions : PictureOptions {
     std::optional<int> maxBounces;   // path; nothing: no limit
     unsigned seed = 0;               // path
     bool samplesGiven = false;
-    LongBakeOptions work; // path; its maxMemory is that of the pictures
+    std::string aov;          // path: "all" or names of OutputImages.h; empty: the picture alone
+    std::string errorAgainst; // a linear picture; empty: none
+    LongBakeOptions work;     // path; its maxMemory is that of the pictures
 };
 
 struct SheetOptions : PictureOptions {

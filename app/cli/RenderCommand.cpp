@@ -1,4 +1,5 @@
 #include "app/cli/Commands.h"
+#include "app/cli/ErrorAgainst.h"
 #include "app/cli/InspectPixel.h"
 #include "app/cli/LocalShadows.h"
 #include "app/cli/PictureSetup.h"
@@ -111,6 +112,11 @@ Result<void> run(Session& session, const RenderOptions& options) {
             "--output is required: where the picture goes; only --inspect does without");
     if (Result<void> fits = checkRenderer(session.options(), options); !fits)
         return fits;
+    if (!options.errorAgainst.empty() && !options.view.empty() && options.view != "final")
+        return usageError("--error-against compares the picture; leave --view out");
+    if (!options.errorAgainst.empty() && (options.turntable > 0 || options.lightTurn > 0))
+        return usageError("--error-against compares one picture; leave --turntable and "
+                          "--light-turn out");
     const Result<std::optional<SequenceRequest>> sequence = sequenceRequest(options);
     if (!sequence)
         return sequence.error();
@@ -130,7 +136,7 @@ Result<void> run(Session& session, const RenderOptions& options) {
         if (Result<void> output = checkOutput(options.output); !output)
             return output;
 
-    if (!needsImageLibraries(options))
+    if (!needsImageLibraries(options) && options.errorAgainst.empty())
         session.expectNoImages();
     nlohmann::ordered_json& json = session.report().json();
     json["settings"] = {{"scene", options.scene},
@@ -171,8 +177,21 @@ Result<void> run(Session& session, const RenderOptions& options) {
 
     json["counts"] = {{"meshes", document->meshes.size()},
                       {"triangles", document->triangleCount()}};
+    std::optional<PictureSubject> subject;
+    if (!options.errorAgainst.empty() || *format == ImageFileFormat::Exr)
+        subject = subjectOf(*document, frame->camera);
+    std::optional<Image> reference;
+    if (!options.errorAgainst.empty()) {
+        Result<Image> loaded =
+            loadReference(session, options.errorAgainst, frame->width, frame->height, *subject);
+        if (!loaded)
+            return loaded.error();
+        reference = *std::move(loaded);
+        frame->floats = true;
+    }
     if (isTraced(options))
-        return renderTraced(session, options, *document, *frame, *format);
+        return renderTraced(session, options, *document, *frame, *format,
+                            reference ? &*reference : nullptr);
 
     // Light that is switched off is looked at only by views and by explanations.
     const bool lit =
@@ -204,11 +223,19 @@ Result<void> run(Session& session, const RenderOptions& options) {
             return pictures.error();
         if (session.job().cancelled())
             return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
+        if (*format == ImageFileFormat::Exr)
+            for (ImagePart& picture : *pictures)
+                picture.attributes.merge(attributesOf(*subject));
         if (Result<void> written =
                 writePictures(session, options.output, std::move(*pictures), *format);
             !written)
             return written;
     }
+    if (reference)
+        if (Result<void> compared =
+                reportError(session, options.errorAgainst, renderer.readLinear(), *reference);
+            !compared)
+            return compared;
     if (*inspected)
         if (Result<void> done = explainPixel(session, renderer, *document, *shadows, **inspected);
             !done)

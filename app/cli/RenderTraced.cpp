@@ -1,5 +1,6 @@
 #include "app/cli/RenderTraced.h"
 
+#include "app/cli/ErrorAgainst.h"
 #include "app/cli/LongBake.h"
 #include "app/cli/LongRun.h"
 #include "app/cli/PreparedLight.h"
@@ -10,6 +11,7 @@
 #include "core/mix/LightMix.h"
 #include "core/trace/document/DocumentTraceInputs.h"
 #include "core/trace/file/FilmTracer.h"
+#include "core/trace/file/OutputImages.h"
 #include "core/trace/path/PathTracer.h"
 
 #include <algorithm>
@@ -69,14 +71,15 @@ FilmManifest filmManifest(const Session& session, const RenderOptions& options,
     manifest.height = frame.height;
     manifest.settings = {{"samples", std::to_string(samples)},
                          {"seed", std::to_string(options.seed)},
-                         {"camera", cameraText(frame.camera)},
-                         {"background", backgroundText(document.view)}};
+                         {kCameraSetting, cameraText(frame.camera)},
+                         {kBackgroundSetting, backgroundText(document.view)}};
     if (options.noise)
         manifest.settings["noise"] = fmt::format("{} %", *options.noise);
     if (options.maxBounces)
         manifest.settings["max-bounces"] = std::to_string(*options.maxBounces);
     manifest.display = displaySettings(document);
     manifest.inputs = hashTraceInputs(inputs);
+    manifest.camera = frame.camera;
     manifest.transparent = frame.transparentBackground;
     manifest.scene = isBuiltin(options.scene)
                          ? options.scene
@@ -120,8 +123,9 @@ bool isTraced(const RenderOptions& options) {
 
 Result<void> checkRenderer(const CommonOptions& common, const RenderOptions& options) {
     if (!isTraced(options)) {
-        for (const auto& [given, name] : std::array<std::pair<bool, const char*>, 6>{
+        for (const auto& [given, name] : std::array<std::pair<bool, const char*>, 7>{
                  {{options.noise.has_value(), "--noise"},
+                  {!options.aov.empty(), "--aov"},
                   {options.maxBounces.has_value(), "--max-bounces"},
                   {options.seed != 0, "--seed"},
                   {!options.work.shard.empty(), "--shard"},
@@ -150,6 +154,9 @@ Result<void> checkRenderer(const CommonOptions& common, const RenderOptions& opt
     if (common.keepPartial)
         return usageError("--keep-partial is for whole pictures; a part that is stopped goes on "
                           "with --checkpoint and --resume");
+    if (!options.errorAgainst.empty())
+        return usageError("--error-against is for whole pictures; merge the parts and use patina "
+                          "compare");
     if (options.noise)
         return usageError("--noise looks at the whole picture, of which a part sees little; give "
                           "the parts --samples instead");
@@ -157,11 +164,18 @@ Result<void> checkRenderer(const CommonOptions& common, const RenderOptions& opt
 }
 
 Result<void> renderTraced(Session& session, const RenderOptions& options, const Document& document,
-                          const render::FrameSettings& frame, ImageFileFormat format) {
+                          const render::FrameSettings& frame, ImageFileFormat format,
+                          const Image* reference) {
     const Result<TraceShard> shard = shardOfPicture(options);
     if (!shard)
         return shard.error();
     const bool isPart = isTracedPart(options);
+    const Result<std::vector<const OutputInfo*>> outputs =
+        options.aov.empty() ? std::vector<const OutputInfo*>() : parseOutputs(options.aov);
+    if (!outputs)
+        return outputs.error();
+    if (!options.aov.empty() && format != ImageFileFormat::Exr)
+        return usageError("--aov writes a part of an .exr for each output; name such a file");
     const Result<LongRun> run = planLongRun(options.output, options.work);
     if (!run)
         return run.error();
@@ -197,6 +211,10 @@ Result<void> renderTraced(Session& session, const RenderOptions& options, const 
         settings.noise = *options.noise / 100.0;
     settings.manifest = filmManifest(session, options, document, inputs, frame, settings.samples);
     settings.manifest.shard = *shard;
+    if (!options.aov.empty()) {
+        settings.manifest.settings[kOutputsSetting] = namesOf(*outputs);
+        settings.manifest.hasOutputs = needTraceOutputs(*outputs);
+    }
     settings.checkpoint = run->checkpoint;
     settings.everySeconds = run->everySeconds;
     settings.resume = run->resume;
@@ -220,17 +238,22 @@ Result<void> renderTraced(Session& session, const RenderOptions& options, const 
 
     if (isPart) {
         session.report().json()["shard"] = {shard->index + 1, shard->count};
-        if (Result<void> written =
-                writeFilm(options.output, manifest, tracer.film(), StateFileName::OfUser);
+        if (Result<void> written = writeFilm(options.output, manifest, tracer.film(),
+                                             tracer.outputs(), StateFileName::OfUser);
             !written)
             return written;
         session.report().output(options.output, fmt::format("part {} of {}, for patina merge",
                                                             shard->index + 1, shard->count));
-    } else if (Result<void> written =
-                   writeTracedPicture(session, manifest, tracer.film(), options.output, format);
+    } else if (Result<void> written = writeTracedPicture(session, manifest, tracer.film(),
+                                                         tracer.outputs(), options.output, format);
                !written) {
         return written;
     }
+    if (reference != nullptr)
+        if (Result<void> compared =
+                reportError(session, options.errorAgainst, tracer.film().radiance(), *reference);
+            !compared)
+            return compared;
     // What is complete needs no checkpoint; neither does anybody need an older one.
     if (!session.interrupted())
         tracer.removeCheckpoint();

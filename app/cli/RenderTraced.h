@@ -19,10 +19,11 @@ inline constexpr int kUsualPaths = 256;
 // Usage errors: what paths do not have, or only they have.
 Result<void> checkRenderer(const CommonOptions& common, const RenderOptions& options);
 
-// `document` is looked at through `frame`; `format` is that of the whole picture. With
-// --keep-partial a signal ends it early. Errors besides: CannotCreate when another process renders
-// into this file.
+// `document` is looked at through `frame`; `format` is that of the whole picture, `reference` of
+// --error-against or null. With --keep-partial a signal ends it early. Errors besides: CannotCreate
+// when another process renders into this file.
 Result<void> renderTraced(Session& session, const RenderOptions& options, const Document& document,
-                          const render::FrameSettings& frame, ImageFileFormat format);
+                          const render::FrameSettings& frame, ImageFileFormat format,
+                          const Image* reference);
 
 } // namespace patina::cli

@@ -1,5 +1,6 @@
 #include "app/cli/TracedPicture.h"
 
+#include "app/cli/ErrorAgainst.h"
 #include "app/cli/PictureSetup.h"
 #include "app/cli/Report.h"
 #include "app/cli/SceneSetup.h"
@@ -8,11 +9,13 @@
 #include "core/document/ViewChoices.h"
 #include "core/edit/Parameters.h"
 #include "core/trace/file/FilmMerge.h"
+#include "core/trace/file/OutputImages.h"
 
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 #include <utility>
@@ -49,8 +52,48 @@ Result<View> displayOf(const StateSettings& settings) {
     return document.view;
 }
 
+// What the picture is of, and how it was traced.
+std::map<std::string, std::string> headerOf(const FilmManifest& manifest) {
+    std::map<std::string, std::string> header =
+        attributesOf({manifest.inputs, manifest.settings.at(kCameraSetting),
+                      manifest.settings.at(kBackgroundSetting)});
+    header["patina:renderer"] = "path";
+    for (const auto& [name, value] : manifest.settings)
+        if (name != kCameraSetting && name != kBackgroundSetting && name != kOutputsSetting)
+            header["patina:render." + name] = value;
+    header["patina:render.samplesDone"] = std::to_string(manifest.samples);
+    return header;
+}
+
+// One part for each output that was asked for.
+Result<std::vector<ImagePart>> outputParts(const FilmManifest& manifest, const Film& film,
+                                           const TraceOutputs& outputs, const std::string& names) {
+    const Result<std::vector<const OutputInfo*>> chosen = parseOutputs(names);
+    if (!chosen || needTraceOutputs(*chosen) != manifest.hasOutputs)
+        return Error{ErrorKind::InputBroken,
+                     fmt::format("the part asks for outputs that this Patina does not have ({}); "
+                                 "render it anew",
+                                 names),
+                     {},
+                     {}};
+    std::vector<ImagePart> parts;
+    for (const OutputInfo* info : *chosen) {
+        ImagePart part;
+        part.name = info->id;
+        part.image = outputImage(info->kind, film, outputs, manifest.camera, manifest.transparent);
+        part.attributes["patina:view"] = info->label;
+        if (!info->unit.empty())
+            part.attributes["patina:units"] = info->unit;
+        parts.push_back(std::move(part));
+    }
+    return parts;
+}
+
 Result<std::vector<ImagePart>> picturesOf(const FilmManifest& manifest, const Film& film,
-                                          ImageFileFormat format) {
+                                          const TraceOutputs& outputs, ImageFileFormat format) {
+    if (const auto names = manifest.settings.find(kOutputsSetting);
+        names != manifest.settings.end() && format == ImageFileFormat::Exr)
+        return outputParts(manifest, film, outputs, names->second);
     std::vector<ImagePart> parts(1);
     Image radiance = film.radiance(manifest.transparent);
     if (isLinearFormat(format)) {
@@ -105,10 +148,14 @@ Result<void> checkDisplay(const View& view, ImageFileFormat format) {
 }
 
 Result<void> writeTracedPicture(Session& session, const FilmManifest& manifest, const Film& film,
-                                const std::string& output, ImageFileFormat format) {
-    Result<std::vector<ImagePart>> pictures = picturesOf(manifest, film, format);
+                                const TraceOutputs& outputs, const std::string& output,
+                                ImageFileFormat format) {
+    Result<std::vector<ImagePart>> pictures = picturesOf(manifest, film, outputs, format);
     if (!pictures)
         return pictures.error();
+    if (format == ImageFileFormat::Exr)
+        for (ImagePart& picture : *pictures)
+            picture.attributes.merge(headerOf(manifest));
     const Result<void> written = writePictures(session, output, *pictures, format);
     if (written ||
         (written.error().kind != ErrorKind::Io && written.error().kind != ErrorKind::CannotCreate))
@@ -150,7 +197,8 @@ Result<void> mergeFilms(Session& session, const MergeOptions& options) {
         session.report().line(fmt::format("{} paths per pixel, ± {:.2f} % of the mean",
                                           joined->manifest.samples, 100.0 * *noise));
     }
-    return writeTracedPicture(session, joined->manifest, joined->film, options.output, *format);
+    return writeTracedPicture(session, joined->manifest, joined->film, joined->outputs,
+                              options.output, *format);
 }
 
 Result<void> describeUnfinishedPicture(Report& report, const std::string& file) {

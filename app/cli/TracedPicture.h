@@ -20,11 +20,18 @@ namespace patina::cli {
 // Usage error where the picture could not be displayed as the view asks.
 Result<void> checkDisplay(const View& view, ImageFileFormat format);
 
-// Writes the film as its manifest says, linear or displayed as the format has it; a picture that
-// cannot be written there is kept in the folder for temporary files, and the error says so. Errors:
-// InputBroken for a manifest with a view that does not exist; those of writePictures().
+// Settings of FilmManifest: where the picture was taken, what is behind the scene, and what is
+// written besides the picture (--aov).
+inline constexpr const char* kCameraSetting = "camera";
+inline constexpr const char* kBackgroundSetting = "background";
+inline constexpr const char* kOutputsSetting = "aov";
+
+// Writes film and outputs as the manifest says, linear or displayed as the format has it; a picture
+// that cannot be written there is kept in the folder for temporary files, and the error says so.
+// Errors: InputBroken for a manifest with a view that does not exist; those of writePictures().
 Result<void> writeTracedPicture(Session& session, const FilmManifest& manifest, const Film& film,
-                                const std::string& output, ImageFileFormat format);
+                                const TraceOutputs& outputs, const std::string& output,
+                                ImageFileFormat format);
 
 // `patina merge` of parts of traced pictures.
 Result<void> mergeFilms(Session& session, const MergeOptions& options);

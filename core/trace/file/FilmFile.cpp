@@ -4,6 +4,7 @@
 #include "core/trace/file/FilmTiles.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -14,14 +15,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The description is the manifest as JSON; the pixels of the shard follow, tile by tile.
+// The description is the manifest as JSON; the film's pixels of the shard follow, tile by tile, and
+// those of the outputs.
 constexpr StateFormat kFilmState = {
     {'P', 'a', 't', 'i', 'n', 'a', 'F', 'm'},
     1, // also counts changes of how pictures are traced and sampled
     "this is no part and no checkpoint of a traced picture; make parts with patina render "
     "--renderer path … --shard K/N",
     "render it anew"};
-static_assert(std::is_trivially_copyable_v<Film::Pixel>);
+static_assert(std::is_trivially_copyable_v<Film::Pixel> &&
+              std::is_trivially_copyable_v<TraceOutputs::Pixel>);
 
 // A picture of more pixels than memory is not believed before its file's size is.
 constexpr std::int64_t kMostSide = 1 << 20;
@@ -42,7 +45,10 @@ std::string filmManifestText(const FilmManifest& m) {
     json["materials"] = m.inputs.materials.hex();
     json["lights"] = m.inputs.lights.hex();
     json["environment"] = m.inputs.environment.hex();
+    json["camera"] = {m.camera.target.x, m.camera.target.y, m.camera.target.z, m.camera.yawDeg,
+                      m.camera.pitchDeg, m.camera.distance, m.camera.fovDeg};
     json["transparent"] = m.transparent;
+    json["outputs"] = m.hasOutputs;
     json["scene"] = m.scene;
     json["sets"] = m.sets;
     json["shard"] = {m.shard.index, m.shard.count};
@@ -69,7 +75,10 @@ std::optional<FilmManifest> filmManifestFromText(const std::string& text) {
             return filmHashFromText(json.at(name).get<std::string>());
         };
         m.inputs = {hash("geometry"), hash("materials"), hash("lights"), hash("environment")};
+        const auto camera = json.at("camera").get<std::array<float, 7>>();
+        m.camera = {{camera[0], camera[1], camera[2]}, camera[3], camera[4], camera[5], camera[6]};
         m.transparent = json.at("transparent").get<bool>();
+        m.hasOutputs = json.at("outputs").get<bool>();
         m.scene = json.at("scene").get<std::string>();
         m.sets = json.at("sets").get<std::vector<std::string>>();
         m.shard = {json.at("shard").at(0).get<int>(), json.at("shard").at(1).get<int>()};
@@ -101,6 +110,65 @@ bool isPlausible(const Film::Pixel& pixel) {
            pixel.coverage <= n && pixel.invalid <= pixel.samples;
 }
 
+bool isPlausible(const TraceOutputs::Pixel& pixel) {
+    const auto finite = [](const glm::vec3& v) {
+        return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+    };
+    return finite(pixel.albedo) && finite(pixel.normal) && finite(pixel.position) &&
+           finite(pixel.emission) && finite(pixel.background) && finite(pixel.directDiffuse) &&
+           finite(pixel.directSpecular) && finite(pixel.indirectDiffuse) &&
+           finite(pixel.indirectSpecular);
+}
+
+// The pixels of a shard one after another; those of a whole picture are so already.
+template <class Pixel>
+class HeldPixels {
+  public:
+    HeldPixels(const FilmManifest& manifest, std::span<Pixel> all)
+        : m_manifest(manifest)
+        , m_all(all) {
+        if (isPart() && !all.empty())
+            m_held.reserve(shardPixels(manifest.width, manifest.height, manifest.shard));
+    }
+    [[nodiscard]] std::span<const Pixel> gathered() {
+        if (!isPart() || m_all.empty())
+            return m_all;
+        forRows([&](std::size_t first, std::size_t count) {
+            const auto row = m_all.subspan(first, count);
+            m_held.insert(m_held.end(), row.begin(), row.end());
+        });
+        return m_held;
+    }
+    // Reads them; false where one makes no sense.
+    [[nodiscard]] bool readFrom(StateFileReader& reader) {
+        if (!isPart()) {
+            reader.read(std::as_writable_bytes(m_all));
+            return std::ranges::all_of(m_all,
+                                       [](const Pixel& pixel) { return isPlausible(pixel); });
+        }
+        m_held.resize(shardPixels(m_manifest.width, m_manifest.height, m_manifest.shard));
+        reader.read(std::as_writable_bytes(std::span(m_held)));
+        auto next = m_held.begin();
+        forRows([&](std::size_t first, std::size_t count) {
+            const auto end = next + static_cast<std::ptrdiff_t>(count);
+            std::copy(next, end, m_all.begin() + static_cast<std::ptrdiff_t>(first));
+            next = end;
+        });
+        return std::ranges::all_of(m_held, [](const Pixel& pixel) { return isPlausible(pixel); });
+    }
+
+  private:
+    [[nodiscard]] bool isPart() const { return m_manifest.shard.count > 1; }
+    template <class F>
+    void forRows(const F& f) const {
+        forShardRows(m_manifest.width, m_manifest.height, m_manifest.shard, f);
+    }
+
+    const FilmManifest& m_manifest;
+    std::span<Pixel> m_all;
+    std::vector<std::remove_const_t<Pixel>> m_held;
+};
+
 } // namespace
 
 std::optional<std::string> whyDifferent(const FilmManifest& there, const FilmManifest& here) {
@@ -119,19 +187,15 @@ std::optional<std::string> whyDifferent(const FilmManifest& there, const FilmMan
 }
 
 Result<void> writeFilm(const fs::path& file, const FilmManifest& manifest, const Film& film,
-                       StateFileName name) {
+                       const TraceOutputs& outputs, StateFileName name) {
     CHECK(film.width() == manifest.width && film.height() == manifest.height);
-    std::vector<Film::Pixel> held; // of a part; the whole is not copied
-    if (manifest.shard.count > 1)
-        forShardRows(film.width(), film.height(), manifest.shard,
-                     [&](std::size_t first, std::size_t count) {
-                         const auto row = film.pixels().subspan(first, count);
-                         held.insert(held.end(), row.begin(), row.end());
-                     });
-    const std::span<const Film::Pixel> pixels =
-        manifest.shard.count > 1 ? std::span<const Film::Pixel>(held) : film.pixels();
-    const std::span<const std::byte> piece = std::as_bytes(pixels);
-    return writeStateFile(file, kFilmState, filmManifestText(manifest), std::span(&piece, 1), name);
+    CHECK(outputs.empty() != manifest.hasOutputs);
+    HeldPixels<const Film::Pixel> colors(manifest, film.pixels());
+    HeldPixels<const TraceOutputs::Pixel> others(manifest, outputs.pixels());
+    std::vector<std::span<const std::byte>> pieces{std::as_bytes(colors.gathered())};
+    if (manifest.hasOutputs)
+        pieces.push_back(std::as_bytes(others.gathered()));
+    return writeStateFile(file, kFilmState, filmManifestText(manifest), pieces, name);
 }
 
 bool looksLikeFilm(const fs::path& file) {
@@ -143,35 +207,31 @@ Result<FilmManifest> readFilmManifest(const fs::path& file) {
     return openFilm(reader);
 }
 
-Result<FilmManifest> readFilm(const fs::path& file, Film& film) {
+Result<FilmManifest> readFilm(const fs::path& file, Film& film, TraceOutputs& outputs) {
     StateFileReader reader(file, kFilmState);
     Result<FilmManifest> manifest = openFilm(reader);
     if (!manifest)
         return manifest;
     const int width = manifest->width, height = manifest->height;
     const std::size_t count = shardPixels(width, height, manifest->shard);
-    if (Result<void> fits = reader.expect(count * sizeof(Film::Pixel)); !fits)
+    const std::size_t each =
+        sizeof(Film::Pixel) + (manifest->hasOutputs ? sizeof(TraceOutputs::Pixel) : 0);
+    if (Result<void> fits = reader.expect(count * each); !fits)
         return fits.error();
-    if (film.width() == 0)
+    if (film.width() == 0) {
         film = Film(width, height);
-    if (film.width() != width || film.height() != height)
-        return reader.damaged("its picture has another size");
-    std::vector<Film::Pixel> held(manifest->shard.count > 1 ? count : 0);
-    const std::span<Film::Pixel> pixels =
-        manifest->shard.count > 1 ? std::span<Film::Pixel>(held) : film.pixels();
-    reader.read(std::as_writable_bytes(pixels));
+        outputs = manifest->hasOutputs ? TraceOutputs(width, height) : TraceOutputs();
+    }
+    if (film.width() != width || film.height() != height || outputs.empty() == manifest->hasOutputs)
+        return reader.damaged("it is of another picture");
+    bool plausible = HeldPixels<Film::Pixel>(*manifest, film.pixels()).readFrom(reader);
+    if (manifest->hasOutputs)
+        plausible = HeldPixels<TraceOutputs::Pixel>(*manifest, outputs.pixels()).readFrom(reader) &&
+                    plausible;
     if (Result<void> whole = reader.finish(); !whole)
         return whole.error();
-    if (!std::ranges::all_of(pixels, isPlausible))
+    if (!plausible)
         return reader.damaged("a value is out of range");
-    if (manifest->shard.count > 1) {
-        auto next = held.begin();
-        forShardRows(width, height, manifest->shard, [&](std::size_t first, std::size_t length) {
-            const auto end = next + static_cast<std::ptrdiff_t>(length);
-            std::copy(next, end, film.pixels().begin() + static_cast<std::ptrdiff_t>(first));
-            next = end;
-        });
-    }
     return manifest;
 }
 

@@ -6,8 +6,10 @@
 
 #include "core/base/Result.h"
 #include "core/base/StateFile.h"
+#include "core/math/Camera.h"
 #include "core/trace/path/Film.h"
 #include "core/trace/path/TraceHash.h"
+#include "core/trace/path/TraceOutputs.h"
 #include "core/trace/path/TraceTiles.h"
 
 #include <filesystem>
@@ -24,7 +26,9 @@ struct FilmManifest {
     StateSettings settings;    // what paths depend on besides the scene, by the options' names
     StateSettings display;     // how the picture is shown: parameters of the view by name
     TraceHash inputs;
+    Camera camera;
     bool transparent = false;      // the picture has an alpha channel
+    bool hasOutputs = false;       // TraceOutputs lie beside the film
     std::string scene;             // what was opened: absolute path or builtin:NAME
     std::vector<std::string> sets; // and the parameters that were set in it: NAME=VALUE
     TraceShard shard;
@@ -39,9 +43,10 @@ struct FilmManifest {
 [[nodiscard]] std::optional<std::string> whyDifferent(const FilmManifest& there,
                                                       const FilmManifest& here);
 
-// Writes the pixels of manifest.shard in one step. Errors: those of writeFileAtomically().
+// Writes the pixels of manifest.shard in one step. `outputs`: of the film's size, or empty, as the
+// manifest has it. Errors: those of writeFileAtomically().
 Result<void> writeFilm(const std::filesystem::path& file, const FilmManifest& manifest,
-                       const Film& film, StateFileName name);
+                       const Film& film, const TraceOutputs& outputs, StateFileName name);
 
 // Whether a file begins as these do.
 [[nodiscard]] bool looksLikeFilm(const std::filesystem::path& file);
@@ -49,8 +54,8 @@ Result<void> writeFilm(const std::filesystem::path& file, const FilmManifest& ma
 // Errors: InputMissing; InputBroken for a file that is none, of another version, cut or edited.
 Result<FilmManifest> readFilmManifest(const std::filesystem::path& file);
 
-// Puts the pixels of the file's shard into `film`, which has its size or is empty. Errors: as
-// above.
-Result<FilmManifest> readFilm(const std::filesystem::path& file, Film& film);
+// Puts the pixels of the file's shard into `film` and `outputs`, which have its size or are empty.
+// Errors: as above.
+Result<FilmManifest> readFilm(const std::filesystem::path& file, Film& film, TraceOutputs& outputs);
 
 } // namespace patina

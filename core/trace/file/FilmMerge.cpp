@@ -77,7 +77,8 @@ Result<JoinedFilm> joinFilms(std::span<const std::filesystem::path> files) {
     joined.manifest = parts->front().manifest;
     joined.manifest.shard = {};
     for (const Part& part : *parts)
-        if (const Result<FilmManifest> read = readFilm(part.file, joined.film); !read)
+        if (const Result<FilmManifest> read = readFilm(part.file, joined.film, joined.outputs);
+            !read)
             return read.error();
     // A shard without pixels has no samples.
     joined.manifest.samples = joined.film.leastSamples();

@@ -11,6 +11,7 @@ namespace patina {
 struct JoinedFilm {
     FilmManifest manifest; // of the whole picture
     Film film;
+    TraceOutputs outputs; // where the parts have them
 };
 
 // All parts of a picture, in any order. Errors: those of readFilm(); InputBroken, naming the file,

@@ -61,11 +61,13 @@ Result<void> FilmTracer::readCheckpoint() {
     };
     if (const auto why = whyDifferent(*there, here))
         return refuse(*why);
+    if (there->hasOutputs != here.hasOutputs)
+        return refuse("what is written besides the picture");
     if (there->shard != here.shard)
         return refuse(fmt::format("the part (part {} of {} there, {} of {} here)",
                                   there->shard.index + 1, there->shard.count, here.shard.index + 1,
                                   here.shard.count));
-    if (const Result<FilmManifest> read = readFilm(file, m_film); !read)
+    if (const Result<FilmManifest> read = readFilm(file, m_film, m_outputs); !read)
         return read.error();
     m_resumedFrom = samplesOf(m_film, here.shard).least;
     m_kept = true;
@@ -84,8 +86,8 @@ void FilmTracer::keep(bool complete) {
     if (m_settings.checkpoint.empty())
         return;
     updateManifest(complete);
-    const Result<void> written =
-        writeFilm(m_settings.checkpoint, m_settings.manifest, m_film, StateFileName::Own);
+    const Result<void> written = writeFilm(m_settings.checkpoint, m_settings.manifest, m_film,
+                                           m_outputs, StateFileName::Own);
     m_kept = m_kept || written.ok();
     if (!written && !m_warned && m_settings.warn)
         m_settings.warn(written.error());
@@ -99,6 +101,8 @@ Result<void> FilmTracer::trace(const TraceScene& scene, const TraceView& view,
     CHECK(!m_settings.noise || manifest.shard.count == 1);
     hold();
     m_film = Film(view.width, view.height);
+    if (manifest.hasOutputs)
+        m_outputs = TraceOutputs(view.width, view.height);
     std::error_code ignored;
     if (m_settings.resume && !m_settings.checkpoint.empty() &&
         std::filesystem::exists(m_settings.checkpoint, ignored))
@@ -126,6 +130,8 @@ Result<void> FilmTracer::trace(const TraceScene& scene, const TraceView& view,
                           keep(false);
                           kept = Clock::now();
                       }};
+
+    around.outputs = manifest.hasOutputs ? &m_outputs : nullptr;
 
     // Passes of 1, 2, 4, 8, 16, 16 … samples. One that a checkpoint has already is passed over,
     // and its noise was looked at then unless nothing came after it.

@@ -38,6 +38,7 @@ class FilmTracer {
                        const JobContext& job);
 
     [[nodiscard]] const Film& film() const { return m_film; }
+    [[nodiscard]] const TraceOutputs& outputs() const { return m_outputs; } // or empty
     // What the film belongs to and how far it has come.
     [[nodiscard]] const FilmManifest& manifest() const { return m_settings.manifest; }
     // Film::noise(), of a shard nothing.
@@ -58,6 +59,7 @@ class FilmTracer {
     FilmTracerSettings m_settings;
     std::optional<FileLock> m_lock; // of the checkpoint; none where nothing can be locked
     Film m_film;
+    TraceOutputs m_outputs;
     std::optional<double> m_noise;
     bool m_kept = false, m_warned = false;
     std::optional<std::uint32_t> m_resumedFrom;

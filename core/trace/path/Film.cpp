@@ -22,6 +22,16 @@ void Film::Pixel::add(const glm::vec3& radiance, float alpha) {
     squares += luminance * luminance;
 }
 
+double Film::Pixel::luminance() const {
+    const double n = samples;
+    return samples > 0 ? (0.2126 * sum.x + 0.7152 * sum.y + 0.0722 * sum.z) / n : 0.0;
+}
+
+double Film::Pixel::variance() const {
+    const double n = samples, mean = luminance();
+    return std::max(squares / n - mean * mean, 0.0) / (n - 1.0);
+}
+
 Film::Film(int width, int height)
     : m_width(width)
     , m_height(height)
@@ -59,11 +69,8 @@ std::optional<double> Film::noise() const {
     for (const Pixel& pixel : m_pixels) {
         if (pixel.samples < 2)
             return std::nullopt;
-        const double n = pixel.samples;
-        const double mean =
-            (0.2126 * pixel.sum.x + 0.7152 * pixel.sum.y + 0.0722 * pixel.sum.z) / n;
-        variances += std::max(pixel.squares / n - mean * mean, 0.0) / (n - 1.0);
-        means += mean;
+        variances += pixel.variance();
+        means += pixel.luminance();
     }
     if (!(means > 0.0))
         return std::nullopt;

@@ -24,6 +24,9 @@ class Film {
         std::uint32_t invalid = 0; // of them: no finite number, counted as black
 
         void add(const glm::vec3& radiance, float alpha);
+        [[nodiscard]] double luminance() const; // mean
+        // Of that mean, squared standard error; of two samples or more.
+        [[nodiscard]] double variance() const;
         friend bool operator==(const Pixel&, const Pixel&) = default;
     };
 

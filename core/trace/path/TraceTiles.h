@@ -8,6 +8,8 @@
 
 namespace patina {
 
+class TraceOutputs;
+
 inline constexpr int kTraceTile = 16; // pixels a side; at the right and lower border less
 
 // Tiles count row by row from the top left. A shard traces those of number n with
@@ -28,6 +30,8 @@ struct TraceTiles {
     std::mutex* film = nullptr;
     // Called from the pool's threads after each tile, without the lock. May be empty.
     std::function<void()> tileDone;
+    // Of the film's size, filled with it; changes under the same lock. Null: colour alone.
+    TraceOutputs* outputs = nullptr;
 };
 
 } // namespace patina
