@@ -120,10 +120,11 @@ Result<void> run(Session& session, const RenderOptions& options) {
     const Result<std::optional<SequenceRequest>> sequence = sequenceRequest(options);
     if (!sequence)
         return sequence.error();
-    Result<ImageFileFormat> format =
-        writes && !isVideoFile(options.output) && !isTracedPart(options)
-            ? imageFormatForPath(options.output)
-            : ImageFileFormat::Png;
+    Result<ImageFileFormat> format = ImageFileFormat::Png;
+    if (isTracedPart(options))
+        format = ImageFileFormat::Exr; // for which a part holds all there is
+    else if (writes && !isVideoFile(options.output))
+        format = imageFormatForPath(options.output);
     if (!format)
         return format.error();
     Result<render::FrameSettings> frame = frameSettings(options);

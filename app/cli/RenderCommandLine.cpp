@@ -56,6 +56,12 @@ void CommandParser::addRender() {
                   fmt::format("Path: a part of the .exr each for the picture and what it consists "
                               "of: all, or {}",
                               outputs))
+        ->check(plain(CLI::Validator(
+            [](const std::string& text) {
+                const auto parsed = parseOutputs(text);
+                return parsed ? std::string() : parsed.error().message;
+            },
+            "")))
         ->type_name("all|NAME,…");
     addShards(c, o.work,
               "Path: trace part K of N only, for patina merge; auto: as the farm numbers its tasks",

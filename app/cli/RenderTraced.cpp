@@ -6,6 +6,8 @@
 #include "app/cli/PreparedLight.h"
 #include "app/cli/Report.h"
 #include "app/cli/TracedPicture.h"
+#include "core/bake/BakeMemory.h"
+#include "core/base/Limits.h"
 #include "core/document/Source.h"
 #include "core/document/ViewChoices.h"
 #include "core/mix/LightMix.h"
@@ -61,6 +63,34 @@ Result<TraceShard> shardOfPicture(const RenderOptions& options) {
     if (!shard)
         return shard.error();
     return TraceShard{shard->index, shard->count};
+}
+
+// What could not be held or written is refused before the first ray.
+Result<void> checkPictureSize(const render::FrameSettings& frame,
+                              const std::vector<const OutputInfo*>& outputs) {
+    const std::uint64_t pixels =
+        static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height);
+    std::uint64_t channels = frame.transparentBackground ? 1 : 0;
+    if (outputs.empty())
+        channels += 3;
+    for (const OutputInfo* info : outputs)
+        channels += info->channels.size();
+    const std::uint64_t written = pixels * channels * sizeof(float);
+    if (written > limits::kMaxImageBytes)
+        return usageError(fmt::format("the picture has {} of numbers, and a file holds at most {}; "
+                                      "choose a smaller --size{}",
+                                      memoryText(written), memoryText(limits::kMaxImageBytes),
+                                      outputs.size() > 1 ? ", or fewer outputs (--aov)" : ""));
+    const std::uint64_t held =
+        pixels *
+            (sizeof(Film::Pixel) + (needTraceOutputs(outputs) ? sizeof(TraceOutputs::Pixel) : 0)) +
+        written;
+    const std::uint64_t available = availableMemory();
+    if (available > 0 && held > available)
+        return usageError(fmt::format("the picture takes {} of memory, and {} are free; choose a "
+                                      "smaller --size",
+                                      memoryText(held), memoryText(available)));
+    return {};
 }
 
 FilmManifest filmManifest(const Session& session, const RenderOptions& options,
@@ -181,6 +211,8 @@ Result<void> renderTraced(Session& session, const RenderOptions& options, const 
         return run.error();
     if (Result<void> shown = isPart ? Result<void>() : checkDisplay(document.view, format); !shown)
         return shown;
+    if (Result<void> fits = checkPictureSize(frame, *outputs); !fits)
+        return fits;
     const Result<std::optional<FileLock>> lock =
         beginLongRun(session, *run, options.output, "picture");
     if (!lock)

@@ -20,7 +20,9 @@ class TracedOutputs : public Commands {
     [[nodiscard]] Outcome render(const std::string& output, std::vector<std::string> more,
                                  const char* scene = "builtin:cornell-box",
                                  const char* size = "48x36") const {
-        more.insert(more.begin(), {"render", scene, "--size", size, "-o", m_folder / output});
+        if (size != nullptr)
+            more.insert(more.begin(), {"--size", size});
+        more.insert(more.begin(), {"render", scene, "-o", m_folder / output});
         return runPatina(more);
     }
     [[nodiscard]] Outcome trace(const std::string& output, std::vector<std::string> more) const {
@@ -99,8 +101,14 @@ TEST_F(TracedOutputs, ArePartsOfOneFile) {
          std::vector<std::tuple<const char*, std::vector<std::string>, const char*>>{
              {"no.png", {"--renderer", "path", "--aov", "all"}, ".exr"},
              {"no.exr", {"--renderer", "path", "--aov", "Z"}, "not \"Z\""},
-             {"no.exr", {"--aov", "all"}, "--aov is for --renderer path"}}) {
-        const Outcome refused = render(output, more);
+             {"no.exr", {"--renderer", "path", "--aov", ""}, "outputs are"},
+             {"no.exr", {"--aov", "all"}, "--aov is for --renderer path"},
+             {"no.exr",
+              {"--renderer", "path", "--aov", "all", "--size", "8192x4096"},
+              "a file holds at most 2"}}) {
+        const bool sized = std::ranges::count(more, "--size") > 0;
+        const Outcome refused =
+            sized ? render(output, more, "builtin:cornell-box", nullptr) : render(output, more);
         EXPECT_EQ(refused.status, 2) << refused.err;
         EXPECT_THAT(refused.err, HasSubstr(said));
         EXPECT_FALSE(std::filesystem::exists(m_folder / output));

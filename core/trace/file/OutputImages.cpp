@@ -129,7 +129,7 @@ Result<std::vector<const OutputInfo*>> parseOutputs(std::string_view text) {
             for (const OutputInfo& info : kOutputs)
                 names += fmt::format(", {}", info.id);
             return Error{ErrorKind::Usage,
-                         fmt::format("--aov takes all, or names separated by commas: {}; not "
+                         fmt::format("outputs are \"all\", or names separated by commas: {}; not "
                                      "\"{}\"",
                                      names.substr(2), name),
                          {},
