@@ -106,8 +106,9 @@ Result<FilmManifest> openFilm(StateFileReader& reader) {
 bool isPlausible(const Film::Pixel& pixel) {
     const double n = pixel.samples;
     return std::isfinite(pixel.sum.x) && std::isfinite(pixel.sum.y) && std::isfinite(pixel.sum.z) &&
-           std::isfinite(pixel.squares) && pixel.squares >= 0.0 && pixel.coverage >= 0.0 &&
-           pixel.coverage <= n && pixel.invalid <= pixel.samples;
+           std::isfinite(pixel.squares) && pixel.squares >= 0.0 && pixel.coverage >= 0.0f &&
+           static_cast<double>(pixel.coverage) <= n && std::isfinite(pixel.firstSum) &&
+           pixel.invalid <= pixel.samples;
 }
 
 bool isPlausible(const TraceOutputs::Pixel& pixel) {
