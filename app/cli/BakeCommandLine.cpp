@@ -68,19 +68,24 @@ void CommandParser::addBakes() {
     addBakeIbl(*bake);
 }
 
-void CommandParser::addLongBake(CLI::App* command, LongBakeOptions& o) {
-    command
-        ->add_option("--shard", o.shard,
-                     "Bake part K of N only, for patina merge; auto: as the farm numbers its "
-                     "tasks")
-        ->type_name("K/N|auto");
+void CommandParser::addShards(CLI::App* command, LongBakeOptions& o, const char* shardHelp,
+                              const char* prefix) {
+    command->add_option("--shard", o.shard, shardHelp)->type_name("K/N|auto");
     command
         ->add_option("--checkpoint", o.checkpoint,
-                     "How often to keep what is done in OUT.checkpoint, and to keep it when "
-                     "interrupted (default: every 30s, not when interrupted)")
+                     fmt::format("{}How often to keep what is done in OUT.checkpoint, and to keep "
+                                 "it when interrupted (default: every 30s, not when interrupted)",
+                                 prefix))
         ->type_name("EVERY");
-    command->add_flag("--resume", o.resume,
-                      "Go on from OUT.checkpoint where there is one; keep one when interrupted");
+    command->add_flag(
+        "--resume", o.resume,
+        fmt::format("{}Go on from OUT.checkpoint where there is one; keep one when interrupted",
+                    prefix));
+}
+
+void CommandParser::addLongBake(CLI::App* command, LongBakeOptions& o) {
+    addShards(command, o,
+              "Bake part K of N only, for patina merge; auto: as the farm numbers its tasks");
     command
         ->add_option("--max-memory", o.maxMemory,
                      "Refuse a bake that would take more, e.g. 4GiB (default: what is free)")
@@ -174,10 +179,13 @@ void CommandParser::addBakePrt(CLI::App& bake) {
 
 void CommandParser::addMerge() {
     MergeOptions& o = m_merge;
-    CLI::App* c = addCommand(m_app, "merge",
-                             "Parts of a bake (--shard) joined to the very bytes of the whole", o);
+    CLI::App* c =
+        addCommand(m_app, "merge",
+                   "Parts of a bake or a traced picture (--shard) joined to the very bytes of "
+                   "the whole",
+                   o);
     c->add_option("PART", o.parts, "All parts, in any order")->required()->type_name("…");
-    c->add_option("-o,--output", o.output, "What the bake would have written")
+    c->add_option("-o,--output", o.output, "What the bake or render would have written")
         ->required()
         ->type_name("OUT");
     c->add_option("--scene", o.scene, "The baked scene, when it is elsewhere now")

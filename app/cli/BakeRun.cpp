@@ -2,6 +2,7 @@
 
 #include "app/cli/BakeOutput.h"
 #include "app/cli/LongBake.h"
+#include "app/cli/LongRun.h"
 #include "app/cli/OcclusionRun.h"
 #include "app/cli/Report.h"
 #include "app/cli/SceneSetup.h"
@@ -13,7 +14,6 @@
 #include "core/bake/transfer/ResumableTracer.h"
 #include "core/base/DiskSpace.h"
 #include "core/base/FileLock.h"
-#include "core/base/Leftovers.h"
 #include "core/base/LowerCase.h"
 #include "core/base/PrintableText.h"
 #include "core/mesh/UvUnwrap.h"
@@ -33,26 +33,18 @@ namespace {
 namespace fs = std::filesystem;
 
 // What the options of a long bake come to.
-struct Plan {
+struct Plan : LongRun {
     PassShard shard;
-    bool part = false;   // writes a part, not the bake
-    fs::path checkpoint; // empty: the output is no file
-    double everySeconds = 30.0;
-    bool resume = false, keepWhenInterrupted = false;
+    bool part = false;           // writes a part, not the bake
     std::uint64_t maxMemory = 0; // bytes; 0: no limit is known
 };
 
 Result<Plan> planBake(const CommonOptions& common, const std::string& output,
                       const LongBakeOptions& options, const BakeRequest& request) {
-    Plan plan;
-    plan.resume = options.resume;
-    plan.keepWhenInterrupted = options.resume || !options.checkpoint.empty();
-    if (!options.checkpoint.empty()) {
-        const Result<double> seconds = parseInterval(options.checkpoint);
-        if (!seconds)
-            return seconds.error();
-        plan.everySeconds = *seconds;
-    }
+    const Result<LongRun> run = planLongRun(output, options);
+    if (!run)
+        return run.error();
+    Plan plan{*run, {}, false, 0};
     plan.maxMemory = availableMemory();
     if (!options.maxMemory.empty()) {
         const Result<std::uint64_t> bytes = parseSize("--max-memory", options.maxMemory);
@@ -60,14 +52,6 @@ Result<Plan> planBake(const CommonOptions& common, const std::string& output,
             return bytes.error();
         plan.maxMemory = *bytes;
     }
-    std::error_code ignored;
-    if (const fs::file_status status = fs::status(output, ignored);
-        !fs::exists(status) || fs::is_regular_file(status))
-        plan.checkpoint = output + ".checkpoint";
-    else if (plan.keepWhenInterrupted)
-        return usageError(
-            fmt::format("checkpoints lie beside the output, and {} is no file", output));
-
     if (options.shard.empty())
         return plan;
     const Result<PassShard> shard = parseShard(options.shard, environmentVariable);
@@ -197,26 +181,10 @@ Result<void> bakeScene(Session& session, const std::string& scene, const std::st
             plan->part ? checkOutput(output) : checkBakeOutput(output, request.kind);
         !checked)
         return checked;
-    std::optional<FileLock> lock;
-    if (!plan->checkpoint.empty()) {
-        Result<FileLock> taken = FileLock::take(output);
-        if (!taken)
-            return taken.error();
-        lock.emplace(std::move(taken).value());
-        removeLeftovers(output);
-        removeLeftovers(plan->checkpoint);
-    }
+    const Result<std::optional<FileLock>> lock = beginLongRun(session, *plan, output, "bake");
+    if (!lock)
+        return lock.error();
     Report& report = session.report();
-    std::error_code ignored;
-    if (!plan->resume && !plan->checkpoint.empty() &&
-        fs::is_regular_file(plan->checkpoint, ignored))
-        report.warn(fmt::format("{}: this checkpoint of an earlier bake will be replaced; --resume "
-                                "would have gone on from it",
-                                plan->checkpoint.string()));
-    if (plan->resume && fs::is_regular_file(plan->checkpoint, ignored)) {
-        session.keptCheckpoint(plan->checkpoint); // whatever comes: it is not touched before
-        session.expectCheckpoint(plan->checkpoint, false);
-    }
 
     session.beginPhase();
     SceneRequest sceneRequest;

@@ -73,10 +73,14 @@ class CommandParser {
     void addRays(CLI::App* command, int& samples, unsigned& seed, const char* per);
     void addPreset(CLI::App* command, std::function<void(const BakePreset&)> apply);
     void addLongBake(CLI::App* command, LongBakeOptions& options);
+    // --shard, --checkpoint, --resume; `prefix`: what the help of the others begins with.
+    void addShards(CLI::App* command, LongBakeOptions& options, const char* shardHelp,
+                   const char* prefix = "");
+
+    void addRender(); // RenderCommandLine.cpp
 
     // SceneCommandLine.cpp
     void addInfo();
-    void addRender();
     void addSheet();
     void addLadder(); // LadderCommandLine.cpp
     void addRank();

@@ -2,6 +2,7 @@
 #include "app/cli/Commands.h"
 #include "app/cli/LightInfo.h"
 #include "app/cli/SceneSetup.h"
+#include "app/cli/TracedPicture.h"
 #include "app/cli/Vectors.h"
 #include "core/bake/file/BakeHeader.h"
 #include "core/bake/file/BakePacking.h"
@@ -327,7 +328,8 @@ Result<void> run(Session& session, const InfoOptions& options) {
                              : Result<void>();
     }
     const bool checkpoint = !builtin && looksLikeCheckpoint(options.file);
-    if (!builtin && !checkpoint && !isScene(options.file)) {
+    const bool film = !builtin && looksLikeFilm(options.file);
+    if (!builtin && !checkpoint && !film && !isScene(options.file)) {
         const Result<void> described = describeImage(session, options.file, options.light);
         return described && options.light ? describeLightOfFile(session, options.file, *direction)
                                           : described;
@@ -340,6 +342,8 @@ Result<void> run(Session& session, const InfoOptions& options) {
     }
     if (checkpoint)
         return describeUnfinishedBake(report, options.file);
+    if (film)
+        return describeUnfinishedPicture(report, options.file);
 
     Result<OpenedScene> scene = openScene(session.worker(), options.file, session.job());
     if (!scene)

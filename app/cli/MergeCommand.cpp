@@ -2,6 +2,7 @@
 #include "app/cli/BakeRun.h"
 #include "app/cli/Commands.h"
 #include "app/cli/SceneSetup.h"
+#include "app/cli/TracedPicture.h"
 #include "core/bake/Bake.h"
 #include "core/bake/document/DocumentBakeInputs.h"
 #include "core/bake/domain/BakeOptions.h"
@@ -16,6 +17,8 @@ namespace patina::cli {
 Result<void> run(Session& session, const MergeOptions& options) {
     nlohmann::ordered_json& json = session.report().json();
     json["settings"] = {{"parts", options.parts}};
+    if (looksLikeFilm(options.parts.front()))
+        return mergeFilms(session, options);
     const std::vector<std::filesystem::path> files(options.parts.begin(), options.parts.end());
     const Result<std::vector<BakePart>> parts = readBakeParts(files);
     if (!parts)

@@ -43,6 +43,14 @@ struct PictureOptions {
     int samples = 4;
 };
 
+// How a long bake, or a traced picture, is split, kept and gone on with.
+struct LongBakeOptions {
+    std::string shard;      // K/N or auto; empty: all of it
+    std::string checkpoint; // a time; empty: every 30 s, and none when interrupted
+    bool resume = false;
+    std::string maxMemory; // a size; empty: what the machine has to give
+};
+
 struct RenderOptions : PictureOptions {
     std::string view;    // of core/document/Views.h, or all
     std::string inspect; // X,Y of a pixel to explain
@@ -55,6 +63,9 @@ struct RenderOptions : PictureOptions {
     std::optional<int> maxBounces;   // path; nothing: no limit
     unsigned seed = 0;               // path
     bool samplesGiven = false;
+    std::string aov;          // path: "all" or names of OutputImages.h; empty: the picture alone
+    std::string errorAgainst; // a linear picture; empty: none
+    LongBakeOptions work;     // path; its maxMemory is that of the pictures
 };
 
 struct LadderOptions : PictureOptions {
@@ -90,14 +101,6 @@ struct RankOptions : PictureOptions {
 };
 
 enum class BakeTarget { Texel, Vertex };
-
-// How a long bake is split, kept and gone on with.
-struct LongBakeOptions {
-    std::string shard;      // K/N or auto; empty: all of it
-    std::string checkpoint; // a time; empty: every 30 s, and none when interrupted
-    bool resume = false;
-    std::string maxMemory; // a size; empty: what the machine has to give
-};
 
 struct BakeAoOptions {
     std::string scene, output;

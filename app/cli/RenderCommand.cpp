@@ -1,4 +1,5 @@
 #include "app/cli/Commands.h"
+#include "app/cli/ErrorAgainst.h"
 #include "app/cli/InspectPixel.h"
 #include "app/cli/LocalShadows.h"
 #include "app/cli/PictureSetup.h"
@@ -109,14 +110,21 @@ Result<void> run(Session& session, const RenderOptions& options) {
     if (!writes && options.inspect.empty())
         return usageError(
             "--output is required: where the picture goes; only --inspect does without");
-    if (Result<void> fits = checkRenderer(options); !fits)
+    if (Result<void> fits = checkRenderer(session.options(), options); !fits)
         return fits;
+    if (!options.errorAgainst.empty() && !options.view.empty() && options.view != "final")
+        return usageError("--error-against compares the picture; leave --view out");
+    if (!options.errorAgainst.empty() && (options.turntable > 0 || options.lightTurn > 0))
+        return usageError("--error-against compares one picture; leave --turntable and "
+                          "--light-turn out");
     const Result<std::optional<SequenceRequest>> sequence = sequenceRequest(options);
     if (!sequence)
         return sequence.error();
-    Result<ImageFileFormat> format = writes && !isVideoFile(options.output)
-                                         ? imageFormatForPath(options.output)
-                                         : ImageFileFormat::Png;
+    Result<ImageFileFormat> format = ImageFileFormat::Png;
+    if (isTracedPart(options))
+        format = ImageFileFormat::Exr; // for which a part holds all there is
+    else if (writes && !isVideoFile(options.output))
+        format = imageFormatForPath(options.output);
     if (!format)
         return format.error();
     Result<render::FrameSettings> frame = frameSettings(options);
@@ -129,7 +137,7 @@ Result<void> run(Session& session, const RenderOptions& options) {
         if (Result<void> output = checkOutput(options.output); !output)
             return output;
 
-    if (!needsImageLibraries(options))
+    if (!needsImageLibraries(options) && options.errorAgainst.empty())
         session.expectNoImages();
     nlohmann::ordered_json& json = session.report().json();
     json["settings"] = {{"scene", options.scene},
@@ -170,8 +178,21 @@ Result<void> run(Session& session, const RenderOptions& options) {
 
     json["counts"] = {{"meshes", document->meshes.size()},
                       {"triangles", document->triangleCount()}};
+    std::optional<PictureSubject> subject;
+    if (!options.errorAgainst.empty() || *format == ImageFileFormat::Exr)
+        subject = subjectOf(*document, frame->camera);
+    std::optional<Image> reference;
+    if (!options.errorAgainst.empty()) {
+        Result<Image> loaded =
+            loadReference(session, options.errorAgainst, frame->width, frame->height, *subject);
+        if (!loaded)
+            return loaded.error();
+        reference = *std::move(loaded);
+        frame->floats = true;
+    }
     if (isTraced(options))
-        return renderTraced(session, options, *document, *frame, *format);
+        return renderTraced(session, options, *document, *frame, *format,
+                            reference ? &*reference : nullptr);
 
     // Light that is switched off is looked at only by views and by explanations.
     const bool lit =
@@ -203,11 +224,19 @@ Result<void> run(Session& session, const RenderOptions& options) {
             return pictures.error();
         if (session.job().cancelled())
             return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
+        if (*format == ImageFileFormat::Exr)
+            for (ImagePart& picture : *pictures)
+                picture.attributes.merge(attributesOf(*subject));
         if (Result<void> written =
                 writePictures(session, options.output, std::move(*pictures), *format);
             !written)
             return written;
     }
+    if (reference)
+        if (Result<void> compared =
+                reportError(session, options.errorAgainst, renderer.readLinear(), *reference);
+            !compared)
+            return compared;
     if (*inspected)
         if (Result<void> done = explainPixel(session, renderer, *document, *shadows, **inspected);
             !done)

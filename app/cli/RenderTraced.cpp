@@ -1,14 +1,22 @@
 #include "app/cli/RenderTraced.h"
 
-#include "app/cli/PictureSetup.h"
+#include "app/cli/ErrorAgainst.h"
+#include "app/cli/LongBake.h"
+#include "app/cli/LongRun.h"
 #include "app/cli/Report.h"
 #include "app/cli/TracedBackground.h"
-#include "core/document/DisplayedPicture.h"
+#include "app/cli/TracedPicture.h"
+#include "core/bake/BakeMemory.h"
+#include "core/base/Limits.h"
+#include "core/document/Source.h"
 #include "core/trace/document/DocumentTraceInputs.h"
+#include "core/trace/file/FilmTracer.h"
+#include "core/trace/file/OutputImages.h"
 #include "core/trace/path/PathTracer.h"
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -16,9 +24,97 @@
 namespace patina::cli {
 namespace {
 
-// Samples of a pass, and so between two looks at the noise.
-constexpr std::uint32_t kMostAtOnce = 16;
 constexpr std::array kRasterSamples{1, 2, 4, 8, 16};
+
+// Of which shard; usage errors for what a part cannot do.
+Result<TraceShard> shardOfPicture(const RenderOptions& options) {
+    if (options.work.shard.empty())
+        return TraceShard{};
+    const Result<PassShard> shard = parseShard(options.work.shard, environmentVariable);
+    if (!shard)
+        return shard.error();
+    return TraceShard{shard->index, shard->count};
+}
+
+// What could not be held or written is refused before the first ray.
+Result<void> checkPictureSize(const render::FrameSettings& frame,
+                              const std::vector<const OutputInfo*>& outputs) {
+    const std::uint64_t pixels =
+        static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height);
+    std::uint64_t channels = frame.transparentBackground ? 1 : 0;
+    if (outputs.empty())
+        channels += 3;
+    for (const OutputInfo* info : outputs)
+        channels += info->channels.size();
+    const std::uint64_t written = pixels * channels * sizeof(float);
+    if (written > limits::kMaxImageBytes)
+        return usageError(fmt::format("the picture has {} of numbers, and a file holds at most {}; "
+                                      "choose a smaller --size{}",
+                                      memoryText(written), memoryText(limits::kMaxImageBytes),
+                                      outputs.size() > 1 ? ", or fewer outputs (--aov)" : ""));
+    const std::uint64_t held =
+        pixels *
+            (sizeof(Film::Pixel) + (needTraceOutputs(outputs) ? sizeof(TraceOutputs::Pixel) : 0)) +
+        written;
+    const std::uint64_t available = availableMemory();
+    if (available > 0 && held > available)
+        return usageError(fmt::format("the picture takes {} of memory, and {} are free; choose a "
+                                      "smaller --size",
+                                      memoryText(held), memoryText(available)));
+    return {};
+}
+
+FilmManifest filmManifest(const Session& session, const RenderOptions& options,
+                          const Document& document, const TraceInputs& inputs,
+                          const render::FrameSettings& frame, std::uint32_t samples) {
+    FilmManifest manifest;
+    manifest.width = frame.width;
+    manifest.height = frame.height;
+    manifest.settings = {{"samples", std::to_string(samples)},
+                         {"seed", std::to_string(options.seed)},
+                         {kCameraSetting, cameraText(frame.camera)},
+                         {kBackgroundSetting, backgroundText(document.view)}};
+    if (options.noise)
+        manifest.settings["noise"] = fmt::format("{} %", *options.noise);
+    if (options.maxBounces)
+        manifest.settings["max-bounces"] = std::to_string(*options.maxBounces);
+    manifest.display = displaySettings(document);
+    manifest.inputs = hashTraceInputs(inputs);
+    manifest.camera = frame.camera;
+    manifest.transparent = frame.transparentBackground;
+    manifest.scene = isBuiltin(options.scene)
+                         ? options.scene
+                         : std::filesystem::absolute(options.scene).lexically_normal().string();
+    manifest.sets = session.options().sets;
+    return manifest;
+}
+
+void reportSamples(Session& session, const RenderOptions& options, const FilmTracer& tracer) {
+    nlohmann::ordered_json& json = session.report().json();
+    const std::uint32_t done = tracer.manifest().samples;
+    if (const std::size_t invalid = tracer.film().invalid(); invalid > 0)
+        session.report().warn(fmt::format(
+            "{} paths brought no finite number and count as black; look for values that are not "
+            "finite in the scene's maps",
+            invalid));
+    json["settings"]["renderer"] = options.renderer;
+    json["settings"]["samples"] = done;
+    json["settings"]["seed"] = options.seed;
+    if (options.maxBounces)
+        json["settings"]["maxBounces"] = *options.maxBounces;
+    if (tracer.resumedFrom())
+        json["resumedFrom"] = *tracer.resumedFrom();
+    const std::optional<double>& noise = tracer.noise();
+    if (!noise)
+        return;
+    json["noisePercent"] = 100.0 * *noise;
+    if (options.noise && 100.0 * *noise > *options.noise)
+        session.report().warn(fmt::format("± {:.2f} % of the mean after {} paths per pixel: "
+                                          "not yet the {:g} % that --noise asks for",
+                                          100.0 * *noise, done, *options.noise));
+    session.report().line(
+        fmt::format("{} paths per pixel, ± {:.2f} % of the mean", done, 100.0 * *noise));
+}
 
 } // namespace
 
@@ -26,12 +122,16 @@ bool isTraced(const RenderOptions& options) {
     return options.renderer == "path";
 }
 
-Result<void> checkRenderer(const RenderOptions& options) {
+Result<void> checkRenderer(const CommonOptions& common, const RenderOptions& options) {
     if (!isTraced(options)) {
-        for (const auto& [given, name] : std::array<std::pair<bool, const char*>, 3>{
+        for (const auto& [given, name] : std::array<std::pair<bool, const char*>, 7>{
                  {{options.noise.has_value(), "--noise"},
+                  {!options.aov.empty(), "--aov"},
                   {options.maxBounces.has_value(), "--max-bounces"},
-                  {options.seed != 0, "--seed"}}})
+                  {options.seed != 0, "--seed"},
+                  {!options.work.shard.empty(), "--shard"},
+                  {!options.work.checkpoint.empty(), "--checkpoint"},
+                  {options.work.resume, "--resume"}}})
             if (given)
                 return usageError(fmt::format("{} is for --renderer path", name));
         if (!std::ranges::count(kRasterSamples, options.samples))
@@ -50,12 +150,45 @@ Result<void> checkRenderer(const RenderOptions& options) {
             return usageError(fmt::format("{} is for --renderer raster: paths bring the light of "
                                           "the whole picture, and need no bake",
                                           name));
+    if (options.work.shard.empty())
+        return {};
+    if (common.keepPartial)
+        return usageError("--keep-partial is for whole pictures; a part that is stopped goes on "
+                          "with --checkpoint and --resume");
+    if (!options.errorAgainst.empty())
+        return usageError("--error-against is for whole pictures; merge the parts and use patina "
+                          "compare");
+    if (options.noise)
+        return usageError("--noise looks at the whole picture, of which a part sees little; give "
+                          "the parts --samples instead");
     return {};
 }
 
 Result<void> renderTraced(Session& session, const RenderOptions& options, const Document& document,
-                          const render::FrameSettings& frame, ImageFileFormat format) {
-    nlohmann::ordered_json& json = session.report().json();
+                          const render::FrameSettings& frame, ImageFileFormat format,
+                          const Image* reference) {
+    const Result<TraceShard> shard = shardOfPicture(options);
+    if (!shard)
+        return shard.error();
+    const bool isPart = isTracedPart(options);
+    const Result<std::vector<const OutputInfo*>> outputs =
+        options.aov.empty() ? std::vector<const OutputInfo*>() : parseOutputs(options.aov);
+    if (!outputs)
+        return outputs.error();
+    if (!options.aov.empty() && format != ImageFileFormat::Exr)
+        return usageError("--aov writes a part of an .exr for each output; name such a file");
+    const Result<LongRun> run = planLongRun(options.output, options.work);
+    if (!run)
+        return run.error();
+    if (Result<void> shown = isPart ? Result<void>() : checkDisplay(document.view, format); !shown)
+        return shown;
+    if (Result<void> fits = checkPictureSize(frame, *outputs); !fits)
+        return fits;
+    const Result<std::optional<FileLock>> lock =
+        beginLongRun(session, *run, options.output, "picture");
+    if (!lock)
+        return lock.error();
+
     session.beginPhase();
     session.job().setActivity("preparing the scene");
     TraceView view;
@@ -64,76 +197,70 @@ Result<void> renderTraced(Session& session, const RenderOptions& options, const 
     view.height = frame.height;
     if (Result<void> set = setBackground(session, document, view); !set)
         return set;
-    const Result<TraceScene> scene = TraceScene::build(traceInputs(document), session.job());
+    const TraceInputs inputs = traceInputs(document);
+    const Result<TraceScene> scene = TraceScene::build(inputs, session.job());
     if (!scene)
         return scene.error();
 
-    PathSettings settings;
-    settings.maxBounces = options.maxBounces;
-    settings.seed = options.seed;
-    const auto most =
+    PathSettings paths;
+    paths.maxBounces = options.maxBounces;
+    paths.seed = options.seed;
+    FilmTracerSettings settings;
+    settings.samples =
         static_cast<std::uint32_t>(options.samplesGiven || options.noise
                                        ? (options.samplesGiven ? options.samples : kMostPaths)
                                        : kUsualPaths);
-    Film film(frame.width, frame.height);
-    session.allowPartialResult();
-    std::uint32_t done = 0;
-    std::optional<double> noise;
-    for (std::uint32_t pass = 1; done < most && !session.job().stopping();
-         pass = std::min(2 * pass, kMostAtOnce)) {
-        pass = std::min(pass, most - done);
-        session.job().setActivity(
-            noise ? fmt::format("{} paths per pixel, ± {:.2f} %", done, 100.0 * *noise)
-                  : fmt::format("{} paths per pixel", done));
-        if (Result<void> traced =
-                tracePaths(*scene, view, settings, film, done, pass, session.job());
-            !traced)
-            return traced;
-        done += pass;
-        noise = film.noise();
-        double share = static_cast<double>(done) / most;
-        if (options.noise && noise) { // the error falls with the root of the paths
-            const double wanted = *options.noise / 100.0;
-            if (*noise <= wanted)
-                break;
-            share = std::max(share, wanted * wanted / (*noise * *noise));
-        }
-        session.job().setProgress(share);
+    if (options.noise)
+        settings.noise = *options.noise / 100.0;
+    settings.manifest = filmManifest(session, options, document, inputs, frame, settings.samples);
+    settings.manifest.shard = *shard;
+    if (!options.aov.empty()) {
+        settings.manifest.settings[kOutputsSetting] = namesOf(*outputs);
+        settings.manifest.hasOutputs = needTraceOutputs(*outputs);
     }
-    done = film.leastSamples(); // of a pass that was stopped some pixels have more
-    if (done == 0)
-        return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
-    if (const std::size_t invalid = film.invalid(); invalid > 0)
+    settings.checkpoint = run->checkpoint;
+    settings.everySeconds = run->everySeconds;
+    settings.resume = run->resume;
+    settings.keepOnCancel = run->keepWhenInterrupted;
+    settings.warn = [&](const Error& error) {
         session.report().warn(fmt::format(
-            "{} paths brought no finite number and count as black; look for values that are not "
-            "finite in the scene's maps",
-            invalid));
-    json["settings"]["renderer"] = options.renderer;
-    json["settings"]["samples"] = done;
-    json["settings"]["seed"] = options.seed;
-    if (options.maxBounces)
-        json["settings"]["maxBounces"] = *options.maxBounces;
-    if (noise) {
-        json["noisePercent"] = 100.0 * *noise;
-        if (options.noise && 100.0 * *noise > *options.noise)
-            session.report().warn(fmt::format("± {:.2f} % of the mean after {} paths per pixel: "
-                                              "not yet the {:g} % that --noise asks for",
-                                              100.0 * *noise, done, *options.noise));
-        session.report().line(
-            fmt::format("{} paths per pixel, ± {:.2f} % of the mean", done, 100.0 * *noise));
-    }
+            "no checkpoint could be kept, the picture goes on without: {}", error.text()));
+    };
+    FilmTracer tracer(std::move(settings));
+    session.allowPartialResult();
+    session.expectCheckpoint(run->checkpoint, run->keepWhenInterrupted);
+    const Result<void> traced = tracer.trace(*scene, view, paths, session.job());
+    if (tracer.keptCheckpoint())
+        session.keptCheckpoint(run->checkpoint);
+    if (!traced)
+        return traced;
+    const FilmManifest& manifest = tracer.manifest();
+    if (!manifest.complete && manifest.samples == 0)
+        return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
+    reportSamples(session, options, tracer);
 
-    std::vector<ImagePart> parts(1);
-    const Image radiance = film.radiance(frame.transparentBackground);
-    if (isLinearFormat(format)) {
-        parts[0].image = radiance;
-    } else {
-        Result<Image> shown = displayedPicture(radiance, document.view, luminanceOf(radiance));
-        if (!shown)
-            return shown.error();
-        parts[0].image = *std::move(shown);
+    if (isPart) {
+        session.report().json()["shard"] = {shard->index + 1, shard->count};
+        if (Result<void> written = writeFilm(options.output, manifest, tracer.film(),
+                                             tracer.outputs(), StateFileName::OfUser);
+            !written)
+            return written;
+        session.report().output(options.output, fmt::format("part {} of {}, for patina merge",
+                                                            shard->index + 1, shard->count));
+    } else if (Result<void> written = writeTracedPicture(session, manifest, tracer.film(),
+                                                         tracer.outputs(), options.output, format);
+               !written) {
+        return written;
     }
-    return writePictures(session, options.output, std::move(parts), format);
+    if (reference != nullptr)
+        if (Result<void> compared =
+                reportError(session, options.errorAgainst, tracer.film().radiance(), *reference);
+            !compared)
+            return compared;
+    // What is complete needs no checkpoint; neither does anybody need an older one.
+    if (!session.interrupted())
+        tracer.removeCheckpoint();
+    return {};
 }
 
 } // namespace patina::cli

@@ -12,11 +12,18 @@ inline constexpr int kMostPaths = 1 << 20; // per pixel
 inline constexpr int kUsualPaths = 256;
 
 [[nodiscard]] bool isTraced(const RenderOptions& options);
+// A part of a picture, for patina merge: its name needs no ending.
+[[nodiscard]] inline bool isTracedPart(const RenderOptions& options) {
+    return isTraced(options) && !options.work.shard.empty();
+}
 // Usage errors: what paths do not have, or only they have.
-Result<void> checkRenderer(const RenderOptions& options);
+Result<void> checkRenderer(const CommonOptions& common, const RenderOptions& options);
 
-// `document` is looked at through `frame`. With --keep-partial a signal ends it early.
+// `document` is looked at through `frame`; `format` is that of the whole picture, `reference` of
+// --error-against or null. With --keep-partial a signal ends it early. Errors besides: CannotCreate
+// when another process renders into this file.
 Result<void> renderTraced(Session& session, const RenderOptions& options, const Document& document,
-                          const render::FrameSettings& frame, ImageFileFormat format);
+                          const render::FrameSettings& frame, ImageFileFormat format,
+                          const Image* reference);
 
 } // namespace patina::cli

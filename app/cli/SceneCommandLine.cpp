@@ -1,10 +1,6 @@
 // What is done with models, pictures and environments without baking.
 #include "app/cli/CommandParser.h"
-#include "app/cli/RenderTraced.h"
-#include "app/cli/RenderViews.h"
-#include "core/cells/Sequence.h"
 #include "core/edit/Parameters.h"
-#include "core/io/VideoWriter.h"
 #include "core/light/BrightSources.h"
 #include "core/math/SphericalHarmonics.h"
 
@@ -72,81 +68,6 @@ void CommandParser::addPicture(CLI::App* c, PictureOptions& o) {
          "Of shadows of local lights with a transfer bake, e.g. 2GiB; where they would take "
          "more they stay soft (default: what is free)")
         ->type_name("SIZE");
-}
-
-void CommandParser::addRender() {
-    RenderOptions& o = m_render;
-    CLI::App* c = addCommand(m_app, "render", "One picture, without a window", o);
-    addScene(c, o);
-    // With --inspect a picture need not be written: run() sees to that.
-    c->add_option("-o,--output", o.output,
-                  "Picture: .png, .jpg, .tif, .tga as displayed, .exr or .hdr linear; with a turn "
-                  "numbered pictures, or a video: .mp4, .webm")
-        ->type_name("OUT");
-    addEnvironmentOption(c, o);
-    c->add_option("--size", o.size, "Pixels")->capture_default_str()->type_name("WxH");
-    addPicture(c, o);
-    CLI::Option* samples = c->get_option("--samples");
-    samples->check(plain(CLI::Range(1, kMostPaths)))
-        ->description("Samples per pixel: 1, 2, 4, 8 or 16 against jagged edges (MSAA); with "
-                      "--renderer path as many paths as there are at most (default: 256)");
-    c->add_option("--renderer", o.renderer,
-                  "raster: as the viewport draws it; path: light as it goes, by paths from "
-                  "surface to surface, without shortcuts")
-        ->check(plain(CLI::IsMember({"raster", "path"})))
-        ->capture_default_str()
-        ->type_name("raster|path");
-    c->add_option("--noise", o.noise,
-                  "Path: ends when the standard error of a pixel is this many percent of the "
-                  "picture's mean, on the average over the pixels")
-        ->check(plain(CLI::Range(0.001, 100.0)))
-        ->type_name("PERCENT");
-    c->add_option("--max-bounces", o.maxBounces,
-                  "Path: on surfaces after the one that is seen (default: no limit)")
-        ->check(plain(CLI::Range(0, 10000)))
-        ->type_name("N");
-    c->add_option("--seed", o.seed, "Path: seed of the sample pattern")->type_name("N");
-    c->add_flag("--keep-partial", m_invocation.common.keepPartial,
-                "Path: when interrupted, write what has converged so far");
-    m_select[c] = [&o, samples] {
-        o.samplesGiven = samples->count() > 0;
-        return decltype(m_invocation.options)(o);
-    };
-    c->add_option("--view", o.view,
-                  "A term of the shading equation instead of the picture (see --list-views); "
-                  "all: a part each of an .exr, else a contact sheet of pictures of this size")
-        ->type_name("VIEW|all");
-    c->add_option("--view-mode", o.viewMode,
-                  "The term's own value, or what it contributes to the picture")
-        ->check(plain(CLI::IsMember({"raw", "contribution"})))
-        ->capture_default_str()
-        ->type_name("raw|contribution");
-    c->add_option("--view-range", o.viewRange, "What the colours of a view's numbers span")
-        ->type_name("MIN,MAX");
-    c->add_option("--view-light", o.viewLight,
-                  "Whose D, G, F and cosines are shown (default: the mirror direction)")
-        ->type_name("NAME");
-    c->add_option("--inspect", o.inspect,
-                  "Explain this pixel, counted from the top left: maps, factors, formulas, "
-                  "sum, display; with --json as JSON. OUT may then be left out")
-        ->type_name("X,Y");
-    const auto turn = [&](const char* name, int& count, const char* help) {
-        c->add_option(name, count, help)
-            ->check(plain(CLI::Range(2, kMostSequenceFrames)))
-            ->type_name("N");
-    };
-    turn("--turntable", o.turntable,
-         "The camera goes once round its target in N pictures: OUT-0001.png …, or a video");
-    turn("--light-turn", o.lightTurn, "The same with the environment, which turns round the scene");
-    c->add_option("--fps", o.framesPerSecond, "Pictures per second of a video")
-        ->check(plain(CLI::Range(1, kMostVideoRate)))
-        ->capture_default_str()
-        ->type_name("N");
-    c->add_flag_callback(
-         "--list-views", [] { throw ListViews(); }, "Print the names of all views")
-        ->trigger_on_parse();
-    addSets(c);
-    addThreads(c);
 }
 
 void CommandParser::addSheet() {

@@ -1,36 +1,22 @@
 #include "core/bake/transfer/BakeCheckpoint.h"
 
-#include "core/base/AtomicFile.h"
 #include "core/base/Check.h"
-#include "core/base/FileDescriptor.h"
-#include "core/base/InputFile.h"
-#include "core/base/OwnFile.h"
 
-#include <array>
-#include <bit>
-#include <cerrno>
-#include <cstring>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 namespace patina {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Layout, least significant byte first: Prologue, the manifest as JSON, its hash, the arrays one
-// after another as in PassState, their hash. Arrays hold the points of the shard's ranges.
-constexpr std::array<char, 8> kMagic = {'P', 'a', 't', 'i', 'n', 'a', 'B', 'k'};
-constexpr std::uint32_t kVersion = 2; // also counts changes of how bakes trace and sample
-constexpr std::uint32_t kMaxManifest = 1u << 20;
-
-struct Prologue {
-    std::array<char, 8> magic = kMagic;
-    std::uint32_t version = kVersion;
-    std::uint32_t manifestBytes = 0;
-};
-static_assert(sizeof(Prologue) == 16 && std::endian::native == std::endian::little);
+// The description is the manifest as JSON; the arrays follow one after another as in PassState,
+// each with the points of the shard's ranges.
+constexpr StateFormat kBakeState = {
+    {'P', 'a', 't', 'i', 'n', 'a', 'B', 'k'},
+    2, // also counts changes of how bakes trace and sample
+    "this is no part and no checkpoint of a bake; make parts with patina bake … --shard K/N",
+    "bake it anew"};
 
 struct KindName {
     BakeKind kind;
@@ -107,10 +93,6 @@ std::optional<BakeManifest> manifestFromText(const std::string& text) {
     }
 }
 
-Hash hashOf(std::string_view text) {
-    return hashBytes(std::as_bytes(std::span(text.data(), text.size())));
-}
-
 // The ranges of a shard, neighbours joined: all of them are one.
 std::vector<PointRange> heldRanges(std::span<const PointRange> ranges, const PassShard& shard) {
     std::vector<PointRange> held;
@@ -142,89 +124,23 @@ void forArrays(State& state, std::size_t stride, const F& f) {
     f(state.wanted, std::size_t{1});
 }
 
-class Reader {
-  public:
-    explicit Reader(const fs::path& file)
-        : m_file(file) {}
-
-    [[nodiscard]] Error damaged(const std::string& what) const {
-        return {
-            ErrorKind::InputBroken,
-            fmt::format("the checkpoint or part is damaged ({}); remove it and bake it anew", what),
-            m_file,
-            {}};
-    }
-
-    Result<BakeManifest> open() {
-        Result<RegularFile> file = openRegularFile(m_file);
-        if (!file)
-            return file.error();
-        m_descriptor = std::move(file->fd);
-        m_left = file->size;
-        Prologue prologue;
-        if (!read(&prologue, sizeof prologue) || prologue.magic != kMagic)
-            return Error{ErrorKind::InputBroken,
-                         "this is no part and no checkpoint of a bake; make parts with patina bake "
-                         "… --shard K/N",
-                         m_file,
-                         {}};
-        if (prologue.version != kVersion)
-            return Error{ErrorKind::InputBroken,
-                         fmt::format("it was written by another version of Patina (format {}, this "
-                                     "is {}); bake it anew",
-                                     prologue.version, kVersion),
-                         m_file,
-                         {}};
-        if (prologue.manifestBytes > kMaxManifest || prologue.manifestBytes > m_left)
-            return damaged("its end is missing");
-        std::string text(prologue.manifestBytes, '\0');
-        Hash hash;
-        if (!read(text.data(), text.size()) || !read(&hash, sizeof hash))
-            return damaged("its end is missing");
-        if (hash != hashOf(text))
-            return damaged("its description was changed");
-        std::optional<BakeManifest> manifest = manifestFromText(text);
-        if (!manifest)
-            return damaged("its description makes no sense");
-        return std::move(manifest).value();
-    }
-
-    [[nodiscard]] bool read(void* to, std::size_t size) {
-        auto* bytes = static_cast<std::byte*>(to);
-        while (size > 0) {
-            const ssize_t count = ::read(m_descriptor.get(), bytes, size);
-            if (count < 0 && errno == EINTR)
-                continue;
-            if (count <= 0)
-                return false;
-            bytes += count;
-            size -= static_cast<std::size_t>(count);
-            m_left -= std::min(m_left, static_cast<std::uint64_t>(count));
-        }
-        return true;
-    }
-    [[nodiscard]] std::uint64_t left() const { return m_left; }
-
-  private:
-    const fs::path& m_file;
-    FileDescriptor m_descriptor;
-    std::uint64_t m_left = 0;
-};
+Result<BakeManifest> openManifest(StateFileReader& reader) {
+    const Result<std::string> text = reader.open();
+    if (!text)
+        return text.error();
+    std::optional<BakeManifest> manifest = manifestFromText(*text);
+    if (!manifest)
+        return reader.damaged("its description makes no sense");
+    return std::move(manifest).value();
+}
 
 } // namespace
 
 std::optional<std::string> whyDifferent(const BakeManifest& there, const BakeManifest& here) {
     if (there.kind != here.kind)
         return "the kind of bake";
-    for (const auto& [name, value] : here.settings) {
-        const auto other = there.settings.find(name);
-        if (other == there.settings.end() || other->second != value)
-            return fmt::format("{} ({} there, {} here)", name,
-                               other == there.settings.end() ? "none" : other->second, value);
-    }
-    for (const auto& [name, value] : there.settings)
-        if (!here.settings.contains(name))
-            return fmt::format("{} ({} there, none here)", name, value);
+    if (auto setting = differingSetting(there.settings, here.settings))
+        return setting;
     if (there.inputs != here.inputs || there.points != here.points || there.ranges != here.ranges)
         return there.scene == here.scene
                    ? fmt::format("the geometry of {}, which was changed", here.scene)
@@ -238,50 +154,33 @@ std::optional<std::string> whyDifferent(const BakeManifest& there, const BakeMan
 
 Result<void> writeBakeCheckpoint(const fs::path& file, const BakeManifest& manifest,
                                  const PassState& state, std::span<const PointRange> ranges,
-                                 CheckpointName name) {
-    const std::string text = manifestText(manifest);
-    Prologue prologue;
-    prologue.manifestBytes = static_cast<std::uint32_t>(text.size());
-    const Hash textHash = hashOf(text);
-
+                                 StateFileName name) {
     const std::vector<PointRange> held = heldRanges(ranges, manifest.shard);
     const std::size_t stride = state.values.size() / std::max<std::size_t>(state.passes.size(), 1);
-    std::vector<std::span<const std::byte>> pieces = {std::as_bytes(std::span(&prologue, 1)),
-                                                      std::as_bytes(std::span(text)),
-                                                      std::as_bytes(std::span(&textHash, 1))};
-    Hasher hasher;
+    std::vector<std::span<const std::byte>> pieces;
     forArrays(state, stride, [&](const auto& array, std::size_t perPoint) {
         if (array.empty())
             return;
-        for (const PointRange& range : held) {
+        for (const PointRange& range : held)
             pieces.push_back(std::as_bytes(
                 std::span(array).subspan(range.first * perPoint, range.count * perPoint)));
-            hasher.bytes(pieces.back());
-        }
     });
-    const Hash hash = hasher.finish();
-    pieces.push_back(std::as_bytes(std::span(&hash, 1)));
-    return name == CheckpointName::OfUser ? writePiecesAtomically(file, pieces)
-                                          : writeOwnPieces(file, pieces);
+    return writeStateFile(file, kBakeState, manifestText(manifest), pieces, name);
 }
 
 bool looksLikeCheckpoint(const fs::path& file) {
-    const Result<RegularFile> opened = openRegularFile(file);
-    std::array<char, kMagic.size()> magic{};
-    return opened.ok() &&
-           ::read(opened->fd.get(), magic.data(), magic.size()) ==
-               static_cast<ssize_t>(magic.size()) &&
-           magic == kMagic;
+    return isStateFile(file, kBakeState);
 }
 
 Result<BakeManifest> readBakeManifest(const fs::path& file) {
-    return Reader(file).open();
+    StateFileReader reader(file, kBakeState);
+    return openManifest(reader);
 }
 
 Result<void> readBakeState(const fs::path& file, std::span<const PointRange> ranges, int stride,
                            PassState& state) {
-    Reader reader(file);
-    const Result<BakeManifest> manifest = reader.open();
+    StateFileReader reader(file, kBakeState);
+    const Result<BakeManifest> manifest = openManifest(reader);
     if (!manifest)
         return manifest.error();
     const std::size_t points = pointCount(ranges);
@@ -292,10 +191,8 @@ Result<void> readBakeState(const fs::path& file, std::span<const PointRange> ran
     const auto perPoint = static_cast<std::size_t>(stride);
     const std::size_t bytesPerPoint =
         (perPoint + (transfer ? 2 : 1)) * sizeof(float) + 2 * sizeof(std::uint8_t);
-    if (reader.left() != pointCount(held) * bytesPerPoint + sizeof(Hash))
-        return reader.damaged(reader.left() < pointCount(held) * bytesPerPoint + sizeof(Hash)
-                                  ? "its end is missing"
-                                  : "something follows its end");
+    if (Result<void> fits = reader.expect(pointCount(held) * bytesPerPoint); !fits)
+        return fits;
 
     if (state.passes.empty()) {
         state.values.resize(points * perPoint);
@@ -306,22 +203,15 @@ Result<void> readBakeState(const fs::path& file, std::span<const PointRange> ran
         state.wanted.resize(points);
     }
     CHECK_EQ(state.values.size(), points * perPoint);
-    Hasher hasher;
-    bool ended = false;
     forArrays(state, perPoint, [&](auto& array, std::size_t each) {
         if (array.empty())
             return;
-        for (const PointRange& range : held) {
-            const auto piece = std::span(array).subspan(range.first * each, range.count * each);
-            ended = ended || !reader.read(piece.data(), piece.size_bytes());
-            hasher.bytes(std::as_bytes(piece));
-        }
+        for (const PointRange& range : held)
+            reader.read(std::as_writable_bytes(
+                std::span(array).subspan(range.first * each, range.count * each)));
     });
-    Hash hash;
-    if (ended || !reader.read(&hash, sizeof hash))
-        return reader.damaged("its end is missing");
-    if (hash != hasher.finish())
-        return reader.damaged("its values were changed");
+    if (Result<void> whole = reader.finish(); !whole)
+        return whole;
     state.samplesDone = manifest->samplesDone;
     return {};
 }

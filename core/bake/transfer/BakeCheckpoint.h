@@ -7,6 +7,7 @@
 #include "core/bake/domain/BakeStorage.h"
 #include "core/bake/transfer/Passes.h"
 #include "core/base/Result.h"
+#include "core/base/StateFile.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -43,14 +44,11 @@ struct BakeManifest {
 [[nodiscard]] std::optional<std::string> whyDifferent(const BakeManifest& there,
                                                       const BakeManifest& here);
 
-// A part's file is named by the user, and a link there is followed; a checkpoint's is not.
-enum class CheckpointName { Own, OfUser };
-
 // Writes the points of manifest.shard in one step, without a copy of them. Errors: those of
 // writeFileAtomically().
 Result<void> writeBakeCheckpoint(const std::filesystem::path& file, const BakeManifest& manifest,
                                  const PassState& state, std::span<const PointRange> ranges,
-                                 CheckpointName name = CheckpointName::Own);
+                                 StateFileName name = StateFileName::Own);
 
 // Whether a file begins as checkpoints and parts do.
 [[nodiscard]] bool looksLikeCheckpoint(const std::filesystem::path& file);

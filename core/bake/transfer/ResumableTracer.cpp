@@ -133,7 +133,7 @@ Result<std::optional<PassState>> ResumableTracer::trace(const TraceRequest& requ
     manifest.samplesDone = traced->samplesDone;
     manifest.done = tracedShare(*traced, request.ranges, settings);
     if (Result<void> written = writeBakeCheckpoint(m_settings.part, manifest, *traced,
-                                                   request.ranges, CheckpointName::OfUser);
+                                                   request.ranges, StateFileName::OfUser);
         !written)
         return written.error();
     return std::optional<PassState>();

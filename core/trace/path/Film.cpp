@@ -4,15 +4,26 @@
 #include "core/math/Shading.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace patina {
 
 static_assert(sizeof(Film::Pixel) == 48);
 
+namespace {
+
+double luminanceOfSum(const glm::dvec3& sum) {
+    return 0.2126 * sum.x + 0.7152 * sum.y + 0.0722 * sum.z;
+}
+
+} // namespace
+
 void Film::Pixel::add(const glm::vec3& radiance, float alpha) {
+    if (std::has_single_bit(samples))
+        firstSum = static_cast<float>(luminanceOfSum(sum));
     ++samples;
-    coverage += static_cast<double>(alpha);
+    coverage += alpha;
     if (!std::isfinite(radiance.x) || !std::isfinite(radiance.y) || !std::isfinite(radiance.z)) {
         ++invalid;
         return;
@@ -23,13 +34,19 @@ void Film::Pixel::add(const glm::vec3& radiance, float alpha) {
 }
 
 double Film::Pixel::luminance() const {
-    const double n = samples;
-    return samples > 0 ? (0.2126 * sum.x + 0.7152 * sum.y + 0.0722 * sum.z) / n : 0.0;
+    return samples > 0 ? luminanceOfSum(sum) / samples : 0.0;
 }
 
 double Film::Pixel::variance() const {
     const double n = samples, mean = luminance();
     return std::max(squares / n - mean * mean, 0.0) / (n - 1.0);
+}
+
+double Film::Pixel::halvesVariance() const {
+    const double n = samples, first = std::bit_floor(samples - 1), others = n - first;
+    const double apart = static_cast<double>(firstSum) / first -
+                         (luminanceOfSum(sum) - static_cast<double>(firstSum)) / others;
+    return apart * apart * first * others / (n * n);
 }
 
 Film::Film(int width, int height)
@@ -59,7 +76,7 @@ Image Film::radiance(bool alpha) const {
         for (int c = 0; c < 3; ++c)
             *out++ = static_cast<float>(share * pixel.sum[c]);
         if (alpha)
-            *out++ = static_cast<float>(share * pixel.coverage);
+            *out++ = static_cast<float>(share * static_cast<double>(pixel.coverage));
     }
     return image;
 }
@@ -69,26 +86,13 @@ std::optional<double> Film::noise() const {
     for (const Pixel& pixel : m_pixels) {
         if (pixel.samples < 2)
             return std::nullopt;
-        variances += pixel.variance();
+        variances += pixel.halvesVariance();
         means += pixel.luminance();
     }
     if (!(means > 0.0))
         return std::nullopt;
     const auto count = static_cast<double>(m_pixels.size());
     return std::sqrt(variances / count) / (means / count);
-}
-
-void Film::merge(const Film& other) {
-    CHECK(m_width == other.m_width && m_height == other.m_height);
-    for (std::size_t i = 0; i < m_pixels.size(); ++i) {
-        Pixel& pixel = m_pixels[i];
-        const Pixel& more = other.m_pixels[i];
-        pixel.sum += more.sum;
-        pixel.squares += more.squares;
-        pixel.coverage += more.coverage;
-        pixel.samples += more.samples;
-        pixel.invalid += more.invalid;
-    }
 }
 
 } // namespace patina

@@ -4,19 +4,21 @@
 #include "core/job/Parallel.h"
 #include "core/math/Sampling.h"
 #include "core/trace/path/Eye.h"
+#include "core/trace/path/TraceOutputs.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
+#include <mutex>
 #include <vector>
 
 namespace patina {
 namespace {
 
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
-constexpr int kTile = 16; // pixels a side
+constexpr int kTile = kTraceTile;
 
 // Pairs of dimensions of a path's samples: one of the pixel, then so many of each surface.
 enum Dimension : std::uint32_t { kPixel = 0, kLobe, kDirection, kSky, kChoice, kLight, kGlow };
@@ -60,6 +62,9 @@ class Path {
         : m_scene(scene)
         , m_settings(settings) {}
 
+    // The paths from here on fill this; null: none.
+    void fill(TraceSample* sample) { m_split = TraceSplit(sample); }
+
     // From the camera; scene units. `alpha`: how much is seen of that.
     glm::vec3 look(const glm::vec3& origin, const glm::vec3& direction, const Sequence& sequence,
                    const TraceView& view, float& alpha) {
@@ -70,8 +75,11 @@ class Path {
                 alpha = view.transparent ? 0.0f : 1.0f;
                 if (view.transparent)
                     return glm::vec3(0.0f);
-                return view.background ? view.background(direction)
-                                       : m_scene.environmentRadiance(direction);
+                const glm::vec3 behind = view.background ? view.background(direction)
+                                                         : m_scene.environmentRadiance(direction);
+                if (TraceSample* sample = m_split.sample())
+                    sample->background = behind;
+                return behind;
             }
             point = m_scene.pointAt(hit);
             if (!point.isBack || point.material->doubleSided())
@@ -79,20 +87,27 @@ class Path {
             hit = closest(TraceScene::origin(point, true), direction);
         }
         alpha = 1.0f;
-        return point.material->emissionAt(point.uv) + follow(point, -direction, sequence);
+        const shading::SurfaceTerms terms = m_scene.surface(point, -direction);
+        const glm::vec3 emission = point.material->emissionAt(point.uv);
+        if (TraceSample* sample = m_split.sample()) {
+            sample->hit = true;
+            sample->albedo = terms.diffuseAlbedo + terms.specularAlbedo;
+            sample->normal = point.normal;
+            sample->position = m_scene.toWorld(point.position) - view.camera.position();
+            sample->emission = emission;
+        }
+        return emission + follow(point, terms, sequence);
     }
 
     // What a place reflects to the viewer.
-    glm::vec3 follow(const TracePoint& point, const glm::vec3& v, const Sequence& sequence) {
-        return follow(point, m_scene.surface(point, v), sequence);
-    }
     glm::vec3 follow(TracePoint point, shading::SurfaceTerms terms, const Sequence& sequence) {
         glm::vec3 radiance(0.0f), throughput(1.0f);
         for (int surface = 0;; ++surface) {
             const glm::vec3 from = TraceScene::origin(point);
             const glm::vec3 world = m_scene.toWorld(point.position);
             m_scene.lights().choices(world, m_choices);
-            radiance += throughput * direct(point, terms, from, world, surface, sequence);
+            const glm::vec3 lit = throughput * direct(point, terms, from, world, surface, sequence);
+            radiance += surface == 0 ? lit : m_split.came(surface, lit);
 
             // On to what the surface would reflect.
             const glm::vec2 lobe = sequence.at(surface, kLobe);
@@ -103,6 +118,8 @@ class Path {
             if (!(pdf > 0.0f) || glm::dot(point.face, l) <= 0.0f)
                 return radiance;
             throughput *= reflected(terms, l) / pdf;
+            if (surface == 0)
+                m_split.leaves();
             if (surface >= kFirstRoulette) {
                 const float goesOn =
                     std::min({std::max({throughput.x, throughput.y, throughput.z}), kMostLikely});
@@ -116,16 +133,18 @@ class Path {
             const ClosestRay hit = closest(from, l);
             const bool open = hit.mesh == ClosestRay::kNothing;
             const float distance = open ? kInfinite : m_scene.metres(hit.ray.maxDistance);
-            radiance += throughput * lightsAlong(world, l, distance, pdf);
+            radiance += m_split.came(surface, throughput * lightsAlong(world, l, distance, pdf));
             if (open)
-                return radiance + throughput * m_scene.environmentRadiance(l) *
-                                      found(pdf, m_scene.environmentPdf(l));
+                return radiance +
+                       m_split.came(surface, throughput * m_scene.environmentRadiance(l) *
+                                                 found(pdf, m_scene.environmentPdf(l)));
             point = m_scene.pointAt(hit);
             if (point.isBack && !point.material->doubleSided())
                 return radiance; // absorbed
             if (const glm::vec3 glow = point.material->emissionAt(point.uv); glow != glm::vec3(0))
-                radiance += throughput * glow *
-                            found(pdf, glowPdf(point, distance, glm::dot(point.face, -l)));
+                radiance += m_split.came(
+                    surface, throughput * glow *
+                                 found(pdf, glowPdf(point, distance, glm::dot(point.face, -l))));
             if (m_settings.maxBounces && surface >= *m_settings.maxBounces)
                 return radiance;
             terms = m_scene.surface(point, -l);
@@ -139,8 +158,9 @@ class Path {
         ++m_rays;
         return m_scene.closest(origin, direction);
     }
-    static glm::vec3 reflected(const shading::SurfaceTerms& terms, const glm::vec3& l) {
+    glm::vec3 reflected(const shading::SurfaceTerms& terms, const glm::vec3& l) {
         const shading::ShadedLight light = shading::shadeDirect(terms, l, glm::vec3(1.0f));
+        m_split.reflects(light.diffuse, light.specular);
         return light.diffuse + light.specular;
     }
 
@@ -190,12 +210,16 @@ class Path {
             const glm::vec3 light = reflected(terms, sky.direction) * sky.radiance;
             if (sky.pdf > 0.0f && light != glm::vec3(0.0f) &&
                 isOpen(point, from, sky.direction, kInfinite))
-                sum += light * (sent(sky.pdf, shading::brdfPdf(terms, sky.direction)) / sky.pdf);
+                sum += m_split.sent(
+                    surface,
+                    light * (sent(sky.pdf, shading::brdfPdf(terms, sky.direction)) / sky.pdf));
         }
         if (!m_scene.lights().empty())
-            sum += fromLight(point, terms, from, world, choice.x, sequence.at(surface, kLight));
+            sum += m_split.sent(surface, fromLight(point, terms, from, world, choice.x,
+                                                   sequence.at(surface, kLight)));
         if (!m_scene.emissive().empty() && m_settings.search != LightSearch::Surfaces)
-            sum += fromGlow(point, terms, from, choice.y, sequence.at(surface, kGlow));
+            sum += m_split.sent(
+                surface, fromGlow(point, terms, from, choice.y, sequence.at(surface, kGlow)));
         return sum;
     }
 
@@ -276,6 +300,7 @@ class Path {
     const TraceScene& m_scene;
     const PathSettings& m_settings;
     std::vector<float> m_choices; // among the lights, at the present surface
+    TraceSplit m_split{nullptr};
     std::uint64_t m_rays = 0;
 };
 
@@ -283,7 +308,8 @@ class Path {
 
 Result<void> tracePaths(const TraceScene& scene, const TraceView& view,
                         const PathSettings& settings, Film& film, std::uint32_t first,
-                        std::uint32_t count, const JobContext& job, TraceRays* rays) {
+                        std::uint32_t count, const JobContext& job, TraceRays* rays,
+                        const TraceTiles& tiles) {
     CHECK(film.width() == view.width && film.height() == view.height);
     const int columns = (view.width + kTile - 1) / kTile, rows = (view.height + kTile - 1) / kTile;
     const Eye eye(scene, view);
@@ -293,24 +319,38 @@ Result<void> tracePaths(const TraceScene& scene, const TraceView& view,
         for (int y = y0; y < std::min(y0 + kTile, view.height) && !job.stopping(); ++y)
             for (int x = x0; x < std::min(x0 + kTile, view.width); ++x) {
                 const auto pixel = static_cast<std::uint32_t>(y * view.width + x);
-                for (std::uint32_t i = first; i < first + count; ++i) {
+                Film::Pixel sum = film.at(x, y);
+                TraceOutputSum outputs;
+                for (std::uint32_t i = std::max(first, sum.samples); i < first + count; ++i) {
                     const Sequence sequence(i, seedFor(settings.seed, pixel));
                     float alpha = 0.0f;
+                    TraceSample sample;
+                    path.fill(tiles.outputs != nullptr ? &sample : nullptr);
                     const glm::vec3 radiance =
                         path.look(eye.origin(), eye.direction(x, y, sequence.at(0, kPixel)),
                                   sequence, view, alpha);
-                    film.at(x, y).add(radiance, alpha);
+                    sum.add(radiance, alpha);
+                    if (tiles.outputs != nullptr)
+                        outputs.add(sample, radiance);
                 }
+                const auto held = tiles.film != nullptr ? std::unique_lock(*tiles.film)
+                                                        : std::unique_lock<std::mutex>();
+                film.at(x, y) = sum;
+                if (tiles.outputs != nullptr)
+                    outputs.addTo(tiles.outputs->pixels()[pixel]);
             }
         job.addWork(static_cast<double>(path.rays()), "rays");
         if (rays != nullptr)
             rays->count += path.rays();
+        if (tiles.tileDone)
+            tiles.tileDone();
     };
     parallelFor(job, static_cast<std::size_t>(columns * rows), 1,
                 [&](std::size_t begin, std::size_t end) {
                     const FlushDenormals flush;
                     for (std::size_t tile = begin; tile < end; ++tile)
-                        traceTile(static_cast<int>(tile));
+                        if (tiles.shard.holds(tile))
+                            traceTile(static_cast<int>(tile));
                 });
     if (job.cancelled())
         return Error{ErrorKind::Cancelled, "cancelled", {}, {}};

@@ -8,6 +8,7 @@
 #include "core/math/Camera.h"
 #include "core/trace/path/Film.h"
 #include "core/trace/path/TraceScene.h"
+#include "core/trace/path/TraceTiles.h"
 
 #include <atomic>
 #include <cstdint>
@@ -44,11 +45,13 @@ struct TraceRays {
 };
 
 // Adds samples `first` … `first` + `count` - 1 to each pixel of a film of the view's size. The same
-// numbers for any number of threads, and for samples that are added in several calls in order. A
-// job that stops leaves rows of pixels out. Error: Cancelled. The job's work is counted in rays.
+// numbers for any number of threads, and for samples that are added in several calls in order: a
+// pixel that has some of them already gets those that it lacks. A job that stops leaves rows of
+// pixels out. Error: Cancelled. The job's work is counted in rays.
 Result<void> tracePaths(const TraceScene& scene, const TraceView& view,
                         const PathSettings& settings, Film& film, std::uint32_t first,
-                        std::uint32_t count, const JobContext& job, TraceRays* rays = nullptr);
+                        std::uint32_t count, const JobContext& job, TraceRays* rays = nullptr,
+                        const TraceTiles& tiles = {});
 
 // Irradiance of a surface in the world with that unit normal: `count` samples of it go into
 // `pixel`. The settings' seed tells points apart.

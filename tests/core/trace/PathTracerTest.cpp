@@ -5,6 +5,7 @@
 #include "core/light/DfgTable.h"
 #include "core/math/Sampling.h"
 #include "tests/core/trace/CornellScene.h"
+#include "tests/core/trace/TraceBall.h"
 
 #include <array>
 #include <cmath>
@@ -15,52 +16,17 @@
 #include <vector>
 
 namespace patina {
+
+using test::ball;
+using test::ballUnderSky;
+using test::uniformSky;
+
 namespace {
-
-ImagePtr uniformSky(float radiance) {
-    Image image(8, 4, 3, PixelType::F32, ColorEncoding::Linear);
-    for (float& sample : image.f32())
-        sample = radiance;
-    return std::make_shared<const Image>(std::move(image));
-}
-
-MeshPtr ball(int rings) {
-    Mesh mesh;
-    for (int j = 0; j <= rings; ++j)
-        for (int i = 0; i <= 2 * rings; ++i) {
-            const double theta = std::numbers::pi * j / rings, phi = std::numbers::pi * i / rings;
-            const glm::vec3 n(glm::dvec3(std::sin(theta) * std::sin(phi), std::cos(theta),
-                                         std::sin(theta) * std::cos(phi)));
-            mesh.positions.push_back(n);
-            mesh.normals.push_back(n);
-            mesh.tangents.emplace_back(std::cos(phi), 0.0f, -std::sin(phi), 1.0f);
-            mesh.uvs.emplace_back(static_cast<float>(i) / (2.0f * static_cast<float>(rings)),
-                                  static_cast<float>(j) / static_cast<float>(rings));
-        }
-    const auto row = static_cast<std::uint32_t>(2 * rings + 1);
-    for (std::uint32_t j = 0; j < static_cast<std::uint32_t>(rings); ++j)
-        for (std::uint32_t i = 0; i + 1 < row; ++i) {
-            const std::uint32_t a = j * row + i, b = a + row;
-            if (j > 0)
-                mesh.indices.insert(mesh.indices.end(), {a, b + 1, a + 1});
-            if (j + 1 < static_cast<std::uint32_t>(rings))
-                mesh.indices.insert(mesh.indices.end(), {a, b, b + 1});
-        }
-    return std::make_shared<const Mesh>(std::move(mesh));
-}
 
 TraceScene sceneOf(const TraceInputs& inputs) {
     Result<TraceScene> scene = TraceScene::build(inputs, {});
     EXPECT_TRUE(scene.ok()) << (scene.ok() ? std::string() : scene.error().text());
     return *std::move(scene);
-}
-
-TraceInputs ballUnderSky(const Material& material, float radiance = 1.0f) {
-    TraceInputs inputs;
-    inputs.materials = {material};
-    inputs.meshes = {{1, ball(96), glm::mat4(1.0f), 0}};
-    inputs.environments = {{uniformSky(radiance), 0.0f, glm::vec3(1.0f)}};
-    return inputs;
 }
 
 Film traced(const TraceScene& scene, const TraceView& view, std::uint32_t samples,
@@ -350,16 +316,58 @@ TEST(PathTracer, LightsGiveTheirIlluminance) {
     }
 }
 
-TEST(Film, NoiseIsThatOfTheMean) {
+// Over pictures of other seeds: the error that the film states is not less than the one that they
+// have, and less than that of independent samples.
+TEST(PathTracer, StatesTheErrorThatItHas) {
+    const TraceScene scene = sceneOf(test::cornellBox(test::kCornellWalls[0], true));
+    TraceView view;
+    view.width = 40;
+    view.height = 24;
+    view.camera = {{0.278f, 0.273f, 0.28f}, 180.0f, 0.0f, 1.08f, 39.3f};
+    constexpr int kSeeds = 24;
+    for (const std::uint32_t samples : {15u, 31u, 64u}) {
+        std::vector<Film> films;
+        double stated = 0.0, independent = 0.0;
+        for (std::uint32_t seed = 0; seed < kSeeds; ++seed) {
+            PathSettings settings;
+            settings.seed = 100 + seed;
+            films.push_back(traced(scene, view, samples, settings));
+            for (const Film::Pixel& pixel : films.back().pixels()) {
+                stated += pixel.halvesVariance() / kSeeds;
+                independent += pixel.variance() / kSeeds;
+            }
+        }
+        double variance = 0.0;
+        for (std::size_t i = 0; i < films[0].pixels().size(); ++i) {
+            double sum = 0.0, squares = 0.0;
+            for (const Film& film : films) {
+                const double value = film.pixels()[i].luminance();
+                sum += value;
+                squares += value * value;
+            }
+            variance += (squares - sum * sum / kSeeds) / (kSeeds - 1);
+        }
+        EXPECT_GT(std::sqrt(stated / variance), 0.9) << samples;
+        EXPECT_LT(std::sqrt(stated / independent), 0.9) << samples;
+    }
+}
+
+TEST(Film, NoiseIsHowFarTheHalvesAreApart) {
     Film film(2, 1);
     EXPECT_FALSE(film.noise().has_value());
+    // The first 64 of 100 samples are 1, the others 3.
     for (int i = 0; i < 100; ++i) {
-        film.at(0, 0).add(glm::vec3(i % 2 == 0 ? 1.0f : 3.0f), 1.0f);
+        film.at(0, 0).add(glm::vec3(i < 64 ? 1.0f : 3.0f), 1.0f);
         film.at(1, 0).add(glm::vec3(2.0f), 1.0f);
     }
-    // Variance 1 of 100 samples: 1 / 99 in one of two pixels, mean 2.
+    EXPECT_NEAR(film.at(0, 0).firstSum, 64.0f, 1e-4f);
+    EXPECT_NEAR(film.at(0, 0).halvesVariance(), 4.0 * 64 * 36 / 1e4, 1e-5);
+    const double mean = (1.72 + 2.0) / 2.0;
     ASSERT_TRUE(film.noise().has_value());
-    EXPECT_NEAR(*film.noise(), std::sqrt(0.5 / 99.0) / 2.0, 1e-6);
+    EXPECT_NEAR(*film.noise(), std::sqrt(4.0 * 64 * 36 / 1e4 / 2.0) / mean, 1e-5);
+    // As of independent samples.
+    EXPECT_NEAR(film.at(0, 0).variance(), 4.0 * .64 * .36 / 99.0, 1e-6);
+    EXPECT_NEAR(film.at(1, 0).variance(), 0.0, 1e-6);
     film.at(0, 0).add(glm::vec3(std::nanf("")), 1.0f);
     EXPECT_EQ(film.invalid(), 1u);
     EXPECT_EQ(film.leastSamples(), 100u) << "one pixel has 101";
