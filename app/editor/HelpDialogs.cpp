@@ -90,6 +90,8 @@ QDialog* makeShortcutsDialog(const QList<QAction*>& commands, const QList<QActio
         {trHelp("Right drag"), trHelp("Look around")},
         {trHelp("W A S D Q E"), trHelp("Fly while the right button is held")},
         {trHelp("Shift + right drag"), trHelp("Turn the environment")},
+        {trHelp("Shift + drag a thumbnail"),
+         trHelp("Turn the environment that lights the scene, in the Environment Library")},
         {trHelp("Ctrl + right drag"),
          trHelp("Turn the selected light about the scene, or the environment")},
         {trHelp("Drag a light's mark"), trHelp("Move it; a sun turns")},
