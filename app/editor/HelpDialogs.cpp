@@ -90,8 +90,6 @@ QDialog* makeShortcutsDialog(const QList<QAction*>& commands, const QList<QActio
         {trHelp("Right drag"), trHelp("Look around")},
         {trHelp("W A S D Q E"), trHelp("Fly while the right button is held")},
         {trHelp("Shift + right drag"), trHelp("Turn the environment")},
-        {trHelp("Shift + drag a thumbnail"),
-         trHelp("Turn the environment that lights the scene, in the Environment Library")},
         {trHelp("Ctrl + right drag"),
          trHelp("Turn the selected light about the scene, or the environment")},
         {trHelp("Drag a light's mark"), trHelp("Move it; a sun turns")},
@@ -103,6 +101,8 @@ QDialog* makeShortcutsDialog(const QList<QAction*>& commands, const QList<QActio
         {trHelp("Click a number"), trHelp("Type it; Enter takes it, Esc does not")},
         {trHelp("Wheel, ↑, ↓"), trHelp("Step the focused number")},
         {trHelp("Double-click a label"), trHelp("Reset to the default")},
+        {trHelp("Rest on an environment"), trHelp("Preview it, in the Environment Library")},
+        {trHelp("Shift + drag its picture"), trHelp("Turn the environment that lights the scene")},
     };
     auto* right = new QVBoxLayout;
     right->setSpacing(2 * tokens::kMargin);

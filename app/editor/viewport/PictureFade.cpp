@@ -78,11 +78,10 @@ void PictureFade::blend(unsigned framebuffer, const QSize& size) {
     gl->glViewport(0, 0, size.width(), size.height());
     gl->glDisable(GL_DEPTH_TEST);
     gl->glDisable(GL_CULL_FACE);
-    // The blitter multiplies its colour, alpha included, by the opacity.
     gl->glEnable(GL_BLEND);
-    gl->glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    gl->glBlendColor(0.0f, 0.0f, 0.0f, shown);
+    gl->glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
     m_blitter->bind();
-    m_blitter->setOpacity(shown);
     m_blitter->blit(m_picture->texture(), QMatrix4x4(), QOpenGLTextureBlitter::OriginBottomLeft);
     m_blitter->release();
     gl->glDisable(GL_BLEND);

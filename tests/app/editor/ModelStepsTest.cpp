@@ -7,6 +7,8 @@
 #include "tests/support/Events.h"
 
 #include <QStatusBar>
+#include <QTreeView>
+#include <algorithm>
 
 namespace patina::editor {
 namespace {
@@ -106,7 +108,9 @@ TEST_F(ModelStepsTest, AModelAloneIsSteppedThroughByItsMeshesOrSaysThatThereIsNo
     QTest::keyClick(&window->viewport(), Qt::Key_Escape);
     EXPECT_EQ(undoCount(), steps);
     // Elsewhere the keys are somebody else's.
-    QTest::keyClick(window.get(), Qt::Key_PageDown, Qt::ShiftModifier);
+    auto* tree = window->findChild<QTreeView*>();
+    tree->setFocus();
+    QTest::keyClick(tree, Qt::Key_PageDown, Qt::ShiftModifier);
     EXPECT_EQ(std::ranges::count(visible(), true), static_cast<std::ptrdiff_t>(parts));
 }
 
