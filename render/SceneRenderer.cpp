@@ -195,7 +195,7 @@ std::vector<std::string> SceneRenderer::reloadShaders() {
 }
 
 SceneRenderer::Counts SceneRenderer::counts() const {
-    return {m_impl->shadows.mapsDrawn(), m_impl->relight.elementsDone()};
+    return {m_impl->shadows.mapsDrawn(), m_impl->relight.elementsDone(), m_impl->scenes};
 }
 
 // --- Frames --------------------------------------------------------------------------------------

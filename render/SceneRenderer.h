@@ -96,6 +96,7 @@ class SceneRenderer {
     struct Counts {
         std::size_t shadowMaps = 0;      // drawn
         std::uint64_t relitElements = 0; // vertices and texels under transfer
+        std::uint64_t scenes = 0;        // frames whose surfaces were drawn, not displayed again
     };
     [[nodiscard]] Counts counts() const;
 

@@ -65,6 +65,7 @@ struct SceneRenderer::Impl {
     // of a light do.
     std::uint64_t sharedRevision = 1, lookRevision = 0, displayRevision = 0;
     std::map<LightId, std::uint64_t> lightRevisions;
+    std::uint64_t scenes = 0; // Counts::scenes
     // Grows with everything that the scene of such a frame, or its light, is drawn of.
     [[nodiscard]] std::uint64_t revision(const FrameSettings& frame) const;
     void lightChanged(LightId light) { ++lightRevisions[light]; }

@@ -160,6 +160,7 @@ Result<void> ViewRenderer::render(const FrameSettings& wanted, unsigned targetFr
     const bool drawsScene =
         !keeps && !prepared && (r.sceneIsNew(frame) || !frame.reuseScene || frame.view.split);
     if (drawsScene) {
+        ++r.shared.scenes;
         if (auto done = r.shared.shadows.update(r.shared.scene); !done)
             return done;
         const bool accumulates = frame.accumulate && r.targets.samples() == 1;

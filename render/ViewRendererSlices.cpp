@@ -114,6 +114,7 @@ Result<void> ViewRenderer::Impl::beginPreparing(const FrameSettings& frame, doub
                                          frame.floats);
         !sized)
         return sized;
+    ++shared.scenes;
     if (auto done = shared.shadows.update(shared.scene); !done)
         return done;
     const bool accumulates = frame.accumulate && next.targets.samples() == 1;

@@ -59,6 +59,15 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
           make(tr("Previous Environment"), {}, {tr("PgUp")},
                tr("Light the scene with the previous environment of the Environment "
                   "Library")))
+    , fadeEnvironments(make(tr("Fade Between Environments"), {}, {},
+                            tr("Fade to the environment that the Environment Library lights the "
+                               "scene with, in place of a change at once")))
+    , nextModel(make(tr("Next Model Alone"), {}, {tr("Shift+PgDown")},
+                     tr("Show the next model of the scene and hide the others; after the last one "
+                        "all; Esc shows all")))
+    , previousModel(make(tr("Previous Model Alone"), {}, {tr("Shift+PgUp")},
+                         tr("Show the previous model of the scene and hide the others; before the "
+                            "first one all; Esc shows all")))
     , sceneDock(make(tr("S&cene"), QStringLiteral("scene"), {tr("Ctrl+Shift+1")},
                      tr("Show or hide the list of meshes and materials")))
     , materialDock(make(tr("Material"), QStringLiteral("material"), {tr("Ctrl+Shift+2")},
@@ -136,10 +145,11 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
         dock->setCheckable(true);
     wall->setCheckable(true);
     pathTraced->setCheckable(true);
+    fadeEnvironments->setCheckable(true);
     furnace->setCheckable(true);
     fullScreen->setCheckable(true);
     // Elsewhere these keys scroll.
-    for (QAction* step : {nextEnvironment, previousEnvironment})
+    for (QAction* step : {nextEnvironment, previousEnvironment, nextModel, previousModel})
         step->setShortcutContext(Qt::WidgetShortcut);
     auto* lighting = new QActionGroup(this);
     for (QAction* action : {lightingIbl, lightingPrt}) {
@@ -197,7 +207,10 @@ QList<QAction*> Actions::all() const {
                            lightingIbl,
                            lightingPrt,
                            nextEnvironment,
-                           previousEnvironment} +
+                           previousEnvironment,
+                           fadeEnvironments,
+                           nextModel,
+                           previousModel} +
            docks() + QList<QAction*>{nextDock, previousDock} + instruments() +
            QList<QAction*>{pinPixel, furnace, fullScreen, resetLayout, shortcuts, about, recover};
 }

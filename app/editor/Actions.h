@@ -23,6 +23,8 @@ class Actions : public QObject {
     QAction *undo, *redo, *keepSnapshot;
     QAction *frame, *home, *overlays, *wall, *pathTraced, *lightingIbl, *lightingPrt;
     QAction *nextEnvironment, *previousEnvironment; // of the library, in the viewport
+    QAction* fadeEnvironments;
+    QAction *nextModel, *previousModel; // one alone, in the viewport
     QAction *sceneDock, *materialDock, *environmentDock, *lightsDock, *viewDock, *bakeDock;
     QAction *modelDock, *jobsDock, *logDock, *historyDock, *snapshotsDock;
     QAction *nextDock, *previousDock; // by key

@@ -101,6 +101,8 @@ QDialog* makeShortcutsDialog(const QList<QAction*>& commands, const QList<QActio
         {trHelp("Click a number"), trHelp("Type it; Enter takes it, Esc does not")},
         {trHelp("Wheel, ↑, ↓"), trHelp("Step the focused number")},
         {trHelp("Double-click a label"), trHelp("Reset to the default")},
+        {trHelp("Rest on an environment"), trHelp("Preview it, in the Environment Library")},
+        {trHelp("Shift + drag its picture"), trHelp("Turn the environment that lights the scene")},
     };
     auto* right = new QVBoxLayout;
     right->setSpacing(2 * tokens::kMargin);

@@ -56,6 +56,7 @@ MainWindow::MainWindow(Session& session)
     , m_files(new FileFlow(session, *this))
     , m_docks(new Docks(*this))
     , m_viewport(new ViewportWidget(session.controller, session.selection, session.ibl))
+    , m_models(session.controller, *m_viewport)
     , m_notices(new NoticeArea(*m_viewport)) {
     setObjectName(QStringLiteral("mainWindow"));
     setAcceptDrops(true);
@@ -108,6 +109,12 @@ MainWindow::MainWindow(Session& session)
     m_looks->strip->setChecked(!strip->isFolded());
     setCentralWidget(centre);
     new EscapeKey(*this, {[this] {
+                              const bool previews = m_session.preview.isOn();
+                              m_session.preview.end();
+                              return previews;
+                          },
+                          [this] { return m_models.showAll(); },
+                          [this] {
                               const bool splits = m_session.views.settings().split.has_value();
                               if (splits)
                                   m_session.views.toggleSplit();
@@ -199,11 +206,13 @@ void MainWindow::makeMenus() {
 
     QMenu* view = menuBar()->addMenu(tr("&View"));
     view->addActions({a.frame, a.home, a.overlays});
+    view->addActions({a.nextModel, a.previousModel});
     view->addSeparator();
     view->addActions({a.wall, a.pathTraced});
     m_looks->fillMenu(*view->addMenu(tr("L&ook At")));
     view->addSeparator();
-    view->addActions({a.lightingIbl, a.lightingPrt, a.previousEnvironment, a.nextEnvironment});
+    view->addActions({a.lightingIbl, a.lightingPrt, a.previousEnvironment, a.nextEnvironment,
+                      a.fadeEnvironments});
     view->addSeparator();
     view->addActions(a.docks());
     view->addActions({a.nextDock, a.previousDock});

@@ -1,6 +1,8 @@
 // The editor's window: it assembles panels, menus and status bar, and decides nothing.
 #pragma once
 
+#include "app/editor/viewport/ModelSteps.h"
+
 #include <QElapsedTimer>
 #include <QMainWindow>
 
@@ -71,6 +73,7 @@ class MainWindow : public QMainWindow {
     FileFlow* m_files;
     Docks* m_docks;
     ViewportWidget* m_viewport;
+    ModelSteps m_models;
     ViewOverlay* m_overlay = nullptr;    // over the viewport
     SceneProgress* m_progress = nullptr; // likewise
     DropTarget* m_drop = nullptr;

@@ -9,6 +9,7 @@
 #include "app/editor/Session.h"
 #include "app/editor/ViewActions.h"
 #include "app/editor/library/LibraryPanel.h"
+#include "app/editor/library/PreviewBadge.h"
 #include "app/editor/turntable/TurntableDialog.h"
 #include "app/editor/viewport/SceneProgress.h"
 #include "app/editor/viewport/ViewportWidget.h"
@@ -83,6 +84,10 @@ void MainWindow::connectActions() {
     connect(a.about, &QAction::triggered, this, [this] { makeAboutDialog(this)->show(); });
 
     connectLibrary(m_session.library, a, *m_files, *m_viewport);
+    m_models.connectActions(a);
+    m_viewport->setFade(m_session.library, *a.fadeEnvironments);
+    m_viewport->setEnvironmentPreview(m_session.preview);
+    new PreviewBadge(m_session.preview, *m_viewport);
     connect(m_files, &FileFlow::recentFilesChanged, this, &MainWindow::fillRecentMenu);
     connect(&controller, &DocumentController::fileChanged, this, &MainWindow::refreshTitle);
     connect(m_progress, &SceneProgress::sceneShown, this, &MainWindow::refreshTitle);

@@ -94,7 +94,7 @@ void MainWindow::makeDocks() {
     m_docks->addInstrument(a.lightSweep, QStringLiteral("lightSweep"),
                            new LightSweepPanel(controller, m_session.jobs, *m_viewport));
     m_docks->addInstrument(a.library, QStringLiteral("library"),
-                           new LibraryPanel(m_session.library));
+                           new LibraryPanel(m_session.library, m_session.preview));
     m_docks->reset();
 }
 

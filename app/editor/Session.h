@@ -11,6 +11,7 @@
 #include "app/editor/job/NearShadowUpdater.h"
 #include "app/editor/job/UiTasks.h"
 #include "app/editor/library/EnvironmentLibrary.h"
+#include "app/editor/library/EnvironmentPreview.h"
 #include "app/editor/trace/PathError.h"
 #include "app/editor/trace/PathView.h"
 #include "app/editor/viewport/IblUpdater.h"
@@ -37,6 +38,7 @@ struct Session {
     PreparedLights lights{iblCacheFolder()};
     IblUpdater ibl{tasks, lights};
     EnvironmentLibrary library{controller, libraryCacheFolder()};
+    EnvironmentPreview preview{controller, lights};
     ViewState views;
     WallState wall{controller};
     WallComparison comparison{wall, tasks, worker};

@@ -136,6 +136,31 @@ Change SetParametersStep::swap(Document& document, bool forward) {
     return change;
 }
 
+ShowMeshesStep::ShowMeshesStep(std::string text, const Document& document,
+                               std::vector<std::pair<Id, bool>> visible, DragSession session)
+    : EditStep(std::move(text))
+    , m_after(std::move(visible))
+    , m_session(session) {
+    for (const auto& [id, shown] : m_after)
+        m_before.emplace_back(id, document.mesh(id)->visible);
+}
+
+bool ShowMeshesStep::merge(const EditStep& step) {
+    const auto* next = dynamic_cast<const ShowMeshesStep*>(&step);
+    if (!next || m_session == 0 || next->m_session != m_session ||
+        !std::ranges::equal(m_after, next->m_after, {}, &std::pair<Id, bool>::first,
+                            &std::pair<Id, bool>::first))
+        return false;
+    m_after = next->m_after;
+    return true;
+}
+
+Change ShowMeshesStep::swap(Document& document, bool forward) {
+    for (const auto& [id, shown] : forward ? m_after : m_before)
+        document.mesh(id)->visible = shown;
+    return {findParameter("mesh.visible")->affects, std::nullopt};
+}
+
 ReplaceElementsStep::ReplaceElementsStep(std::string text, const Document& before, Elements after)
     : EditStep(std::move(text))
     , m_before{before.meshes,       before.materials, before.lights,

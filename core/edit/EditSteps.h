@@ -34,6 +34,21 @@ class SetParametersStep : public EditStep {
     DragSession m_session;
 };
 
+// Which meshes are visible, several at once. Merges within a session; one that returns to its start
+// leaves no step behind.
+class ShowMeshesStep : public EditStep {
+  public:
+    ShowMeshesStep(std::string text, const Document& document,
+                   std::vector<std::pair<Id, bool>> visible, DragSession session);
+    Change swap(Document& document, bool forward) override;
+    bool merge(const EditStep& next) override;
+    [[nodiscard]] bool isEmpty() const override { return m_before == m_after; }
+
+  private:
+    std::vector<std::pair<Id, bool>> m_before, m_after; // of the same meshes, in the same order
+    DragSession m_session;
+};
+
 // The lists that structural edits replace as a whole, ids kept.
 struct Elements {
     std::vector<MeshInstance> meshes;

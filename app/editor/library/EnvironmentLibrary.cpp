@@ -97,8 +97,10 @@ EnvironmentLibrary::EnvironmentLibrary(DocumentController& controller,
 void EnvironmentLibrary::load() {
     if (std::exchange(m_loaded, true))
         return;
-    if (!m_controller.document().environments.empty()) // empty: nothing was open yet
+    if (!m_controller.document().environments.empty()) { // empty: nothing was open yet
         m_current = sourceLighting(m_controller.document());
+        m_rotationDeg = m_controller.document().environment().rotationDeg;
+    }
     rescan();
 }
 
@@ -399,16 +401,25 @@ void EnvironmentLibrary::follow(const Change& change) {
     if (change.isAnotherDocument())
         m_stepSession = 0;
     const QString now = sourceLighting(m_controller.document());
+    const float rotation = m_controller.document().environment().rotationDeg;
+    if (std::exchange(m_rotationDeg, rotation) != rotation)
+        Q_EMIT rotated();
     // It is there, or will not come: the controller says so when it cannot be read.
     const QString before = current();
+    const bool arrives = !m_asked.isEmpty() && now == m_asked && now != m_current;
     if (now != std::exchange(m_current, now) || change.affects == Affects::Nothing)
         m_asked.clear();
+    if (arrives)
+        Q_EMIT arrived();
     if (current() != before)
         Q_EMIT currentChanged();
 }
 
 void EnvironmentLibrary::use(const QString& source) {
-    m_stepSession = 0; // steps after this are others
+    // Steps after this are others.
+    const bool steppedTo = std::exchange(m_stepSession, 0) != 0 && source == current();
+    if (steppedTo)
+        return; // it is what lights the scene, or is on its way
     m_asked = source;
     m_controller.setEnvironment(source);
     Q_EMIT currentChanged();
@@ -432,7 +443,10 @@ void EnvironmentLibrary::step(int by) {
     // From elsewhere to the first, or to the last.
     const std::ptrdiff_t from = at == m_shown.end() ? (by > 0 ? -1 : count) : at - m_shown.begin();
     const std::ptrdiff_t to = ((from + by) % count + count) % count;
-    const QString source = m_items[m_shown[static_cast<std::size_t>(to)]].source;
+    stepTo(m_items[m_shown[static_cast<std::size_t>(to)]].source);
+}
+
+void EnvironmentLibrary::stepTo(const QString& source) {
     if (source == current())
         return;
     if (m_stepSession == 0)

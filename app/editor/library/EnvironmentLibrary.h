@@ -91,16 +91,21 @@ class EnvironmentLibrary : public QObject {
     // --- Light -----------------------------------------------------------------------------------
     // Of the environment that lights the scene: an item's source, or empty.
     [[nodiscard]] QString current() const;
+    [[nodiscard]] float rotationDeg() const { return m_rotationDeg; } // of current()
+    [[nodiscard]] DocumentController& controller() { return m_controller; }
     void use(const QString& source); // one undo step
     void addToScene(const QString& source);
     // The next one (1) or the one before (-1) in the order that is shown, around its end; steps
     // that follow each other are one undo step.
     void step(int by);
+    void stepTo(const QString& source); // to this one
 
   Q_SIGNALS:
     void foldersChanged();
     void itemsChanged();   // entries, their order or which are shown
     void currentChanged(); // what lights the scene, or is about to
+    void rotated();        // rotationDeg()
+    void arrived();        // what was used or stepped to lights the scene; nobody has drawn it yet
 
   private:
     static constexpr const char* kListTask = "list of the library";
@@ -128,7 +133,8 @@ class EnvironmentLibrary : public QObject {
     QSet<QString> m_favourites;
     bool m_loaded = false, m_compared = true;
     QString m_current, m_asked; // what lights the scene; what is being read to light it
-    int m_stepsWaiting = 0;     // asked for before there was a list
+    float m_rotationDeg = 0.0f;
+    int m_stepsWaiting = 0; // asked for before there was a list
     DragSession m_stepSession = 0;
     QTimer m_refresh;
     TaskGroup m_tasks; // last: what it runs uses the rest

@@ -4,9 +4,13 @@
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
 
+#include <QAbstractItemView>
+#include <QHelpEvent>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QPainterPath>
+#include <QToolTip>
+#include <cmath>
 
 namespace patina::editor {
 namespace {
@@ -16,20 +20,33 @@ constexpr int kAround = 5; // between the picture and the item's edge
 constexpr int kStar = 16;  // of the star and the mark of duplicates
 constexpr int kBadge = 22; // what they stand on, so that they are seen over any picture
 constexpr int kBadgeAlpha = 170;
+constexpr int kTurnWidth = 72; // of the handle that rotates: its mark and "-179.5°"
 
-QRect pictureRect(const QRect& item) {
-    return {item.left() + kAround, item.top() + kAround, kPicture.width(), kPicture.height()};
-}
-
-void paintBadge(QPainter& painter, const QRect& badge, const QIcon& drawing) {
+void paintGround(QPainter& painter, const QRect& badge) {
     QColor ground(tokens::kWell);
     ground.setAlpha(kBadgeAlpha);
     painter.setPen(Qt::NoPen);
     painter.setBrush(ground);
     painter.drawRoundedRect(badge, tokens::kRadius, tokens::kRadius);
+}
+
+void paintBadge(QPainter& painter, const QRect& badge, const QIcon& drawing) {
+    paintGround(painter, badge);
     QRect place(0, 0, kStar, kStar);
     place.moveCenter(badge.center());
     drawing.paint(&painter, place);
+}
+
+// The mark of a drag to both sides, and the degrees.
+void paintTurn(QPainter& painter, const QRect& handle, float degrees) {
+    paintGround(painter, handle);
+    const QRect mark(handle.left() + 4, handle.center().y() - kStar / 2 + 1, kStar, kStar);
+    icon(QStringLiteral("rotate"), tokens::kText).paint(&painter, mark);
+    const QRect text = handle.adjusted(kStar + 6, 0, -5, 0);
+    const auto shown = static_cast<double>(degrees);
+    painter.setPen(QColor(tokens::kText));
+    painter.drawText(text, Qt::AlignRight | Qt::AlignVCenter,
+                     QStringLiteral("%1°").arg(shown, 0, 'f', shown == std::round(shown) ? 0 : 1));
 }
 
 void paintPicture(QPainter& painter, const QRect& place, const QModelIndex& index) {
@@ -44,7 +61,14 @@ void paintPicture(QPainter& painter, const QRect& place, const QModelIndex& inde
         painter.drawText(place, Qt::AlignCenter, QStringLiteral("…"));
     } else {
         painter.setRenderHint(QPainter::SmoothPixmapTransform);
-        painter.drawPixmap(place, picture);
+        // As the scene sees it: what is rotated counter-clockwise lies further left.
+        const double turns = index.data(LibraryModel::RotationRole).toDouble() / 360.0;
+        const double shift = (turns - std::floor(turns)) * place.width();
+        QRectF part = place;
+        part.translate(-shift, 0.0);
+        painter.drawPixmap(part, picture, picture.rect());
+        if (shift > 0.0)
+            painter.drawPixmap(part.translated(place.width(), 0.0), picture, picture.rect());
     }
     painter.restore();
     if (index.data(LibraryModel::CurrentRole).toBool()) {
@@ -56,6 +80,18 @@ void paintPicture(QPainter& painter, const QRect& place, const QModelIndex& inde
 }
 
 } // namespace
+
+QRect LibraryDelegate::pictureRect(const QRect& item) {
+    return {item.left() + kAround, item.top() + kAround, kPicture.width(), kPicture.height()};
+}
+
+QRect LibraryDelegate::turnRect(const QRect& item) {
+    const QRect picture = pictureRect(item);
+    QRect handle(0, 0, kTurnWidth, kBadge);
+    handle.moveCenter(picture.center());
+    handle.moveBottom(picture.bottom() - 3);
+    return handle;
+}
 
 QRect LibraryDelegate::starRect(const QRect& item) {
     const QRect picture = pictureRect(item);
@@ -87,6 +123,8 @@ void LibraryDelegate::paint(QPainter* painter, const QStyleOptionViewItem& optio
     }
     const QRect picture = pictureRect(option.rect);
     paintPicture(*painter, picture, index);
+    if (const QVariant rotation = index.data(LibraryModel::RotationRole); rotation.isValid())
+        paintTurn(*painter, turnRect(option.rect), rotation.toFloat());
     const bool favourite = index.data(LibraryModel::FavouriteRole).toBool();
     if (favourite)
         paintBadge(*painter, starRect(option.rect),
@@ -109,6 +147,18 @@ void LibraryDelegate::paint(QPainter* painter, const QStyleOptionViewItem& optio
     write(Qt::DisplayRole, tokens::kText);
     write(LibraryModel::SubtitleRole, selected ? tokens::kText : tokens::kTextDim);
     painter->restore();
+}
+
+bool LibraryDelegate::helpEvent(QHelpEvent* event, QAbstractItemView* view,
+                                const QStyleOptionViewItem& option, const QModelIndex& index) {
+    if (event->type() != QEvent::ToolTip || !index.data(LibraryModel::RotationRole).isValid() ||
+        !turnRect(option.rect).contains(event->pos()))
+        return QStyledItemDelegate::helpEvent(event, view, option, index);
+    QToolTip::showText(event->globalPos(),
+                       tr("Drag to rotate the environment; or Shift and drag anywhere in the "
+                          "picture, or Shift with ← →"),
+                       view);
+    return true;
 }
 
 bool LibraryDelegate::editorEvent(QEvent* event, QAbstractItemModel*,

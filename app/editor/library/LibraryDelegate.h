@@ -1,5 +1,6 @@
 // Paints an environment of the library: its thumbnail, its name, the number that is sorted by, and
-// a star that a click turns on and off.
+// a star that a click turns on and off. What lights the scene is shown as it is rotated, with a
+// handle that says how far.
 #pragma once
 
 #include <QStyledItemDelegate>
@@ -17,6 +18,10 @@ class LibraryDelegate : public QStyledItemDelegate {
                                  const QModelIndex& index) const override;
     // Of an item's rectangle.
     [[nodiscard]] static QRect starRect(const QRect& item);
+    [[nodiscard]] static QRect pictureRect(const QRect& item);
+    [[nodiscard]] static QRect turnRect(const QRect& item); // of the handle
+    bool helpEvent(QHelpEvent* event, QAbstractItemView* view, const QStyleOptionViewItem& option,
+                   const QModelIndex& index) override;
 
   Q_SIGNALS:
     void starClicked(const QString& source);

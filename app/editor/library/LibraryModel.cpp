@@ -23,7 +23,11 @@ LibraryModel::LibraryModel(EnvironmentLibrary& library, QObject* parent)
     connect(&library, &EnvironmentLibrary::itemsChanged, this, &LibraryModel::follow);
     connect(&library, &EnvironmentLibrary::currentChanged, this, [this] {
         if (!m_rows.isEmpty())
-            Q_EMIT dataChanged(index(0), index(rowCount() - 1), {CurrentRole});
+            Q_EMIT dataChanged(index(0), index(rowCount() - 1), {CurrentRole, RotationRole});
+    });
+    connect(&library, &EnvironmentLibrary::rotated, this, [this] {
+        if (const QModelIndex current = indexOf(m_library.current()); current.isValid())
+            Q_EMIT dataChanged(current, current, {RotationRole});
     });
     follow();
 }
@@ -81,6 +85,10 @@ QVariant LibraryModel::data(const QModelIndex& index, int role) const {
     case Qt::ToolTipRole:
         return toolTipText(*item);
     case Qt::StatusTipRole:
+        if (item->source == m_library.current())
+            return tr("%1 lights the scene; drag the handle in its picture, or Shift and drag, to "
+                      "rotate it")
+                .arg(toQString(item->entry->title));
         return (item->source.startsWith(QLatin1String("builtin:"))
                     ? tr("Double-click or press Enter to light the scene with %1; drag it onto the "
                          "picture or a cell of the wall")
@@ -102,6 +110,8 @@ QVariant LibraryModel::data(const QModelIndex& index, int role) const {
         return m_library.isFavourite(item->source);
     case CurrentRole:
         return item->source == m_library.current();
+    case RotationRole:
+        return item->source == m_library.current() ? QVariant(m_library.rotationDeg()) : QVariant();
     case DuplicateRole:
         return !item->duplicateOf.isEmpty();
     case PictureRole:

@@ -18,7 +18,8 @@ class LibraryModel : public QAbstractListModel {
         SourceRole = Qt::UserRole,
         SubtitleRole, // the number that is sorted by
         FavouriteRole,
-        CurrentRole, // it lights the scene
+        CurrentRole,  // it lights the scene
+        RotationRole, // degrees, of that one; of others invalid
         DuplicateRole,
         PictureRole // QPixmap, null while it is not measured
     };

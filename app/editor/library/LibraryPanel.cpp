@@ -6,6 +6,7 @@
 #include "app/editor/document/QtText.h"
 #include "app/editor/library/EnvironmentLibrary.h"
 #include "app/editor/library/LibraryDelegate.h"
+#include "app/editor/library/LibraryGestures.h"
 #include "app/editor/library/LibraryModel.h"
 #include "app/editor/library/LibraryTexts.h"
 #include "app/editor/library/LibraryView.h"
@@ -57,9 +58,11 @@ QToolButton* makeToggle(const QString& iconName, const QString& name, const QStr
 
 } // namespace
 
-LibraryPanel::LibraryPanel(EnvironmentLibrary& library, QWidget* parent)
+LibraryPanel::LibraryPanel(EnvironmentLibrary& library, EnvironmentPreview& preview,
+                           QWidget* parent)
     : QWidget(parent)
     , m_library(library)
+    , m_preview(preview)
     , m_model(new LibraryModel(library, this))
     , m_folders(new QListWidget)
     , m_unreadable(new QListWidget)
@@ -83,7 +86,8 @@ LibraryPanel::LibraryPanel(EnvironmentLibrary& library, QWidget* parent)
     m_view->setModel(m_model);
     m_view->setItemDelegate(delegate);
     m_view->setAccessibleName(tr("Environments"));
-    m_view->setStatusTip(tr("Double-click or press Enter to light the scene with an environment"));
+    m_view->setStatusTip(
+        tr("Double-click, or step with the arrow keys, to light the scene with an environment"));
     m_name->setAccessibleName(tr("Environment that is chosen"));
     m_measures->setAccessibleName(tr("Measured of the environment"));
     for (QLabel* line : {m_name, m_measures})
@@ -106,7 +110,9 @@ LibraryPanel::LibraryPanel(EnvironmentLibrary& library, QWidget* parent)
     connect(delegate, &LibraryDelegate::starClicked, this, [this](const QString& source) {
         m_library.setFavourite(source, !m_library.isFavourite(source));
     });
+    new LibraryGestures(library, preview, *m_view, *this);
     connect(m_view, &LibraryView::useRequested, &library, &EnvironmentLibrary::use);
+    connect(m_view, &LibraryView::stepRequested, &library, &EnvironmentLibrary::stepTo);
     connect(m_view, &LibraryView::menuRequested, this, &LibraryPanel::openMenu);
     connect(m_view, &LibraryView::currentSourceChanged, this, [this] {
         if (!m_refreshing && m_view->currentIndex().isValid())
@@ -349,18 +355,28 @@ void LibraryPanel::openMenu(const QString& source, const QPoint& globalPosition)
         Actions::describe(action, help);
         return action;
     };
-    add(tr("&Use"), tr("Light the scene with this environment (Enter)"),
-        [this, source] { m_library.use(source); });
-    add(tr("&Add as Another Environment"),
-        tr("Add it to the scene's environments and light the scene with it"),
-        [this, source] { m_library.addToScene(source); });
-    const bool favourite = m_library.isFavourite(source);
-    add(favourite ? tr("No &Favourite") : tr("&Favourite"),
-        favourite ? tr("Take the star away") : tr("Mark it with a star, to find it again"),
-        [this, source, favourite] { m_library.setFavourite(source, !favourite); });
-    if (!source.startsWith(QLatin1String("builtin:")))
-        add(tr("&Copy Path"), tr("Put the path of the file on the clipboard"),
-            [source] { QGuiApplication::clipboard()->setText(source); });
+    if (!source.isEmpty()) {
+        add(tr("&Use"), tr("Light the scene with this environment (Enter)"),
+            [this, source] { m_library.use(source); });
+        add(tr("&Add as Another Environment"),
+            tr("Add it to the scene's environments and light the scene with it"),
+            [this, source] { m_library.addToScene(source); });
+        const bool favourite = m_library.isFavourite(source);
+        add(favourite ? tr("No &Favourite") : tr("&Favourite"),
+            favourite ? tr("Take the star away") : tr("Mark it with a star, to find it again"),
+            [this, source, favourite] { m_library.setFavourite(source, !favourite); });
+        if (!source.startsWith(QLatin1String("builtin:")))
+            add(tr("&Copy Path"), tr("Put the path of the file on the clipboard"),
+                [source] { QGuiApplication::clipboard()->setText(source); });
+        menu->addSeparator();
+    }
+    QAction* previews =
+        add(tr("&Preview on Hover"),
+            tr("Show the environment that the pointer rests on in the picture, or in the current "
+               "cell of the wall, until it leaves"),
+            [this] { m_preview.setWanted(!m_preview.isWanted()); });
+    previews->setCheckable(true);
+    previews->setChecked(m_preview.isWanted());
     menu->popup(globalPosition);
 }
 

@@ -17,6 +17,7 @@ namespace patina::editor {
 
 class Actions;
 class EnvironmentLibrary;
+class EnvironmentPreview;
 class FileFlow;
 class LibraryModel;
 class LibraryView;
@@ -24,7 +25,8 @@ class LibraryView;
 class LibraryPanel : public QWidget {
     Q_OBJECT
   public:
-    explicit LibraryPanel(EnvironmentLibrary& library, QWidget* parent = nullptr);
+    LibraryPanel(EnvironmentLibrary& library, EnvironmentPreview& preview,
+                 QWidget* parent = nullptr);
 
     [[nodiscard]] LibraryView& view() { return *m_view; }
     [[nodiscard]] QListWidget& folders() { return *m_folders; }
@@ -46,6 +48,7 @@ class LibraryPanel : public QWidget {
     void openMenu(const QString& source, const QPoint& globalPosition);
 
     EnvironmentLibrary& m_library;
+    EnvironmentPreview& m_preview;
     LibraryModel* m_model;
     QListWidget *m_folders, *m_unreadable;
     QToolButton *m_removeFolder, *m_unreadableToggle;

@@ -57,7 +57,13 @@ void LibraryView::keyPressEvent(QKeyEvent* event) {
         Q_EMIT useRequested(currentSource());
         return;
     }
+    const QString before = currentSource();
     QListView::keyPressEvent(event);
+    const bool steps = event->key() == Qt::Key_Left || event->key() == Qt::Key_Right ||
+                       event->key() == Qt::Key_Up || event->key() == Qt::Key_Down;
+    if (steps && event->modifiers() == (event->modifiers() & Qt::KeypadModifier) &&
+        currentIndex().isValid() && currentSource() != before)
+        Q_EMIT stepRequested(currentSource());
 }
 
 void LibraryView::mouseDoubleClickEvent(QMouseEvent* event) {
@@ -71,9 +77,8 @@ void LibraryView::mouseDoubleClickEvent(QMouseEvent* event) {
 void LibraryView::contextMenuEvent(QContextMenuEvent* event) {
     const bool byKey = event->reason() == QContextMenuEvent::Keyboard;
     const QModelIndex index = byKey ? currentIndex() : indexAt(event->pos());
-    if (!index.isValid())
-        return;
-    setCurrentIndex(index);
+    if (index.isValid())
+        setCurrentIndex(index);
     Q_EMIT menuRequested(index.data(LibraryModel::SourceRole).toString(),
                          byKey ? viewport()->mapToGlobal(visualRect(index).center())
                                : event->globalPos());

@@ -16,7 +16,8 @@ class LibraryView : public QListView {
 
   Q_SIGNALS:
     void useRequested(const QString& source);
-    void menuRequested(const QString& source, const QPoint& globalPosition);
+    void stepRequested(const QString& source); // it was chosen with an arrow key
+    void menuRequested(const QString& source, const QPoint& globalPosition); // empty: of no item
     void currentSourceChanged();
 
   protected:

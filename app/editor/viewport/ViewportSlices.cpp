@@ -6,6 +6,7 @@
 #include "app/editor/viewport/ViewportWidget.h"
 #include "core/base/Log.h"
 #include "core/document/ToneResponse.h"
+#include "core/mix/LightMix.h"
 
 #include <QElapsedTimer>
 #include <utility>
@@ -34,6 +35,8 @@ void ViewportWidget::feedEnvironment() {
         m_environmentTimer.start();
         return;
     }
+    if (m_environmentOnItsWay == shownEnvironment(m_controller.document()).image)
+        m_fade.begin();
     if (m_environmentOnItsWay)
         m_wall.setSceneLight(std::exchange(m_environmentOnItsWay, nullptr));
     m_pacing.pictureChanged();

@@ -1,6 +1,7 @@
 // The part of ViewportWidget that shows a wall of cells: all of them in each frame during
 // interaction, as far as its time allows, and piece by piece between events afterwards.
 #include "app/editor/document/DocumentController.h"
+#include "app/editor/library/EnvironmentPreview.h"
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "app/editor/wall/WallState.h"
@@ -34,6 +35,9 @@ void ViewportWidget::setWall(WallState& wall, WallComparison& comparison) {
 
 void ViewportWidget::wallChanged() {
     m_hand.setHandlesVisible(m_overlays && !m_wall.isOn());
+    if (m_lookAhead != nullptr)
+        m_lookAhead->end(); // it was for another place
+    m_fade.end();
     m_gate.dropCells();
     setWallLayout();
     hurry(); // all cells at once, coarse at first

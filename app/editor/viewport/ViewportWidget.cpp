@@ -4,6 +4,7 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/SelectionModel.h"
 #include "app/editor/job/JobManager.h"
+#include "app/editor/library/EnvironmentPreview.h"
 #include "app/editor/trace/PathError.h"
 #include "app/editor/trace/PathView.h"
 #include "app/editor/viewport/IblUpdater.h"
@@ -17,12 +18,11 @@
 #include "render/gl/Context.h"
 
 #include <QOpenGLContext>
-#include <QOpenGLExtraFunctions>
-#include <QOpenGLFramebufferObject>
 #include <QOpenGLFunctions>
 #include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+#include <limits>
 
 namespace patina::editor {
 namespace {
@@ -292,10 +292,13 @@ void ViewportWidget::releaseGl() {
     stopSlices();
     m_lastFrameSize = {};
     makeCurrent();
+    m_fade.release();
     m_wall.release();
     m_wallShown = false;
     m_thumbnails.reset();
     m_drawn.reset();
+    m_documentPicture.reset();
+    m_previewLight = render::kDocumentLight;
     m_renderer.reset();
     m_scene.reset();
     m_context.reset();
@@ -338,6 +341,10 @@ render::FrameSettings ViewportWidget::nextFrame() {
     frame.reuseScene = std::exchange(m_onlyDisplay, false) && frame.camera == m_lastCamera &&
                        m_viewFeed.sameAsBefore();
     m_lastCamera = frame.camera;
+    if (m_documentPicture) {
+        frame.light = m_previewLight;
+        frame.adaptSeconds = std::numeric_limits<float>::infinity(); // it is a look, not a walk
+    }
     frame.selectedLight = m_selection.light();
     frame.overlayScale = static_cast<float>(devicePixelRatioF());
     if (m_lobe)
@@ -345,7 +352,7 @@ render::FrameSettings ViewportWidget::nextFrame() {
     return frame;
 }
 
-void ViewportWidget::paintGL() {
+void ViewportWidget::paintPicture() {
     QOpenGLFunctions* gl = context()->functions();
     if (!m_renderer) {
         gl->glClearColor(0.13f, 0.13f, 0.14f, 1.0f);
@@ -365,7 +372,7 @@ void ViewportWidget::paintGL() {
 
     render::FrameSettings frame = nextFrame();
     takeDisplay();
-    if (paintPaths(frame))
+    if (!m_documentPicture && paintPaths(frame))
         return;
     // The picture that is shown stays until the next one is complete.
     const bool sliced = drawsInSlices(frame.view);
@@ -412,7 +419,8 @@ void ViewportWidget::paintGL() {
     Q_EMIT frameRendered(milliseconds, pictureState());
     followLuminance();
     letOthersDraw();
-    m_picker.frameDrawn(m_lastFrameSize, m_pacing.moving());
+    if (!m_documentPicture)
+        m_picker.frameDrawn(m_lastFrameSize, m_pacing.moving());
 }
 
 void ViewportWidget::bringIn() {
@@ -425,7 +433,7 @@ void ViewportWidget::bringIn() {
 void ViewportWidget::letOthersDraw() {
     if (!m_renderer)
         return; // no context, or it is on its way
-    const bool rests = !m_pacing.moving();
+    const bool rests = !m_pacing.moving() && !m_documentPicture;
     m_sheets.setResting(rests && !(m_wallShown && m_slicing));
     if (rests)
         m_gate.prepareSheets(m_sheets.wanted());
@@ -451,7 +459,8 @@ Result<render::Inspection> ViewportWidget::inspect(const QPoint& pixel) {
     if (!m_renderer)
         return Error{ErrorKind::NoOpenGl, "there is no OpenGL to draw with", {}, {}};
     makeCurrent();
-    Result<render::Inspection> inspection = m_renderer->inspect(pixel.x(), pixel.y());
+    const render::ViewRenderer& picture = m_documentPicture ? *m_documentPicture : *m_renderer;
+    Result<render::Inspection> inspection = picture.inspect(pixel.x(), pixel.y());
     doneCurrent();
     return inspection;
 }
@@ -486,6 +495,8 @@ void ViewportWidget::takeDisplay() {
 
 // Draws on while the eye adapts, or while its state is still on its way here; then rests.
 void ViewportWidget::followLuminance() {
+    if (m_documentPicture)
+        return; // it is not the document's
     const std::optional<Luminance> luminance = m_renderer->luminance();
     const bool automatic = m_controller.document().view.exposureMode == ExposureMode::Automatic;
     if (m_adaptation.endFrame(luminance, automatic) || m_renderer->luminancePending())
@@ -500,7 +511,8 @@ void ViewportWidget::followLuminance() {
 bool ViewportWidget::isSettled() const {
     return m_renderer && !m_gate.waiting() && m_ibl->finished() && !m_environmentTimer.isActive() &&
            !m_pacing.moving() && !m_restTimer.isActive() && !m_adaptationTimer.isActive() &&
-           !m_accumulationTimer.isActive() && !m_slicing &&
+           !m_accumulationTimer.isActive() && !m_slicing && !m_fade.isOn() &&
+           !(m_lookAhead != nullptr && m_lookAhead->isOn()) &&
            !(m_wall.isOn() && (m_wall.preparing() || !m_wall.isCurrent())) &&
            !(m_paths != nullptr && m_paths->isOn() && !m_paths->progress().refined);
 }
@@ -522,6 +534,8 @@ void ViewportWidget::applyChange(const Change& change) {
     const bool otherMap = touches(change.affects, Affects::EnvironmentMap);
     if (otherMap)
         m_ibl->request(shownEnvironment(m_controller.document()).image);
+    else if (change.affects != Affects::Nothing)
+        m_fade.end(); // an edit is seen at once
     // Camera moves affect nothing: the camera travels with each frame.
     if (m_renderer && !m_wallShown && change.affects != Affects::Nothing) {
         makeCurrent();
@@ -563,27 +577,6 @@ void ViewportWidget::setOverlaysVisible(bool visible) {
     m_overlays = visible;
     m_hand.setHandlesVisible(visible && !m_wall.isOn());
     update();
-}
-
-QImage ViewportWidget::smallPicture(const QSize& largest) {
-    if (!m_renderer || m_lastFrameSize.isEmpty())
-        return {};
-    const QSize full = sizeAt(1.0f);
-    const QSize size = full.scaled(largest, Qt::KeepAspectRatio).expandedTo({1, 1});
-    makeCurrent();
-    QImage picture;
-    {
-        QOpenGLFramebufferObject target(size);
-        QOpenGLExtraFunctions* gl = context()->extraFunctions();
-        gl->glBindFramebuffer(GL_READ_FRAMEBUFFER, defaultFramebufferObject());
-        gl->glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.handle());
-        gl->glBlitFramebuffer(0, 0, full.width(), full.height(), 0, 0, size.width(), size.height(),
-                              GL_COLOR_BUFFER_BIT, GL_LINEAR);
-        gl->glBindFramebuffer(GL_FRAMEBUFFER, target.handle()); // which is read from, too
-        picture = target.toImage().convertToFormat(QImage::Format_RGB32);
-    }
-    doneCurrent();
-    return picture;
 }
 
 } // namespace patina::editor

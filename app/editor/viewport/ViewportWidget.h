@@ -5,6 +5,7 @@
 #include "app/editor/viewport/BounceFeed.h"
 #include "app/editor/viewport/FramePacing.h"
 #include "app/editor/viewport/NearShadowFeed.h"
+#include "app/editor/viewport/PictureFade.h"
 #include "app/editor/viewport/PixelPicker.h"
 #include "app/editor/viewport/PreviewFeed.h"
 #include "app/editor/viewport/ProjectionFeed.h"
@@ -26,6 +27,8 @@
 #include <QTimer>
 #include <memory>
 
+class QAction;
+
 namespace patina {
 class WorkGate;
 struct Change;
@@ -39,6 +42,8 @@ namespace patina::editor {
 
 class DisplayLoader;
 class DocumentController;
+class EnvironmentLibrary;
+class EnvironmentPreview;
 class IblUpdater;
 class BakeService;
 class JobManager;
@@ -73,6 +78,14 @@ class ViewportWidget : public QOpenGLWidget {
                  WallComparison& comparison); // whether many of it are shown beside each other
     // Whose picture is shown while it is on, and who measures the drawn one against it.
     void setPaths(PathView& paths, PathError& error);
+    // What the library lights the scene with is faded to while `wanted` is checked.
+    void setFade(EnvironmentLibrary& library, QAction& wanted);
+    // What is looked at before it is used is shown in the picture, or in the wall's current cell.
+    void setEnvironmentPreview(EnvironmentPreview& preview);
+    [[nodiscard]] bool showsPreviews() const; // there is a place for them
+    [[nodiscard]] QRect previewArea() const;  // that place
+    // It is shown in place of the picture.
+    [[nodiscard]] bool previews() const { return m_documentPicture != nullptr; }
     void setProbe(PixelProbe& probe);     // who is told what pixels are made of
     void setLuminanceWanted(bool wanted); // even where the picture does not depend on it
 
@@ -94,7 +107,8 @@ class ViewportWidget : public QOpenGLWidget {
     // Of the single picture, under a position in the widget; 0: none.
     [[nodiscard]] Id meshAt(const QPointF& position);
 
-    // What it shows, reduced to fit; null while nothing was drawn. Draws nothing.
+    // The picture of the document, reduced to fit, without what fades over it; null while nothing
+    // was drawn. Draws nothing of the scene.
     [[nodiscard]] QImage smallPicture(const QSize& largest);
 
     // Of the next frame in device pixels: the widget's, or less while the hand moves; until a frame
@@ -112,6 +126,12 @@ class ViewportWidget : public QOpenGLWidget {
     // Whether what may be looked at next is compiled at rest, which keeps a core busy for a while:
     // by default. Without, it is compiled when it is asked for, in the background, too.
     void setCompilesAhead(bool compiles);
+
+    [[nodiscard]] PictureFade& fade() { return m_fade; } // between environments
+    // What has been drawn so far; nothing while there is no scene.
+    [[nodiscard]] render::SceneRenderer::Counts counts() const {
+        return m_scene ? m_scene->counts() : render::SceneRenderer::Counts();
+    }
 
     // What draws it; null while there is none.
     [[nodiscard]] const gl::ContextInfo* glInfo() const {
@@ -165,6 +185,14 @@ class ViewportWidget : public QOpenGLWidget {
     void takeDisplay();
     void followLuminance();
     void pickAt(const QPointF& position);
+    void paintPicture(); // without what fades over it
+    void keepForFade();
+    void fadeFromHere();
+    void previewChanged();
+    void feedPreview();
+    void enterPreview();
+    void leavePreview();
+    [[nodiscard]] Result<void> presentPlain(unsigned framebuffer, const QSize& size);
     // --- ViewportWall.cpp
     void wallChanged();
     void setWallLayout();
@@ -216,6 +244,18 @@ class ViewportWidget : public QOpenGLWidget {
     QElapsedTimer m_clock;      // since the viewport was made
     bool m_onlyDisplay = false; // the next frame is drawn for adaptation or marks alone
     Camera m_lastCamera;        // of the last frame
+
+    EnvironmentPreview* m_lookAhead = nullptr;
+    render::LightId m_previewLight = render::kDocumentLight; // that: there is none
+    QTimer m_previewTimer;                                   // until more of it is uploaded
+    // The picture of the document while m_renderer shows the preview, and how fine it is.
+    std::unique_ptr<render::ViewRenderer> m_documentPicture;
+    FramePacing m_documentPacing;
+    QSize m_documentFrameSize, m_documentPixels; // of that picture; of the viewport then
+    Camera m_documentCamera;
+    PictureFade m_fade;
+    Camera m_fadeCamera; // of the picture that fades
+    bool m_fades = true;
 
     FramePacing m_pacing;
     QTimer m_restTimer, m_environmentTimer, m_shaderTimer, m_adaptationTimer, m_accumulationTimer;

@@ -2,6 +2,7 @@
 
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/QtText.h"
+#include "app/editor/library/EnvironmentPreview.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/wall/WallComparison.h"
 #include "app/editor/wall/WallState.h"
@@ -140,6 +141,12 @@ void WallPainter::composeCell(std::size_t index, const render::FrameSettings& fr
                              false};
         return;
     }
+    const bool preview = previews() && index == m_wall->current();
+    if (preview) {
+        shown->environment() = m_preview->inPlaceOf(shown->environment());
+        shown->mix.second = 0;
+        shown->mix.blended = nullptr;
+    }
     const bool resolved = m_lights.resolve(*shown, document);
     const bool lit = !environmentParts(*shown).empty();
     const ImagePtr picture = resolved && lit ? shownEnvironment(*shown).image : nullptr;
@@ -147,7 +154,10 @@ void WallPainter::composeCell(std::size_t index, const render::FrameSettings& fr
     const bool sceneLight = picture && picture == m_sceneLight &&
                             document.secondEnvironment() == nullptr &&
                             shown->secondEnvironment() == nullptr;
-    const EnvironmentTexelsPtr light = picture && !sceneLight ? m_lights.light(picture) : nullptr;
+    EnvironmentTexelsPtr light;
+    if (picture && !sceneLight)
+        light = preview && picture == m_preview->texels()->image ? m_preview->texels()
+                                                                 : m_lights.light(picture);
     if (lit && !sceneLight && !light) {
         text = tr("Preparing light…");
         return;
@@ -168,6 +178,10 @@ void WallPainter::composeCell(std::size_t index, const render::FrameSettings& fr
     view.sceneLight = sceneLight;
     view.nearShadows = shadows;
     view.document = std::move(*shown);
+}
+
+bool WallPainter::previews() const {
+    return m_preview != nullptr && m_preview->isOn();
 }
 
 void WallPainter::compose(const render::FrameSettings& frame) {
@@ -279,6 +293,8 @@ Result<void> WallPainter::present(unsigned framebuffer, const QSize& size) {
 
 // Once both cells that are compared are as fine as they get.
 void WallPainter::measure() {
+    if (previews())
+        return; // numbers are of the cells
     const std::optional<std::size_t> a = m_wall->enlarged();
     if (m_comparison->hasFile()) {
         if (!m_comparison->isOutdated() || !a || !complete() || preparing() ||
@@ -318,7 +334,7 @@ QSize WallPainter::sheetCellSize(int width) const {
 
 std::optional<std::vector<WallPainter::SheetCell>> WallPainter::sheetCells(int width) const {
     const std::optional<std::size_t> shown = shownCell();
-    if (!isOn() || !m_composed || preparing() || !shown)
+    if (!isOn() || !m_composed || preparing() || previews() || !shown)
         return std::nullopt;
     const QSize size = sheetCellSize(width);
     std::vector<SheetCell> cells;

@@ -20,6 +20,7 @@ struct FrameKind;
 namespace patina::editor {
 
 class DocumentController;
+class EnvironmentPreview;
 class WallComparison;
 class WallState;
 
@@ -37,6 +38,8 @@ class WallPainter : public QObject {
     // The light that the scene holds for the document is of this picture; null: of none yet.
     void setSceneLight(const ImagePtr& picture);
     void setNearShadows(const NearShadowsPtr& shadows); // of the document's local lights
+    // What is looked at is shown by the current cell.
+    void setPreview(EnvironmentPreview& preview) { m_preview = &preview; }
 
     // --- With the scene's context current
     // --------------------------------------------------------- What the next frame shows: `frame`
@@ -83,6 +86,7 @@ class WallPainter : public QObject {
   private:
     void compose(const render::FrameSettings& frame);
     void composeCell(std::size_t index, const render::FrameSettings& frame);
+    [[nodiscard]] bool previews() const;                        // some cell shows what is no cell's
     [[nodiscard]] std::optional<std::size_t> shownCell() const; // the enlarged one, or any
     [[nodiscard]] render::FrameSettings frameOf(const render::FrameSettings& frame,
                                                 const QRect& cell, float scale) const;
@@ -90,6 +94,7 @@ class WallPainter : public QObject {
     DocumentController& m_controller;
     WallState* m_wall = nullptr;
     WallComparison* m_comparison = nullptr;
+    EnvironmentPreview* m_preview = nullptr;
     WallLights m_lights;
     Ready m_ready;
     ImagePtr m_sceneLight;

@@ -479,7 +479,7 @@ TEST_F(LibraryPanelTest, TooltipsNameAllNumbersAndTags) {
 TEST_F(LibraryPanelTest, UprightItHasTheFoldersAboveTheGrid) {
     dropFolder();
     library().setFolderShown({}, true);
-    LibraryPanel panel(library());
+    LibraryPanel panel(library(), EditorTest::session->preview);
     panel.resize(300, 700);
     panel.show();
     test::handleEvents();

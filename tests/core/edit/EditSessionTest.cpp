@@ -429,5 +429,36 @@ TEST_F(EditSessionTest, AWholeDocumentIsAStep) {
     EXPECT_FALSE(session.isModified());
 }
 
+TEST_F(EditSessionTest, ShowingAndHidingSeveralMeshesMergesWithinASession) {
+    session.editStructure("Copy", [](Document& document) {
+        MeshInstance copy = document.meshes.front();
+        copy.id = document.takeId();
+        document.meshes.push_back(copy);
+    });
+    const Document before = session.document();
+    const Id a = before.meshes[0].id, b = before.meshes[1].id;
+    const DragSession walk = session.newDragSession();
+    const auto show = [&](bool first, bool second, DragSession of) {
+        session.push(std::make_unique<ShowMeshesStep>(
+            "Show", session.document(), std::vector<std::pair<Id, bool>>{{a, first}, {b, second}},
+            of));
+    };
+    show(true, false, walk);
+    EXPECT_TRUE(touches(observer.changes.back().affects, Affects::Geometry));
+    show(false, true, walk);
+    EXPECT_EQ(session.count(), 2);
+    EXPECT_FALSE(session.document().mesh(a)->visible);
+    session.undo();
+    EXPECT_EQ(session.document(), before);
+    session.redo();
+    EXPECT_FALSE(session.document().mesh(a)->visible);
+    EXPECT_TRUE(session.document().mesh(b)->visible);
+    show(true, true, walk); // back where it began
+    EXPECT_EQ(session.count(), 1);
+    show(true, false, session.newDragSession());
+    show(true, true, session.newDragSession());
+    EXPECT_EQ(session.count(), 3) << "other sessions are other steps";
+}
+
 } // namespace
 } // namespace patina

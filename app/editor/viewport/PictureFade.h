@@ -1,0 +1,54 @@
+// The picture that was shown before another environment lights the scene: it lies over the new one
+// and fades out. It is displayed and nothing else: the frames below it, and whoever reads them, do
+// not contain it. Drawn with the viewport's context current.
+#pragma once
+
+#include <QObject>
+#include <QSize>
+#include <QTimer>
+#include <functional>
+#include <memory>
+
+class QOpenGLFramebufferObject;
+class QOpenGLTextureBlitter;
+
+namespace patina::editor {
+
+class PictureFade : public QObject {
+    Q_OBJECT
+  public:
+    static constexpr qint64 kFadeMs = 300;
+
+    explicit PictureFade(QObject* parent = nullptr);
+    ~PictureFade() override;
+
+    // Keeps what the framebuffer shows, also where that is a picture that fades: shown in full
+    // until begin().
+    void keep(unsigned framebuffer, const QSize& size);
+    void begin(); // the picture below it is the new one from now on
+    void end();   // at once
+    [[nodiscard]] bool isOn() const { return m_on; }
+    [[nodiscard]] bool waits() const { return m_on && m_startMs < 0; } // for begin()
+    // Lays it over what the framebuffer shows; a picture of another size ends it.
+    void blend(unsigned framebuffer, const QSize& size);
+    void release(); // what it has in the context
+
+    // Milliseconds that pass (tests stop it).
+    void setClock(std::function<qint64()> clock) { m_clock = std::move(clock); }
+
+  Q_SIGNALS:
+    void advanced(); // it is to be blended anew, over the same picture
+    void ended();
+
+  private:
+    [[nodiscard]] float opacity() const;
+
+    std::function<qint64()> m_clock;
+    QTimer m_timer; // between two steps of it
+    bool m_on = false;
+    qint64 m_startMs = -1; // below 0: it has not begun to fade
+    std::unique_ptr<QOpenGLFramebufferObject> m_picture;
+    std::unique_ptr<QOpenGLTextureBlitter> m_blitter;
+};
+
+} // namespace patina::editor
