@@ -167,4 +167,35 @@ TEST_F(TracedPicture, HasTheViewportsMaps) {
     }
 }
 
+// A base colour that cannot be read shows as the viewport's pattern, not as white.
+TEST_F(TracedPicture, LacksWhatTheViewportLacks) {
+    constexpr int kSize = 48;
+    Document document = makeScene(makePlane());
+    document.view.camera = cameraAbove();
+    document.view.background = BackgroundMode::Off;
+    Material& material = document.materials[0];
+    material.perceptualRoughness = 1.0f;
+    material.baseColorMap.source = "missing.png";
+    ASSERT_TRUE(material.baseColorMap.assigned());
+    Light sun;
+    sun.id = 100;
+    sun.type = LightType::Directional;
+    sun.shadowSoftness = 0.0f;
+    document.lights = {sun};
+    FrameSettings settings;
+    settings.floats = true;
+    const Image drawn = draw(document, kSize, settings);
+    const Image paths = traced(document, kSize, 64);
+    int magenta = 0, same = 0;
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x) {
+            const bool is = drawn.sample(x, y, 0) > 2.0f * drawn.sample(x, y, 1) + 1e-4f;
+            magenta += is ? 1 : 0;
+            same += is == (paths.sample(x, y, 0) > 2.0f * paths.sample(x, y, 1) + 1e-4f) ? 1 : 0;
+        }
+    EXPECT_GT(magenta, kSize * kSize / 8);
+    EXPECT_LT(magenta, kSize * kSize * 7 / 8);
+    EXPECT_GT(same, kSize * kSize * 9 / 10) << "but for the edges of its fields";
+}
+
 } // namespace patina::render

@@ -5,8 +5,24 @@
 
 #include <cmath>
 #include <cstddef>
+#include <glm/common.hpp>
 
 namespace patina {
+namespace {
+
+bool missing(const MapSlot& map) {
+    return map.assigned() && !map.image;
+}
+
+// What stands in place of a base colour that is missing: placeholderPattern() of
+// shaders/include/material.glsl.
+glm::vec3 placeholderPattern(const glm::vec2& uv) {
+    const glm::vec2 field = glm::floor(uv * 8.0f);
+    return glm::mod(field.x + field.y, 2.0f) < 0.5f ? glm::vec3(1.0f, 0.0f, 1.0f)
+                                                    : glm::vec3(0.01f);
+}
+
+} // namespace
 
 TraceMap::TraceMap(const MapSlot& slot)
     : m_image(slot.image)
@@ -83,15 +99,15 @@ float TraceMap::numberAt(const glm::vec2& uv) const {
 TraceMaterial::TraceMaterial(const Material& material)
     : m_baseColor(material.baseColor)
     // A missing emissive map would set the whole surface aglow.
-    , m_emissive(material.emissiveMap.assigned() && !material.emissiveMap.image
-                     ? glm::vec3(0.0f)
-                     : material.emissive * material.emissiveStrength)
+    , m_emissive(missing(material.emissiveMap) ? glm::vec3(0.0f)
+                                               : material.emissive * material.emissiveStrength)
     , m_metallic(material.metallic)
     , m_perceptualRoughness(material.perceptualRoughness)
     , m_diffuseRoughness(material.diffuseRoughness)
     , m_normalStrength(material.normalStrength)
     , m_greenUp(material.normalConvention == NormalConvention::OpenGl ? 1.0f : -1.0f)
     , m_doubleSided(material.doubleSided)
+    , m_lacksColor(missing(material.baseColorMap))
     , m_normalBasis(normalBasis(material.normalMap))
     , m_color(material.baseColorMap)
     , m_metal(material.metallicMap)
@@ -104,7 +120,9 @@ shading::SurfaceInputs TraceMaterial::inputsAt(const glm::vec2& uv) const {
         return glm::clamp(map.isThere() ? factor * map.numberAt(uv) : factor, 0.0f, 1.0f);
     };
     shading::SurfaceInputs inputs;
-    const glm::vec3 color = m_color.isThere() ? m_baseColor * m_color.colorAt(uv) : m_baseColor;
+    const glm::vec3 color = m_lacksColor        ? placeholderPattern(uv)
+                            : m_color.isThere() ? m_baseColor * m_color.colorAt(uv)
+                                                : m_baseColor;
     inputs.baseColor = glm::clamp(color, 0.0f, 1.0f);
     inputs.metallic = number(m_metallic, m_metal);
     inputs.perceptualRoughness = number(m_perceptualRoughness, m_rough);

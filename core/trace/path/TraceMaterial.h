@@ -53,7 +53,7 @@ class TraceMaterial {
   private:
     glm::vec3 m_baseColor, m_emissive;
     float m_metallic, m_perceptualRoughness, m_diffuseRoughness, m_normalStrength, m_greenUp;
-    bool m_doubleSided;
+    bool m_doubleSided, m_lacksColor;
     glm::vec4 m_normalBasis;
     TraceMap m_color, m_metal, m_rough, m_normal, m_glow;
 };
