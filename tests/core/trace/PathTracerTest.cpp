@@ -59,6 +59,44 @@ const std::vector<CornellPoint>& cornellPoints() {
     return points;
 }
 
+// A ball under two skies, a glowing one beside it and three lights with extent.
+TraceInputs manyLights(const Material& material) {
+    TraceInputs inputs = ballUnderSky(material, 0.2f);
+    Image sky(16, 8, 3, PixelType::F32, ColorEncoding::Linear);
+    for (std::size_t i = 0; i < sky.f32().size(); ++i)
+        sky.f32()[i] = i % 7 == 0 ? 3.0f : 0.1f;
+    inputs.environments = {{std::make_shared<const Image>(sky), 30.0f, {1.0f, 0.9f, 0.8f}},
+                           {uniformSky(0.3f), 0.0f, glm::vec3(1.0f)}};
+    Material glow;
+    glow.emissive = {2.0f, 4.0f, 6.0f};
+    inputs.materials.push_back(glow);
+    glm::mat4 small(0.3f);
+    small[3] = {1.3f, 0.8f, 0.6f, 1.0f};
+    inputs.meshes.push_back({2, ball(12), small, 1});
+    for (const LightType type : {LightType::Sphere, LightType::Rectangle, LightType::Directional}) {
+        Light light;
+        light.type = type;
+        light.position = {-1.5f, 1.5f, 1.5f};
+        light.azimuthDeg = -45.0f;
+        light.elevationDeg = 30.0f;
+        light.intensity = 2.0f;
+        light.radius = 0.5f;
+        light.width = 1.5f;
+        light.height = 0.7f;
+        light.shadowSoftness = 40.0f;
+        inputs.lights.push_back(light);
+    }
+    return inputs;
+}
+
+Material surface(float metallic, float roughness) {
+    Material material;
+    material.baseColor = {0.8f, 0.5f, 0.2f};
+    material.metallic = metallic;
+    material.perceptualRoughness = roughness;
+    return material;
+}
+
 } // namespace
 
 // 132 numbers, each within 4 standard errors, its own and that of the truth.
@@ -180,36 +218,7 @@ TEST(PathTracer, ClosedSphereByBounces) {
 
 // All ways to look for light find the same.
 TEST(PathTracer, SearchesAgree) {
-    Material material;
-    material.baseColor = {0.8f, 0.5f, 0.2f};
-    material.metallic = 0.5f;
-    material.perceptualRoughness = 0.5f;
-    TraceInputs inputs = ballUnderSky(material, 0.2f);
-    Image sky(16, 8, 3, PixelType::F32, ColorEncoding::Linear);
-    for (std::size_t i = 0; i < sky.f32().size(); ++i)
-        sky.f32()[i] = i % 7 == 0 ? 3.0f : 0.1f;
-    inputs.environments = {{std::make_shared<const Image>(sky), 30.0f, {1.0f, 0.9f, 0.8f}},
-                           {uniformSky(0.3f), 0.0f, glm::vec3(1.0f)}};
-    Material glow;
-    glow.emissive = {2.0f, 4.0f, 6.0f};
-    inputs.materials.push_back(glow);
-    glm::mat4 small(0.3f);
-    small[3] = {1.3f, 0.8f, 0.6f, 1.0f};
-    inputs.meshes.push_back({2, ball(12), small, 1});
-    for (const LightType type : {LightType::Sphere, LightType::Rectangle, LightType::Directional}) {
-        Light light;
-        light.type = type;
-        light.position = {-1.5f, 1.5f, 1.5f};
-        light.azimuthDeg = -45.0f;
-        light.elevationDeg = 30.0f;
-        light.intensity = 2.0f;
-        light.radius = 0.5f;
-        light.width = 1.5f;
-        light.height = 0.7f;
-        light.shadowSoftness = 40.0f;
-        inputs.lights.push_back(light);
-    }
-    const TraceScene scene = sceneOf(inputs);
+    const TraceScene scene = sceneOf(manyLights(surface(0.5f, 0.5f)));
     constexpr int kSize = 12;
     std::array<std::array<double, 3>, 3> means{}, errors{};
     for (std::size_t s = 0; s < 3; ++s) {
@@ -240,6 +249,80 @@ TEST(PathTracer, SearchesAgree) {
                 << "search " << s << ", channel " << c;
             EXPECT_LT(errors[s][c], 0.01 * means[0][c]);
         }
+}
+
+// What each pixel brings, in independent pictures: mean, and the variance of the mean.
+struct PixelStatistics {
+    std::vector<double> mean, variance;
+};
+PixelStatistics statistics(const TraceScene& scene, const TraceView& view, LightSearch search,
+                           int pictures, std::uint32_t samples) {
+    const auto pixels = static_cast<std::size_t>(view.width * view.height);
+    std::vector<double> sums(pixels), squares(pixels);
+    for (int i = 0; i < pictures; ++i) {
+        PathSettings settings;
+        settings.search = search;
+        settings.seed = static_cast<std::uint32_t>(1000 * static_cast<int>(search) + i);
+        const Film film = traced(scene, view, samples, settings);
+        for (std::size_t p = 0; p < pixels; ++p) {
+            const double value = film.pixels()[p].luminance();
+            sums[p] += value;
+            squares[p] += value * value;
+        }
+    }
+    PixelStatistics result{std::vector<double>(pixels), std::vector<double>(pixels)};
+    for (std::size_t p = 0; p < pixels; ++p) {
+        result.mean[p] = sums[p] / pictures;
+        result.variance[p] =
+            std::max(squares[p] / pictures - result.mean[p] * result.mean[p], 0.0) / (pictures - 1);
+    }
+    return result;
+}
+
+// Biases below the noise of a pixel are found in the mean of the pixels' z = difference / standard
+// error: rays to lights with and without weights, and rays of the reflection alone.
+TEST(PathTracer, NoPixelIsBiasedByTheSearch) {
+    const auto closeUp = [] {
+        TraceView view = lookAtBall(32, 2.0f);
+        view.camera.fovDeg = 40.0f;
+        return view;
+    }();
+    Material thin = surface(0.0f, 0.3f);
+    thin.doubleSided = true;
+    const struct {
+        const char* name;
+        TraceInputs inputs;
+        TraceView view;
+    } scenes[] = {{"dull", manyLights(surface(0.0f, 1.0f)), lookAtBall(32)},
+                  {"metal", manyLights(surface(1.0f, 0.4f)), closeUp},
+                  {"gloss", manyLights(thin), closeUp},
+                  {"sky", ballUnderSky(surface(0.5f, 0.6f), 1.0f), lookAtBall(32)}};
+    constexpr int kPictures = 8;
+    constexpr std::uint32_t kSamples = 16;
+    for (const auto& [name, inputs, view] : scenes) {
+        const TraceScene scene = sceneOf(inputs);
+        const PixelStatistics both =
+            statistics(scene, view, LightSearch::Both, kPictures, kSamples);
+        for (const LightSearch search : {LightSearch::Lights, LightSearch::Surfaces}) {
+            const PixelStatistics other = statistics(scene, view, search, kPictures, kSamples);
+            double sum = 0.0;
+            int count = 0, far = 0;
+            for (std::size_t p = 0; p < both.mean.size(); ++p) {
+                const double error = std::sqrt(both.variance[p] + other.variance[p]);
+                if (!(error > 1e-6 * both.mean[p]))
+                    continue; // the sky itself
+                const double z = (other.mean[p] - both.mean[p]) / error;
+                sum += z;
+                ++count;
+                far += std::abs(z) > 4.4 ? 1 : 0; // alpha .01 of 1,024, Šidák
+            }
+            ASSERT_GT(count, 300) << name;
+            EXPECT_LE(far, count / 400) << name << ", " << static_cast<int>(search);
+            // 14 degrees of freedom: t has a variance of 14 / 12.
+            EXPECT_LT(std::abs(sum / count), 3.0 * std::sqrt(14.0 / 12.0 / count))
+                << name << ", " << static_cast<int>(search);
+        }
+    }
 }
 
 TEST(PathTracer, SameNumbersForAnyThreadsAndInAnyPieces) {
