@@ -294,4 +294,31 @@ TEST_F(LongPicture, APictureThatCannotBeWrittenIsKeptElsewhere) {
     EXPECT_EQ(readBytes(elsewhere / elsewhere.files()[0]), bytes("whole.exr"));
 }
 
+// Something takes the name of the result while it is traced.
+TEST_F(LongPicture, WhatCannotBeWrittenIsKeptAsACheckpoint) {
+    for (const bool part : {true, false}) {
+        const std::string output = part ? "part" : "a.exr";
+        std::vector<std::string> options{"--samples", "40", "--threads", "1", "--json"};
+        if (part)
+            options.insert(options.end(), {"--shard", "1/2"});
+        ASSERT_EQ(render("whole.exr", options).status, 0);
+        const TemporaryFolder elsewhere;
+        RunOptions run;
+        run.environment["TMPDIR"] = elsewhere.path();
+        run.signalWhen = "%";
+        run.when = [&] { fs::create_directory(m_folder / output); };
+        const Outcome outcome = render(output, options, run);
+        EXPECT_EQ(outcome.status, 73) << outcome.err;
+        EXPECT_THAT(outcome.json()["error"]["message"].get<std::string>(),
+                    HasSubstr("is kept in " + m_folder / (output + ".checkpoint")));
+        fs::remove(m_folder / output);
+        options.emplace_back("--resume");
+        const Outcome resumed = render(output, options);
+        ASSERT_EQ(resumed.status, 0) << resumed.err;
+        EXPECT_EQ(resumed.json()["resumedFrom"], 40);
+        EXPECT_EQ(bytes(output), bytes("whole.exr"));
+        EXPECT_FALSE(fs::exists(m_folder / (output + ".checkpoint")));
+    }
+}
+
 } // namespace
