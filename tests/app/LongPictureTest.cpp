@@ -2,6 +2,7 @@
 // they say when that cannot be.
 #include "CommandRunner.h"
 #include "KilledRun.h"
+#include "core/base/FileLock.h"
 
 #include <algorithm>
 #include <csignal>
@@ -319,6 +320,24 @@ TEST_F(LongPicture, WhatCannotBeWrittenIsKeptAsACheckpoint) {
         EXPECT_EQ(bytes(output), bytes("whole.exr"));
         EXPECT_FALSE(fs::exists(m_folder / (output + ".checkpoint")));
     }
+}
+
+TEST_F(LongPicture, OneProcessWritesAFile) {
+    {
+        const Result<FileLock> held = FileLock::take(m_folder / "a.exr");
+        ASSERT_TRUE(held.ok());
+        const Outcome refused = render("a.exr", {"--samples", "1"});
+        EXPECT_EQ(refused.status, 73) << refused.err;
+        EXPECT_FALSE(fs::exists(m_folder / "a.exr"));
+    }
+    const Result<FileLock> held = FileLock::take(m_folder / "a.exr.checkpoint");
+    ASSERT_TRUE(held.ok());
+    const Outcome outcome = render("a.exr", {"--samples", "4", "--checkpoint", "0.001", "--json"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_THAT(outcome.json()["warnings"].get<std::vector<std::string>>(),
+                Contains(HasSubstr("another program traces this picture")));
+    EXPECT_FALSE(fs::exists(m_folder / "a.exr.checkpoint"));
+    EXPECT_TRUE(fs::exists(m_folder / "a.exr"));
 }
 
 } // namespace
