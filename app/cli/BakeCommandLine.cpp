@@ -3,6 +3,7 @@
 #include "core/math/SphericalHarmonics.h"
 
 #include <fmt/format.h>
+#include <string_view>
 
 namespace patina::cli {
 
@@ -70,17 +71,18 @@ void CommandParser::addBakes() {
 
 void CommandParser::addShards(CLI::App* command, LongBakeOptions& o, const char* shardHelp,
                               const char* prefix) {
+    const bool begins = std::string_view(prefix).empty(); // the sentence, here
     command->add_option("--shard", o.shard, shardHelp)->type_name("K/N|auto");
     command
         ->add_option("--checkpoint", o.checkpoint,
-                     fmt::format("{}How often to keep what is done in OUT.checkpoint, and to keep "
+                     fmt::format("{}{} often to keep what is done in OUT.checkpoint, and to keep "
                                  "it when interrupted (default: every 30s, not when interrupted)",
-                                 prefix))
+                                 prefix, begins ? "How" : "how"))
         ->type_name("EVERY");
-    command->add_flag(
-        "--resume", o.resume,
-        fmt::format("{}Go on from OUT.checkpoint where there is one; keep one when interrupted",
-                    prefix));
+    command->add_flag("--resume", o.resume,
+                      fmt::format("{}{} on from OUT.checkpoint where there is one; keep one when "
+                                  "interrupted",
+                                  prefix, begins ? "Go" : "go"));
 }
 
 void CommandParser::addLongBake(CLI::App* command, LongBakeOptions& o) {

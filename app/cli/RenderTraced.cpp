@@ -239,18 +239,23 @@ Result<void> renderTraced(Session& session, const RenderOptions& options, const 
         return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
     reportSamples(session, options, tracer);
 
+    const Result<void> written = isPart
+                                     ? writeFilm(options.output, manifest, tracer.film(),
+                                                 tracer.outputs(), StateFileName::OfUser)
+                                     : writeTracedPicture(session, manifest, tracer.film(),
+                                                          tracer.outputs(), options.output, format);
+    if (!written) {
+        Error error = written.error();
+        if (tracer.keepResult())
+            error.message += fmt::format("; what was traced is kept in {}, from which --resume "
+                                         "goes on",
+                                         run->checkpoint.string());
+        return error;
+    }
     if (isPart) {
         session.report().json()["shard"] = {shard->index + 1, shard->count};
-        if (Result<void> written = writeFilm(options.output, manifest, tracer.film(),
-                                             tracer.outputs(), StateFileName::OfUser);
-            !written)
-            return written;
         session.report().output(options.output, fmt::format("part {} of {}, for patina merge",
                                                             shard->index + 1, shard->count));
-    } else if (Result<void> written = writeTracedPicture(session, manifest, tracer.film(),
-                                                         tracer.outputs(), options.output, format);
-               !written) {
-        return written;
     }
     if (reference != nullptr)
         if (Result<void> compared =

@@ -2,6 +2,7 @@
 // they say when that cannot be.
 #include "CommandRunner.h"
 #include "KilledRun.h"
+#include "core/base/FileLock.h"
 
 #include <algorithm>
 #include <csignal>
@@ -292,6 +293,51 @@ TEST_F(LongPicture, APictureThatCannotBeWrittenIsKeptElsewhere) {
     EXPECT_THAT(outcome.json()["error"]["message"].get<std::string>(),
                 HasSubstr("; the picture is kept in " + elsewhere / elsewhere.files()[0]));
     EXPECT_EQ(readBytes(elsewhere / elsewhere.files()[0]), bytes("whole.exr"));
+}
+
+// Something takes the name of the result while it is traced.
+TEST_F(LongPicture, WhatCannotBeWrittenIsKeptAsACheckpoint) {
+    for (const bool part : {true, false}) {
+        const std::string output = part ? "part" : "a.exr";
+        std::vector<std::string> options{"--samples", "40", "--threads", "1", "--json"};
+        if (part)
+            options.insert(options.end(), {"--shard", "1/2"});
+        ASSERT_EQ(render("whole.exr", options).status, 0);
+        const TemporaryFolder elsewhere;
+        RunOptions run;
+        run.environment["TMPDIR"] = elsewhere.path();
+        run.signalWhen = "%";
+        run.when = [&] { fs::create_directory(m_folder / output); };
+        const Outcome outcome = render(output, options, run);
+        EXPECT_EQ(outcome.status, 73) << outcome.err;
+        EXPECT_THAT(outcome.json()["error"]["message"].get<std::string>(),
+                    HasSubstr("is kept in " + m_folder / (output + ".checkpoint")));
+        fs::remove(m_folder / output);
+        options.emplace_back("--resume");
+        const Outcome resumed = render(output, options);
+        ASSERT_EQ(resumed.status, 0) << resumed.err;
+        EXPECT_EQ(resumed.json()["resumedFrom"], 40);
+        EXPECT_EQ(bytes(output), bytes("whole.exr"));
+        EXPECT_FALSE(fs::exists(m_folder / (output + ".checkpoint")));
+    }
+}
+
+TEST_F(LongPicture, OneProcessWritesAFile) {
+    {
+        const Result<FileLock> held = FileLock::take(m_folder / "a.exr");
+        ASSERT_TRUE(held.ok());
+        const Outcome refused = render("a.exr", {"--samples", "1"});
+        EXPECT_EQ(refused.status, 73) << refused.err;
+        EXPECT_FALSE(fs::exists(m_folder / "a.exr"));
+    }
+    const Result<FileLock> held = FileLock::take(m_folder / "a.exr.checkpoint");
+    ASSERT_TRUE(held.ok());
+    const Outcome outcome = render("a.exr", {"--samples", "4", "--checkpoint", "0.001", "--json"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_THAT(outcome.json()["warnings"].get<std::vector<std::string>>(),
+                Contains(HasSubstr("another program traces this picture")));
+    EXPECT_FALSE(fs::exists(m_folder / "a.exr.checkpoint"));
+    EXPECT_TRUE(fs::exists(m_folder / "a.exr"));
 }
 
 } // namespace

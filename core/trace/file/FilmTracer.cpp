@@ -82,9 +82,13 @@ void FilmTracer::updateManifest(bool complete) {
     manifest.done = complete ? 1.0 : std::min(samples.mean / m_settings.samples, 1.0);
 }
 
-void FilmTracer::keep(bool complete) {
+bool FilmTracer::keepResult() {
+    return keep(m_settings.manifest.complete);
+}
+
+bool FilmTracer::keep(bool complete) {
     if (m_settings.checkpoint.empty())
-        return;
+        return false;
     updateManifest(complete);
     const Result<void> written = writeFilm(m_settings.checkpoint, m_settings.manifest, m_film,
                                            m_outputs, StateFileName::Own);
@@ -92,6 +96,7 @@ void FilmTracer::keep(bool complete) {
     if (!written && !m_warned && m_settings.warn)
         m_settings.warn(written.error());
     m_warned = m_warned || !written;
+    return written.ok();
 }
 
 Result<void> FilmTracer::trace(const TraceScene& scene, const TraceView& view,

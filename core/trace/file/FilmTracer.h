@@ -44,6 +44,9 @@ class FilmTracer {
     // Film::noise(), of a shard nothing.
     [[nodiscard]] const std::optional<double>& noise() const { return m_noise; }
 
+    // Writes the checkpoint of what was traced, whose result could not be written. False when it
+    // cannot be written either.
+    bool keepResult();
     // Of which nobody has any more use. False when there is none of this picture.
     bool removeCheckpoint();
     [[nodiscard]] bool keptCheckpoint() const { return m_kept; } // the file is there, up to date
@@ -53,7 +56,7 @@ class FilmTracer {
   private:
     void hold(); // the checkpoint, or there is none from now on
     Result<void> readCheckpoint();
-    void keep(bool complete); // the checkpoint, as the film is
+    bool keep(bool complete); // the checkpoint, as the film is; false when it was not written
     void updateManifest(bool complete);
 
     FilmTracerSettings m_settings;
