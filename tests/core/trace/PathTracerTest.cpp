@@ -283,7 +283,7 @@ PixelStatistics statistics(const TraceScene& scene, const TraceView& view, Light
 // error: rays to lights with and without weights, and rays of the reflection alone.
 TEST(PathTracer, NoPixelIsBiasedByTheSearch) {
     const auto closeUp = [] {
-        TraceView view = lookAtBall(32, 2.0f);
+        TraceView view = lookAtBall(24, 2.0f);
         view.camera.fovDeg = 40.0f;
         return view;
     }();
@@ -293,12 +293,12 @@ TEST(PathTracer, NoPixelIsBiasedByTheSearch) {
         const char* name;
         TraceInputs inputs;
         TraceView view;
-    } scenes[] = {{"dull", manyLights(surface(0.0f, 1.0f)), lookAtBall(32)},
+    } scenes[] = {{"dull", manyLights(surface(0.0f, 1.0f)), lookAtBall(24)},
                   {"metal", manyLights(surface(1.0f, 0.4f)), closeUp},
                   {"gloss", manyLights(thin), closeUp},
-                  {"sky", ballUnderSky(surface(0.5f, 0.6f), 1.0f), lookAtBall(32)}};
+                  {"sky", ballUnderSky(surface(0.5f, 0.6f), 1.0f), lookAtBall(24)}};
     constexpr int kPictures = 8;
-    constexpr std::uint32_t kSamples = 16;
+    constexpr std::uint32_t kSamples = 128; // fewer are too skewed for t
     for (const auto& [name, inputs, view] : scenes) {
         const TraceScene scene = sceneOf(inputs);
         const PixelStatistics both =
@@ -314,7 +314,7 @@ TEST(PathTracer, NoPixelIsBiasedByTheSearch) {
                 const double z = (other.mean[p] - both.mean[p]) / error;
                 sum += z;
                 ++count;
-                far += std::abs(z) > 4.4 ? 1 : 0; // alpha .01 of 1,024, Šidák
+                far += std::abs(z) > 6.3 ? 1 : 0; // alpha .01 of 576 by t, Šidák
             }
             ASSERT_GT(count, 300) << name;
             EXPECT_LE(far, count / 400) << name << ", " << static_cast<int>(search);
