@@ -390,6 +390,14 @@ TEST_F(LibraryGesturesTest, APreviewThatIsUsedStaysUntilItLightsTheScene) {
     }));
 }
 
+TEST_F(LibraryGesturesTest, AStepToAnotherEnvironmentEndsAPreview) {
+    hover("Night");
+    ASSERT_TRUE(isPreviewed());
+    pageDown();
+    EXPECT_FALSE(preview().isOn());
+    EXPECT_TRUE(eventually([] { return lit() == "builtin:sunset"; }));
+}
+
 TEST_F(LibraryGesturesTest, PreparedPreviewsKeepToTheBudgetOfTheCache) {
     for (const char* title : {"Sunset", "Clear Sky", "Night", "Overcast", "White"}) {
         hover(title);
