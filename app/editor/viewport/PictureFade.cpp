@@ -20,7 +20,11 @@ PictureFade::PictureFade(QObject* parent)
     m_since.start();
     m_timer.setSingleShot(true);
     m_timer.setInterval(kFadeStepMs);
-    connect(&m_timer, &QTimer::timeout, this, &PictureFade::advanced);
+    connect(&m_timer, &QTimer::timeout, this, [this] {
+        if (waits())
+            m_timer.start(); // nothing is painted that would start it
+        Q_EMIT advanced();
+    });
 }
 
 PictureFade::~PictureFade() = default;

@@ -39,8 +39,8 @@ void ViewportWidget::setFade(EnvironmentLibrary& library, QAction& wanted) {
         // The light that it waits for may never come.
         if (m_fade.waits() && m_ibl->finished() && !m_environmentTimer.isActive())
             m_fade.end();
-        if (!m_fade.isOn() || !m_renderer)
-            return;
+        if (!m_fade.isOn() || m_fade.waits() || !m_renderer)
+            return; // while it waits it covers all: there is nothing to paint
         // Frames that are added up go on: they take the fade along.
         m_onlyDisplay = !(m_pacing.accumulating() &&
                           m_renderer->accumulatedFrames() < render::ViewRenderer::kSteadyFrames);
