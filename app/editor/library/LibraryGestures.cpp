@@ -37,6 +37,11 @@ LibraryGestures::LibraryGestures(EnvironmentLibrary& library, EnvironmentPreview
         const QPoint at = m_view.viewport()->mapFromGlobal(QCursor::pos());
         endHover(m_view.indexAt(at).data(LibraryModel::SourceRole).toString());
     });
+    connect(&library, &EnvironmentLibrary::currentChanged, this, [this] {
+        // What is used is previewed until it is there; what is stepped to is another one.
+        if (m_library.current() != m_hovered)
+            endHover(m_hovered);
+    });
     view.installEventFilter(this);
     view.viewport()->installEventFilter(this);
     panel.installEventFilter(this); // Esc passes lists by, and arrives at what they are in

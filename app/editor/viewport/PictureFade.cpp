@@ -1,6 +1,5 @@
 #include "app/editor/viewport/PictureFade.h"
 
-#include <QElapsedTimer>
 #include <QMatrix4x4>
 #include <QOpenGLContext>
 #include <QOpenGLExtraFunctions>
@@ -18,12 +17,14 @@ constexpr int kFadeStepMs = 16; // from the end of a frame to the next
 
 PictureFade::PictureFade(QObject* parent)
     : QObject(parent) {
-    QElapsedTimer since;
-    since.start();
-    m_clock = [since] { return since.elapsed(); };
+    m_since.start();
     m_timer.setSingleShot(true);
     m_timer.setInterval(kFadeStepMs);
-    connect(&m_timer, &QTimer::timeout, this, &PictureFade::advanced);
+    connect(&m_timer, &QTimer::timeout, this, [this] {
+        if (waits())
+            m_timer.start(); // nothing is painted that would start it
+        Q_EMIT advanced();
+    });
 }
 
 PictureFade::~PictureFade() = default;
@@ -43,7 +44,7 @@ void PictureFade::keep(unsigned framebuffer, const QSize& size) {
 
 void PictureFade::begin() {
     if (waits())
-        m_startMs = m_clock();
+        m_startMs = now();
 }
 
 void PictureFade::end() {
@@ -56,8 +57,8 @@ void PictureFade::end() {
 float PictureFade::opacity() const {
     if (m_startMs < 0)
         return 1.0f;
-    const float t = std::clamp(
-        static_cast<float>(m_clock() - m_startMs) / static_cast<float>(kFadeMs), 0.0f, 1.0f);
+    const float t =
+        std::clamp(static_cast<float>(now() - m_startMs) / static_cast<float>(kFadeMs), 0.0f, 1.0f);
     return 1.0f - t * t * (3.0f - 2.0f * t);
 }
 

@@ -3,11 +3,13 @@
 // not contain it. Drawn with the viewport's context current.
 #pragma once
 
+#include <QElapsedTimer>
 #include <QObject>
 #include <QSize>
 #include <QTimer>
 #include <functional>
 #include <memory>
+#include <utility>
 
 class QOpenGLFramebufferObject;
 class QOpenGLTextureBlitter;
@@ -33,7 +35,7 @@ class PictureFade : public QObject {
     void blend(unsigned framebuffer, const QSize& size);
     void release(); // what it has in the context
 
-    // Milliseconds that pass (tests stop it).
+    // Milliseconds that pass, in place of those that do (tests stop it); empty: those that do.
     void setClock(std::function<qint64()> clock) { m_clock = std::move(clock); }
 
   Q_SIGNALS:
@@ -42,8 +44,10 @@ class PictureFade : public QObject {
 
   private:
     [[nodiscard]] float opacity() const;
+    [[nodiscard]] qint64 now() const { return m_clock ? m_clock() : m_since.elapsed(); }
 
     std::function<qint64()> m_clock;
+    QElapsedTimer m_since;
     QTimer m_timer; // between two steps of it
     bool m_on = false;
     qint64 m_startMs = -1; // below 0: it has not begun to fade

@@ -39,10 +39,11 @@ void ViewportWidget::setFade(EnvironmentLibrary& library, QAction& wanted) {
         // The light that it waits for may never come.
         if (m_fade.waits() && m_ibl->finished() && !m_environmentTimer.isActive())
             m_fade.end();
-        if (!m_fade.isOn())
-            return;
-        m_onlyDisplay =
-            !m_accumulationTimer.isActive(); // else a frame is due, which takes it along
+        if (!m_fade.isOn() || m_fade.waits() || !m_renderer)
+            return; // while it waits it covers all: there is nothing to paint
+        // Frames that are added up go on: they take the fade along.
+        m_onlyDisplay = !(m_pacing.accumulating() &&
+                          m_renderer->accumulatedFrames() < render::ViewRenderer::kSteadyFrames);
         update();
     });
 }

@@ -303,6 +303,8 @@ void ViewportWidget::releaseGl() {
     m_scene.reset();
     m_context.reset();
     doneCurrent();
+    if (m_lookAhead != nullptr)
+        m_lookAhead->end(); // its light went with the rest
 }
 
 QSize ViewportWidget::sizeAt(float scale) const {

@@ -72,6 +72,7 @@ class LibraryGesturesTest : public EditorTest {
     void TearDown() override {
         leave();
         viewport().fade().end();
+        viewport().fade().setClock({});
         preview().setWanted(true);
         window->actions().fadeEnvironments->setChecked(true);
         viewport().setStyleSheet({});
@@ -267,7 +268,6 @@ TEST_F(LibraryGesturesTest, ArrowKeysInTheGridStepAsOneUndoStep) {
     view().setFocus();
     view().setCurrentIndex(item("Night"));
     EXPECT_EQ(lit(), "builtin:studio") << "to choose is not to use";
-    milliseconds = -10 * PictureFade::kFadeMs; // it is still in full below
     QTest::keyClick(&view(), Qt::Key_Right);
     ASSERT_TRUE(eventually([] { return lit() == "builtin:overcast"; }));
     EXPECT_TRUE(fade().isOn());
@@ -388,6 +388,14 @@ TEST_F(LibraryGesturesTest, APreviewThatIsUsedStaysUntilItLightsTheScene) {
         milliseconds += PictureFade::kFadeMs;
         return viewport().isSettled();
     }));
+}
+
+TEST_F(LibraryGesturesTest, AStepToAnotherEnvironmentEndsAPreview) {
+    hover("Night");
+    ASSERT_TRUE(isPreviewed());
+    pageDown();
+    EXPECT_FALSE(preview().isOn());
+    EXPECT_TRUE(eventually([] { return lit() == "builtin:sunset"; }));
 }
 
 TEST_F(LibraryGesturesTest, PreparedPreviewsKeepToTheBudgetOfTheCache) {
