@@ -24,6 +24,7 @@ class PathWindow : public EditorTest {
         session->views.set({});
         EditorTest::SetUp();
         viewport().setFixedSize(160, 120);
+        viewport().setAddsSlowFrames(true); // pictures are compared, on busy machines too
         window->activateWindow();
         ASSERT_TRUE(QTest::qWaitForWindowActive(window.get(), 30'000));
         viewport().setFocus();
