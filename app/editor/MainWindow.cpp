@@ -15,6 +15,7 @@
 #include "app/editor/style/Icons.h"
 #include "app/editor/trace/PathBadge.h"
 #include "app/editor/trace/PathErrorOverlay.h"
+#include "app/editor/trace/TransferRemedy.h"
 #include "app/editor/viewport/DropTarget.h"
 #include "app/editor/viewport/EquationBar.h"
 #include "app/editor/viewport/SceneProgress.h"
@@ -86,7 +87,9 @@ MainWindow::MainWindow(Session& session)
     auto* wallOverlay = new WallOverlay(session.wall, session.comparison, *m_viewport);
     new SplitHandle(session.comparison, *m_viewport);
     new PathErrorOverlay(session.pathError, *m_viewport);
-    new PathBadge(session.paths, session.pathError, session.views, *m_viewport);
+    new PathBadge(session.paths, session.pathError, session.views,
+                  new TransferRemedy(session.pathError, session.controller, session.bakes),
+                  *m_viewport);
     m_overlay = new ViewOverlay(session.views, session.controller, *m_viewport);
     m_progress = new SceneProgress(session.controller, *m_viewport);
     m_drop = new DropTarget(*this, *m_viewport, session.controller, session.selection,

@@ -18,7 +18,8 @@
 
 namespace patina::editor {
 
-PathBadge::PathBadge(PathView& paths, PathError& error, ViewState& views, QWidget& viewport)
+PathBadge::PathBadge(PathView& paths, PathError& error, ViewState& views, QPushButton* remedy,
+                     QWidget& viewport)
     : QFrame(&viewport)
     , m_paths(paths)
     , m_error(error)
@@ -59,6 +60,7 @@ PathBadge::PathBadge(PathView& paths, PathError& error, ViewState& views, QWidge
         m_error.setShown(static_cast<PathPicture>(m_shown->itemData(index).toInt()));
     });
     row->addWidget(m_shown);
+    row->addWidget(remedy);
     row->addStretch(1);
     m_pause->setObjectName(QStringLiteral("pathPause"));
     m_pause->setCheckable(true);

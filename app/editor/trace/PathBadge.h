@@ -17,7 +17,9 @@ class ViewState;
 class PathBadge : public QFrame {
     Q_OBJECT
   public:
-    PathBadge(PathView& paths, PathError& error, ViewState& views, QWidget& viewport);
+    // `remedy`: for its row.
+    PathBadge(PathView& paths, PathError& error, ViewState& views, QPushButton* remedy,
+              QWidget& viewport);
 
   protected:
     bool eventFilter(QObject* viewport, QEvent* event) override;

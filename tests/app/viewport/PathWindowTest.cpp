@@ -3,6 +3,8 @@
 #include "app/editor/trace/PathError.h"
 #include "app/editor/trace/PathErrorOverlay.h"
 #include "app/editor/trace/PathView.h"
+#include "app/editor/trace/TransferRemedy.h"
+#include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
 #include "core/light/Light.h"
@@ -12,6 +14,7 @@
 #include <QComboBox>
 #include <QLabel>
 #include <QPushButton>
+#include <QStatusBar>
 
 namespace patina::editor {
 namespace {
@@ -208,6 +211,42 @@ TEST_F(PathErrorWindow, ItFollowsEditsAndWaitsForWhatIsNew) {
         const auto& measured = error().measured();
         return measured && measured->traced != before->traced && measured->drawn != before->drawn;
     }));
+}
+
+// The box is open to one side only: image-based light knows nothing of its walls.
+TEST_F(PathErrorWindow, TransferBakesTheErrorAway) {
+    controller().openScene(QStringLiteral("builtin:cornell-box"));
+    ASSERT_TRUE(settled(*session));
+    for (const Target& lamp : targetsNamed(document(), Scope::Material, "Light"))
+        controller().setParameter(*findParameter("material.emissive"), lamp, glm::vec3(0.0f));
+    auto* remedy = badge().findChild<TransferRemedy*>();
+    ASSERT_NE(remedy, nullptr);
+    key(Qt::Key_F12);
+    EXPECT_FALSE(remedy->isVisible()) << "no error is looked at";
+    show("Visible difference");
+    ASSERT_TRUE(isMeasured());
+    ASSERT_TRUE(hasSamples(16));
+    EXPECT_TRUE(remedy->isVisible());
+    EXPECT_EQ(remedy->text(), QStringLiteral("Bake Transfer"));
+    const double before = error().measured()->error.whole.flip;
+    const int steps = undoCount();
+    QTest::mouseClick(remedy, Qt::LeftButton);
+    EXPECT_FALSE(remedy->isEnabled()) << "it is being baked";
+    ASSERT_TRUE(eventually([] { return hasTransfer(document()); }));
+    EXPECT_EQ(document().view.lighting, LightingMode::Prt);
+    EXPECT_FALSE(remedy->isVisible());
+    EXPECT_EQ(undoCount(), steps + 1) << "the light, not the bake";
+    ASSERT_TRUE(eventually([&] { return !remedy->before(); })) << "it says what came of it";
+    EXPECT_THAT(window->statusBar()->currentMessage().toStdString(), testing::HasSubstr("before"));
+    EXPECT_LT(error().measured()->error.whole.flip, 0.5 * before);
+
+    // Undone, the bake is there: it is only used.
+    controller().undoStack().undo();
+    EXPECT_EQ(remedy->text(), QStringLiteral("Light with Transfer"));
+    QTest::mouseClick(remedy, Qt::LeftButton);
+    EXPECT_EQ(document().view.lighting, LightingMode::Prt);
+    controller().newDocument();
+    ASSERT_TRUE(settled(*session));
 }
 
 } // namespace

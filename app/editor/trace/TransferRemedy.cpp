@@ -1,0 +1,109 @@
+#include "app/editor/trace/TransferRemedy.h"
+
+#include "app/editor/document/DocumentController.h"
+#include "app/editor/job/BakeService.h"
+#include "app/editor/trace/PathError.h"
+#include "app/editor/widget/StatusHint.h"
+#include "core/document/ViewChoices.h"
+#include "core/edit/Edit.h"
+#include "core/edit/Parameters.h"
+
+#include <QLocale>
+
+namespace patina::editor {
+namespace {
+
+constexpr int kRemedyOrder = 5; // as `patina ladder` bakes
+
+} // namespace
+
+TransferRemedy::TransferRemedy(PathError& error, DocumentController& controller, BakeService& bakes,
+                               QWidget* parent)
+    : QPushButton(parent)
+    , m_error(error)
+    , m_controller(controller)
+    , m_bakes(bakes) {
+    setObjectName(QStringLiteral("transferRemedy"));
+    setFocusPolicy(Qt::TabFocus);
+    connect(this, &QPushButton::clicked, this, &TransferRemedy::apply);
+    connect(&bakes, &BakeService::stateChanged, this, &TransferRemedy::refresh);
+    connect(&controller, &DocumentController::changed, this, [this](const Change& change) {
+        if (change.isAnotherDocument()) {
+            m_waits = false;
+            m_before.reset();
+        }
+        if (change.affects != Affects::Nothing)
+            refresh();
+    });
+    connect(&error, &PathError::changed, this, [this] {
+        tellSuccess();
+        refresh();
+    });
+    refresh();
+}
+
+bool TransferRemedy::isDone() const {
+    const Document& document = m_controller.document();
+    return document.view.lighting == LightingMode::Prt && hasTransfer(document);
+}
+
+void TransferRemedy::refresh() {
+    const bool has = hasTransfer(m_controller.document());
+    if (m_waits && has)
+        light();
+    else if (m_waits && !m_bakes.running())
+        m_waits = false; // it was cancelled, or could not be made
+    setVisible(m_error.isOn() && !isDone());
+    setEnabled(has || !m_bakes.running());
+    setText(has                 ? tr("Light with Transfer")
+            : m_bakes.running() ? tr("Baking…")
+                                : tr("Bake Transfer"));
+    setAccessibleName(text());
+    setToolTip(has ? tr("Light with the baked transfer: with the shadows of the environment and "
+                        "the bounces that the bake holds")
+                   : tr("Bake radiance transfer per vertex and light with it: it knows what the "
+                        "scene hides of the environment and what it reflects onto itself"));
+    setStatusTip(toolTip());
+}
+
+void TransferRemedy::apply() {
+    if (const auto& measured = m_error.measured())
+        m_before = measured->error.whole.flip;
+    if (hasTransfer(m_controller.document())) {
+        light();
+        return;
+    }
+    BakeRequest request;
+    request.kind = BakeKind::PrtVertex;
+    request.prt.order = kRemedyOrder;
+    request.prt.transfer = TransferKind::Interreflected;
+    m_waits = true;
+    m_bakes.start(request);
+    refresh();
+}
+
+void TransferRemedy::light() {
+    m_waits = false;
+    m_replaced = m_error.measured();
+    m_controller.setParameter(*findParameter("view.lighting"), {Scope::View, 0},
+                              static_cast<int>(LightingMode::Prt));
+}
+
+void TransferRemedy::tellSuccess() {
+    const auto& measured = m_error.measured();
+    if (!m_before || !m_error.isOn() || !measured)
+        return;
+    if (!isDone() || m_waits) // what a running bake previews is no success yet
+        m_replaced = measured;
+    if (measured == m_replaced)
+        return;
+    const double before = *m_before, now = measured->error.whole.flip;
+    m_before.reset();
+    m_replaced = nullptr;
+    const QLocale locale;
+    showHint(*this, tr("Visible difference (FLIP) %1 before, %2 now: %3 %")
+                        .arg(locale.toString(before, 'f', 3), locale.toString(now, 'f', 3),
+                             locale.toString(100.0 * (now / before - 1.0), 'f', 0)));
+}
+
+} // namespace patina::editor

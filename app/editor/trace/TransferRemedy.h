@@ -1,0 +1,39 @@
+// A button beside the error of the drawn picture: bakes what the viewport lacks to know of hidden
+// and reflected light, lights with it, and says by how much the error fell.
+#pragma once
+
+#include <QPushButton>
+#include <memory>
+#include <optional>
+
+namespace patina::editor {
+
+class BakeService;
+class DocumentController;
+class PathError;
+
+class TransferRemedy : public QPushButton {
+    Q_OBJECT
+  public:
+    TransferRemedy(PathError& error, DocumentController& controller, BakeService& bakes,
+                   QWidget* parent = nullptr);
+
+    // Of the picture before the remedy, while its success is not known yet: FLIP.
+    [[nodiscard]] std::optional<double> before() const { return m_before; }
+
+  private:
+    void refresh();
+    void apply();       // bakes where there is no bake
+    void light();       // with the bake
+    void tellSuccess(); // once the new picture has been measured
+    [[nodiscard]] bool isDone() const; // the bake is there, and lights
+
+    PathError& m_error;
+    DocumentController& m_controller;
+    BakeService& m_bakes;
+    bool m_waits = false; // for the bake, to light with it
+    std::optional<double> m_before;
+    std::shared_ptr<const void> m_replaced; // what was measured before
+};
+
+} // namespace patina::editor
