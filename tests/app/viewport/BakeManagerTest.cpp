@@ -98,12 +98,12 @@ class BakeManagerTest : public EditorTest {
 };
 
 TEST_F(BakeManagerTest, BakesTakeTurnsByPriority) {
-    rays(16384);
+    rays(8192);
     click("bakeStart");
     ASSERT_EQ(job(0).state, JobState::Running);
     ASSERT_TRUE(traces(0));
     EXPECT_EQ(visible<QPushButton>("bakeStart")->text(), QStringLiteral("Add to the queue"));
-    rays(4096);
+    rays(16384); // not over before it has been looked at twice
     click("bakeStart");
     ASSERT_EQ(session->jobs.jobs().size(), 2u);
     EXPECT_EQ(job(1).state, JobState::Queued);
