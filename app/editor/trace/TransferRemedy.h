@@ -23,9 +23,9 @@ class TransferRemedy : public QPushButton {
 
   private:
     void refresh();
-    void apply();       // bakes where there is no bake
-    void light();       // with the bake
-    void tellSuccess(); // once the new picture has been measured
+    void apply();                      // bakes where there is no bake
+    void light();                      // with the bake
+    void tellSuccess();                // once the new picture has been measured
     [[nodiscard]] bool isDone() const; // the bake is there, and lights
 
     PathError& m_error;
