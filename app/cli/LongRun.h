@@ -22,8 +22,8 @@ struct LongRun {
 // Usage errors: of --checkpoint; where a checkpoint is asked for and cannot lie beside the output.
 Result<LongRun> planLongRun(const std::string& output, const LongBakeOptions& options);
 
-// Holds the output for this process, removes what killed ones left, and says what becomes of a
-// checkpoint that is there; `work`: "bake". Error: CannotCreate when another process holds it.
+// Locks the output for this process, removes what killed ones left, and says whether a checkpoint
+// that is there is used; `work`: "bake". Error: CannotCreate when another process holds it.
 Result<std::optional<FileLock>> beginLongRun(Session& session, const LongRun& run,
                                              const std::string& output, const char* work);
 
