@@ -42,6 +42,28 @@ NumberField* makeNumber(double least, double most, int decimals, const QString& 
     return field;
 }
 
+// Asks for the width of the widest text it has shown, and of all the numbers from the start. Were
+// it only that of its text, the bar would wrap when the numbers come, the picture would become
+// smaller by a row and be measured anew, and so on without end.
+class SteadyLabel : public QLabel {
+  public:
+    explicit SteadyLabel(const QString& widest) {
+        setText(widest);
+        m_widest = QLabel::sizeHint();
+        clear();
+    }
+    QSize sizeHint() const override { return m_widest = m_widest.expandedTo(QLabel::sizeHint()); }
+
+  private:
+    mutable QSize m_widest;
+};
+
+QString numbersText(const QString& rmse, const QString& psnr, const QString& relMse,
+                    const QString& flip, const QString& most, const QString& x, const QString& y) {
+    return CompareControls::tr("RMSE %1   PSNR %2 dB   relMSE %3   FLIP %4, largest %5 at %6, %7")
+        .arg(rmse, psnr, relMse, flip, most, x, y);
+}
+
 } // namespace
 
 CompareControls::CompareControls(WallState& wall, WallComparison& comparison, QWidget* parent)
@@ -56,7 +78,10 @@ CompareControls::CompareControls(WallState& wall, WallComparison& comparison, QW
     , m_stretch(new QCheckBox(tr("Stretch")))
     , m_match(new QCheckBox(tr("Match exposure")))
     , m_swap(makeListButton(QStringLiteral("redo"), {}, tr("Swap A and B")))
-    , m_numbers(new QLabel) {
+    , m_numbers(new SteadyLabel(numbersText(QStringLiteral("0.000888"), QStringLiteral("88.8"),
+                                            QStringLiteral("0.000888"), QStringLiteral("0.888"),
+                                            QStringLiteral("0.88"), QStringLiteral("8888"),
+                                            QStringLiteral("8888")))) {
     auto* row = new FlowLayout(tokens::kGap, tokens::kGap / 2, this);
     row->setContentsMargins(0, 0, 0, 0);
     auto* label = new QLabel(tr("Compare with"));
@@ -202,14 +227,10 @@ void CompareControls::showNumbers() {
     const ErrorSummary& flip = m_comparison.measured()->flip;
     const QString psnr =
         std::isfinite(metrics.psnr) ? QString::number(metrics.psnr, 'f', 1) : QStringLiteral("∞");
-    m_numbers->setText(tr("RMSE %1   PSNR %2 dB   relMSE %3   FLIP %4, largest %5 at %6, %7")
-                           .arg(metrics.rmse, 0, 'g', 3)
-                           .arg(psnr)
-                           .arg(metrics.relMse, 0, 'g', 3)
-                           .arg(flip.mean, 0, 'f', 3)
-                           .arg(flip.max, 0, 'f', 2)
-                           .arg(flip.maxPosition.x)
-                           .arg(flip.maxPosition.y));
+    m_numbers->setText(numbersText(
+        QString::number(metrics.rmse, 'g', 3), psnr, QString::number(metrics.relMse, 'g', 3),
+        QString::number(flip.mean, 'f', 3), QString::number(flip.max, 'f', 2),
+        QString::number(flip.maxPosition.x), QString::number(flip.maxPosition.y)));
     if (m_comparison.hasFile() && !m_comparison.fileNote().isEmpty())
         m_numbers->setText(m_numbers->text() + QStringLiteral("   ") + m_comparison.fileNote());
 }

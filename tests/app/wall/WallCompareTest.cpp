@@ -1,12 +1,15 @@
 // Two cells against each other in the real window: line, turns, blend, differences, numbers.
 #include "app/editor/viewport/SplitHandle.h"
+#include "app/editor/wall/CompareControls.h"
 #include "app/editor/wall/WallComparison.h"
 #include "app/editor/widget/NumberField.h"
 #include "tests/app/wall/WallFixture.h"
 
 #include <QCheckBox>
 #include <QLabel>
+#include <QLayout>
 #include <cmath>
+#include <vector>
 
 namespace patina::editor {
 namespace {
@@ -152,6 +155,25 @@ TEST_F(WallCompareTest, NumbersAreThoseOfTheShownPictures) {
                               {Scope::Material, document().materials[2].id}, glm::vec3(0.0f));
     ASSERT_TRUE(measured());
     EXPECT_NE(comparison().measured()->metrics.rmse, before);
+}
+
+// A bar that grew with the numbers would make the picture smaller, which is then measured anew:
+// without end, at every width at which they need another row.
+TEST_F(WallCompareTest, TheBarIsAsHighWithTheNumbersAsWithout) {
+    const auto heights = [] {
+        const auto* controls = window->findChild<CompareControls*>();
+        std::vector<int> rows;
+        for (int width = 300; width <= 1400; width += 20)
+            rows.push_back(controls->layout()->heightForWidth(width));
+        return rows;
+    };
+    ASSERT_TRUE(measured());
+    const std::vector<int> with = heights();
+    auto* numbers = window->findChild<QLabel*>(QStringLiteral("compareNumbers"));
+    ASSERT_GT(numbers->text().size(), 40);
+    numbers->setText(QStringLiteral("Comparing…")); // as while it measures anew
+    EXPECT_EQ(heights(), with);
+    EXPECT_GT(with.front(), with.back()) << "it wraps where it is narrow";
 }
 
 TEST_F(WallCompareTest, DifferencesAreShownInColours) {
