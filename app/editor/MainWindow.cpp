@@ -90,7 +90,7 @@ MainWindow::MainWindow(Session& session)
     new PathBadge(session.paths, session.pathError, session.views,
                   new TransferRemedy(session.pathError, session.controller, session.bakes),
                   *m_viewport);
-    m_overlay = new ViewOverlay(session.views, session.controller, *m_viewport);
+    m_overlay = new ViewOverlay(session.views, session.controller, session.wall, *m_viewport);
     m_progress = new SceneProgress(session.controller, *m_viewport);
     m_drop = new DropTarget(*this, *m_viewport, session.controller, session.selection,
                             {session.wall, session.controller, *wallOverlay},

@@ -83,6 +83,11 @@ bool ViewLegend::isWanted() const {
     return shown && (m_views.settings().split || shown->kind != shading::kViewFinal);
 }
 
+bool ViewLegend::isOnlyANote() const {
+    return m_content.why.isEmpty() && !m_content.hasModes && !m_content.hasScale &&
+           m_content.swatches.empty() && m_content.lights.empty();
+}
+
 void ViewLegend::refresh() {
     if (isWanted()) {
         LegendContent content =

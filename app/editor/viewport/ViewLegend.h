@@ -25,6 +25,8 @@ class ViewLegend : public QFrame {
 
     // There is something to say: not for the picture alone.
     [[nodiscard]] bool isWanted() const;
+    // Nothing but a name and a note: no scale, colours, choices or remedy.
+    [[nodiscard]] bool isOnlyANote() const;
 
   Q_SIGNALS:
     void changed();                               // its size, or whether it is wanted

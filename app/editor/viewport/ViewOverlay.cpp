@@ -5,14 +5,17 @@
 #include "app/editor/viewport/ViewLegend.h"
 #include "app/editor/viewport/ViewSplitModel.h"
 #include "app/editor/viewport/ViewState.h"
+#include "app/editor/wall/WallState.h"
 
 #include <QEvent>
 
 namespace patina::editor {
 
-ViewOverlay::ViewOverlay(ViewState& views, DocumentController& controller, QWidget& viewport)
+ViewOverlay::ViewOverlay(ViewState& views, DocumentController& controller, const WallState& wall,
+                         QWidget& viewport)
     : QObject(&viewport)
     , m_views(views)
+    , m_wall(wall)
     , m_viewport(viewport)
     , m_split(new SplitHandle(*new ViewSplitModel(views, this), viewport))
     , m_shown(new ViewLegend(views, controller, ViewSide::Shown, &viewport))
@@ -21,6 +24,8 @@ ViewOverlay::ViewOverlay(ViewState& views, DocumentController& controller, QWidg
         connect(legend, &ViewLegend::changed, this, &ViewOverlay::place);
         connect(legend, &ViewLegend::remedyWanted, this, &ViewOverlay::remedyWanted);
     }
+    connect(&wall, &WallState::changed, this, &ViewOverlay::place);
+    connect(&wall, &WallState::cellsChosen, this, &ViewOverlay::place);
     viewport.installEventFilter(this);
     place();
 }
@@ -33,8 +38,10 @@ bool ViewOverlay::eventFilter(QObject*, QEvent* event) {
 
 void ViewOverlay::place() {
     const int margin = tokens::kMargin;
+    // Over the cells of a wall it is in the way unless the colours need it to be read.
+    const bool cells = m_wall.isOn() && !m_wall.enlarged();
     for (ViewLegend* legend : {m_shown, m_other}) {
-        legend->setVisible(legend->isWanted());
+        legend->setVisible(legend->isWanted() && !(cells && legend->isOnlyANote()));
         legend->adjustSize(); // the content may be new
     }
     const auto& split = m_views.settings().split;

@@ -14,11 +14,13 @@ class DocumentController;
 class SplitHandle;
 class ViewLegend;
 class ViewState;
+class WallState;
 
 class ViewOverlay : public QObject {
     Q_OBJECT
   public:
-    ViewOverlay(ViewState& views, DocumentController& controller, QWidget& viewport);
+    ViewOverlay(ViewState& views, DocumentController& controller, const WallState& wall,
+                QWidget& viewport);
 
   Q_SIGNALS:
     void remedyWanted(patina::ViewRemedy remedy); // ViewLegend::remedyWanted()
@@ -30,6 +32,7 @@ class ViewOverlay : public QObject {
     void place();
 
     ViewState& m_views;
+    const WallState& m_wall;
     QWidget& m_viewport;
     SplitHandle* m_split;
     ViewLegend *m_shown, *m_other;

@@ -68,6 +68,7 @@ SheetSave::SheetSave(SheetOrder order, const WallState& wall, ViewportWidget& vi
     : QObject(&viewport)
     , m_order(std::move(order))
     , m_viewport(viewport)
+    , m_controller(controller)
     , m_wall(wall.wall())
     , m_cells(wall.cells())
     , m_hand(std::make_shared<Hand>()) {
@@ -79,7 +80,7 @@ SheetSave::SheetSave(SheetOrder order, const WallState& wall, ViewportWidget& vi
     connect(&m_timer, &QTimer::timeout, this, &SheetSave::draw);
     connect(&wall, &WallState::changed, this, [this, &wall] {
         if (wall.wall() != m_wall) // else it is the same of an edited document
-            fail({ErrorKind::Cancelled, "the wall was changed before its sheet was drawn", {}, {}});
+            wallWasChanged();
     });
     m_timer.start(0);
 
@@ -135,6 +136,17 @@ void SheetSave::fail(const Error& error) {
     deleteLater();
 }
 
+// Nobody pressed Cancel: said aloud, as the file that was asked for is not there.
+void SheetSave::wallWasChanged() {
+    UserNotice notice;
+    notice.kind = NoticeKind::Warning;
+    notice.text = tr("%1 was not saved: the wall was changed before all its cells were drawn. Show "
+                     "the wall, and save it once more.")
+                      .arg(QFileInfo(m_order.file).fileName());
+    Q_EMIT m_controller.noticed(notice);
+    fail({ErrorKind::Cancelled, "the wall was changed before its sheet was drawn", {}, {}});
+}
+
 void SheetSave::draw() {
     {
         const std::lock_guard lock(m_hand->mutex);
@@ -152,8 +164,7 @@ void SheetSave::draw() {
         if (!views)
             return;
         if (views->size() != m_cells.size())
-            return fail(
-                {ErrorKind::Cancelled, "the wall was changed before its sheet was drawn", {}, {}});
+            return wallWasChanged();
         m_views = std::move(*views);
     }
     sheet::DrawnCell cell;

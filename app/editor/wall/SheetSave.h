@@ -42,9 +42,11 @@ class SheetSave : public QObject {
   private:
     void draw(); // one frame
     void fail(const Error& error);
+    void wallWasChanged();
 
     SheetOrder m_order;
     ViewportWidget& m_viewport;
+    DocumentController& m_controller;
     Wall m_wall; // as it was when it was asked for
     std::vector<WallCell> m_cells;
     std::vector<WallPainter::SheetCell> m_views; // empty: the wall is not ready yet

@@ -129,12 +129,20 @@ TEST_F(SheetSaveTest, AnExrHasALinearPartForEachCellAndAPdfItsCaptions) {
 
 TEST_F(SheetSaveTest, ACancelOrAClosedWallLeavesNoFile) {
     save("cancelled.png", SheetFormat::Png, 400);
+    QStringList said;
+    QObject context;
+    QObject::connect(&controller(), &DocumentController::noticed, &context,
+                     [&said](const UserNotice& notice) { said << notice.text; });
     session->jobs.cancelAll();
     EXPECT_EQ(ended(), JobState::Cancelled);
+    EXPECT_TRUE(said.isEmpty()) << "who cancels knows";
     save("closed.png", SheetFormat::Png, 400);
     wall().setOn(false);
     EXPECT_EQ(ended(), JobState::Cancelled);
     EXPECT_TRUE(QDir(folder.path()).isEmpty());
+    ASSERT_EQ(said.size(), 1);
+    EXPECT_TRUE(said[0].startsWith(QStringLiteral("closed.png was not saved")))
+        << said[0].toStdString();
     save("none.png", SheetFormat::Png, 400);
     EXPECT_EQ(ended(), JobState::Cancelled) << "there is no wall";
 }

@@ -1,5 +1,7 @@
 // The wall in the real window, by real keys and mouse: what it compares, which cell is current or
 // enlarged, edits, the way back. PATINA_SCREENSHOTS keeps pictures.
+#include "app/editor/viewport/ViewLegend.h"
+#include "app/editor/viewport/ViewState.h"
 #include "app/editor/wall/WallBar.h"
 #include "app/editor/widget/NumberField.h"
 #include "core/document/ViewChoices.h"
@@ -258,6 +260,22 @@ TEST_F(WallWindowTest, CaptionsAndCellsFillTheViewport) {
         EXPECT_EQ(layout.cellAt(layout.cells[3].center()), 3u);
         EXPECT_FALSE(layout.cellAt({1.0, 1.0}));
     }
+}
+
+// A legend would hide the first cells: only one that the colours need to be read stays.
+TEST_F(WallWindowTest, TheLegendOfAViewLeavesTheCellsFree) {
+    const auto legend = [] {
+        return window->findChild<ViewLegend*>(QStringLiteral("legend"))->isVisible();
+    };
+    session->views.show(shading::kViewCosineLight);
+    EXPECT_TRUE(legend());
+    key(Qt::Key_F3);
+    EXPECT_FALSE(legend()) << "it says a name alone";
+    wall().enlarge(1);
+    EXPECT_TRUE(legend());
+    wall().enlarge(std::nullopt);
+    session->views.show(shading::kViewNoL);
+    EXPECT_TRUE(legend()) << "it has the scale";
 }
 
 } // namespace
