@@ -93,7 +93,7 @@ void ViewLegend::refresh() {
         LegendContent content =
             describeView(m_views.settings(), *choice(), m_controller.document());
         if (m_views.preparing() && content.why.isEmpty())
-            content.note += (content.note.isEmpty() ? QString() : QStringLiteral(" ")) +
+            content.note += (content.note.isEmpty() ? QString() : QStringLiteral(". ")) +
                             tr("One moment: the graphics driver prepares this view.");
         if (content != m_content) {
             m_content = content;
