@@ -14,19 +14,16 @@
 #include "core/image/Channels.h"
 #include "core/ladder/Ladder.h"
 #include "core/ladder/LadderJson.h"
+#include "core/ladder/LadderTruth.h"
 #include "core/mix/LightMix.h"
 #include "core/sheet/SheetCanvas.h"
 #include "core/sheet/WallSheet.h"
-#include "core/trace/document/DocumentTraceInputs.h"
 #include "core/trace/error/PictureErrorMap.h"
-#include "core/trace/error/SeenMaterials.h"
+#include "render/RungRenderer.h"
 #include "render/SceneRenderer.h"
-#include "render/ViewRenderer.h"
-#include "render/WallRenderer.h"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
@@ -37,23 +34,11 @@
 namespace patina::cli {
 namespace {
 
-constexpr std::uint32_t kMostInPass = 16;
 constexpr std::array kShownErrors{ErrorShown::Exposure, ErrorShown::Visible};
 
-double secondsFrom(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 // What all rungs are held against.
-struct Truth {
-    TracedPicture picture;
-    std::vector<Id> materials; // seen at its pixels
-    std::uint32_t samples = 0;
-    double noise = 0.0, seconds = 0.0;
-};
-
-Result<Truth> traceTruth(Session& session, const LadderOptions& options, const Document& document,
-                         const render::FrameSettings& frame) {
+Result<LadderTruth> traceTruth(Session& session, const LadderOptions& options,
+                               const Document& document, const render::FrameSettings& frame) {
     session.beginPhase();
     session.job().setActivity("preparing the scene");
     TraceView view;
@@ -62,39 +47,15 @@ Result<Truth> traceTruth(Session& session, const LadderOptions& options, const D
     view.height = frame.height;
     if (Result<void> set = setBackground(session, document, view); !set)
         return set.error();
-    const Result<TraceScene> scene = TraceScene::build(traceInputs(document), session.job());
-    if (!scene)
-        return scene.error();
-    const auto start = std::chrono::steady_clock::now();
-    Film film(frame.width, frame.height);
-    Truth truth;
-    const auto most = static_cast<std::uint32_t>(options.paths);
-    for (std::uint32_t pass = 2; truth.samples < most; pass = std::min(2 * pass, kMostInPass)) {
-        pass = std::min(pass, most - truth.samples);
-        session.job().setActivity(fmt::format("tracing: {} paths per pixel", truth.samples));
-        if (Result<void> traced =
-                tracePaths(*scene, view, {}, film, truth.samples, pass, session.job());
-            !traced)
-            return traced.error();
-        truth.samples += pass;
-        truth.noise = film.noise().value_or(0.0);
-        session.job().setProgress(static_cast<double>(truth.samples) / most);
-        if (options.noise && truth.samples > 2 && 100.0 * truth.noise <= *options.noise)
-            break;
-    }
-    if (session.job().stopping())
-        return cancelledError();
-    truth.seconds = secondsFrom(start);
-    truth.picture = *tracedPicture(film);
-    truth.materials = seenMaterials(*scene, view, session.job());
-    if (truth.materials.empty())
-        return cancelledError();
-    return truth;
+    LadderTruthSettings settings;
+    settings.samples = static_cast<std::uint32_t>(options.paths);
+    if (options.noise)
+        settings.noise = *options.noise / 100.0;
+    return traceLadderTruth(document, view, settings, session.job());
 }
 
 struct DrawnRung {
-    Image picture; // F32, linear
-    double milliseconds = 0.0;
+    render::RungRenderer::Drawn drawn;
     PictureError error;
 };
 
@@ -113,52 +74,34 @@ class RungDrawer {
         m_context = std::move(*context);
         m_session.beginPhase();
         m_session.job().setActivity("preparing light");
+        EnvironmentTexelsPtr light;
         if (const ImagePtr image = shownEnvironment(document).image;
             image && !environmentParts(document).empty()) {
-            Result<EnvironmentTexelsPtr> light = prepareTexels(image, m_session.job());
-            if (!light)
-                return light.error();
-            m_light = *std::move(light);
+            Result<EnvironmentTexelsPtr> texels = prepareTexels(image, m_session.job());
+            if (!texels)
+                return texels.error();
+            light = *std::move(texels);
         }
         Result<std::unique_ptr<render::SceneRenderer>> scene =
             render::SceneRenderer::create(*m_context);
         if (!scene)
             return scene.error();
         m_scene = std::move(*scene);
-        m_cells = std::make_unique<render::WallRenderer>(*m_scene);
+        m_rungs = std::make_unique<render::RungRenderer>(*m_scene, m_frame, std::move(light));
         return {};
     }
 
-    // Twice: what its programs take to be compiled is no part of its time.
-    Result<DrawnRung> draw(Document document) {
-        render::CellView cell;
-        cell.frame = m_frame;
-        cell.light = m_light;
-        if (isLitByBake(m_frame.view, document))
+    Result<render::RungRenderer::Drawn> draw(Document document) {
+        const bool baked = isLitByBake(m_frame.view, document);
+        if (baked)
             if (Result<void> followed = followBounces(m_session, m_frame.view, document); !followed)
                 return followed.error();
-        const Result<NearShadowsPtr> shadows = traceLocalShadows(
-            m_session, m_options, document, isLitByBake(m_frame.view, document), m_shadows);
+        const Result<NearShadowsPtr> shadows =
+            traceLocalShadows(m_session, m_options, document, baked, m_shadows);
         if (!shadows)
             return shadows.error();
-        cell.nearShadows = m_shadows = *shadows;
-        cell.document = std::move(document);
-        DrawnRung rung;
-        for (int time = 0; time < 2; ++time) {
-            render::ViewRenderer picture(*m_scene);
-            const auto start = std::chrono::steady_clock::now();
-            int frames = 0;
-            do {
-                if (m_session.job().stopping())
-                    return cancelledError();
-                if (Result<void> drawn = m_cells->drawFrame(cell, picture, frames > 0); !drawn)
-                    return drawn.error();
-                ++frames;
-            } while (!render::WallRenderer::isFine(cell, picture));
-            rung.picture = picture.readLinear();
-            rung.milliseconds = 1000.0 * secondsFrom(start) / frames;
-        }
-        return rung;
+        m_shadows = *shadows;
+        return m_rungs->draw(std::move(document), m_shadows, m_session.job());
     }
 
   private:
@@ -167,8 +110,7 @@ class RungDrawer {
     const render::FrameSettings m_frame;
     std::unique_ptr<gl::Context> m_context; // outlives what it holds
     std::unique_ptr<render::SceneRenderer> m_scene;
-    std::unique_ptr<render::WallRenderer> m_cells;
-    EnvironmentTexelsPtr m_light;
+    std::unique_ptr<render::RungRenderer> m_rungs;
     NearShadowsPtr m_shadows;
 };
 
@@ -183,13 +125,13 @@ std::string scoreText(const ErrorScore& score) {
 // Rungs beside each other: as they are drawn, and how far they are from the truth, which stands
 // last.
 Result<Image> ladderSheet(const std::vector<LadderRung>& rungs,
-                          const std::vector<std::optional<DrawnRung>>& drawn, const Truth& truth,
-                          const View& view, const std::string& title) {
+                          const std::vector<std::optional<DrawnRung>>& drawn,
+                          const LadderTruth& truth, const View& view, const std::string& title) {
     WallAxis columns{"Lighting", {}}, rows{"Shown", {}};
     for (std::size_t i = 0; i < rungs.size(); ++i)
         columns.entries.push_back(
             {drawn[i] ? fmt::format("{} · {} · {:.0f} ms", rungs[i].label,
-                                    scoreText(drawn[i]->error.whole), drawn[i]->milliseconds)
+                                    scoreText(drawn[i]->error.whole), drawn[i]->drawn.milliseconds)
                       : rungs[i].label,
              {}});
     columns.entries.push_back({fmt::format("Path traced · ± {:.1f} %", 100.0 * truth.noise), {}});
@@ -218,8 +160,8 @@ Result<Image> ladderSheet(const std::vector<LadderRung>& rungs,
                          errorPicture(drawn[cell.column]->error, kShownErrors[cell.row - 1]));
         } else {
             Result<Image> shown = displayedPicture(
-                isTruth ? truth.picture.radiance : withoutAlpha(drawn[cell.column]->picture), view,
-                luminance);
+                isTruth ? truth.picture.radiance : withoutAlpha(drawn[cell.column]->drawn.picture),
+                view, luminance);
             if (!shown)
                 return shown.error();
             sheet::paste(picture, place.x, place.y, *shown);
@@ -234,7 +176,7 @@ nlohmann::ordered_json describeRungs(const std::vector<LadderRung>& rungs,
     for (std::size_t i = 0; i < rungs.size(); ++i) {
         nlohmann::ordered_json one = {{"name", rungs[i].name}, {"label", rungs[i].label}};
         if (drawn[i]) {
-            one["milliseconds"] = drawn[i]->milliseconds;
+            one["milliseconds"] = drawn[i]->drawn.milliseconds;
             one["bakeSeconds"] = rungs[i].bakeSeconds;
             one["error"] = errorJson(drawn[i]->error, rungs[i].document);
         } else {
@@ -298,7 +240,7 @@ Result<void> run(Session& session, const LadderOptions& options) {
     describeView(json["settings"], document->view);
     json["settings"].erase("lighting");
 
-    const Result<Truth> truth = traceTruth(session, options, *document, *frame);
+    const Result<LadderTruth> truth = traceTruth(session, options, *document, *frame);
     if (!truth)
         return truth.error();
     session.beginPhase();
@@ -322,24 +264,23 @@ Result<void> run(Session& session, const LadderOptions& options) {
             table.emplace_back(rungs[i].label, rungs[i].whyNot);
             continue;
         }
-        Result<DrawnRung> rung = drawer.draw(rungs[i].document);
-        if (!rung)
-            return rung.error();
-        Result<PictureError> error = pictureError(rung->picture, truth->picture, document->view,
+        Result<render::RungRenderer::Drawn> picture = drawer.draw(rungs[i].document);
+        if (!picture)
+            return picture.error();
+        Result<PictureError> error = pictureError(picture->picture, truth->picture, document->view,
                                                   truth->materials, session.job());
         if (!error)
             return error.error();
-        rung->error = *std::move(error);
-        const ErrorScore& score = rung->error.whole;
+        drawn[i] = DrawnRung{*std::move(picture), *std::move(error)};
+        const ErrorScore& score = drawn[i]->error.whole;
         table.emplace_back(
             rungs[i].label,
             fmt::format("FLIP {:.3f} (noise {:.3f})  {:>8}  relative {:5.1f} %  {:5.0f} ms{}",
                         score.flip, score.flipNoise, evText(score.biasEv), 100.0 * score.relative,
-                        rung->milliseconds,
+                        drawn[i]->drawn.milliseconds,
                         rungs[i].bakeSeconds > 0.0
                             ? fmt::format("  baked in {:.1f} s", rungs[i].bakeSeconds)
                             : std::string()));
-        drawn[i] = *std::move(rung);
     }
     session.report().table(fmt::format("Against {} paths per pixel, ± {:.2f} %, {:.1f} s:",
                                        truth->samples, 100.0 * truth->noise, truth->seconds),

@@ -1,7 +1,9 @@
 #include "core/trace/document/DocumentTraceInputs.h"
 
 #include "core/document/Document.h"
+#include "core/document/ViewChoices.h"
 #include "core/light/EnvironmentLookup.h"
+#include "core/light/Ibl.h"
 #include "core/mix/LightMix.h"
 
 #include <algorithm>
@@ -39,6 +41,32 @@ blurredBackground(std::shared_ptr<const IblMaps> maps, const EnvironmentPart& sh
     return [lookup, blur](const glm::vec3& direction) {
         return lookup.prefiltered(blur, direction).value_or(glm::vec3(0.0f));
     };
+}
+
+Result<void> setTracedBackground(const Document& document, TraceView& view,
+                                 const std::function<Result<IblMaps>(const Image&)>& prepare) {
+    const View& look = document.view;
+    switch (look.background) {
+    case BackgroundMode::Environment:
+        return {}; // as it is
+    case BackgroundMode::Off:
+        view.transparent = true;
+        return {};
+    case BackgroundMode::Color:
+        view.background = [color = look.backgroundColor](const glm::vec3&) { return color; };
+        return {};
+    case BackgroundMode::Blurred:
+        break;
+    }
+    const EnvironmentPart shown = shownEnvironment(document);
+    if (!shown.image)
+        return {};
+    Result<IblMaps> maps = prepare(*shown.image);
+    if (!maps)
+        return maps.error();
+    view.background = blurredBackground(std::make_shared<const IblMaps>(*std::move(maps)), shown,
+                                        look.backgroundBlur);
+    return {};
 }
 
 } // namespace patina

@@ -1,0 +1,47 @@
+#include "render/RungRenderer.h"
+
+#include "render/SceneRenderer.h"
+#include "render/ViewRenderer.h"
+#include "render/WallRenderer.h"
+
+#include <chrono>
+#include <utility>
+
+namespace patina::render {
+
+RungRenderer::RungRenderer(SceneRenderer& scene, FrameSettings frame, EnvironmentTexelsPtr light)
+    : m_scene(scene)
+    , m_frame(std::move(frame))
+    , m_light(std::move(light))
+    , m_cells(std::make_unique<WallRenderer>(scene)) {}
+
+RungRenderer::~RungRenderer() = default;
+
+Result<RungRenderer::Drawn> RungRenderer::draw(Document document, NearShadowsPtr shadows,
+                                               const JobContext& job) {
+    CellView cell;
+    cell.frame = m_frame;
+    cell.light = m_light;
+    cell.nearShadows = std::move(shadows);
+    cell.document = std::move(document);
+    Drawn drawn;
+    for (int time = 0; time < 2; ++time) { // the first compiles its programs
+        ViewRenderer picture(m_scene);
+        const auto start = std::chrono::steady_clock::now();
+        int frames = 0;
+        do {
+            if (job.stopping())
+                return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
+            if (Result<void> done = m_cells->drawFrame(cell, picture, frames > 0); !done)
+                return done.error();
+            ++frames;
+        } while (!WallRenderer::isFine(cell, picture));
+        drawn.picture = picture.readLinear();
+        const std::chrono::duration<double, std::milli> took =
+            std::chrono::steady_clock::now() - start;
+        drawn.milliseconds = took.count() / frames;
+    }
+    return drawn;
+}
+
+} // namespace patina::render
