@@ -290,7 +290,7 @@ void TurntableDialog::refresh() {
     const QString problem = turntableProblem(m_output->path(), m_noVideo);
     const bool possible = problem.isEmpty();
     const int existing = possible ? existingFiles(wanted) : 0;
-    const ViewKind view = turntableScene(m_session).view.shown.kind;
+    const ViewKind view = sceneCopy(m_session).view.shown.kind;
     QString summary;
     if (!possible) {
         summary = problem;

@@ -3,17 +3,9 @@
 #include "app/editor/Session.h"
 #include "app/editor/document/FileOnDisk.h"
 #include "app/editor/document/QtText.h"
-#include "core/bake/BakeMemory.h"
-#include "core/bake/document/FollowBounces.h"
-#include "core/base/Log.h"
 #include "core/cells/SequenceWriter.h"
 #include "core/document/ViewChoices.h"
-#include "core/edit/Edit.h"
-#include "core/edit/ViewReasons.h"
 #include "core/io/VideoWriter.h"
-#include "core/light/GeneratedEnvironment.h"
-#include "core/mix/EnvironmentBlend.h"
-#include "core/mix/LightMix.h"
 #include "render/SceneRenderer.h"
 #include "render/SequenceRenderer.h"
 #include "render/ViewRenderer.h"
@@ -37,64 +29,6 @@ QString trTurntable(const char* text) {
     return QCoreApplication::translate("TurntableSave", text);
 }
 
-Error cancelledTurntable() {
-    return {ErrorKind::Cancelled, "cancelled", {}, {}};
-}
-
-// Drafts of pictures that an edit has just asked for.
-bool isDraft(const ImagePtr& picture) {
-    return !picture || picture->height() <= kDraftEnvironmentHeight;
-}
-
-// Environments and bounces as the viewport would show them at rest.
-Result<void> completeScene(TurntableScene& scene, const JobContext& job) {
-    Document& document = scene.document;
-    for (Environment& environment : document.environments)
-        if (isGenerated(environmentRecipe(environment)) && isDraft(environment.image))
-            resolveEnvironment(environment, job);
-    if (environmentBlend(document) && isDraft(document.mix.blended))
-        resolveBlend(document, job);
-    if (job.cancelled())
-        return cancelledTurntable();
-    const LightingMode lighting =
-        lightingOf(scene.view.shown.kind, scene.view.lighting.value_or(document.view.lighting));
-    const Result<std::vector<std::string>> followed = followBounces(lighting, document, job);
-    if (!followed)
-        return followed.error();
-    for (const std::string& warning : *followed)
-        logWarning("{}", warning);
-    if (!readsBake(lighting) || !hasTransfer(document)) {
-        scene.shadows = nullptr;
-        return {};
-    }
-    const NearShadowRequest request = nearShadowRequest(document);
-    Result<NearShadowsPtr> shadows =
-        request.empty() ? NearShadowsPtr()
-                        : traceNearShadows(request, scene.shadows, availableMemory(), job);
-    if (!shadows && shadows.error().kind == ErrorKind::Cancelled)
-        return shadows.error();
-    if (!shadows) // the picture shows what the bake's bands know, as the viewport's does
-        logWarning("Shadows of local lights stay soft: {}", shadows.error().text());
-    scene.shadows = shadows ? std::move(*shadows) : nullptr;
-    return {};
-}
-
-// In full; null where no environment lights the scene and no view looks at one.
-Result<EnvironmentTexelsPtr> lightOfTurntable(const TurntableScene& scene, PreparedLights& lights,
-                                              const JobContext& job) {
-    const ImagePtr picture = shownEnvironment(scene.document).image;
-    const bool lit = !environmentParts(scene.document).empty() || !scene.view.isPlain();
-    if (!lit || !picture)
-        return EnvironmentTexelsPtr();
-    Result<IblLight> light = lights.first(picture, job);
-    if (light && !light->full)
-        light = refinedIbl(std::move(*light), job);
-    if (!light)
-        return light.error();
-    lights.keep(*light);
-    return light->texels;
-}
-
 Result<void> checkTurntable(const TurntableOrder& order, const gl::ContextInfo& info) {
     if (std::max(order.width, order.height) > info.maxTextureSize)
         return Error{ErrorKind::Usage,
@@ -111,12 +45,16 @@ Result<void> checkTurntable(const TurntableOrder& order, const gl::ContextInfo& 
     return {};
 }
 
-Result<void> writeTurntable(const TurntableOrder& order, TurntableScene& scene,
-                            PreparedLights& lights, SequenceWriter& writer, const JobContext& job) {
+Result<void> writeTurntable(const TurntableOrder& order, SceneCopy& scene, PreparedLights& lights,
+                            SequenceWriter& writer, const JobContext& job) {
     job.setActivity("preparing light");
-    if (Result<void> completed = completeScene(scene, job); !completed)
+    if (Result<void> completed = completeEnvironments(scene.document, job); !completed)
         return completed;
-    Result<EnvironmentTexelsPtr> light = lightOfTurntable(scene, lights, job);
+    const LightingMode lighting = lightingOf(
+        scene.view.shown.kind, scene.view.lighting.value_or(scene.document.view.lighting));
+    if (Result<void> completed = completeTransfer(scene, lighting, job); !completed)
+        return completed;
+    Result<EnvironmentTexelsPtr> light = lightOf(scene, lights, job);
     if (!light)
         return light.error();
     job.setProgress(kPrepared);
@@ -181,21 +119,7 @@ QString partText(const TurntableOrder& order, int written) {
 
 } // namespace
 
-TurntableScene turntableScene(const Session& session) {
-    TurntableScene scene;
-    scene.document = session.controller.document();
-    scene.view = session.views.settings();
-    scene.view.split.reset();
-    scene.view.flags = 1.0f; // marks do not blink
-    if (!whyEmpty(scene.view.shown.kind, scene.document, scene.view.light).empty())
-        scene.view.shown = {};
-    if (scene.document.view.toneMap == ToneMap::OpenColorIo)
-        scene.display = session.displays.transform();
-    scene.shadows = session.nearShadows.shown();
-    return scene;
-}
-
-JobOutcome drawTurntable(const TurntableOrder& order, TurntableScene scene, WorkerClient& worker,
+JobOutcome drawTurntable(const TurntableOrder& order, SceneCopy scene, WorkerClient& worker,
                          PreparedLights& lights, const JobContext& job) {
     SequenceOutput output;
     output.file = absolutePath(order.file);
@@ -235,7 +159,7 @@ quint64 saveTurntable(const TurntableOrder& order, Session& session) {
     };
     return session.jobs.start(
         trTurntable("Save turntable: %1").arg(QFileInfo(order.file).fileName()), false,
-        [order, scene = turntableScene(session), worker = &session.worker, lights = &session.lights,
+        [order, scene = sceneCopy(session), worker = &session.worker, lights = &session.lights,
          target = &session.controller, say](const JobContext& job) -> JobOutcome {
             JobOutcome outcome = drawTurntable(order, scene, *worker, *lights, job);
             if (!outcome.error)

@@ -3,12 +3,9 @@
 // Each picture is the one that `patina render --turntable`, or --light-turn, draws.
 #pragma once
 
-#include "core/bake/local/NearShadows.h"
+#include "app/editor/document/SceneCopy.h"
 #include "core/cells/Sequence.h"
-#include "core/document/Document.h"
-#include "core/io/DisplayTransform.h"
 #include "core/job/JobContext.h"
-#include "render/view/ViewSettings.h"
 
 #include <QString>
 #include <QtGlobal>
@@ -32,19 +29,9 @@ struct TurntableOrder {
     int samples = 4;
 };
 
-// What the pictures are of: a copy, which edits leave alone.
-struct TurntableScene {
-    Document document;
-    render::ViewSettings view;   // without a split
-    DisplayTransformPtr display; // of ToneMap::OpenColorIo; null: none
-    NearShadowsPtr shadows;      // that are known already; may be null, or of an earlier state
-};
-// As the viewport shows it: a view that does not apply is the picture.
-[[nodiscard]] TurntableScene turntableScene(const Session& session);
-
 // On the job's thread. Numbered pictures that were written before a cancel or an error stay, and
 // are named; of a video nothing stays.
-[[nodiscard]] JobOutcome drawTurntable(const TurntableOrder& order, TurntableScene scene,
+[[nodiscard]] JobOutcome drawTurntable(const TurntableOrder& order, SceneCopy scene,
                                        WorkerClient& worker, PreparedLights& lights,
                                        const JobContext& job);
 
