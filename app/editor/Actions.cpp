@@ -114,6 +114,9 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
     , lightSweep(make(tr("Light Sweep"), QStringLiteral("light-sweep"), {tr("Ctrl+7")},
                       tr("Find the light, among environments and their rotations, in which the "
                          "material fails")))
+    , ladder(make(tr("Lighting Ladder"), QStringLiteral("ladder"), {tr("Ctrl+9")},
+                  tr("Compare all lighting modes with the path-traced picture: how far they are "
+                     "from it, and what they cost")))
     , library(make(tr("Environment Library"), QStringLiteral("library"), {tr("Ctrl+B")},
                    tr("Show or hide the environments of your folders, with what was measured of "
                       "them, to pick light from")))
@@ -182,7 +185,7 @@ QList<QAction*> Actions::docks() const {
 }
 
 QList<QAction*> Actions::instruments() const {
-    return {pixel, lightLab, lens, energy, mixer, transfer, lightSweep, library};
+    return {pixel, lightLab, lens, energy, mixer, transfer, lightSweep, ladder, library};
 }
 
 QList<QAction*> Actions::all() const {

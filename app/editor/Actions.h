@@ -29,7 +29,7 @@ class Actions : public QObject {
     QAction *modelDock, *jobsDock, *logDock, *historyDock, *snapshotsDock;
     QAction *nextDock, *previousDock; // by key
     // Docks to look closer with.
-    QAction *pixel, *lightLab, *lens, *energy, *mixer, *transfer, *lightSweep, *library;
+    QAction *pixel, *lightLab, *lens, *energy, *mixer, *transfer, *lightSweep, *ladder, *library;
     QAction* pinPixel;
     QAction* furnace;
     QAction *fullScreen, *resetLayout;

@@ -4,6 +4,7 @@
 #include "app/editor/Actions.h"
 #include "app/editor/Docks.h"
 #include "app/editor/Session.h"
+#include "app/editor/ladder/LadderPanel.h"
 #include "app/editor/library/LibraryPanel.h"
 #include "app/editor/panel/BakePanel.h"
 #include "app/editor/panel/BrdfLensPanel.h"
@@ -37,7 +38,7 @@ namespace {
 
 constexpr QSize kComfortable(1440, 900);
 constexpr int kFrameHeight = 60;  // more than a title bar needs; what it is is known too late
-constexpr int kLayoutVersion = 8; // raise when docks come or go: older layouts are ignored
+constexpr int kLayoutVersion = 9; // raise when docks come or go: older layouts are ignored
 
 } // namespace
 
@@ -93,6 +94,12 @@ void MainWindow::makeDocks() {
     m_docks->addInstrument(a.transfer, QStringLiteral("transfer"), transfer);
     m_docks->addInstrument(a.lightSweep, QStringLiteral("lightSweep"),
                            new LightSweepPanel(controller, m_session.jobs, *m_viewport));
+    auto* ladder = new LadderPanel(m_session, *m_viewport);
+    connect(ladder, &LadderPanel::pathTracingWanted, a.pathTraced, [path = a.pathTraced] {
+        if (!path->isChecked())
+            path->trigger();
+    });
+    m_docks->addInstrument(a.ladder, QStringLiteral("ladder"), ladder);
     m_docks->addInstrument(a.library, QStringLiteral("library"),
                            new LibraryPanel(m_session.library, m_session.preview));
     m_docks->reset();

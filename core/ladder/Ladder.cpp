@@ -3,6 +3,7 @@
 #include "core/bake/Bake.h"
 #include "core/bake/document/DocumentBakeInputs.h"
 #include "core/bake/domain/TileSink.h"
+#include "core/document/Lighting.h"
 #include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
@@ -15,6 +16,8 @@
 
 namespace patina {
 namespace {
+
+constexpr double kOcclusionShare = 0.2; // of the time that both bakes take
 
 bool isOcclusion(BakeKind kind) {
     return kind == BakeKind::AoTexel || kind == BakeKind::AoVertex;
@@ -48,16 +51,23 @@ void removeOcclusion(Document& document) {
 
 } // namespace
 
+LadderBakes attachedLadderBakes(const Document& document) {
+    return {attached(document, true), attached(document, false), 0.0, 0.0};
+}
+
 Result<LadderBakes> ladderBakes(const Document& document, const LadderSettings& settings,
                                 const JobContext& job) {
-    LadderBakes bakes{attached(document, true), attached(document, false), 0.0, 0.0};
+    LadderBakes bakes = attachedLadderBakes(document);
     const BakeInputs inputs = bakeInputs(document);
+    // Of the progress; the transfer's bounces take longest.
+    const double half = bakes.transfer ? 1.0 : bakes.occlusion ? 0.0 : kOcclusionShare;
     if (!bakes.occlusion) {
         job.setActivity("baking ambient occlusion");
         BakeRequest request;
         request.kind = BakeKind::AoVertex;
         request.ao.samples = settings.rays;
-        Result<BakeArtifactPtr> made = timed(request, inputs, job, bakes.occlusionSeconds);
+        Result<BakeArtifactPtr> made =
+            timed(request, inputs, job.part(0.0, half), bakes.occlusionSeconds);
         if (!made)
             return made.error();
         bakes.occlusion = *made;
@@ -70,7 +80,8 @@ Result<LadderBakes> ladderBakes(const Document& document, const LadderSettings& 
         request.prt.samples = request.prt.bounceSamples = settings.rays;
         request.prt.bounces = settings.bounces;
         request.prt.transfer = TransferKind::Interreflected;
-        Result<BakeArtifactPtr> made = timed(request, inputs, job, bakes.transferSeconds);
+        Result<BakeArtifactPtr> made =
+            timed(request, inputs, job.part(half, 1.0), bakes.transferSeconds);
         if (!made)
             return made.error();
         bakes.transfer = *made;
@@ -93,15 +104,21 @@ std::vector<LadderRung> ladderRungs(const Document& document, const LadderBakes&
     add("sh", "SH irradiance", LightingMode::ShIrradiance);
     removeOcclusion(add("ibl", "Image-based light", LightingMode::Ibl).document);
     LadderRung& occluded = add("ao", "+ ambient occlusion", LightingMode::Ibl);
-    attachBake(occluded.document, bakes.occlusion);
+    if (bakes.occlusion)
+        attachBake(occluded.document, bakes.occlusion);
+    else
+        occluded.whyNot = "Needs baked ambient occlusion.";
     occluded.bakeSeconds = bakes.occlusionSeconds;
     for (const auto& [name, label, mode] :
          {std::tuple{"unshadowed", "Transfer, unshadowed", LightingMode::Unshadowed},
           std::tuple{"shadowed", "Transfer, shadowed", LightingMode::Shadowed},
           std::tuple{"prt", "Transfer, with bounces", LightingMode::Prt}}) {
         LadderRung& rung = add(name, label, mode);
-        attachBake(rung.document, bakes.transfer);
-        rung.bakeSeconds = bakes.transferSeconds;
+        if (readsBake(mode)) { // an open sky needs none
+            if (bakes.transfer)
+                attachBake(rung.document, bakes.transfer);
+            rung.bakeSeconds = bakes.transferSeconds;
+        }
         rung.whyNot = whyUnavailable(lighting, rung.document, static_cast<int>(mode));
     }
     return rungs;

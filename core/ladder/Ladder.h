@@ -24,6 +24,8 @@ struct LadderBakes {
     BakeArtifactPtr transfer;  // with bounces, unless the document has one without
     double occlusionSeconds = 0.0, transferSeconds = 0.0; // that they took; 0: nothing was baked
 };
+// Those that the document has. Nothing is baked.
+[[nodiscard]] LadderBakes attachedLadderBakes(const Document& document);
 // Errors: those of bake(); Cancelled.
 Result<LadderBakes> ladderBakes(const Document& document, const LadderSettings& settings,
                                 const JobContext& job);
@@ -36,8 +38,9 @@ struct LadderRung {
     double bakeSeconds = 0.0; // that its bake took
 };
 
-// In this order: N·L of the dominant light, irradiance of nine coefficients, image-based light
-// without and with ambient occlusion, transfer of the open sky, with shadows, with bounces.
+// Those that need a bake which is not there cannot be drawn. In this order: N·L of the dominant
+// light, irradiance of nine coefficients, image-based light without and with ambient occlusion,
+// transfer of the open sky, with shadows, with bounces.
 [[nodiscard]] std::vector<LadderRung> ladderRungs(const Document& document,
                                                   const LadderBakes& bakes);
 

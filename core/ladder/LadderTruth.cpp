@@ -20,9 +20,10 @@ Error cancelledTruth() {
 
 } // namespace
 
-Result<LadderTruth> traceLadderTruth(const Document& document, const TraceView& view,
-                                     const LadderTruthSettings& settings, const JobContext& job,
-                                     const std::function<void(const Film& film)>& seen) {
+Result<LadderTruth>
+traceLadderTruth(const Document& document, const TraceView& view,
+                 const LadderTruthSettings& settings, const JobContext& job,
+                 const std::function<void(const Film& film, std::uint32_t samples)>& seen) {
     const Result<TraceScene> scene = TraceScene::build(traceInputs(document), job);
     if (!scene)
         return scene.error();
@@ -42,7 +43,7 @@ Result<LadderTruth> traceLadderTruth(const Document& document, const TraceView& 
         if (job.stopping())
             return cancelledTruth();
         if (seen)
-            seen(film);
+            seen(film, truth.samples);
         if (settings.noise && truth.samples > 2 && truth.noise <= *settings.noise)
             break;
     }

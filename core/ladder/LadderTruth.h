@@ -31,8 +31,9 @@ struct LadderTruth {
 
 // `view`: of the document. `seen`: called after each pass with what there is so far; may be empty.
 // Errors: those of TraceScene::build(); Cancelled.
-Result<LadderTruth> traceLadderTruth(const Document& document, const TraceView& view,
-                                     const LadderTruthSettings& settings, const JobContext& job,
-                                     const std::function<void(const Film& film)>& seen = {});
+Result<LadderTruth>
+traceLadderTruth(const Document& document, const TraceView& view,
+                 const LadderTruthSettings& settings, const JobContext& job,
+                 const std::function<void(const Film& film, std::uint32_t samples)>& seen = {});
 
 } // namespace patina
