@@ -27,9 +27,9 @@ QString flipText(double flip) {
 
 QString evOfLadder(double ev) {
     if (std::abs(ev) < kLeastEv)
-        return LadderModel::tr("0.00 EV");
+        return QStringLiteral("0.00");
     const QString sign = ev > 0.0 ? QStringLiteral("+") : QStringLiteral("−");
-    return LadderModel::tr("%1 EV").arg(sign + QString::number(std::abs(ev), 'f', 2));
+    return sign + QString::number(std::abs(ev), 'f', 2);
 }
 
 void LadderModel::setShown(const LadderShownPtr& shown, const QSize& thumb, qreal ratio) {
@@ -42,12 +42,14 @@ void LadderModel::setShown(const LadderShownPtr& shown, const QSize& thumb, qrea
     m_thumbs.clear();
     for (int i = 0; i < after; ++i) {
         const QImage& picture = shown->steps[static_cast<std::size_t>(i)].picture;
-        QPixmap& pixmap = m_thumbs.emplace_back();
+        QIcon& icon = m_thumbs.emplace_back();
         if (picture.isNull())
             continue;
-        pixmap = QPixmap::fromImage(
+        QPixmap pixmap = QPixmap::fromImage(
             picture.scaled(thumb * ratio, Qt::KeepAspectRatio, Qt::SmoothTransformation));
         pixmap.setDevicePixelRatio(ratio);
+        icon.addPixmap(pixmap);
+        icon.addPixmap(pixmap, QIcon::Selected); // without the tint of the selection
     }
     if (other)
         endResetModel();
@@ -74,8 +76,6 @@ QString LadderModel::textOf(const LadderStep& step, int column) const {
         return step.score ? flipText(step.score->flip) : QString();
     case Brightness:
         return step.score ? evOfLadder(step.score->biasEv) : QString();
-    case Relative:
-        return step.score ? tr("%1 %").arg(100.0 * step.score->relative, 0, 'f', 1) : QString();
     case Frame:
         if (traced)
             return m_shown->isDone() ? tr("%1 s").arg(m_shown->seconds, 0, 'f', 1) : QString();
@@ -99,9 +99,11 @@ QString LadderModel::tipOf(const LadderStep& step) const {
             .arg(100.0 * m_shown->noise, 0, 'f', 1);
     if (!step.score)
         return toQString(step.label);
-    return tr("%1: visible difference %2, of which noise could make %3; %4 too bright, ± %5")
+    return tr("%1: visible difference (FLIP) %2, of which noise could make %3; brightness %4 EV, "
+              "± %5; relative error %6 %")
         .arg(toQString(step.label), flipText(step.score->flip), flipText(step.score->flipNoise),
-             evOfLadder(step.score->biasEv), evOfLadder(step.score->biasEvNoise));
+             evOfLadder(step.score->biasEv), QString::number(step.score->biasEvNoise, 'f', 2))
+        .arg(100.0 * step.score->relative, 0, 'f', 1);
 }
 
 QVariant LadderModel::data(const QModelIndex& index, int role) const {
@@ -147,8 +149,7 @@ QVariant LadderModel::headerData(int section, Qt::Orientation orientation, int r
         {tr("Method"), tr("How the scene is lit, from the coarsest method on")},
         {tr("FLIP"), tr("Visible difference from the path-traced picture, 0 to 1: what you would "
                         "notice when you flip between both")},
-        {tr("Brightness"), tr("How much too bright or too dark the picture is on the whole")},
-        {tr("Relative"), tr("Root mean square of the relative error of luminance, without noise")},
+        {tr("EV"), tr("How much too bright (+) or too dark (−) the picture is on the whole")},
         {tr("Frame"), tr("Time of one frame of this size here; of the path-traced picture: all of "
                          "it")},
         {tr("Bake"), tr("Time that what it needs took to be baked")}};

@@ -4,20 +4,19 @@
 #include "app/editor/ladder/LadderWork.h"
 
 #include <QAbstractTableModel>
-#include <QPixmap>
+#include <QIcon>
 #include <QStyledItemDelegate>
 #include <vector>
 
 namespace patina::editor {
 
-// "0.093", "+0.15 EV", "12 %", "12 ms", "3.2 s".
-[[nodiscard]] QString flipText(double flip);
-[[nodiscard]] QString evOfLadder(double ev);
+[[nodiscard]] QString flipText(double flip); // "0.093"
+[[nodiscard]] QString evOfLadder(double ev); // "+0.15"
 
 class LadderModel : public QAbstractTableModel {
     Q_OBJECT
   public:
-    enum Column { Method, Flip, Brightness, Relative, Frame, Bake, Columns };
+    enum Column { Method, Flip, Brightness, Frame, Bake, Columns };
     // 0…1: how long the bar behind a number is; invalid: none.
     static constexpr int kBarRole = Qt::UserRole;
 
@@ -36,7 +35,7 @@ class LadderModel : public QAbstractTableModel {
     [[nodiscard]] QString tipOf(const LadderStep& step) const;
 
     LadderShownPtr m_shown;
-    std::vector<QPixmap> m_thumbs; // as the steps
+    std::vector<QIcon> m_thumbs; // as the steps
 };
 
 // Paints the bar behind a number.

@@ -43,7 +43,7 @@ constexpr int kLadderProgressMs = 100;      // between looks at the running job
 constexpr int kLadderRestMs = 700;          // since the last edit until it is made anew
 constexpr QSize kLadderThumb(64, 36);
 constexpr int kLadderRow = 42;
-constexpr int kMethodsShare = 58, kPictureShare = 42;
+constexpr int kMethodsShare = 62, kPictureShare = 38;
 
 int ladderWidth(const QSize& viewport) {
     const double aspect = static_cast<double>(viewport.width()) / std::max(viewport.height(), 1);
@@ -211,7 +211,7 @@ QWidget* LadderPanel::makeResult() {
         corner->setAccessibleName(tr("All methods"));
     m_table->horizontalHeader()->setHighlightSections(false);
     m_table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-    m_table->horizontalHeader()->setSectionResizeMode(LadderModel::Method, QHeaderView::Stretch);
+    m_table->horizontalHeader()->setStretchLastSection(true);
     m_picture = new LadderPicture;
     auto* splitter = new QSplitter(Qt::Horizontal);
     splitter->setChildrenCollapsible(false);
