@@ -34,6 +34,10 @@ class LightSampler {
 
     // A light with a shadow map in the viewport casts its shadow when it is told to; all others do.
     [[nodiscard]] bool isHidden(std::size_t light) const { return m_lights[light].hidden; }
+    // As if all of it came from its centre: the irradiance of a surface that faces that, which is
+    // illuminanceAt(); pdf = 0.
+    [[nodiscard]] LightSample centre(std::size_t light, const glm::vec3& point) const;
+    [[nodiscard]] Id id(std::size_t light) const { return m_lights[light].light.id; }
     [[nodiscard]] LightSample sample(std::size_t light, const glm::vec3& point,
                                      const glm::vec2& u) const;
     // Light that a ray meets on its way of `distance` metres: what sample() could have chosen.
@@ -45,6 +49,7 @@ class LightSampler {
     struct Source {
         Light light;
         glm::vec3 power{0.0f};
+        glm::vec3 color{0.0f};              // with the mixer's tint
         glm::vec3 toLight{0.0f};            // directional, spot, rectangle
         glm::vec3 axisX{0.0f}, axisY{0.0f}; // rectangle: unit
         float coneScale = 0.0f, coneOffset = 1.0f;

@@ -228,6 +228,13 @@ glm::vec3 TraceScene::environmentRadiance(const glm::vec3& direction) const {
     return sum;
 }
 
+glm::vec3 TraceScene::meanEnvironment() const {
+    glm::vec3 sum(0.0f);
+    for (const auto& environment : m_environments)
+        sum += environment->mean();
+    return sum;
+}
+
 // One of them by its power, and a direction of it; what arrives from there of all of them.
 EnvironmentSampler::Sample TraceScene::sampleEnvironment(glm::vec2 u) const {
     if (!hasEnvironment())

@@ -55,6 +55,8 @@ class TraceScene {
     [[nodiscard]] Id materialOf(std::uint32_t mesh) const {
         return m_inputs.materials[m_instances[mesh].material].id;
     }
+    // TraceMesh::id.
+    [[nodiscard]] Id meshId(std::uint32_t mesh) const { return m_scene->geometry->meshes[mesh].id; }
 
     // (scale, bias) of the model's lobe, as the viewport looks them up.
     [[nodiscard]] shading::SurfaceTerms surface(const TracePoint& point, const glm::vec3& v) const;
@@ -66,12 +68,17 @@ class TraceScene {
 
     // All environments together. Sums of what each sends.
     [[nodiscard]] glm::vec3 environmentRadiance(const glm::vec3& direction) const;
+    [[nodiscard]] glm::vec3 meanEnvironment() const; // over all directions
     [[nodiscard]] EnvironmentSampler::Sample sampleEnvironment(glm::vec2 u) const;
     [[nodiscard]] float environmentPdf(const glm::vec3& direction) const;
     [[nodiscard]] bool hasEnvironment() const { return m_environmentPower > 0.0; }
     [[nodiscard]] const LightSampler& lights() const { return m_lights; }
     [[nodiscard]] const EmissiveTriangles& emissive() const { return m_emissive; }
     [[nodiscard]] bool isEmpty() const { return !m_scene; }
+    // Its triangles; null: none.
+    [[nodiscard]] const BakeGeometry* geometry() const {
+        return m_scene ? m_scene->geometry.get() : nullptr;
+    }
 
   private:
     TraceScene() = default;

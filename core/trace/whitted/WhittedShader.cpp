@@ -1,0 +1,309 @@
+#include "core/trace/whitted/WhittedShader.h"
+
+#include "core/math/Sampling.h"
+#include "core/trace/whitted/TeachingHierarchy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace patina {
+namespace {
+
+constexpr float kNoEnd = std::numeric_limits<float>::infinity();
+// Backs that a camera ray passes, as of paths.
+constexpr int kMostBacksPassed = 256;
+// Random numbers of a place: those of its rays on, then those of its lights.
+enum Branch : std::uint32_t { kMirrorBranch = 1, kRefractedBranch, kGlossBranch, kFirstLight };
+
+float largest(const glm::vec3& v) {
+    return std::max({v.x, v.y, v.z});
+}
+
+} // namespace
+
+void RayCounts::add(const RayCounts& other) {
+    rays += other.rays;
+    depth = std::max(depth, other.depth);
+    boxTests += other.boxTests;
+    triangleTests += other.triangleTests;
+}
+
+// Shares of light that a place sends back along a ray.
+struct WhittedShader::Optics {
+    glm::vec3 ambient{0.0f};   // of light that is alike from everywhere
+    glm::vec3 reflected{0.0f}; // of what comes in the mirror direction; 0: no such ray
+    [[nodiscard]] bool isDull() const { return reflected == glm::vec3(0.0f); }
+};
+
+WhittedShader::WhittedShader(const TraceScene& scene, const WhittedLights& lights,
+                             const TraceView& view, const WhittedSettings& settings,
+                             const TeachingHierarchy* hierarchy)
+    : m_scene(scene)
+    , m_lights(lights)
+    , m_view(view)
+    , m_settings(settings)
+    , m_hierarchy(hierarchy) {}
+
+WhittedShader::Sample WhittedShader::look(const glm::vec3& origin, const glm::vec3& direction,
+                                          std::uint32_t index, std::uint32_t seed, RayTree* tree) {
+    m_tree = tree;
+    m_index = index;
+    m_sum = glm::dvec3(0.0);
+    m_alpha = 1.0f;
+    m_counts = {};
+    Ray ray;
+    ray.origin = origin;
+    ray.direction = direction;
+    ray.seed = seed;
+    follow(ray);
+    return {glm::vec3(m_sum), m_alpha, m_counts};
+}
+
+// ---- Records: what the sample and the tree get --------------------------------------------------
+
+int WhittedShader::begin(const Ray& ray) {
+    m_counts.depth = std::max(m_counts.depth, static_cast<std::uint32_t>(ray.depth));
+    if (m_tree == nullptr)
+        return RayNode::kNone;
+    RayNode node;
+    node.kind = ray.kind;
+    node.parent = ray.parent;
+    node.depth = ray.depth;
+    node.origin = m_scene.toWorld(ray.origin);
+    node.direction = ray.direction;
+    node.weight = ray.weight;
+    node.distance = kNoEnd;
+    return m_tree->add(node);
+}
+
+void WhittedShader::met(int node, const TracePoint& point, float distance) {
+    if (m_tree == nullptr)
+        return;
+    RayNode& of = m_tree->at(node);
+    of.hit = true;
+    of.position = m_scene.toWorld(point.position);
+    of.normal = point.normal;
+    of.distance = m_scene.metres(distance);
+    of.mesh = m_scene.meshId(point.mesh);
+    of.material = m_scene.materialOf(point.mesh);
+}
+
+void WhittedShader::end(int node, RayEnd reason) {
+    if (m_tree != nullptr)
+        m_tree->at(node).end = reason;
+}
+
+void WhittedShader::add(int node, const glm::vec3& light) {
+    m_sum += glm::dvec3(light);
+    if (m_tree != nullptr)
+        m_tree->at(node).contribution = light;
+}
+
+ClosestRay WhittedShader::closest(const glm::vec3& origin, const glm::vec3& direction,
+                                  float distance) {
+    ++m_counts.rays;
+    ++m_rays;
+    if (m_hierarchy != nullptr) {
+        const TeachingHierarchy::Tests tests = m_hierarchy->count(origin, direction, distance);
+        m_counts.boxTests += tests.boxes;
+        m_counts.triangleTests += tests.triangles;
+    }
+    return m_scene.closest(origin, direction);
+}
+
+// ---- The recursion ------------------------------------------------------------------------------
+
+void WhittedShader::follow(const Ray& ray) {
+    const int node = begin(ray);
+    ClosestRay hit = closest(ray.origin, ray.direction, kNoEnd);
+    TracePoint point;
+    for (int backs = 0;; ++backs) {
+        if (hit.mesh == ClosestRay::kNothing || backs == kMostBacksPassed)
+            return miss(ray, node);
+        point = m_scene.pointAt(hit);
+        if (!point.isBack || point.material->doubleSided())
+            break;
+        if (ray.kind != RayKind::Camera) {
+            met(node, point, glm::length(point.position - ray.origin));
+            return end(node, RayEnd::Back);
+        }
+        hit = closest(TraceScene::origin(point, true), ray.direction, kNoEnd);
+    }
+    met(node, point, glm::length(point.position - ray.origin));
+    const shading::SurfaceTerms terms = m_scene.surface(point, -ray.direction);
+    const Optics optics = opticsOf(terms);
+    const glm::vec3 emission = point.material->emissionAt(point.uv);
+    add(node, ray.weight * (emission + optics.ambient * m_lights.ambient()));
+    if (optics.isDull())
+        end(node, emission == glm::vec3(0.0f) ? RayEnd::NotReflecting : RayEnd::Emissive);
+    lightFrom(ray, node, point, terms);
+    branch(ray, node, point, terms, optics);
+}
+
+void WhittedShader::miss(const Ray& ray, int node) {
+    end(node, RayEnd::Missed);
+    const bool first = ray.kind == RayKind::Camera;
+    if (first && m_view.transparent) {
+        m_alpha = 0.0f;
+        return;
+    }
+    add(node,
+        ray.weight * (first && m_view.background ? m_view.background(ray.direction)
+                                                 : m_scene.environmentRadiance(ray.direction)));
+}
+
+// ka, ks and kt. What is rough reflects the environment as if it were alike everywhere.
+WhittedShader::Optics WhittedShader::opticsOf(const shading::SurfaceTerms& terms) const {
+    Optics optics;
+    const bool isMirror = terms.perceptualRoughness < kMirrorRoughness;
+    if (m_settings.model == LocalModel::Whitted1980) {
+        optics.ambient = terms.diffuseColor;
+        if (isMirror || m_settings.gloss)
+            optics.reflected = terms.f0;
+        return optics;
+    }
+    optics.ambient = terms.diffuseAlbedo;
+    if (isMirror || m_settings.gloss)
+        optics.reflected = terms.specularAlbedo;
+    else
+        optics.ambient += terms.specularAlbedo;
+    return optics;
+}
+
+// ---- Light of the lights ------------------------------------------------------------------------
+
+glm::vec3 WhittedShader::local(const shading::SurfaceTerms& terms, const glm::vec3& l,
+                               const glm::vec3& irradiance) const {
+    if (m_settings.model == LocalModel::Patina) {
+        const shading::ShadedLight lit = shading::shadeDirect(terms, l, irradiance);
+        return lit.diffuse + lit.specular;
+    }
+    const float NoL = glm::dot(terms.n, l);
+    if (NoL <= 0.0f)
+        return glm::vec3(0.0f);
+    // Blinn's exponent p = 2/α² - 2 has the peak of GGX (D_BlinnPhong_Sin2()), and Phong's, of the
+    // angle between R and V, which is twice that of N and H, is a quarter of it: Fisher & Woo 1994,
+    // "R.E versus N.H Specular Highlights", Graphics Gems IV.
+    const float exponent = 0.5f * (1.0f / (terms.alpha * terms.alpha) - 1.0f);
+    const float RoV = glm::dot(glm::reflect(-l, terms.n), terms.v);
+    const float highlight = RoV > 0.0f ? std::pow(std::min(RoV, 1.0f), exponent) : 0.0f;
+    // f_att Ip: what a white diffuse surface that faces the light sends back.
+    return shading::kInvPi * irradiance * (terms.diffuseColor * NoL + terms.f0 * highlight);
+}
+
+void WhittedShader::lightFrom(const Ray& ray, int node, const TracePoint& point,
+                              const shading::SurfaceTerms& terms) {
+    const glm::vec3 from = TraceScene::origin(point);
+    for (std::size_t i = 0; i < m_lights.size(); ++i) {
+        const PointLight light =
+            m_settings.softShadows
+                ? m_lights.point(
+                      i, from,
+                      sobolOwen2D(m_index,
+                                  seedFor(ray.seed, kFirstLight + static_cast<unsigned>(i))))
+                : m_lights.centre(i, from);
+        Ray to;
+        to.kind = RayKind::Shadow;
+        to.origin = from;
+        to.direction = light.direction;
+        to.weight = ray.weight;
+        to.depth = ray.depth;
+        to.parent = node;
+        const int shadow = begin(to);
+        if (m_tree != nullptr) {
+            m_tree->at(shadow).light = light.light;
+            m_tree->at(shadow).glowing = light.glowing;
+        }
+        const glm::vec3 lit = glm::dot(point.face, light.direction) > 0.0f
+                                  ? local(terms, light.direction, light.irradiance)
+                                  : glm::vec3(0.0f);
+        if (lit == glm::vec3(0.0f)) {
+            end(shadow, RayEnd::Facing);
+            continue;
+        }
+        if (!light.castsShadow)
+            end(shadow, RayEnd::NoShadow);
+        const glm::vec3 passes =
+            light.castsShadow ? passesTo(from, light, shadow) : glm::vec3(1.0f);
+        add(shadow, ray.weight * passes * lit);
+    }
+}
+
+// S: what of the light comes through along the straight ray.
+glm::vec3 WhittedShader::passesTo(const glm::vec3& from, const PointLight& light, int node) {
+    const ClosestRay hit = closest(from, light.direction, light.distance);
+    if (hit.mesh != ClosestRay::kNothing && hit.ray.maxDistance < light.distance) {
+        met(node, m_scene.pointAt(hit), hit.ray.maxDistance);
+        end(node, RayEnd::Blocked);
+        return glm::vec3(0.0f);
+    }
+    end(node, RayEnd::Lit);
+    if (m_tree != nullptr && !std::isinf(light.distance)) {
+        RayNode& of = m_tree->at(node);
+        of.distance = m_scene.metres(light.distance);
+        of.position = m_scene.toWorld(from + light.distance * light.direction);
+    }
+    return glm::vec3(1.0f);
+}
+
+// ---- Rays on ------------------------------------------------------------------------------------
+
+void WhittedShader::branch(const Ray& ray, int node, const TracePoint& point,
+                           const shading::SurfaceTerms& terms, const Optics& optics) {
+    if (optics.isDull())
+        return;
+    Ray child;
+    child.kind = RayKind::Reflected;
+    child.depth = ray.depth + 1;
+    child.parent = node;
+    child.origin = TraceScene::origin(point);
+    child.direction = glm::reflect(ray.direction, terms.n);
+    child.weight = ray.weight * optics.reflected;
+    child.seed = seedFor(ray.seed, kMirrorBranch);
+    if (m_settings.gloss) {
+        glm::vec3 share(0.0f);
+        child.direction = glossDirection(terms, ray.seed, share);
+        child.weight = ray.weight * share;
+    }
+    branchOff(child, glm::dot(point.face, child.direction) <= 0.0f);
+}
+
+// A direction of the specular lobe, and what the lobe reflects of light from there over how likely
+// it was chosen.
+glm::vec3 WhittedShader::glossDirection(const shading::SurfaceTerms& terms, std::uint32_t seed,
+                                        glm::vec3& share) const {
+    glm::vec3 t, b;
+    shading::orthonormalBasis(terms.n, t, b);
+    const glm::vec3 wo = shading::viewerInFrame(terms, t, b);
+    const glm::vec3 h = shading::sampleHalfVector(
+        terms.model, sobolOwen2D(m_index, seedFor(seed, kGlossBranch)), wo, terms.alpha);
+    const glm::vec3 wi = glm::reflect(-wo, h);
+    const glm::vec3 l = glm::normalize(wi.x * t + wi.y * b + wi.z * terms.n);
+    share = glm::vec3(0.0f);
+    if (wi.z <= 0.0f)
+        return l;
+    const float pdf =
+        shading::specularReflectionPdf(terms.model, wo.z, h.z, h.x * h.x + h.y * h.y,
+                                       glm::clamp(glm::dot(wo, h), 0.0f, 1.0f), terms.alpha);
+    if (pdf > 0.0f)
+        share = shading::shadeDirect(terms, l, glm::vec3(1.0f)).specular / pdf;
+    return l;
+}
+
+void WhittedShader::branchOff(const Ray& child, bool below) {
+    const auto cut = [&](RayEnd reason) {
+        if (m_tree != nullptr)
+            end(begin(child), reason);
+    };
+    if (below)
+        return cut(RayEnd::Below);
+    if (largest(child.weight) < m_settings.minContribution)
+        return cut(RayEnd::Contribution);
+    if (child.depth > m_settings.maxDepth)
+        return cut(RayEnd::Depth);
+    follow(child);
+}
+
+} // namespace patina
