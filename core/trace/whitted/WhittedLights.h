@@ -17,7 +17,8 @@ struct PointLight {
     glm::vec3 irradiance{0.0f};            // of a surface that faces it
     float distance = 0.0f;                 // scene units, may be infinite: as far as shadows count
     bool castsShadow = true;
-    Id light = 0, glowing = 0; // Light::id, or the mesh that glows
+    Id light = 0, glowing = 0; // Light::id, or the mesh that gives off light
+    bool meetsItself = false;  // who meets that mesh on the way has reached the light
 };
 
 class WhittedLights {
@@ -27,28 +28,33 @@ class WhittedLights {
 
     [[nodiscard]] std::size_t size() const { return m_lights + m_glowing.size(); }
     // At a place in scene units. Spheres and rectangles count by their centre, with the illuminance
-    // of all of their surface (illuminanceAt()); each triangle that gives off light by its centroid
-    // as a disc of the same area, E = L A cos / (d² + A/π), the closed form on a disc's axis, which
-    // stays finite. Of more than kMostGlowing triangles as many are chosen, each for an equal share
-    // of the power.
+    // of all of their surface (illuminanceAt()). A mesh that gives off light counts by the centroid
+    // of what it gives off: a flat one as a disc of its area on the disc's axis, which stays
+    // finite, E = L A cos / (d² + A/π); one that closes as what a convex body of its area shows on
+    // average, a quarter of it (Cauchy 1841), E = L A / 4d².
     [[nodiscard]] PointLight centre(std::size_t index, const glm::vec3& from) const;
     // The same by a point of the light that `u` chooses, so that the mean over many is a soft
     // shadow.
     [[nodiscard]] PointLight point(std::size_t index, const glm::vec3& from,
-                                   const glm::vec2& u) const;
+                                   const glm::vec3& u) const;
 
     // Of the environment, over all directions.
     [[nodiscard]] const glm::vec3& ambient() const { return m_ambient; }
 
-    static constexpr std::size_t kMostGlowing = 32;
-
   private:
     struct Glowing {
-        EmissiveTriangles::Triangle triangle;
-        float area = 0.0f; // m², that it stands for
+        EmissiveTriangles triangles; // of one mesh
+        Id mesh = 0;
+        glm::vec3 centroid{0.0f}; // scene units
+        glm::vec3 radiance{0.0f}; // mean
+        glm::vec3 facing{0.0f};   // m²: the sum of its triangles' areas as vectors
+        float area = 0.0f;        // m²
+        bool isFlat = false, doubleSided = false;
     };
-    [[nodiscard]] PointLight glow(const Glowing& glowing, const glm::vec2& weights,
-                                  const glm::vec3& from) const;
+    void collectGlowing();
+    [[nodiscard]] PointLight glow(const Glowing& glowing, const glm::vec3& from) const;
+    [[nodiscard]] PointLight glow(const Glowing& glowing, const glm::vec3& from,
+                                  const glm::vec3& u) const;
 
     const TraceScene& m_scene;
     std::size_t m_lights;

@@ -193,17 +193,20 @@ glm::vec3 WhittedShader::local(const shading::SurfaceTerms& terms, const glm::ve
     return shading::kInvPi * irradiance * (terms.diffuseColor * NoL + terms.f0 * highlight);
 }
 
+PointLight WhittedShader::lightAt(std::size_t index, const glm::vec3& from,
+                                  std::uint32_t seed) const {
+    if (!m_settings.softShadows)
+        return m_lights.centre(index, from);
+    const std::uint32_t of = seedFor(seed, kFirstLight + static_cast<std::uint32_t>(index));
+    const glm::vec2 point = sobolOwen2D(m_index, of);
+    return m_lights.point(index, from, {point, sobolOwen2D(m_index, seedFor(of, 0)).x});
+}
+
 void WhittedShader::lightFrom(const Ray& ray, int node, const TracePoint& point,
                               const shading::SurfaceTerms& terms) {
     const glm::vec3 from = TraceScene::origin(point);
     for (std::size_t i = 0; i < m_lights.size(); ++i) {
-        const PointLight light =
-            m_settings.softShadows
-                ? m_lights.point(
-                      i, from,
-                      sobolOwen2D(m_index,
-                                  seedFor(ray.seed, kFirstLight + static_cast<unsigned>(i))))
-                : m_lights.centre(i, from);
+        const PointLight light = lightAt(i, from, ray.seed);
         Ray to;
         to.kind = RayKind::Shadow;
         to.origin = from;
@@ -234,7 +237,8 @@ void WhittedShader::lightFrom(const Ray& ray, int node, const TracePoint& point,
 // S: what of the light comes through along the straight ray.
 glm::vec3 WhittedShader::passesTo(const glm::vec3& from, const PointLight& light, int node) {
     const ClosestRay hit = closest(from, light.direction, light.distance);
-    if (hit.mesh != ClosestRay::kNothing && hit.ray.maxDistance < light.distance) {
+    const bool meets = hit.mesh != ClosestRay::kNothing && hit.ray.maxDistance < light.distance;
+    if (meets && !(light.meetsItself && m_scene.meshId(hit.mesh) == light.glowing)) {
         met(node, m_scene.pointAt(hit), hit.ray.maxDistance);
         end(node, RayEnd::Blocked);
         return glm::vec3(0.0f);

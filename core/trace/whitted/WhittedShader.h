@@ -56,6 +56,8 @@ class WhittedShader {
     [[nodiscard]] Optics opticsOf(const shading::SurfaceTerms& terms) const;
     void lightFrom(const Ray& ray, int node, const TracePoint& point,
                    const shading::SurfaceTerms& terms);
+    [[nodiscard]] PointLight lightAt(std::size_t index, const glm::vec3& from,
+                                     std::uint32_t seed) const;
     [[nodiscard]] glm::vec3 local(const shading::SurfaceTerms& terms, const glm::vec3& l,
                                   const glm::vec3& irradiance) const;
     glm::vec3 passesTo(const glm::vec3& from, const PointLight& light, int node);

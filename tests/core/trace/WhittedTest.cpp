@@ -206,6 +206,39 @@ TEST(Whitted, AreaLightsCountByTheirCentre) {
     }
 }
 
+// A mesh that gives off light is one light: a flat one a disc on its axis, a ball what it shows.
+TEST(Whitted, EmissiveMeshesCountByTheirCentroid) {
+    for (const bool flat : {true, false}) {
+        TraceInputs inputs = floorUnderPoint();
+        inputs.lights.clear();
+        Material glow;
+        glow.emissive = {4.0f, 2.0f, 1.0f};
+        inputs.materials.push_back(glow);
+        glm::mat4 above(0.1f);
+        if (flat) // facing down
+            above[1].y = above[2].z = -0.1f;
+        above[3] = {0.0f, 1.0f, 0.0f, 1.0f};
+        inputs.meshes.push_back({2, flat ? floorMesh() : test::ball(48), above, 1});
+        const TraceScene scene = whittedScene(inputs);
+        TraceView view = fromAbove();
+        view.camera.distance = 0.5f;
+        const RayTree tree = traceRayTree(scene, view, {}, 3, 8, 1);
+        const std::vector<RayNode> shadows = ofKind(tree, RayKind::Shadow);
+        EXPECT_EQ(shadows.size(), tree.sampleCount());
+        for (const RayNode& node : shadows) {
+            const RayNode& seen = tree.nodes()[static_cast<std::size_t>(node.parent)];
+            EXPECT_EQ(node.glowing, 2u);
+            EXPECT_EQ(node.end, RayEnd::Lit);
+            const glm::dvec3 to = glm::dvec3(0.0, 1.0, 0.0) - glm::dvec3(seen.position);
+            const double d2 = glm::dot(to, to), cosine = to.y / std::sqrt(d2);
+            const double shown = flat ? 0.16 * cosine / (d2 + 0.16 / std::numbers::pi)
+                                      : std::numbers::pi * 0.01 / d2;
+            const double expected = 4.0 * shown * cosine * 0.6 / std::numbers::pi;
+            EXPECT_NEAR(node.contribution.x, expected, 2e-3 * expected);
+        }
+    }
+}
+
 TEST(Whitted, AThingBetweenCastsAHardShadow) {
     TraceInputs inputs = floorUnderPoint();
     inputs.lights[0].position = {0.0f, 3.0f, 0.0f};
