@@ -165,6 +165,11 @@ void main() {
     SurfaceInputs inputs;
     inputs.baseColor = clamp(baseColor.rgb, 0.0, 1.0);
     inputs.diffuseRoughness = u_diffuseRoughness;
+#ifdef HAS_IOR
+    inputs.ior = u_ior;
+#else
+    inputs.ior = kDielectricIor;
+#endif
     setNumbers(inputs, map);
 
     // Ambient visibility: a texel bake, else a vertex bake, else the material's map. A bake has

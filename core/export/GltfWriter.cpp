@@ -188,7 +188,7 @@ class Writer {
                        {"pbrMetallicRoughness", std::move(pbr)}};
         for (const MaterialInputInfo& info : kMaterialInputs)
             if (info.gltf.object.empty() && addTexture(result, info.gltf.texture, t[info.input]) &&
-                !info.gltf.scale.empty() && m.*info.number != 1.0f)
+                !info.gltf.scale.empty() && m.*info.number != info.gltf.absent)
                 result[std::string(info.gltf.texture)][std::string(info.gltf.scale)] =
                     m.*info.number;
         addEmission(result, m);
@@ -229,7 +229,7 @@ class Writer {
             if (info.gltf.object.empty() || info.gltf.object == kGltfPbr)
                 continue;
             Json object = Json::object();
-            if (m.*info.number != 1.0f)
+            if (m.*info.number != info.gltf.absent)
                 object[std::string(info.gltf.factor)] = m.*info.number;
             addTexture(object, info.gltf.texture, t[info.input]);
             if (object.empty())

@@ -91,6 +91,7 @@ SurfaceInputs surfaceInputs(const Inspection& pixel, const Material& material) {
     SurfaceInputs inputs;
     inputs.baseColor = glm::clamp(glm::vec3(pixel.value(kViewBaseColor)), 0.0f, 1.0f);
     inputs.diffuseRoughness = material.diffuseRoughness;
+    inputs.ior = material.ior;
     for (const MaterialInputInfo& info : kMaterialInputs)
         if (info.role == InputRole::Number)
             inputs.*info.shown = pixel.value(viewOf(info.input)).x;

@@ -187,6 +187,10 @@ std::vector<SharedTermCase> makeCases() {
                  OUT3(14, energyCompensation(m, f0, vec2(I(10), I(11))));
                  OUT3(17, singleScatterAlbedo(m, f0, I(8), vec2(0.1f + I(10), I(11))));
                  OUT3(20, specularAlbedo(m, f0, I(8), vec2(0.1f + I(10), I(11))));),
+            CASE("index", unit, 1e-2f, CHOOSE_MODEL(m);
+                 BrdfModel own = modelOfIndex(m, 1.0f + I(0));
+                 BrdfModel standard = modelOfIndex(m, kDielectricIor); O(0) = own.dielectricF0;
+                 O(1) = own.ior; O(2) = standard.dielectricF0; O(3) = standard.ior;),
             CASE("parameters", unit, 1e-2f, O(0) = alphaFromPerceptualRoughness(I(0));
                  OUT3(4, diffuseColorFromBaseColor(vec3(I(1), I(2), I(3)), I(4)));
                  OUT3(7, energyCompensationTurquin(vec3(I(1), I(2), I(3)), vec2(I(5), I(6))));),

@@ -135,9 +135,11 @@ void GltfMaterialReader::readInput(const MaterialInputInfo& info, const json& ob
     auto& map = material.maps[info.input] =
         texture(object, key.c_str(), material.name, info.gltf.channel);
     if (!info.gltf.factor.empty())
-        material.numbers[info.input] = object.value(std::string(info.gltf.factor), 1.0f);
+        material.numbers[info.input] =
+            object.value(std::string(info.gltf.factor), info.gltf.absent);
     if (!info.gltf.scale.empty() && map)
-        material.numbers[info.input] = object.at(key).value(std::string(info.gltf.scale), 1.0f);
+        material.numbers[info.input] =
+            object.at(key).value(std::string(info.gltf.scale), info.gltf.absent);
 }
 
 void GltfMaterialReader::readInputs(const json& object, bool (*wanted)(const MaterialInputInfo&),
