@@ -45,6 +45,8 @@ nlohmann::ordered_json rayNodeJson(const Document& document, const RayTree& tree
         json["light"] = nameOf(document.light(node.light), node.light);
     if (node.glowing != 0)
         json["emissiveMesh"] = nameOf(document.mesh(node.glowing), node.glowing);
+    if (node.kind == RayKind::Shadow && node.end == RayEnd::Lit)
+        json["passes"] = vectorJson(node.passes);
     if (!std::isinf(node.distance))
         json["distance"] = node.distance;
     if (node.hit) {

@@ -57,6 +57,7 @@ struct RayNode {
     Id mesh = 0, material = 0;              // of what was met
     // Shadow rays: the light it goes to, or 0 and the mesh that glows.
     Id light = 0, glowing = 0;
+    glm::vec3 passes{1.0f}; // and what of its light comes through glass on the way
     // Share of the light that comes along the ray, from its far end, that reaches the sample.
     glm::vec3 weight{1.0f};
     // Light that this node itself adds to its sample: emission and ambient light of the surface

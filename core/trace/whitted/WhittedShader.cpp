@@ -5,12 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 
 namespace patina {
 namespace {
 
+// Shadow rays through glass end where next to nothing comes through, or after so many faces.
+constexpr float kLeastPassing = 1e-4f;
+constexpr int kMostFaces = 256;
 constexpr float kNoEnd = std::numeric_limits<float>::infinity();
 // Backs that a camera ray passes, as of paths.
 constexpr int kMostBacksPassed = 256;
@@ -30,11 +34,19 @@ void RayCounts::add(const RayCounts& other) {
     triangleTests += other.triangleTests;
 }
 
-// Shares of light that a place sends back along a ray.
+// Shares of light that a place sends back along a ray, and where its rays on go.
 struct WhittedShader::Optics {
     glm::vec3 ambient{0.0f};   // of light that is alike from everywhere
-    glm::vec3 reflected{0.0f}; // of what comes in the mirror direction; 0: no such ray
-    [[nodiscard]] bool isDull() const { return reflected == glm::vec3(0.0f); }
+    glm::vec3 reflected{0.0f}; // of what comes from there; 0: no such ray
+    glm::vec3 reflectedFrom{0.0f};
+    glm::vec3 refracted{0.0f};
+    glm::vec3 refractedFrom{0.0f};
+    glm::vec3 absorption{0.0f}; // per metre, behind the surface
+    float cosIncident = 0.0f, etaRatio = 0.0f;
+    bool total = false; // reflection: nothing is refracted
+    [[nodiscard]] bool isDull() const {
+        return reflected == glm::vec3(0.0f) && refracted == glm::vec3(0.0f);
+    }
 };
 
 WhittedShader::WhittedShader(const TraceScene& scene, const WhittedLights& lights,
@@ -102,8 +114,8 @@ void WhittedShader::add(int node, const glm::vec3& light) {
 }
 
 ClosestRay WhittedShader::closest(const glm::vec3& origin, const glm::vec3& direction,
-                                  float distance) {
-    ++m_counts.rays;
+                                  float distance, bool goesOn) {
+    m_counts.rays += goesOn ? 0 : 1;
     ++m_rays;
     if (m_hierarchy != nullptr) {
         const TeachingHierarchy::Tests tests = m_hierarchy->count(origin, direction, distance);
@@ -123,23 +135,29 @@ void WhittedShader::follow(const Ray& ray) {
         if (hit.mesh == ClosestRay::kNothing || backs == kMostBacksPassed)
             return miss(ray, node);
         point = m_scene.pointAt(hit);
-        if (!point.isBack || point.material->doubleSided())
+        if (!point.isBack || point.material->doubleSided() || point.material->transmits())
             break;
         if (ray.kind != RayKind::Camera) {
             met(node, point, glm::length(point.position - ray.origin));
             return end(node, RayEnd::Back);
         }
-        hit = closest(TraceScene::origin(point, true), ray.direction, kNoEnd);
+        hit = closest(TraceScene::origin(point, true), ray.direction, kNoEnd, true);
     }
-    met(node, point, glm::length(point.position - ray.origin));
-    const shading::SurfaceTerms terms = m_scene.surface(point, -ray.direction);
-    const Optics optics = opticsOf(terms);
+    const float distance = glm::length(point.position - ray.origin);
+    met(node, point, distance);
+    Place place{point, m_scene.surface(point, -ray.direction), ray.weight};
+    if (ray.absorption != glm::vec3(0.0f)) { // Beer and Lambert's law
+        place.weight *= glm::exp(-m_scene.metres(distance) * ray.absorption);
+        if (m_tree != nullptr)
+            m_tree->at(node).weight = place.weight;
+    }
+    const Optics optics = opticsOf(place, ray);
     const glm::vec3 emission = point.material->emissionAt(point.uv);
-    add(node, ray.weight * (emission + optics.ambient * m_lights.ambient()));
+    add(node, place.weight * (emission + optics.ambient * m_lights.ambient()));
     if (optics.isDull())
         end(node, emission == glm::vec3(0.0f) ? RayEnd::NotReflecting : RayEnd::Emissive);
-    lightFrom(ray, node, point, terms);
-    branch(ray, node, point, terms, optics);
+    lightFrom(ray, node, place);
+    branch(ray, node, place, optics);
 }
 
 void WhittedShader::miss(const Ray& ray, int node) {
@@ -154,22 +172,61 @@ void WhittedShader::miss(const Ray& ray, int node) {
                                                  : m_scene.environmentRadiance(ray.direction)));
 }
 
-// ka, ks and kt. What is rough reflects the environment as if it were alike everywhere.
-WhittedShader::Optics WhittedShader::opticsOf(const shading::SurfaceTerms& terms) const {
+// ka, ks and kt. What is rough reflects and transmits the environment as if it were alike
+// everywhere.
+WhittedShader::Optics WhittedShader::opticsOf(const Place& place, const Ray& ray) const {
+    const shading::SurfaceTerms& terms = place.terms;
+    const bool is1980 = m_settings.model == LocalModel::Whitted1980;
+    const bool sendsOn = terms.perceptualRoughness < kMirrorRoughness || m_settings.gloss;
     Optics optics;
-    const bool isMirror = terms.perceptualRoughness < kMirrorRoughness;
-    if (m_settings.model == LocalModel::Whitted1980) {
-        optics.ambient = terms.diffuseColor;
-        if (isMirror || m_settings.gloss)
-            optics.reflected = terms.f0;
+    optics.ambient = is1980 ? terms.diffuseColor : terms.diffuseAlbedo;
+    optics.reflectedFrom = glm::reflect(ray.direction, terms.n);
+    if (!sendsOn) {
+        if (!is1980)
+            optics.ambient += terms.specularAlbedo + terms.transmission * terms.clearColor;
         return optics;
     }
-    optics.ambient = terms.diffuseAlbedo;
-    if (isMirror || m_settings.gloss)
-        optics.reflected = terms.specularAlbedo;
-    else
-        optics.ambient += terms.specularAlbedo;
+    optics.reflected = is1980 ? terms.f0 : terms.specularAlbedo;
+    if (terms.clearColor != glm::vec3(0.0f)) {
+        refract(optics, place, ray);
+    } else if (m_settings.gloss) {
+        optics.reflectedFrom = glossDirection(terms, ray.seed, optics.reflected);
+    }
     return optics;
+}
+
+// Of what a clear body reflects and lets through: Snell's and Fresnel's laws.
+void WhittedShader::refract(Optics& optics, const Place& place, const Ray& ray) const {
+    const TracePoint& point = place.point;
+    const shading::SurfaceTerms& terms = place.terms;
+    const shading::SurfaceInputs inputs = point.material->inputsAt(point.uv);
+    const TraceGlass& glass = point.material->glass();
+    const float clear = inputs.transmission * (1.0f - inputs.metallic);
+    const bool leaves = point.isBack && !glass.thinWalled;
+    const glm::vec3 n = m_settings.gloss ? facetNormal(terms, ray.seed) : terms.n;
+    const float cosine = glm::clamp(glm::dot(n, terms.v), 0.0f, 1.0f);
+    const float eta = glass.thinWalled ? 1.0f : leaves ? inputs.ior : 1.0f / inputs.ior;
+    const float sin2 = eta * eta * (1.0f - cosine * cosine); // behind
+    optics.cosIncident = cosine;
+    optics.etaRatio = eta;
+    optics.total = sin2 >= 1.0f;
+    optics.reflectedFrom = glm::reflect(ray.direction, n);
+    const float cosBehind = std::sqrt(std::max(1.0f - sin2, 0.0f));
+    optics.refractedFrom = glm::normalize(eta * ray.direction + (eta * cosine - cosBehind) * n);
+    if (!leaves)
+        optics.absorption = glass.absorption;
+
+    if (m_settings.model == LocalModel::Whitted1980) {
+        const glm::vec3 behind = (glm::vec3(1.0f) - terms.f0) * terms.clearColor;
+        (optics.total ? optics.reflected : optics.refracted) += behind;
+        return;
+    }
+    // The law is the same for light that goes the other way: the cosine is that outside.
+    const float outside = leaves ? cosBehind : cosine;
+    const float reflects = optics.total ? 1.0f : faceReflectance(*point.material, outside);
+    optics.reflected = (1.0f - clear) * optics.reflected + glm::vec3(clear * reflects);
+    if (!optics.total)
+        optics.refracted = (1.0f - reflects) * terms.clearColor;
 }
 
 // ---- Light of the lights ------------------------------------------------------------------------
@@ -202,16 +259,15 @@ PointLight WhittedShader::lightAt(std::size_t index, const glm::vec3& from,
     return m_lights.point(index, from, {point, sobolOwen2D(m_index, seedFor(of, 0)).x});
 }
 
-void WhittedShader::lightFrom(const Ray& ray, int node, const TracePoint& point,
-                              const shading::SurfaceTerms& terms) {
-    const glm::vec3 from = TraceScene::origin(point);
+void WhittedShader::lightFrom(const Ray& ray, int node, const Place& place) {
+    const glm::vec3 from = TraceScene::origin(place.point);
     for (std::size_t i = 0; i < m_lights.size(); ++i) {
         const PointLight light = lightAt(i, from, ray.seed);
         Ray to;
         to.kind = RayKind::Shadow;
         to.origin = from;
         to.direction = light.direction;
-        to.weight = ray.weight;
+        to.weight = place.weight;
         to.depth = ray.depth;
         to.parent = node;
         const int shadow = begin(to);
@@ -219,8 +275,8 @@ void WhittedShader::lightFrom(const Ray& ray, int node, const TracePoint& point,
             m_tree->at(shadow).light = light.light;
             m_tree->at(shadow).glowing = light.glowing;
         }
-        const glm::vec3 lit = glm::dot(point.face, light.direction) > 0.0f
-                                  ? local(terms, light.direction, light.irradiance)
+        const glm::vec3 lit = glm::dot(place.point.face, light.direction) > 0.0f
+                                  ? local(place.terms, light.direction, light.irradiance)
                                   : glm::vec3(0.0f);
         if (lit == glm::vec3(0.0f)) {
             end(shadow, RayEnd::Facing);
@@ -230,48 +286,109 @@ void WhittedShader::lightFrom(const Ray& ray, int node, const TracePoint& point,
             end(shadow, RayEnd::NoShadow);
         const glm::vec3 passes =
             light.castsShadow ? passesTo(from, light, shadow) : glm::vec3(1.0f);
-        add(shadow, ray.weight * passes * lit);
+        add(shadow, place.weight * passes * lit);
     }
 }
 
-// S: what of the light comes through along the straight ray.
+// S: what of the light comes through along the straight ray. Faces of clear bodies let through
+// 1 - F at the ray's angle, in their colour, and the bodies what they do not absorb.
 glm::vec3 WhittedShader::passesTo(const glm::vec3& from, const PointLight& light, int node) {
-    const ClosestRay hit = closest(from, light.direction, light.distance);
-    const bool meets = hit.mesh != ClosestRay::kNothing && hit.ray.maxDistance < light.distance;
-    if (meets && !(light.meetsItself && m_scene.meshId(hit.mesh) == light.glowing)) {
-        met(node, m_scene.pointAt(hit), hit.ray.maxDistance);
-        end(node, RayEnd::Blocked);
-        return glm::vec3(0.0f);
+    glm::vec3 passes(1.0f), origin = from;
+    float done = 0.0f; // of the ray's way
+    for (int faces = 0;; ++faces) {
+        const ClosestRay hit = closest(origin, light.direction, light.distance - done, faces > 0);
+        if (hit.mesh == ClosestRay::kNothing || done + hit.ray.maxDistance >= light.distance)
+            break;
+        if (light.meetsItself && m_scene.meshId(hit.mesh) == light.glowing)
+            break;
+        const TracePoint point = m_scene.pointAt(hit);
+        if (point.material->transmits())
+            passes *= passesFace(point, light.direction, m_scene.metres(hit.ray.maxDistance));
+        if (!point.material->transmits() || largest(passes) < kLeastPassing ||
+            faces == kMostFaces) {
+            met(node, point, done + hit.ray.maxDistance);
+            end(node, RayEnd::Blocked);
+            return glm::vec3(0.0f);
+        }
+        done += hit.ray.maxDistance;
+        origin = TraceScene::origin(point, true);
     }
+    if (m_tree != nullptr)
+        m_tree->at(node).passes = passes;
     end(node, RayEnd::Lit);
     if (m_tree != nullptr && !std::isinf(light.distance)) {
         RayNode& of = m_tree->at(node);
         of.distance = m_scene.metres(light.distance);
         of.position = m_scene.toWorld(from + light.distance * light.direction);
     }
-    return glm::vec3(1.0f);
+    return passes;
+}
+
+// `metres`: that the ray came to the face, within the body where it leaves it.
+glm::vec3 WhittedShader::passesFace(const TracePoint& point, const glm::vec3& direction,
+                                    float metres) const {
+    const TraceMaterial& material = *point.material;
+    const shading::SurfaceInputs inputs = material.inputsAt(point.uv);
+    const glm::vec3 clear = (1.0f - inputs.metallic) * inputs.transmission * inputs.baseColor;
+    const bool is1980 = m_settings.model == LocalModel::Whitted1980;
+    const float reflects =
+        is1980 ? shading::f0FromIor(inputs.ior)
+               : faceReflectance(material, std::abs(glm::dot(point.normal, direction)));
+    const TraceGlass& glass = material.glass();
+    const bool leaves = point.isBack && !glass.thinWalled;
+    return (1.0f - reflects) * clear *
+           (leaves ? glm::exp(-metres * glass.absorption) : glm::vec3(1.0f));
+}
+
+// Fresnel's, of a ray from outside. A sheet reflects at both of its faces, and back and forth
+// between them: R + T² R / (1 - R²) = 2R / (1 + R).
+float WhittedShader::faceReflectance(const TraceMaterial& material, float cosine) {
+    const float reflects = shading::F_Dielectric(cosine, material.ior());
+    return material.glass().thinWalled ? 2.0f * reflects / (1.0f + reflects) : reflects;
 }
 
 // ---- Rays on ------------------------------------------------------------------------------------
 
-void WhittedShader::branch(const Ray& ray, int node, const TracePoint& point,
-                           const shading::SurfaceTerms& terms, const Optics& optics) {
+void WhittedShader::branch(const Ray& ray, int node, const Place& place, const Optics& optics) {
     if (optics.isDull())
         return;
+    if (m_tree != nullptr) {
+        RayNode& of = m_tree->at(node);
+        of.cosIncident = optics.cosIncident;
+        of.etaRatio = optics.etaRatio;
+        of.totalReflection = optics.total;
+    }
     Ray child;
-    child.kind = RayKind::Reflected;
     child.depth = ray.depth + 1;
     child.parent = node;
-    child.origin = TraceScene::origin(point);
-    child.direction = glm::reflect(ray.direction, terms.n);
-    child.weight = ray.weight * optics.reflected;
-    child.seed = seedFor(ray.seed, kMirrorBranch);
-    if (m_settings.gloss) {
-        glm::vec3 share(0.0f);
-        child.direction = glossDirection(terms, ray.seed, share);
-        child.weight = ray.weight * share;
+    if (optics.reflected != glm::vec3(0.0f)) {
+        child.kind = RayKind::Reflected;
+        child.origin = TraceScene::origin(place.point);
+        child.direction = optics.reflectedFrom;
+        child.weight = place.weight * optics.reflected;
+        child.seed = seedFor(ray.seed, kMirrorBranch);
+        child.absorption = ray.absorption;
+        branchOff(child, glm::dot(place.point.face, child.direction) <= 0.0f);
     }
-    branchOff(child, glm::dot(point.face, child.direction) <= 0.0f);
+    if (optics.refracted != glm::vec3(0.0f)) {
+        child.kind = RayKind::Refracted;
+        child.origin = TraceScene::origin(place.point, true);
+        child.direction = optics.refractedFrom;
+        child.weight = place.weight * optics.refracted;
+        child.seed = seedFor(ray.seed, kRefractedBranch);
+        child.absorption = optics.absorption;
+        branchOff(child, glm::dot(place.point.face, child.direction) >= 0.0f);
+    }
+}
+
+// A facet that the viewer sees, with the density of visible normals (of GGX).
+glm::vec3 WhittedShader::facetNormal(const shading::SurfaceTerms& terms, std::uint32_t seed) const {
+    glm::vec3 t, b;
+    shading::orthonormalBasis(terms.n, t, b);
+    const glm::vec3 h =
+        shading::sampleHalfVector(terms.model, sobolOwen2D(m_index, seedFor(seed, kGlossBranch)),
+                                  shading::viewerInFrame(terms, t, b), terms.alpha);
+    return glm::normalize(h.x * t + h.y * b + h.z * terms.n);
 }
 
 // A direction of the specular lobe, and what the lobe reflects of light from there over how likely

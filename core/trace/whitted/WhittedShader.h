@@ -46,28 +46,40 @@ class WhittedShader {
         RayKind kind = RayKind::Camera;
         glm::vec3 origin{0.0f}, direction{0.0f};
         glm::vec3 weight{1.0f};
+        glm::vec3 absorption{0.0f}; // per metre, of what it goes through
         int depth = 0, parent = RayNode::kNone;
         std::uint32_t seed = 0;
     };
-    struct Optics; // how a place reflects and refracts
+    struct Place { // that a ray has come to
+        TracePoint point;
+        shading::SurfaceTerms terms;
+        glm::vec3 weight; // share of its light that reaches the sample
+    };
+    struct Optics;
 
     void follow(const Ray& ray);
     void miss(const Ray& ray, int node);
-    [[nodiscard]] Optics opticsOf(const shading::SurfaceTerms& terms) const;
-    void lightFrom(const Ray& ray, int node, const TracePoint& point,
-                   const shading::SurfaceTerms& terms);
+    [[nodiscard]] Optics opticsOf(const Place& place, const Ray& ray) const;
+    void refract(Optics& optics, const Place& place, const Ray& ray) const;
+    void lightFrom(const Ray& ray, int node, const Place& place);
     [[nodiscard]] PointLight lightAt(std::size_t index, const glm::vec3& from,
                                      std::uint32_t seed) const;
     [[nodiscard]] glm::vec3 local(const shading::SurfaceTerms& terms, const glm::vec3& l,
                                   const glm::vec3& irradiance) const;
     glm::vec3 passesTo(const glm::vec3& from, const PointLight& light, int node);
-    void branch(const Ray& ray, int node, const TracePoint& point,
-                const shading::SurfaceTerms& terms, const Optics& optics);
+    [[nodiscard]] glm::vec3 passesFace(const TracePoint& point, const glm::vec3& direction,
+                                       float metres) const;
+    [[nodiscard]] static float faceReflectance(const TraceMaterial& material, float cosine);
+    void branch(const Ray& ray, int node, const Place& place, const Optics& optics);
     void branchOff(const Ray& child, bool below);
+    [[nodiscard]] glm::vec3 facetNormal(const shading::SurfaceTerms& terms,
+                                        std::uint32_t seed) const;
     [[nodiscard]] glm::vec3 glossDirection(const shading::SurfaceTerms& terms, std::uint32_t seed,
                                            glm::vec3& share) const;
 
-    ClosestRay closest(const glm::vec3& origin, const glm::vec3& direction, float distance);
+    // `goesOn`: the same ray, from a surface that it has passed.
+    ClosestRay closest(const glm::vec3& origin, const glm::vec3& direction, float distance,
+                       bool goesOn = false);
     int begin(const Ray& ray);
     void met(int node, const TracePoint& point, float distance);
     void end(int node, RayEnd reason);
