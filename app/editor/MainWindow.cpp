@@ -211,7 +211,7 @@ void MainWindow::makeMenus() {
     view->addActions({a.frame, a.home, a.overlays});
     view->addActions({a.nextModel, a.previousModel});
     view->addSeparator();
-    view->addActions({a.wall, a.pathTraced});
+    view->addActions({a.wall, a.pathTraced, a.whitted});
     m_looks->fillMenu(*view->addMenu(tr("L&ook At")));
     view->addSeparator();
     view->addActions({a.lightingIbl, a.lightingPrt, a.previousEnvironment, a.nextEnvironment,
@@ -252,7 +252,7 @@ void MainWindow::makeToolBar() {
     bar->addSeparator();
     bar->addActions({a.undo, a.redo});
     bar->addSeparator();
-    bar->addActions({a.frame, a.home, a.overlays, a.wall, a.pathTraced});
+    bar->addActions({a.frame, a.home, a.overlays, a.wall, a.pathTraced, a.whitted});
     bar->addSeparator();
     bar->addAction(a.exportScene);
     for (QToolButton* button : bar->findChildren<QToolButton*>()) {

@@ -23,6 +23,8 @@
 #include "app/editor/panel/TransferPanel.h"
 #include "app/editor/panel/ViewPanel.h"
 #include "app/editor/sweep/LightSweepPanel.h"
+#include "app/editor/trace/RayTreeOverlay.h"
+#include "app/editor/trace/RayTreePanel.h"
 #include "app/editor/viewport/ViewOverlay.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "core/light/Light.h"
@@ -37,7 +39,7 @@ namespace {
 
 constexpr QSize kComfortable(1440, 900);
 constexpr int kFrameHeight = 60;  // more than a title bar needs; what it is is known too late
-constexpr int kLayoutVersion = 8; // raise when docks come or go: older layouts are ignored
+constexpr int kLayoutVersion = 9; // raise when docks come or go: older layouts are ignored
 
 } // namespace
 
@@ -93,6 +95,10 @@ void MainWindow::makeDocks() {
     m_docks->addInstrument(a.transfer, QStringLiteral("transfer"), transfer);
     m_docks->addInstrument(a.lightSweep, QStringLiteral("lightSweep"),
                            new LightSweepPanel(controller, m_session.jobs, *m_viewport));
+    new RayTreeOverlay(m_session.rayTree, controller, *m_viewport);
+    auto* rays = new RayTreePanel(m_session.rayTree, m_session.paths, controller);
+    connect(rays, &RayTreePanel::pictureWanted, a.whitted, &QAction::trigger);
+    m_docks->addInstrument(a.rayTree, QStringLiteral("rayTree"), rays);
     m_docks->addInstrument(a.library, QStringLiteral("library"),
                            new LibraryPanel(m_session.library, m_session.preview));
     m_docks->reset();

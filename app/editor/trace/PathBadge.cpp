@@ -35,9 +35,6 @@ PathBadge::PathBadge(PathView& paths, PathError& error, ViewState& views, QPushB
     column->setContentsMargins(tokens::kMargin, tokens::kGap, tokens::kMargin, tokens::kGap);
     column->setSpacing(tokens::kGap / 2);
     m_text->setObjectName(QStringLiteral("pathBadgeText"));
-    m_text->setToolTip(
-        tr("Paths per pixel so far, and how certain that makes the picture: the standard error of "
-           "its pixels, as a share of its mean brightness. At ± 1 % it is done."));
     column->addWidget(m_text);
     auto* row = new QHBoxLayout;
     row->setSpacing(tokens::kGap);
@@ -79,13 +76,22 @@ PathBadge::PathBadge(PathView& paths, PathError& error, ViewState& views, QPushB
 QString PathBadge::text() const {
     const render::ViewSettings& view = m_views.settings();
     if (view.split || !view.isOrdinary(view.shown))
-        return tr("Path traced: the picture alone. This view is drawn as usual.");
+        return (m_paths.isWhitted() ? tr("Whitted") : tr("Path traced")) +
+               tr(": the picture alone. This view is drawn as usual.");
     const PathView::Progress& progress = m_paths.progress();
     if (progress.error)
         return tr("Cannot be traced: %1").arg(toQString(progress.error->message));
     if (progress.samples == 0)
-        return tr("Path traced, coarse at first…");
+        return m_paths.isWhitted() ? tr("Whitted, coarse at first…")
+                                   : tr("Path traced, coarse at first…");
     const QLocale locale;
+    if (m_paths.isWhitted()) {
+        QStringList parts{tr("Whitted"),
+                          tr("%1 million rays").arg(locale.toString(1e-6 * progress.rays, 'f', 1)),
+                          tr("%1 s").arg(locale.toString(progress.seconds, 'f', 1))};
+        parts << (progress.refined ? tr("done") : tr("smoothing edges…"));
+        return parts.join(QStringLiteral("  ·  "));
+    }
     QStringList parts{tr("Path traced"), progress.samples == 1
                                              ? tr("1 path per pixel")
                                              : tr("%1 paths per pixel").arg(progress.samples)};
@@ -104,7 +110,15 @@ void PathBadge::refresh() {
     m_shown->setCurrentIndex(m_shown->findData(static_cast<int>(m_error.shown())));
     m_pause->setChecked(m_paths.isPaused());
     m_pause->setText(m_paths.isPaused() ? tr("Resume") : tr("Pause"));
-    m_pause->setVisible(!m_paths.progress().refined);
+    m_pause->setVisible(!m_paths.progress().refined && !m_paths.isWhitted());
+    m_shown->setVisible(!m_paths.isWhitted()); // which is no measure of the drawn one
+    m_text->setToolTip(
+        m_paths.isWhitted()
+            ? tr("The classical ray tracer (Whitted 1980): hard shadows, mirror reflection and "
+                 "refraction, ambient light. Open the Ray Tree dock and click a pixel to see its "
+                 "rays.")
+            : tr("Paths per pixel so far, and how certain that makes the picture: the standard "
+                 "error of its pixels, as a share of its mean brightness. At ± 1 % it is done."));
     place();
 }
 
