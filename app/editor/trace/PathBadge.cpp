@@ -35,9 +35,6 @@ PathBadge::PathBadge(PathView& paths, PathError& error, ViewState& views, QPushB
     column->setContentsMargins(tokens::kMargin, tokens::kGap, tokens::kMargin, tokens::kGap);
     column->setSpacing(tokens::kGap / 2);
     m_text->setObjectName(QStringLiteral("pathBadgeText"));
-    m_text->setToolTip(
-        tr("Paths per pixel so far, and how certain that makes the picture: the standard error of "
-           "its pixels, as a share of its mean brightness. At ± 1 % it is done."));
     column->addWidget(m_text);
     auto* row = new QHBoxLayout;
     row->setSpacing(tokens::kGap);
@@ -95,12 +92,19 @@ QString PathBadge::text() const {
     parts << tr("%1 s").arg(locale.toString(progress.seconds, 'f', progress.seconds < 10 ? 1 : 0));
     if (progress.refined)
         parts << tr("done");
-    return parts.join(QStringLiteral("  ·  "));
+    const QString line = parts.join(QStringLiteral("  ·  "));
+    return progress.limit ? line + tr("\nPoint-like lights do not shine through solid glass")
+                          : line;
 }
 
 void PathBadge::refresh() {
     setVisible(m_paths.isOn());
     m_text->setText(text());
+    const QString help =
+        tr("Paths per pixel so far, and how certain that makes the picture: the standard error of "
+           "its pixels, as a share of its mean brightness. At ± 1 % it is done.");
+    const std::optional<std::string>& limit = m_paths.progress().limit;
+    m_text->setToolTip(limit ? help + QStringLiteral("\n\n") + toQString(*limit) : help);
     m_shown->setCurrentIndex(m_shown->findData(static_cast<int>(m_error.shown())));
     m_pause->setChecked(m_paths.isPaused());
     m_pause->setText(m_paths.isPaused() ? tr("Resume") : tr("Pause"));
