@@ -78,6 +78,7 @@ class CommandParser {
                    const char* prefix = "");
 
     void addRender(); // RenderCommandLine.cpp
+    void addWhitted(CLI::App* command, RenderOptions& options);
 
     // SceneCommandLine.cpp
     void addInfo();

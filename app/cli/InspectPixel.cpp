@@ -11,8 +11,8 @@
 
 namespace patina::cli {
 
-Result<std::optional<glm::ivec2>> parsePixel(const std::string& text,
-                                             const render::FrameSettings& frame) {
+Result<std::optional<glm::ivec2>>
+parsePixel(const std::string& text, const render::FrameSettings& frame, const char* option) {
     if (text.empty())
         return std::optional<glm::ivec2>();
     glm::ivec2 pixel(-1);
@@ -24,9 +24,9 @@ Result<std::optional<glm::ivec2>> parsePixel(const std::string& text,
     if (!read || second != std::errc() || last != end || pixel.x < 0 || pixel.y < 0 ||
         pixel.x >= frame.width || pixel.y >= frame.height)
         return Error{ErrorKind::Usage,
-                     fmt::format("--inspect wants X,Y of a pixel of the picture, from 0,0 at the "
-                                 "top left to {},{}, not \"{}\"",
-                                 frame.width - 1, frame.height - 1, text),
+                     fmt::format("{} wants X,Y of a pixel of the picture, from 0,0 at the top left "
+                                 "to {},{}, not \"{}\"",
+                                 option, frame.width - 1, frame.height - 1, text),
                      {},
                      {}};
     return std::optional(pixel);

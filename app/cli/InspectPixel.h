@@ -18,7 +18,8 @@ namespace patina::cli {
 
 // Nothing for an empty text. Usage error when it is no pixel of the picture.
 Result<std::optional<glm::ivec2>> parsePixel(const std::string& text,
-                                             const render::FrameSettings& frame);
+                                             const render::FrameSettings& frame,
+                                             const char* option = "--inspect");
 
 // Prints the explanation of a pixel of the renderer's last frame, or puts it into the report as
 // "inspection"; where a surface is, with what a transfer bake has there. `shadows`: of the frame.

@@ -51,7 +51,10 @@ Result<LadderTruth> traceTruth(Session& session, const LadderOptions& options,
     settings.samples = static_cast<std::uint32_t>(options.paths);
     if (options.noise)
         settings.noise = *options.noise / 100.0;
-    return traceLadderTruth(document, view, settings, session.job());
+    Result<LadderTruth> truth = traceLadderTruth(document, view, settings, session.job());
+    if (truth && truth->limit)
+        session.report().warn(*truth->limit);
+    return truth;
 }
 
 struct DrawnRung {

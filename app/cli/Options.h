@@ -51,6 +51,14 @@ struct LongBakeOptions {
     std::string maxMemory; // a size; empty: what the machine has to give
 };
 
+// Of --renderer whitted; nothing: as WhittedSettings has it.
+struct WhittedOptions {
+    std::optional<std::string> model; // patina, 1980
+    std::optional<float> minContribution, contrast;
+    std::optional<int> subdivisions;
+    bool softShadows = false, gloss = false;
+};
+
 struct RenderOptions : PictureOptions {
     std::string view;    // of core/document/Views.h, or all
     std::string inspect; // X,Y of a pixel to explain
@@ -58,14 +66,18 @@ struct RenderOptions : PictureOptions {
     int turntable = 0,
         lightTurn = 0;               // pictures round the camera's target, of a turning environment
     int framesPerSecond = 24;        // of a video
-    std::string renderer = "raster"; // or path
-    std::optional<double> noise;     // path: ends there, percent of the mean
-    std::optional<int> maxBounces;   // path; nothing: no limit
-    unsigned seed = 0;               // path
+    std::string renderer = "raster"; // or path, whitted: those that trace
+    std::optional<double> noise;     // traced: ends there, percent of the mean
+    std::optional<int> maxBounces;   // traced; nothing: no limit, of whitted 8
+    unsigned seed = 0;               // traced
     bool samplesGiven = false;
-    std::string aov;          // path: "all" or names of OutputImages.h; empty: the picture alone
+    // Traced: "all" or names of OutputImages.h, of whitted those of RayCountImages.h; empty: the
+    // picture alone.
+    std::string aov;
     std::string errorAgainst; // a linear picture; empty: none
-    LongBakeOptions work;     // path; its maxMemory is that of the pictures
+    LongBakeOptions work;     // traced; its maxMemory is that of the pictures
+    std::string rayTree;      // whitted: X,Y of a pixel whose rays are listed
+    WhittedOptions whitted;
 };
 
 struct LadderOptions : PictureOptions {

@@ -107,9 +107,9 @@ void reportLeftOut(Report& report, const std::vector<LeftOut>& left) {
 
 Result<void> run(Session& session, const RenderOptions& options) {
     const bool writes = !options.output.empty();
-    if (!writes && options.inspect.empty())
-        return usageError(
-            "--output is required: where the picture goes; only --inspect does without");
+    if (!writes && options.inspect.empty() && options.rayTree.empty())
+        return usageError("--output is required: where the picture goes; only --inspect and "
+                          "--ray-tree do without");
     if (Result<void> fits = checkRenderer(session.options(), options); !fits)
         return fits;
     if (!options.errorAgainst.empty() && !options.view.empty() && options.view != "final")
@@ -133,6 +133,8 @@ Result<void> run(Session& session, const RenderOptions& options) {
     const Result<std::optional<glm::ivec2>> inspected = parsePixel(options.inspect, *frame);
     if (!inspected)
         return inspected.error();
+    if (const auto rays = parsePixel(options.rayTree, *frame, "--ray-tree"); !rays)
+        return rays.error();
     if (writes)
         if (Result<void> output = checkOutput(options.output); !output)
             return output;
@@ -160,7 +162,8 @@ Result<void> run(Session& session, const RenderOptions& options) {
         reportLeftOut(session.report(), leftOutViews(*document, *shown));
     warnOfStaleBakes(session, *document);
     for (const render::LightLimit& limit : render::lightLimits(*document))
-        session.report().warn(limit.text);
+        if (!isTraced(options)) // paths have other limits
+            session.report().warn(limit.text);
     if (Result<void> followed = followBounces(session, *shown, *document); !followed)
         return followed;
     if (!options.view.empty()) {

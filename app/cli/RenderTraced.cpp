@@ -1,8 +1,10 @@
 #include "app/cli/RenderTraced.h"
 
 #include "app/cli/ErrorAgainst.h"
+#include "app/cli/InspectPixel.h"
 #include "app/cli/LongBake.h"
 #include "app/cli/LongRun.h"
+#include "app/cli/RenderWhitted.h"
 #include "app/cli/Report.h"
 #include "app/cli/TracedBackground.h"
 #include "app/cli/TracedPicture.h"
@@ -38,23 +40,25 @@ Result<TraceShard> shardOfPicture(const RenderOptions& options) {
 
 // What could not be held or written is refused before the first ray.
 Result<void> checkPictureSize(const render::FrameSettings& frame,
-                              const std::vector<const OutputInfo*>& outputs) {
+                              const std::vector<const OutputInfo*>& outputs, std::size_t counts) {
     const std::uint64_t pixels =
         static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height);
-    std::uint64_t channels = frame.transparentBackground ? 1 : 0;
+    std::uint64_t channels = (frame.transparentBackground ? 1 : 0) + counts;
     if (outputs.empty())
         channels += 3;
     for (const OutputInfo* info : outputs)
         channels += info->channels.size();
     const std::uint64_t written = pixels * channels * sizeof(float);
     if (written > limits::kMaxImageBytes)
-        return usageError(fmt::format("the picture has {} of numbers, and a file holds at most {}; "
-                                      "choose a smaller --size{}",
-                                      memoryText(written), memoryText(limits::kMaxImageBytes),
-                                      outputs.size() > 1 ? ", or fewer outputs (--aov)" : ""));
+        return usageError(
+            fmt::format("the picture has {} of numbers, and a file holds at most {}; "
+                        "choose a smaller --size{}",
+                        memoryText(written), memoryText(limits::kMaxImageBytes),
+                        outputs.size() + counts > 1 ? ", or fewer outputs (--aov)" : ""));
     const std::uint64_t held =
         pixels *
-            (sizeof(Film::Pixel) + (needTraceOutputs(outputs) ? sizeof(TraceOutputs::Pixel) : 0)) +
+            (sizeof(Film::Pixel) + (needTraceOutputs(outputs) ? sizeof(TraceOutputs::Pixel) : 0) +
+             (counts > 0 ? sizeof(RayCounts) : 0)) +
         written;
     const std::uint64_t available = availableMemory();
     if (available > 0 && held > available)
@@ -76,7 +80,9 @@ FilmManifest filmManifest(const Session& session, const RenderOptions& options,
                          {kBackgroundSetting, backgroundText(document.view)}};
     if (options.noise)
         manifest.settings["noise"] = fmt::format("{} %", *options.noise);
-    if (options.maxBounces)
+    if (isWhitted(options))
+        addSettings(whittedSettings(options), manifest.settings);
+    else if (options.maxBounces)
         manifest.settings["max-bounces"] = std::to_string(*options.maxBounces);
     manifest.display = displaySettings(document);
     manifest.inputs = hashTraceInputs(inputs);
@@ -89,18 +95,63 @@ FilmManifest filmManifest(const Session& session, const RenderOptions& options,
     return manifest;
 }
 
+const char* unitOf(const RenderOptions& options) {
+    return isWhitted(options) ? "samples" : "paths";
+}
+
+// Of a pixel, at most.
+std::uint32_t samplesOf(const RenderOptions& options) {
+    if (isWhitted(options) && !whittedSettings(options).isStochastic())
+        return 1;
+    if (options.samplesGiven)
+        return static_cast<std::uint32_t>(options.samples);
+    if (options.noise)
+        return kMostPaths;
+    return isWhitted(options) ? kUsualRays : kUsualPaths;
+}
+
+// The rays of a pixel of --ray-tree, where it is given.
+Result<void> showRayTree(Session& session, const RenderOptions& options, const Document& document,
+                         const TraceScene& scene, const TraceView& view,
+                         const render::FrameSettings& frame) {
+    const Result<std::optional<glm::ivec2>> pixel =
+        parsePixel(options.rayTree, frame, "--ray-tree");
+    if (!pixel)
+        return pixel.error();
+    if (*pixel)
+        reportRayTree(session, document,
+                      traceRayTree(scene, view, whittedSettings(options), (*pixel)->x, (*pixel)->y,
+                                   samplesOf(options)),
+                      **pixel);
+    return {};
+}
+
+// Where rays start, and what is behind the scene.
+Result<TraceView> traceView(Session& session, const Document& document,
+                            const render::FrameSettings& frame) {
+    TraceView view;
+    view.camera = frame.camera;
+    view.width = frame.width;
+    view.height = frame.height;
+    if (Result<void> set = setBackground(session, document, view); !set)
+        return set.error();
+    return view;
+}
+
 void reportSamples(Session& session, const RenderOptions& options, const FilmTracer& tracer) {
     nlohmann::ordered_json& json = session.report().json();
     const std::uint32_t done = tracer.manifest().samples;
     if (const std::size_t invalid = tracer.film().invalid(); invalid > 0)
         session.report().warn(fmt::format(
-            "{} paths brought no finite number and count as black; look for values that are not "
+            "{} {} brought no finite number and count as black; look for values that are not "
             "finite in the scene's maps",
-            invalid));
+            invalid, unitOf(options)));
     json["settings"]["renderer"] = options.renderer;
     json["settings"]["samples"] = done;
     json["settings"]["seed"] = options.seed;
-    if (options.maxBounces)
+    if (isWhitted(options))
+        json["settings"]["whitted"] = describeWhitted(whittedSettings(options));
+    else if (options.maxBounces)
         json["settings"]["maxBounces"] = *options.maxBounces;
     if (tracer.resumedFrom())
         json["resumedFrom"] = *tracer.resumedFrom();
@@ -109,20 +160,41 @@ void reportSamples(Session& session, const RenderOptions& options, const FilmTra
         return;
     json["noisePercent"] = 100.0 * *noise;
     if (options.noise && 100.0 * *noise > *options.noise)
-        session.report().warn(fmt::format("± {:.2f} % of the mean after {} paths per pixel: "
+        session.report().warn(fmt::format("± {:.2f} % of the mean after {} {} per pixel: "
                                           "not yet the {:g} % that --noise asks for",
-                                          100.0 * *noise, done, *options.noise));
-    session.report().line(
-        fmt::format("{} paths per pixel, ± {:.2f} % of the mean", done, 100.0 * *noise));
+                                          100.0 * *noise, done, unitOf(options), *options.noise));
+    session.report().line(fmt::format("{} {} per pixel, ± {:.2f} % of the mean", done,
+                                      unitOf(options), 100.0 * *noise));
+}
+
+// The same without a picture.
+Result<void> renderRayTree(Session& session, const RenderOptions& options, const Document& document,
+                           const render::FrameSettings& frame) {
+    session.beginPhase();
+    session.job().setActivity("preparing the scene");
+    const Result<TraceView> view = traceView(session, document, frame);
+    if (!view)
+        return view.error();
+    const Result<TraceScene> scene = TraceScene::build(traceInputs(document), session.job());
+    if (!scene)
+        return scene.error();
+    session.report().json()["settings"]["renderer"] = options.renderer;
+    session.report().json()["settings"]["whitted"] = describeWhitted(whittedSettings(options));
+    return showRayTree(session, options, document, *scene, *view, frame);
 }
 
 } // namespace
 
 bool isTraced(const RenderOptions& options) {
-    return options.renderer == "path";
+    return options.renderer != "raster";
 }
 
 Result<void> checkRenderer(const CommonOptions& common, const RenderOptions& options) {
+    if (Result<void> whitted = checkWhitted(options); !whitted)
+        return whitted;
+    if (options.renderer == "path" && !options.aov.empty())
+        if (const auto outputs = parseOutputs(options.aov); !outputs)
+            return outputs.error();
     if (!isTraced(options)) {
         for (const auto& [given, name] : std::array<std::pair<bool, const char*>, 7>{
                  {{options.noise.has_value(), "--noise"},
@@ -133,7 +205,7 @@ Result<void> checkRenderer(const CommonOptions& common, const RenderOptions& opt
                   {!options.work.checkpoint.empty(), "--checkpoint"},
                   {options.work.resume, "--resume"}}})
             if (given)
-                return usageError(fmt::format("{} is for --renderer path", name));
+                return usageError(fmt::format("{} is for --renderer path and whitted", name));
         if (!std::ranges::count(kRasterSamples, options.samples))
             return usageError("--samples wants 1, 2, 4, 8 or 16; with --renderer path it may be "
                               "any number");
@@ -147,7 +219,7 @@ Result<void> checkRenderer(const CommonOptions& common, const RenderOptions& opt
                                                       {!options.bakes.empty(), "--bake"},
                                                       {!options.lighting.empty(), "--lighting"}}})
         if (given)
-            return usageError(fmt::format("{} is for --renderer raster: paths bring the light of "
+            return usageError(fmt::format("{} is for --renderer raster: rays bring the light of "
                                           "the whole picture, and need no bake",
                                           name));
     if (options.work.shard.empty())
@@ -170,19 +242,30 @@ Result<void> renderTraced(Session& session, const RenderOptions& options, const 
     const Result<TraceShard> shard = shardOfPicture(options);
     if (!shard)
         return shard.error();
+    if (options.output.empty())
+        return renderRayTree(session, options, document, frame);
     const bool isPart = isTracedPart(options);
+    const bool byPaths = !isWhitted(options), hasAov = !options.aov.empty();
     const Result<std::vector<const OutputInfo*>> outputs =
-        options.aov.empty() ? std::vector<const OutputInfo*>() : parseOutputs(options.aov);
+        hasAov && byPaths
+            ? parseOutputs(options.aov)
+            : Result<std::vector<const OutputInfo*>>(std::vector<const OutputInfo*>());
     if (!outputs)
         return outputs.error();
-    if (!options.aov.empty() && format != ImageFileFormat::Exr)
+    const Result<std::vector<const RayCountInfo*>> counts =
+        hasAov && !byPaths
+            ? parseRayCounts(options.aov)
+            : Result<std::vector<const RayCountInfo*>>(std::vector<const RayCountInfo*>());
+    if (!counts)
+        return counts.error();
+    if (hasAov && format != ImageFileFormat::Exr)
         return usageError("--aov writes a part of an .exr for each output; name such a file");
     const Result<LongRun> run = planLongRun(options.output, options.work);
     if (!run)
         return run.error();
     if (Result<void> shown = isPart ? Result<void>() : checkDisplay(document.view, format); !shown)
         return shown;
-    if (Result<void> fits = checkPictureSize(frame, *outputs); !fits)
+    if (Result<void> fits = checkPictureSize(frame, *outputs, counts->size()); !fits)
         return fits;
     const Result<std::optional<FileLock>> lock =
         beginLongRun(session, *run, options.output, "picture");
@@ -191,30 +274,27 @@ Result<void> renderTraced(Session& session, const RenderOptions& options, const 
 
     session.beginPhase();
     session.job().setActivity("preparing the scene");
-    TraceView view;
-    view.camera = frame.camera;
-    view.width = frame.width;
-    view.height = frame.height;
-    if (Result<void> set = setBackground(session, document, view); !set)
-        return set;
+    const Result<TraceView> view = traceView(session, document, frame);
+    if (!view)
+        return view.error();
     const TraceInputs inputs = traceInputs(document);
     const Result<TraceScene> scene = TraceScene::build(inputs, session.job());
     if (!scene)
         return scene.error();
+    if (const std::optional<std::string> limit = scene->limit(); limit && byPaths)
+        session.report().warn(*limit);
 
     PathSettings paths;
     paths.maxBounces = options.maxBounces;
     paths.seed = options.seed;
     FilmTracerSettings settings;
-    settings.samples =
-        static_cast<std::uint32_t>(options.samplesGiven || options.noise
-                                       ? (options.samplesGiven ? options.samples : kMostPaths)
-                                       : kUsualPaths);
+    settings.samples = samplesOf(options);
+    settings.unit = unitOf(options);
     if (options.noise)
         settings.noise = *options.noise / 100.0;
     settings.manifest = filmManifest(session, options, document, inputs, frame, settings.samples);
     settings.manifest.shard = *shard;
-    if (!options.aov.empty()) {
+    if (!outputs->empty()) {
         settings.manifest.settings[kOutputsSetting] = namesOf(*outputs);
         settings.manifest.hasOutputs = needTraceOutputs(*outputs);
     }
@@ -229,7 +309,12 @@ Result<void> renderTraced(Session& session, const RenderOptions& options, const 
     FilmTracer tracer(std::move(settings));
     session.allowPartialResult();
     session.expectCheckpoint(run->checkpoint, run->keepWhenInterrupted);
-    const Result<void> traced = tracer.trace(*scene, view, paths, session.job());
+    Result<WhittedPicture> whitted =
+        WhittedPicture::prepare(*scene, *view, whittedSettings(options), *counts, session.job());
+    if (!whitted)
+        return whitted.error();
+    const Result<void> traced = byPaths ? tracer.trace(*scene, *view, paths, session.job())
+                                        : tracer.trace(whitted->pass(), session.job());
     if (tracer.keptCheckpoint())
         session.keptCheckpoint(run->checkpoint);
     if (!traced)
@@ -238,12 +323,16 @@ Result<void> renderTraced(Session& session, const RenderOptions& options, const 
     if (!manifest.complete && manifest.samples == 0)
         return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
     reportSamples(session, options, tracer);
+    if (!byPaths)
+        whitted->describe(session.report().json());
+    if (Result<void> tree = showRayTree(session, options, document, *scene, *view, frame); !tree)
+        return tree;
 
-    const Result<void> written = isPart
-                                     ? writeFilm(options.output, manifest, tracer.film(),
-                                                 tracer.outputs(), StateFileName::OfUser)
-                                     : writeTracedPicture(session, manifest, tracer.film(),
-                                                          tracer.outputs(), options.output, format);
+    const Result<void> written =
+        isPart ? writeFilm(options.output, manifest, tracer.film(), tracer.outputs(),
+                           StateFileName::OfUser)
+               : writeTracedPicture(session, manifest, tracer.film(), tracer.outputs(),
+                                    whitted->parts(), options.output, format);
     if (!written) {
         Error error = written.error();
         if (tracer.keepResult())

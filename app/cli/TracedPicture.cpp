@@ -11,10 +11,12 @@
 #include "core/trace/file/FilmMerge.h"
 #include "core/trace/file/OutputImages.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -52,14 +54,21 @@ Result<View> displayOf(const StateSettings& settings) {
     return document.view;
 }
 
+// What a pixel has several of.
+const char* unitOfSamples(const FilmManifest& manifest) {
+    return manifest.settings.contains("renderer") ? "samples" : "paths";
+}
+
 // What the picture is of, and how it was traced.
 std::map<std::string, std::string> headerOf(const FilmManifest& manifest) {
     std::map<std::string, std::string> header =
         attributesOf({manifest.inputs, manifest.settings.at(kCameraSetting),
                       manifest.settings.at(kBackgroundSetting)});
-    header["patina:renderer"] = "path";
+    const auto renderer = manifest.settings.find("renderer");
+    header["patina:renderer"] = renderer != manifest.settings.end() ? renderer->second : "path";
     for (const auto& [name, value] : manifest.settings)
-        if (name != kCameraSetting && name != kBackgroundSetting && name != kOutputsSetting)
+        if (name != "renderer" && name != kCameraSetting && name != kBackgroundSetting &&
+            name != kOutputsSetting)
             header["patina:render." + name] = value;
     header["patina:render.samplesDone"] = std::to_string(manifest.samples);
     return header;
@@ -148,11 +157,15 @@ Result<void> checkDisplay(const View& view, ImageFileFormat format) {
 }
 
 Result<void> writeTracedPicture(Session& session, const FilmManifest& manifest, const Film& film,
-                                const TraceOutputs& outputs, const std::string& output,
-                                ImageFileFormat format) {
+                                const TraceOutputs& outputs, std::vector<ImagePart> more,
+                                const std::string& output, ImageFileFormat format) {
     Result<std::vector<ImagePart>> pictures = picturesOf(manifest, film, outputs, format);
     if (!pictures)
         return pictures.error();
+    if (!more.empty()) {
+        pictures->front().name = "beauty";
+        std::ranges::move(more, std::back_inserter(*pictures));
+    }
     if (format == ImageFileFormat::Exr)
         for (ImagePart& picture : *pictures)
             picture.attributes.merge(headerOf(manifest));
@@ -194,10 +207,11 @@ Result<void> mergeFilms(Session& session, const MergeOptions& options) {
     json["settings"]["samples"] = joined->manifest.samples;
     if (const std::optional<double> noise = joined->film.noise()) {
         json["noisePercent"] = 100.0 * *noise;
-        session.report().line(fmt::format("{} paths per pixel, ± {:.2f} % of the mean",
-                                          joined->manifest.samples, 100.0 * *noise));
+        session.report().line(fmt::format("{} {} per pixel, ± {:.2f} % of the mean",
+                                          joined->manifest.samples, unitOfSamples(joined->manifest),
+                                          100.0 * *noise));
     }
-    return writeTracedPicture(session, joined->manifest, joined->film, joined->outputs,
+    return writeTracedPicture(session, joined->manifest, joined->film, joined->outputs, {},
                               options.output, *format);
 }
 
@@ -221,8 +235,8 @@ Result<void> describeUnfinishedPicture(Report& report, const std::string& file) 
         {"size", fmt::format("{} × {} pixels", m.width, m.height)},
         {"part", m.shard.count == 1 ? "1 of 1, the whole picture"
                                     : fmt::format("{} of {}", m.shard.index + 1, m.shard.count)},
-        {"done", fmt::format("{:.0f} % of its paths; every pixel has {} or more",
-                             std::floor(100.0 * m.done), m.samples)},
+        {"done", fmt::format("{:.0f} % of its {}; every pixel has {} or more",
+                             std::floor(100.0 * m.done), unitOfSamples(m), m.samples)},
         {"scene", m.scene}};
     if (!m.sets.empty())
         rows.emplace_back("with", fmt::format("{}", fmt::join(m.sets, ", ")));

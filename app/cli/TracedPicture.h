@@ -28,10 +28,11 @@ inline constexpr const char* kOutputsSetting = "aov";
 
 // Writes film and outputs as the manifest says, linear or displayed as the format has it; a picture
 // that cannot be written there is kept in the folder for temporary files, and the error says so.
-// Errors: InputBroken for a manifest with a view that does not exist; those of writePictures().
+// `more`: parts of the file besides. Errors: InputBroken for a manifest with a view that does not
+// exist; those of writePictures().
 Result<void> writeTracedPicture(Session& session, const FilmManifest& manifest, const Film& film,
-                                const TraceOutputs& outputs, const std::string& output,
-                                ImageFileFormat format);
+                                const TraceOutputs& outputs, std::vector<ImagePart> more,
+                                const std::string& output, ImageFileFormat format);
 
 // `patina merge` of parts of traced pictures.
 Result<void> mergeFilms(Session& session, const MergeOptions& options);

@@ -48,6 +48,9 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
     , pathTraced(make(tr("Path Traced"), QStringLiteral("path-traced"), {tr("F12")},
                       tr("Trace the picture by paths, with all shadows, reflections and bounces; "
                          "once more: as the viewport draws it")))
+    , whitted(make(tr("Whitted Ray Traced"), QStringLiteral("whitted"), {tr("Shift+F12")},
+                   tr("Trace the picture by the classical ray tracer: hard shadows, mirrors and "
+                      "glass; once more: as the viewport draws it")))
     , lightingIbl(make(tr("&Image-Based Light"), {}, {tr("Ctrl+L")},
                        tr("Light from the environment, with every reflection")))
     , lightingPrt(make(tr("&Precomputed Transfer"), {}, {tr("Ctrl+Shift+L")},
@@ -114,6 +117,9 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
     , lightSweep(make(tr("Light Sweep"), QStringLiteral("light-sweep"), {tr("Ctrl+7")},
                       tr("Find the light, among environments and their rotations, in which the "
                          "material fails")))
+    , rayTree(make(tr("Ray Tree"), QStringLiteral("ray-tree"), {tr("Ctrl+8")},
+                   tr("Show the rays that a pixel of the Whitted picture is made of, as a tree and "
+                      "in the viewport")))
     , ladder(make(tr("Lighting Ladder"), QStringLiteral("ladder"), {tr("Ctrl+9")},
                   tr("Compare all lighting modes with the path-traced picture: how far they are "
                      "from it, and what they cost")))
@@ -148,6 +154,7 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
         dock->setCheckable(true);
     wall->setCheckable(true);
     pathTraced->setCheckable(true);
+    whitted->setCheckable(true);
     fadeEnvironments->setCheckable(true);
     furnace->setCheckable(true);
     fullScreen->setCheckable(true);
@@ -185,7 +192,7 @@ QList<QAction*> Actions::docks() const {
 }
 
 QList<QAction*> Actions::instruments() const {
-    return {pixel, lightLab, lens, energy, mixer, transfer, lightSweep, ladder, library};
+    return {pixel, lightLab, lens, energy, mixer, transfer, lightSweep, rayTree, ladder, library};
 }
 
 QList<QAction*> Actions::all() const {
@@ -207,6 +214,7 @@ QList<QAction*> Actions::all() const {
                            overlays,
                            wall,
                            pathTraced,
+                           whitted,
                            lightingIbl,
                            lightingPrt,
                            nextEnvironment,

@@ -21,7 +21,7 @@ class Actions : public QObject {
     QAction *exportTurntable, *quit;
     QAction* recover;
     QAction *undo, *redo, *keepSnapshot;
-    QAction *frame, *home, *overlays, *wall, *pathTraced, *lightingIbl, *lightingPrt;
+    QAction *frame, *home, *overlays, *wall, *pathTraced, *whitted, *lightingIbl, *lightingPrt;
     QAction *nextEnvironment, *previousEnvironment; // of the library, in the viewport
     QAction* fadeEnvironments;
     QAction *nextModel, *previousModel; // one alone, in the viewport
@@ -29,7 +29,8 @@ class Actions : public QObject {
     QAction *modelDock, *jobsDock, *logDock, *historyDock, *snapshotsDock;
     QAction *nextDock, *previousDock; // by key
     // Docks to look closer with.
-    QAction *pixel, *lightLab, *lens, *energy, *mixer, *transfer, *lightSweep, *ladder, *library;
+    QAction *pixel, *lightLab, *lens, *energy, *mixer, *transfer, *lightSweep, *rayTree, *ladder,
+        *library;
     QAction* pinPixel;
     QAction* furnace;
     QAction *fullScreen, *resetLayout;

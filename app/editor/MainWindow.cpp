@@ -15,6 +15,7 @@
 #include "app/editor/style/Icons.h"
 #include "app/editor/trace/PathBadge.h"
 #include "app/editor/trace/PathErrorOverlay.h"
+#include "app/editor/trace/TracedSave.h"
 #include "app/editor/trace/TransferRemedy.h"
 #include "app/editor/viewport/DropTarget.h"
 #include "app/editor/viewport/EquationBar.h"
@@ -87,9 +88,12 @@ MainWindow::MainWindow(Session& session)
     auto* wallOverlay = new WallOverlay(session.wall, session.comparison, *m_viewport);
     new SplitHandle(session.comparison, *m_viewport);
     new PathErrorOverlay(session.pathError, *m_viewport);
-    new PathBadge(session.paths, session.pathError, session.views,
-                  new TransferRemedy(session.pathError, session.controller, session.bakes),
-                  *m_viewport);
+    auto* badge = new PathBadge(
+        session.paths, session.pathError, session.heat, session.views,
+        new TransferRemedy(session.pathError, session.controller, session.bakes), *m_viewport);
+    connect(badge, &PathBadge::saveWanted, this, [this] {
+        askAndSaveTraced(m_session.paths, m_session.controller, m_session.jobs, *this);
+    });
     m_overlay = new ViewOverlay(session.views, session.controller, session.wall, *m_viewport);
     m_progress = new SceneProgress(session.controller, *m_viewport);
     m_drop = new DropTarget(*this, *m_viewport, session.controller, session.selection,
@@ -211,7 +215,7 @@ void MainWindow::makeMenus() {
     view->addActions({a.frame, a.home, a.overlays});
     view->addActions({a.nextModel, a.previousModel});
     view->addSeparator();
-    view->addActions({a.wall, a.pathTraced});
+    view->addActions({a.wall, a.pathTraced, a.whitted});
     m_looks->fillMenu(*view->addMenu(tr("L&ook At")));
     view->addSeparator();
     view->addActions({a.lightingIbl, a.lightingPrt, a.previousEnvironment, a.nextEnvironment,
@@ -252,7 +256,7 @@ void MainWindow::makeToolBar() {
     bar->addSeparator();
     bar->addActions({a.undo, a.redo});
     bar->addSeparator();
-    bar->addActions({a.frame, a.home, a.overlays, a.wall, a.pathTraced});
+    bar->addActions({a.frame, a.home, a.overlays, a.wall, a.pathTraced, a.whitted});
     bar->addSeparator();
     bar->addAction(a.exportScene);
     for (QToolButton* button : bar->findChildren<QToolButton*>()) {

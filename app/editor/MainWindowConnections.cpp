@@ -45,13 +45,19 @@ void MainWindow::connectActions() {
         if (m_session.wall.isOn())
             m_session.paths.setOn(false); // the viewport draws it
     });
-    connect(a.pathTraced, &QAction::triggered, this, [this](bool on) {
+    const auto trace = [this](TracedBy tracer, bool on) {
         if (on)
             m_session.wall.setOn(false); // that is drawn by the viewport
+        m_session.paths.setTracer(tracer);
         m_session.paths.setOn(on);
+    };
+    connect(a.pathTraced, &QAction::triggered, this, [=](bool on) { trace(TracedBy::Paths, on); });
+    connect(a.whitted, &QAction::triggered, this, [=](bool on) { trace(TracedBy::Whitted, on); });
+    connect(&m_session.paths, &PathView::changed, this, [this] {
+        const PathView& paths = m_session.paths;
+        m_actions->pathTraced->setChecked(paths.isOn() && !paths.isWhitted());
+        m_actions->whitted->setChecked(paths.isWhitted());
     });
-    connect(&m_session.paths, &PathView::changed, this,
-            [this] { m_actions->pathTraced->setChecked(m_session.paths.isOn()); });
     const auto lighting = [this](LightingMode mode) {
         m_session.controller.setParameter(parameter("view.lighting"), {Scope::View, 0},
                                           static_cast<int>(mode));

@@ -24,6 +24,9 @@
 #include "app/editor/panel/TransferPanel.h"
 #include "app/editor/panel/ViewPanel.h"
 #include "app/editor/sweep/LightSweepPanel.h"
+#include "app/editor/trace/RayTreeOverlay.h"
+#include "app/editor/trace/RayTreePanel.h"
+#include "app/editor/trace/WhittedHeatOverlay.h"
 #include "app/editor/viewport/ViewOverlay.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "core/light/Light.h"
@@ -37,8 +40,8 @@ namespace patina::editor {
 namespace {
 
 constexpr QSize kComfortable(1440, 900);
-constexpr int kFrameHeight = 60;  // more than a title bar needs; what it is is known too late
-constexpr int kLayoutVersion = 9; // raise when docks come or go: older layouts are ignored
+constexpr int kFrameHeight = 60;   // more than a title bar needs; what it is is known too late
+constexpr int kLayoutVersion = 10; // raise when docks come or go: older layouts are ignored
 
 } // namespace
 
@@ -94,6 +97,11 @@ void MainWindow::makeDocks() {
     m_docks->addInstrument(a.transfer, QStringLiteral("transfer"), transfer);
     m_docks->addInstrument(a.lightSweep, QStringLiteral("lightSweep"),
                            new LightSweepPanel(controller, m_session.jobs, *m_viewport));
+    new WhittedHeatOverlay(m_session.heat, controller, *m_viewport);
+    new RayTreeOverlay(m_session.rayTree, controller, *m_viewport);
+    auto* rays = new RayTreePanel(m_session.rayTree, m_session.paths, controller);
+    connect(rays, &RayTreePanel::pictureWanted, a.whitted, &QAction::trigger);
+    m_docks->addInstrument(a.rayTree, QStringLiteral("rayTree"), rays);
     auto* ladder = new LadderPanel(m_session, *m_viewport);
     connect(ladder, &LadderPanel::pathTracingWanted, a.pathTraced, [path = a.pathTraced] {
         if (!path->isChecked())

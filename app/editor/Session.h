@@ -14,6 +14,8 @@
 #include "app/editor/library/EnvironmentPreview.h"
 #include "app/editor/trace/PathError.h"
 #include "app/editor/trace/PathView.h"
+#include "app/editor/trace/RayTreeProbe.h"
+#include "app/editor/trace/WhittedHeat.h"
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/LightLimitNotice.h"
 #include "app/editor/viewport/LobeOnSurface.h"
@@ -46,6 +48,8 @@ struct Session {
     LobeOnSurface lobe{controller, probe};
     PathView paths{controller};
     PathError pathError{controller, paths};
+    RayTreeProbe rayTree{controller, paths};
+    WhittedHeat heat{controller, paths};
     JobManager jobs{controller};
     BakeService bakes{controller, jobs};
     BounceUpdater bounces{controller, bakes.hits()};

@@ -55,6 +55,13 @@ inline constexpr Condition kInRoughDiffuse{
     diffuseIsOne<Diffuse::OrenNayar, Diffuse::Eon>,
     "only the diffuse models Oren-Nayar and EON have it (model.diffuse)"};
 
+inline constexpr Condition kSolidGlass{
+    [](const Document& document, Id id) {
+        const Material& material = *document.material(id);
+        return material.transmission > 0.0f && !material.thinWalled;
+    },
+    "only a solid body that transmits light has it (material.transmission, material.thinWalled)"};
+
 inline constexpr Condition kInImage{environmentIs<EnvironmentKind::Image>,
                                     "the environment is no image (environment.kind)"};
 inline constexpr Condition kInSky{environmentIs<EnvironmentKind::Sky>,

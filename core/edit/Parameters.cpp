@@ -322,6 +322,7 @@ constexpr auto kParameters = joined(
   inputRowsOf<kSurface>(),
   std::array{
     only(kInRoughDiffuse, number<&M::diffuseRoughness>("material.diffuseRoughness", "Diffuse roughness", "Surface", kUnit, kUnit, 3, "", "How powdery the body is: 0 is smooth and 1 dust; used by the diffuse models Oren-Nayar and EON.")),
+    number<&M::ior>("material.ior", "Refractive index", "Surface", {1.0f, 2.5f}, {1.0f, 3.0f}, 3, "", "How strongly a non-metal refracts and reflects: water 1.33, glass and plastic 1.5, diamond 2.42. At 1.5 the exact dielectric takes the scene's index (model.ior) instead."),
   },
   inputRows<MaterialInput::Normal>(),
   std::array{
@@ -335,6 +336,12 @@ constexpr auto kParameters = joined(
     choice<&M::alphaMode>("material.alphaMode", "Alpha mode", "Transparency", kAlphaModes, "Whether opacity is ignored, cuts holes with a hard edge, or lets the background show through."),
     only(kInCutOut, number<&M::alphaCutoff>("material.alphaCutoff", "Alpha cutoff", "Transparency", kUnit, kUnit, 3, "", "In cut-out mode, points of lower opacity than this are left out.")),
     flag<&M::doubleSided>("material.doubleSided", "Double-sided", "Transparency", "Shows the back of thin surfaces such as leaves and cloth, with their normal turned to the viewer.", kPicture | Affects::Bakes),
+  },
+  inputRows<MaterialInput::Transmission>(),
+  std::array{
+    flag<&M::thinWalled>("material.thinWalled", "Thin-walled", "Transmission", "A sheet such as a window pane or a soap bubble, through which light goes straight; switched off, the surface bounds a solid body that refracts and absorbs: a closed mesh, or what is inside never ends."),
+    whileHolds(kSolidGlass, color<&M::attenuationColor>("material.attenuationColor", "Attenuation colour", "Transmission", "Colour that white light has after the attenuation distance inside a solid body; path tracing shows it.")),
+    whileHolds(kSolidGlass, number<&M::attenuationDistance>("material.attenuationDistance", "Attenuation distance", "Transmission", {0.0f, 1.0f}, {0.0f, 1e5f}, 4, "m", "How far light goes in a solid body until it has the attenuation colour; 0 lets it through without loss.")),
 
     text<&E::name>("environment.name", "Name", "Image", "What the environment is called in lists and scripts; without a name it is called by what it shows."),
     choice<&E::kind>("environment.kind", "Kind", "Image", kEnvironmentKinds, "What surrounds and lights the model: an image, a computed clear sky, or softboxes in a dark room.", kEnvironment),
@@ -376,7 +383,7 @@ constexpr auto kParameters = joined(
     flag<&S::multiScatter>("model.multiScatter", "Energy compensation", "Highlight", "Gives back the light that bounces more than once between facets; without it rough metals are too dark."),
     choice<&S::fresnel>("model.fresnel", "Fresnel", "Fresnel", kFresnels, "How reflection grows towards grazing angles: by Schlick's approximation, or by Fresnel's exact equations for non-metals or for metals."),
     only(kInSchlickF90, number<&S::f90>("model.f90", "Grazing reflectance", "Fresnel", kUnit, kUnit, 3, "", "Reflectance at grazing angles for Schlick with f90; real surfaces reach 1.")),
-    only(kInDielectric, number<&S::ior>("model.ior", "Refractive index", "Fresnel", {1.0f, 2.5f}, {1.0f, 10.0f}, 3, "", "Refractive index of all non-metals for the exact dielectric: water 1.33, glass and plastic 1.5, diamond 2.42.")),
+    only(kInDielectric, number<&S::ior>("model.ior", "Refractive index", "Fresnel", {1.0f, 2.5f}, {1.0f, 10.0f}, 3, "", "Refractive index, for the exact dielectric, of all non-metals whose own is left at 1.5 (material.ior): water 1.33, glass and plastic 1.5, diamond 2.42.")),
     only(kInConductor, vector<&S::conductorN>("model.conductorN", "Index n", "Fresnel", {0.05f, 5.0f}, {0.01f, 50.0f}, "", "Real part of the metals' refractive index at red, green and blue for the exact conductor; it replaces their base colour.")),
     only(kInConductor, vector<&S::conductorK>("model.conductorK", "Extinction k", "Fresnel", {0.0f, 10.0f}, {0.0f, 50.0f}, "", "Imaginary part of the metals' refractive index at red, green and blue for the exact conductor.")),
     choice<&S::diffuse>("model.diffuse", "Diffuse", "Diffuse", kDiffuses, "How light that enters the body leaves it: evenly (Lambert), or flatter and brighter at the edges as from powder, cloth and clay."),

@@ -30,6 +30,7 @@ traceLadderTruth(const Document& document, const TraceView& view,
     const auto start = std::chrono::steady_clock::now();
     Film film(view.width, view.height);
     LadderTruth truth;
+    truth.limit = scene->limit();
     for (std::uint32_t pass = 2; truth.samples < settings.samples;
          pass = std::min(2 * pass, kMostInTruthPass)) {
         pass = std::min(pass, settings.samples - truth.samples);

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace patina {
@@ -23,10 +24,11 @@ struct LadderTruthSettings {
 
 struct LadderTruth {
     TracedPicture picture;
-    std::vector<Id> materials; // seenMaterials() of it
-    std::uint32_t samples = 0; // paths of each pixel
-    double noise = 0.0;        // Film::noise()
-    double seconds = 0.0;      // that tracing took
+    std::vector<Id> materials;        // seenMaterials() of it
+    std::uint32_t samples = 0;        // paths of each pixel
+    double noise = 0.0;               // Film::noise()
+    double seconds = 0.0;             // that tracing took
+    std::optional<std::string> limit; // TraceScene::limit()
 };
 
 // `view`: of the document. `seen`: called after each pass with what there is so far; may be empty.

@@ -132,6 +132,7 @@ SurfaceRange surfaceRange(const Material& material,
                                    pick(maps[info.input].*part, (material.*info.map).channel),
                                0.0f, 1.0f);
         point.diffuseRoughness = material.diffuseRoughness;
+        point.ior = material.ior;
     };
     fill(range.low, &TexelRange::low);
     fill(range.mean, &TexelRange::mean);

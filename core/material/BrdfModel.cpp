@@ -33,6 +33,7 @@ shading::BrdfModel brdfModel(const ShadingModel& model) {
     m.lobeDirection = static_cast<int>(model.lobeDirection);
     m.f90 = model.f90;
     m.ior = model.ior;
+    m.dielectricF0 = shading::kDielectricF0; // makeSurface() has that of the material
     m.conductorN = model.conductorN;
     m.conductorK = model.conductorK;
     return m;

@@ -36,8 +36,23 @@ struct Material {
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
+    // Share of the light entering a non-metal that goes through it instead of into its diffuse
+    // body, 0…1.
+    float transmission = 0.0f;
+    MapSlot transmissionMap;
+    float ior = 1.5f; // refractive index of the non-metal against air, 1…3
+    // A sheet without volume, which light leaves as it came. False: the surface bounds a solid
+    // body, which refracts and absorbs.
+    bool thinWalled = true;
+    glm::vec3 attenuationColor{1.0f}; // of white light after attenuationDistance, linear sRGB
+    float attenuationDistance = 0.0f; // metres; 0: the body absorbs nothing
 
     friend bool operator==(const Material&, const Material&) = default;
 };
+
+// Somewhere on its surface, by the numbers; maps may say otherwise.
+[[nodiscard]] inline bool transmits(const Material& material) {
+    return material.transmission > 0.0f && material.metallic < 1.0f;
+}
 
 } // namespace patina

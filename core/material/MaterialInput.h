@@ -6,9 +6,17 @@
 
 namespace patina {
 
-enum class MaterialInput { BaseColor, Metallic, PerceptualRoughness, Normal, Occlusion, Emissive };
+enum class MaterialInput {
+    BaseColor,
+    Metallic,
+    PerceptualRoughness,
+    Normal,
+    Occlusion,
+    Emissive,
+    Transmission
+};
 inline constexpr std::size_t kMaterialInputCount =
-    static_cast<std::size_t>(MaterialInput::Emissive) + 1; // the last one
+    static_cast<std::size_t>(MaterialInput::Transmission) + 1; // the last one
 
 // One value for each input.
 template <class T>

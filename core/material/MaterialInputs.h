@@ -28,8 +28,9 @@ struct GltfPlace {
     std::string_view object = {};
     std::string_view texture = {}; // "metallicRoughnessTexture"
     char channel = 0;              // of the texture: 'r', 'g', 'b', 'a'; 0: its colours
-    std::string_view factor = {};  // "metallicFactor", 1 where it is absent; empty: a colour's
+    std::string_view factor = {};  // "metallicFactor"; empty: a colour's
     std::string_view scale = {};   // the number is a member of the texture's reference: "strength"
+    float absent = 1.0f;           // the factor or scale of a file that does not state it
 };
 inline constexpr std::string_view kGltfPbr = "pbrMetallicRoughness";
 
@@ -55,9 +56,11 @@ struct MaterialInputInfo {
     glm::vec3 Material::*color = nullptr;           // Color
     float Material::*number = nullptr;              // the other roles
     float shading::SurfaceInputs::*shown = nullptr; // Number: what shading reads
-    ColorEncoding encoding = ColorEncoding::Data;   // how integer files are read
-    MapChannel channel = MapChannel::R;             // of the map, when nothing else is said
-    std::string_view view = {};                     // id of the view of the product (Views.h)
+    // Few materials have it: shaders of those whose number is 0 hold the constant 0.
+    bool rare = false;
+    ColorEncoding encoding = ColorEncoding::Data; // how integer files are read
+    MapChannel channel = MapChannel::R;           // of the map, when nothing else is said
+    std::string_view view = {};                   // id of the view of the product (Views.h)
     GltfPlace gltf = {};
     // Words in the names of files that say which map it is, apart by blanks; weak ones are words
     // for the stuff itself, too, and count where no other word does.
@@ -118,6 +121,15 @@ inline constexpr std::array<MaterialInputInfo, kMaterialInputCount> kMaterialInp
      .parameters = {.map = "material.emissive.map", .label = "Emission colour", .mapLabel = "Emission map", .group = "Emission",
                     .help = "Colour of the light that the surface gives off by itself; black gives none.",
                     .mapHelp = "Image that multiplies the emission colour."}},
+    {.input = MaterialInput::Transmission, .role = InputRole::Number, .id = "transmission",
+     .map = &Material::transmissionMap, .number = &Material::transmission,
+     .shown = &shading::SurfaceInputs::transmission, .rare = true, .view = "transmission",
+     .gltf = {.object = "KHR_materials_transmission", .texture = "transmissionTexture", .channel = 'r',
+              .factor = "transmissionFactor", .absent = 0.0f},
+     .fileWords = "transmission transmissive", .weakFileWords = "glass",
+     .parameters = {.map = "material.transmission.map", .label = "Transmission", .mapLabel = "Transmission map", .group = "Transmission",
+                    .help = "Share of the light entering a non-metal that goes through it, as through glass, instead of into its body; the raster view shows only the environment through it, path tracing all.",
+                    .mapHelp = "Image that multiplies the transmission (red channel in glTF)."}},
 }};
 // clang-format on
 
@@ -158,12 +170,13 @@ constexpr bool areWhole() {
 }
 static_assert(areWhole(), "a whole row for every enumerator, in its order");
 
-// Beside the numbers of the table shading reads the base colour and the diffuse roughness.
+// Beside the numbers of the table shading reads the base colour, the diffuse roughness and the
+// refractive index.
 constexpr std::size_t kNumberCount = static_cast<std::size_t>(
     std::count_if(kMaterialInputs.begin(), kMaterialInputs.end(),
                   [](const MaterialInputInfo& info) { return info.role == InputRole::Number; }));
 static_assert(sizeof(shading::SurfaceInputs) ==
-                  sizeof(glm::vec3) + (kNumberCount + 1) * sizeof(float),
+                  sizeof(glm::vec3) + (kNumberCount + 2) * sizeof(float),
               "a row for every number of SurfaceInputs");
 
 } // namespace detail

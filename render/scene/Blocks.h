@@ -89,7 +89,7 @@ struct MaterialBlock {
     glm::vec4 emissive{0.0f};
     glm::vec4 normalBasis{1.0f, 0.0f, 0.0f, 1.0f};
     float normalGreenUp = 1.0f, placeholder = 0.0f;
-    float diffuseRoughness = 0.0f, reserved = 0.0f;
+    float diffuseRoughness = 0.0f, ior = 1.5f;
     std::array<float, kInputNumbers> numbers{}; // of the inputs that have one, in their order
     PerInput<MapBlock> maps;
 };

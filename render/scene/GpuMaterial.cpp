@@ -61,6 +61,7 @@ MaterialBlock packMaterial(const Material& m) {
     block.normalGreenUp = m.normalConvention == NormalConvention::OpenGl ? 1.0f : -1.0f;
     block.placeholder = placeholderShare(m);
     block.diffuseRoughness = m.diffuseRoughness;
+    block.ior = m.ior;
     std::size_t numbers = 0;
     for (const MaterialInputInfo& info : kMaterialInputs) {
         if (info.number != nullptr)
@@ -98,6 +99,10 @@ static SurfaceFeatures featuresOf(const Material& m,
         features |= DoubleSided;
     if (placeholderShare(m) > 0.0f)
         features |= HasPlaceholder;
+    if (m.transmission > 0.0f)
+        features |= HasTransmission | (m.thinWalled ? ThinWalled : 0u);
+    if (m.ior != shading::kDielectricIor)
+        features |= HasIor;
     return result;
 }
 

@@ -69,7 +69,16 @@ std::string surfaceInputs() {
         if (info.role != InputRole::Number)
             continue;
         const std::string_view name = numberName(info);
-        set += fmt::format("    inputs.{0} = clamp(u_{0} * map.{1}, 0.0, 1.0);\n", name, info.id);
+        const std::string value = fmt::format("clamp(u_{} * map.{}, 0.0, 1.0)", name, info.id);
+        if (info.rare)
+            set += fmt::format("#ifdef HAS_{2}\n"
+                               "    inputs.{0} = {1};\n"
+                               "#else\n"
+                               "    inputs.{0} = 0.0;\n"
+                               "#endif\n",
+                               name, value, inputDefine(info));
+        else
+            set += fmt::format("    inputs.{} = {};\n", name, value);
         record += fmt::format("    record({}, inputs.{});\n", viewOf(info.input), name);
     }
     return set + "}\n" + record + "}\n#endif\n";

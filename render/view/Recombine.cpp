@@ -91,6 +91,7 @@ SurfaceInputs surfaceInputs(const Inspection& pixel, const Material& material) {
     SurfaceInputs inputs;
     inputs.baseColor = glm::clamp(glm::vec3(pixel.value(kViewBaseColor)), 0.0f, 1.0f);
     inputs.diffuseRoughness = material.diffuseRoughness;
+    inputs.ior = material.ior;
     for (const MaterialInputInfo& info : kMaterialInputs)
         if (info.role == InputRole::Number)
             inputs.*info.shown = pixel.value(viewOf(info.input)).x;
@@ -115,7 +116,8 @@ RebuiltPixel recombine(const Inspection& pixel, const Document& document) {
             : specularOcclusion(s.NoV, ao, s.alpha);
     result.mix = mixWeights(document.view.reflectionMix);
     result.terms[0] =
-        result.mix.x * shadeIrradiance(s, result.ao * straight(pixel.value(kViewIrradiance)));
+        result.mix.x * (shadeIrradiance(s, result.ao * straight(pixel.value(kViewIrradiance))) +
+                        shadeThrough(s, straight(pixel.value(kRecordBehind))));
     result.terms[1] =
         result.mix.y * result.open * shadePrefiltered(s, straight(pixel.value(kViewPrefiltered)));
 

@@ -17,7 +17,7 @@ layout(std140, binding = 2) uniform Material {
     float u_normalGreenUp;  // +1 OpenGL, -1 DirectX
     float u_placeholder;    // share of the pattern that stands for a missing map
     float u_diffuseRoughness;
-    float u_reserved;
+    float u_ior;
 #include "generated/input-block.glsl"
 };
 

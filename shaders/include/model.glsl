@@ -40,6 +40,7 @@ BrdfModel shadingModel() {
     m.lobeDirection = MODEL_LOBE_DIRECTION;
     m.f90 = u_conductorN.w;
     m.ior = u_conductorK.w;
+    m.dielectricF0 = kDielectricF0; // makeSurface() has that of the material
     m.conductorN = u_conductorN.xyz;
     m.conductorK = u_conductorK.xyz;
     return m;

@@ -42,6 +42,7 @@ struct BrdfModel {
     int lobeDirection; // where image-based specular light is looked up
     float f90;         // SchlickF90: reflectance at grazing incidence
     float ior;         // Dielectric: refractive index of non-metals, >= 1
+    float dielectricF0; // the other models: reflectance of non-metals at normal incidence
     vec3 conductorN;   // Conductor: complex refractive index n + ik of metals, per channel
     vec3 conductorK;
 };
@@ -56,7 +57,8 @@ PT_FN BrdfModel defaultBrdfModel() {
     m.multiScatter = 1;
     m.lobeDirection = kLobeDirectionMean;
     m.f90 = 1.0f;
-    m.ior = 1.5f;
+    m.ior = kDielectricIor;
+    m.dielectricF0 = kDielectricF0;
     m.conductorN = vec3(1.0f);
     m.conductorK = vec3(1.0f);
     return m;
@@ -346,15 +348,26 @@ PT_FN float visibility(BrdfModel m, float NoV, float NoL, float VoH, float alpha
     return V_SmithBeckmannCorrelated(NoV, NoL, alpha);
 }
 
-// Reflectance at normal incidence. glTF 2.0, appendix B.3.5: dielectrics have F0 = 0.04, metals the
-// base colour; an exact dielectric has that of its index, an exact conductor, too, whatever its
-// base colour.
+// The model as it holds for a non-metal of refractive index `ior` (KHR_materials_ior). At the
+// standard index F0 is the constant itself, not its quotient, so that no picture depends on
+// rounding; and the exact dielectric takes the model's index, which stands for all such materials.
+PT_FN BrdfModel modelOfIndex(BrdfModel model, float ior) {
+    BrdfModel m = model;
+    bool standard = ior == kDielectricIor;
+    m.dielectricF0 = standard ? kDielectricF0 : f0FromIor(ior);
+    m.ior = standard && m.fresnel == kFresnelDielectric ? model.ior : ior;
+    return m;
+}
+
+// Reflectance at normal incidence. glTF 2.0, appendix B.3.5: dielectrics have F0 = 0.04, those of
+// another index that of the index, metals the base colour; an exact conductor has that of its
+// index, whatever its base colour.
 PT_FN vec3 normalReflectance(BrdfModel m, vec3 baseColor, float metallic) {
     if (m.fresnel == kFresnelDielectric)
         return mix(vec3(f0FromIor(m.ior)), baseColor, metallic);
     if (m.fresnel == kFresnelConductor)
-        return mix(vec3(kDielectricF0), F_Conductor(1.0f, m.conductorN, m.conductorK), metallic);
-    return mix(vec3(kDielectricF0), baseColor, metallic);
+        return mix(vec3(m.dielectricF0), F_Conductor(1.0f, m.conductorN, m.conductorK), metallic);
+    return mix(vec3(m.dielectricF0), baseColor, metallic);
 }
 
 // `f0`: normalReflectance(). The exact dielectric replaces Schlick for non-metals and the exact
@@ -366,7 +379,7 @@ PT_FN vec3 fresnel(BrdfModel m, vec3 f0, float metallic, float VoH) {
         return vec3(other * F_Dielectric(VoH, m.ior)) + F_Schlick(metal, metallic, VoH);
     }
     if (m.fresnel == kFresnelConductor)
-        return other * F_Schlick(vec3(kDielectricF0), 1.0f, VoH) +
+        return other * F_Schlick(vec3(m.dielectricF0), 1.0f, VoH) +
                metallic * F_Conductor(VoH, m.conductorN, m.conductorK);
     if (m.fresnel == kFresnelSchlickF90)
         return F_Schlick(f0, m.f90, VoH);
@@ -405,12 +418,14 @@ PT_FN vec3 diffuseReflectance(BrdfModel m, vec3 rho, float perceptualRoughness,
 // ---- The surface -------------------------------------------------------------------------------
 
 // What a material says of a point: its numbers, times their maps. Every number but the diffuse
-// roughness is an input of the table core/material/MaterialInputs.h.
+// roughness and the index is an input of the table core/material/MaterialInputs.h.
 struct SurfaceInputs {
     vec3 baseColor PT_INIT(1.0f);           // linear sRGB, 0…1
     float metallic PT_INIT(1.0f);            // 0…1
     float perceptualRoughness PT_INIT(0.5f); // as authored, 0…1
     float diffuseRoughness PT_INIT(0.0f);    // 0…1, of Oren-Nayar and EON
+    float transmission PT_INIT(0.0f);        // 0…1, share of a non-metal's body that is clear
+    float ior PT_INIT(1.5f);                 // refractive index of non-metals, >= 1
     PT_EQUALITY(SurfaceInputs)
 };
 
@@ -431,6 +446,7 @@ struct SurfaceTerms {
     vec3 transmission;       // 1 - specularAlbedo: what the layer lets through to the diffuse lobe;
                              // of a faded layer (fadeSpecularLayer) the more
     vec3 diffuseAlbedo;      // directional albedo of the diffuse lobe under the layer
+    vec3 clearColor;         // what a clear body lets through, before the layer takes its share
 };
 
 PT_FN float alphaFromPerceptualRoughness(float perceptualRoughness) {
@@ -483,7 +499,7 @@ PT_FN vec3 specularAlbedo(BrdfModel m, vec3 f0, float metallic, vec2 dfg) {
 // `dfg`: (scale, bias) of the model's DFG table at (N·V, perceptualRoughness).
 PT_FN SurfaceTerms makeSurface(BrdfModel model, SurfaceInputs inputs, vec3 n, vec3 v, vec2 dfg) {
     SurfaceTerms s;
-    s.model = model;
+    s.model = modelOfIndex(model, inputs.ior);
     s.n = n;
     s.v = v;
     s.NoV = clamp(dot(n, v), kMinNoV, 1.0f);
@@ -491,10 +507,13 @@ PT_FN SurfaceTerms makeSurface(BrdfModel model, SurfaceInputs inputs, vec3 n, ve
     s.perceptualRoughness = clamp(inputs.perceptualRoughness, 0.0f, 1.0f);
     s.alpha = alphaFromPerceptualRoughness(inputs.perceptualRoughness);
     s.diffuseRoughness = clamp(inputs.diffuseRoughness, 0.0f, 1.0f);
-    s.diffuseColor = diffuseColorFromBaseColor(inputs.baseColor, inputs.metallic);
-    s.f0 = normalReflectance(model, inputs.baseColor, inputs.metallic);
-    s.energyCompensation = energyCompensation(model, s.f0, dfg);
-    s.specularAlbedo = specularAlbedo(model, s.f0, s.metallic, dfg);
+    // KHR_materials_transmission: under the layer light goes into the diffuse body or through.
+    vec3 body = diffuseColorFromBaseColor(inputs.baseColor, inputs.metallic);
+    s.diffuseColor = body * (1.0f - inputs.transmission);
+    s.clearColor = body * inputs.transmission;
+    s.f0 = normalReflectance(s.model, inputs.baseColor, inputs.metallic);
+    s.energyCompensation = energyCompensation(s.model, s.f0, dfg);
+    s.specularAlbedo = specularAlbedo(s.model, s.f0, s.metallic, dfg);
     // Albedo scaling: what the specular layer reflects towards the viewer cannot enter the diffuse
     // one (Kulla & Conty 2017, slide 26; OpenPBR 1.1, section 3.7). A white dielectric in a white
     // furnace then returns exactly 1 at every angle and roughness.

@@ -9,6 +9,7 @@ PT_CONST float kTwoPi = 6.28318530717959f;
 PT_CONST float kInvPi = 0.318309886183791f;
 
 // F0 of a dielectric with refractive index 1.5: ((1.5 - 1) / (1.5 + 1))² (glTF 2.0, appendix B).
+PT_CONST float kDielectricIor = 1.5f;
 PT_CONST float kDielectricF0 = 0.04f;
 
 // The smallest perceptual roughness of an analytic light's highlight. At alpha = 0.045² the square

@@ -187,6 +187,10 @@ std::vector<SharedTermCase> makeCases() {
                  OUT3(14, energyCompensation(m, f0, vec2(I(10), I(11))));
                  OUT3(17, singleScatterAlbedo(m, f0, I(8), vec2(0.1f + I(10), I(11))));
                  OUT3(20, specularAlbedo(m, f0, I(8), vec2(0.1f + I(10), I(11))));),
+            CASE("index", unit, 1e-2f, CHOOSE_MODEL(m);
+                 BrdfModel own = modelOfIndex(m, 1.0f + I(0));
+                 BrdfModel standard = modelOfIndex(m, kDielectricIor); O(0) = own.dielectricF0;
+                 O(1) = own.ior; O(2) = standard.dielectricF0; O(3) = standard.ior;),
             CASE("parameters", unit, 1e-2f, O(0) = alphaFromPerceptualRoughness(I(0));
                  OUT3(4, diffuseColorFromBaseColor(vec3(I(1), I(2), I(3)), I(4)));
                  OUT3(7, energyCompensationTurquin(vec3(I(1), I(2), I(3)), vec2(I(5), I(6))));),
@@ -230,6 +234,11 @@ std::vector<SharedTermCase> makeCases() {
                  O(17) = prefilteredRoughness(int(21.0f * abs(I(24))), 22, 256.0f);
                  O(18) = levelDensity(100.0f * abs(I(24)));
                  O(19) = levelStep(22, 256.0f * abs(I(24)));),
+            CASE("through", surface, 1e-2f, SurfaceTerms s = SURFACE;
+                 s.clearColor = vec3(I(9), I(10), I(11));
+                 OUT3(0, throughDirection(s.n, s.v, 1.0f + 2.0f * abs(I(22))));
+                 O(3) = throughRoughness(abs(I(23)), 1.0f + 2.0f * abs(I(22)));
+                 OUT3(4, shadeThrough(s, vec3(I(16), I(17), I(18))));),
             CASE("cones", surface, 1e-2f, SurfaceTerms s = SURFACE;
                  O(0) = sharedCap(I(16), I(17), I(18)); O(2) = angleOf(I(16));
                  O(1) = coneOcclusion(vec4(I(16), I(17), I(18), I(23)), s.n, s.v, I(24));),

@@ -25,6 +25,7 @@ static std::string surfaceOfShader() {
                   "inputs.metallic = metallic;\n"
                   "inputs.perceptualRoughness = perceptualRoughness;\n"
                   "inputs.diffuseRoughness = diffuseRoughness;\n"
+                  "inputs.ior = kDielectricIor;\n"
                   "return inputs;\n}\n";
 }
 

@@ -440,6 +440,8 @@ void LadderPanel::refresh() {
         warnings << m_ended;
     if (m_stale && !(m_live->isChecked() && isRunning()))
         warnings << tr("The scene or the view has changed since.");
+    if (m_shown && m_shown->limit)
+        warnings << toQString(*m_shown->limit);
     m_warning->setText(warnings.join(QLatin1Char(' ')));
     m_warning->setVisible(!warnings.isEmpty());
     refreshPicture();

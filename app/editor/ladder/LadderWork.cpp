@@ -186,6 +186,7 @@ class LadderMaker {
         if (!measured)
             return measured;
         m_truth = *std::move(truth);
+        m_shown.limit = m_truth->limit;
         return measure();
     }
 

@@ -5,6 +5,7 @@
 #include "app/editor/document/DraggedSources.h"
 #include "app/editor/document/QtText.h"
 #include "app/editor/library/EnvironmentLibrary.h"
+#include "app/editor/library/EnvironmentPreview.h"
 #include "app/editor/library/LibraryDelegate.h"
 #include "app/editor/library/LibraryGestures.h"
 #include "app/editor/library/LibraryModel.h"

@@ -4,7 +4,9 @@
 #include "app/editor/style/Tokens.h"
 #include "app/editor/trace/PathError.h"
 #include "app/editor/trace/PathView.h"
+#include "app/editor/trace/WhittedHeat.h"
 #include "app/editor/viewport/ViewState.h"
+#include "app/editor/widget/ControlHelp.h"
 
 #include <QComboBox>
 #include <QEvent>
@@ -12,21 +14,29 @@
 #include <QLabel>
 #include <QLocale>
 #include <QPushButton>
+#include <QSpinBox>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <initializer_list>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace patina::editor {
 
-PathBadge::PathBadge(PathView& paths, PathError& error, ViewState& views, QPushButton* remedy,
-                     QWidget& viewport)
+PathBadge::PathBadge(PathView& paths, PathError& error, WhittedHeat& heat, ViewState& views,
+                     QPushButton* remedy, QWidget& viewport)
     : QFrame(&viewport)
     , m_paths(paths)
     , m_error(error)
+    , m_heat(heat)
     , m_views(views)
     , m_viewport(viewport)
     , m_text(new QLabel)
     , m_shown(new QComboBox)
+    , m_whittedShown(new QComboBox)
+    , m_boxes(new QSpinBox)
+    , m_save(new QPushButton(tr("Save…")))
     , m_pause(new QPushButton(tr("Pause"))) {
     setObjectName(QStringLiteral("pathBadge"));
     setProperty("overlay", true);
@@ -35,9 +45,6 @@ PathBadge::PathBadge(PathView& paths, PathError& error, ViewState& views, QPushB
     column->setContentsMargins(tokens::kMargin, tokens::kGap, tokens::kMargin, tokens::kGap);
     column->setSpacing(tokens::kGap / 2);
     m_text->setObjectName(QStringLiteral("pathBadgeText"));
-    m_text->setToolTip(
-        tr("Paths per pixel so far, and how certain that makes the picture: the standard error of "
-           "its pixels, as a share of its mean brightness. At ± 1 % it is done."));
     column->addWidget(m_text);
     auto* row = new QHBoxLayout;
     row->setSpacing(tokens::kGap);
@@ -60,8 +67,17 @@ PathBadge::PathBadge(PathView& paths, PathError& error, ViewState& views, QPushB
         m_error.setShown(static_cast<PathPicture>(m_shown->itemData(index).toInt()));
     });
     row->addWidget(m_shown);
+    addWhitted(*row);
     row->addWidget(remedy);
     row->addStretch(1);
+    m_save->setObjectName(QStringLiteral("pathSave"));
+    m_save->setFocusPolicy(Qt::TabFocus);
+    m_save->setAccessibleName(tr("Save the traced picture"));
+    m_save->setToolTip(tr("Save the traced picture as it is now: as displayed, linear, or with its "
+                          "parts"));
+    m_save->setStatusTip(m_save->toolTip());
+    connect(m_save, &QPushButton::clicked, this, &PathBadge::saveWanted);
+    row->addWidget(m_save);
     m_pause->setObjectName(QStringLiteral("pathPause"));
     m_pause->setCheckable(true);
     m_pause->setAccessibleName(tr("Pause path tracing"));
@@ -71,21 +87,60 @@ PathBadge::PathBadge(PathView& paths, PathError& error, ViewState& views, QPushB
     connect(m_pause, &QPushButton::clicked, &paths, &PathView::setPaused);
     connect(&paths, &PathView::changed, this, &PathBadge::refresh);
     connect(&error, &PathError::changed, this, &PathBadge::refresh);
+    connect(&heat, &WhittedHeat::changed, this, &PathBadge::refresh);
     connect(&views, &ViewState::changed, this, &PathBadge::refresh);
     viewport.installEventFilter(this);
     refresh();
 }
 
+void PathBadge::addWhitted(QBoxLayout& row) {
+    describe(m_whittedShown, tr("Shown of the Whitted picture"),
+             tr("The picture, or what each of its pixels takes: rays, depth of the tree, boxes and "
+                "triangles tested, with the hierarchy of boxes and without"));
+    m_whittedShown->setObjectName(QStringLiteral("whittedShown"));
+    m_whittedShown->setFocusPolicy(Qt::TabFocus);
+    m_whittedShown->addItem(tr("Picture"));
+    for (const RayCountInfo& info : rayCountInfos())
+        m_whittedShown->addItem(toQString(std::string(info.label)), static_cast<int>(info.kind));
+    connect(m_whittedShown, &QComboBox::activated, this, [this](int index) {
+        const QVariant kind = m_whittedShown->itemData(index);
+        m_heat.setShown(kind.isValid() ? std::optional(static_cast<RayCountKind>(kind.toInt()))
+                                       : std::nullopt);
+    });
+    row.addWidget(m_whittedShown);
+    describe(m_boxes, tr("Level of boxes"),
+             tr("Draws the bounding boxes of one level of the hierarchy; level 0 is the scene's"));
+    m_boxes->setObjectName(QStringLiteral("whittedBoxes"));
+    m_boxes->setFocusPolicy(Qt::ClickFocus);
+    m_boxes->setPrefix(tr("Boxes: level "));
+    m_boxes->setSpecialValueText(tr("No boxes"));
+    m_boxes->setRange(-1, 1);
+    m_boxes->setValue(-1);
+    connect(m_boxes, &QSpinBox::valueChanged, this, [this](int level) {
+        m_heat.setLevel(level < 0 ? std::nullopt : std::optional(level));
+    });
+    row.addWidget(m_boxes);
+}
+
 QString PathBadge::text() const {
     const render::ViewSettings& view = m_views.settings();
     if (view.split || !view.isOrdinary(view.shown))
-        return tr("Path traced: the picture alone. This view is drawn as usual.");
+        return (m_paths.isWhitted() ? tr("Whitted") : tr("Path traced")) +
+               tr(": the picture alone. This view is drawn as usual.");
     const PathView::Progress& progress = m_paths.progress();
     if (progress.error)
         return tr("Cannot be traced: %1").arg(toQString(progress.error->message));
     if (progress.samples == 0)
-        return tr("Path traced, coarse at first…");
+        return m_paths.isWhitted() ? tr("Whitted, coarse at first…")
+                                   : tr("Path traced, coarse at first…");
     const QLocale locale;
+    if (m_paths.isWhitted()) {
+        QStringList parts{tr("Whitted"),
+                          tr("%1 million rays").arg(locale.toString(1e-6 * progress.rays, 'f', 1)),
+                          tr("%1 s").arg(locale.toString(progress.seconds, 'f', 1))};
+        parts << (progress.refined ? tr("done") : tr("smoothing edges…"));
+        return parts.join(QStringLiteral("  ·  "));
+    }
     QStringList parts{tr("Path traced"), progress.samples == 1
                                              ? tr("1 path per pixel")
                                              : tr("%1 paths per pixel").arg(progress.samples)};
@@ -95,16 +150,37 @@ QString PathBadge::text() const {
     parts << tr("%1 s").arg(locale.toString(progress.seconds, 'f', progress.seconds < 10 ? 1 : 0));
     if (progress.refined)
         parts << tr("done");
-    return parts.join(QStringLiteral("  ·  "));
+    const QString line = parts.join(QStringLiteral("  ·  "));
+    return progress.limit ? line + tr("\nPoint-like lights do not shine through solid glass")
+                          : line;
 }
 
 void PathBadge::refresh() {
     setVisible(m_paths.isOn());
     m_text->setText(text());
+    const QString help =
+        tr("Paths per pixel so far, and how certain that makes the picture: the standard error of "
+           "its pixels, as a share of its mean brightness. At ± 1 % it is done.");
+    const std::optional<std::string>& limit = m_paths.progress().limit;
+    m_text->setToolTip(
+        m_paths.isWhitted()
+            ? tr("The classical ray tracer (Whitted 1980): hard shadows, mirror reflection and "
+                 "refraction, ambient light. Open the Ray Tree dock and click a pixel to see its "
+                 "rays.")
+        : limit ? help + QStringLiteral("\n\n") + toQString(*limit)
+                : help);
     m_shown->setCurrentIndex(m_shown->findData(static_cast<int>(m_error.shown())));
+    m_save->setEnabled(m_paths.progress().samples > 0);
     m_pause->setChecked(m_paths.isPaused());
     m_pause->setText(m_paths.isPaused() ? tr("Resume") : tr("Pause"));
-    m_pause->setVisible(!m_paths.progress().refined);
+    m_pause->setVisible(!m_paths.progress().refined && !m_paths.isWhitted());
+    m_shown->setVisible(!m_paths.isWhitted()); // which is no measure of the drawn one
+    m_whittedShown->setVisible(m_paths.isWhitted());
+    m_whittedShown->setCurrentIndex(
+        m_heat.shown() ? m_whittedShown->findData(static_cast<int>(*m_heat.shown())) : 0);
+    m_boxes->setVisible(m_paths.isWhitted());
+    if (m_heat.counted()) // how many levels there are is known then
+        m_boxes->setMaximum(std::max(m_heat.deepestLevel(), 1));
     place();
 }
 

@@ -36,7 +36,7 @@ PathError::PathError(DocumentController& controller, PathView& paths, QObject* p
     , m_paths(paths)
     , m_tasks(controller.runner()) {
     connect(&paths, &PathView::changed, this, [this] {
-        if (!m_paths.isOn()) {
+        if (!m_paths.isOn() || m_paths.isWhitted()) { // which is no measure of light
             setShown(PathPicture::Traced);
             m_peeking = false;
         } else if (m_paths.number() != m_ofTraced) {

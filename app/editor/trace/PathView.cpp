@@ -5,6 +5,7 @@
 #include "core/document/ViewChoices.h"
 #include "core/trace/document/DocumentTraceInputs.h"
 #include "core/trace/error/SeenMaterials.h"
+#include "core/trace/whitted/WhittedTracer.h"
 
 #include <algorithm>
 #include <chrono>
@@ -23,6 +24,12 @@ constexpr std::uint32_t kMostAtOnce = 64;
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+TraceView reduced(TraceView view, int reduction) {
+    view.width = std::max(1, view.width / reduction);
+    view.height = std::max(1, view.height / reduction);
+    return view;
 }
 
 // Whether both have the same behind the scene; the environment itself is part of the inputs.
@@ -46,6 +53,14 @@ struct PathView::Work {
     Film film;                 // of full size
     std::uint32_t samples = 0, next = 1;
     std::shared_ptr<const std::vector<Id>> materials; // null: not looked for yet
+    TracedBy tracer = TracedBy::Paths;
+    WhittedSettings whitted;
+
+    // A classical picture is done after the corners of pixels and what lies between those that
+    // differ.
+    [[nodiscard]] std::uint32_t mostSamples() const {
+        return tracer == TracedBy::Paths ? kMostSamples : whitted.subdivisions > 0 ? 2 : 1;
+    }
 };
 
 PathView::PathView(DocumentController& controller, QObject* parent)
@@ -70,6 +85,30 @@ void PathView::setOn(bool on) {
     m_stale = false;
     m_progress = {};
     Q_EMIT changed();
+}
+
+void PathView::setTracer(TracedBy tracer) {
+    if (tracer == m_tracer)
+        return;
+    m_tracer = tracer;
+    if (m_on && m_work)
+        begin();
+    Q_EMIT changed();
+}
+
+void PathView::setWhitted(const WhittedSettings& settings) {
+    if (settings == m_whitted)
+        return;
+    m_whitted = settings;
+    if (isWhitted() && m_work)
+        begin();
+    Q_EMIT changed();
+}
+
+std::optional<PathView::Frame> PathView::frame() const {
+    if (!m_on || !m_work || !m_scene || m_progress.samples == 0)
+        return std::nullopt;
+    return Frame{m_scene, m_work->view};
 }
 
 void PathView::setPaused(bool paused) {
@@ -129,6 +168,8 @@ void PathView::begin() {
         m_work->blur = m_look.backgroundBlur;
         m_work->blurred = m_blurred;
     }
+    m_work->tracer = m_tracer;
+    m_work->whitted = m_whitted;
     m_hasFirst = m_paused = false;
     m_reference = {};
     ++m_number;
@@ -176,12 +217,14 @@ void PathView::take(const Result<Pass>& pass) {
         m_reference = pass->reference;
     m_rays += pass->rays;
     m_progress.samples = m_work->samples;
+    m_progress.limit = pass->scene->limit();
     if (pass->noise)
         m_progress.noise = pass->noise;
     m_progress.seconds += pass->seconds;
     m_progress.raysPerSecond = m_progress.seconds > 0.0 ? m_rays / m_progress.seconds : 0.0;
-    m_progress.refined =
-        m_work->samples >= kMostSamples || (m_progress.noise && *m_progress.noise <= kCertain);
+    m_progress.rays = m_rays;
+    m_progress.refined = m_work->samples >= m_work->mostSamples() ||
+                         (m_progress.noise && *m_progress.noise <= kCertain);
     const bool rests = m_progress.refined || m_paused;
     if (m_stale)
         begin();
@@ -243,34 +286,58 @@ Result<PathView::Pass> PathView::trace(Work& work, bool traces, bool tells, cons
     pass.blurred = work.blurred;
     TraceRays rays;
     pass.traces = true;
-    if (work.reduction > 1) {
-        TraceView coarse = work.view;
-        coarse.width = std::max(1, coarse.width / work.reduction);
-        coarse.height = std::max(1, coarse.height / work.reduction);
-        Film film(coarse.width, coarse.height);
-        if (auto done = tracePaths(*work.scene, coarse, {}, film, 0, 1, job, &rays); !done)
-            return done.error();
-        pass.picture = std::make_shared<const Image>(film.radiance(true));
-        work.reduction /= 2;
-    } else {
-        if (work.samples == 0)
-            work.film = Film(work.view.width, work.view.height);
-        const std::uint32_t count = std::min(work.next, kMostSamples - work.samples);
-        if (auto done =
-                tracePaths(*work.scene, work.view, {}, work.film, work.samples, count, job, &rays);
-            !done)
-            return done.error();
-        work.samples += count;
-        pass.picture = std::make_shared<const Image>(work.film.radiance(true));
-        pass.noise = work.film.noise();
-        if (tells)
-            pass.reference = tell(work, job);
-        if (2.0 * secondsSince(start) < kPassSeconds)
-            work.next = std::min(2 * work.next, kMostAtOnce);
-    }
+    const Result<void> traced = work.tracer == TracedBy::Whitted
+                                    ? traceWhittedPass(work, pass, job, rays)
+                                    : tracePass(work, pass, job, rays);
+    if (!traced)
+        return traced.error();
+    if (tells && work.tracer == TracedBy::Paths && work.samples > 0)
+        pass.reference = tell(work, job);
+    if (2.0 * secondsSince(start) < kPassSeconds && work.samples > 0)
+        work.next = std::min(2 * work.next, kMostAtOnce);
     pass.rays = static_cast<double>(rays.count);
     pass.seconds = secondsSince(start);
     return pass;
+}
+
+Result<void> PathView::tracePass(Work& work, Pass& pass, const JobContext& job, TraceRays& rays) {
+    if (work.reduction > 1) {
+        const TraceView coarse = reduced(work.view, work.reduction);
+        Film film(coarse.width, coarse.height);
+        if (auto done = tracePaths(*work.scene, coarse, {}, film, 0, 1, job, &rays); !done)
+            return done;
+        pass.picture = std::make_shared<const Image>(film.radiance(true));
+        work.reduction /= 2;
+        return {};
+    }
+    if (work.samples == 0)
+        work.film = Film(work.view.width, work.view.height);
+    const std::uint32_t count = std::min(work.next, kMostSamples - work.samples);
+    if (auto done =
+            tracePaths(*work.scene, work.view, {}, work.film, work.samples, count, job, &rays);
+        !done)
+        return done;
+    work.samples += count;
+    pass.picture = std::make_shared<const Image>(work.film.radiance(true));
+    pass.noise = work.film.noise();
+    return {};
+}
+
+Result<void> PathView::traceWhittedPass(Work& work, Pass& pass, const JobContext& job,
+                                        TraceRays& rays) {
+    const TraceView view = reduced(work.view, work.reduction);
+    WhittedSettings settings = work.whitted;
+    if (work.reduction > 1 || work.samples == 0)
+        settings.subdivisions = 0;
+    Film film(view.width, view.height);
+    if (auto done = traceWhitted(*work.scene, view, settings, film, 0, 1, job, &rays); !done)
+        return done;
+    pass.picture = std::make_shared<const Image>(film.radiance(true));
+    if (work.reduction > 1)
+        work.reduction /= 2;
+    else
+        ++work.samples;
+    return {};
 }
 
 } // namespace patina::editor

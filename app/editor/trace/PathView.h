@@ -1,5 +1,6 @@
-// The viewport's picture traced by paths, in the background: coarse within a moment of a change,
-// then of full size, then finer with every pass, until it is as certain as is asked for.
+// The viewport's picture traced by paths or by the classical ray tracer, in the background: coarse
+// within a moment of a change, then of full size, then finer with every pass, until it is as
+// certain as is asked for.
 #pragma once
 
 #include "core/document/View.h"
@@ -9,6 +10,7 @@
 #include "core/mix/LightMix.h"
 #include "core/trace/error/TracedPicture.h"
 #include "core/trace/path/PathTracer.h"
+#include "core/trace/whitted/WhittedSettings.h"
 
 #include <QObject>
 #include <QSize>
@@ -20,6 +22,8 @@ namespace patina::editor {
 
 class DocumentController;
 
+enum class TracedBy { Paths, Whitted };
+
 class PathView : public QObject {
     Q_OBJECT
   public:
@@ -30,6 +34,11 @@ class PathView : public QObject {
 
     void setOn(bool on); // off: traces nothing, and lets go of all that it has
     [[nodiscard]] bool isOn() const { return m_on; }
+    void setTracer(TracedBy tracer);
+    [[nodiscard]] TracedBy tracer() const { return m_tracer; }
+    [[nodiscard]] bool isWhitted() const { return m_on && m_tracer == TracedBy::Whitted; }
+    void setWhitted(const WhittedSettings& settings); // not stochastic
+    [[nodiscard]] const WhittedSettings& whitted() const { return m_whitted; }
     void setPaused(bool paused); // after the pass that is under way
     [[nodiscard]] bool isPaused() const { return m_paused; }
 
@@ -42,13 +51,21 @@ class PathView : public QObject {
     // Null: nothing has been traced yet.
     [[nodiscard]] const ImagePtr& picture() const { return m_picture; }
     struct Progress {
-        std::uint32_t samples = 0; // per pixel of full size; 0: coarse yet
+        std::uint32_t samples = 0; // per pixel of full size; 0: coarse yet; Whitted: passes
         std::optional<double> noise;
-        double raysPerSecond = 0.0, seconds = 0.0; // of the passes so far
-        bool refined = false;                      // nothing more is to come
-        std::optional<Error> error;                // why there is no picture
+        double raysPerSecond = 0.0, seconds = 0.0, rays = 0.0; // of the passes so far
+        bool refined = false;                                  // nothing more is to come
+        std::optional<Error> error;                            // why there is no picture
+        std::optional<std::string> limit;                      // TraceScene::limit()
     };
     [[nodiscard]] const Progress& progress() const { return m_progress; }
+
+    // What the newest picture of full size was traced in; nothing: there is none yet.
+    struct Frame {
+        std::shared_ptr<const TraceScene> scene;
+        TraceView view;
+    };
+    [[nodiscard]] std::optional<Frame> frame() const;
 
     // Whether reference() is wanted, which takes memory: 16 bytes per pixel, and again as much of
     // what is under way.
@@ -87,9 +104,14 @@ class PathView : public QObject {
     static Result<void> blurBackground(Work& work, const JobContext& job);
     static Result<Pass> trace(Work& work, bool traces, bool tells, const JobContext& job);
     static Reference tell(Work& work, const JobContext& job);
+    static Result<void> tracePass(Work& work, Pass& pass, const JobContext& job, TraceRays& rays);
+    static Result<void> traceWhittedPass(Work& work, Pass& pass, const JobContext& job,
+                                         TraceRays& rays);
 
     DocumentController& m_controller;
     bool m_on = false, m_paused = false, m_tells = false;
+    TracedBy m_tracer = TracedBy::Paths;
+    WhittedSettings m_whitted;
     TraceInputs m_inputs; // wanted
     Camera m_camera;
     View m_look;              // what of it stands behind the scene …

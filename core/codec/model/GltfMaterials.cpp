@@ -135,9 +135,11 @@ void GltfMaterialReader::readInput(const MaterialInputInfo& info, const json& ob
     auto& map = material.maps[info.input] =
         texture(object, key.c_str(), material.name, info.gltf.channel);
     if (!info.gltf.factor.empty())
-        material.numbers[info.input] = object.value(std::string(info.gltf.factor), 1.0f);
+        material.numbers[info.input] =
+            object.value(std::string(info.gltf.factor), info.gltf.absent);
     if (!info.gltf.scale.empty() && map)
-        material.numbers[info.input] = object.at(key).value(std::string(info.gltf.scale), 1.0f);
+        material.numbers[info.input] =
+            object.at(key).value(std::string(info.gltf.scale), info.gltf.absent);
 }
 
 void GltfMaterialReader::readInputs(const json& object, bool (*wanted)(const MaterialInputInfo&),
@@ -157,6 +159,17 @@ void GltfMaterialReader::specularGlossiness(const json& source, ImportedMaterial
     warnOnce(fmt::format("Material \"{}\" uses the outdated specular-glossiness model; it is "
                          "approximated.",
                          material.name));
+}
+
+// KHR_materials_ior and KHR_materials_volume. An index of 0 stands for infinity there; the greatest
+// that a material can have comes nearest.
+void readVolume(const json& source, ImportedMaterial& material) {
+    const float ior = extension(source, "KHR_materials_ior").value("ior", 1.5f);
+    material.ior = ior == 0.0f ? 3.0f : ior;
+    const json& volume = extension(source, "KHR_materials_volume");
+    material.thinWalled = !(volume.value("thicknessFactor", 0.0f) > 0.0f);
+    material.attenuationColor = vector<3>(volume, "attenuationColor", glm::vec3(1.0f));
+    material.attenuationDistance = volume.value("attenuationDistance", 0.0f);
 }
 
 ImportedMaterial GltfMaterialReader::material(const json& source, std::size_t index) {
@@ -179,6 +192,8 @@ ImportedMaterial GltfMaterialReader::material(const json& source, std::size_t in
     material.emissive =
         vector<3>(source, "emissiveFactor", glm::vec3(0.0f)) *
         extension(source, "KHR_materials_emissive_strength").value("emissiveStrength", 1.0f);
+
+    readVolume(source, material);
 
     material.doubleSided = source.value("doubleSided", false);
     const std::string alphaMode = source.value("alphaMode", "OPAQUE");

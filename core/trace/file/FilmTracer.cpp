@@ -101,13 +101,23 @@ bool FilmTracer::keep(bool complete) {
 
 Result<void> FilmTracer::trace(const TraceScene& scene, const TraceView& view,
                                const PathSettings& paths, const JobContext& job) {
+    CHECK(m_settings.manifest.width == view.width && m_settings.manifest.height == view.height);
+    return trace(
+        [&](Film& film, std::uint32_t first, std::uint32_t count, const JobContext& context,
+            const TraceTiles& tiles) {
+            return tracePaths(scene, view, paths, film, first, count, context, nullptr, tiles);
+        },
+        job);
+}
+
+Result<void> FilmTracer::trace(const FilmPass& tracePass, const JobContext& job) {
     FilmManifest& manifest = m_settings.manifest;
-    CHECK(manifest.width == view.width && manifest.height == view.height);
+    const int width = manifest.width, height = manifest.height;
     CHECK(!m_settings.noise || manifest.shard.count == 1);
     hold();
-    m_film = Film(view.width, view.height);
+    m_film = Film(width, height);
     if (manifest.hasOutputs)
-        m_outputs = TraceOutputs(view.width, view.height);
+        m_outputs = TraceOutputs(width, height);
     std::error_code ignored;
     if (m_settings.resume && !m_settings.checkpoint.empty() &&
         std::filesystem::exists(m_settings.checkpoint, ignored))
@@ -119,7 +129,7 @@ Result<void> FilmTracer::trace(const TraceScene& scene, const TraceView& view,
     std::mutex film, keeping; // of the film's pixels; of the two below and the checkpoint
     Clock::time_point kept = start;
     const std::size_t tiles =
-        tileCount(view.width, view.height) / static_cast<std::size_t>(manifest.shard.count);
+        tileCount(width, height) / static_cast<std::size_t>(manifest.shard.count);
     std::atomic<std::size_t> tilesDone = 0;
     double before = 0.0, after = 1.0; // progress, at the ends of the pass
     TraceTiles around{manifest.shard, &film, [&] {
@@ -145,9 +155,10 @@ Result<void> FilmTracer::trace(const TraceScene& scene, const TraceView& view,
     for (std::uint32_t pass = 1; done < m_settings.samples && !certain && !job.stopping();
          pass = std::min(2 * pass, kMostOfAPass)) {
         pass = std::min(pass, m_settings.samples - done);
-        job.setActivity(m_noise
-                            ? fmt::format("{} paths per pixel, ± {:.2f} %", done, 100.0 * *m_noise)
-                            : fmt::format("{} paths per pixel", done));
+        std::string activity = fmt::format("{} {} per pixel", done, m_settings.unit);
+        if (m_noise)
+            activity += fmt::format(", ± {:.2f} %", 100.0 * *m_noise);
+        job.setActivity(activity);
         after = static_cast<double>(done + pass) / m_settings.samples;
         // The error falls with the root of the paths.
         if (m_settings.noise && m_noise) {
@@ -157,9 +168,7 @@ Result<void> FilmTracer::trace(const TraceScene& scene, const TraceView& view,
         after = std::max(after, before);
         tilesDone = 0;
         if (samplesOf(m_film, manifest.shard).least < done + pass) {
-            if (Result<void> traced =
-                    tracePaths(scene, view, paths, m_film, done, pass, job, nullptr, around);
-                !traced) {
+            if (Result<void> traced = tracePass(m_film, done, pass, job, around); !traced) {
                 if (m_settings.keepOnCancel)
                     keep(false);
                 return traced;
@@ -177,9 +186,8 @@ Result<void> FilmTracer::trace(const TraceScene& scene, const TraceView& view,
     if (manifest.shard.count == 1)
         m_noise = m_film.noise(); // also of a pass that was stopped
     const FilmSamples samples = samplesOf(m_film, manifest.shard);
-    const bool complete = samples.mean == 0.0
-                              ? shardPixels(view.width, view.height, manifest.shard) == 0
-                              : certain || samples.least == m_settings.samples;
+    const bool complete = samples.mean == 0.0 ? shardPixels(width, height, manifest.shard) == 0
+                                              : certain || samples.least == m_settings.samples;
 
     // What follows (writing the picture) may fail as well.
     if (complete ? Clock::now() - start >= every : m_settings.keepOnCancel)

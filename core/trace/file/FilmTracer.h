@@ -26,7 +26,13 @@ struct FilmTracerSettings {
     bool resume = false;       // go on from the file, if it is there
     bool keepOnCancel = false; // write it once more when the job is cancelled or stopped
     std::function<void(const Error&)> warn; // of a checkpoint that cannot be written, once
+    std::string unit = "paths";             // what a sample is
 };
+
+// Adds samples to a film, as tracePaths() does: of these numbers, to all pixels of the tiles'
+// shard.
+using FilmPass = std::function<Result<void>(Film& film, std::uint32_t first, std::uint32_t count,
+                                            const JobContext& job, const TraceTiles& tiles)>;
 
 class FilmTracer {
   public:
@@ -34,6 +40,7 @@ class FilmTracer {
         : m_settings(std::move(settings)) {}
 
     // Errors: Cancelled; those of readFilm(), InputBroken for the checkpoint of another picture.
+    Result<void> trace(const FilmPass& pass, const JobContext& job);
     Result<void> trace(const TraceScene& scene, const TraceView& view, const PathSettings& paths,
                        const JobContext& job);
 

@@ -22,6 +22,13 @@ class EmissiveTriangles {
     void finish(); // once all are added
 
     [[nodiscard]] bool empty() const { return m_triangles.empty(); }
+    [[nodiscard]] std::size_t size() const { return m_triangles.size(); }
+    [[nodiscard]] const Triangle& triangle(std::size_t i) const { return m_triangles[i]; }
+    // Area times luminance, of one and of all.
+    [[nodiscard]] double power(std::size_t i) const {
+        return i == 0 ? m_sums[0] : m_sums[i] - m_sums[i - 1];
+    }
+    [[nodiscard]] double power() const { return m_power; }
     [[nodiscard]] const Triangle&
     sample(float u) const; // u in [0, 1); for those that are not empty
     // Per square metre, of a point on such a triangle: that of the choice over its area.

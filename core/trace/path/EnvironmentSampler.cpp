@@ -47,11 +47,16 @@ EnvironmentSampler::EnvironmentSampler(const TraceEnvironment& environment)
     m_rows.resize(static_cast<std::size_t>(m_height));
     m_columns.resize(count * static_cast<std::size_t>(m_height));
     std::vector<double> rows(static_cast<std::size_t>(m_height));
+    glm::dvec3 mean(0.0);
     for (int y = 0; y < m_height; ++y) {
         for (int x = 0; x < m_width; ++x)
             upright[static_cast<std::size_t>(x)] =
                 0.125 * luminance(x, y - 1) + 0.75 * luminance(x, y) + 0.125 * luminance(x, y + 1);
         double sum = 0.0;
+        glm::dvec3 row(0.0);
+        for (int x = 0; x < m_width; ++x)
+            row += glm::dvec3(m_scale * texel(x, y));
+        mean += row * solidAngle(y);
         for (std::size_t x = 0; x < count; ++x) {
             sum += 0.125 * upright[(x + count - 1) % count] + 0.75 * upright[x] +
                    0.125 * upright[(x + 1) % count];
@@ -63,6 +68,7 @@ EnvironmentSampler::EnvironmentSampler(const TraceEnvironment& environment)
         m_power += sum * solidAngle(y);
         rows[static_cast<std::size_t>(y)] = m_power;
     }
+    m_mean = glm::vec3(mean / (4.0 * std::numbers::pi));
     for (std::size_t y = 0; y < rows.size(); ++y)
         m_rows[y] = m_power > 0.0 ? static_cast<float>(rows[y] / m_power) : 0.0f;
 }

@@ -29,7 +29,8 @@ class EnvironmentSampler {
     [[nodiscard]] Sample sample(const glm::vec2& u) const;
     [[nodiscard]] float pdf(const glm::vec3& direction) const; // of sample()
 
-    [[nodiscard]] double power() const { return m_power; } // ∫ luminance dω
+    [[nodiscard]] double power() const { return m_power; }         // ∫ luminance dω
+    [[nodiscard]] const glm::vec3& mean() const { return m_mean; } // radiance, over all directions
 
   private:
     [[nodiscard]] glm::vec2 pixelOf(const glm::vec3& direction) const; // in texels
@@ -43,6 +44,7 @@ class EnvironmentSampler {
     std::vector<float> m_rows;    // running share of all power, row by row
     std::vector<float> m_columns; // and within each row
     double m_power = 0.0;
+    glm::vec3 m_mean{0.0f};
 };
 
 } // namespace patina

@@ -106,7 +106,8 @@ LightSampler::LightSampler(std::span<const Light> lights) {
         Source& source = m_lights.emplace_back();
         source.light = light;
         source.power = lightPower(light);
-        source.luminance = std::max(shading::luminance(lightColor(light) * light.tint), 0.0f);
+        source.color = lightColor(light) * light.tint;
+        source.luminance = std::max(shading::luminance(source.color), 0.0f);
         source.hidden = !canCastShadow(light.type) || light.castsShadow;
         if (hasDirection(light.type))
             source.toLight = light.directionToLight();
@@ -136,6 +137,24 @@ void LightSampler::choices(const glm::vec3& point, std::vector<float>& out) cons
     }
     for (float& share : out)
         share = sum > 0.0f ? share / sum : 0.0f;
+}
+
+LightSample LightSampler::centre(std::size_t index, const glm::vec3& point) const {
+    const Source& source = m_lights[index];
+    LightSample result;
+    result.light = source.color * illuminanceAt(source.light, point);
+    result.direction = source.toLight;
+    result.distance = kEndless;
+    if (source.light.type == LightType::Directional)
+        return result;
+    const glm::vec3 toLight = source.light.position - point;
+    result.distance = glm::length(toLight);
+    if (!(result.distance > 0.0f)) {
+        result.light = glm::vec3(0.0f);
+        return result;
+    }
+    result.direction = toLight / result.distance;
+    return result;
 }
 
 LightSample LightSampler::sample(std::size_t index, const glm::vec3& point,

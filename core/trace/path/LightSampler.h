@@ -5,6 +5,7 @@
 
 #include "core/light/Light.h"
 
+#include <algorithm>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
@@ -27,6 +28,11 @@ class LightSampler {
 
     [[nodiscard]] bool empty() const { return m_lights.empty(); }
     [[nodiscard]] std::size_t size() const { return m_lights.size(); }
+    // A light that only a ray to it finds.
+    [[nodiscard]] bool anyWithoutExtent() const {
+        return std::any_of(m_lights.begin(), m_lights.end(),
+                           [](const Source& source) { return !source.extended; });
+    }
 
     // How likely each light is chosen at a point of the world, by what arrives there where nothing
     // is in the way; they sum up to 1, or to 0 where none reaches.
@@ -34,6 +40,10 @@ class LightSampler {
 
     // A light with a shadow map in the viewport casts its shadow when it is told to; all others do.
     [[nodiscard]] bool isHidden(std::size_t light) const { return m_lights[light].hidden; }
+    // As if all of it came from its centre: the irradiance of a surface that faces that, which is
+    // illuminanceAt(); pdf = 0.
+    [[nodiscard]] LightSample centre(std::size_t light, const glm::vec3& point) const;
+    [[nodiscard]] Id id(std::size_t light) const { return m_lights[light].light.id; }
     [[nodiscard]] LightSample sample(std::size_t light, const glm::vec3& point,
                                      const glm::vec2& u) const;
     // Light that a ray meets on its way of `distance` metres: what sample() could have chosen.
@@ -45,6 +55,7 @@ class LightSampler {
     struct Source {
         Light light;
         glm::vec3 power{0.0f};
+        glm::vec3 color{0.0f};              // with the mixer's tint
         glm::vec3 toLight{0.0f};            // directional, spot, rectangle
         glm::vec3 axisX{0.0f}, axisY{0.0f}; // rectangle: unit
         float coneScale = 0.0f, coneOffset = 1.0f;

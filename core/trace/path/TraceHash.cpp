@@ -44,6 +44,14 @@ void hashMaterial(Hasher& hasher, const Material& m) {
     hashChoice(hasher, m.alphaMode);
     hasher.value(m.alphaCutoff);
     hasher.value(static_cast<std::int32_t>(m.doubleSided));
+    // Where a material has what materials had before: pictures traced then still fit.
+    if (m.transmission == 0.0f && m.ior == Material().ior)
+        return;
+    hasher.value(m.transmission).value(m.ior);
+    hashSlot(hasher, m.transmissionMap);
+    hasher.value(static_cast<std::int32_t>(m.thinWalled));
+    hashVector(hasher, m.attenuationColor);
+    hasher.value(m.attenuationDistance);
 }
 
 void hashModel(Hasher& hasher, const ShadingModel& model) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 
 namespace patina {
 namespace {
@@ -20,6 +21,15 @@ glm::vec3 placeholderPattern(const glm::vec2& uv) {
     const glm::vec2 field = glm::floor(uv * 8.0f);
     return glm::mod(field.x + field.y, 2.0f) < 0.5f ? glm::vec3(1.0f, 0.0f, 1.0f)
                                                     : glm::vec3(0.01f);
+}
+
+// KHR_materials_volume: exp(-absorption · distance) is the attenuation colour after the
+// attenuation distance. The floor keeps black finite: 1e-6 of the light is left there.
+glm::vec3 absorption(const Material& material) {
+    if (material.thinWalled || !(material.attenuationDistance > 0.0f))
+        return glm::vec3(0.0f);
+    return -glm::log(glm::clamp(material.attenuationColor, 1e-6f, 1.0f)) /
+           material.attenuationDistance;
 }
 
 } // namespace
@@ -106,6 +116,9 @@ TraceMaterial::TraceMaterial(const Material& material)
     , m_diffuseRoughness(material.diffuseRoughness)
     , m_normalStrength(material.normalStrength)
     , m_greenUp(material.normalConvention == NormalConvention::OpenGl ? 1.0f : -1.0f)
+    , m_transmission(material.transmission)
+    , m_ior(material.ior)
+    , m_glass{material.thinWalled, absorption(material)}
     , m_doubleSided(material.doubleSided)
     , m_lacksColor(missing(material.baseColorMap))
     , m_normalBasis(normalBasis(material.normalMap))
@@ -113,7 +126,8 @@ TraceMaterial::TraceMaterial(const Material& material)
     , m_metal(material.metallicMap)
     , m_rough(material.perceptualRoughnessMap)
     , m_normal(material.normalMap)
-    , m_glow(material.emissiveMap) {}
+    , m_glow(material.emissiveMap)
+    , m_clear(material.transmissionMap) {}
 
 shading::SurfaceInputs TraceMaterial::inputsAt(const glm::vec2& uv) const {
     const auto number = [&](float factor, const TraceMap& map) {
@@ -127,6 +141,8 @@ shading::SurfaceInputs TraceMaterial::inputsAt(const glm::vec2& uv) const {
     inputs.metallic = number(m_metallic, m_metal);
     inputs.perceptualRoughness = number(m_perceptualRoughness, m_rough);
     inputs.diffuseRoughness = m_diffuseRoughness;
+    inputs.transmission = number(m_transmission, m_clear);
+    inputs.ior = m_ior;
     return inputs;
 }
 

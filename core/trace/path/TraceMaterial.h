@@ -35,6 +35,12 @@ class TraceMap {
     std::array<float, 256> m_decoded{}; // of a byte of colour
 };
 
+// What light meets that goes through a surface; TraceMaterial::inputsAt() has how much does.
+struct TraceGlass {
+    bool thinWalled = true;     // a sheet; otherwise the face of a solid body
+    glm::vec3 absorption{0.0f}; // of the solid body, per metre, at least 0 (Beer-Lambert)
+};
+
 class TraceMaterial {
   public:
     explicit TraceMaterial(const Material& material);
@@ -48,14 +54,23 @@ class TraceMaterial {
     // Of a surface with that normal and tangent (surface.vert), world axes; unit.
     [[nodiscard]] glm::vec3 shadingNormal(const glm::vec3& normal, const glm::vec4& tangent,
                                           const glm::vec2& uv) const;
+    // Somewhere on the surface.
+    [[nodiscard]] bool transmits() const { return m_transmission > 0.0f && m_metallic < 1.0f; }
+    [[nodiscard]] bool mayBeRough() const {
+        return m_perceptualRoughness > shading::kMinPerceptualRoughness;
+    }
+    [[nodiscard]] float ior() const { return m_ior; }
+    [[nodiscard]] const TraceGlass& glass() const { return m_glass; }
     [[nodiscard]] bool hasNormalMap() const { return m_normal.isThere(); }
 
   private:
     glm::vec3 m_baseColor, m_emissive;
     float m_metallic, m_perceptualRoughness, m_diffuseRoughness, m_normalStrength, m_greenUp;
+    float m_transmission, m_ior;
+    TraceGlass m_glass;
     bool m_doubleSided, m_lacksColor;
     glm::vec4 m_normalBasis;
-    TraceMap m_color, m_metal, m_rough, m_normal, m_glow;
+    TraceMap m_color, m_metal, m_rough, m_normal, m_glow, m_clear;
 };
 
 } // namespace patina

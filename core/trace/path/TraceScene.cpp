@@ -98,7 +98,54 @@ Result<TraceScene> TraceScene::build(const TraceInputs& inputs, const JobContext
     if (job.cancelled())
         return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
     result.collectEmissive();
+    result.collectGlass(previous);
     return result;
+}
+
+// Tables for faces between a body and air; between two bodies light between facets stays lost.
+void TraceScene::collectGlass(const TraceScene* previous) {
+    const auto add = [&](float eta, bool thinWalled) {
+        const auto isThat = [&](const GlassTable& table) {
+            return table.thinWalled == thinWalled && (thinWalled || table.eta == eta);
+        };
+        if (std::ranges::any_of(m_glassTables, isThat))
+            return;
+        if (previous != nullptr)
+            if (const auto known = std::ranges::find_if(previous->m_glassTables, isThat);
+                known != previous->m_glassTables.end()) {
+                m_glassTables.push_back(*known);
+                return;
+            }
+        m_glassTables.push_back(
+            {eta, thinWalled, std::make_shared<const GlassAlbedo>(eta, thinWalled)});
+    };
+    for (const Instance& instance : m_instances) {
+        const TraceMaterial& material = m_materials[instance.material];
+        if (!material.transmits())
+            continue;
+        const float ior = indexOf(material);
+        const bool thinWalled = material.glass().thinWalled;
+        const bool straight = thinWalled || glassEta(ior, 1.0f) == 1.0f;
+        (straight ? m_hasStraightGlass : m_hasSolidGlass) = true;
+        if (!material.mayBeRough())
+            continue;
+        add(thinWalled ? 1.5f : glassEta(ior, 1.0f), thinWalled);
+        if (!thinWalled)
+            add(glassEta(1.0f, ior), false);
+    }
+}
+
+std::optional<std::string> TraceScene::limit() const {
+    if (!m_hasSolidGlass || m_lights.empty() || !m_lights.anyWithoutExtent())
+        return std::nullopt;
+    return "Points, spots and directional lights without softness do not shine through solid "
+           "transmissive materials, which no path can find them through: take spheres, rectangles, "
+           "glowing meshes or a softness above 0°, or make the material thin-walled.";
+}
+
+// As makeSurface() has it.
+float TraceScene::indexOf(const TraceMaterial& material) const {
+    return shading::modelOfIndex(m_model, material.ior()).ior;
 }
 
 void TraceScene::collectEmissive() {
@@ -211,6 +258,59 @@ shading::SurfaceTerms TraceScene::surface(const TracePoint& point, const glm::ve
                                 dfg(NoV, inputs.perceptualRoughness));
 }
 
+TraceSurface TraceScene::surfaceIn(const TracePoint& point, const glm::vec3& v,
+                                   const Media& media) const {
+    TraceSurface surface;
+    shading::SurfaceInputs inputs = point.material->inputsAt(point.uv);
+    const float NoV = glm::clamp(glm::dot(point.normal, v), shading::kMinNoV, 1.0f);
+    const glm::vec2 entry = dfg(NoV, inputs.perceptualRoughness);
+    // KHR_materials_transmission: mix(mix(opaque non-metal, glass, transmission), metal, metallic).
+    // Without the glass there remain the metal and the opaque non-metal in their proportion.
+    surface.glassShare = inputs.transmission * (1.0f - inputs.metallic);
+    if (surface.glassShare > 0.0f) {
+        surface.ior = indexOf(*point.material);
+        surface.glass = glassTerms(point, v, inputs, media, surface.ior);
+        inputs.metallic = surface.glassShare < 1.0f
+                              ? std::min(inputs.metallic / (1.0f - surface.glassShare), 1.0f)
+                              : 0.0f;
+        inputs.transmission = 0.0f;
+    }
+    surface.opaque = shading::makeSurface(m_model, inputs, point.normal, v, entry);
+    return surface;
+}
+
+GlassTerms TraceScene::glassTerms(const TracePoint& point, const glm::vec3& v,
+                                  const shading::SurfaceInputs& inputs, const Media& media,
+                                  float ior) const {
+    GlassTerms glass;
+    glass.v = v;
+    glass.thinWalled = point.material->glass().thinWalled;
+    glass.tint = inputs.baseColor;
+    if (glass.thinWalled) {
+        glass.eta = glassEta(ior, 1.0f);
+    } else if (!point.isBack) {
+        glass.eta = glassEta(ior, media.innermost().ior);
+    } else {
+        Media outside = media;
+        outside.leave(point.material);
+        glass.eta = glassEta(outside.innermost().ior, ior);
+    }
+    glass.alpha = glassAlpha(inputs.perceptualRoughness, glass.eta, glass.thinWalled);
+    // Where a normal that is interpolated or mapped would send the mirrored light into the surface,
+    // the triangle's own stands for it: glass that loses light at its rim has a black one.
+    const glm::vec3 mirrored = 2.0f * glm::dot(point.normal, v) * point.normal - v;
+    const bool clear =
+        glm::dot(point.normal, v) > shading::kMinNoV && glm::dot(mirrored, point.face) > 0.0f;
+    glass.n = clear ? point.normal : point.face;
+    glass.NoV = glm::clamp(glm::dot(glass.n, v), shading::kMinNoV, 1.0f);
+    if (!glass.isSmooth() && m_model.multiScatter != 0)
+        for (const GlassTable& table : m_glassTables)
+            if (table.thinWalled == glass.thinWalled &&
+                (table.thinWalled || table.eta == glass.eta))
+                glass.gain = 1.0f / table.albedo->at(glass.NoV, inputs.perceptualRoughness);
+    return glass;
+}
+
 glm::vec3 TraceScene::toWorld(const glm::vec3& scenePoint) const {
     return glm::vec3(m_centre + glm::dvec3(scenePoint) * static_cast<double>(m_metresPerUnit));
 }
@@ -225,6 +325,13 @@ glm::vec3 TraceScene::environmentRadiance(const glm::vec3& direction) const {
     glm::vec3 sum(0.0f);
     for (const auto& environment : m_environments)
         sum += environment->radiance(direction);
+    return sum;
+}
+
+glm::vec3 TraceScene::meanEnvironment() const {
+    glm::vec3 sum(0.0f);
+    for (const auto& environment : m_environments)
+        sum += environment->mean();
     return sum;
 }
 

@@ -7,6 +7,8 @@
 #include "core/trace/BakeScene.h"
 #include "core/trace/path/EmissiveTriangles.h"
 #include "core/trace/path/EnvironmentSampler.h"
+#include "core/trace/path/Glass.h"
+#include "core/trace/path/GlassAlbedo.h"
 #include "core/trace/path/LightSampler.h"
 #include "core/trace/path/TraceInputs.h"
 #include "core/trace/path/TraceMaterial.h"
@@ -14,6 +16,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace patina {
@@ -27,6 +31,23 @@ struct TracePoint {
     const TraceMaterial* material = nullptr;
     std::uint32_t mesh = 0, triangle = 0;
     bool isBack = false; // of the triangle
+
+    // Backs of surfaces that have only a front are not there for the camera, and absorb.
+    [[nodiscard]] bool hasSurface() const {
+        return !isBack || material->doubleSided() || material->transmits();
+    }
+    // Such a back does not glow either.
+    [[nodiscard]] glm::vec3 emission() const {
+        return isBack && !material->doubleSided() ? glm::vec3(0.0f) : material->emissionAt(uv);
+    }
+};
+
+// A surface as a mixture: a share of it is glass, and the rest reflects.
+struct TraceSurface {
+    shading::SurfaceTerms opaque{}; // what is not glass; of glass alone: unused
+    GlassTerms glass{};             // where there is a share
+    float glassShare = 0.0f;        // 0…1
+    float ior = 1.5f;               // of the glass
 };
 
 class TraceScene {
@@ -55,9 +76,21 @@ class TraceScene {
     [[nodiscard]] Id materialOf(std::uint32_t mesh) const {
         return m_inputs.materials[m_instances[mesh].material].id;
     }
+    // TraceMesh::id.
+    [[nodiscard]] Id meshId(std::uint32_t mesh) const { return m_scene->geometry->meshes[mesh].id; }
 
     // (scale, bias) of the model's lobe, as the viewport looks them up.
     [[nodiscard]] shading::SurfaceTerms surface(const TracePoint& point, const glm::vec3& v) const;
+
+    // The same as a mixture, for a path: `media` are those on the viewer's side.
+    [[nodiscard]] TraceSurface surfaceIn(const TracePoint& point, const glm::vec3& v,
+                                         const Media& media) const;
+    // Refractive index, where the shading model has one for all, too.
+    [[nodiscard]] float indexOf(const TraceMaterial& material) const;
+    // What paths through this scene cannot show, as a sentence for the user.
+    [[nodiscard]] std::optional<std::string> limit() const;
+    // Somewhere a sheet is smooth glass, or a body has the index of air: rays to lights go on.
+    [[nodiscard]] bool hasStraightGlass() const { return m_hasStraightGlass; }
 
     [[nodiscard]] glm::vec3 toWorld(const glm::vec3& scenePoint) const;
     [[nodiscard]] glm::vec3 toScene(const glm::dvec3& worldPoint) const;
@@ -66,12 +99,17 @@ class TraceScene {
 
     // All environments together. Sums of what each sends.
     [[nodiscard]] glm::vec3 environmentRadiance(const glm::vec3& direction) const;
+    [[nodiscard]] glm::vec3 meanEnvironment() const; // over all directions
     [[nodiscard]] EnvironmentSampler::Sample sampleEnvironment(glm::vec2 u) const;
     [[nodiscard]] float environmentPdf(const glm::vec3& direction) const;
     [[nodiscard]] bool hasEnvironment() const { return m_environmentPower > 0.0; }
     [[nodiscard]] const LightSampler& lights() const { return m_lights; }
     [[nodiscard]] const EmissiveTriangles& emissive() const { return m_emissive; }
     [[nodiscard]] bool isEmpty() const { return !m_scene; }
+    // Its triangles; null: none.
+    [[nodiscard]] const BakeGeometry* geometry() const {
+        return m_scene ? m_scene->geometry.get() : nullptr;
+    }
 
   private:
     TraceScene() = default;
@@ -79,7 +117,11 @@ class TraceScene {
     [[nodiscard]] TracePoint pointAt(std::uint32_t mesh, std::uint32_t triangle,
                                      const glm::vec2& weights, const glm::vec3* direction) const;
     [[nodiscard]] glm::vec2 dfg(float NoV, float perceptualRoughness) const;
+    [[nodiscard]] GlassTerms glassTerms(const TracePoint& point, const glm::vec3& v,
+                                        const shading::SurfaceInputs& inputs, const Media& media,
+                                        float ior) const;
     void collectEmissive();
+    void collectGlass(const TraceScene* previous);
 
     TraceInputs m_inputs;
     std::shared_ptr<const BakeScene> m_scene; // null: no triangles
@@ -96,6 +138,13 @@ class TraceScene {
     EmissiveTriangles m_emissive;
     shading::BrdfModel m_model{};
     std::shared_ptr<const std::vector<glm::vec2>> m_dfg;
+    struct GlassTable {
+        float eta = 1.5f;
+        bool thinWalled = false;
+        std::shared_ptr<const GlassAlbedo> albedo;
+    };
+    std::vector<GlassTable> m_glassTables; // of rough glass
+    bool m_hasStraightGlass = false, m_hasSolidGlass = false;
     float m_metresPerUnit = 1.0f;
     glm::dvec3 m_centre{0.0};
 };

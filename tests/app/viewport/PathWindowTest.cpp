@@ -7,14 +7,20 @@
 #include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
+#include "core/image/Channels.h"
+#include "core/io/ImageIO.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
+#include "core/trace/file/OutputImages.h"
 #include "tests/app/editor/EditorFixture.h"
 
 #include <QComboBox>
+#include <QFileDialog>
 #include <QLabel>
 #include <QPushButton>
 #include <QStatusBar>
+#include <QTemporaryDir>
+#include <algorithm>
 
 namespace patina::editor {
 namespace {
@@ -112,6 +118,48 @@ TEST_F(PathWindow, RestsWhilePaused) {
     EXPECT_EQ(pause->text(), QStringLiteral("Resume"));
     QTest::mouseClick(pause, Qt::LeftButton);
     EXPECT_TRUE(hasSamples(samples + 1));
+}
+
+TEST_F(PathWindow, WhatIsSavedIsThePictureThatIsThere) {
+    key(Qt::Key_F12);
+    ASSERT_TRUE(hasSamples(4));
+    paths().setPaused(true);
+    ASSERT_TRUE(settled(*session)); // the pass that was under way
+    const QTemporaryDir folder;
+    const auto save = [&](const char* name, int filter) {
+        QTest::mouseClick(badge().findChild<QPushButton*>(QStringLiteral("pathSave")),
+                          Qt::LeftButton);
+        auto* dialog = window->findChild<QFileDialog*>(QStringLiteral("tracedSaveDialog"));
+        ASSERT_NE(dialog, nullptr);
+        dialog->selectNameFilter(dialog->nameFilters()[filter]);
+        Q_EMIT dialog->fileSelected(folder.filePath(QLatin1String(name)));
+        dialog->close();
+        ASSERT_TRUE(eventually([] { return session->jobs.runningCount() == 0; }));
+        QApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+    };
+    const auto load = [&](const char* name) {
+        ImageLoadOptions all;
+        all.allParts = true;
+        return loadImage(session->worker, folder.filePath(QLatin1String(name)).toStdString(), all);
+    };
+    const Image picture = withoutAlpha(*paths().picture());
+    const auto same = [&](const Image& saved) {
+        return saved.channels() == 3 && std::ranges::equal(saved.f32(), picture.f32());
+    };
+    save("linear.exr", 1);
+    const auto linear = load("linear.exr");
+    ASSERT_TRUE(linear.ok()) << linear.error().message;
+    EXPECT_TRUE(same(linear->parts[0].image));
+    save("parts.exr", 2);
+    const auto parts = load("parts.exr");
+    ASSERT_TRUE(parts.ok()) << parts.error().message;
+    EXPECT_EQ(parts->parts.size(), outputInfos().size());
+    EXPECT_EQ(parts->parts[0].name, "beauty");
+    EXPECT_TRUE(same(parts->parts[0].image)) << "the same paths once more";
+    save("shown.png", 0);
+    const QImage shown(folder.filePath(QStringLiteral("shown.png")));
+    ASSERT_EQ(shown.size(), QSize(160, 120));
+    EXPECT_NEAR(mean(shown), mean(viewport().grabFramebuffer()), 3.0);
 }
 
 TEST_F(PathWindow, TermsAndTheWallAreDrawnAsUsual) {

@@ -28,7 +28,7 @@ TEST(MaterialInputs, EachHasItsOwnMapValueAndPlaces) {
 // The names that shading and uniforms go by are the last part of the parameter's.
 TEST(MaterialInputs, NumbersAreCalledAsInTheShader) {
     shading::SurfaceInputs inputs;
-    std::set<const float*> members{&inputs.diffuseRoughness};
+    std::set<const float*> members{&inputs.diffuseRoughness, &inputs.ior};
     for (const MaterialInputInfo& info : kMaterialInputs) {
         if (info.role != InputRole::Number)
             continue;
