@@ -1,5 +1,6 @@
 // `patina ladder`: every way of lighting in real time against the traced picture of the same scene.
 #include "app/cli/Commands.h"
+#include "app/cli/LadderBlame.h"
 #include "app/cli/LocalShadows.h"
 #include "app/cli/PictureSetup.h"
 #include "app/cli/Report.h"
@@ -21,6 +22,7 @@
 #include "core/trace/error/PictureErrorMap.h"
 #include "core/trace/error/SeenMaterials.h"
 #include "render/SceneRenderer.h"
+#include "render/TermPictures.h"
 #include "render/ViewRenderer.h"
 #include "render/WallRenderer.h"
 
@@ -48,6 +50,8 @@ double secondsFrom(std::chrono::steady_clock::time_point start) {
 struct Truth {
     TracedPicture picture;
     std::vector<Id> materials; // seen at its pixels
+    Film film{1, 1};
+    std::optional<BlameFilm> blame; // where it is wanted
     std::uint32_t samples = 0;
     double noise = 0.0, seconds = 0.0;
 };
@@ -89,6 +93,15 @@ Result<Truth> traceTruth(Session& session, const LadderOptions& options, const D
     truth.materials = seenMaterials(*scene, view, session.job());
     if (truth.materials.empty())
         return cancelledError();
+    if (wantsBlame(options)) {
+        session.job().setActivity("tracing what each shortcut stands for");
+        Result<BlameFilm> blame =
+            traceBlame(*scene, view, document.model, 0, truth.samples, session.job());
+        if (!blame)
+            return blame.error();
+        truth.blame = *std::move(blame);
+    }
+    truth.film = std::move(film);
     return truth;
 }
 
@@ -96,6 +109,7 @@ struct DrawnRung {
     Image picture; // F32, linear
     double milliseconds = 0.0;
     PictureError error;
+    std::optional<Blame> blame; // of those that are lit by images
 };
 
 // Draws documents that differ in their lighting.
@@ -131,6 +145,46 @@ class RungDrawer {
 
     // Twice: what its programs take to be compiled is no part of its time.
     Result<DrawnRung> draw(Document document) {
+        const Result<render::CellView> cell = cellOf(std::move(document));
+        if (!cell)
+            return cell.error();
+        DrawnRung rung;
+        for (int time = 0; time < 2; ++time) {
+            render::ViewRenderer picture(*m_scene);
+            const auto start = std::chrono::steady_clock::now();
+            int frames = 0;
+            do {
+                if (m_session.job().stopping())
+                    return cancelledError();
+                if (Result<void> drawn = m_cells->drawFrame(*cell, picture, frames > 0); !drawn)
+                    return drawn.error();
+                ++frames;
+            } while (!render::WallRenderer::isFine(*cell, picture));
+            rung.picture = picture.readLinear();
+            rung.milliseconds = 1000.0 * secondsFrom(start) / frames;
+        }
+        return rung;
+    }
+
+    // What a document that is lit by images shows without occlusion, and the terms of that.
+    Result<DrawnTerms> terms(Document document) {
+        const Result<render::CellView> cell = cellOf(withoutOcclusion(std::move(document)));
+        if (!cell)
+            return cell.error();
+        DrawnTerms terms;
+        Result<Image> picture = render::drawFinePicture(*m_cells, *m_scene, *cell, m_session.job());
+        if (!picture)
+            return picture.error();
+        terms.unoccluded = *std::move(picture);
+        if (Result<void> drawn =
+                render::drawTerms(*m_cells, *m_scene, *cell, terms, m_session.job());
+            !drawn)
+            return drawn.error();
+        return terms;
+    }
+
+  private:
+    Result<render::CellView> cellOf(Document document) {
         render::CellView cell;
         cell.frame = m_frame;
         cell.light = m_light;
@@ -143,25 +197,9 @@ class RungDrawer {
             return shadows.error();
         cell.nearShadows = m_shadows = *shadows;
         cell.document = std::move(document);
-        DrawnRung rung;
-        for (int time = 0; time < 2; ++time) {
-            render::ViewRenderer picture(*m_scene);
-            const auto start = std::chrono::steady_clock::now();
-            int frames = 0;
-            do {
-                if (m_session.job().stopping())
-                    return cancelledError();
-                if (Result<void> drawn = m_cells->drawFrame(cell, picture, frames > 0); !drawn)
-                    return drawn.error();
-                ++frames;
-            } while (!render::WallRenderer::isFine(cell, picture));
-            rung.picture = picture.readLinear();
-            rung.milliseconds = 1000.0 * secondsFrom(start) / frames;
-        }
-        return rung;
+        return cell;
     }
 
-  private:
     Session& m_session;
     const LadderOptions& m_options;
     const render::FrameSettings m_frame;
@@ -237,12 +275,51 @@ nlohmann::ordered_json describeRungs(const std::vector<LadderRung>& rungs,
             one["milliseconds"] = drawn[i]->milliseconds;
             one["bakeSeconds"] = rungs[i].bakeSeconds;
             one["error"] = errorJson(drawn[i]->error, rungs[i].document);
+            if (drawn[i]->blame)
+                one["blame"] = blameJson(*drawn[i]->blame, rungs[i].document);
         } else {
             one["problem"] = rungs[i].whyNot;
         }
         list.push_back(std::move(one));
     }
     return list;
+}
+
+// Which shortcut makes which share of the errors of the rungs that are lit by images.
+Result<void> blameRungs(Session& session, const LadderOptions& options,
+                        const std::vector<LadderRung>& rungs, const Truth& truth,
+                        RungDrawer& drawer, std::vector<std::optional<DrawnRung>>& drawn) {
+    session.beginPhase();
+    session.job().setActivity("drawing the terms of image-based light");
+    const auto isImageBased = [&](std::size_t i) {
+        return drawn[i] && rungs[i].document.view.lighting == LightingMode::Ibl;
+    };
+    std::optional<DrawnTerms> terms; // the same of all: they differ in occlusion
+    const DrawnRung* last = nullptr;
+    for (std::size_t i = 0; i < rungs.size(); ++i) {
+        if (!isImageBased(i))
+            continue;
+        if (!terms) {
+            Result<DrawnTerms> made = drawer.terms(rungs[i].document);
+            if (!made)
+                return made.error();
+            terms = *std::move(made);
+        }
+        terms->picture = drawn[i]->picture;
+        Result<Blame> made = blame(*terms, *truth.blame, truth.film, rungs[i].document.view,
+                                   truth.materials, session.job());
+        if (!made)
+            return made.error();
+        drawn[i]->blame = *std::move(made);
+        session.report().table(fmt::format("Blame, {}:", rungs[i].label),
+                               blameTable(*drawn[i]->blame));
+        last = &*drawn[i];
+    }
+    if (options.blamePictures.empty() || last == nullptr)
+        return {};
+    return writePictures(session, options.blamePictures,
+                         blameParts(*last->blame, last->picture, truth.picture.radiance),
+                         ImageFileFormat::Exr);
 }
 
 bool writesNumbers(const LadderOptions& options) {
@@ -290,6 +367,9 @@ Result<void> run(Session& session, const LadderOptions& options) {
     if (document->view.toneMap == ToneMap::OpenColorIo)
         return usageError("patina ladder compares displayed pictures, and the tone curve of this "
                           "scene is OpenColorIO's: choose another with --tone-map");
+    if (wantsBlame(options))
+        if (Result<void> blames = checkBlame(options, document->view); !blames)
+            return blames;
     const float aspect = static_cast<float>(frame->width) / static_cast<float>(frame->height);
     const Result<Camera> camera = chooseCamera(options, *document, request.isProject, aspect);
     if (!camera)
@@ -344,6 +424,10 @@ Result<void> run(Session& session, const LadderOptions& options) {
     session.report().table(fmt::format("Against {} paths per pixel, ± {:.2f} %, {:.1f} s:",
                                        truth->samples, 100.0 * truth->noise, truth->seconds),
                            table);
+    if (wantsBlame(options))
+        if (Result<void> blamed = blameRungs(session, options, rungs, *truth, drawer, drawn);
+            !blamed)
+            return blamed;
     json["reference"] = {{"samples", truth->samples},
                          {"noisePercent", 100.0 * truth->noise},
                          {"seconds", truth->seconds}};
