@@ -18,9 +18,10 @@ namespace {
 constexpr int kBlameSize = 24;
 constexpr std::uint32_t kBlamePaths = 16;
 
-TraceView ballView() {
+// `near`: so near that no edge is seen.
+TraceView ballView(bool near = false) {
     TraceView view;
-    view.camera.distance = 4.0f;
+    view.camera.distance = near ? 2.0f : 4.0f;
     view.camera.fovDeg = 35.0f;
     view.width = view.height = kBlameSize;
     return view;
@@ -32,7 +33,23 @@ TraceScene blamedScene(const TraceInputs& inputs) {
     return *std::move(scene);
 }
 
-// A sky that is brighter above, with a small sun.
+// A sky that is brighter above.
+ImagePtr evenSky() {
+    Image image(64, 32, 3, PixelType::F32, ColorEncoding::Linear);
+    for (std::size_t i = 0; i < image.f32().size(); ++i)
+        image.f32()[i] = 1.0f - 0.02f * static_cast<float>(i / (3 * 64));
+    return std::make_shared<const Image>(std::move(image));
+}
+
+// Bright on one side alone.
+ImagePtr halfSky() {
+    Image image(64, 32, 3, PixelType::F32, ColorEncoding::Linear);
+    for (std::size_t i = 0; i < image.f32().size(); ++i)
+        image.f32()[i] = i / 3 % 64 < 32 ? 1.0f : 0.02f;
+    return std::make_shared<const Image>(std::move(image));
+}
+
+// With a small sun.
 ImagePtr sunnySky() {
     Image image(64, 32, 3, PixelType::F32, ColorEncoding::Linear);
     for (int y = 0; y < 32; ++y)
@@ -54,15 +71,16 @@ TraceInputs glossyBall(ImagePtr sky, float metallic = 0.0f) {
     return inputs;
 }
 
-BlameFilm blameOf(const TraceScene& scene, std::uint32_t samples = kBlamePaths) {
-    Result<BlameFilm> film = traceBlame(scene, ballView(), {}, 0, samples, {});
+BlameFilm blameOf(const TraceScene& scene, std::uint32_t samples = kBlamePaths,
+                  std::uint32_t seed = 0, bool near = false) {
+    Result<BlameFilm> film = traceBlame(scene, ballView(near), {}, seed, samples, {});
     EXPECT_TRUE(film.ok());
     return *std::move(film);
 }
 
-Film tracedFilmOf(const TraceScene& scene, std::uint32_t samples = kBlamePaths) {
+Film tracedFilmOf(const TraceScene& scene, std::uint32_t samples = kBlamePaths, bool near = false) {
     Film film(kBlameSize, kBlameSize);
-    EXPECT_TRUE(tracePaths(scene, ballView(), {}, film, 0, samples, {}).ok());
+    EXPECT_TRUE(tracePaths(scene, ballView(near), {}, film, 0, samples, {}).ok());
     return film;
 }
 
@@ -158,7 +176,7 @@ TEST(BlameFilm, AConvexBodyIsItsTracedPicture) {
 TEST(BlameFilm, UniformLightLeavesNothingToFilter) {
     for (const float metallic : {0.0f, 1.0f}) {
         const BlameFilm film =
-            blameOf(blamedScene(glossyBall(test::uniformSky(2.0f), metallic)), 256);
+            blameOf(blamedScene(glossyBall(test::uniformSky(2.0f), metallic)), 1024);
         glm::dvec3 filtered(0.0), lobe(0.0), specular(0.0), diffuse(0.0), occluded(0.0);
         for (const BlameFilm::Pixel& pixel : film.pixels()) {
             filtered += pixel.of(BlameTerm::Filtered);
@@ -168,8 +186,8 @@ TEST(BlameFilm, UniformLightLeavesNothingToFilter) {
             occluded += pixel.of(BlameTerm::Occluded);
         }
         for (int c = 0; c < 3; ++c) {
-            EXPECT_NEAR(lobe[c] / filtered[c], 1.0, 0.005) << metallic;
-            EXPECT_NEAR(specular[c] / filtered[c], 1.0, 0.005) << metallic;
+            EXPECT_NEAR(lobe[c] / filtered[c], 1.0, 0.01) << metallic;
+            EXPECT_NEAR(specular[c] / filtered[c], 1.0, 0.01) << metallic;
             // What points below a face of a smooth ball is hidden by the ball.
             EXPECT_NEAR(occluded[c] / (specular[c] + diffuse[c]), 1.0, 0.002) << metallic;
         }
@@ -195,11 +213,12 @@ TEST(BlameFilm, EndsWhenItIsCancelled) {
 }
 
 TEST(Blame, StepsAreTheWholeDifference) {
-    const TraceScene scene = blamedScene(glossyBall(sunnySky()));
+    const TraceScene scene = blamedScene(glossyBall(evenSky()));
+    const BlameFilm another = blameOf(scene, 256, 7);
     for (const std::uint32_t samples : {2u, 9u, 16u}) {
         const BlameFilm film = blameOf(scene, samples);
         const Film traced = tracedFilmOf(scene, samples);
-        DrawnTerms drawn = drawnAs(film, BlameTerm::Diffuse, BlameTerm::Filtered);
+        DrawnTerms drawn = drawnAs(another, BlameTerm::Diffuse, BlameTerm::Filtered);
         for (float& value : drawn.diffuse.f32())
             value *= 0.9f; // coverage, too
         for (float& value : drawn.picture.f32())
@@ -229,24 +248,29 @@ TEST(Blame, StepsAreTheWholeDifference) {
 }
 
 TEST(Blame, OfTheTruthThereIsNone) {
-    const TraceScene scene = blamedScene(glossyBall(sunnySky()));
+    const TraceScene scene = blamedScene(glossyBall(evenSky()));
     const BlameFilm film = blameOf(scene);
     const Blame blame =
         blameFor(drawnAs(film, BlameTerm::Diffuse, BlameTerm::Specular), film, tracedFilmOf(scene));
     EXPECT_LT(blame.whole.relative, 1e-3);
-    EXPECT_FALSE(blame.whole.of(BlameCause::Bounces).relative > 1e-3);
+    EXPECT_LT(blame.whole.of(BlameCause::Bounces).relative, 1e-3);
 }
 
 // A specular term made one step of the series worse is blamed on that step alone.
 TEST(Blame, FindsTheStepThatIsWrong) {
-    const TraceScene scene = blamedScene(glossyBall(sunnySky(), 1.0f));
-    const BlameFilm film = blameOf(scene, 64);
-    const Film traced = tracedFilmOf(scene, 64);
-    const Blame split = blameFor(drawnAs(film, BlameTerm::Diffuse, BlameTerm::Lobe), film, traced);
+    // All that it reflects goes with the angle: a black metal.
+    TraceInputs inputs = glossyBall(halfSky(), 1.0f);
+    inputs.materials[0].baseColor = glm::vec3(0.0f);
+    inputs.materials[0].perceptualRoughness = 0.9f;
+    const TraceScene scene = blamedScene(inputs);
+    const BlameFilm film = blameOf(scene, 64, 0, true), another = blameOf(scene, 1024, 7, true);
+    const Film traced = tracedFilmOf(scene, 64, true);
+    const Blame split =
+        blameFor(drawnAs(another, BlameTerm::Diffuse, BlameTerm::Lobe), film, traced);
     ASSERT_TRUE(split.whole.isKnown);
     EXPECT_EQ(split.whole.largest(), BlameCause::SplitSum);
     EXPECT_NEAR(split.whole.of(BlameCause::SplitSum).share, 1.0, 0.05);
-    DrawnTerms dark = drawnAs(film, BlameTerm::Diffuse, BlameTerm::Specular);
+    DrawnTerms dark = drawnAs(another, BlameTerm::Diffuse, BlameTerm::Specular);
     for (float& value : dark.picture.f32())
         value *= 0.5f; // by occlusion: the picture without it is right
     const Blame occluded = blameFor(dark, film, traced);
