@@ -1,7 +1,7 @@
 // `patina ladder`: every way of lighting in real time against the traced picture of the same scene.
 #include "app/cli/Commands.h"
 #include "app/cli/LadderBlame.h"
-#include "app/cli/LocalShadows.h"
+#include "app/cli/LadderDrawer.h"
 #include "app/cli/PictureSetup.h"
 #include "app/cli/Report.h"
 #include "app/cli/SceneSetup.h"
@@ -15,16 +15,11 @@
 #include "core/image/Channels.h"
 #include "core/ladder/Ladder.h"
 #include "core/ladder/LadderJson.h"
-#include "core/mix/LightMix.h"
 #include "core/sheet/SheetCanvas.h"
 #include "core/sheet/WallSheet.h"
 #include "core/trace/document/DocumentTraceInputs.h"
 #include "core/trace/error/PictureErrorMap.h"
 #include "core/trace/error/SeenMaterials.h"
-#include "render/SceneRenderer.h"
-#include "render/TermPictures.h"
-#include "render/ViewRenderer.h"
-#include "render/WallRenderer.h"
 
 #include <algorithm>
 #include <array>
@@ -104,111 +99,6 @@ Result<Truth> traceTruth(Session& session, const LadderOptions& options, const D
     truth.film = std::move(film);
     return truth;
 }
-
-struct DrawnRung {
-    Image picture; // F32, linear
-    double milliseconds = 0.0;
-    PictureError error;
-    std::optional<Blame> blame; // of those that are lit by images
-};
-
-// Draws documents that differ in their lighting.
-class RungDrawer {
-  public:
-    RungDrawer(Session& session, const LadderOptions& options, render::FrameSettings frame)
-        : m_session(session)
-        , m_options(options)
-        , m_frame(std::move(frame)) {}
-
-    Result<void> begin(const Document& document) {
-        Result<std::unique_ptr<gl::Context>> context = createContext(m_session, m_frame);
-        if (!context)
-            return context.error();
-        m_context = std::move(*context);
-        m_session.beginPhase();
-        m_session.job().setActivity("preparing light");
-        if (const ImagePtr image = shownEnvironment(document).image;
-            image && !environmentParts(document).empty()) {
-            Result<EnvironmentTexelsPtr> light = prepareTexels(image, m_session.job());
-            if (!light)
-                return light.error();
-            m_light = *std::move(light);
-        }
-        Result<std::unique_ptr<render::SceneRenderer>> scene =
-            render::SceneRenderer::create(*m_context);
-        if (!scene)
-            return scene.error();
-        m_scene = std::move(*scene);
-        m_cells = std::make_unique<render::WallRenderer>(*m_scene);
-        return {};
-    }
-
-    // Twice: what its programs take to be compiled is no part of its time.
-    Result<DrawnRung> draw(Document document) {
-        const Result<render::CellView> cell = cellOf(std::move(document));
-        if (!cell)
-            return cell.error();
-        DrawnRung rung;
-        for (int time = 0; time < 2; ++time) {
-            render::ViewRenderer picture(*m_scene);
-            const auto start = std::chrono::steady_clock::now();
-            int frames = 0;
-            do {
-                if (m_session.job().stopping())
-                    return cancelledError();
-                if (Result<void> drawn = m_cells->drawFrame(*cell, picture, frames > 0); !drawn)
-                    return drawn.error();
-                ++frames;
-            } while (!render::WallRenderer::isFine(*cell, picture));
-            rung.picture = picture.readLinear();
-            rung.milliseconds = 1000.0 * secondsFrom(start) / frames;
-        }
-        return rung;
-    }
-
-    // What a document that is lit by images shows without occlusion, and the terms of that.
-    Result<DrawnTerms> terms(Document document) {
-        const Result<render::CellView> cell = cellOf(withoutOcclusion(std::move(document)));
-        if (!cell)
-            return cell.error();
-        DrawnTerms terms;
-        Result<Image> picture = render::drawFinePicture(*m_cells, *m_scene, *cell, m_session.job());
-        if (!picture)
-            return picture.error();
-        terms.unoccluded = *std::move(picture);
-        if (Result<void> drawn =
-                render::drawTerms(*m_cells, *m_scene, *cell, terms, m_session.job());
-            !drawn)
-            return drawn.error();
-        return terms;
-    }
-
-  private:
-    Result<render::CellView> cellOf(Document document) {
-        render::CellView cell;
-        cell.frame = m_frame;
-        cell.light = m_light;
-        if (isLitByBake(m_frame.view, document))
-            if (Result<void> followed = followBounces(m_session, m_frame.view, document); !followed)
-                return followed.error();
-        const Result<NearShadowsPtr> shadows = traceLocalShadows(
-            m_session, m_options, document, isLitByBake(m_frame.view, document), m_shadows);
-        if (!shadows)
-            return shadows.error();
-        cell.nearShadows = m_shadows = *shadows;
-        cell.document = std::move(document);
-        return cell;
-    }
-
-    Session& m_session;
-    const LadderOptions& m_options;
-    const render::FrameSettings m_frame;
-    std::unique_ptr<gl::Context> m_context; // outlives what it holds
-    std::unique_ptr<render::SceneRenderer> m_scene;
-    std::unique_ptr<render::WallRenderer> m_cells;
-    EnvironmentTexelsPtr m_light;
-    NearShadowsPtr m_shadows;
-};
 
 std::string evText(double ev) {
     return std::abs(ev) < 0.005 ? "0.00 EV" : fmt::format("{:+.2f} EV", ev);
@@ -294,18 +184,13 @@ Result<void> blameRungs(Session& session, const LadderOptions& options,
     const auto isImageBased = [&](std::size_t i) {
         return drawn[i] && rungs[i].document.view.lighting == LightingMode::Ibl;
     };
-    std::optional<DrawnTerms> terms; // the same of all: they differ in occlusion
     const DrawnRung* last = nullptr;
     for (std::size_t i = 0; i < rungs.size(); ++i) {
         if (!isImageBased(i))
             continue;
-        if (!terms) {
-            Result<DrawnTerms> made = drawer.terms(rungs[i].document);
-            if (!made)
-                return made.error();
-            terms = *std::move(made);
-        }
-        terms->picture = drawn[i]->picture;
+        const Result<DrawnTerms> terms = drawer.terms(rungs[i].document, drawn[i]->picture);
+        if (!terms)
+            return terms.error();
         Result<Blame> made = blame(*terms, *truth.blame, truth.film, rungs[i].document.view,
                                    truth.materials, session.job());
         if (!made)

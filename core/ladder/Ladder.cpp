@@ -38,15 +38,15 @@ Result<BakeArtifactPtr> timed(const BakeRequest& request, const BakeInputs& inpu
     return std::make_shared<const BakeArtifact>(*std::move(made));
 }
 
-} // namespace
-
-Document withoutOcclusion(Document document) {
+// Without what hides light from places.
+void removeOcclusion(Document& document) {
     std::erase_if(document.bakes,
                   [](const BakeArtifactPtr& bake) { return isOcclusion(bake->kind); });
     for (Material& material : document.materials)
         material.occlusionStrength = 0.0f;
-    return document;
 }
+
+} // namespace
 
 Result<LadderBakes> ladderBakes(const Document& document, const LadderSettings& settings,
                                 const JobContext& job) {
@@ -91,8 +91,7 @@ std::vector<LadderRung> ladderRungs(const Document& document, const LadderBakes&
     };
     add("cosine", "N·L", LightingMode::Cosine);
     add("sh", "SH irradiance", LightingMode::ShIrradiance);
-    LadderRung& open = add("ibl", "Image-based light", LightingMode::Ibl);
-    open.document = withoutOcclusion(std::move(open.document));
+    removeOcclusion(add("ibl", "Image-based light", LightingMode::Ibl).document);
     LadderRung& occluded = add("ao", "+ ambient occlusion", LightingMode::Ibl);
     attachBake(occluded.document, bakes.occlusion);
     occluded.bakeSeconds = bakes.occlusionSeconds;

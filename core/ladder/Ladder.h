@@ -28,9 +28,6 @@ struct LadderBakes {
 Result<LadderBakes> ladderBakes(const Document& document, const LadderSettings& settings,
                                 const JobContext& job);
 
-// Without what hides light from places: occlusion maps and bakes.
-[[nodiscard]] Document withoutOcclusion(Document document);
-
 struct LadderRung {
     std::string name;  // in files: "cosine"
     std::string label; // "N·L"

@@ -2,7 +2,6 @@
 #include "core/trace/blame/Blame.h"
 
 #include "core/document/ViewChoices.h"
-#include "core/ladder/Ladder.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 #include "core/material/ShadingModel.h"
@@ -46,14 +45,12 @@ class BlameOfScenes : public RenderTest {
                 makeEnvironmentTexels(image, *maps, *makeBackground(*image, JobContext())));
         }
         cell.document = document;
-        DrawnTerms terms;
-        terms.picture = *drawFinePicture(cells, sceneRenderer(), cell, {});
-        cell.document = withoutOcclusion(document);
-        terms.unoccluded = *drawFinePicture(cells, sceneRenderer(), cell, {});
-        EXPECT_TRUE(drawTerms(cells, sceneRenderer(), cell, terms, {}).ok());
-        Result<Blame> made = blame(terms, *traced, film, document.view, {}, {});
+        const Result<DrawnTerms> terms = drawTerms(
+            cells, sceneRenderer(), cell, *drawFinePicture(cells, sceneRenderer(), cell, {}), {});
+        EXPECT_TRUE(terms.ok());
+        Result<Blame> made = blame(*terms, *traced, film, document.view, {}, {});
         EXPECT_TRUE(made.ok()) << (made ? "" : made.error().message);
-        expectSum(*made, terms.picture, film);
+        expectSum(*made, terms->picture, film);
         return *std::move(made);
     }
 
@@ -144,7 +141,20 @@ TEST_F(BlameOfScenes, OcclusionAlone) {
     EXPECT_EQ(infoOf(BlameCause::Occlusion).remedy, BlameRemedy::BakeTransfer);
 }
 
-// A rectangle's shadow, which the viewport does not have.
+// An occlusion map that darkens what nothing hides: the half that the viewport does wrong itself.
+TEST_F(BlameOfScenes, OcclusionMapAlone) {
+    Document document = metalScene(0.4f);
+    document.materials[0].metallic = 0.0f;
+    document.materials[0].occlusionMap.image =
+        makeImage(4, 4, 1, PixelType::U8, ColorEncoding::Data, [](int, int, int) { return 0.4f; });
+    document.environment().image =
+        makeEnvironment(8, [](const glm::vec3&) { return glm::vec3(1.0f); });
+    const Blame blame = blameIn(document, 64);
+    expectAlone(blame, BlameCause::Occlusion);
+    EXPECT_LT(blame.whole.of(BlameCause::Occlusion).bias, -0.3) << "it is too dark";
+}
+
+// A sphere's shadow, which the viewport does not have.
 TEST_F(BlameOfScenes, LightsAlone) {
     Document document = dullScene(makePlane());
     document.view.camera = cameraAbove();
