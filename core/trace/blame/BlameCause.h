@@ -25,7 +25,6 @@ struct BlameCauseInfo {
     BlameCause cause;
     const char* name;  // in files: "splitSum"
     const char* label; // "Split sum"
-    const char* help;  // a sentence
     BlameRemedy remedy;
 };
 [[nodiscard]] const std::array<BlameCauseInfo, kBlameCauses>& blameCauses();

@@ -19,7 +19,8 @@ namespace patina {
 namespace {
 
 constexpr float kEndless = std::numeric_limits<float>::infinity();
-constexpr int kMostBacksSeen = 256; // as of paths
+constexpr int kMostBacksSeen = 256;            // as of paths
+constexpr std::uint32_t kSamplesAtATime = 256; // between two looks at the job
 
 // Pairs of dimensions of the path tracer's samples (core/trace/path/PathTracer.cpp), at the surface
 // that is seen. Others would be as right, but their noise would not cancel: a convex body's bounces
@@ -83,8 +84,9 @@ glm::vec3& of(BlameSample& sample, BlameTerm term) {
 class BlameTracer {
   public:
     BlameTracer(const TraceScene& scene, const TraceView& view, const ShadingModel& model,
-                const BlameDfg& dfg)
-        : m_scene(scene)
+                const BlameDfg& dfg, const JobContext& job)
+        : m_job(job)
+        , m_scene(scene)
         , m_view(view)
         , m_eye(scene, view)
         , m_iblVisibility(static_cast<int>(iblVisibility(model.visibility)))
@@ -97,6 +99,8 @@ class BlameTracer {
         const auto atPixel = static_cast<std::uint32_t>(y * m_view.width + x);
         m_seed = seedFor(seed, atPixel);
         for (m_index = 0; m_index < samples; ++m_index) {
+            if (m_index % kSamplesAtATime == 0 && m_job.stopping())
+                return pixel;
             if (m_index == first)
                 for (std::size_t t = 0; t < kBlameTerms; ++t)
                     pixel.firstMean[t] = shading::luminance(
@@ -300,6 +304,7 @@ class BlameTracer {
         return sum;
     }
 
+    const JobContext& m_job;
     const TraceScene& m_scene;
     const TraceView& m_view;
     Eye m_eye;
@@ -328,24 +333,22 @@ Result<BlameFilm> traceBlame(const TraceScene& scene, const TraceView& view,
     const int columns = (view.width + kTraceTile - 1) / kTraceTile,
               rows = (view.height + kTraceTile - 1) / kTraceTile;
     std::atomic<int> done = 0;
-    parallelFor(job, static_cast<std::size_t>(columns * rows), 1,
-                [&](std::size_t begin, std::size_t end) {
-                    const FlushDenormals flush;
-                    for (std::size_t tile = begin; tile < end; ++tile) {
-                        BlameTracer tracer(scene, view, model, dfg);
-                        const int x0 = static_cast<int>(tile) % columns * kTraceTile,
-                                  y0 = static_cast<int>(tile) / columns * kTraceTile;
-                        for (int y = y0; y < std::min(y0 + kTraceTile, view.height); ++y)
-                            for (int x = x0; x < std::min(x0 + kTraceTile, view.width); ++x) {
-                                if (job.stopping())
-                                    return;
-                                film.pixels()[static_cast<std::size_t>(y * view.width + x)] =
-                                    tracer.pixel(x, y, seed, samples);
-                            }
-                        job.addWork(static_cast<double>(tracer.rays()), "rays");
-                        job.setProgress(static_cast<double>(++done) / (columns * rows));
+    parallelFor(
+        job, static_cast<std::size_t>(columns * rows), 1, [&](std::size_t begin, std::size_t end) {
+            const FlushDenormals flush;
+            for (std::size_t tile = begin; tile < end; ++tile) {
+                BlameTracer tracer(scene, view, model, dfg, job);
+                const int x0 = static_cast<int>(tile) % columns * kTraceTile,
+                          y0 = static_cast<int>(tile) / columns * kTraceTile;
+                for (int y = y0; y < std::min(y0 + kTraceTile, view.height) && !job.stopping(); ++y)
+                    for (int x = x0; x < std::min(x0 + kTraceTile, view.width); ++x) {
+                        film.pixels()[static_cast<std::size_t>(y * view.width + x)] =
+                            tracer.pixel(x, y, seed, samples);
                     }
-                });
+                job.addWork(static_cast<double>(tracer.rays()), "rays");
+                job.setProgress(static_cast<double>(++done) / (columns * rows));
+            }
+        });
     if (job.stopping())
         return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
     return film;

@@ -23,8 +23,7 @@ double coverageAt(const Image& image, std::size_t pixel) {
     return static_cast<double>(image.f32()[4 * pixel + 3]);
 }
 
-// The terms of a pixel, as colours or as luminances. `share`: of the surface in the traced pixel to
-// that in the drawn one, nothing where one of them has none.
+// The terms of a pixel, as colours or as luminances.
 template <class T>
 struct Terms {
     T picture, unoccluded, diffuse, specular, direct; // drawn
@@ -36,6 +35,7 @@ struct Terms {
     }
 };
 
+// `comparable`: both pixels show a surface.
 template <class T>
 std::array<T, kBlameCauses> stepsOf(const Terms<T>& terms, bool comparable) {
     std::array<T, kBlameCauses> steps{};
