@@ -1,6 +1,7 @@
 #include "render/RungRenderer.h"
 
 #include "render/SceneRenderer.h"
+#include "render/TermPictures.h"
 #include "render/ViewRenderer.h"
 #include "render/WallRenderer.h"
 
@@ -17,13 +18,24 @@ RungRenderer::RungRenderer(SceneRenderer& scene, FrameSettings frame, Environmen
 
 RungRenderer::~RungRenderer() = default;
 
-Result<RungRenderer::Drawn> RungRenderer::draw(Document document, NearShadowsPtr shadows,
-                                               const JobContext& job) {
+CellView RungRenderer::cellOf(Document document, NearShadowsPtr shadows) const {
     CellView cell;
     cell.frame = m_frame;
     cell.light = m_light;
     cell.nearShadows = std::move(shadows);
     cell.document = std::move(document);
+    return cell;
+}
+
+Result<DrawnTerms> RungRenderer::terms(Document document, NearShadowsPtr shadows, Image picture,
+                                       const JobContext& job) {
+    return drawTerms(*m_cells, m_scene, cellOf(std::move(document), std::move(shadows)),
+                     std::move(picture), job);
+}
+
+Result<RungRenderer::Drawn> RungRenderer::draw(Document document, NearShadowsPtr shadows,
+                                               const JobContext& job) {
+    const CellView cell = cellOf(std::move(document), std::move(shadows));
     Drawn drawn;
     for (int time = 0; time < 2; ++time) { // the first compiles its programs
         ViewRenderer picture(m_scene);

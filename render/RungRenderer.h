@@ -8,6 +8,8 @@
 #include "core/image/Image.h"
 #include "core/job/JobContext.h"
 #include "core/light/EnvironmentTexels.h"
+#include "core/trace/blame/Blame.h"
+#include "render/WallRenderer.h"
 #include "render/view/FrameSettings.h"
 
 #include <memory>
@@ -15,7 +17,6 @@
 namespace patina::render {
 
 class SceneRenderer;
-class WallRenderer;
 
 class RungRenderer {
   public:
@@ -32,7 +33,13 @@ class RungRenderer {
     // Cancelled, which is asked for between frames.
     Result<Drawn> draw(Document document, NearShadowsPtr shadows, const JobContext& job);
 
+    // Of a document that is lit by images; `picture` is what draw() made of it. Errors as draw()'s.
+    Result<DrawnTerms> terms(Document document, NearShadowsPtr shadows, Image picture,
+                             const JobContext& job);
+
   private:
+    [[nodiscard]] CellView cellOf(Document document, NearShadowsPtr shadows) const;
+
     SceneRenderer& m_scene;
     FrameSettings m_frame;
     EnvironmentTexelsPtr m_light;

@@ -1,6 +1,7 @@
 // `patina ladder`: every way of lighting in real time against the traced picture of the same scene.
 #include "app/cli/Commands.h"
-#include "app/cli/LocalShadows.h"
+#include "app/cli/LadderBlame.h"
+#include "app/cli/LadderDrawer.h"
 #include "app/cli/PictureSetup.h"
 #include "app/cli/Report.h"
 #include "app/cli/SceneSetup.h"
@@ -15,12 +16,9 @@
 #include "core/ladder/Ladder.h"
 #include "core/ladder/LadderJson.h"
 #include "core/ladder/LadderTruth.h"
-#include "core/mix/LightMix.h"
 #include "core/sheet/SheetCanvas.h"
 #include "core/sheet/WallSheet.h"
 #include "core/trace/error/PictureErrorMap.h"
-#include "render/RungRenderer.h"
-#include "render/SceneRenderer.h"
 
 #include <algorithm>
 #include <array>
@@ -49,6 +47,7 @@ Result<LadderTruth> traceTruth(Session& session, const LadderOptions& options,
         return set.error();
     LadderTruthSettings settings;
     settings.samples = static_cast<std::uint32_t>(options.paths);
+    settings.blame = wantsBlame(options);
     if (options.noise)
         settings.noise = *options.noise / 100.0;
     Result<LadderTruth> truth = traceLadderTruth(document, view, settings, session.job());
@@ -56,66 +55,6 @@ Result<LadderTruth> traceTruth(Session& session, const LadderOptions& options,
         session.report().warn(*truth->limit);
     return truth;
 }
-
-struct DrawnRung {
-    render::RungRenderer::Drawn drawn;
-    PictureError error;
-};
-
-// Draws documents that differ in their lighting.
-class RungDrawer {
-  public:
-    RungDrawer(Session& session, const LadderOptions& options, render::FrameSettings frame)
-        : m_session(session)
-        , m_options(options)
-        , m_frame(std::move(frame)) {}
-
-    Result<void> begin(const Document& document) {
-        Result<std::unique_ptr<gl::Context>> context = createContext(m_session, m_frame);
-        if (!context)
-            return context.error();
-        m_context = std::move(*context);
-        m_session.beginPhase();
-        m_session.job().setActivity("preparing light");
-        EnvironmentTexelsPtr light;
-        if (const ImagePtr image = shownEnvironment(document).image;
-            image && !environmentParts(document).empty()) {
-            Result<EnvironmentTexelsPtr> texels = prepareTexels(image, m_session.job());
-            if (!texels)
-                return texels.error();
-            light = *std::move(texels);
-        }
-        Result<std::unique_ptr<render::SceneRenderer>> scene =
-            render::SceneRenderer::create(*m_context);
-        if (!scene)
-            return scene.error();
-        m_scene = std::move(*scene);
-        m_rungs = std::make_unique<render::RungRenderer>(*m_scene, m_frame, std::move(light));
-        return {};
-    }
-
-    Result<render::RungRenderer::Drawn> draw(Document document) {
-        const bool baked = isLitByBake(m_frame.view, document);
-        if (baked)
-            if (Result<void> followed = followBounces(m_session, m_frame.view, document); !followed)
-                return followed.error();
-        const Result<NearShadowsPtr> shadows =
-            traceLocalShadows(m_session, m_options, document, baked, m_shadows);
-        if (!shadows)
-            return shadows.error();
-        m_shadows = *shadows;
-        return m_rungs->draw(std::move(document), m_shadows, m_session.job());
-    }
-
-  private:
-    Session& m_session;
-    const LadderOptions& m_options;
-    const render::FrameSettings m_frame;
-    std::unique_ptr<gl::Context> m_context; // outlives what it holds
-    std::unique_ptr<render::SceneRenderer> m_scene;
-    std::unique_ptr<render::RungRenderer> m_rungs;
-    NearShadowsPtr m_shadows;
-};
 
 std::string evText(double ev) {
     return std::abs(ev) < 0.005 ? "0.00 EV" : fmt::format("{:+.2f} EV", ev);
@@ -134,7 +73,7 @@ Result<Image> ladderSheet(const std::vector<LadderRung>& rungs,
     for (std::size_t i = 0; i < rungs.size(); ++i)
         columns.entries.push_back(
             {drawn[i] ? fmt::format("{} · {} · {:.0f} ms", rungs[i].label,
-                                    scoreText(drawn[i]->error.whole), drawn[i]->drawn.milliseconds)
+                                    scoreText(drawn[i]->error.whole), drawn[i]->milliseconds)
                       : rungs[i].label,
              {}});
     columns.entries.push_back({fmt::format("Path traced · ± {:.1f} %", 100.0 * truth.noise), {}});
@@ -163,8 +102,8 @@ Result<Image> ladderSheet(const std::vector<LadderRung>& rungs,
                          errorPicture(drawn[cell.column]->error, kShownErrors[cell.row - 1]));
         } else {
             Result<Image> shown = displayedPicture(
-                isTruth ? truth.picture.radiance : withoutAlpha(drawn[cell.column]->drawn.picture),
-                view, luminance);
+                isTruth ? truth.picture.radiance : withoutAlpha(drawn[cell.column]->picture), view,
+                luminance);
             if (!shown)
                 return shown.error();
             sheet::paste(picture, place.x, place.y, *shown);
@@ -179,15 +118,49 @@ nlohmann::ordered_json describeRungs(const std::vector<LadderRung>& rungs,
     for (std::size_t i = 0; i < rungs.size(); ++i) {
         nlohmann::ordered_json one = {{"name", rungs[i].name}, {"label", rungs[i].label}};
         if (drawn[i]) {
-            one["milliseconds"] = drawn[i]->drawn.milliseconds;
+            one["milliseconds"] = drawn[i]->milliseconds;
             one["bakeSeconds"] = rungs[i].bakeSeconds;
             one["error"] = errorJson(drawn[i]->error, rungs[i].document);
+            if (drawn[i]->blame)
+                one["blame"] = blameJson(*drawn[i]->blame, rungs[i].document);
         } else {
             one["problem"] = rungs[i].whyNot;
         }
         list.push_back(std::move(one));
     }
     return list;
+}
+
+// Which shortcut makes which share of the errors of the rungs that are lit by images.
+Result<void> blameRungs(Session& session, const LadderOptions& options,
+                        const std::vector<LadderRung>& rungs, const LadderTruth& truth,
+                        RungDrawer& drawer, std::vector<std::optional<DrawnRung>>& drawn) {
+    session.beginPhase();
+    session.job().setActivity("drawing the terms of image-based light");
+    const auto isImageBased = [&](std::size_t i) {
+        return drawn[i] && rungs[i].document.view.lighting == LightingMode::Ibl;
+    };
+    const DrawnRung* last = nullptr;
+    for (std::size_t i = 0; i < rungs.size(); ++i) {
+        if (!isImageBased(i))
+            continue;
+        const Result<DrawnTerms> terms = drawer.terms(rungs[i].document, drawn[i]->picture);
+        if (!terms)
+            return terms.error();
+        Result<Blame> made = blame(*terms, *truth.blame, truth.film, rungs[i].document.view,
+                                   truth.materials, session.job());
+        if (!made)
+            return made.error();
+        drawn[i]->blame = *std::move(made);
+        session.report().table(fmt::format("Blame, {}:", rungs[i].label),
+                               blameTable(*drawn[i]->blame));
+        last = &*drawn[i];
+    }
+    if (options.blamePictures.empty() || last == nullptr)
+        return {};
+    return writePictures(session, options.blamePictures,
+                         blameParts(*last->blame, last->picture, truth.picture.radiance),
+                         ImageFileFormat::Exr);
 }
 
 bool writesNumbers(const LadderOptions& options) {
@@ -235,6 +208,9 @@ Result<void> run(Session& session, const LadderOptions& options) {
     if (document->view.toneMap == ToneMap::OpenColorIo)
         return usageError("patina ladder compares displayed pictures, and the tone curve of this "
                           "scene is OpenColorIO's: choose another with --tone-map");
+    if (wantsBlame(options))
+        if (Result<void> blames = checkBlame(options, document->view); !blames)
+            return blames;
     const float aspect = static_cast<float>(frame->width) / static_cast<float>(frame->height);
     const Result<Camera> camera = chooseCamera(options, *document, request.isProject, aspect);
     if (!camera)
@@ -267,20 +243,21 @@ Result<void> run(Session& session, const LadderOptions& options) {
             table.emplace_back(rungs[i].label, rungs[i].whyNot);
             continue;
         }
-        Result<render::RungRenderer::Drawn> picture = drawer.draw(rungs[i].document);
-        if (!picture)
-            return picture.error();
-        Result<PictureError> error = pictureError(picture->picture, truth->picture, document->view,
+        Result<DrawnRung> rung = drawer.draw(rungs[i].document);
+        if (!rung)
+            return rung.error();
+        Result<PictureError> error = pictureError(rung->picture, truth->picture, document->view,
                                                   truth->materials, session.job());
         if (!error)
             return error.error();
-        drawn[i] = DrawnRung{*std::move(picture), *std::move(error)};
+        rung->error = *std::move(error);
+        drawn[i] = *std::move(rung);
         const ErrorScore& score = drawn[i]->error.whole;
         table.emplace_back(
             rungs[i].label,
             fmt::format("FLIP {:.3f} (noise {:.3f})  {:>8}  relative {:5.1f} %  {:5.0f} ms{}",
                         score.flip, score.flipNoise, evText(score.biasEv), 100.0 * score.relative,
-                        drawn[i]->drawn.milliseconds,
+                        drawn[i]->milliseconds,
                         rungs[i].bakeSeconds > 0.0
                             ? fmt::format("  baked in {:.1f} s", rungs[i].bakeSeconds)
                             : std::string()));
@@ -288,6 +265,10 @@ Result<void> run(Session& session, const LadderOptions& options) {
     session.report().table(fmt::format("Against {} paths per pixel, ± {:.2f} %, {:.1f} s:",
                                        truth->samples, 100.0 * truth->noise, truth->seconds),
                            table);
+    if (wantsBlame(options))
+        if (Result<void> blamed = blameRungs(session, options, rungs, *truth, drawer, drawn);
+            !blamed)
+            return blamed;
     json["reference"] = {{"samples", truth->samples},
                          {"noisePercent", 100.0 * truth->noise},
                          {"seconds", truth->seconds}};

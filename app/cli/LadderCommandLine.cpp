@@ -29,6 +29,11 @@ void CommandParser::addLadder() {
         ->check(plain(CLI::Range(16, 65536)))
         ->capture_default_str()
         ->type_name("N");
+    c->add_flag("--blame", o.blame,
+                "Says which shortcut of image-based light makes how much of its error");
+    c->add_option("--blame-pictures", o.blamePictures,
+                  "What each shortcut adds to the picture or lacks, as parts of an .exr")
+        ->type_name("FILE");
     addLook(c, o);
     c->add_option("--background", o.background,
                   "visible, blurred, transparent (or off), or a colour as R,G,B or #rrggbb")

@@ -85,6 +85,8 @@ struct LadderOptions : PictureOptions {
     int paths = 256;             // per pixel, at most
     std::optional<double> noise; // ends there, percent of the mean
     int order = 5, rays = 256;   // of what is baked
+    bool blame = false;          // which shortcut makes which share of the errors
+    std::string blamePictures;   // .exr; empty: none
 };
 struct SheetOptions : PictureOptions {
     SheetOptions() { size = "320x240"; } // of a cell

@@ -70,7 +70,7 @@ MainWindow::MainWindow(Session& session)
     m_viewport->setLobe(session.lobe);
     m_viewport->setViews(session.views);
     m_viewport->setWall(session.wall, session.comparison);
-    m_viewport->setPaths(session.paths, session.pathError);
+    m_viewport->setPaths(session.paths, session.pathError, session.pathBlame);
     m_viewport->setProbe(session.probe);
 
     auto* centre = new QWidget;
@@ -87,7 +87,7 @@ MainWindow::MainWindow(Session& session)
     layout->addWidget(m_viewport, 1);
     auto* wallOverlay = new WallOverlay(session.wall, session.comparison, *m_viewport);
     new SplitHandle(session.comparison, *m_viewport);
-    new PathErrorOverlay(session.pathError, *m_viewport);
+    new PathErrorOverlay(session.pathError, session.pathBlame, *m_viewport);
     auto* badge = new PathBadge(
         session.paths, session.pathError, session.heat, session.views,
         new TransferRemedy(session.pathError, session.controller, session.bakes), *m_viewport);

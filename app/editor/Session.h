@@ -12,6 +12,7 @@
 #include "app/editor/job/UiTasks.h"
 #include "app/editor/library/EnvironmentLibrary.h"
 #include "app/editor/library/EnvironmentPreview.h"
+#include "app/editor/trace/PathBlame.h"
 #include "app/editor/trace/PathError.h"
 #include "app/editor/trace/PathView.h"
 #include "app/editor/trace/RayTreeProbe.h"
@@ -48,6 +49,7 @@ struct Session {
     LobeOnSurface lobe{controller, probe};
     PathView paths{controller};
     PathError pathError{controller, paths};
+    PathBlame pathBlame{controller, paths, pathError};
     RayTreeProbe rayTree{controller, paths};
     WhittedHeat heat{controller, paths};
     JobManager jobs{controller};

@@ -49,7 +49,15 @@ traceLadderTruth(const Document& document, const TraceView& view,
             break;
     }
     truth.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (settings.blame) {
+        job.setActivity("tracing what each shortcut stands for");
+        Result<BlameFilm> blame = traceBlame(*scene, view, document.model, 0, truth.samples, job);
+        if (!blame)
+            return blame.error();
+        truth.blame = *std::move(blame);
+    }
     truth.picture = *tracedPicture(film);
+    truth.film = std::move(film);
     truth.materials = seenMaterials(*scene, view, job);
     if (truth.materials.empty())
         return cancelledTruth();

@@ -4,6 +4,7 @@
 #include "core/base/Id.h"
 #include "core/base/Result.h"
 #include "core/job/JobContext.h"
+#include "core/trace/blame/BlameFilm.h"
 #include "core/trace/error/TracedPicture.h"
 #include "core/trace/path/PathTracer.h"
 
@@ -20,10 +21,13 @@ struct Document;
 struct LadderTruthSettings {
     std::uint32_t samples = 256; // paths per pixel at most, at least 4
     std::optional<double> noise; // Film::noise() that ends it, a share of the mean
+    bool blame = false;          // also what blame needs, from as many paths
 };
 
 struct LadderTruth {
     TracedPicture picture;
+    Film film;
+    std::optional<BlameFilm> blame;   // where it was wanted
     std::vector<Id> materials;        // seenMaterials() of it
     std::uint32_t samples = 0;        // paths of each pixel
     double noise = 0.0;               // Film::noise()

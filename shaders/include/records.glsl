@@ -171,6 +171,8 @@ void recordIbl(SurfaceTerms s, vec3 dfg, vec3 arriving, vec3 prefiltered, Shaded
     record(kViewSpecularOcclusion, open);
     ShadedLight unhidden = mixed(shadeEnvironment(s, arriving, prefiltered));
     recordPart(kViewAo, unhidden.diffuse + unhidden.specular - ambient.diffuse - specular, alpha);
+    recordPart(kViewDiffuseOcclusion, unhidden.diffuse - ambient.diffuse, alpha);
+    recordPart(kViewSpecularOcclusion, unhidden.specular - specular, alpha);
     recordPart(kViewIblFresnel, specular * (1.0 - min(s.f0 / max(meanFresnel, vec3(1e-4)), vec3(1.0))),
                alpha);
     recordPart(kViewTransmission,

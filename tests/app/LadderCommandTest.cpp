@@ -66,6 +66,34 @@ TEST_F(Ladder, UnderEvenLightOnlyTheSingleLightIsWrong) {
     ASSERT_EQ(rung(json, "ibl")["error"]["materials"].size(), 1u);
 }
 
+// A ball in a sky with a sun: what is wrong is not what it hides.
+TEST_F(Ladder, BlameSaysWhichShortcutMakesTheError) {
+    std::vector<std::string> arguments = plain();
+    const std::string pictures = m_folder / "blame.exr";
+    arguments.insert(arguments.end(), {"--environment", "builtin:sunset", "--size", "48x36",
+                                       "--samples", "64", "--blame-pictures", pictures});
+    const Outcome outcome = ladder(arguments);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const nlohmann::json json = nlohmann::json::parse(outcome.out);
+    for (const char* name : {"ibl", "ao"}) {
+        const nlohmann::json& blame = rung(json, name)["blame"];
+        ASSERT_EQ(blame["causes"].size(), 8u) << name;
+        double sum = 0.0;
+        for (const nlohmann::json& cause : blame["causes"])
+            sum += cause["share"].get<double>();
+        EXPECT_NEAR(sum, 1.0, 1e-6) << name;
+        EXPECT_EQ(blame["materials"].size(), 1u);
+        EXPECT_TRUE(blame["remedy"].is_string());
+    }
+    EXPECT_FALSE(rung(json, "sh").contains("blame")) << "image-based light alone is taken apart";
+    EXPECT_FALSE(rung(json, "prt").contains("blame"));
+    const Result<LoadedImage> parts = loadImage(m_worker, pictures);
+    ASSERT_TRUE(parts.ok());
+    EXPECT_EQ(parts->parts.size(), 10u);
+    EXPECT_EQ(ladder({"--blame-pictures", m_folder / "blame.png"}).status, 2);
+    EXPECT_EQ(ladder({"--blame", "--set", "view.reflectionMix=0.3"}).status, 2);
+}
+
 TEST_F(Ladder, ASheetShowsThem) {
     const Outcome outcome = ladder({"--size", "48x32", "--samples", "4"}, "ladder.png");
     ASSERT_EQ(outcome.status, 0) << outcome.err;

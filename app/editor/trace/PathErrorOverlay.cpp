@@ -3,6 +3,7 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/QtText.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/trace/PathBlame.h"
 #include "app/editor/trace/PathError.h"
 #include "core/document/Document.h"
 #include "core/material/Material.h"
@@ -50,9 +51,10 @@ double luminanceAt(const Image& image, std::size_t pixel) {
 
 } // namespace
 
-PathErrorOverlay::PathErrorOverlay(PathError& error, QWidget& viewport)
+PathErrorOverlay::PathErrorOverlay(PathError& error, PathBlame& blame, QWidget& viewport)
     : QWidget(&viewport)
     , m_error(error)
+    , m_blame(blame)
     , m_viewport(viewport) {
     setObjectName(QStringLiteral("pathError"));
     setAttribute(Qt::WA_TransparentForMouseEvents);
@@ -60,12 +62,13 @@ PathErrorOverlay::PathErrorOverlay(PathError& error, QWidget& viewport)
     hide();
     viewport.installEventFilter(this);
     connect(&error, &PathError::changed, this, &PathErrorOverlay::follow);
+    connect(&blame, &PathBlame::changed, this, &PathErrorOverlay::follow);
 }
 
 void PathErrorOverlay::follow() {
     setVisible(m_error.isOn());
     setGeometry(m_viewport.rect());
-    setAccessibleDescription(lines().join(QLatin1Char('\n')));
+    setAccessibleDescription((lines() + causes().lines()).join(QLatin1Char('\n')));
     update();
 }
 
@@ -147,6 +150,21 @@ QString PathErrorOverlay::pointedLine() const {
     return measured->error.withinNoise[pixel] != 0 ? values + tr(" (noise)") : values;
 }
 
+BlameBars PathErrorOverlay::causes() const {
+    if (!m_error.measured())
+        return {};
+    if (!m_blame.problem().isEmpty())
+        return {tr("Causes"), {}, m_blame.problem()};
+    if (!m_blame.found())
+        return {tr("Causes"), {}, tr("Drawing and tracing…")};
+    std::optional<QPointF> position;
+    if (m_pointer && width() > 0 && height() > 0)
+        position = QPointF(m_pointer->x() / width(), m_pointer->y() / height());
+    const BlameScore& score = m_blame.scoreAt(position);
+    const Material* material = m_error.controller().document().material(score.material);
+    return blameBars(score, material != nullptr ? toQString(material->name) : tr("picture"));
+}
+
 int PathErrorOverlay::paintLegend(QPainter& painter, const QRect& box, int y) const {
     const auto shown = errorShown(m_error.isPeeking() ? PathPicture::Drawn : m_error.shown());
     if (!shown)
@@ -192,8 +210,10 @@ void PathErrorOverlay::paintEvent(QPaintEvent*) {
         errorShown(m_error.isPeeking() ? PathPicture::Drawn : m_error.shown()).has_value();
     const int legend = hasLegend ? kBarHeight + 2 * line + tokens::kGap : 0;
     const int rows = static_cast<int>(texts.size()) + (pointed.isEmpty() ? 0 : 1);
+    const BlameBars bars = causes();
+    const int barsHeight = bars.title.isEmpty() ? 0 : bars.height(fontMetrics());
     const QRect box(width() - widest - 3 * margin, margin, widest + 2 * margin,
-                    legend + rows * line + 2 * margin);
+                    legend + rows * line + barsHeight + 2 * margin);
     QColor behind(tokens::kPanel);
     behind.setAlpha(kBoxAlpha);
     painter.setPen(Qt::NoPen);
@@ -219,6 +239,8 @@ void PathErrorOverlay::paintEvent(QPaintEvent*) {
                 Qt::AlignRight | Qt::AlignVCenter, columns[c]);
         y += line;
     }
+    if (barsHeight > 0)
+        bars.paint(painter, QRect(inner.left(), y, inner.width(), barsHeight));
 }
 
 } // namespace patina::editor

@@ -2,18 +2,21 @@
 // legend, as scores of the picture and its materials, and under the pointer.
 #pragma once
 
+#include "app/editor/trace/BlameBars.h"
+
 #include <QStringList>
 #include <QWidget>
 #include <optional>
 
 namespace patina::editor {
 
+class PathBlame;
 class PathError;
 
 class PathErrorOverlay : public QWidget {
     Q_OBJECT
   public:
-    PathErrorOverlay(PathError& error, QWidget& viewport);
+    PathErrorOverlay(PathError& error, PathBlame& blame, QWidget& viewport);
     // A line each, as it is shown.
     [[nodiscard]] QStringList lines() const;
 
@@ -24,9 +27,12 @@ class PathErrorOverlay : public QWidget {
   private:
     void follow();
     [[nodiscard]] QString pointedLine() const; // of the pixel under the pointer
+    // Of the material under the pointer or of the picture; without a title: there are none.
+    [[nodiscard]] BlameBars causes() const;
     int paintLegend(QPainter& painter, const QRect& box, int y) const; // returns what is below
 
     PathError& m_error;
+    PathBlame& m_blame;
     QWidget& m_viewport;
     std::optional<QPointF> m_pointer; // in the viewport
 };

@@ -235,6 +235,13 @@ void PathView::take(const Result<Pass>& pass) {
     Q_EMIT changed();
 }
 
+// The view is complete since the first picture: what is blurred behind the scene is part of it.
+PathView::Subject PathView::subject() const {
+    if (!m_work || !m_hasFirst || m_stale)
+        return {};
+    return {m_scene, m_work->view, m_work->inputs.model};
+}
+
 // As the viewport blurs it, from small maps: what is blurred has no detail.
 Result<void> PathView::blurBackground(Work& work, const JobContext& job) {
     if (!work.behind)

@@ -76,6 +76,13 @@ class PathView : public QObject {
     };
     // Of the newest picture of full size.
     [[nodiscard]] const Reference& reference() const { return m_reference; }
+    // What it traces, of full size; without a scene where there is no picture yet.
+    struct Subject {
+        std::shared_ptr<const TraceScene> scene;
+        TraceView view;
+        ShadingModel model;
+    };
+    [[nodiscard]] Subject subject() const;
     // Grows whenever it begins anew.
     [[nodiscard]] std::uint64_t number() const { return m_number; }
 

@@ -1,6 +1,8 @@
 // The part of ViewportWidget that shows what paths bring, in place of its own frames.
+#include "app/editor/trace/PathBlame.h"
 #include "app/editor/trace/PathError.h"
 #include "app/editor/trace/PathView.h"
+#include "app/editor/viewport/TermDrawing.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "core/base/Log.h"
 
@@ -9,10 +11,27 @@
 #include <QOpenGLFunctions>
 
 namespace patina::editor {
+namespace {
 
-void ViewportWidget::setPaths(PathView& paths, PathError& error) {
+// A frame as the viewport's own, in pixels of that size, of which several make the picture.
+render::FrameSettings accumulating(render::FrameSettings frame, const QSize& size) {
+    frame.width = size.width();
+    frame.height = size.height();
+    frame.shownWidth = frame.shownHeight = 0;
+    frame.samples = 1;
+    frame.accumulate = frame.floats = true;
+    frame.coarse = frame.dither = frame.showOverlays = frame.reuseScene = frame.keepPicture = false;
+    frame.radiance = nullptr;
+    return frame;
+}
+
+} // namespace
+
+void ViewportWidget::setPaths(PathView& paths, PathError& error, PathBlame& blame) {
     m_paths = &paths;
     m_pathError = &error;
+    m_pathBlame = &blame;
+    connect(&blame, &PathBlame::termsWanted, this, qOverload<>(&QWidget::update));
     connect(&error, &PathError::drawnWanted, this, qOverload<>(&QWidget::update));
     connect(&paths, &PathView::changed, this, [this] {
         if (!m_paths->isOn())
@@ -37,13 +56,7 @@ void ViewportWidget::drawForError(render::FrameSettings frame) {
     } else {
         m_drawn->resume();
     }
-    frame.width = sizeAt(1.0f).width();
-    frame.height = sizeAt(1.0f).height();
-    frame.shownWidth = frame.shownHeight = 0;
-    frame.samples = 1;
-    frame.accumulate = frame.floats = true;
-    frame.coarse = frame.dither = frame.showOverlays = frame.reuseScene = frame.keepPicture = false;
-    frame.radiance = nullptr;
+    frame = accumulating(frame, sizeAt(1.0f));
     if (const Result<void> drawn = m_drawn->render(frame, render::ViewRenderer::kNowhere); !drawn) {
         logError("the picture to compare with could not be drawn: {}", drawn.error().text());
         m_drawn.reset();
@@ -53,6 +66,31 @@ void ViewportWidget::drawForError(render::FrameSettings frame) {
     if (frames == 0 || frames >= render::ViewRenderer::kSteadyFrames) {
         m_pathError->setDrawn(m_drawn->readLinear());
         m_drawn.reset();
+    } else {
+        update();
+    }
+}
+
+// The terms of the picture, once the picture itself is there.
+void ViewportWidget::drawForBlame(const render::FrameSettings& frame) {
+    if (!m_pathBlame->wantsTerms()) {
+        m_terms.reset();
+        return;
+    }
+    if (m_pathError->wantsDrawn() || m_pacing.moving() || m_gate.waiting())
+        return;
+    if (!m_terms || m_termsWanted != m_pathBlame->wantedTerms()) {
+        bringIn();
+        m_terms = std::make_unique<TermDrawing>(*m_scene, accumulating(frame, m_pathBlame->size()));
+        m_termsWanted = m_pathBlame->wantedTerms();
+    }
+    const Result<bool> complete = m_terms->drawFrame();
+    if (!complete) {
+        logError("the terms of the picture could not be drawn: {}", complete.error().text());
+        m_terms.reset();
+    } else if (*complete) {
+        m_pathBlame->setTerms(m_terms->take());
+        m_terms.reset();
     } else {
         update();
     }
@@ -80,6 +118,7 @@ bool ViewportWidget::paintPaths(render::FrameSettings frame) {
         logError("the traced picture could not be shown: {}", drawn.error().text());
     m_viewFeed.endFrame(*m_renderer);
     drawForError(ordinary);
+    drawForBlame(ordinary);
     context()->functions()->glFinish();
     const double milliseconds = static_cast<double>(clock.nsecsElapsed()) * 1e-6;
     m_slowestFrameMs = std::max(m_slowestFrameMs, milliseconds);

@@ -9,6 +9,7 @@
 #include "app/editor/trace/PathView.h"
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/LobeOnSurface.h"
+#include "app/editor/viewport/TermDrawing.h"
 #include "app/editor/wall/WallState.h"
 #include "core/base/Log.h"
 #include "core/document/ViewChoices.h"
@@ -297,6 +298,7 @@ void ViewportWidget::releaseGl() {
     m_wallShown = false;
     m_thumbnails.reset();
     m_drawn.reset();
+    m_terms.reset();
     m_documentPicture.reset();
     m_previewLight = render::kDocumentLight;
     m_renderer.reset();

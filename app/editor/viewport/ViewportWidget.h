@@ -26,6 +26,7 @@
 #include <QOpenGLWidget>
 #include <QTimer>
 #include <memory>
+#include <utility>
 
 class QAction;
 
@@ -48,9 +49,11 @@ class IblUpdater;
 class BakeService;
 class JobManager;
 class LobeOnSurface;
+class PathBlame;
 class PathError;
 class PathView;
 class SelectionModel;
+class TermDrawing;
 class ViewState;
 class WallComparison;
 class WallState;
@@ -77,7 +80,7 @@ class ViewportWidget : public QOpenGLWidget {
     void setWall(WallState& wall,
                  WallComparison& comparison); // whether many of it are shown beside each other
     // Whose picture is shown while it is on, and who measures the drawn one against it.
-    void setPaths(PathView& paths, PathError& error);
+    void setPaths(PathView& paths, PathError& error, PathBlame& blame);
     // What the library lights the scene with is faded to while `wanted` is checked.
     void setFade(EnvironmentLibrary& library, QAction& wanted);
     // What is looked at before it is used is shown in the picture, or in the wall's current cell.
@@ -173,6 +176,7 @@ class ViewportWidget : public QOpenGLWidget {
     // The traced picture in place of the frame's; false: there is none of what it shows.
     [[nodiscard]] bool paintPaths(render::FrameSettings frame);
     void drawForError(render::FrameSettings frame);
+    void drawForBlame(const render::FrameSettings& frame);
     [[nodiscard]] QSize sizeAt(float scale) const; // in device pixels
     void bringIn(); // what the background has prepared since the last frame
     // The rest of the frame that is shown next, in slices that input does not wait for.
@@ -210,8 +214,11 @@ class ViewportWidget : public QOpenGLWidget {
     LobeOnSurface* m_lobe = nullptr;
     PathView* m_paths = nullptr;
     PathError* m_pathError = nullptr;
-    std::unique_ptr<render::ViewRenderer> m_drawn; // for it; null: none is under way
-    std::uint64_t m_drawnWanted = 0;               // which of PathError's m_drawn is
+    PathBlame* m_pathBlame = nullptr;
+    std::unique_ptr<render::ViewRenderer> m_drawn;         // for it; null: none is under way
+    std::uint64_t m_drawnWanted = 0;                       // which of PathError's m_drawn is
+    std::unique_ptr<TermDrawing> m_terms;                  // for PathBlame; null: none is under way
+    std::pair<std::uint64_t, std::uint64_t> m_termsWanted; // which of its terms
     IblUpdater* m_ibl;
     ViewportHand m_hand;
     PreviewFeed m_preview;

@@ -97,6 +97,10 @@ Image dataLike(const Image& image) {
 
 } // namespace
 
+double darkLuminance(const View& view, const Luminance& luminance) {
+    return kDarkShare / std::max(static_cast<double>(exposureScale(view, luminance)), 1e-12);
+}
+
 Result<PictureError> pictureError(const Image& drawn, const TracedPicture& traced, const View& view,
                                   std::span<const Id> materials, const JobContext& job) {
     const int width = traced.radiance.width(), height = traced.radiance.height();
@@ -131,8 +135,7 @@ Result<PictureError> pictureError(const Image& drawn, const TracedPicture& trace
     error.relative = dataLike(traced.radiance);
     error.flip = std::move(flip->error.values);
     error.withinNoise.resize(truth.size());
-    const double dark =
-        kDarkShare / std::max(static_cast<double>(exposureScale(view, luminance)), 1e-12);
+    const double dark = darkLuminance(view, luminance);
     const bool tellsMaterials = materials.size() == truth.size();
     Sums all;
     std::map<Id, Sums> each;

@@ -15,6 +15,7 @@
 
 namespace patina {
 
+struct Luminance;
 struct View;
 
 struct ErrorScore {
@@ -41,6 +42,9 @@ struct PictureError {
     ErrorScore whole;
     std::vector<ErrorScore> materials; // those seen, by their share of the whole FLIP
 };
+
+// The luminance below which a difference counts less: the twentieth part of white.
+[[nodiscard]] double darkLuminance(const View& view, const Luminance& luminance);
 
 // `drawn`: F32, linear, 3 channels or 4 and premultiplied. `view`: exposure and tone curve of both;
 // automatic exposure is that of the traced picture. `materials`: seenMaterials(); empty: no scores

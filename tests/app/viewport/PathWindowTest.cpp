@@ -235,6 +235,37 @@ TEST_F(PathErrorWindow, TheDrawnPictureIsMeasuredAgainstTheTracedOne) {
     viewport().setOverlaysVisible(true);
 }
 
+TEST_F(PathErrorWindow, ItSaysWhichShortcutsMakeTheError) {
+    const auto& blame = session->pathBlame;
+    key(Qt::Key_F12);
+    show("Visible difference");
+    ASSERT_TRUE(eventually([&] { return blame.found() != nullptr; }));
+    EXPECT_EQ(blame.size(), QSize(160, 120));
+    EXPECT_FALSE(blame.found()->blame.materials.empty());
+    const std::string causes = overlay().accessibleDescription().toStdString();
+    EXPECT_THAT(causes, testing::HasSubstr("Causes: picture"));
+    // Over the model: those of its material.
+    QTest::mouseMove(&viewport(), viewport().rect().center());
+    EXPECT_EQ(blame.scoreAt(QPointF(0.5, 0.5)).material, document().materials.front().id);
+    EXPECT_EQ(blame.scoreAt(QPointF(0.01, 0.01)).material, 0u);
+    EXPECT_EQ(blame.scoreAt(std::nullopt).material, 0u);
+
+    // Exposure makes other weights.
+    const auto before = blame.found();
+    controller().setParameter(*findParameter("view.exposureEv"), {Scope::View, 0}, 2.0f);
+    ASSERT_TRUE(eventually([&] { return blame.found() != nullptr && blame.found() != before; }));
+    // Another light has no such causes, and says so.
+    controller().setParameter(*findParameter("view.lighting"), {Scope::View, 0},
+                              static_cast<int>(LightingMode::ShIrradiance));
+    ASSERT_TRUE(eventually([&] { return !blame.problem().isEmpty(); }));
+    EXPECT_EQ(blame.found(), nullptr);
+    ASSERT_TRUE(isMeasured());
+    EXPECT_THAT(overlay().accessibleDescription().toStdString(),
+                testing::HasSubstr(blame.problem().toStdString()));
+    key(Qt::Key_F12);
+    EXPECT_EQ(blame.found(), nullptr) << "what it took is given back";
+}
+
 TEST_F(PathErrorWindow, ItFollowsEditsAndWaitsForWhatIsNew) {
     key(Qt::Key_F12);
     show("Too bright, too dark");
