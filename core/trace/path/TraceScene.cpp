@@ -98,7 +98,23 @@ Result<TraceScene> TraceScene::build(const TraceInputs& inputs, const JobContext
     if (job.cancelled())
         return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
     result.collectEmissive();
+    result.collectGlass();
     return result;
+}
+
+void TraceScene::collectGlass() {
+    for (const Instance& instance : m_instances) {
+        const TraceMaterial& material = m_materials[instance.material];
+        const bool straight =
+            material.glass().thinWalled || glassEta(indexOf(material), 1.0f) == 1.0f;
+        m_hasStraightGlass = m_hasStraightGlass || (material.transmits() && straight);
+        m_hasSolidGlass = m_hasSolidGlass || (material.transmits() && !straight);
+    }
+}
+
+// As makeSurface() has it.
+float TraceScene::indexOf(const TraceMaterial& material) const {
+    return shading::modelOfIndex(m_model, material.ior()).ior;
 }
 
 void TraceScene::collectEmissive() {
@@ -209,6 +225,59 @@ shading::SurfaceTerms TraceScene::surface(const TracePoint& point, const glm::ve
     const float NoV = glm::clamp(glm::dot(point.normal, v), shading::kMinNoV, 1.0f);
     return shading::makeSurface(m_model, inputs, point.normal, v,
                                 dfg(NoV, inputs.perceptualRoughness));
+}
+
+TraceSurface TraceScene::surfaceIn(const TracePoint& point, const glm::vec3& v,
+                                   const Media& media) const {
+    TraceSurface surface;
+    shading::SurfaceInputs inputs = point.material->inputsAt(point.uv);
+    const float NoV = glm::clamp(glm::dot(point.normal, v), shading::kMinNoV, 1.0f);
+    const glm::vec2 entry = dfg(NoV, inputs.perceptualRoughness);
+    // KHR_materials_transmission: mix(mix(opaque non-metal, glass, transmission), metal, metallic).
+    // Without the glass there remain the metal and the opaque non-metal in their proportion.
+    surface.glassShare = inputs.transmission * (1.0f - inputs.metallic);
+    if (surface.glassShare > 0.0f) {
+        surface.ior = indexOf(*point.material);
+        surface.glass = glassTerms(point, v, inputs, media, surface.ior, entry.x + entry.y);
+        inputs.metallic = surface.glassShare < 1.0f
+                              ? std::min(inputs.metallic / (1.0f - surface.glassShare), 1.0f)
+                              : 0.0f;
+        inputs.transmission = 0.0f;
+    }
+    surface.opaque = shading::makeSurface(m_model, inputs, point.normal, v, entry);
+    return surface;
+}
+
+// `E`: what the lobe of rough facets returns of uniform light if each facet reflects all.
+GlassTerms TraceScene::glassTerms(const TracePoint& point, const glm::vec3& v,
+                                  const shading::SurfaceInputs& inputs, const Media& media,
+                                  float ior, float E) const {
+    GlassTerms glass;
+    glass.v = v;
+    glass.thinWalled = point.material->glass().thinWalled;
+    glass.tint = inputs.baseColor;
+    if (glass.thinWalled) {
+        glass.eta = glassEta(ior, 1.0f);
+    } else if (!point.isBack) {
+        glass.eta = glassEta(ior, media.innermost().ior);
+    } else {
+        Media outside = media;
+        outside.leave(point.material);
+        glass.eta = glassEta(outside.innermost().ior, ior);
+    }
+    glass.alpha = glassAlpha(inputs.perceptualRoughness, glass.eta, glass.thinWalled);
+    // Where a normal that is interpolated or mapped would send the mirrored light into the surface,
+    // the triangle's own stands for it: glass that loses light at its rim has a black one.
+    const glm::vec3 mirrored = 2.0f * glm::dot(point.normal, v) * point.normal - v;
+    const bool clear =
+        glm::dot(point.normal, v) > shading::kMinNoV && glm::dot(mirrored, point.face) > 0.0f;
+    glass.n = clear ? point.normal : point.face;
+    glass.NoV = glm::clamp(glm::dot(glass.n, v), shading::kMinNoV, 1.0f);
+    const bool tabulated = m_model.distribution == shading::kDistributionGGX &&
+                           m_model.visibility == shading::kVisibilitySmithCorrelated;
+    if (glass.thinWalled && !glass.isSmooth() && tabulated && m_model.multiScatter != 0)
+        glass.gain = 1.0f / std::max(E, 1e-3f);
+    return glass;
 }
 
 glm::vec3 TraceScene::toWorld(const glm::vec3& scenePoint) const {

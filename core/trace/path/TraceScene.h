@@ -7,6 +7,7 @@
 #include "core/trace/BakeScene.h"
 #include "core/trace/path/EmissiveTriangles.h"
 #include "core/trace/path/EnvironmentSampler.h"
+#include "core/trace/path/Glass.h"
 #include "core/trace/path/LightSampler.h"
 #include "core/trace/path/TraceInputs.h"
 #include "core/trace/path/TraceMaterial.h"
@@ -27,6 +28,23 @@ struct TracePoint {
     const TraceMaterial* material = nullptr;
     std::uint32_t mesh = 0, triangle = 0;
     bool isBack = false; // of the triangle
+
+    // Backs of surfaces that have only a front are not there for the camera, and absorb.
+    [[nodiscard]] bool hasSurface() const {
+        return !isBack || material->doubleSided() || material->transmits();
+    }
+    // Such a back does not glow either.
+    [[nodiscard]] glm::vec3 emission() const {
+        return isBack && !material->doubleSided() ? glm::vec3(0.0f) : material->emissionAt(uv);
+    }
+};
+
+// A surface as a mixture: a share of it is glass, and the rest reflects.
+struct TraceSurface {
+    shading::SurfaceTerms opaque{}; // what is not glass; of glass alone: unused
+    GlassTerms glass{};             // where there is a share
+    float glassShare = 0.0f;        // 0…1
+    float ior = 1.5f;               // of the glass
 };
 
 class TraceScene {
@@ -61,6 +79,15 @@ class TraceScene {
     // (scale, bias) of the model's lobe, as the viewport looks them up.
     [[nodiscard]] shading::SurfaceTerms surface(const TracePoint& point, const glm::vec3& v) const;
 
+    // The same as a mixture, for a path: `media` are those on the viewer's side.
+    [[nodiscard]] TraceSurface surfaceIn(const TracePoint& point, const glm::vec3& v,
+                                         const Media& media) const;
+    // Refractive index, where the shading model has one for all, too.
+    [[nodiscard]] float indexOf(const TraceMaterial& material) const;
+    // Somewhere a sheet is smooth glass, or a body has the index of air: rays to lights go on.
+    [[nodiscard]] bool hasStraightGlass() const { return m_hasStraightGlass; }
+    [[nodiscard]] bool hasSolidGlass() const { return m_hasSolidGlass; }
+
     [[nodiscard]] glm::vec3 toWorld(const glm::vec3& scenePoint) const;
     [[nodiscard]] glm::vec3 toScene(const glm::dvec3& worldPoint) const;
     [[nodiscard]] float metres(float sceneUnits) const { return sceneUnits * m_metresPerUnit; }
@@ -86,7 +113,11 @@ class TraceScene {
     [[nodiscard]] TracePoint pointAt(std::uint32_t mesh, std::uint32_t triangle,
                                      const glm::vec2& weights, const glm::vec3* direction) const;
     [[nodiscard]] glm::vec2 dfg(float NoV, float perceptualRoughness) const;
+    [[nodiscard]] GlassTerms glassTerms(const TracePoint& point, const glm::vec3& v,
+                                        const shading::SurfaceInputs& inputs, const Media& media,
+                                        float ior, float E) const;
     void collectEmissive();
+    void collectGlass();
 
     TraceInputs m_inputs;
     std::shared_ptr<const BakeScene> m_scene; // null: no triangles
@@ -103,6 +134,7 @@ class TraceScene {
     EmissiveTriangles m_emissive;
     shading::BrdfModel m_model{};
     std::shared_ptr<const std::vector<glm::vec2>> m_dfg;
+    bool m_hasStraightGlass = false, m_hasSolidGlass = false;
     float m_metresPerUnit = 1.0f;
     glm::dvec3 m_centre{0.0};
 };
