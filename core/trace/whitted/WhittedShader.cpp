@@ -41,7 +41,6 @@ struct WhittedShader::Optics {
     glm::vec3 reflectedFrom{0.0f};
     glm::vec3 refracted{0.0f};
     glm::vec3 refractedFrom{0.0f};
-    glm::vec3 absorption{0.0f}; // per metre, behind the surface
     float cosIncident = 0.0f, etaRatio = 0.0f;
     bool total = false; // reflection: nothing is refracted
     [[nodiscard]] bool isDull() const {
@@ -68,6 +67,7 @@ WhittedShader::Sample WhittedShader::look(const glm::vec3& origin, const glm::ve
     Ray ray;
     ray.origin = origin;
     ray.direction = direction;
+    ray.fromCamera = true;
     ray.seed = seed;
     follow(ray);
     return {glm::vec3(m_sum), m_alpha, m_counts};
@@ -127,7 +127,7 @@ ClosestRay WhittedShader::closest(const glm::vec3& origin, const glm::vec3& dire
 
 // ---- The recursion ------------------------------------------------------------------------------
 
-void WhittedShader::follow(const Ray& ray) {
+void WhittedShader::follow(Ray ray) {
     const int node = begin(ray);
     ClosestRay hit = closest(ray.origin, ray.direction, kNoEnd);
     TracePoint point;
@@ -135,7 +135,7 @@ void WhittedShader::follow(const Ray& ray) {
         if (hit.mesh == ClosestRay::kNothing || backs == kMostBacksPassed)
             return miss(ray, node);
         point = m_scene.pointAt(hit);
-        if (!point.isBack || point.material->doubleSided() || point.material->transmits())
+        if (point.hasSurface())
             break;
         if (ray.kind != RayKind::Camera) {
             met(node, point, glm::length(point.position - ray.origin));
@@ -145,88 +145,105 @@ void WhittedShader::follow(const Ray& ray) {
     }
     const float distance = glm::length(point.position - ray.origin);
     met(node, point, distance);
-    Place place{point, m_scene.surface(point, -ray.direction), ray.weight};
-    if (ray.absorption != glm::vec3(0.0f)) { // Beer and Lambert's law
-        place.weight *= glm::exp(-m_scene.metres(distance) * ray.absorption);
-        if (m_tree != nullptr)
-            m_tree->at(node).weight = place.weight;
-    }
+    absorb(ray, node, point, m_scene.metres(distance));
+    Place place{point, m_scene.surface(point, -ray.direction), {}};
+    if (point.material->transmits())
+        place.surface = m_scene.surfaceIn(point, -ray.direction, ray.media);
+    else
+        place.surface.opaque = place.terms;
     const Optics optics = opticsOf(place, ray);
-    const glm::vec3 emission = point.material->emissionAt(point.uv);
-    add(node, place.weight * (emission + optics.ambient * m_lights.ambient()));
+    const glm::vec3 emission = point.emission();
+    add(node, ray.weight * (emission + optics.ambient * m_lights.ambient()));
     if (optics.isDull())
         end(node, emission == glm::vec3(0.0f) ? RayEnd::NotReflecting : RayEnd::Emissive);
     lightFrom(ray, node, place);
     branch(ray, node, place, optics);
 }
 
-void WhittedShader::miss(const Ray& ray, int node) {
+// Beer and Lambert's law along the ray. A ray that leaves a body which it has not entered began in
+// it.
+void WhittedShader::absorb(Ray& ray, int node, const TracePoint& point, float metres) {
+    const TraceMaterial& material = *point.material;
+    if (point.isBack && material.transmits() && !material.glass().thinWalled &&
+        !ray.media.contains(&material))
+        ray.media.enter({&material, m_scene.indexOf(material)});
+    ray.weight *= ray.media.transmittance(metres);
+    if (m_tree != nullptr)
+        m_tree->at(node).weight = ray.weight;
+}
+
+// Behind sheets of glass there is what is behind the scene, too.
+void WhittedShader::miss(Ray& ray, int node) {
     end(node, RayEnd::Missed);
-    const bool first = ray.kind == RayKind::Camera;
-    if (first && m_view.transparent) {
-        m_alpha = 0.0f;
+    ray.weight *= ray.media.transmittance(kNoEnd);
+    if (m_tree != nullptr)
+        m_tree->at(node).weight = ray.weight;
+    if (ray.fromCamera && m_view.transparent) {
+        const bool all = ray.weight == glm::vec3(1.0f);
+        m_alpha = all ? 0.0f : std::max(m_alpha - shading::luminance(ray.weight), 0.0f);
         return;
     }
-    add(node,
-        ray.weight * (first && m_view.background ? m_view.background(ray.direction)
-                                                 : m_scene.environmentRadiance(ray.direction)));
+    add(node, ray.weight * (ray.fromCamera && m_view.background
+                                ? m_view.background(ray.direction)
+                                : m_scene.environmentRadiance(ray.direction)));
 }
 
 // ka, ks and kt. What is rough reflects and transmits the environment as if it were alike
 // everywhere.
 WhittedShader::Optics WhittedShader::opticsOf(const Place& place, const Ray& ray) const {
-    const shading::SurfaceTerms& terms = place.terms;
     const bool is1980 = m_settings.model == LocalModel::Whitted1980;
-    const bool sendsOn = terms.perceptualRoughness < kMirrorRoughness || m_settings.gloss;
+    const shading::SurfaceTerms& terms = place.terms;
+    const shading::SurfaceTerms& opaque = place.surface.opaque;
+    const float glass = place.surface.glassShare;
     Optics optics;
-    optics.ambient = is1980 ? terms.diffuseColor : terms.diffuseAlbedo;
+    optics.ambient = is1980 ? terms.diffuseColor : (1.0f - glass) * opaque.diffuseAlbedo;
     optics.reflectedFrom = glm::reflect(ray.direction, terms.n);
-    if (!sendsOn) {
-        if (!is1980)
-            optics.ambient += terms.specularAlbedo + terms.transmission * terms.clearColor;
+    if (terms.perceptualRoughness < kMirrorRoughness || m_settings.gloss) {
+        optics.reflected = is1980 ? terms.f0 : (1.0f - glass) * opaque.specularAlbedo;
+        if (glass > 0.0f)
+            refract(optics, place, ray);
+        else if (m_settings.gloss)
+            optics.reflectedFrom = glossDirection(terms, ray.seed, optics.reflected);
         return optics;
     }
-    optics.reflected = is1980 ? terms.f0 : terms.specularAlbedo;
-    if (terms.clearColor != glm::vec3(0.0f)) {
-        refract(optics, place, ray);
-    } else if (m_settings.gloss) {
-        optics.reflectedFrom = glossDirection(terms, ray.seed, optics.reflected);
+    if (is1980)
+        return optics;
+    optics.ambient += (1.0f - glass) * opaque.specularAlbedo;
+    if (glass > 0.0f) {
+        const GlassTerms& clear = place.surface.glass;
+        const float reflects = glassReflectance(clear, clear.NoV);
+        optics.ambient += glass * (reflects + (1.0f - reflects) * clear.tint);
     }
     return optics;
 }
 
-// Of what a clear body reflects and lets through: Snell's and Fresnel's laws.
+// Snell's and Fresnel's laws, of the share of the surface that is glass.
 void WhittedShader::refract(Optics& optics, const Place& place, const Ray& ray) const {
-    const TracePoint& point = place.point;
-    const shading::SurfaceTerms& terms = place.terms;
-    const shading::SurfaceInputs inputs = point.material->inputsAt(point.uv);
-    const TraceGlass& glass = point.material->glass();
-    const float clear = inputs.transmission * (1.0f - inputs.metallic);
-    const bool leaves = point.isBack && !glass.thinWalled;
-    const glm::vec3 n = m_settings.gloss ? facetNormal(terms, ray.seed) : terms.n;
-    const float cosine = glm::clamp(glm::dot(n, terms.v), 0.0f, 1.0f);
-    const float eta = glass.thinWalled ? 1.0f : leaves ? inputs.ior : 1.0f / inputs.ior;
-    const float sin2 = eta * eta * (1.0f - cosine * cosine); // behind
+    const GlassTerms& glass = place.surface.glass;
+    const float share = place.surface.glassShare;
+    const glm::vec3 n =
+        m_settings.gloss && !glass.isSmooth() ? facetNormal(place.terms, ray.seed) : glass.n;
+    const float cosine = glm::clamp(glm::dot(n, glass.v), 0.0f, 1.0f);
+    const float ratio = glass.isStraight() ? 1.0f : 1.0f / glass.eta;
+    const float sin2 = ratio * ratio * (1.0f - cosine * cosine); // behind
     optics.cosIncident = cosine;
-    optics.etaRatio = eta;
-    optics.total = sin2 >= 1.0f;
+    optics.etaRatio = ratio;
+    optics.total = sin2 >= 1.0f && ratio > 1.0f;
     optics.reflectedFrom = glm::reflect(ray.direction, n);
-    const float cosBehind = std::sqrt(std::max(1.0f - sin2, 0.0f));
-    optics.refractedFrom = glm::normalize(eta * ray.direction + (eta * cosine - cosBehind) * n);
-    if (!leaves)
-        optics.absorption = glass.absorption;
-
+    optics.refractedFrom =
+        glass.isStraight()
+            ? ray.direction
+            : glm::normalize(ratio * ray.direction +
+                             (ratio * cosine - std::sqrt(std::max(1.0f - sin2, 0.0f))) * n);
     if (m_settings.model == LocalModel::Whitted1980) {
-        const glm::vec3 behind = (glm::vec3(1.0f) - terms.f0) * terms.clearColor;
+        const glm::vec3 behind = (glm::vec3(1.0f) - place.terms.f0) * place.terms.clearColor;
         (optics.total ? optics.reflected : optics.refracted) += behind;
         return;
     }
-    // The law is the same for light that goes the other way: the cosine is that outside.
-    const float outside = leaves ? cosBehind : cosine;
-    const float reflects = optics.total ? 1.0f : faceReflectance(*point.material, outside);
-    optics.reflected = (1.0f - clear) * optics.reflected + glm::vec3(clear * reflects);
+    const float reflects = optics.total ? 1.0f : glassReflectance(glass, cosine);
+    optics.reflected += glm::vec3(share * reflects);
     if (!optics.total)
-        optics.refracted = (1.0f - reflects) * terms.clearColor;
+        optics.refracted = share * (1.0f - reflects) * glass.tint;
 }
 
 // ---- Light of the lights ------------------------------------------------------------------------
@@ -267,7 +284,7 @@ void WhittedShader::lightFrom(const Ray& ray, int node, const Place& place) {
         to.kind = RayKind::Shadow;
         to.origin = from;
         to.direction = light.direction;
-        to.weight = place.weight;
+        to.weight = ray.weight;
         to.depth = ray.depth;
         to.parent = node;
         const int shadow = begin(to);
@@ -286,7 +303,7 @@ void WhittedShader::lightFrom(const Ray& ray, int node, const Place& place) {
             end(shadow, RayEnd::NoShadow);
         const glm::vec3 passes =
             light.castsShadow ? passesTo(from, light, shadow) : glm::vec3(1.0f);
-        add(shadow, place.weight * passes * lit);
+        add(shadow, ray.weight * passes * lit);
     }
 }
 
@@ -324,27 +341,24 @@ glm::vec3 WhittedShader::passesTo(const glm::vec3& from, const PointLight& light
     return passes;
 }
 
-// `metres`: that the ray came to the face, within the body where it leaves it.
+// `metres`: that the ray came to the face, within the body where it leaves it. Rays are not bent
+// here: the angle within a body is that outside, and there is no total reflection.
 glm::vec3 WhittedShader::passesFace(const TracePoint& point, const glm::vec3& direction,
                                     float metres) const {
     const TraceMaterial& material = *point.material;
     const shading::SurfaceInputs inputs = material.inputsAt(point.uv);
-    const glm::vec3 clear = (1.0f - inputs.metallic) * inputs.transmission * inputs.baseColor;
-    const bool is1980 = m_settings.model == LocalModel::Whitted1980;
+    GlassTerms face;
+    face.thinWalled = material.glass().thinWalled;
+    face.eta = glassEta(m_scene.indexOf(material), 1.0f);
     const float reflects =
-        is1980 ? shading::f0FromIor(inputs.ior)
-               : faceReflectance(material, std::abs(glm::dot(point.normal, direction)));
-    const TraceGlass& glass = material.glass();
-    const bool leaves = point.isBack && !glass.thinWalled;
-    return (1.0f - reflects) * clear *
-           (leaves ? glm::exp(-metres * glass.absorption) : glm::vec3(1.0f));
-}
-
-// Fresnel's, of a ray from outside. A sheet reflects at both of its faces, and back and forth
-// between them: R + T² R / (1 - R²) = 2R / (1 + R).
-float WhittedShader::faceReflectance(const TraceMaterial& material, float cosine) {
-    const float reflects = shading::F_Dielectric(cosine, material.ior());
-    return material.glass().thinWalled ? 2.0f * reflects / (1.0f + reflects) : reflects;
+        m_settings.model == LocalModel::Whitted1980
+            ? shading::f0FromIor(m_scene.indexOf(material))
+            : glassReflectance(face, std::abs(glm::dot(point.normal, direction)));
+    glm::vec3 passes =
+        (1.0f - reflects) * (1.0f - inputs.metallic) * inputs.transmission * inputs.baseColor;
+    if (point.isBack && !face.thinWalled)
+        passes *= glm::exp(-metres * material.glass().absorption);
+    return passes;
 }
 
 // ---- Rays on ------------------------------------------------------------------------------------
@@ -365,18 +379,21 @@ void WhittedShader::branch(const Ray& ray, int node, const Place& place, const O
         child.kind = RayKind::Reflected;
         child.origin = TraceScene::origin(place.point);
         child.direction = optics.reflectedFrom;
-        child.weight = place.weight * optics.reflected;
+        child.weight = ray.weight * optics.reflected;
         child.seed = seedFor(ray.seed, kMirrorBranch);
-        child.absorption = ray.absorption;
+        child.media = ray.media;
         branchOff(child, glm::dot(place.point.face, child.direction) <= 0.0f);
     }
     if (optics.refracted != glm::vec3(0.0f)) {
         child.kind = RayKind::Refracted;
         child.origin = TraceScene::origin(place.point, true);
         child.direction = optics.refractedFrom;
-        child.weight = place.weight * optics.refracted;
+        child.weight = ray.weight * optics.refracted;
         child.seed = seedFor(ray.seed, kRefractedBranch);
-        child.absorption = optics.absorption;
+        child.media = ray.media;
+        if (!place.surface.glass.thinWalled)
+            child.media.cross(place.point, place.surface.ior);
+        child.fromCamera = ray.fromCamera && place.surface.glass.isStraight();
         branchOff(child, glm::dot(place.point.face, child.direction) >= 0.0f);
     }
 }

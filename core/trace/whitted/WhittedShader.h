@@ -2,6 +2,7 @@
 // Illumination Model for Shaded Display"; docs/maths/whitted.md.
 #pragma once
 
+#include "core/trace/path/Glass.h"
 #include "core/trace/path/PathTracer.h"
 #include "core/trace/whitted/RayTree.h"
 #include "core/trace/whitted/WhittedLights.h"
@@ -46,19 +47,21 @@ class WhittedShader {
         RayKind kind = RayKind::Camera;
         glm::vec3 origin{0.0f}, direction{0.0f};
         glm::vec3 weight{1.0f};
-        glm::vec3 absorption{0.0f}; // per metre, of what it goes through
+        Media media;             // that it goes through
+        bool fromCamera = false; // straight
         int depth = 0, parent = RayNode::kNone;
         std::uint32_t seed = 0;
     };
     struct Place { // that a ray has come to
         TracePoint point;
-        shading::SurfaceTerms terms;
-        glm::vec3 weight; // share of its light that reaches the sample
+        shading::SurfaceTerms terms; // of all of it
+        TraceSurface surface;        // and as a mixture with glass
     };
     struct Optics;
 
-    void follow(const Ray& ray);
-    void miss(const Ray& ray, int node);
+    void follow(Ray ray);
+    void absorb(Ray& ray, int node, const TracePoint& point, float metres);
+    void miss(Ray& ray, int node);
     [[nodiscard]] Optics opticsOf(const Place& place, const Ray& ray) const;
     void refract(Optics& optics, const Place& place, const Ray& ray) const;
     void lightFrom(const Ray& ray, int node, const Place& place);
@@ -69,7 +72,6 @@ class WhittedShader {
     glm::vec3 passesTo(const glm::vec3& from, const PointLight& light, int node);
     [[nodiscard]] glm::vec3 passesFace(const TracePoint& point, const glm::vec3& direction,
                                        float metres) const;
-    [[nodiscard]] static float faceReflectance(const TraceMaterial& material, float cosine);
     void branch(const Ray& ray, int node, const Place& place, const Optics& optics);
     void branchOff(const Ray& child, bool below);
     [[nodiscard]] glm::vec3 facetNormal(const shading::SurfaceTerms& terms,
