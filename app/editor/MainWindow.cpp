@@ -87,7 +87,7 @@ MainWindow::MainWindow(Session& session)
     auto* wallOverlay = new WallOverlay(session.wall, session.comparison, *m_viewport);
     new SplitHandle(session.comparison, *m_viewport);
     new PathErrorOverlay(session.pathError, *m_viewport);
-    new PathBadge(session.paths, session.pathError, session.views,
+    new PathBadge(session.paths, session.pathError, session.heat, session.views,
                   new TransferRemedy(session.pathError, session.controller, session.bakes),
                   *m_viewport);
     m_overlay = new ViewOverlay(session.views, session.controller, *m_viewport);

@@ -25,6 +25,7 @@
 #include "app/editor/sweep/LightSweepPanel.h"
 #include "app/editor/trace/RayTreeOverlay.h"
 #include "app/editor/trace/RayTreePanel.h"
+#include "app/editor/trace/WhittedHeatOverlay.h"
 #include "app/editor/viewport/ViewOverlay.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "core/light/Light.h"
@@ -95,6 +96,7 @@ void MainWindow::makeDocks() {
     m_docks->addInstrument(a.transfer, QStringLiteral("transfer"), transfer);
     m_docks->addInstrument(a.lightSweep, QStringLiteral("lightSweep"),
                            new LightSweepPanel(controller, m_session.jobs, *m_viewport));
+    new WhittedHeatOverlay(m_session.heat, controller, *m_viewport);
     new RayTreeOverlay(m_session.rayTree, controller, *m_viewport);
     auto* rays = new RayTreePanel(m_session.rayTree, m_session.paths, controller);
     connect(rays, &RayTreePanel::pictureWanted, a.whitted, &QAction::trigger);

@@ -15,6 +15,7 @@
 #include "app/editor/trace/PathError.h"
 #include "app/editor/trace/PathView.h"
 #include "app/editor/trace/RayTreeProbe.h"
+#include "app/editor/trace/WhittedHeat.h"
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/LightLimitNotice.h"
 #include "app/editor/viewport/LobeOnSurface.h"
@@ -48,6 +49,7 @@ struct Session {
     PathView paths{controller};
     PathError pathError{controller, paths};
     RayTreeProbe rayTree{controller, paths};
+    WhittedHeat heat{controller, paths};
     JobManager jobs{controller};
     BakeService bakes{controller, jobs};
     BounceUpdater bounces{controller, bakes.hits()};

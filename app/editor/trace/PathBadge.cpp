@@ -4,7 +4,9 @@
 #include "app/editor/style/Tokens.h"
 #include "app/editor/trace/PathError.h"
 #include "app/editor/trace/PathView.h"
+#include "app/editor/trace/WhittedHeat.h"
 #include "app/editor/viewport/ViewState.h"
+#include "app/editor/widget/ControlHelp.h"
 
 #include <QComboBox>
 #include <QEvent>
@@ -12,21 +14,28 @@
 #include <QLabel>
 #include <QLocale>
 #include <QPushButton>
+#include <QSpinBox>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <initializer_list>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace patina::editor {
 
-PathBadge::PathBadge(PathView& paths, PathError& error, ViewState& views, QPushButton* remedy,
-                     QWidget& viewport)
+PathBadge::PathBadge(PathView& paths, PathError& error, WhittedHeat& heat, ViewState& views,
+                     QPushButton* remedy, QWidget& viewport)
     : QFrame(&viewport)
     , m_paths(paths)
     , m_error(error)
+    , m_heat(heat)
     , m_views(views)
     , m_viewport(viewport)
     , m_text(new QLabel)
     , m_shown(new QComboBox)
+    , m_whittedShown(new QComboBox)
+    , m_boxes(new QSpinBox)
     , m_pause(new QPushButton(tr("Pause"))) {
     setObjectName(QStringLiteral("pathBadge"));
     setProperty("overlay", true);
@@ -57,6 +66,7 @@ PathBadge::PathBadge(PathView& paths, PathError& error, ViewState& views, QPushB
         m_error.setShown(static_cast<PathPicture>(m_shown->itemData(index).toInt()));
     });
     row->addWidget(m_shown);
+    addWhitted(*row);
     row->addWidget(remedy);
     row->addStretch(1);
     m_pause->setObjectName(QStringLiteral("pathPause"));
@@ -68,9 +78,39 @@ PathBadge::PathBadge(PathView& paths, PathError& error, ViewState& views, QPushB
     connect(m_pause, &QPushButton::clicked, &paths, &PathView::setPaused);
     connect(&paths, &PathView::changed, this, &PathBadge::refresh);
     connect(&error, &PathError::changed, this, &PathBadge::refresh);
+    connect(&heat, &WhittedHeat::changed, this, &PathBadge::refresh);
     connect(&views, &ViewState::changed, this, &PathBadge::refresh);
     viewport.installEventFilter(this);
     refresh();
+}
+
+void PathBadge::addWhitted(QBoxLayout& row) {
+    describe(m_whittedShown, tr("Shown of the Whitted picture"),
+             tr("The picture, or what each of its pixels takes: rays, depth of the tree, boxes and "
+                "triangles tested, with the hierarchy of boxes and without"));
+    m_whittedShown->setObjectName(QStringLiteral("whittedShown"));
+    m_whittedShown->setFocusPolicy(Qt::TabFocus);
+    m_whittedShown->addItem(tr("Picture"));
+    for (const RayCountInfo& info : rayCountInfos())
+        m_whittedShown->addItem(toQString(std::string(info.label)), static_cast<int>(info.kind));
+    connect(m_whittedShown, &QComboBox::activated, this, [this](int index) {
+        const QVariant kind = m_whittedShown->itemData(index);
+        m_heat.setShown(kind.isValid() ? std::optional(static_cast<RayCountKind>(kind.toInt()))
+                                       : std::nullopt);
+    });
+    row.addWidget(m_whittedShown);
+    describe(m_boxes, tr("Level of boxes"),
+             tr("Draws the bounding boxes of one level of the hierarchy; level 0 is the scene's"));
+    m_boxes->setObjectName(QStringLiteral("whittedBoxes"));
+    m_boxes->setFocusPolicy(Qt::ClickFocus);
+    m_boxes->setPrefix(tr("Boxes: level "));
+    m_boxes->setSpecialValueText(tr("No boxes"));
+    m_boxes->setRange(-1, 1);
+    m_boxes->setValue(-1);
+    connect(m_boxes, &QSpinBox::valueChanged, this, [this](int level) {
+        m_heat.setLevel(level < 0 ? std::nullopt : std::optional(level));
+    });
+    row.addWidget(m_boxes);
 }
 
 QString PathBadge::text() const {
@@ -112,6 +152,12 @@ void PathBadge::refresh() {
     m_pause->setText(m_paths.isPaused() ? tr("Resume") : tr("Pause"));
     m_pause->setVisible(!m_paths.progress().refined && !m_paths.isWhitted());
     m_shown->setVisible(!m_paths.isWhitted()); // which is no measure of the drawn one
+    m_whittedShown->setVisible(m_paths.isWhitted());
+    m_whittedShown->setCurrentIndex(
+        m_heat.shown() ? m_whittedShown->findData(static_cast<int>(*m_heat.shown())) : 0);
+    m_boxes->setVisible(m_paths.isWhitted());
+    if (m_heat.counted()) // how many levels there are is known then
+        m_boxes->setMaximum(std::max(m_heat.deepestLevel(), 1));
     m_text->setToolTip(
         m_paths.isWhitted()
             ? tr("The classical ray tracer (Whitted 1980): hard shadows, mirror reflection and "

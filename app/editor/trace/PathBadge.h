@@ -4,37 +4,43 @@
 
 #include <QFrame>
 
+class QBoxLayout;
 class QComboBox;
 class QLabel;
 class QPushButton;
+class QSpinBox;
 
 namespace patina::editor {
 
 class PathError;
 class PathView;
 class ViewState;
+class WhittedHeat;
 
 class PathBadge : public QFrame {
     Q_OBJECT
   public:
     // `remedy`: for its row.
-    PathBadge(PathView& paths, PathError& error, ViewState& views, QPushButton* remedy,
-              QWidget& viewport);
+    PathBadge(PathView& paths, PathError& error, WhittedHeat& heat, ViewState& views,
+              QPushButton* remedy, QWidget& viewport);
 
   protected:
     bool eventFilter(QObject* viewport, QEvent* event) override;
 
   private:
+    void addWhitted(QBoxLayout& row); // what of a classical picture is shown
     void refresh();
     void place();
     [[nodiscard]] QString text() const;
 
     PathView& m_paths;
     PathError& m_error;
+    WhittedHeat& m_heat;
     ViewState& m_views;
     QWidget& m_viewport;
     QLabel* m_text;
-    QComboBox* m_shown;
+    QComboBox *m_shown, *m_whittedShown;
+    QSpinBox* m_boxes;
     QPushButton* m_pause;
 };
 

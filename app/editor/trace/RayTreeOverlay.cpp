@@ -4,6 +4,7 @@
 #include "app/editor/style/Tokens.h"
 #include "app/editor/trace/RayTreeProbe.h"
 #include "app/editor/trace/RayTreeTexts.h"
+#include "app/editor/trace/ViewLines.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "core/document/Document.h"
 
@@ -11,8 +12,6 @@
 #include <QMouseEvent>
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 namespace patina::editor {
 namespace {
@@ -21,7 +20,6 @@ constexpr double kRayWidth = 1.6, kSelectedWidth = 3.2, kHalo = 2.0; // pixels
 constexpr double kPointRadius = 2.6;
 constexpr int kDimAlpha = 80;          // of 255, beside a selected ray
 constexpr float kNormalLength = 0.05f; // of the camera's distance from its target
-constexpr float kNearest = 1e-3f;      // of that, too: what is nearer is cut off
 
 } // namespace
 
@@ -86,60 +84,22 @@ int RayTreeOverlay::drawnRays() const {
     return count;
 }
 
-// --- Where things are ----------------------------------------------------------------------------
-
-glm::vec3 RayTreeOverlay::inView(const glm::vec3& world) const {
-    const glm::vec3 from = world - m_camera.position();
-    return {glm::dot(from, m_camera.right()), glm::dot(from, m_camera.up()),
-            glm::dot(from, m_camera.forward())};
-}
-
-QPointF RayTreeOverlay::project(const glm::vec3& view) const {
-    const float scale = 0.5f * static_cast<float>(height()) /
-                        (std::tan(0.5f * glm::radians(m_camera.fovDeg)) * view.z);
-    return {0.5 * width() + static_cast<double>(scale * view.x),
-            0.5 * height() - static_cast<double>(scale * view.y)};
-}
-
-std::optional<QPointF> RayTreeOverlay::placeOf(const glm::vec3& world) const {
-    const glm::vec3 view = inView(world);
-    if (view.z < kNearest * m_camera.distance)
-        return std::nullopt;
-    return project(view);
-}
-
-// What of it is in front of the viewer.
-std::optional<QLineF> RayTreeOverlay::lineOf(const glm::vec3& from, const glm::vec3& to) const {
-    glm::vec3 a = inView(from), b = inView(to);
-    const float nearest = kNearest * m_camera.distance;
-    if (a.z < nearest && b.z < nearest)
-        return std::nullopt;
-    const auto cut = [nearest](const glm::vec3& outside, const glm::vec3& inside) {
-        return inside + (outside - inside) * ((inside.z - nearest) / (inside.z - outside.z));
-    };
-    if (a.z < nearest)
-        a = cut(a, b);
-    if (b.z < nearest)
-        b = cut(b, a);
-    return QLineF(project(a), project(b));
-}
+// --- Painting ------------------------------------------------------------------------------------
 
 glm::vec3 RayTreeOverlay::endOf(const RayNode& node) const {
     const bool ends = node.hit || !std::isinf(node.distance);
     return ends ? node.position : node.origin + m_reach * node.direction;
 }
 
-// --- Painting ------------------------------------------------------------------------------------
-
-void RayTreeOverlay::paintRay(QPainter& painter, const RayNode& node, bool selected,
-                              bool dimmed) const {
+void RayTreeOverlay::paintRay(QPainter& painter, const ViewLines& view, const RayNode& node,
+                              bool selected, bool dimmed) const {
     QColor color = rayColor(node), halo(tokens::kWell);
     if (dimmed)
         color.setAlpha(kDimAlpha);
     halo.setAlpha(dimmed ? kDimAlpha / 2 : 170);
     const double wide = selected ? kSelectedWidth : kRayWidth;
     const Qt::PenStyle style = node.end == RayEnd::Blocked ? Qt::DashLine : Qt::SolidLine;
-    if (const auto line = lineOf(node.origin, endOf(node))) {
+    if (const auto line = view.line(node.origin, endOf(node))) {
         painter.setPen(QPen(halo, wide + kHalo, Qt::SolidLine, Qt::RoundCap));
         painter.drawLine(*line);
         painter.setPen(QPen(color, wide, style, Qt::RoundCap));
@@ -147,7 +107,7 @@ void RayTreeOverlay::paintRay(QPainter& painter, const RayNode& node, bool selec
     }
     if (!node.hit)
         return;
-    if (const auto point = placeOf(node.position)) {
+    if (const auto point = view.point(node.position)) {
         const double radius = kPointRadius + (selected ? 1.5 : 0.0);
         painter.setPen(QPen(halo, 1.2));
         painter.setBrush(color);
@@ -158,8 +118,8 @@ void RayTreeOverlay::paintRay(QPainter& painter, const RayNode& node, bool selec
     QColor normal(tokens::kAccent);
     if (dimmed)
         normal.setAlpha(kDimAlpha);
-    if (const auto line = lineOf(node.position,
-                                 node.position + kNormalLength * m_camera.distance * node.normal)) {
+    if (const auto line = view.line(
+            node.position, node.position + kNormalLength * m_camera.distance * node.normal)) {
         painter.setPen(QPen(halo, kRayWidth + kHalo));
         painter.drawLine(*line);
         painter.setPen(QPen(normal, kRayWidth));
@@ -172,6 +132,7 @@ void RayTreeOverlay::paintEvent(QPaintEvent*) {
         return;
     m_camera = m_controller.document().view.camera;
     m_reach = 2.0f * std::max(m_controller.document().bounds().radius(), 0.5f * m_camera.distance);
+    const ViewLines view(m_camera, size());
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     const auto nodes = m_probe.shown()->tree.nodes();
@@ -183,7 +144,7 @@ void RayTreeOverlay::paintEvent(QPaintEvent*) {
                 break;
             const bool isSelected = static_cast<int>(i) == selected;
             if (isSelected == marked && wasCast(nodes[i].end))
-                paintRay(painter, nodes[i], isSelected, !isSelected && selected >= 0);
+                paintRay(painter, view, nodes[i], isSelected, !isSelected && selected >= 0);
         }
     };
     paint(false);

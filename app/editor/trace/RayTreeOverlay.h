@@ -17,6 +17,7 @@ namespace patina::editor {
 
 class DocumentController;
 class RayTreeProbe;
+class ViewLines;
 class ViewportWidget;
 
 class RayTreeOverlay : public QWidget {
@@ -25,8 +26,6 @@ class RayTreeOverlay : public QWidget {
     RayTreeOverlay(RayTreeProbe& probe, DocumentController& controller, ViewportWidget& viewport);
     // Of the nodes that are drawn: the camera ray of the selected one, with all below it.
     [[nodiscard]] int drawnRays() const;
-    // In the widget; nothing: behind the viewer.
-    [[nodiscard]] std::optional<QPointF> placeOf(const glm::vec3& world) const;
 
   protected:
     bool eventFilter(QObject* viewport, QEvent* event) override;
@@ -34,11 +33,9 @@ class RayTreeOverlay : public QWidget {
 
   private:
     void follow();
-    [[nodiscard]] glm::vec3 inView(const glm::vec3& world) const; // right, up, forward; metres
-    [[nodiscard]] QPointF project(const glm::vec3& view) const;
-    [[nodiscard]] std::optional<QLineF> lineOf(const glm::vec3& from, const glm::vec3& to) const;
     [[nodiscard]] glm::vec3 endOf(const RayNode& node) const;
-    void paintRay(QPainter& painter, const RayNode& node, bool selected, bool dimmed) const;
+    void paintRay(QPainter& painter, const ViewLines& view, const RayNode& node, bool selected,
+                  bool dimmed) const;
 
     RayTreeProbe& m_probe;
     DocumentController& m_controller;

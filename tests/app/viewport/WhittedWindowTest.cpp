@@ -6,6 +6,9 @@
 #include "app/editor/trace/RayTreePanel.h"
 #include "app/editor/trace/RayTreeProbe.h"
 #include "app/editor/trace/RayTreeTexts.h"
+#include "app/editor/trace/ViewLines.h"
+#include "app/editor/trace/WhittedHeat.h"
+#include "app/editor/trace/WhittedHeatOverlay.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
 #include "core/material/Material.h"
@@ -40,6 +43,8 @@ class WhittedWindow : public EditorTest {
         dock().setFloating(false);
         dock().hide();
         session->rayTree.clear();
+        session->heat.setShown(std::nullopt);
+        session->heat.setLevel(std::nullopt);
         session->paths.setOn(false);
     }
 
@@ -144,9 +149,8 @@ TEST_F(WhittedWindow, AClickLaysThePixelOpen) {
     EXPECT_GE(overlay().drawnRays(), 2);
     QTreeWidgetItem* row = tree().topLevelItem(0)->child(0);
     tree().scrollToItem(row);
-    ASSERT_TRUE(eventually([&] {
-        return tree().viewport()->rect().contains(tree().visualItemRect(row).center());
-    }));
+    ASSERT_TRUE(eventually(
+        [&] { return tree().viewport()->rect().contains(tree().visualItemRect(row).center()); }));
     QTest::mouseClick(tree().viewport(), Qt::LeftButton, {}, tree().visualItemRect(row).center());
     EXPECT_EQ(probe().selected(), 1);
     EXPECT_TRUE(row->isSelected());
@@ -178,11 +182,12 @@ TEST_F(WhittedWindow, RaysStayInTheSceneWhileTheCameraMoves) {
     picture.fill(Qt::transparent);
     overlay().render(&picture, {}, {}, QWidget::RenderFlags());
     const RayNode& ray = after.tree.nodes()[0];
+    const ViewLines view(document().view.camera, overlay().size());
     ASSERT_TRUE(ray.hit);
     int seen = 0, coloured = 0;
     for (int i = 1; i < 20; ++i) {
         const glm::vec3 at = glm::mix(ray.origin, ray.position, 0.05f * static_cast<float>(i));
-        const std::optional<QPointF> place = overlay().placeOf(at);
+        const std::optional<QPointF> place = view.point(at);
         if (!place || !picture.rect().contains(place->toPoint()))
             continue;
         ++seen;
@@ -218,6 +223,45 @@ TEST_F(WhittedWindow, AnEditTracesTheSamePixelAnew) {
     EXPECT_NE(probe().shown(), nullptr);
     setParameter("material.baseColor", glm::vec3(0.5f, 0.6f, 0.1f));
     EXPECT_EQ(probe().shown(), nullptr);
+}
+
+// The list in the bar shows what the pixels take, and the boxes of the hierarchy.
+TEST_F(WhittedWindow, HeatMapsAndBoxesAreShown) {
+    auto* heat = viewport().findChild<WhittedHeatOverlay*>();
+    auto* list = viewport().findChild<QComboBox*>(QStringLiteral("whittedShown"));
+    auto* level = viewport().findChild<QSpinBox*>(QStringLiteral("whittedBoxes"));
+    key(Qt::Key_F12);
+    EXPECT_FALSE(list->isVisible());
+    key(Qt::Key_F12, Qt::ShiftModifier);
+    ASSERT_TRUE(isDone());
+    EXPECT_TRUE(list->isVisible());
+    EXPECT_FALSE(heat->isVisible());
+    list->setFocus();
+    QTest::keyClick(list, Qt::Key_Down);
+    EXPECT_EQ(session->heat.shown(), RayCountKind::Rays);
+    EXPECT_TRUE(heat->isVisible());
+    ASSERT_TRUE(eventually([] { return session->heat.picture().has_value(); }));
+    EXPECT_EQ(session->heat.picture()->image.size(), QSize(160, 120));
+    EXPECT_GE(session->heat.picture()->mean, 4.0); // the corners
+    EXPECT_THAT(heat->lines().join(QLatin1Char(' ')).toStdString(),
+                testing::HasSubstr("Rays per pixel, mean"));
+    const double rays = session->heat.picture()->mean;
+    QTest::keyClick(list, Qt::Key_End);
+    EXPECT_EQ(session->heat.shown(), RayCountKind::TriangleTestsWithout);
+    ASSERT_TRUE(eventually([] { return session->heat.picture().has_value(); }));
+    EXPECT_NEAR(session->heat.picture()->mean,
+                rays * static_cast<double>(document().triangleCount()), 1.0);
+
+    level->setValue(1);
+    EXPECT_EQ(session->heat.boxes().size(), 2u);
+    level->setValue(level->maximum());
+    EXPECT_GT(session->heat.boxes().size(), 100u);
+    EXPECT_LE(session->heat.boxes().size(), WhittedHeat::kMostBoxes);
+    level->setValue(level->minimum());
+    EXPECT_TRUE(session->heat.boxes().empty());
+    list->setFocus();
+    QTest::keyClick(list, Qt::Key_Home);
+    EXPECT_FALSE(heat->isVisible());
 }
 
 TEST_F(WhittedWindow, ADragOrAHiddenDockPicksNothing) {
