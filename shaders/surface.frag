@@ -249,6 +249,23 @@ void main() {
 #endif
     vec3 specularIbl = ambient.specular * open;
 
+    // What is seen through the surface: of the scene the environment alone.
+#ifdef HAS_TRANSMISSION
+#ifdef THIN_WALLED
+    vec3 behind = prefilteredRadiance(-v, s.perceptualRoughness);
+#else
+    // The colour of the body tints light where it enters and where it leaves.
+    vec3 behind = inputs.baseColor *
+                  prefilteredRadiance(throughDirection(n, v, s.model.ior),
+                                      throughRoughness(s.perceptualRoughness, s.model.ior));
+#endif
+#ifdef VIEWS
+    if (u_furnace.w > 0.0)
+        behind = u_furnace.rgb;
+#endif
+    vec3 through = u_mix.x * shadeThrough(s, behind);
+#endif
+
     // Analytic lights, one loop for each kind. Where LIGHT_ENDS is known it is unrolled.
 #ifdef HAS_SHADOWS
     // By slot, with constant indices: a software rasteriser gathers what is indexed by a variable.
@@ -375,12 +392,19 @@ void main() {
 #endif
     recordChosenDirection(s, sums, specularIbl, alpha);
     recordIbl(s, dfg, arriving, prefiltered, ambient, diffuseOpen, open, alpha);
+#ifdef HAS_TRANSMISSION
+    recordThrough(s, behind, through, alpha);
+    ambient.diffuse += through;
+#endif
     recordSum(s, ambient.diffuse, specularIbl, directDiffuse, directSpecular, emission, sums, alpha);
 #ifndef INSPECT
     for (int i = 0; i < VIEW_OUTPUTS; ++i)
         o_views[i] = u_halfFloats != 0 ? vec4(storable(s_views[i].rgb), s_views[i].a) : s_views[i];
 #endif
 #else
+#ifdef HAS_TRANSMISSION
+    ambient.diffuse += through;
+#endif
     vec3 radiance = ambient.diffuse + specularIbl + directDiffuse + directSpecular + emission;
     o_radiance = vec4(storable(radiance) * alpha, alpha);
 #endif

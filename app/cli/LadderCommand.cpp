@@ -65,6 +65,8 @@ Result<Truth> traceTruth(Session& session, const LadderOptions& options, const D
     const Result<TraceScene> scene = TraceScene::build(traceInputs(document), session.job());
     if (!scene)
         return scene.error();
+    if (const std::optional<std::string> limit = scene->limit())
+        session.report().warn(*limit);
     const auto start = std::chrono::steady_clock::now();
     Film film(frame.width, frame.height);
     Truth truth;

@@ -162,7 +162,8 @@ Result<void> run(Session& session, const RenderOptions& options) {
         reportLeftOut(session.report(), leftOutViews(*document, *shown));
     warnOfStaleBakes(session, *document);
     for (const render::LightLimit& limit : render::lightLimits(*document))
-        session.report().warn(limit.text);
+        if (!isTraced(options)) // paths have other limits
+            session.report().warn(limit.text);
     if (Result<void> followed = followBounces(session, *shown, *document); !followed)
         return followed;
     if (!options.view.empty()) {

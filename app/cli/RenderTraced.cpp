@@ -281,6 +281,8 @@ Result<void> renderTraced(Session& session, const RenderOptions& options, const 
     const Result<TraceScene> scene = TraceScene::build(inputs, session.job());
     if (!scene)
         return scene.error();
+    if (const std::optional<std::string> limit = scene->limit(); limit && byPaths)
+        session.report().warn(*limit);
 
     PathSettings paths;
     paths.maxBounces = options.maxBounces;

@@ -25,6 +25,12 @@ constexpr EquationPart kDiffuseIbl[] = {{Join::Plus, kViewDiffuseAlbedo},
                                         {Join::Times, kViewIrradiance, kInversePi},
                                         {Join::Times, kViewDiffuseOcclusion}};
 
+constexpr EquationPart kDiffuseIblAndThrough[] = {{Join::Plus, kViewDiffuseAlbedo},
+                                                  {Join::Times, kViewTransmission},
+                                                  {Join::Times, kViewIrradiance, kInversePi},
+                                                  {Join::Times, kViewDiffuseOcclusion},
+                                                  {Join::Plus, kViewThrough}};
+
 // shadePrefiltered(), with specularAlbedo() and specularOcclusion().
 constexpr EquationPart kSpecularIbl[] = {{Join::Plus, kViewPrefiltered},
                                          {Join::Times, kViewSingleScatterAlbedo},
@@ -53,11 +59,13 @@ constexpr EquationPart kDirectSpecular[] = {
 
 } // namespace
 
-std::optional<Equation> equationOf(ViewKind opened, const ShadingModel& model) {
+std::optional<Equation> equationOf(ViewKind opened, const ShadingModel& model, bool transmits) {
     switch (opened) {
     case kViewFinal:
         return Equation{opened, opened, kSum};
     case kViewDiffuseIbl:
+        if (transmits)
+            return Equation{opened, opened, kDiffuseIblAndThrough};
         return Equation{opened, opened, kDiffuseIbl};
     case kViewSpecularIbl:
         return Equation{opened, opened, kSpecularIbl};

@@ -28,8 +28,10 @@ struct Equation {
 };
 
 // What a view is made of under a shading model; nothing when it is not opened any further. The
-// factors of direct light are those of one light that has a direction (hasFactors()).
-[[nodiscard]] std::optional<Equation> equationOf(ViewKind opened, const ShadingModel& model);
+// factors of direct light are those of one light that has a direction (hasFactors()). `transmits`:
+// a material lets light through, so that there is a part for it.
+[[nodiscard]] std::optional<Equation> equationOf(ViewKind opened, const ShadingModel& model,
+                                                 bool transmits = false);
 
 // Whether the factors are those of a chosen light: direct light, diffuse or specular.
 [[nodiscard]] constexpr bool isOfOneLight(ViewKind opened) {

@@ -203,6 +203,11 @@ std::string whyEmpty(ViewKind kind, const Document& document, Id light) {
                            })
                    ? ""
                    : "No material emits light.";
+    case kViewTransmissive:
+    case kViewThrough:
+        return anyMaterial(document, [](const Material& m) { return transmits(m); })
+                   ? ""
+                   : "No material transmits light.";
     case kViewUvChecker:
     case kViewTexelDensity:
     case kViewTangent:

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -48,8 +49,8 @@ class Writer {
 
     GltfOutput write(const std::vector<Bytes>& images) {
         for (std::size_t i = 0; i < m_contents.materials.size(); ++i)
-            m_materials.push_back(
-                material(*m_contents.materials[i], m_contents.textures.materials[i]));
+            m_materials.push_back(material(*m_contents.materials[i],
+                                           m_contents.textures.materials[i], static_cast<int>(i)));
         writeInstances();
         writeLights();
         writeTextures(images);
@@ -175,7 +176,7 @@ class Writer {
             m_extensions.insert("KHR_lights_punctual");
     }
 
-    Json material(const Material& m, const MaterialTextures& t) {
+    Json material(const Material& m, const MaterialTextures& t, int index) {
         Json pbr = {{"baseColorFactor", {m.baseColor.r, m.baseColor.g, m.baseColor.b, m.opacity}}};
         for (const MaterialInputInfo& info : kMaterialInputs)
             if (info.gltf.object == kGltfPbr && !info.gltf.factor.empty())
@@ -193,6 +194,7 @@ class Writer {
                     m.*info.number;
         addEmission(result, m);
         addExtensions(result, m, t);
+        addVolume(result, m, index);
         if (m.alphaMode == AlphaMode::Mask) {
             result["alphaMode"] = "MASK";
             result["alphaCutoff"] = m.alphaCutoff;
@@ -238,6 +240,38 @@ class Writer {
             result["extensions"][name].update(object);
             m_extensions.insert(name);
         }
+    }
+
+    void addVolume(Json& result, const Material& m, int index) {
+        const auto add = [&](const char* name, Json object) {
+            result["extensions"][name] = std::move(object);
+            m_extensions.insert(name);
+        };
+        if (m.ior != Material().ior)
+            add("KHR_materials_ior", {{"ior", m.ior}});
+        if (m.thinWalled)
+            return; // as without a thickness
+        Json volume = {{"thicknessFactor", bodyThickness(index)}};
+        if (m.attenuationDistance > 0.0f) {
+            volume["attenuationDistance"] = m.attenuationDistance;
+            volume["attenuationColor"] = toJson(m.attenuationColor);
+        }
+        add("KHR_materials_volume", std::move(volume));
+    }
+
+    // Patina finds the thickness of a body by its mesh; programs that do not take a number, in the
+    // mesh's units. That of the flattest of them, as its box has it.
+    [[nodiscard]] float bodyThickness(int material) const {
+        float thinnest = std::numeric_limits<float>::infinity();
+        for (const ExportedInstance& exported : m_contents.instances)
+            if (exported.material == material ||
+                std::ranges::find(exported.variants, material) != exported.variants.end()) {
+                const Bounds bounds = exported.instance->mesh->bounds();
+                const glm::vec3 size = bounds.max - bounds.min;
+                thinnest = std::min({thinnest, size.x, size.y, size.z});
+            }
+        // Above 0: that is what tells a body from a wall.
+        return std::isfinite(thinnest) ? std::max(thinnest, 1e-3f) : 1.0f;
     }
 
     bool addTexture(Json& parent, std::string_view key, const TextureUse& use) {

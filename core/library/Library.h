@@ -23,7 +23,7 @@ struct Entry {
 };
 
 [[nodiscard]] const std::vector<Entry>&
-models(); // sphere rounded-cube torus-knot shader-ball cornell-box plane sphere-grid
+models(); // sphere rounded-cube torus-knot shader-ball cornell-box plane sphere-grid glass-spheres
 [[nodiscard]] const std::vector<Entry>&
 environments(); // white clear-sky overcast studio sunset night
 [[nodiscard]] const std::vector<Entry>&

@@ -170,7 +170,7 @@ Mesh makeTorusKnot(int segments, int sides) {
 }
 
 std::span<const ModelRecipe> modelRecipes() {
-    static constexpr std::array<ModelRecipe, 7> kRecipes = {{
+    static constexpr std::array<ModelRecipe, 8> kRecipes = {{
         {"sphere", "Sphere", "A ball of 1 m.",
          [] {
              return std::vector{makePart("Sphere", makeSphere(128, 64),
@@ -202,6 +202,10 @@ std::span<const ModelRecipe> modelRecipes() {
          "Twenty-five balls: rougher to the right, more metallic upwards; for comparing shading "
          "models and environments.",
          sphereGrid},
+        {"glass-spheres", "Glass Spheres",
+         "A mirror, a hollow and a coloured ball of glass on a checkered floor, with a lamp: what "
+         "path tracing shows and the raster view cannot.",
+         glassSpheres},
     }};
     return kRecipes;
 }

@@ -33,5 +33,6 @@ Material materialNamed(const char* partName, const char* materialName, glm::vec2
 std::vector<ModelPart> shaderBall();
 std::vector<ModelPart> cornellBox();
 std::vector<ModelPart> sphereGrid();
+std::vector<ModelPart> glassSpheres();
 
 } // namespace patina::library

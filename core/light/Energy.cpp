@@ -86,18 +86,23 @@ glm::dvec3 integrateDiffuse(const shading::SurfaceTerms& s) {
     return 2.0 * std::numbers::pi * sum;
 }
 
+// What is seen through the surface is not lost.
+glm::dvec3 through(const shading::SurfaceTerms& s) {
+    return glm::dvec3(shading::shadeThrough(s, glm::vec3(1.0f)));
+}
+
 } // namespace
 
 Returned returnedFromEnvironment(const ShadingModel& model, const SurfacePoint& point, float NoV) {
     const shading::SurfaceTerms s = surfaceTerms(model, point, NoV);
-    return {glm::dvec3(s.specularAlbedo), glm::dvec3(s.diffuseAlbedo)};
+    return {glm::dvec3(s.specularAlbedo), glm::dvec3(s.diffuseAlbedo) + through(s)};
 }
 
 Returned returnedFromLights(const ShadingModel& model, const SurfacePoint& point, float NoV) {
     const shading::SurfaceTerms s = surfaceTerms(model, point, NoV);
     Returned returned{integrateSpecular(s), glm::dvec3(0.0)};
     if (point.metallic < 1.0f)
-        returned.diffuse = integrateDiffuse(s);
+        returned.diffuse = integrateDiffuse(s) + through(s);
     return returned;
 }
 

@@ -30,6 +30,10 @@ struct ImportedMaterial {
     bool doubleSided = false;
     bool alphaMask = false, alphaBlend = false;
     float alphaCutoff = 0.5f;
+    float ior = 1.5f;
+    bool thinWalled = true;
+    glm::vec3 attenuationColor{1.0f};
+    float attenuationDistance = 0.0f; // metres; 0: without end
     PerInput<std::optional<ImportedTexture>> maps;
 };
 

@@ -86,6 +86,10 @@ Material convertMaterial(const ImportedMaterial& imported, const std::string& mo
                                                : AlphaMode::Opaque;
     material.alphaCutoff = imported.alphaCutoff;
     material.doubleSided = imported.doubleSided;
+    material.ior = imported.ior;
+    material.thinWalled = imported.thinWalled;
+    material.attenuationColor = imported.attenuationColor;
+    material.attenuationDistance = imported.attenuationDistance;
     return material;
 }
 

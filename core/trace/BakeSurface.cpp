@@ -52,8 +52,12 @@ int texelIndex(float coordinate, int size) {
 } // namespace
 
 BakeSurface bakeSurface(const Material& material) {
-    return {material.baseColor, material.metallic,  material.baseColorMap, material.metallicMap,
-            material.opacity,   material.alphaMode, material.alphaCutoff};
+    // Light that goes through is none that the body scatters back; where a map says how much, bakes
+    // take the surface for opaque.
+    const float body = material.transmissionMap.image ? 1.0f : 1.0f - material.transmission;
+    return {body * material.baseColor, material.metallic, material.baseColorMap,
+            material.metallicMap,      material.opacity,  material.alphaMode,
+            material.alphaCutoff};
 }
 
 bool sameAlbedoMaps(const BakeSurface& a, const BakeSurface& b) {

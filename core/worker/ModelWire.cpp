@@ -96,7 +96,11 @@ json write(const ImportedMaterial& material) {
                    {"doubleSided", material.doubleSided},
                    {"alphaMask", material.alphaMask},
                    {"alphaBlend", material.alphaBlend},
-                   {"alphaCutoff", material.alphaCutoff}};
+                   {"alphaCutoff", material.alphaCutoff},
+                   {"ior", material.ior},
+                   {"thinWalled", material.thinWalled},
+                   {"attenuationColor", array<3>(material.attenuationColor)},
+                   {"attenuationDistance", material.attenuationDistance}};
     json& numbers = result["numbers"] = json::object();
     json& maps = result["maps"] = json::object();
     for (const MaterialInputInfo& info : kMaterialInputs) {
@@ -117,6 +121,10 @@ ImportedMaterial readMaterial(const json& value) {
     material.alphaMask = value.at("alphaMask");
     material.alphaBlend = value.at("alphaBlend");
     material.alphaCutoff = glm::clamp(number(value.at("alphaCutoff")), 0.0f, 1.0f);
+    material.ior = std::max(number(value.at("ior")), 1.0f);
+    material.thinWalled = value.at("thinWalled");
+    material.attenuationColor = glm::clamp(vector<3>(value.at("attenuationColor")), 0.0f, 1.0f);
+    material.attenuationDistance = std::max(number(value.at("attenuationDistance")), 0.0f);
     const json& numbers = value.at("numbers");
     const json& maps = value.at("maps");
     for (const MaterialInputInfo& info : kMaterialInputs) {

@@ -19,7 +19,8 @@ constexpr std::array<const char*, kSurfaceFeatureCount> kDefines{
     "DOUBLE_SIDED",       "HAS_PLACEHOLDER",     "HAS_TEXEL_AO",     "HAS_VERTEX_AO",
     "HAS_TRANSFER",       "HAS_PUNCTUAL_LIGHTS", "HAS_AREA_LIGHTS",  "HAS_SHADOWS",
     "HAS_SHADOWS_2",      "HAS_SHADOWS_3",       "HAS_SHADOWS_4",    "HAS_DOMINANT_LIGHT",
-    "HAS_TEXEL_TRANSFER", "HAS_TRANSFER_CONE",   "HAS_TRANSMISSION", "HAS_IOR"};
+    "HAS_TEXEL_TRANSFER", "HAS_TRANSFER_CONE",   "HAS_TRANSMISSION", "HAS_IOR",
+    "THIN_WALLED"};
 
 // The choices of the model: name of the define, value, default.
 struct ModelChoice {

@@ -100,7 +100,7 @@ static SurfaceFeatures featuresOf(const Material& m,
     if (placeholderShare(m) > 0.0f)
         features |= HasPlaceholder;
     if (m.transmission > 0.0f)
-        features |= HasTransmission;
+        features |= HasTransmission | (m.thinWalled ? ThinWalled : 0u);
     if (m.ior != shading::kDielectricIor)
         features |= HasIor;
     return result;

@@ -35,8 +35,9 @@ enum SurfaceFeature : unsigned {
     HasTransferCone = 1u << 17,  // a bake says what is visible
     HasTransmission = 1u << 18,  // MaterialInputInfo::rare
     HasIor = 1u << 19,           // a refractive index other than the standard one
+    ThinWalled = 1u << 20,       // with HasTransmission
 };
-inline constexpr int kSurfaceFeatureCount = 20;
+inline constexpr int kSurfaceFeatureCount = 21;
 
 // How a variant reads the map of an input.
 struct MapUse {

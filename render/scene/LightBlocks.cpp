@@ -1,5 +1,7 @@
 #include "render/scene/LightBlocks.h"
 
+#include "core/document/Views.h"
+#include "core/edit/ViewReasons.h"
 #include "core/light/Light.h"
 #include "core/light/Lights.h"
 #include "core/mix/LightMix.h"
@@ -135,6 +137,11 @@ std::vector<LightLimit> lightLimits(const Document& document) {
                                     "them, and the others shine through; switch Shadow "
                                     "off where it matters least.",
                                     kMaxShadows, count)});
+    if (whyEmpty(shading::kViewTransmissive, document).empty())
+        limits.push_back({"transmission",
+                          "Through transmissive materials the raster view shows the "
+                          "environment alone, no other mesh and no absorption; "
+                          "path tracing shows all."});
     return limits;
 }
 

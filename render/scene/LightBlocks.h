@@ -29,9 +29,9 @@ void packLights(const Document& document, std::span<const Id> shadowSlots, Frame
 // The ids of the packed lights, in their order.
 [[nodiscard]] std::vector<Id> lightOrder(const Document& document);
 
-// What of the document's lights pictures leave out.
+// What of the document's light pictures leave out.
 struct LightLimit {
-    std::string_view id; // "lights", "shadows"
+    std::string_view id; // "lights", "shadows", "transmission"
     std::string text;    // a sentence for the user: what, and what helps
 };
 [[nodiscard]] std::vector<LightLimit> lightLimits(const Document& document);

@@ -161,8 +161,17 @@ ExplainedStep diffuseStep(const Subject& subject) {
                 ? "E(n) comes from the transfer, which includes the shadows; AO is left out."
                 : "E(n) comes from the transfer, which includes the shadows and the "
                   "diffuse light of all lights; AO is left out.";
+    glm::vec3 sum = albedo * kd * (ao / glm::pi<float>()) * irradiance;
+    if (s.clearColor != glm::vec3(0.0f)) {
+        const glm::vec3 behind = subject.radiance(kRecordBehind);
+        step.formula += " + t · c · (1 − m) · kD · Lₜ";
+        step.factors.push_back(
+            color("clearColor", "Colour That Goes Through", "t · c · (1 − m)", s.clearColor));
+        step.factors.push_back(vector3("behind", "Radiance Behind", "Lₜ", behind));
+        sum += s.clearColor * kd * behind;
+    }
     weigh(step, subject.rebuilt.mix.x);
-    compare(step, subject.rebuilt.mix.x * albedo * kd * (ao / glm::pi<float>()) * irradiance);
+    compare(step, subject.rebuilt.mix.x * sum);
     return step;
 }
 

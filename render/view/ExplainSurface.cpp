@@ -151,33 +151,28 @@ ExplainedSection explainMaps(const Subject& subject) {
 
 namespace {
 
-std::string f0Formula(Fresnel fresnel) {
-    switch (fresnel) {
-    case Fresnel::Dielectric:
-        return "((n − 1) / (n + 1))² · (1 − m) + c · m";
-    case Fresnel::Conductor:
-        return "0.04 · (1 − m) + F(n + ik, 0°) · m";
-    case Fresnel::Schlick:
-    case Fresnel::SchlickF90:
-        break;
-    }
-    return "0.04 · (1 − m) + c · m";
+std::string f0Formula(Fresnel fresnel, bool ownIndex) {
+    const std::string dielectric =
+        ownIndex || fresnel == Fresnel::Dielectric ? "((n − 1) / (n + 1))²" : "0.04";
+    const char* metal = fresnel == Fresnel::Conductor ? "F(n + ik, 0°)" : "c";
+    return fmt::format("{} · (1 − m) + {} · m", dielectric, metal);
 }
 
 ExplainedStep f0Step(const Subject& subject) {
     const ShadingModel& model = subject.document.model;
     const SurfaceTerms& s = subject.rebuilt.surface;
+    const bool ownIndex = subject.material.ior != kDielectricIor;
     ExplainedStep step{"f0",
                        "Reflectance at Normal Incidence",
-                       f0Formula(model.fresnel),
+                       f0Formula(model.fresnel, ownIndex),
                        {color("baseColor", "Base Colour", "c", subject.vector(kViewBaseColor)),
                         scalar("metallic", "Metallic", "m", s.metallic)},
                        color("f0", "F0", "F0", subject.vector(kViewF0)),
                        {},
                        true,
                        {}};
-    if (model.fresnel == Fresnel::Dielectric)
-        step.factors.push_back(scalar("ior", "Index of Refraction", "n", model.ior));
+    if (ownIndex || model.fresnel == Fresnel::Dielectric)
+        step.factors.push_back(scalar("ior", "Index of Refraction", "n", s.model.ior));
     if (model.fresnel == Fresnel::Conductor) {
         step.factors.push_back(color("conductorN", "Conductor n", "n", model.conductorN));
         step.factors.push_back(color("conductorK", "Conductor k", "k", model.conductorK));
@@ -219,6 +214,10 @@ ExplainedSection explainSurface(const Subject& subject) {
         {},
         true,
         {}};
+    if (const float through = subject.number(kViewTransmissive); through > 0.0f) {
+        diffuse.formula += " · (1 − t)";
+        diffuse.factors.push_back(scalar("transmission", "Transmission", "t", through));
+    }
     compare(diffuse, s.diffuseColor);
     section.steps.push_back(std::move(diffuse));
     section.steps.push_back(f0Step(subject));

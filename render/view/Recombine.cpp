@@ -116,7 +116,8 @@ RebuiltPixel recombine(const Inspection& pixel, const Document& document) {
             : specularOcclusion(s.NoV, ao, s.alpha);
     result.mix = mixWeights(document.view.reflectionMix);
     result.terms[0] =
-        result.mix.x * shadeIrradiance(s, result.ao * straight(pixel.value(kViewIrradiance)));
+        result.mix.x * (shadeIrradiance(s, result.ao * straight(pixel.value(kViewIrradiance))) +
+                        shadeThrough(s, straight(pixel.value(kRecordBehind))));
     result.terms[1] =
         result.mix.y * result.open * shadePrefiltered(s, straight(pixel.value(kViewPrefiltered)));
 

@@ -180,9 +180,17 @@ void recordIbl(SurfaceTerms s, vec3 dfg, vec3 arriving, vec3 prefiltered, Shaded
 
     // A uniform environment of radiance 1.
     ShadedLight even = mixed(shadeEnvironment(s, vec3(kPi), vec3(1.0)));
-    vec3 returned = even.diffuse + even.specular;
+    vec3 returned = even.diffuse + even.specular + u_mix.x * shadeThrough(s, vec3(1.0));
     record(kViewFurnace, max(returned.r, max(returned.g, returned.b)));
 }
+
+#ifdef HAS_TRANSMISSION
+void recordThrough(SurfaceTerms s, vec3 behind, vec3 through, float alpha) {
+    recordRadiance(kRecordBehind, behind, 1.0);
+    recordRadiance(kViewThrough, through, alpha);
+    recordPart(kViewTransmissive, through, alpha);
+}
+#endif
 
 void recordSum(SurfaceTerms s, vec3 diffuseIbl, vec3 specularIbl, vec3 directDiffuse,
                vec3 directSpecular, vec3 emission, LightSums sums, float alpha) {

@@ -184,6 +184,24 @@ PT_FN vec3 lobeDirection(SurfaceTerms s, float tilt) {
     return mix(s.n, r, tilt);
 }
 
+// Which way a viewer looks through a clear solid body, as far as one of its faces can tell: refracted
+// there by Snell's law, and again where a ball would be left, whose normal is the face's mirrored in
+// the ray. So a ball shows the environment as it does, and other bodies alike.
+PT_FN vec3 throughDirection(vec3 n, vec3 v, float ior) {
+    float entering = clamp(dot(n, v), 0.0f, 1.0f);
+    float inside = sqrt(max(1.0f - (1.0f - entering * entering) / (ior * ior), 0.0f));
+    vec3 d = (entering / ior - inside) * n - v / ior;
+    vec3 far = n + 2.0f * inside * d;
+    return ior * d + (entering - ior * inside) * far;
+}
+
+// The roughness of a reflection that is as blurred as what is seen through both faces of a body: a
+// facet tilted by a small angle turns reflected light by twice that, and light that goes through by
+// (n - 1) times that; two faces add up by their squares, so that alpha is (n - 1) / sqrt(2) of it.
+PT_FN float throughRoughness(float perceptualRoughness, float ior) {
+    return perceptualRoughness * sqrt(clamp((ior - 1.0f) * 0.70710678f, 0.0f, 1.0f));
+}
+
 // How much of the specular lobe an ambient visibility of `ao` leaves open.
 // Lagarde & de Rousiers 2014, "Moving Frostbite to PBR", listing 26.
 PT_FN float specularOcclusion(float NoV, float ao, float alpha) {
@@ -239,6 +257,11 @@ PT_FN vec3 shadeIrradiance(SurfaceTerms s, vec3 irradiance) {
 // times the lobe's albedo.
 PT_FN vec3 shadePrefiltered(SurfaceTerms s, vec3 prefilteredRadiance) {
     return s.specularAlbedo * prefilteredRadiance;
+}
+
+// What is seen through a clear body under the layer; `behind`: radiance that arrives there.
+PT_FN vec3 shadeThrough(SurfaceTerms s, vec3 behind) {
+    return s.transmission * s.clearColor * behind;
 }
 
 PT_FN ShadedLight shadeEnvironment(SurfaceTerms s, vec3 irradiance, vec3 prefilteredRadiance) {

@@ -234,6 +234,11 @@ std::vector<SharedTermCase> makeCases() {
                  O(17) = prefilteredRoughness(int(21.0f * abs(I(24))), 22, 256.0f);
                  O(18) = levelDensity(100.0f * abs(I(24)));
                  O(19) = levelStep(22, 256.0f * abs(I(24)));),
+            CASE("through", surface, 1e-2f, SurfaceTerms s = SURFACE;
+                 s.clearColor = vec3(I(9), I(10), I(11));
+                 OUT3(0, throughDirection(s.n, s.v, 1.0f + 2.0f * abs(I(22))));
+                 O(3) = throughRoughness(abs(I(23)), 1.0f + 2.0f * abs(I(22)));
+                 OUT3(4, shadeThrough(s, vec3(I(16), I(17), I(18))));),
             CASE("cones", surface, 1e-2f, SurfaceTerms s = SURFACE;
                  O(0) = sharedCap(I(16), I(17), I(18)); O(2) = angleOf(I(16));
                  O(1) = coneOcclusion(vec4(I(16), I(17), I(18), I(23)), s.n, s.v, I(24));),

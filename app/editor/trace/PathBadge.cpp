@@ -141,12 +141,25 @@ QString PathBadge::text() const {
     parts << tr("%1 s").arg(locale.toString(progress.seconds, 'f', progress.seconds < 10 ? 1 : 0));
     if (progress.refined)
         parts << tr("done");
-    return parts.join(QStringLiteral("  ·  "));
+    const QString line = parts.join(QStringLiteral("  ·  "));
+    return progress.limit ? line + tr("\nPoint-like lights do not shine through solid glass")
+                          : line;
 }
 
 void PathBadge::refresh() {
     setVisible(m_paths.isOn());
     m_text->setText(text());
+    const QString help =
+        tr("Paths per pixel so far, and how certain that makes the picture: the standard error of "
+           "its pixels, as a share of its mean brightness. At ± 1 % it is done.");
+    const std::optional<std::string>& limit = m_paths.progress().limit;
+    m_text->setToolTip(
+        m_paths.isWhitted()
+            ? tr("The classical ray tracer (Whitted 1980): hard shadows, mirror reflection and "
+                 "refraction, ambient light. Open the Ray Tree dock and click a pixel to see its "
+                 "rays.")
+        : limit ? help + QStringLiteral("\n\n") + toQString(*limit)
+                : help);
     m_shown->setCurrentIndex(m_shown->findData(static_cast<int>(m_error.shown())));
     m_pause->setChecked(m_paths.isPaused());
     m_pause->setText(m_paths.isPaused() ? tr("Resume") : tr("Pause"));
@@ -158,13 +171,6 @@ void PathBadge::refresh() {
     m_boxes->setVisible(m_paths.isWhitted());
     if (m_heat.counted()) // how many levels there are is known then
         m_boxes->setMaximum(std::max(m_heat.deepestLevel(), 1));
-    m_text->setToolTip(
-        m_paths.isWhitted()
-            ? tr("The classical ray tracer (Whitted 1980): hard shadows, mirror reflection and "
-                 "refraction, ambient light. Open the Ray Tree dock and click a pixel to see its "
-                 "rays.")
-            : tr("Paths per pixel so far, and how certain that makes the picture: the standard "
-                 "error of its pixels, as a share of its mean brightness. At ± 1 % it is done."));
     place();
 }
 

@@ -217,6 +217,7 @@ void PathView::take(const Result<Pass>& pass) {
         m_reference = pass->reference;
     m_rays += pass->rays;
     m_progress.samples = m_work->samples;
+    m_progress.limit = pass->scene->limit();
     if (pass->noise)
         m_progress.noise = pass->noise;
     m_progress.seconds += pass->seconds;

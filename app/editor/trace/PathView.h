@@ -56,6 +56,7 @@ class PathView : public QObject {
         double raysPerSecond = 0.0, seconds = 0.0, rays = 0.0; // of the passes so far
         bool refined = false;                                  // nothing more is to come
         std::optional<Error> error;                            // why there is no picture
+        std::optional<std::string> limit;                      // TraceScene::limit()
     };
     [[nodiscard]] const Progress& progress() const { return m_progress; }
 

@@ -157,7 +157,9 @@ void EquationBar::close(std::size_t depth) {
 }
 
 Equation EquationBar::equation() const {
-    return *equationOf(opened(), m_controller.document().model);
+    const Document& document = m_controller.document();
+    const bool transmits = whyEmpty(shading::kViewThrough, document).empty();
+    return *equationOf(opened(), document.model, transmits);
 }
 
 bool EquationBar::back() {

@@ -161,6 +161,17 @@ void GltfMaterialReader::specularGlossiness(const json& source, ImportedMaterial
                          material.name));
 }
 
+// KHR_materials_ior and KHR_materials_volume. An index of 0 stands for infinity there; the greatest
+// that a material can have comes nearest.
+void readVolume(const json& source, ImportedMaterial& material) {
+    const float ior = extension(source, "KHR_materials_ior").value("ior", 1.5f);
+    material.ior = ior == 0.0f ? 3.0f : ior;
+    const json& volume = extension(source, "KHR_materials_volume");
+    material.thinWalled = !(volume.value("thicknessFactor", 0.0f) > 0.0f);
+    material.attenuationColor = vector<3>(volume, "attenuationColor", glm::vec3(1.0f));
+    material.attenuationDistance = volume.value("attenuationDistance", 0.0f);
+}
+
 ImportedMaterial GltfMaterialReader::material(const json& source, std::size_t index) {
     ImportedMaterial material;
     material.name = source.value("name", fmt::format("material {}", index + 1));
@@ -181,6 +192,8 @@ ImportedMaterial GltfMaterialReader::material(const json& source, std::size_t in
     material.emissive =
         vector<3>(source, "emissiveFactor", glm::vec3(0.0f)) *
         extension(source, "KHR_materials_emissive_strength").value("emissiveStrength", 1.0f);
+
+    readVolume(source, material);
 
     material.doubleSided = source.value("doubleSided", false);
     const std::string alphaMode = source.value("alphaMode", "OPAQUE");

@@ -12,7 +12,7 @@ Id materialSeen(const TraceScene& scene, const glm::vec3& origin, const glm::vec
     ClosestRay hit = scene.closest(origin, direction);
     for (int backs = 0; hit.mesh != ClosestRay::kNothing && backs < kMostLookedThrough; ++backs) {
         const TracePoint point = scene.pointAt(hit);
-        if (!point.isBack || point.material->doubleSided())
+        if (point.hasSurface())
             return scene.materialOf(point.mesh);
         hit = scene.closest(TraceScene::origin(point, true), direction);
     }

@@ -44,7 +44,8 @@ glm::vec3 LightPath::look(const glm::vec3& origin, const glm::vec3& direction,
         hit = closest(TraceScene::origin(point, true), direction);
     }
     m_media = Media();
-    const glm::vec3 seen = absorbed(point, m_scene.metres(glm::length(point.position - origin)));
+    const glm::vec3 seen =
+        leftOnWay(m_media, point, m_scene.metres(glm::length(point.position - origin)));
     const TraceSurface surface = m_scene.surfaceIn(point, -direction, m_media);
     const glm::vec3 emission = seen * point.emission();
     if (TraceSample* sample = m_split.sample()) {
@@ -134,7 +135,7 @@ LightPath::Followed LightPath::follow(TracePoint point, TraceSurface terms,
             return result;
         }
         point = m_scene.pointAt(hit);
-        throughput *= absorbed(point, distance);
+        throughput *= leftOnWay(m_media, point, distance);
         search.travelled += distance;
         if (!point.hasSurface())
             return result; // absorbed
@@ -148,11 +149,11 @@ LightPath::Followed LightPath::follow(TracePoint point, TraceSurface terms,
     }
 }
 
-glm::vec3 LightPath::absorbed(const TracePoint& point, float metres) {
+glm::vec3 LightPath::leftOnWay(Media& media, const TracePoint& point, float metres) const {
     if (point.isBack && point.material->transmits() && !point.material->glass().thinWalled &&
-        !m_media.contains(point.material))
-        m_media.enter({point.material, m_scene.indexOf(*point.material)});
-    return m_media.transmittance(metres);
+        !media.contains(point.material))
+        media.enter({point.material, m_scene.indexOf(*point.material)});
+    return media.transmittance(metres);
 }
 
 // Where the path goes on, with the weight of what comes from there; without a weight it ends.

@@ -99,9 +99,9 @@ class LightPath {
         return view.background ? view.background(direction)
                                : m_scene.environmentRadiance(direction);
     }
-    // Share of the light that is left on the way to a point. Its back shows what a path is in that
-    // began inside a body, or came in by a hole.
-    glm::vec3 absorbed(const TracePoint& point, float metres);
+    // Share of the light that is left on the way to a point through the media. Its back shows what
+    // a ray is in that began inside a body, or came in by a hole.
+    glm::vec3 leftOnWay(Media& media, const TracePoint& point, float metres) const;
     [[nodiscard]] GlassSample next(const Part& part, const PathSequence& sequence, int surface,
                                    float choice);
 

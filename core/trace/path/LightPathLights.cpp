@@ -91,9 +91,9 @@ glm::vec3 LightPath::throughStraightGlass(glm::vec3 from, const glm::vec3& l, fl
         const TracePoint wall = m_scene.pointAt(hit);
         if (!wall.material->transmits())
             break;
+        left *= leftOnWay(media, wall, distance);
         const TraceSurface surface = m_scene.surfaceIn(wall, -l, media);
-        left *= media.transmittance(distance) * surface.glassShare *
-                straightTransmittance(surface.glass);
+        left *= surface.glassShare * straightTransmittance(surface.glass);
         if (left == glm::vec3(0.0f))
             break;
         if (!surface.glass.thinWalled)

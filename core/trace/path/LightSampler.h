@@ -5,6 +5,7 @@
 
 #include "core/light/Light.h"
 
+#include <algorithm>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
@@ -27,6 +28,11 @@ class LightSampler {
 
     [[nodiscard]] bool empty() const { return m_lights.empty(); }
     [[nodiscard]] std::size_t size() const { return m_lights.size(); }
+    // A light that only a ray to it finds.
+    [[nodiscard]] bool anyWithoutExtent() const {
+        return std::any_of(m_lights.begin(), m_lights.end(),
+                           [](const Source& source) { return !source.extended; });
+    }
 
     // How likely each light is chosen at a point of the world, by what arrives there where nothing
     // is in the way; they sum up to 1, or to 0 where none reaches.

@@ -56,6 +56,9 @@ class TraceMaterial {
                                           const glm::vec2& uv) const;
     // Somewhere on the surface.
     [[nodiscard]] bool transmits() const { return m_transmission > 0.0f && m_metallic < 1.0f; }
+    [[nodiscard]] bool mayBeRough() const {
+        return m_perceptualRoughness > shading::kMinPerceptualRoughness;
+    }
     [[nodiscard]] float ior() const { return m_ior; }
     [[nodiscard]] const TraceGlass& glass() const { return m_glass; }
     [[nodiscard]] bool hasNormalMap() const { return m_normal.isThere(); }

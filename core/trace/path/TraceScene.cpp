@@ -98,18 +98,49 @@ Result<TraceScene> TraceScene::build(const TraceInputs& inputs, const JobContext
     if (job.cancelled())
         return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
     result.collectEmissive();
-    result.collectGlass();
+    result.collectGlass(previous);
     return result;
 }
 
-void TraceScene::collectGlass() {
+// Tables for faces between a body and air; between two bodies light between facets stays lost.
+void TraceScene::collectGlass(const TraceScene* previous) {
+    const auto add = [&](float eta, bool thinWalled) {
+        const auto isThat = [&](const GlassTable& table) {
+            return table.thinWalled == thinWalled && (thinWalled || table.eta == eta);
+        };
+        if (std::ranges::any_of(m_glassTables, isThat))
+            return;
+        if (previous != nullptr)
+            if (const auto known = std::ranges::find_if(previous->m_glassTables, isThat);
+                known != previous->m_glassTables.end()) {
+                m_glassTables.push_back(*known);
+                return;
+            }
+        m_glassTables.push_back(
+            {eta, thinWalled, std::make_shared<const GlassAlbedo>(eta, thinWalled)});
+    };
     for (const Instance& instance : m_instances) {
         const TraceMaterial& material = m_materials[instance.material];
-        const bool straight =
-            material.glass().thinWalled || glassEta(indexOf(material), 1.0f) == 1.0f;
-        m_hasStraightGlass = m_hasStraightGlass || (material.transmits() && straight);
-        m_hasSolidGlass = m_hasSolidGlass || (material.transmits() && !straight);
+        if (!material.transmits())
+            continue;
+        const float ior = indexOf(material);
+        const bool thinWalled = material.glass().thinWalled;
+        const bool straight = thinWalled || glassEta(ior, 1.0f) == 1.0f;
+        (straight ? m_hasStraightGlass : m_hasSolidGlass) = true;
+        if (!material.mayBeRough())
+            continue;
+        add(thinWalled ? 1.5f : glassEta(ior, 1.0f), thinWalled);
+        if (!thinWalled)
+            add(glassEta(1.0f, ior), false);
     }
+}
+
+std::optional<std::string> TraceScene::limit() const {
+    if (!m_hasSolidGlass || m_lights.empty() || !m_lights.anyWithoutExtent())
+        return std::nullopt;
+    return "Points, spots and directional lights without softness do not shine through solid "
+           "transmissive materials, which no path can find them through: take spheres, rectangles, "
+           "glowing meshes or a softness above 0°, or make the material thin-walled.";
 }
 
 // As makeSurface() has it.
@@ -238,7 +269,7 @@ TraceSurface TraceScene::surfaceIn(const TracePoint& point, const glm::vec3& v,
     surface.glassShare = inputs.transmission * (1.0f - inputs.metallic);
     if (surface.glassShare > 0.0f) {
         surface.ior = indexOf(*point.material);
-        surface.glass = glassTerms(point, v, inputs, media, surface.ior, entry.x + entry.y);
+        surface.glass = glassTerms(point, v, inputs, media, surface.ior);
         inputs.metallic = surface.glassShare < 1.0f
                               ? std::min(inputs.metallic / (1.0f - surface.glassShare), 1.0f)
                               : 0.0f;
@@ -248,10 +279,9 @@ TraceSurface TraceScene::surfaceIn(const TracePoint& point, const glm::vec3& v,
     return surface;
 }
 
-// `E`: what the lobe of rough facets returns of uniform light if each facet reflects all.
 GlassTerms TraceScene::glassTerms(const TracePoint& point, const glm::vec3& v,
                                   const shading::SurfaceInputs& inputs, const Media& media,
-                                  float ior, float E) const {
+                                  float ior) const {
     GlassTerms glass;
     glass.v = v;
     glass.thinWalled = point.material->glass().thinWalled;
@@ -273,10 +303,11 @@ GlassTerms TraceScene::glassTerms(const TracePoint& point, const glm::vec3& v,
         glm::dot(point.normal, v) > shading::kMinNoV && glm::dot(mirrored, point.face) > 0.0f;
     glass.n = clear ? point.normal : point.face;
     glass.NoV = glm::clamp(glm::dot(glass.n, v), shading::kMinNoV, 1.0f);
-    const bool tabulated = m_model.distribution == shading::kDistributionGGX &&
-                           m_model.visibility == shading::kVisibilitySmithCorrelated;
-    if (glass.thinWalled && !glass.isSmooth() && tabulated && m_model.multiScatter != 0)
-        glass.gain = 1.0f / std::max(E, 1e-3f);
+    if (!glass.isSmooth() && m_model.multiScatter != 0)
+        for (const GlassTable& table : m_glassTables)
+            if (table.thinWalled == glass.thinWalled &&
+                (table.thinWalled || table.eta == glass.eta))
+                glass.gain = 1.0f / table.albedo->at(glass.NoV, inputs.perceptualRoughness);
     return glass;
 }
 

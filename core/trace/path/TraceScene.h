@@ -8,6 +8,7 @@
 #include "core/trace/path/EmissiveTriangles.h"
 #include "core/trace/path/EnvironmentSampler.h"
 #include "core/trace/path/Glass.h"
+#include "core/trace/path/GlassAlbedo.h"
 #include "core/trace/path/LightSampler.h"
 #include "core/trace/path/TraceInputs.h"
 #include "core/trace/path/TraceMaterial.h"
@@ -15,6 +16,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace patina {
@@ -84,9 +87,10 @@ class TraceScene {
                                          const Media& media) const;
     // Refractive index, where the shading model has one for all, too.
     [[nodiscard]] float indexOf(const TraceMaterial& material) const;
+    // What paths through this scene cannot show, as a sentence for the user.
+    [[nodiscard]] std::optional<std::string> limit() const;
     // Somewhere a sheet is smooth glass, or a body has the index of air: rays to lights go on.
     [[nodiscard]] bool hasStraightGlass() const { return m_hasStraightGlass; }
-    [[nodiscard]] bool hasSolidGlass() const { return m_hasSolidGlass; }
 
     [[nodiscard]] glm::vec3 toWorld(const glm::vec3& scenePoint) const;
     [[nodiscard]] glm::vec3 toScene(const glm::dvec3& worldPoint) const;
@@ -115,9 +119,9 @@ class TraceScene {
     [[nodiscard]] glm::vec2 dfg(float NoV, float perceptualRoughness) const;
     [[nodiscard]] GlassTerms glassTerms(const TracePoint& point, const glm::vec3& v,
                                         const shading::SurfaceInputs& inputs, const Media& media,
-                                        float ior, float E) const;
+                                        float ior) const;
     void collectEmissive();
-    void collectGlass();
+    void collectGlass(const TraceScene* previous);
 
     TraceInputs m_inputs;
     std::shared_ptr<const BakeScene> m_scene; // null: no triangles
@@ -134,6 +138,12 @@ class TraceScene {
     EmissiveTriangles m_emissive;
     shading::BrdfModel m_model{};
     std::shared_ptr<const std::vector<glm::vec2>> m_dfg;
+    struct GlassTable {
+        float eta = 1.5f;
+        bool thinWalled = false;
+        std::shared_ptr<const GlassAlbedo> albedo;
+    };
+    std::vector<GlassTable> m_glassTables; // of rough glass
     bool m_hasStraightGlass = false, m_hasSolidGlass = false;
     float m_metresPerUnit = 1.0f;
     glm::dvec3 m_centre{0.0};

@@ -230,6 +230,42 @@ TEST_F(ExportRun, EveryInputOfAMaterialIsReadBack) {
     }
 }
 
+TEST_F(ExportRun, GlassIsReadBack) {
+    Document document;
+    Material& pane = addMaterial(document, "Pane");
+    pane.transmission = 1.0f;
+    const Id paneId = pane.id;
+    Material& juice = addMaterial(document, "Juice");
+    juice.transmission = 0.5f;
+    juice.ior = 1.25f;
+    juice.thinWalled = false;
+    juice.attenuationColor = {0.5f, 0.25f, 0.125f};
+    juice.attenuationDistance = 0.75f;
+    const Id juiceId = juice.id;
+    const Id plain = addMaterial(document, "Plain").id;
+    for (const Id id : {paneId, juiceId, plain})
+        addSquare(document, id);
+    ASSERT_TRUE(runExport(m_worker, planExport(document, settings("g.gltf")), JobContext()).ok());
+    const Result<OpenedScene> opened = openScene(m_worker, m_folder / "g.gltf");
+    ASSERT_TRUE(opened.ok()) << opened.error().text();
+    ASSERT_EQ(opened->document.materials.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Material &out = document.materials[i], &back = opened->document.materials[i];
+        EXPECT_EQ(back.transmission, out.transmission) << out.name;
+        EXPECT_EQ(back.ior, out.ior) << out.name;
+        EXPECT_EQ(back.thinWalled, out.thinWalled) << out.name;
+        EXPECT_EQ(back.attenuationColor, out.attenuationColor) << out.name;
+        EXPECT_EQ(back.attenuationDistance, out.attenuationDistance) << out.name;
+    }
+    const Result<Bytes> bytes = readFile(m_folder / "g.gltf", 1 << 20);
+    ASSERT_TRUE(bytes.ok());
+    const char* text = reinterpret_cast<const char*>(bytes->data());
+    const Json json = Json::parse(text, text + bytes->size());
+    // A material that needs none of them names none.
+    EXPECT_FALSE(json["materials"][2].contains("extensions"));
+    EXPECT_GT(json["materials"][1]["extensions"]["KHR_materials_volume"]["thicknessFactor"], 0.0f);
+}
+
 TEST_F(ExportRun, ACancelLeavesNothing) {
     for (const char* name : {"scene.glb", "scene.gltf"}) {
         JobControl control;

@@ -90,7 +90,7 @@ class EveryModel : public testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(Library, EveryModel,
                          testing::Values("sphere", "rounded-cube", "torus-knot", "shader-ball",
-                                         "cornell-box", "plane", "sphere-grid"));
+                                         "cornell-box", "plane", "sphere-grid", "glass-spheres"));
 
 TEST_P(EveryModel, NeedsNoRepair) {
     for (const library::ModelPart& p : partsOf(GetParam())) {
@@ -183,6 +183,33 @@ TEST(LibraryMesh, TheGridSpansMetallicAndRoughness) {
         EXPECT_NEAR(p.material.metallic, (center.y - 0.18f) / 1.6f, 1e-4f) << p.name;
         EXPECT_EQ(p.material.baseColor, parts.front().material.baseColor);
         EXPECT_EQ(openEdges(*p.mesh), 0u);
+    }
+}
+
+// Each ball is a closed body, the hollow's wall faces what it holds, and they do not meet.
+TEST(LibraryMesh, TheGlassSpheresAreBodiesOfGlass) {
+    const auto parts = partsOf("glass-spheres");
+    double outside = 0.0, inside = 0.0;
+    for (const library::ModelPart& p : parts) {
+        const bool field = p.name.ends_with("Fields");
+        EXPECT_EQ(openEdges(*p.mesh) == 0, !field) << p.name;
+        if (field)
+            continue;
+        EXPECT_GT(p.mesh->bounds().min.y, 0.0f) << p.name;
+        if (p.name == "Hollow Sphere, Inside")
+            inside = volume(*p.mesh);
+        else
+            EXPECT_GT(volume(*p.mesh), 0.0) << p.name;
+        if (p.name == "Hollow Sphere, Outside")
+            outside = volume(*p.mesh);
+    }
+    EXPECT_LT(inside, 0.0);
+    EXPECT_GT(outside + inside, 0.0);
+    for (const char* name :
+         {"Hollow Sphere, Outside", "Hollow Sphere, Inside", "Coloured Sphere"}) {
+        const Material& m = part(parts, name).material;
+        EXPECT_EQ(m.transmission, 1.0f);
+        EXPECT_FALSE(m.thinWalled);
     }
 }
 

@@ -5,6 +5,7 @@
 #include "core/trace/path/PathTracer.h"
 #include "tests/core/math/SamplerCheck.h"
 #include "tests/core/trace/GlassScenes.h"
+#include "tests/core/trace/TraceBall.h"
 
 #include <algorithm>
 #include <bit>
@@ -229,7 +230,15 @@ TEST(Glass, NothingIsLostInAFurnace) {
     scenes.emplace_back("ball", test::hollowSphere(glass(1.5f, false), 0.0f, 48));
     scenes.emplace_back("dense ball", test::hollowSphere(glass(3.0f, false), 0.0f, 48));
     scenes.emplace_back("hollow", test::hollowSphere(glass(1.5f, false), 0.85f, 48));
-    for (const float roughness : {0.0f, 0.3f, 0.6f, 1.0f}) {
+    for (const float roughness : {0.2f, 0.6f, 1.0f}) {
+        Material body = glass(1.5f, false);
+        body.perceptualRoughness = roughness;
+        scenes.emplace_back("rough ball " + std::to_string(roughness),
+                            test::hollowSphere(body, 0.0f, 48));
+        scenes.emplace_back("rough slab " + std::to_string(roughness),
+                            test::slab(body, {test::uniformSky(1.0f), 0.0f, glm::vec3(1.0f)}));
+    }
+    for (const float roughness : {0.0f, 0.5f, 1.0f}) {
         Material wall = glass(1.5f, true);
         wall.perceptualRoughness = roughness;
         scenes.emplace_back("bubble " + std::to_string(roughness),
@@ -244,11 +253,12 @@ TEST(Glass, NothingIsLostInAFurnace) {
         TraceView view;
         view.width = view.height = 12;
         view.camera.distance = 3.6f;
-        ASSERT_TRUE(tracePaths(built(inputs), view, {}, film, 0, 300, {}).ok());
+        ASSERT_TRUE(tracePaths(built(inputs), view, {}, film, 0, 500, {}).ok());
         double sum = 0.0;
         for (const Film::Pixel& pixel : film.pixels())
             sum += pixel.luminance() / static_cast<double>(film.pixels().size());
-        EXPECT_NEAR(sum, 1.0, 6e-3) << name;
+        // Light is long in rough bodies, where each face has the error of a table.
+        EXPECT_NEAR(sum, 1.0, name.starts_with("rough") ? 0.015 : 0.008) << name;
     }
 }
 
@@ -316,12 +326,12 @@ TEST(Glass, LightThroughAWindowIsTheSameByEitherSearch) {
             PathSettings settings;
             settings.search = search;
             Film::Pixel pixel;
-            traceIrradiance(scene, {0.0, -0.5, 0.0}, {0, 1, 0}, settings, 1 << 17, pixel);
+            traceIrradiance(scene, {0.0, -0.5, 0.0}, {0, 1, 0}, settings, 1 << 16, pixel);
             means.push_back(pixel.sum / static_cast<double>(pixel.samples));
         }
         for (int c = 0; c < 3; ++c) {
-            EXPECT_NEAR(means[1][c], means[0][c], 0.02 * means[0][c]) << roughness;
-            EXPECT_NEAR(means[2][c], means[0][c], 0.02 * means[0][c]) << roughness;
+            EXPECT_NEAR(means[1][c], means[0][c], 0.03 * means[0][c]) << roughness;
+            EXPECT_NEAR(means[2][c], means[0][c], 0.03 * means[0][c]) << roughness;
         }
     }
 }
@@ -348,29 +358,44 @@ TEST(Glass, APointShinesThroughAWindowButNotThroughABody) {
     }
 }
 
+TEST(Glass, SaysWhichLightsNoPathCanFindThroughIt) {
+    for (const bool thinWalled : {true, false})
+        for (const LightType type : {LightType::Point, LightType::Directional, LightType::Sphere}) {
+            TraceInputs inputs = test::sheet(glass(1.5f, thinWalled), test::checkeredSky());
+            EXPECT_FALSE(built(inputs).limit());
+            Light light;
+            light.type = type;
+            light.radius = 0.1f;
+            light.shadowSoftness = 0.0f;
+            inputs.lights = {light};
+            EXPECT_EQ(built(inputs).limit().has_value(), !thinWalled && type != LightType::Sphere);
+            inputs.materials[0].transmission = 0.0f;
+            EXPECT_FALSE(built(inputs).limit());
+        }
+}
+
 TEST(Glass, LeavesNoPixelWithoutANumber) {
     for (const float roughness : {0.0f, 0.046f, 1.0f})
         for (const float n : {1.0f, 1.0005f, 1.001f, 3.0f})
-            for (const bool thinWalled : {false, true})
-                for (const float transmission : {0.4f, 1.0f}) {
-                    Material m = glass(n, thinWalled);
-                    m.perceptualRoughness = roughness;
-                    m.transmission = transmission;
-                    m.attenuationColor = {0.0f, 0.5f, 1.0f};
-                    m.attenuationDistance = 0.1f;
-                    // A closed body, and one that is only entered.
-                    for (const TraceInputs& inputs :
-                         {test::hollowSphere(m, 0.5f, 16), test::sheet(m, test::checkeredSky())}) {
-                        TraceView view;
-                        view.width = view.height = 8;
-                        view.camera.distance = 2.0f;
-                        Film film(8, 8);
-                        ASSERT_TRUE(tracePaths(built(inputs), view, {}, film, 0, 16, {}).ok());
-                        EXPECT_EQ(film.invalid(), 0u) << roughness << " " << n;
-                        for (const Film::Pixel& pixel : film.pixels())
-                            EXPECT_GE(std::min({pixel.sum.x, pixel.sum.y, pixel.sum.z}), 0.0);
-                    }
+            for (const bool thinWalled : {false, true}) {
+                Material m = glass(n, thinWalled);
+                m.perceptualRoughness = roughness;
+                m.transmission = roughness > 0.0f ? 0.4f : 1.0f; // of a mixture, too
+                m.attenuationColor = {0.0f, 0.5f, 1.0f};
+                m.attenuationDistance = 0.1f;
+                // A closed body, and one that is only entered.
+                for (const TraceInputs& inputs :
+                     {test::hollowSphere(m, 0.5f, 16), test::sheet(m, test::checkeredSky())}) {
+                    TraceView view;
+                    view.width = view.height = 8;
+                    view.camera.distance = 2.0f;
+                    Film film(8, 8);
+                    ASSERT_TRUE(tracePaths(built(inputs), view, {}, film, 0, 16, {}).ok());
+                    EXPECT_EQ(film.invalid(), 0u) << roughness << " " << n;
+                    for (const Film::Pixel& pixel : film.pixels())
+                        EXPECT_GE(std::min({pixel.sum.x, pixel.sum.y, pixel.sum.z}), 0.0);
                 }
+            }
 }
 
 // A caustic: light that a ball gathers below itself, against photons that are sent from the lamp.

@@ -174,6 +174,40 @@ TEST_F(GltfImport, MaterialsInFull) {
     EXPECT_EQ(model.instances[2].material, 2);
 }
 
+TEST_F(GltfImport, TransmissionIndexAndVolume) {
+    GltfBuilder builder;
+    builder.root["images"] = {{{"uri", "clear.png"}}};
+    builder.root["textures"] = {{{"source", 0}}};
+    builder.root["materials"] = json::parse(R"([{
+        "extensions": {
+            "KHR_materials_transmission": {"transmissionFactor": 0.75,
+                                           "transmissionTexture": {"index": 0}},
+            "KHR_materials_ior": {"ior": 1.33},
+            "KHR_materials_volume": {"thicknessFactor": 0.5, "attenuationDistance": 0.25,
+                                     "attenuationColor": [0.1, 0.2, 0.3]}}
+    }, {"extensions": {"KHR_materials_transmission": {}, "KHR_materials_ior": {"ior": 0},
+                       "KHR_materials_volume": {"thicknessFactor": 0}}}, {}])");
+    for (int i = 0; i < 3; ++i)
+        builder.node({{"mesh", builder.triangle(i)}});
+    const ImportedModel model = import("a.gltf", builder.gltf());
+
+    const ImportedMaterial& water = model.materials[0];
+    EXPECT_FLOAT_EQ(water.numbers[MaterialInput::Transmission], 0.75f);
+    ASSERT_TRUE(water.maps[MaterialInput::Transmission]);
+    EXPECT_EQ(water.maps[MaterialInput::Transmission]->channel, 'r');
+    EXPECT_FLOAT_EQ(water.ior, 1.33f);
+    EXPECT_FALSE(water.thinWalled);
+    EXPECT_FLOAT_EQ(water.attenuationDistance, 0.25f);
+    EXPECT_EQ(water.attenuationColor, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_FLOAT_EQ(model.materials[1].ior, 3.0f) << "0 stands for infinity";
+    for (const std::size_t plain : {1u, 2u}) {
+        EXPECT_EQ(model.materials[plain].numbers[MaterialInput::Transmission], 0.0f);
+        EXPECT_TRUE(model.materials[plain].thinWalled);
+        EXPECT_EQ(model.materials[plain].attenuationDistance, 0.0f);
+    }
+    EXPECT_EQ(model.materials[2].ior, 1.5f);
+}
+
 TEST_F(GltfImport, EmbeddedTexturesAreHandedOverCompressed) {
     const std::string png = test::seedFiles(worker()).at("png")[0];
     GltfBuilder builder;
