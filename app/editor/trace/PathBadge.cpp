@@ -23,6 +23,11 @@
 #include <utility>
 
 namespace patina::editor {
+namespace {
+
+constexpr int kShownLetters = 15; // of what is shown: it hides the picture
+
+} // namespace
 
 PathBadge::PathBadge(PathView& paths, PathError& error, WhittedHeat& heat, ViewState& views,
                      QPushButton* remedy, QWidget& viewport)
@@ -90,6 +95,8 @@ void PathBadge::addWhitted(QBoxLayout& row) {
                 "triangles tested, with the hierarchy of boxes and without"));
     m_whittedShown->setObjectName(QStringLiteral("whittedShown"));
     m_whittedShown->setFocusPolicy(Qt::TabFocus);
+    m_whittedShown->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    m_whittedShown->setMinimumContentsLength(kShownLetters);
     m_whittedShown->addItem(tr("Picture"));
     for (const RayCountInfo& info : rayCountInfos())
         m_whittedShown->addItem(toQString(std::string(info.label)), static_cast<int>(info.kind));
@@ -169,8 +176,8 @@ void PathBadge::refresh() {
     m_whittedShown->setCurrentIndex(
         m_heat.shown() ? m_whittedShown->findData(static_cast<int>(*m_heat.shown())) : 0);
     m_boxes->setVisible(m_paths.isWhitted());
-    if (m_heat.counted()) // how many levels there are is known then
-        m_boxes->setMaximum(std::max(m_heat.deepestLevel(), 1));
+    if (const auto counted = m_heat.counted()) // how many levels there are is known then
+        m_boxes->setMaximum(std::max(counted->deepestLevel, 1));
     place();
 }
 

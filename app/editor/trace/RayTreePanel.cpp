@@ -148,9 +148,7 @@ void RayTreePanel::makeTree() {
     m_tree->setIndentation(14);
     m_tree->setIconSize({kRayMark, kRayMark});
     m_tree->setSelectionMode(QAbstractItemView::SingleSelection);
-    m_tree->header()->setStretchLastSection(true);
-    for (const int column : {kRayColumn, kMeetsColumn, kAddsColumn, kShareColumn})
-        m_tree->header()->setSectionResizeMode(column, QHeaderView::Interactive);
+    m_tree->header()->setStretchLastSection(false); // what does not fit is scrolled to
     connect(m_tree, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* item) {
         if (!m_filling)
             m_probe.select(item != nullptr ? item->data(kRayColumn, kNodeRole).toInt()
@@ -240,11 +238,14 @@ void RayTreePanel::fill() {
                              .arg(lightText(radiance)));
         m_title->setToolTip(tr("The pixel, how many rays it took, and its light: red, green, blue "
                                "(linear)"));
-        m_items.first()->setExpanded(true);
-        for (int i = 1; i < m_items.size() && m_items[i]->parent() != nullptr; ++i)
-            m_items[i]->setExpanded(true); // of the first camera ray: the others are much alike
-        for (const int column : {kRayColumn, kMeetsColumn, kAddsColumn, kShareColumn})
+        // Of the camera ray that is drawn: the others are much alike.
+        const int drawn = m_probe.cameraRayOf(m_probe.selected());
+        m_items[drawn]->setExpanded(true);
+        for (int i = drawn + 1; i < m_items.size() && m_items[i]->parent() != nullptr; ++i)
+            m_items[i]->setExpanded(true);
+        for (int column = 0; column < kRayColumns; ++column)
             m_tree->resizeColumnToContents(column);
+        m_tree->scrollToItem(m_items[drawn], QAbstractItemView::PositionAtTop);
     }
     m_filling = false;
     select();

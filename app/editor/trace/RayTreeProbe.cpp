@@ -2,6 +2,7 @@
 
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/trace/PathView.h"
+#include "core/math/Shading.h"
 #include "core/trace/whitted/WhittedTracer.h"
 
 #include <algorithm>
@@ -110,9 +111,18 @@ void RayTreeProbe::select(int node) {
 }
 
 int RayTreeProbe::cameraRayOf(int node) const {
-    if (!m_shown || m_shown->tree.empty() || node < 0)
+    if (!m_shown || m_shown->tree.empty())
         return 0;
     const auto nodes = m_shown->tree.nodes();
+    if (node < 0) {
+        float most = -1.0f;
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+            if (const float light = shading::luminance(m_shown->subtotals[i]);
+                nodes[i].kind == RayKind::Camera && light > most) {
+                most = light;
+                node = static_cast<int>(i);
+            }
+    }
     while (nodes[static_cast<std::size_t>(node)].parent != RayNode::kNone)
         node = nodes[static_cast<std::size_t>(node)].parent;
     return node;

@@ -43,7 +43,7 @@ class RayTreeProbe : public QObject {
     // A node of the tree; RayNode::kNone: none.
     void select(int node);
     [[nodiscard]] int selected() const { return m_selected; }
-    // The camera ray of a node, among the nodes.
+    // The camera ray of a node, among the nodes; of none the one that adds most.
     [[nodiscard]] int cameraRayOf(int node) const;
 
   Q_SIGNALS:

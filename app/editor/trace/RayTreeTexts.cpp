@@ -1,6 +1,7 @@
 #include "app/editor/trace/RayTreeTexts.h"
 
 #include "app/editor/document/QtText.h"
+#include "app/editor/style/Tokens.h"
 #include "core/document/Document.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
@@ -44,6 +45,8 @@ bool isTinted(const RayNode& node) {
 } // namespace
 
 QColor rayColor(const RayNode& node) {
+    if (!wasCast(node.end) && node.end != RayEnd::NoShadow)
+        return tokens::kTextOff;
     switch (node.kind) {
     case RayKind::Camera:
         return kCameraRay;
@@ -115,14 +118,14 @@ QString rayEnds(const RayNode& node) {
     case RayEnd::NoShadow:
         return trRay("Lit: the light casts no shadow");
     case RayEnd::Facing:
-        return trRay("Light is behind the surface");
+        return trRay("Light does not shine here");
     }
     return {};
 }
 
 QString lightText(const glm::vec3& light) {
     const auto channel = [](float value) {
-        return QLocale().toString(static_cast<double>(value), 'f', 4);
+        return QLocale().toString(static_cast<double>(value), 'f', 3);
     };
     return QStringLiteral("%1  %2  %3").arg(channel(light.x), channel(light.y), channel(light.z));
 }

@@ -12,14 +12,21 @@ namespace patina::editor {
 namespace {
 
 constexpr const char* kHeatTag = "what pixels take";
+constexpr int kCoarseHeat = 4;       // of the first counts, so that something is seen soon
 constexpr double kBrightest = 0.995; // share of the pixels that the colours span
 
 Result<std::shared_ptr<const WhittedHeat::Counted>>
-countRays(const PathView::Frame& frame, const WhittedSettings& settings,
+countRays(const PathView::Frame& frame, const WhittedSettings& settings, bool coarse,
           const std::shared_ptr<const WhittedHeat::Counted>& before, const JobContext& job) {
     auto counted = std::make_shared<WhittedHeat::Counted>();
-    counted->width = frame.view.width;
-    counted->height = frame.view.height;
+    TraceView view = frame.view;
+    if (coarse) {
+        view.width = std::max(1, view.width / kCoarseHeat);
+        view.height = std::max(1, view.height / kCoarseHeat);
+    }
+    counted->coarse = coarse;
+    counted->width = view.width;
+    counted->height = view.height;
     counted->map = RayCountMap(counted->width, counted->height);
     counted->scene = frame.scene;
     if (before && before->hierarchy && before->scene->geometry() == frame.scene->geometry())
@@ -28,10 +35,22 @@ countRays(const PathView::Frame& frame, const WhittedSettings& settings,
         counted->hierarchy = std::make_shared<const TeachingHierarchy>(
             TeachingHierarchy::build(*frame.scene->geometry(), job));
     Film film(counted->width, counted->height);
-    if (Result<void> traced = traceWhitted(*frame.scene, frame.view, settings, film, 0, 1, job,
-                                           nullptr, {}, &counted->map, counted->hierarchy.get());
+    if (Result<void> traced = traceWhitted(*frame.scene, view, settings, film, 0, 1, job, nullptr,
+                                           {}, &counted->map, counted->hierarchy.get());
         !traced)
         return traced.error();
+    double rays = 0.0;
+    for (const RayCounts& pixel : counted->map.pixels()) {
+        rays += pixel.rays;
+        counted->boxTests += static_cast<double>(pixel.boxTests);
+        counted->triangleTests += static_cast<double>(pixel.triangleTests);
+    }
+    counted->boxTests /= std::max(rays, 1.0);
+    counted->triangleTests /= std::max(rays, 1.0);
+    if (const TeachingHierarchy* boxes = counted->hierarchy.get())
+        while (counted->deepestLevel + 1 < boxes->levels() &&
+               boxes->boxes(counted->deepestLevel + 1).size() <= WhittedHeat::kMostBoxes)
+            ++counted->deepestLevel;
     return std::shared_ptr<const WhittedHeat::Counted>(std::move(counted));
 }
 
@@ -80,15 +99,19 @@ void WhittedHeat::follow() {
         return;
     }
     const std::optional<PathView::Frame> frame = m_paths.frame();
-    if (counted() || !frame || !m_paths.progress().refined || m_tasks.busy(kHeatTag)) {
+    const bool begun = counted() != nullptr;
+    if (m_tasks.busy(kHeatTag) && m_counting != m_paths.number())
+        m_tasks.cancel(kHeatTag); // of a picture that is gone
+    if ((begun && !m_counted->coarse) || !frame || !m_paths.progress().refined ||
+        m_tasks.busy(kHeatTag)) {
         Q_EMIT changed();
         return;
     }
+    m_counting = m_paths.number();
     m_tasks.run(
         {.tag = kHeatTag, .priority = TaskPriority::Low},
-        [frame = *frame, settings = m_paths.whitted(), before = m_counted](const JobContext& job) {
-            return countRays(frame, settings, before, job);
-        },
+        [frame = *frame, settings = m_paths.whitted(), begun, before = m_counted](
+            const JobContext& job) { return countRays(frame, settings, !begun, before, job); },
         [this, number = m_paths.number()](const Result<std::shared_ptr<const Counted>>& counted) {
             if (!counted)
                 return;
@@ -127,22 +150,11 @@ void WhittedHeat::paint() {
     m_picture = std::move(picture);
 }
 
-int WhittedHeat::deepestLevel() const {
-    const std::shared_ptr<const Counted> counts = counted();
-    if (!counts || !counts->hierarchy)
-        return 0;
-    int level = 0;
-    while (level + 1 < counts->hierarchy->levels() &&
-           counts->hierarchy->boxes(level + 1).size() <= kMostBoxes)
-        ++level;
-    return level;
-}
-
 std::vector<TeachingHierarchy::Box> WhittedHeat::boxes() const {
     const std::shared_ptr<const Counted> counts = counted();
     if (!counts || !counts->hierarchy || !m_level)
         return {};
-    return counts->hierarchy->boxes(std::min(*m_level, deepestLevel()));
+    return counts->hierarchy->boxes(std::min(*m_level, counts->deepestLevel));
 }
 
 } // namespace patina::editor

@@ -30,10 +30,13 @@ class WhittedHeat : public QObject {
     [[nodiscard]] bool isOn() const; // either is asked for, and there is a classical picture
 
     struct Counted {
+        bool coarse = true; // of every fourth pixel of every fourth row; there is more to come
         RayCountMap map{0, 0};
         int width = 0, height = 0;
         std::shared_ptr<const TraceScene> scene;
         std::shared_ptr<const TeachingHierarchy> hierarchy; // null: a scene without triangles
+        int deepestLevel = 0;                               // that has kMostBoxes at most
+        double boxTests = 0.0, triangleTests = 0.0;         // of a ray, on the average
         [[nodiscard]] std::size_t triangles() const {
             return hierarchy ? hierarchy->triangleCount() : 0;
         }
@@ -47,9 +50,8 @@ class WhittedHeat : public QObject {
         double most = 0.0, mean = 0.0; // most: of all pixels but the 0.5 % that took most
     };
     [[nodiscard]] const std::optional<Picture>& picture() const { return m_picture; }
-    // Those of the level, or of the deepest one that has kMostBoxes at most.
+    // Those of the level, or of the deepest one that is drawn.
     [[nodiscard]] std::vector<TeachingHierarchy::Box> boxes() const;
-    [[nodiscard]] int deepestLevel() const; // that boxes() has; 0 before it is known
 
     static constexpr std::size_t kMostBoxes = 4096;
 
@@ -64,7 +66,8 @@ class WhittedHeat : public QObject {
     std::optional<RayCountKind> m_shown; // nothing: the picture
     std::optional<int> m_level;          // of boxes; nothing: none
     std::shared_ptr<const Counted> m_counted;
-    std::uint64_t m_number = 0; // PathView::number() that it is of
+    std::uint64_t m_number = 0;   // PathView::number() that it is of …
+    std::uint64_t m_counting = 0; // … and that is being counted
     std::optional<Picture> m_picture;
     TaskGroup m_tasks; // last: it ends before the rest
 };

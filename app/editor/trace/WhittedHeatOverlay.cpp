@@ -71,20 +71,15 @@ QStringList WhittedHeatOverlay::lines() const {
     }
     if (m_heat.level() && counted->hierarchy)
         lines << tr("Level %1: %2 boxes")
-                     .arg(std::min(*m_heat.level(), m_heat.deepestLevel()))
+                     .arg(std::min(*m_heat.level(), counted->deepestLevel))
                      .arg(m_heat.boxes().size());
     if (!counted->hierarchy)
         return lines << tr("The scene has no triangles");
-    double rays = 0.0, boxes = 0.0, triangles = 0.0;
-    for (const RayCounts& pixel : counted->map.pixels()) {
-        rays += pixel.rays;
-        boxes += static_cast<double>(pixel.boxTests);
-        triangles += static_cast<double>(pixel.triangleTests);
-    }
-    if (rays > 0.0)
-        lines << tr("A ray tests %1 boxes and %2 triangles,")
-                     .arg(countText(boxes / rays), countText(triangles / rays))
-              << tr("and without boxes %L1 triangles").arg(counted->triangles());
+    lines << tr("A ray tests %1 boxes and %2 triangles,")
+                 .arg(countText(counted->boxTests), countText(counted->triangleTests))
+          << tr("and without boxes %L1 triangles").arg(counted->triangles());
+    if (counted->coarse)
+        lines << tr("Counting finer…");
     return lines;
 }
 

@@ -19,7 +19,7 @@ constexpr std::array<RayEndInfo, 12> kRayEnds{{
     {"lit", "Reaches the light"},
     {"blocked", "Blocked: in shadow"},
     {"noShadow", "Not cast: the light casts no shadow"},
-    {"facing", "Not cast: the light is behind the surface"},
+    {"facing", "Not cast: the light does not shine on this side"},
 }};
 
 constexpr std::array<RayEndInfo, 4> kRayKinds{{

@@ -147,6 +147,7 @@ TEST_F(WhittedWindow, AClickLaysThePixelOpen) {
     dock().resize(720, 360);
     ASSERT_TRUE(overlay().isVisible());
     EXPECT_GE(overlay().drawnRays(), 2);
+    tree().topLevelItem(0)->setExpanded(true);
     QTreeWidgetItem* row = tree().topLevelItem(0)->child(0);
     tree().scrollToItem(row);
     ASSERT_TRUE(eventually(
@@ -240,7 +241,9 @@ TEST_F(WhittedWindow, HeatMapsAndBoxesAreShown) {
     QTest::keyClick(list, Qt::Key_Down);
     EXPECT_EQ(session->heat.shown(), RayCountKind::Rays);
     EXPECT_TRUE(heat->isVisible());
-    ASSERT_TRUE(eventually([] { return session->heat.picture().has_value(); }));
+    ASSERT_TRUE(
+        eventually([] { return session->heat.counted() && !session->heat.counted()->coarse; }));
+    ASSERT_TRUE(session->heat.picture().has_value());
     EXPECT_EQ(session->heat.picture()->image.size(), QSize(160, 120));
     EXPECT_GE(session->heat.picture()->mean, 4.0); // the corners
     EXPECT_THAT(heat->lines().join(QLatin1Char(' ')).toStdString(),
@@ -260,7 +263,9 @@ TEST_F(WhittedWindow, HeatMapsAndBoxesAreShown) {
     level->setValue(level->minimum());
     EXPECT_TRUE(session->heat.boxes().empty());
     list->setFocus();
-    QTest::keyClick(list, Qt::Key_Home);
+    while (list->currentIndex() > 0)
+        QTest::keyClick(list, Qt::Key_Up);
+    EXPECT_FALSE(session->heat.shown().has_value());
     EXPECT_FALSE(heat->isVisible());
 }
 

@@ -427,6 +427,31 @@ TEST(Whitted, ASheetOfGlassIsBothOfItsFaces) {
     }
 }
 
+// Through a sheet the background is seen as it would be without: as it was asked for, or not there.
+TEST(Whitted, BehindASheetIsTheBackground) {
+    Material sheet = glass();
+    sheet.thinWalled = true;
+    TraceInputs inputs = test::ballUnderSky(sheet, 0.5f);
+    inputs.meshes[0].mesh = floorMesh();
+    const TraceScene scene = whittedScene(inputs);
+    TraceView view = fromAbove();
+    WhittedSettings settings;
+    settings.subdivisions = 0;
+    const RayTree tree = traceRayTree(scene, view, settings, 8, 8, 1);
+    double reflected = 0.0;
+    for (const RayNode& node : ofKind(tree, RayKind::Reflected))
+        reflected += 0.25 * static_cast<double>(node.weight.y);
+    view.background = [](const glm::vec3&) { return glm::vec3(2.0f); };
+    EXPECT_NEAR(whitted(scene, view, settings).at(8, 8).luminance(),
+                reflected * 0.5 + (1.0 - reflected) * 2.0, 1e-4);
+    view.transparent = true;
+    const Film film = whitted(scene, view, settings);
+    EXPECT_NEAR(film.at(8, 8).coverage, reflected, 1e-5);
+    EXPECT_NEAR(film.at(8, 8).luminance(), reflected * 0.5, 1e-4);
+    view.camera.distance = 20.0f;
+    EXPECT_EQ(whitted(scene, view, settings).at(0, 0).coverage, 0.0f); // beside it
+}
+
 // Beer and Lambert's law, of what is seen through the body and of the light that comes through.
 TEST(Whitted, BodiesAbsorbByTheLengthOfTheWay) {
     TraceInputs inputs = floorUnderPoint();
