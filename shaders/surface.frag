@@ -395,6 +395,8 @@ void main() {
 #ifdef HAS_TRANSMISSION
     recordThrough(s, behind, through, alpha);
     ambient.diffuse += through;
+#else
+    recordThrough(s, vec3(0.0), vec3(0.0), alpha);
 #endif
     recordSum(s, ambient.diffuse, specularIbl, directDiffuse, directSpecular, emission, sums, alpha);
 #ifndef INSPECT

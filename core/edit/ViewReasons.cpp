@@ -205,7 +205,11 @@ std::string whyEmpty(ViewKind kind, const Document& document, Id light) {
                    : "No material emits light.";
     case kViewTransmissive:
     case kViewThrough:
-        return anyMaterial(document, [](const Material& m) { return transmits(m); })
+        return anyMaterial(document,
+                           [](const Material& m) {
+                               return m.transmission > 0.0f &&
+                                      (m.metallic < 1.0f || m.metallicMap.assigned());
+                           })
                    ? ""
                    : "No material transmits light.";
     case kViewUvChecker:

@@ -161,17 +161,34 @@ ExplainedStep diffuseStep(const Subject& subject) {
                 ? "E(n) comes from the transfer, which includes the shadows; AO is left out."
                 : "E(n) comes from the transfer, which includes the shadows and the "
                   "diffuse light of all lights; AO is left out.";
-    glm::vec3 sum = albedo * kd * (ao / glm::pi<float>()) * irradiance;
-    if (s.clearColor != glm::vec3(0.0f)) {
-        const glm::vec3 behind = subject.radiance(kRecordBehind);
-        step.formula += " + t · c · (1 − m) · kD · Lₜ";
-        step.factors.push_back(
-            color("clearColor", "Colour That Goes Through", "t · c · (1 − m)", s.clearColor));
-        step.factors.push_back(vector3("behind", "Radiance Behind", "Lₜ", behind));
-        sum += s.clearColor * kd * behind;
-    }
     weigh(step, subject.rebuilt.mix.x);
-    compare(step, subject.rebuilt.mix.x * sum);
+    glm::vec3 sum = subject.rebuilt.mix.x * albedo * kd * (ao / glm::pi<float>()) * irradiance;
+    if (s.clearColor != glm::vec3(0.0f)) {
+        step.formula += " + Lₜ";
+        step.factors.push_back(ofView(subject, kViewThrough));
+        sum += subject.radiance(kViewThrough);
+    }
+    compare(step, sum);
+    return step;
+}
+
+// Of a surface that transmits light.
+ExplainedStep throughStep(const Subject& subject) {
+    const SurfaceTerms& s = subject.rebuilt.surface;
+    const glm::vec3 behind = subject.radiance(kRecordBehind);
+    ExplainedStep step{
+        std::string(viewInfo(kViewThrough).id),
+        std::string(viewInfo(kViewThrough).label),
+        "t · c · (1 − m) · kD · Lᵦ",
+        {color("clearColor", "Colour That Goes Through", "t · c · (1 − m)", s.clearColor),
+         ofView(subject, kViewTransmission), vector3("behind", "Radiance Behind", "Lᵦ", behind)},
+        ofView(subject, kViewThrough),
+        {},
+        true,
+        {}};
+    weigh(step, subject.rebuilt.mix.x);
+    compare(step,
+            subject.rebuilt.mix.x * s.clearColor * subject.vector(kViewTransmission) * behind);
     return step;
 }
 
@@ -246,6 +263,8 @@ ExplainedSection explainEnvironment(const Subject& subject) {
     section.steps.push_back(albedoStep(subject));
     section.steps.push_back(transmissionStep(subject));
     section.steps.push_back(openStep(subject));
+    if (subject.rebuilt.surface.clearColor != glm::vec3(0.0f))
+        section.steps.push_back(throughStep(subject));
     section.steps.push_back(diffuseStep(subject));
     section.steps.push_back(specularStep(subject));
     return section;

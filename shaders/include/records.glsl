@@ -184,13 +184,11 @@ void recordIbl(SurfaceTerms s, vec3 dfg, vec3 arriving, vec3 prefiltered, Shaded
     record(kViewFurnace, max(returned.r, max(returned.g, returned.b)));
 }
 
-#ifdef HAS_TRANSMISSION
 void recordThrough(SurfaceTerms s, vec3 behind, vec3 through, float alpha) {
     recordRadiance(kRecordBehind, behind, 1.0);
     recordRadiance(kViewThrough, through, alpha);
     recordPart(kViewTransmissive, through, alpha);
 }
-#endif
 
 void recordSum(SurfaceTerms s, vec3 diffuseIbl, vec3 specularIbl, vec3 directDiffuse,
                vec3 directSpecular, vec3 emission, LightSums sums, float alpha) {

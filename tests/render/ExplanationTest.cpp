@@ -304,6 +304,7 @@ TEST_F(Explanations, EveryViewThatAppliesIsRecordedAndExplained) {
     for (const LightingMode mode : {LightingMode::Ibl, LightingMode::Prt}) {
         Document document = litScene();
         applyMaterial(document, 0);
+        document.materials[0].transmission = 0.5f;
         document.view.lighting = mode;
         BakeArtifact bake = *openBake(document, 5, 0.2f);
         for (VertexBake& element : bake.vertices) {

@@ -61,6 +61,25 @@ Document planeSeenFromAbove() {
     return document;
 }
 
+// Radiance 1 + 0.9 y in every level: the picture tells in which direction it was looked up.
+IblMaps slopingIbl() {
+    IblMaps maps = uniformIbl(glm::vec3(1.0f));
+    maps.prefiltered.clear();
+    for (const int size : {64, 64}) {
+        CubeLevel level{size, {}};
+        for (int i = 0; i < 6 * size * size; ++i) {
+            const auto centre = [&](int k) {
+                return (static_cast<float>(k % size) + 0.5f) / static_cast<float>(size);
+            };
+            const glm::vec3 d =
+                glm::normalize(cubeDirection(i / (size * size), centre(i), centre(i / size)));
+            level.texels.emplace_back(1.0f + 0.9f * d.y);
+        }
+        maps.prefiltered.push_back(level);
+    }
+    return maps;
+}
+
 TEST_F(Surface, WhiteDielectricInAWhiteFurnaceDisappears) {
     setBackground(makeEnvironment(8, [](auto) { return glm::vec3(1.0f); }),
                   uniformIbl(glm::vec3(1.0f)));
@@ -97,22 +116,7 @@ TEST_F(Surface, MetalInAWhiteFurnaceShowsItsDfgAlbedo) {
 }
 
 TEST_F(Surface, MetalReflectsWhatItsLobeLooksAt) {
-    // Radiance 1 + 0.9 y in every level: the picture tells in which direction it was looked up.
-    IblMaps maps = uniformIbl(glm::vec3(1.0f));
-    maps.prefiltered.clear();
-    for (const int size : {64, 64}) {
-        CubeLevel level{size, {}};
-        for (int i = 0; i < 6 * size * size; ++i) {
-            const auto centre = [&](int k) {
-                return (static_cast<float>(k % size) + 0.5f) / static_cast<float>(size);
-            };
-            const glm::vec3 d =
-                glm::normalize(cubeDirection(i / (size * size), centre(i), centre(i / size)));
-            level.texels.emplace_back(1.0f + 0.9f * d.y);
-        }
-        maps.prefiltered.push_back(level);
-    }
-    sceneRenderer().setIbl(maps);
+    sceneRenderer().setIbl(slopingIbl());
     Document document = planeSeenFromAbove();
     document.view.camera.pitchDeg = 20.0f;
     document.view.camera.fovDeg = 1.0f;
@@ -132,6 +136,54 @@ TEST_F(Surface, MetalReflectsWhatItsLobeLooksAt) {
             << perceptualRoughness;
         document.model.lobeDirection = LobeDirection::Mirror;
         EXPECT_NEAR(centerPixel(draw(document)).x, expected(1.0), 5e-3) << perceptualRoughness;
+    }
+}
+
+TEST_F(Surface, ClearGlassInAWhiteFurnaceDisappears) {
+    setBackground(makeEnvironment(8, [](auto) { return glm::vec3(1.0f); }),
+                  uniformIbl(glm::vec3(1.0f)));
+    for (const bool thinWalled : {true, false})
+        for (const float perceptualRoughness : {0.0f, 0.6f}) {
+            Document document = makeScene(makeSphere());
+            Material& m = materialOf(document);
+            m.baseColor = glm::vec3(1.0f);
+            m.perceptualRoughness = perceptualRoughness;
+            m.transmission = 0.7f;
+            m.thinWalled = thinWalled;
+            m.ior = 1.8f;
+            document.view.background = BackgroundMode::Environment;
+            for (const float value : draw(document).f32())
+                ASSERT_NEAR(value, 1.0f, 1e-2f) << perceptualRoughness;
+        }
+}
+
+// Straight on through a wall; through a body bent at both faces of a ball, 2 (i - t) in all.
+TEST_F(Surface, GlassShowsTheEnvironmentBehindIt) {
+    sceneRenderer().setIbl(slopingIbl());
+    Document document = planeSeenFromAbove();
+    document.view.camera.pitchDeg = 20.0f;
+    document.view.camera.fovDeg = 1.0f;
+    Material& m = materialOf(document);
+    m.baseColor = {1.0f, 0.5f, 0.25f};
+    m.perceptualRoughness = 0.0f;
+    m.transmission = 1.0f;
+    const float NoV = std::sin(glm::radians(20.0f));
+    const float layer = shading::specularAlbedo(shading::defaultBrdfModel(), glm::vec3(0.04f), 0.0f,
+                                                dfgAt(NoV, 0.0f))
+                            .x;
+    const float entering = std::acos(NoV), inside = std::asin(std::sin(entering) / 1.5f);
+    for (const bool thinWalled : {true, false}) {
+        m.thinWalled = thinWalled;
+        const float below = glm::radians(20.0f) + (thinWalled ? 0.0f : 2.0f * (entering - inside));
+        const glm::vec3 seen(centerPixel(draw(document)));
+        for (int c = 0; c < 3; ++c) {
+            const float tint = thinWalled ? m.baseColor[c] : m.baseColor[c] * m.baseColor[c];
+            EXPECT_NEAR(seen[c],
+                        layer * (1.0f + 0.9f * NoV) +
+                            (1.0f - layer) * tint * (1.0f - 0.9f * std::sin(below)),
+                        6e-3f)
+                << thinWalled << " channel " << c;
+        }
     }
 }
 

@@ -55,7 +55,9 @@ class TraceMaterial {
     [[nodiscard]] glm::vec3 shadingNormal(const glm::vec3& normal, const glm::vec4& tangent,
                                           const glm::vec2& uv) const;
     // Somewhere on the surface.
-    [[nodiscard]] bool transmits() const { return m_transmission > 0.0f && m_metallic < 1.0f; }
+    [[nodiscard]] bool transmits() const {
+        return m_transmission > 0.0f && (m_metallic < 1.0f || m_metal.isThere());
+    }
     [[nodiscard]] bool mayBeRough() const {
         return m_perceptualRoughness > shading::kMinPerceptualRoughness;
     }

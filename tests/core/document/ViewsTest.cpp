@@ -93,7 +93,7 @@ const Ids kOfBakes{"bentNormal", "skyVisibility", "bakeError", "shadowed", "inte
 const Ids kOfEnvironments{"irradiance",  "diffuseIbl", "ambient",     "prefiltered",
                           "specularIbl", "cosine",     "shIrradiance"};
 const Ids kOfCoordinates{"uvChecker", "texelDensity", "tangent", "bitangent"};
-const Ids kOfMaterials{"emissive", "normalMap"};
+const Ids kOfMaterials{"emissive", "normalMap", "transmission", "through"};
 
 Ids sum(std::initializer_list<Ids> sets) {
     Ids all;
@@ -137,6 +137,7 @@ TEST(Views, ApplyOnlyWhereTheSceneHasWhatTheyNeed) {
     mesh->uvs.assign(3, {0, 0});
     document.meshes[0].mesh = mesh;
     document.materials[0].emissive = {1, 1, 1};
+    document.materials[0].transmission = 1.0f;
     document.materials[0].normalMap.image =
         std::make_shared<const Image>(1, 1, 3, PixelType::U8, ColorEncoding::Data);
     EXPECT_EQ(inapplicable(document), sum({kOfLights, kOfBakes}));

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -248,6 +249,11 @@ TEST(Glass, NothingIsLostInAFurnace) {
         scenes.emplace_back("milky bubble " + std::to_string(roughness),
                             test::hollowSphere(wall, 0.0f, 48));
     }
+    Material byMap = glass(1.5f, false); // its number says metal, its map glass
+    byMap.metallic = 1.0f;
+    byMap.metallicMap.image =
+        std::make_shared<const Image>(Image(1, 1, 1, PixelType::U8, ColorEncoding::Data));
+    scenes.emplace_back("ball by its map", test::hollowSphere(byMap, 0.0f, 48));
     for (const auto& [name, inputs] : scenes) {
         Film film(12, 12);
         TraceView view;
