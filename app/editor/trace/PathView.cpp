@@ -111,6 +111,10 @@ std::optional<PathView::Frame> PathView::frame() const {
     return Frame{m_scene, m_work->view};
 }
 
+bool PathView::isTracing() const {
+    return m_tasks.busy(kTag);
+}
+
 void PathView::setPaused(bool paused) {
     if (!m_on || paused == m_paused)
         return;

@@ -50,6 +50,7 @@ class PathView : public QObject {
     // The newest picture of full or, at first, of reduced size: F32, 4 channels, premultiplied.
     // Null: nothing has been traced yet.
     [[nodiscard]] const ImagePtr& picture() const { return m_picture; }
+    [[nodiscard]] bool isTracing() const; // a pass is under way
     struct Progress {
         std::uint32_t samples = 0; // per pixel of full size; 0: coarse yet; Whitted: passes
         std::optional<double> noise;

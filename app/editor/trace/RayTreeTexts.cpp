@@ -109,7 +109,7 @@ QString rayEnds(const RayNode& node) {
         return trRay("Cut: points into the surface");
     case RayEnd::Lit:
         return isTinted(node)
-                   ? trRay("Lit through glass: %1 %")
+                   ? trRay("Lit through glass, %1 %")
                          .arg(QLocale().toString(
                              100.0 * static_cast<double>(shading::luminance(node.passes)), 'f', 0))
                    : trRay("Lit");
@@ -118,7 +118,7 @@ QString rayEnds(const RayNode& node) {
     case RayEnd::NoShadow:
         return trRay("Lit: the light casts no shadow");
     case RayEnd::Facing:
-        return trRay("Light does not shine here");
+        return trRay("Faces away");
     }
     return {};
 }

@@ -110,7 +110,7 @@ TEST_F(PathWindow, RestsWhilePaused) {
     auto* pause = badge().findChild<QPushButton*>(QStringLiteral("pathPause"));
     QTest::mouseClick(pause, Qt::LeftButton);
     EXPECT_TRUE(paths().isPaused());
-    ASSERT_TRUE(settled(*session)); // the pass that was under way
+    ASSERT_TRUE(eventually([] { return !paths().isTracing(); })); // the pass that was under way
     const std::uint32_t samples = paths().progress().samples;
     viewport().update();
     QApplication::processEvents();
@@ -124,7 +124,7 @@ TEST_F(PathWindow, WhatIsSavedIsThePictureThatIsThere) {
     key(Qt::Key_F12);
     ASSERT_TRUE(hasSamples(4));
     paths().setPaused(true);
-    ASSERT_TRUE(settled(*session)); // the pass that was under way
+    ASSERT_TRUE(eventually([] { return !paths().isTracing(); })); // the pass that was under way
     const QTemporaryDir folder;
     const auto save = [&](const char* name, int filter) {
         QTest::mouseClick(badge().findChild<QPushButton*>(QStringLiteral("pathSave")),
