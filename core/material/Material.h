@@ -50,9 +50,4 @@ struct Material {
     friend bool operator==(const Material&, const Material&) = default;
 };
 
-// Somewhere on its surface, by the numbers; maps may say otherwise.
-[[nodiscard]] inline bool transmits(const Material& material) {
-    return material.transmission > 0.0f && material.metallic < 1.0f;
-}
-
 } // namespace patina

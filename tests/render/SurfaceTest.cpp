@@ -152,7 +152,8 @@ TEST_F(Surface, ClearGlassInAWhiteFurnaceDisappears) {
             m.thinWalled = thinWalled;
             m.ior = 1.8f;
             document.view.background = BackgroundMode::Environment;
-            for (const float value : draw(document).f32())
+            const Image image = draw(document);
+            for (const float value : image.f32())
                 ASSERT_NEAR(value, 1.0f, 1e-2f) << perceptualRoughness;
         }
 }

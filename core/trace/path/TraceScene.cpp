@@ -296,12 +296,15 @@ GlassTerms TraceScene::glassTerms(const TracePoint& point, const glm::vec3& v,
         glass.eta = glassEta(outside.innermost().ior, ior);
     }
     glass.alpha = glassAlpha(inputs.perceptualRoughness, glass.eta, glass.thinWalled);
-    // Where a normal that is interpolated or mapped would send the mirrored light into the surface,
-    // the triangle's own stands for it: glass that loses light at its rim has a black one.
+    // A normal that is interpolated or mapped and would mirror light into the surface is bent just
+    // so far that it does not: glass that loses light at its rim has a black one.
+    constexpr float kLeastAbove = 1e-3f;
     const glm::vec3 mirrored = 2.0f * glm::dot(point.normal, v) * point.normal - v;
-    const bool clear =
-        glm::dot(point.normal, v) > shading::kMinNoV && glm::dot(mirrored, point.face) > 0.0f;
-    glass.n = clear ? point.normal : point.face;
+    const float above = glm::dot(mirrored, point.face);
+    glass.n =
+        above >= kLeastAbove
+            ? point.normal
+            : glm::normalize(v + glm::normalize(mirrored + (kLeastAbove - above) * point.face));
     glass.NoV = glm::clamp(glm::dot(glass.n, v), shading::kMinNoV, 1.0f);
     if (!glass.isSmooth() && m_model.multiScatter != 0)
         for (const GlassTable& table : m_glassTables)
