@@ -87,9 +87,10 @@ MainWindow::MainWindow(Session& session)
     auto* wallOverlay = new WallOverlay(session.wall, session.comparison, *m_viewport);
     new SplitHandle(session.comparison, *m_viewport);
     new PathErrorOverlay(session.pathError, session.pathBlame, *m_viewport);
-    new PathBadge(session.paths, session.pathError, session.views,
-                  new TransferRemedy(session.pathError, session.controller, session.bakes),
-                  *m_viewport);
+    new PathBadge(
+        session.paths, session.pathError, session.views,
+        new TransferRemedy(session.pathError, session.pathBlame, session.controller, session.bakes),
+        *m_viewport);
     m_overlay = new ViewOverlay(session.views, session.controller, session.wall, *m_viewport);
     m_progress = new SceneProgress(session.controller, *m_viewport);
     m_drop = new DropTarget(*this, *m_viewport, session.controller, session.selection,
