@@ -51,7 +51,7 @@ bool TransferRemedy::isDone() const {
     return document.view.lighting == LightingMode::Prt && hasTransfer(document);
 }
 
-std::optional<double> TransferRemedy::removedShare() const {
+std::optional<double> TransferRemedy::reducedShare() const {
     const auto& found = m_blame.found();
     if (!found || !found->blame.whole.isKnown)
         return std::nullopt;
@@ -78,8 +78,8 @@ void TransferRemedy::refresh() {
                             "and the bounces that the bake holds")
                        : tr("Bake radiance transfer per vertex and light with it: it knows what "
                             "the scene hides of the environment and what it reflects onto itself");
-    if (const std::optional<double> share = removedShare())
-        help += tr(". Causes that it removes make %1 % of the squared error")
+    if (const std::optional<double> share = reducedShare())
+        help += tr(". What it reduces makes %1 % of the squared error")
                     .arg(QLocale().toString(100.0 * *share, 'f', 0));
     setToolTip(help);
     setStatusTip(toolTip());

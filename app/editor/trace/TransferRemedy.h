@@ -27,8 +27,8 @@ class TransferRemedy : public QPushButton {
     void apply();       // bakes where there is no bake
     void light();       // with the bake
     void tellSuccess(); // once the new picture has been measured
-    // Of the causes of the error that it removes; nothing while they are not known.
-    [[nodiscard]] std::optional<double> removedShare() const;
+    // Of the causes of the error that it reduces; nothing while they are not known.
+    [[nodiscard]] std::optional<double> reducedShare() const;
     [[nodiscard]] bool isDone() const; // the bake is there, and lights
 
     PathError& m_error;
