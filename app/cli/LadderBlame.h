@@ -15,7 +15,7 @@ namespace patina::cli {
 // Usage errors: what blame cannot be said of. `options` wants it.
 Result<void> checkBlame(const LadderOptions& options, const View& view);
 
-// A row for each cause, by its share, and what removes the largest.
+// A row for each cause, by its share, and what reduces the largest.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> blameTable(const Blame& blame);
 
 // The parts of one file: the traced picture, the drawn one and what each cause lacks in it.

@@ -90,7 +90,8 @@ MainWindow::MainWindow(Session& session)
     new PathErrorOverlay(session.pathError, session.pathBlame, *m_viewport);
     auto* badge = new PathBadge(
         session.paths, session.pathError, session.heat, session.views,
-        new TransferRemedy(session.pathError, session.controller, session.bakes), *m_viewport);
+        new TransferRemedy(session.pathError, session.pathBlame, session.controller, session.bakes),
+        *m_viewport);
     connect(badge, &PathBadge::saveWanted, this, [this] {
         askAndSaveTraced(m_session.paths, m_session.controller, m_session.jobs, *this);
     });

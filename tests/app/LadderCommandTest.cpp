@@ -87,9 +87,23 @@ TEST_F(Ladder, BlameSaysWhichShortcutMakesTheError) {
     }
     EXPECT_FALSE(rung(json, "sh").contains("blame")) << "image-based light alone is taken apart";
     EXPECT_FALSE(rung(json, "prt").contains("blame"));
-    const Result<LoadedImage> parts = loadImage(m_worker, pictures);
-    ASSERT_TRUE(parts.ok());
-    EXPECT_EQ(parts->parts.size(), 10u);
+    ImageLoadOptions signedParts;
+    signedParts.allParts = true;
+    signedParts.sanitize = false;
+    const Result<LoadedImage> loaded = loadImage(m_worker, pictures, signedParts);
+    ASSERT_TRUE(loaded.ok()) << loaded.error().text();
+    const std::vector<ImagePart>& parts = loaded->parts;
+    ASSERT_EQ(parts.size(), 10u);
+    EXPECT_EQ(parts[0].name, "traced");
+    EXPECT_EQ(parts[1].name, "drawn");
+    EXPECT_EQ(parts[2].name, "occlusion");
+    for (std::size_t i = 0; i < parts[0].image.f32().size(); ++i) {
+        float sum = 0.0f;
+        for (std::size_t part = 1; part < parts.size(); ++part)
+            sum += parts[part].image.f32()[i];
+        const float traced = parts[0].image.f32()[i];
+        EXPECT_NEAR(sum, traced, 1e-3f * (1.0f + traced)) << i;
+    }
     EXPECT_EQ(ladder({"--blame-pictures", m_folder / "blame.png"}).status, 2);
     EXPECT_EQ(ladder({"--blame", "--set", "view.reflectionMix=0.3"}).status, 2);
 }

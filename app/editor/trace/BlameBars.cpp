@@ -29,9 +29,9 @@ QString percentText(double share) {
 QString remedyText(BlameCause cause) {
     switch (infoOf(cause).remedy) {
     case BlameRemedy::BakeTransfer:
-        return trBars("Bake Transfer removes most of it");
+        return trBars("Bake Transfer reduces the largest");
     case BlameRemedy::PathTracing:
-        return trBars("Path tracing alone removes it");
+        return trBars("Path tracing alone avoids the largest");
     case BlameRemedy::None:
         break;
     }

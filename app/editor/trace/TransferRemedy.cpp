@@ -2,6 +2,7 @@
 
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/job/BakeService.h"
+#include "app/editor/trace/PathBlame.h"
 #include "app/editor/trace/PathError.h"
 #include "app/editor/widget/StatusHint.h"
 #include "core/document/ViewChoices.h"
@@ -9,6 +10,7 @@
 #include "core/edit/Parameters.h"
 
 #include <QLocale>
+#include <algorithm>
 
 namespace patina::editor {
 namespace {
@@ -17,10 +19,11 @@ constexpr int kRemedyOrder = 5; // as `patina ladder` bakes
 
 } // namespace
 
-TransferRemedy::TransferRemedy(PathError& error, DocumentController& controller, BakeService& bakes,
-                               QWidget* parent)
+TransferRemedy::TransferRemedy(PathError& error, PathBlame& blame, DocumentController& controller,
+                               BakeService& bakes, QWidget* parent)
     : QPushButton(parent)
     , m_error(error)
+    , m_blame(blame)
     , m_controller(controller)
     , m_bakes(bakes) {
     setObjectName(QStringLiteral("transferRemedy"));
@@ -39,12 +42,24 @@ TransferRemedy::TransferRemedy(PathError& error, DocumentController& controller,
         tellSuccess();
         refresh();
     });
+    connect(&blame, &PathBlame::changed, this, &TransferRemedy::refresh);
     refresh();
 }
 
 bool TransferRemedy::isDone() const {
     const Document& document = m_controller.document();
     return document.view.lighting == LightingMode::Prt && hasTransfer(document);
+}
+
+std::optional<double> TransferRemedy::reducedShare() const {
+    const auto& found = m_blame.found();
+    if (!found || !found->blame.whole.isKnown)
+        return std::nullopt;
+    double sum = 0.0;
+    for (const BlameCauseInfo& info : blameCauses())
+        if (info.remedy == BlameRemedy::BakeTransfer)
+            sum += found->blame.whole.of(info.cause).share;
+    return std::clamp(sum, 0.0, 1.0);
 }
 
 void TransferRemedy::refresh() {
@@ -59,10 +74,14 @@ void TransferRemedy::refresh() {
             : m_bakes.running() ? tr("Baking…")
                                 : tr("Bake Transfer"));
     setAccessibleName(text());
-    setToolTip(has ? tr("Light with the baked transfer: with the shadows of the environment and "
-                        "the bounces that the bake holds")
-                   : tr("Bake radiance transfer per vertex and light with it: it knows what the "
-                        "scene hides of the environment and what it reflects onto itself"));
+    QString help = has ? tr("Light with the baked transfer: with the shadows of the environment "
+                            "and the bounces that the bake holds")
+                       : tr("Bake radiance transfer per vertex and light with it: it knows what "
+                            "the scene hides of the environment and what it reflects onto itself");
+    if (const std::optional<double> share = reducedShare())
+        help += tr(". What it reduces makes %1 % of the squared error")
+                    .arg(QLocale().toString(100.0 * *share, 'f', 0));
+    setToolTip(help);
     setStatusTip(toolTip());
 }
 

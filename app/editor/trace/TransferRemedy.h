@@ -10,25 +10,29 @@ namespace patina::editor {
 
 class BakeService;
 class DocumentController;
+class PathBlame;
 class PathError;
 
 class TransferRemedy : public QPushButton {
     Q_OBJECT
   public:
-    TransferRemedy(PathError& error, DocumentController& controller, BakeService& bakes,
-                   QWidget* parent = nullptr);
+    TransferRemedy(PathError& error, PathBlame& blame, DocumentController& controller,
+                   BakeService& bakes, QWidget* parent = nullptr);
 
     // Of the picture before the remedy, while its success is not known yet: FLIP.
     [[nodiscard]] std::optional<double> before() const { return m_before; }
 
   private:
     void refresh();
-    void apply();                      // bakes where there is no bake
-    void light();                      // with the bake
-    void tellSuccess();                // once the new picture has been measured
+    void apply();       // bakes where there is no bake
+    void light();       // with the bake
+    void tellSuccess(); // once the new picture has been measured
+    // Of the causes of the error that it reduces; nothing while they are not known.
+    [[nodiscard]] std::optional<double> reducedShare() const;
     [[nodiscard]] bool isDone() const; // the bake is there, and lights
 
     PathError& m_error;
+    PathBlame& m_blame;
     DocumentController& m_controller;
     BakeService& m_bakes;
     bool m_waits = false; // for the bake, to light with it

@@ -1,4 +1,4 @@
-// The shortcuts that a drawn picture takes, and what removes the error that they make.
+// The shortcuts that a drawn picture takes, and what reduces the error that they make.
 #pragma once
 
 #include <array>
