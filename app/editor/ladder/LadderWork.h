@@ -50,9 +50,9 @@ struct LadderStep {
 struct LadderShown {
     std::shared_ptr<const LadderOrder> order;
     std::vector<LadderStep> steps;
-    std::uint32_t samples = 0; // paths per pixel of the traced picture so far
-    double noise = 0.0;        // Film::noise() of it
-    double seconds = 0.0;      // that tracing took; 0: it is not done
+    std::uint32_t samples = 0;        // paths per pixel of the traced picture so far
+    double noise = 0.0;               // Film::noise() of it
+    double seconds = 0.0;             // that tracing took; 0: it is not done
     std::optional<std::string> limit; // of what was traced: LadderTruth::limit
     std::shared_ptr<const KeptLadderBakes> kept;
 
