@@ -92,6 +92,7 @@ MainWindow::MainWindow(Session& session)
         session.paths, session.pathError, session.heat, session.views,
         new TransferRemedy(session.pathError, session.pathBlame, session.controller, session.bakes),
         *m_viewport);
+    m_notices->keepClearOf(*badge);
     connect(badge, &PathBadge::saveWanted, this, [this] {
         askAndSaveTraced(m_session.paths, m_session.controller, m_session.jobs, *this);
     });

@@ -236,9 +236,13 @@ void NoticeArea::place() {
         bar->ensurePolished();
         wanted += bar->hasHeightForWidth() ? bar->heightForWidth(width) : bar->sizeHint().height();
     }
-    const int height = std::min(wanted, m_picture.height() - 2 * margin);
-    setGeometry((m_picture.width() - width) / 2, m_picture.height() - height - margin, width,
-                height);
+    QRect room((m_picture.width() - width) / 2, margin, width, m_picture.height() - 2 * margin);
+    QRect place = room.adjusted(0, std::max(0, room.height() - wanted), 0, 0);
+    if (m_below && m_below->isVisible() && place.intersects(m_below->geometry())) {
+        room.setBottom(m_below->y() - tokens::kGap);
+        place = room.adjusted(0, std::max(0, room.height() - wanted), 0, 0);
+    }
+    setGeometry(place);
 }
 
 bool NoticeArea::event(QEvent* event) {
@@ -247,8 +251,17 @@ bool NoticeArea::event(QEvent* event) {
     return QWidget::event(event);
 }
 
-bool NoticeArea::eventFilter(QObject*, QEvent* event) {
-    if (event->type() == QEvent::Resize)
+void NoticeArea::keepClearOf(QWidget& below) {
+    m_below = &below;
+    below.installEventFilter(this);
+    place();
+}
+
+bool NoticeArea::eventFilter(QObject* watched, QEvent* event) {
+    const QEvent::Type type = event->type();
+    if (type == QEvent::Resize ||
+        (watched == m_below &&
+         (type == QEvent::Move || type == QEvent::Show || type == QEvent::Hide)))
         place();
     return false;
 }

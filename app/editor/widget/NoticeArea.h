@@ -6,6 +6,7 @@
 
 #include <QFrame>
 #include <QPixmap>
+#include <QPointer>
 #include <QSet>
 #include <QTimer>
 #include <QWidget>
@@ -53,6 +54,9 @@ class NoticeArea : public QWidget {
   public:
     explicit NoticeArea(QWidget& picture); // a child of it
     void add(const UserNotice& notice);
+    // Notices stand above it where it is in their way: another child of the picture at its lower
+    // edge.
+    void keepClearOf(QWidget& below);
     // Another scene is open: its own notices come after this. Those of the one before go; the start
     // scene leaves what was said about files that could not be opened.
     void sceneReplaced(bool byStartScene);
@@ -60,7 +64,7 @@ class NoticeArea : public QWidget {
 
   protected:
     bool event(QEvent* event) override;
-    bool eventFilter(QObject* picture, QEvent* event) override;
+    bool eventFilter(QObject* watched, QEvent* event) override;
 
   private:
     [[nodiscard]] QString nameOf(const QString& file) const;
@@ -68,6 +72,7 @@ class NoticeArea : public QWidget {
     void place();
 
     QWidget& m_picture;
+    QPointer<QWidget> m_below; // null: none
     QVBoxLayout* m_layout;
     QList<NoticeBar*> m_bars;
     QSet<QString> m_files; // that notices of this session have named

@@ -4,6 +4,7 @@
 #include "app/editor/trace/PathErrorOverlay.h"
 #include "app/editor/trace/PathView.h"
 #include "app/editor/trace/TransferRemedy.h"
+#include "app/editor/widget/NoticeArea.h"
 #include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
@@ -118,6 +119,26 @@ TEST_F(PathWindow, RestsWhilePaused) {
     EXPECT_EQ(pause->text(), QStringLiteral("Resume"));
     QTest::mouseClick(pause, Qt::LeftButton);
     EXPECT_TRUE(hasSamples(samples + 1));
+}
+
+TEST_F(PathWindow, NoticesStandAboveTheBadge) {
+    viewport().setFixedSize(640, 320);
+    UserNotice notice;
+    notice.text = QStringLiteral("Something that is as long as a sentence of a notice usually is.");
+    auto* area = viewport().findChild<NoticeArea*>();
+    area->add(notice);
+    const auto overlap = [&] {
+        QApplication::processEvents();
+        return area->geometry().intersects(badge().geometry());
+    };
+    const QRect alone = area->geometry();
+    key(Qt::Key_F12);
+    ASSERT_TRUE(hasSamples(1));
+    EXPECT_FALSE(overlap());
+    EXPECT_LT(area->geometry().bottom(), alone.bottom());
+    key(Qt::Key_F12);
+    QApplication::processEvents();
+    EXPECT_EQ(area->geometry(), alone);
 }
 
 TEST_F(PathWindow, WhatIsSavedIsThePictureThatIsThere) {
