@@ -130,7 +130,7 @@ TEST_F(PixelWindowTest, HoveringExplainsWhatIsUnderThePointer) {
     // cover more of a texture.
     ASSERT_TRUE(eventually([] { return viewport().isSettled(); }));
     const QImage frame = viewport().grabFramebuffer();
-    const QColor shown = frame.pixelColor(frame.width() / 2, frame.height() / 2);
+    const QColor shown = frame.pixelColor(center());
     hover(center());
     ASSERT_EQ(probe().hover()->width, frame.width());
     EXPECT_NEAR(shown.redF(), probe().hover()->displayed.r, 3.0 / 255.0);
