@@ -39,18 +39,15 @@ Result<LadderTruth> traceTruth(Session& session, const LadderOptions& options,
                                const Document& document, const render::FrameSettings& frame) {
     session.beginPhase();
     session.job().setActivity("preparing the scene");
-    TraceView view;
-    view.camera = frame.camera;
-    view.width = frame.width;
-    view.height = frame.height;
-    if (Result<void> set = setBackground(session, document, view); !set)
-        return set.error();
+    const Result<TraceView> view = traceView(session, document, frame);
+    if (!view)
+        return view.error();
     LadderTruthSettings settings;
     settings.samples = static_cast<std::uint32_t>(options.paths);
     settings.blame = wantsBlame(options);
     if (options.noise)
         settings.noise = *options.noise / 100.0;
-    Result<LadderTruth> truth = traceLadderTruth(document, view, settings, session.job());
+    Result<LadderTruth> truth = traceLadderTruth(document, *view, settings, session.job());
     if (truth && truth->limit)
         session.report().warn(*truth->limit);
     return truth;

@@ -126,18 +126,6 @@ Result<void> showRayTree(Session& session, const RenderOptions& options, const D
     return {};
 }
 
-// Where rays start, and what is behind the scene.
-Result<TraceView> traceView(Session& session, const Document& document,
-                            const render::FrameSettings& frame) {
-    TraceView view;
-    view.camera = frame.camera;
-    view.width = frame.width;
-    view.height = frame.height;
-    if (Result<void> set = setBackground(session, document, view); !set)
-        return set.error();
-    return view;
-}
-
 void reportSamples(Session& session, const RenderOptions& options, const FilmTracer& tracer) {
     nlohmann::ordered_json& json = session.report().json();
     const std::uint32_t done = tracer.manifest().samples;

@@ -6,7 +6,9 @@
 #include "app/editor/ladder/LadderPicture.h"
 #include "app/editor/panel/JobTexts.h"
 #include "app/editor/style/Tokens.h"
+#include "app/editor/widget/ControlHelp.h"
 #include "app/editor/widget/FlowLayout.h"
+#include "app/editor/widget/LabelledField.h"
 #include "app/editor/widget/StatusHint.h"
 #include "app/editor/widget/TextButton.h"
 #include "core/edit/Parameters.h"
@@ -14,7 +16,6 @@
 #include <QAbstractButton>
 #include <QCheckBox>
 #include <QComboBox>
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QMetaObject>
@@ -59,27 +60,6 @@ QLabel* ladderLabel(QRgb color) {
     palette.setColor(QPalette::WindowText, QColor(color));
     label->setPalette(palette);
     return label;
-}
-
-template <class Widget>
-Widget* ladderDescribed(Widget* widget, const QString& name, const QString& help) {
-    widget->setAccessibleName(name);
-    widget->setToolTip(help);
-    widget->setStatusTip(help);
-    return widget;
-}
-
-QWidget* ladderField(const QString& text, QWidget* field) {
-    auto* box = new QWidget;
-    auto* row = new QHBoxLayout(box);
-    row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(tokens::kGap / 2);
-    auto* label = new QLabel(text);
-    label->setObjectName(QStringLiteral("dim"));
-    label->setBuddy(field);
-    row->addWidget(label);
-    row->addWidget(field);
-    return box;
 }
 
 // What is not drawn or measured yet as it was the last time.
@@ -151,26 +131,26 @@ QWidget* LadderPanel::makeControls() {
     m_start = makeTextButton(tr("Start"), {});
     m_start->setProperty("primary", true);
     m_start->setObjectName(QStringLiteral("ladderStart"));
-    m_live = ladderDescribed(new QCheckBox(tr("Live")), tr("Live"),
-                             tr("Start again by itself a moment after each edit"));
+    m_live = describe(new QCheckBox(tr("Live")), tr("Live"),
+                      tr("Start again by itself a moment after each edit"));
     m_live->setChecked(QSettings().value(QLatin1String(kLadderLive), false).toBool());
-    m_look = ladderDescribed(new QComboBox, tr("Show"),
-                             tr("What is shown of the methods: the pictures, or how far they are "
-                                "from the path-traced one"));
+    m_look = describe(new QComboBox, tr("Show"),
+                      tr("What is shown of the methods: the pictures, or how far they are "
+                         "from the path-traced one"));
     m_look->addItem(tr("Picture"), static_cast<int>(Look::Picture));
     m_look->addItem(tr("Too bright, too dark"), static_cast<int>(Look::Exposure));
     m_look->addItem(tr("Visible difference"), static_cast<int>(Look::Visible));
-    m_other = ladderDescribed(new QComboBox, tr("Compare with"),
-                              tr("What the chosen method is compared with, on the right of the "
-                                 "line"));
+    m_other = describe(new QComboBox, tr("Compare with"),
+                       tr("What the chosen method is compared with, on the right of the "
+                          "line"));
     m_other->setSizeAdjustPolicy(QComboBox::AdjustToContents);
     m_use = makeTextButton(tr("Use in Scene"),
                            tr("Light the scene by the chosen method, as one undo step; a bake that "
                               "it needs is attached (Enter)"));
     m_use->setObjectName(QStringLiteral("ladderUse"));
     for (QWidget* item : {static_cast<QWidget*>(m_start), static_cast<QWidget*>(m_live),
-                          ladderField(tr("Show"), m_look), ladderField(tr("Compare with"), m_other),
-                          static_cast<QWidget*>(m_use)})
+                          labelledField(tr("Show"), m_look),
+                          labelledField(tr("Compare with"), m_other), static_cast<QWidget*>(m_use)})
         flow->addWidget(item);
     connect(m_start, &QPushButton::clicked, this, [this] { isRunning() ? cancel() : start(); });
     connect(m_live, &QCheckBox::toggled, this, [this](bool on) {

@@ -6,7 +6,9 @@
 #include "app/editor/style/Icons.h"
 #include "app/editor/style/Tokens.h"
 #include "app/editor/sweep/SweepWork.h"
+#include "app/editor/widget/ControlHelp.h"
 #include "app/editor/widget/FlowLayout.h"
+#include "app/editor/widget/LabelledField.h"
 #include "app/editor/widget/ListButton.h"
 #include "app/editor/widget/TextButton.h"
 
@@ -28,45 +30,24 @@ constexpr const char* kSweepFolder = "sweep/folder";
 constexpr int kMostShownRotations = 360; // a degree each; more no table nor strip makes use of
 constexpr int kFolderWidth = 140;        // of its name, at most
 
-template <class Widget>
-Widget* described(Widget* widget, const QString& name, const QString& help) {
-    widget->setAccessibleName(name);
-    widget->setToolTip(help);
-    widget->setStatusTip(help);
-    return widget;
-}
-
-QWidget* sweepField(const QString& text, QWidget* field) {
-    auto* box = new QWidget;
-    auto* row = new QHBoxLayout(box);
-    row->setContentsMargins(0, 0, 0, 0);
-    row->setSpacing(tokens::kGap / 2);
-    auto* label = new QLabel(text);
-    label->setObjectName(QStringLiteral("dim"));
-    label->setBuddy(field);
-    row->addWidget(label);
-    row->addWidget(field);
-    return box;
-}
-
 } // namespace
 
 SweepControls::SweepControls(DocumentController& controller, QWidget* parent)
     : QWidget(parent)
     , m_controller(controller)
     , m_folder(QSettings().value(QLatin1String(kSweepFolder)).toString())
-    , m_ofDocument(described(new QCheckBox(tr("Scene")), tr("Scene's environments"),
-                             tr("Sweep the environments of the scene")))
-    , m_shipped(described(new QCheckBox(tr("Built-in skies")), tr("Built-in skies"),
-                          tr("Sweep the skies that come with Patina")))
+    , m_ofDocument(describe(new QCheckBox(tr("Scene")), tr("Scene's environments"),
+                            tr("Sweep the environments of the scene")))
+    , m_shipped(describe(new QCheckBox(tr("Built-in skies")), tr("Built-in skies"),
+                         tr("Sweep the skies that come with Patina")))
     , m_ofFolder(new QCheckBox)
-    , m_rotations(described(new QSpinBox, tr("Rotations"),
-                            tr("How many rotations of each environment are looked at, evenly "
-                               "spaced from 0°")))
-    , m_by(described(new QComboBox, tr("Rank by"), tr("What makes a light a bad one")))
-    , m_reference(described(new QComboBox, tr("Compare with"),
-                            tr("The look that contrast and difference are measured from; the "
-                               "scene's light is then swept, too")))
+    , m_rotations(describe(new QSpinBox, tr("Rotations"),
+                           tr("How many rotations of each environment are looked at, evenly "
+                              "spaced from 0°")))
+    , m_by(describe(new QComboBox, tr("Rank by"), tr("What makes a light a bad one")))
+    , m_reference(describe(new QComboBox, tr("Compare with"),
+                           tr("The look that contrast and difference are measured from; the "
+                              "scene's light is then swept, too")))
     , m_start(makeTextButton(tr("Start"), {})) {
     m_ofDocument->setChecked(true);
     m_shipped->setChecked(true);
@@ -93,8 +74,8 @@ SweepControls::SweepControls(DocumentController& controller, QWidget* parent)
     flow->setContentsMargins(0, 0, 0, 0);
     for (QWidget* item :
          {static_cast<QWidget*>(m_ofDocument), static_cast<QWidget*>(m_shipped), folder,
-          sweepField(tr("Rotations"), m_rotations), sweepField(tr("Rank by"), m_by),
-          sweepField(tr("Compare with"), m_reference), static_cast<QWidget*>(m_start)})
+          labelledField(tr("Rotations"), m_rotations), labelledField(tr("Rank by"), m_by),
+          labelledField(tr("Compare with"), m_reference), static_cast<QWidget*>(m_start)})
         flow->addWidget(item);
 
     connect(browseButton, &QToolButton::clicked, this, &SweepControls::browse);
@@ -152,9 +133,9 @@ void SweepControls::showFolder() {
         known ? tr("Folder %1")
                     .arg(m_ofFolder->fontMetrics().elidedText(name, Qt::ElideMiddle, kFolderWidth))
               : tr("Folder"));
-    described(m_ofFolder, tr("Folder"),
-              known ? tr("Sweep the HDR and EXR environments of %1").arg(m_folder)
-                    : tr("Sweep the HDR and EXR environments of a folder; choose it first"));
+    describe(m_ofFolder, tr("Folder"),
+             known ? tr("Sweep the HDR and EXR environments of %1").arg(m_folder)
+                   : tr("Sweep the HDR and EXR environments of a folder; choose it first"));
     m_ofFolder->setEnabled(known && !m_running);
 }
 
@@ -167,11 +148,11 @@ void SweepControls::refresh() {
     const bool some =
         m_ofDocument->isChecked() || m_shipped->isChecked() || m_ofFolder->isChecked();
     m_start->setText(m_running ? tr("Cancel") : tr("Start"));
-    described(m_start, m_start->text(),
-              m_running ? tr("Cancel the sweep; the result before it stays")
-              : some    ? tr("Light the scene by every environment and rotation, and rank them")
-                        : tr("Choose the scene's environments, the built-in skies or a folder "
-                                "first"));
+    describe(m_start, m_start->text(),
+             m_running ? tr("Cancel the sweep; the result before it stays")
+             : some    ? tr("Light the scene by every environment and rotation, and rank them")
+                       : tr("Choose the scene's environments, the built-in skies or a folder "
+                               "first"));
     m_start->setEnabled(m_running || some);
 }
 
