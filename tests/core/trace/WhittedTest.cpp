@@ -303,8 +303,9 @@ TEST(Whitted, AThingBetweenCastsAHardShadow) {
     view.camera.distance = 1.2f; // below the ball
     view.camera.pitchDeg = 20.0f;
     int blocked = 0, lit = 0;
-    for (int y = 0; y < view.height; ++y)
-        for (const RayNode& node : traceRayTree(scene, view, {}, 8, y, 1).nodes()) {
+    for (int y = 0; y < view.height; ++y) {
+        const RayTree tree = traceRayTree(scene, view, {}, 8, y, 1);
+        for (const RayNode& node : tree.nodes()) {
             if (node.kind != RayKind::Shadow || node.end == RayEnd::Facing)
                 continue;
             // The shadow of a ball half way up is a disc of twice its size, and a little more:
@@ -320,6 +321,7 @@ TEST(Whitted, AThingBetweenCastsAHardShadow) {
                 EXPECT_GT(aside, 0.39f);
             }
         }
+    }
     EXPECT_GT(blocked, 10);
     EXPECT_GT(lit, 10);
 }
