@@ -133,6 +133,22 @@ ShadedLight mixedDirect(ShadedLight light) {
     return mixed(light);
 }
 
+#ifdef HAS_AREA_LIGHTS
+// As lobeFit() of core/light/LobeTable.h. Texture filters of graphics cards have weights of 8 bits:
+// at low roughness that would be off by .2 %.
+vec4 lobeFit(float angle, float perceptualRoughness) {
+    ivec2 last = textureSize(u_lobes, 0) - 1;
+    vec2 at = clamp(vec2(angle, perceptualRoughness), 0.0, 1.0) * vec2(last);
+    ivec2 low = min(ivec2(at), last - 1);
+    vec2 share = at - vec2(low);
+    vec4 smoother = mix(texelFetch(u_lobes, low, 0),
+                        texelFetch(u_lobes, low + ivec2(1, 0), 0), share.x);
+    vec4 rougher = mix(texelFetch(u_lobes, low + ivec2(0, 1), 0),
+                       texelFetch(u_lobes, low + ivec2(1, 1), 0), share.x);
+    return mix(smoother, rougher, share.y);
+}
+#endif
+
 // Half floats end at 65504, and one NaN would spread over its pixel in the resolve.
 #ifdef FLOATS
 const float kBrightest = 3.4e38;
@@ -346,9 +362,7 @@ void main() {
 #endif
 
 #ifdef HAS_AREA_LIGHTS
-    vec2 lobe = vec2(lobeAngle(s.NoV), s.perceptualRoughness);
-    float lobeTexels = float(textureSize(u_lobes, 0).x);
-    vec4 fit = textureLod(u_lobes, (lobe * (lobeTexels - 1.0) + 0.5) / lobeTexels, 0.0);
+    vec4 fit = lobeFit(lobeAngle(s.NoV), s.perceptualRoughness);
     for (int i = LIGHT_ENDS.y; i < LIGHT_ENDS.z; ++i) {
         ShadedLight light = mixedDirect(shadeSphere(s, fit, LIGHTS[i].place.xyz - v_position,
                                                   LIGHTS[i].axis.x, LIGHTS[i].color.rgb));

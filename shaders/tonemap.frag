@@ -65,9 +65,12 @@ void main() {
     vec4 c = texelFetch(u_radiance, ivec2(gl_FragCoord.xy), 0);
     vec3 radiance = c.a > 0.0 ? c.rgb / c.a : vec3(0.0);
     vec3 shown = displayed(expose(radiance));
-    // Half a step at most: what lies exactly on a step stays there, so black stays black.
-    if (u_ditherAmplitude > 0.0)
-        shown += u_ditherAmplitude * interleavedGradientNoise(gl_FragCoord.xy) / 255.0;
+    // Half a step at most: what lies exactly on a step stays there, so black stays black. Rounded
+    // here, since graphics cards may round by up to .1 of a step elsewhere than in the middle.
+    if (u_ditherAmplitude > 0.0) {
+        float noise = u_ditherAmplitude * interleavedGradientNoise(gl_FragCoord.xy);
+        shown = floor(255.0 * shown + noise + 0.5) / 255.0;
+    }
     if (u_markClipped != 0)
         shown = marked(shown);
     o_color = u_empty < 0.0 ? vec4(shown, c.a) : vec4(mix(vec3(u_empty), shown, c.a), 1.0);

@@ -1,16 +1,19 @@
 // What reaches the GPU, and how it reads there.
 #include "render/scene/GpuScene.h"
+#include "core/base/Limits.h"
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 #include "render/gl/Uploads.h"
 #include "render/scene/DrawList.h"
 #include "tests/render/RenderTest.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 #include <tuple>
+#include <vector>
 
 namespace patina::render {
 namespace {
@@ -319,15 +322,18 @@ TEST_F(GpuSceneTest, BetterLightKeepsThePictureThatIsThere) {
 }
 
 TEST_F(GpuSceneTest, PicturesTooLargeForATextureShowTheirFirstMipmapThatIsNot) {
+    // Some drivers take all that an Image may be.
     const int limit = context().info().maxTextureSize;
-    const ImagePtr image = makeImage(2 * limit, 1, 3, PixelType::F32, ColorEncoding::Linear,
-                                     [](int x, int, int) { return x % 2 == 0 ? 1.0f : 3.0f; });
+    const int side = std::min(2 * limit, limits::kMaxImageSide);
+    const auto texel = [](int x, int, int) { return x % 2 == 0 ? 1.0f : 3.0f; };
+    const ImagePtr image = makeImage(side, 1, 3, PixelType::F32, ColorEncoding::Linear, texel);
     EnvironmentLight light(context());
     light.set(makeEnvironmentTexels(image, uniformIbl(glm::vec3(1.0f)),
                                     *makeBackground(*image, JobContext())));
-    EXPECT_EQ(light.background().width(), limit);
-    for (const float red : reds(light.background()))
-        ASSERT_EQ(red, 2.0f);
+    EXPECT_EQ(light.background().width(), std::min(side, limit));
+    const std::vector<float> shown = reds(light.background());
+    for (std::size_t x = 0; x < shown.size(); ++x)
+        ASSERT_EQ(shown[x], side > limit ? 2.0f : texel(static_cast<int>(x), 0, 0)) << x;
 }
 
 // Every kind of image reads in the shader as Image::linear() says.

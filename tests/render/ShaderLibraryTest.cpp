@@ -169,7 +169,9 @@ TEST_F(Library, ErrorsNameFileAndLineThroughIncludes) {
     ShaderLibrary library(context(), folder.path());
     const auto broken = library.program({{"screen.vert", "mine.frag"}, {"A", "B"}});
     ASSERT_FALSE(broken.ok());
-    EXPECT_EQ(broken.error().detail.find("mine.frag:5: error: `undeclaredValue'"), 0u)
+    // Drivers differ in what follows.
+    EXPECT_EQ(broken.error().detail.find("mine.frag:5: error"), 0u) << broken.error().detail;
+    EXPECT_NE(broken.error().detail.find("undeclaredValue"), std::string::npos)
         << broken.error().detail;
 
     folder.write("sky.frag", fragment("1.0"));
