@@ -19,13 +19,9 @@ namespace {
 
 constexpr double kOcclusionShare = 0.2; // of the time that both bakes take
 
-bool isOcclusion(BakeKind kind) {
-    return kind == BakeKind::AoTexel || kind == BakeKind::AoVertex;
-}
-
 BakeArtifactPtr attached(const Document& document, bool occlusion) {
     const auto found = std::ranges::find_if(document.bakes, [&](const BakeArtifactPtr& bake) {
-        return isOcclusion(bake->kind) == occlusion;
+        return holdsTransfer(bake->kind) != occlusion;
     });
     return found != document.bakes.end() ? *found : nullptr;
 }
@@ -44,7 +40,7 @@ Result<BakeArtifactPtr> timed(const BakeRequest& request, const BakeInputs& inpu
 // Without what hides light from places.
 void removeOcclusion(Document& document) {
     std::erase_if(document.bakes,
-                  [](const BakeArtifactPtr& bake) { return isOcclusion(bake->kind); });
+                  [](const BakeArtifactPtr& bake) { return !holdsTransfer(bake->kind); });
     for (Material& material : document.materials)
         material.occlusionStrength = 0.0f;
 }

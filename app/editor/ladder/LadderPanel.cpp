@@ -19,6 +19,7 @@
 #include <QCoreApplication>
 #include <QHeaderView>
 #include <QLabel>
+#include <QLocale>
 #include <QMetaObject>
 #include <QPointer>
 #include <QSettings>
@@ -149,9 +150,13 @@ QWidget* LadderPanel::makeControls() {
                            tr("Light the scene by the chosen method, as one undo step; a bake that "
                               "it needs is attached (Enter)"));
     m_use->setObjectName(QStringLiteral("ladderUse"));
-    for (QWidget* item : {static_cast<QWidget*>(m_start), static_cast<QWidget*>(m_live),
-                          labelledField(tr("Show"), m_look),
-                          labelledField(tr("Compare with"), m_other), static_cast<QWidget*>(m_use)})
+    m_useClosest = makeTextButton({}, {});
+    m_useClosest->setObjectName(QStringLiteral("ladderUseClosest"));
+    m_useClosest->setProperty("primary", true);
+    for (QWidget* item :
+         {static_cast<QWidget*>(m_start), static_cast<QWidget*>(m_live),
+          labelledField(tr("Show"), m_look), labelledField(tr("Compare with"), m_other),
+          static_cast<QWidget*>(m_use), static_cast<QWidget*>(m_useClosest)})
         flow->addWidget(item);
     connect(m_start, &QPushButton::clicked, this, [this] { isRunning() ? cancel() : start(); });
     connect(m_live, &QCheckBox::toggled, this, [this](bool on) {
@@ -162,6 +167,7 @@ QWidget* LadderPanel::makeControls() {
     connect(m_look, &QComboBox::currentIndexChanged, this, &LadderPanel::refreshPicture);
     connect(m_other, &QComboBox::currentIndexChanged, this, &LadderPanel::refreshPicture);
     connect(m_use, &QPushButton::clicked, this, &LadderPanel::useSelected);
+    connect(m_useClosest, &QPushButton::clicked, this, &LadderPanel::useClosest);
     return controls;
 }
 
@@ -312,6 +318,7 @@ void LadderPanel::follow(const Change& change) {
     if (!isVisible() || !m_shown)
         return;
     checkState();
+    refreshClosest(); // how the scene is lit may have changed
     if (m_stale && m_live->isChecked())
         m_rest.start();
 }
@@ -383,13 +390,60 @@ void LadderPanel::useSelected() {
         Q_EMIT pathTracingWanted();
         return;
     }
+    use(*step);
+    showHint(*this, tr("The scene is lit by: %1").arg(toQString(step->label)));
+}
+
+void LadderPanel::useClosest() {
+    const LadderShownPtr shown = m_shown;
+    if (!shown)
+        return;
+    const auto before = stepInUse(shown->steps, m_session.controller.document());
+    const auto closest = closestStep(shown->steps);
+    if (!before || !closest)
+        return;
+    const LadderStep& step = shown->steps[*closest];
+    select(*closest);
+    use(step);
+    showHint(*this, tr("The scene is lit by: %1. Visible difference (FLIP) %2 before, %3 now")
+                        .arg(toQString(step.label), flipText(shown->steps[*before].score->flip),
+                             flipText(step.score->flip)));
+}
+
+void LadderPanel::use(const LadderStep& step) {
     // Attaching a bake is no undo step, the way it lights is.
     const Document& document = m_session.controller.document();
-    if (step->bake && std::ranges::find(document.bakes, step->bake) == document.bakes.end())
-        m_session.controller.attachBake(step->bake);
+    if (step.bake && std::ranges::find(document.bakes, step.bake) == document.bakes.end())
+        m_session.controller.attachBake(step.bake);
     m_session.controller.setParameter(*findParameter("view.lighting"), {Scope::View, 0},
-                                      static_cast<int>(step->lighting));
-    showHint(*this, tr("The scene is lit by: %1").arg(toQString(step->label)));
+                                      static_cast<int>(step.lighting));
+}
+
+// What lowers the error most, as a button that says by how much. Not where the noise of the traced
+// picture could be the cause, nor while what was measured is of another state.
+void LadderPanel::refreshClosest() {
+    m_useClosest->hide();
+    if (!m_shown || !m_shown->isDone() || m_stale || isRunning())
+        return;
+    const auto now = stepInUse(m_shown->steps, m_session.controller.document());
+    const auto closest = closestStep(m_shown->steps);
+    if (!now || !closest)
+        return;
+    const ErrorScore& before = *m_shown->steps[*now].score;
+    const LadderStep& step = m_shown->steps[*closest];
+    if (before.flip - step.score->flip <= std::max(before.flipNoise, step.score->flipNoise))
+        return;
+    m_useClosest->setText(
+        tr("%1: FLIP %2 %")
+            .arg(toQString(step.label),
+                 QLocale().toString(100.0 * (step.score->flip / before.flip - 1.0), 'f', 0)));
+    m_useClosest->setAccessibleName(m_useClosest->text());
+    m_useClosest->setToolTip(
+        tr("Light the scene by the method that is closest to the path-traced picture: visible "
+           "difference (FLIP) %1, now %2")
+            .arg(flipText(step.score->flip), flipText(before.flip)));
+    m_useClosest->setStatusTip(m_useClosest->toolTip());
+    m_useClosest->show();
 }
 
 // --- What is said --------------------------------------------------------------------------------
@@ -426,6 +480,7 @@ void LadderPanel::refresh() {
     m_warning->setText(warnings.join(QLatin1Char(' ')));
     m_warning->setVisible(!warnings.isEmpty());
     refreshPicture();
+    refreshClosest();
 }
 
 QString LadderPanel::status() const {

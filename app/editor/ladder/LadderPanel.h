@@ -34,6 +34,7 @@ class LadderPanel : public QWidget {
     void start(); // of the document as it is
     void cancel();
     void useSelected(); // lights the scene by it
+    void useClosest();
 
     [[nodiscard]] const LadderShownPtr& shown() const { return m_shown; } // null: nothing yet
     [[nodiscard]] bool isRunning() const { return m_job != 0; }
@@ -63,6 +64,8 @@ class LadderPanel : public QWidget {
     void showProgress();
     void refresh(); // texts and pages
     void refreshPicture();
+    void refreshClosest();
+    void use(const LadderStep& step);
     void fillOthers();
     void checkState();
     [[nodiscard]] const LadderStep* selected() const; // null: none
@@ -76,7 +79,7 @@ class LadderPanel : public QWidget {
     bool m_stale = false;
     QString m_ended; // how the last one ended without a result
 
-    QPushButton *m_start, *m_use;
+    QPushButton *m_start, *m_use, *m_useClosest;
     QCheckBox* m_live;
     QComboBox *m_look, *m_other;
     QLabel *m_status, *m_warning, *m_empty;

@@ -265,6 +265,25 @@ bool needsLadderBake(const LadderStep& step) {
     return step.name == "ao" || readsBake(step.lighting);
 }
 
+std::optional<std::size_t> stepInUse(const std::vector<LadderStep>& steps,
+                                     const Document& document) {
+    const bool occluded = attachedLadderBakes(document).occlusion != nullptr;
+    for (std::size_t i = 0; i < steps.size(); ++i)
+        if (steps[i].score && steps[i].lighting == document.view.lighting &&
+            (steps[i].lighting != LightingMode::Ibl || (steps[i].name == "ao") == occluded))
+            return i;
+    return std::nullopt;
+}
+
+std::optional<std::size_t> closestStep(const std::vector<LadderStep>& steps) {
+    std::optional<std::size_t> closest;
+    for (std::size_t i = 0; i < steps.size(); ++i)
+        if (steps[i].score && steps[i].whyNot.empty() &&
+            (!closest || steps[i].score->flip < steps[*closest].score->flip))
+            closest = i;
+    return closest;
+}
+
 bool stillHolds(const LadderOrder& order, const Document& document) {
     const Document& then = order.scene.document;
     View before = then.view;

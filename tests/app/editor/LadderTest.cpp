@@ -130,6 +130,34 @@ TEST_F(LadderTest, EveryMethodIsDrawnMeasuredComparedAndUsed) {
     session->paths.setOn(false);
 }
 
+TEST_F(LadderTest, AButtonLightsTheSceneByTheClosestMethodAndSaysByHowMuch) {
+    controller().setParameter(parameter("view.lighting"), {Scope::View, 0},
+                              static_cast<int>(LightingMode::Cosine));
+    QPushButton& closest = button("ladderUseClosest");
+    press("ladderStart");
+    EXPECT_FALSE(closest.isVisible());
+    ASSERT_TRUE(isDone());
+    ASSERT_TRUE(eventually([&] { return closest.isVisible(); }));
+    const auto best = closestStep(panel().shown()->steps);
+    ASSERT_TRUE(best.has_value());
+    for (std::size_t row = 0; row < kPath; ++row)
+        EXPECT_LE(flip(*best), flip(row));
+    EXPECT_LT(flip(*best), 0.3 * flip(kNoL));
+    const double change = 100.0 * (flip(*best) / flip(kNoL) - 1.0);
+    EXPECT_EQ(closest.text(), QStringLiteral("%1: FLIP %2 %")
+                                  .arg(QString::fromStdString(step(*best).label))
+                                  .arg(change, 0, 'f', 0));
+    press("ladderUseClosest");
+    EXPECT_EQ(stepInUse(panel().shown()->steps, document()), best);
+    EXPECT_EQ(document().view.lighting, step(*best).lighting);
+    EXPECT_FALSE(closest.isVisible()) << "the scene is lit so";
+    controller().undoStack().undo();
+    EXPECT_EQ(document().view.lighting, LightingMode::Cosine);
+    EXPECT_TRUE(closest.isVisible());
+    make(0.3f);
+    EXPECT_FALSE(closest.isVisible()) << "measured of another state";
+}
+
 TEST_F(LadderTest, AnEditMakesItStaleAndLiveStartsItAgainWithTheBakesThatItHas) {
     press("ladderStart");
     ASSERT_TRUE(isDone());
