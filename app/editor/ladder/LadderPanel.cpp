@@ -150,7 +150,8 @@ QWidget* LadderPanel::makeControls() {
                            tr("Light the scene by the chosen method, as one undo step; a bake that "
                               "it needs is attached (Enter)"));
     m_use->setObjectName(QStringLiteral("ladderUse"));
-    m_useClosest = makeTextButton({}, {});
+    m_useClosest = makeTextButton(tr("Use Closest"), tr("Light the scene by the method that is "
+                                                        "closest to the path-traced picture"));
     m_useClosest->setObjectName(QStringLiteral("ladderUseClosest"));
     m_useClosest->setProperty("primary", true);
     for (QWidget* item :
