@@ -400,7 +400,7 @@ void LadderPanel::useClosest() {
     if (!shown)
         return;
     const auto before = stepInUse(shown->steps, m_session.controller.document());
-    const auto closest = closestStep(shown->steps);
+    const auto closest = closestStep(shown->steps, m_session.controller.document());
     if (!before || !closest)
         return;
     const LadderStep& step = shown->steps[*closest];
@@ -427,7 +427,7 @@ void LadderPanel::refreshClosest() {
     if (!m_shown || !m_shown->isDone() || m_stale || isRunning())
         return;
     const auto now = stepInUse(m_shown->steps, m_session.controller.document());
-    const auto closest = closestStep(m_shown->steps);
+    const auto closest = closestStep(m_shown->steps, m_session.controller.document());
     if (!now || !closest)
         return;
     const ErrorScore& before = *m_shown->steps[*now].score;

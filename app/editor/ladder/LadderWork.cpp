@@ -275,10 +275,13 @@ std::optional<std::size_t> stepInUse(const std::vector<LadderStep>& steps,
     return std::nullopt;
 }
 
-std::optional<std::size_t> closestStep(const std::vector<LadderStep>& steps) {
+std::optional<std::size_t> closestStep(const std::vector<LadderStep>& steps,
+                                       const Document& document) {
+    // Its baked occlusion stays: light without it is out of reach.
+    const bool occluded = attachedLadderBakes(document).occlusion != nullptr;
     std::optional<std::size_t> closest;
     for (std::size_t i = 0; i < steps.size(); ++i)
-        if (steps[i].score && steps[i].whyNot.empty() &&
+        if (steps[i].score && steps[i].whyNot.empty() && !(occluded && steps[i].name == "ibl") &&
             (!closest || steps[i].score->flip < steps[*closest].score->flip))
             closest = i;
     return closest;

@@ -49,10 +49,11 @@ struct LadderStep {
 [[nodiscard]] bool needsLadderBake(const LadderStep& step);
 
 // The index of the method that lights the document as it is; of the one with the least visible
-// error of those that can be used. Nothing: none is known.
+// error of those that can light it. Nothing: none is known.
 [[nodiscard]] std::optional<std::size_t> stepInUse(const std::vector<LadderStep>& steps,
                                                    const Document& document);
-[[nodiscard]] std::optional<std::size_t> closestStep(const std::vector<LadderStep>& steps);
+[[nodiscard]] std::optional<std::size_t> closestStep(const std::vector<LadderStep>& steps,
+                                                     const Document& document);
 
 struct LadderShown {
     std::shared_ptr<const LadderOrder> order;

@@ -138,7 +138,7 @@ TEST_F(LadderTest, AButtonLightsTheSceneByTheClosestMethodAndSaysByHowMuch) {
     EXPECT_FALSE(closest.isVisible());
     ASSERT_TRUE(isDone());
     ASSERT_TRUE(eventually([&] { return closest.isVisible(); }));
-    const auto best = closestStep(panel().shown()->steps);
+    const auto best = closestStep(panel().shown()->steps, document());
     ASSERT_TRUE(best.has_value());
     for (std::size_t row = 0; row < kPath; ++row)
         EXPECT_LE(flip(*best), flip(row));
