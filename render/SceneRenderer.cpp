@@ -237,6 +237,7 @@ SurfaceSettings SceneRenderer::Impl::surfaceSettings(const FrameSettings& frame,
     SurfaceSettings settings;
     settings.lighting = lightingFor(frame, kind);
     settings.light = frame.light;
+    settings.isDocumentsLight = scene.environment(frame.light) == scene.environment(kDocumentLight);
     settings.hasPunctualLights = block.lightEnds.y > 0;
     settings.hasAreaLights = block.lightEnds.w > block.lightEnds.y;
     settings.lightEnds = block.lightEnds;

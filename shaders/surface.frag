@@ -41,6 +41,9 @@ layout(binding = 13) uniform sampler2D u_exitTexture;
 layout(binding = 14) uniform sampler2D u_coneTexture;
 layout(binding = 15) uniform sampler2D u_numbersTexture;
 #endif
+#ifdef HAS_LIGHT_MAP
+#include "include/lightmap.glsl"
+#endif
 #ifdef HAS_AREA_LIGHTS
 layout(binding = 9) uniform sampler2D u_lobes; // core/light/LobeTable.h
 #endif
@@ -240,6 +243,14 @@ void main() {
 #else
     vec3 arriving = irradianceAt(n);
 #endif
+#ifdef HAS_LIGHT_MAP
+    LightMapTexel mapped = lightMapTexel(v_uv, reflect(-v, n));
+#ifdef VIEWS
+    if (u_furnace.w > 0.0)
+        mapped = noLightMap();
+#endif
+    arriving = max(arriving + mapped.irradiance, vec3(0.0));
+#endif
     float unoccluded = ao;
 #ifdef VIEWS
     if (u_furnace.w > 0.0) {
@@ -263,7 +274,13 @@ void main() {
 #else
     float open = specularOcclusion(s.NoV, unoccluded, s.alpha);
 #endif
+#ifdef HAS_LIGHT_MAP
+    open = 1.0 - mapped.hidden;
+    vec3 specularIbl =
+        u_mix.y * shadePrefiltered(s, max(open * prefiltered + mapped.radiance, vec3(0.0)));
+#else
     vec3 specularIbl = ambient.specular * open;
+#endif
 
     // What is seen through the surface: of the scene the environment alone.
 #ifdef HAS_TRANSMISSION
@@ -405,7 +422,7 @@ void main() {
     record(kRecordTransfer, 1.0);
 #endif
     recordChosenDirection(s, sums, specularIbl, alpha);
-    recordIbl(s, dfg, arriving, prefiltered, ambient, diffuseOpen, open, alpha);
+    recordIbl(s, dfg, arriving, prefiltered, ambient.diffuse, specularIbl, diffuseOpen, open, alpha);
 #ifdef HAS_TRANSMISSION
     recordThrough(s, behind, through, alpha);
     ambient.diffuse += through;

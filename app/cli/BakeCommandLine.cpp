@@ -66,6 +66,7 @@ void CommandParser::addBakes() {
     addThreads(ao);
 
     addBakePrt(*bake);
+    addBakeLight(*bake);
     addBakeIbl(*bake);
 }
 
@@ -175,6 +176,25 @@ void CommandParser::addBakePrt(CLI::App& bake) {
         ->type_name(fmt::format("{}…{}", kMinStorageBits, kMaxStorageBits));
     addRays(c, s.samples, s.seed, "vertex or texel");
     addLongBake(c, o.work);
+    addSets(c);
+    addThreads(c);
+}
+
+void CommandParser::addBakeLight(CLI::App& bake) {
+    BakeLightOptions& o = m_light;
+    CLI::App* c = addCommand(bake, "light",
+                             "A light map: what image-based light is off by at each place, path "
+                             "traced, for --lighting lightMap",
+                             o);
+    addSceneAndOutput(c, o, ".exr, for --bake of the others");
+    c->add_option("--environment", o.environment, "Environment that lights the scene")
+        ->type_name("HDR");
+    addLayout(c, o.environmentLayout);
+    c->add_option("--size", o.settings.size, "Side of each material's square texture in texels")
+        ->check(plain(CLI::Range(1, kMaxLightMapSize)))
+        ->capture_default_str()
+        ->type_name("N");
+    addRays(c, o.settings.samples, o.settings.seed, "texel");
     addSets(c);
     addThreads(c);
 }

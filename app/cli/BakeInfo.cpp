@@ -108,6 +108,8 @@ const char* kindText(BakeKind kind) {
         return "ambient occlusion per vertex";
     case BakeKind::PrtVertex:
         return "radiance transfer per vertex";
+    case BakeKind::LightMap:
+        return "light map";
     case BakeKind::PrtTexel:
         break;
     }

@@ -68,6 +68,7 @@ class CommandParser {
     // BakeCommandLine.cpp
     void addBakes();
     void addBakePrt(CLI::App& bake);
+    void addBakeLight(CLI::App& bake);
     void addBakeIbl(CLI::App& bake);
     void addMerge();
     void addRays(CLI::App* command, int& samples, unsigned& seed, const char* per);
@@ -106,6 +107,7 @@ class CommandParser {
     RankOptions m_rank;
     BakeAoOptions m_ao;
     BakePrtOptions m_prt;
+    BakeLightOptions m_light;
     BakeIblOptions m_ibl;
     MergeOptions m_merge;
     EnvironmentOptions m_environment;

@@ -3,6 +3,7 @@
 #include "app/cli/LadderBlame.h"
 #include "app/cli/LadderDrawer.h"
 #include "app/cli/PictureSetup.h"
+#include "app/cli/PreparedLight.h"
 #include "app/cli/Report.h"
 #include "app/cli/SceneSetup.h"
 #include "app/cli/SheetAxes.h"
@@ -223,7 +224,9 @@ Result<void> run(Session& session, const LadderOptions& options) {
     LadderSettings settings;
     settings.order = options.order;
     settings.rays = options.rays;
-    const Result<LadderBakes> bakes = ladderBakes(*document, settings, session.job());
+    const Result<LadderBakes> bakes = ladderBakes(
+        *document, settings, [&](const Image& image) { return prepareLight(image, session.job()); },
+        session.job());
     if (!bakes)
         return bakes.error();
     const std::vector<LadderRung> rungs = ladderRungs(*document, *bakes);

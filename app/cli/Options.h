@@ -137,6 +137,12 @@ struct BakePrtOptions {
     BakeFileOptions storage;
 };
 
+struct BakeLightOptions {
+    std::string scene, output;
+    std::string environment, environmentLayout; // empty: the scene's own; guessed
+    LightMapSettings settings;
+};
+
 struct MergeOptions {
     std::vector<std::string> parts;
     std::string output;
@@ -217,9 +223,9 @@ struct ParametersOptions {
 struct Invocation {
     CommonOptions common;
     std::variant<InfoOptions, RenderOptions, LadderOptions, SheetOptions, RankOptions,
-                 BakeAoOptions, BakePrtOptions, BakeIblOptions, MergeOptions, EnvironmentOptions,
-                 BracketCommandOptions, ExportOptions, RefineOptions, CompareOptions,
-                 ParametersOptions>
+                 BakeAoOptions, BakePrtOptions, BakeLightOptions, BakeIblOptions, MergeOptions,
+                 EnvironmentOptions, BracketCommandOptions, ExportOptions, RefineOptions,
+                 CompareOptions, ParametersOptions>
         options;
 };
 

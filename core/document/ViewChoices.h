@@ -25,7 +25,8 @@ enum class LightingMode {
     ShIrradiance, // irradiance from nine coefficients, nothing hidden
     Unshadowed,   // transfer of an open sky, per vertex, in as many bands as the bake
     Shadowed,     // baked transfer: what the scene hides
-    Prt           // and light by way of other surfaces, as far as the bake holds it
+    Prt,          // and light by way of other surfaces, as far as the bake holds it
+    LightMap      // image-based light, corrected by a baked light map
 };
 
 } // namespace patina

@@ -66,13 +66,14 @@ inline constexpr Choices<BackgroundMode, 4> kBackgrounds({
     {BackgroundMode::Color, "color", "Colour"},
     {BackgroundMode::Off, "off", "Off (transparent)"},
 });
-inline constexpr Choices<LightingMode, 6> kLightings({
+inline constexpr Choices<LightingMode, 7> kLightings({
     {LightingMode::Ibl, "ibl", "Image-based light"},
     {LightingMode::Cosine, "cosine", "N·L"},
     {LightingMode::ShIrradiance, "shIrradiance", "SH irradiance"},
     {LightingMode::Unshadowed, "unshadowed", "Unshadowed transfer"},
     {LightingMode::Shadowed, "shadowed", "Shadowed transfer"},
     {LightingMode::Prt, "prt", "Interreflected transfer"},
+    {LightingMode::LightMap, "lightMap", "Light map"},
 });
 inline constexpr Choices<Distribution, 3> kDistributions({
     {Distribution::GGX, "ggx", "GGX"},

@@ -2,6 +2,7 @@
 
 #include "core/base/Check.h"
 #include "core/document/Document.h"
+#include "core/document/Lighting.h"
 #include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/edit/ParameterAccess.h"
@@ -240,7 +241,12 @@ std::string toneMapUnavailable(const Document& document, int choice) {
 
 // What a bake has to tell is offered where there is one.
 std::string lightingUnavailable(const Document& document, int choice) {
-    if (static_cast<LightingMode>(choice) < LightingMode::Shadowed || hasTransfer(document))
+    const auto mode = static_cast<LightingMode>(choice);
+    if (mode == LightingMode::LightMap)
+        return findBake(document, BakeKind::LightMap) != nullptr
+                   ? std::string()
+                   : "Light corrected by a light map needs a light map bake";
+    if (!readsBake(mode) || hasTransfer(document))
         return {};
     return "Shadows and interreflection need a radiance transfer bake";
 }

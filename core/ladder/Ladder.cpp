@@ -7,30 +7,33 @@
 #include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
+#include "core/light/Ibl.h"
 #include "core/material/Material.h"
+#include "core/trace/document/DocumentLightMap.h"
 
 #include <algorithm>
 #include <chrono>
+#include <initializer_list>
 #include <tuple>
 #include <utility>
 
 namespace patina {
 namespace {
 
-constexpr double kOcclusionShare = 0.2; // of the time that both bakes take
+constexpr double kOcclusionShare = 0.2; // of the time that it and transfer take
+constexpr double kLightMapShare = 0.6;  // of that of all
 
-BakeArtifactPtr attached(const Document& document, bool occlusion) {
-    const auto found = std::ranges::find_if(document.bakes, [&](const BakeArtifactPtr& bake) {
-        return holdsTransfer(bake->kind) != occlusion;
-    });
-    return found != document.bakes.end() ? *found : nullptr;
+BakeArtifactPtr attached(const Document& document, std::initializer_list<BakeKind> kinds) {
+    for (const BakeKind kind : kinds)
+        if (BakeArtifactPtr bake = findBake(document, kind))
+            return bake;
+    return nullptr;
 }
 
-Result<BakeArtifactPtr> timed(const BakeRequest& request, const BakeInputs& inputs,
-                              const JobContext& job, double& seconds) {
+Result<BakeArtifactPtr> timed(const std::function<Result<BakeArtifact>()>& bakeIt,
+                              double& seconds) {
     const auto start = std::chrono::steady_clock::now();
-    TileSink nobody;
-    Result<BakeArtifact> made = bake(request, inputs, nobody, job);
+    Result<BakeArtifact> made = bakeIt();
     if (!made)
         return made.error();
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -39,8 +42,8 @@ Result<BakeArtifactPtr> timed(const BakeRequest& request, const BakeInputs& inpu
 
 // Without what hides light from places.
 void removeOcclusion(Document& document) {
-    std::erase_if(document.bakes,
-                  [](const BakeArtifactPtr& bake) { return !holdsTransfer(bake->kind); });
+    removeBake(document, BakeKind::AoTexel);
+    removeBake(document, BakeKind::AoVertex);
     for (Material& material : document.materials)
         material.occlusionStrength = 0.0f;
 }
@@ -48,22 +51,28 @@ void removeOcclusion(Document& document) {
 } // namespace
 
 LadderBakes attachedLadderBakes(const Document& document) {
-    return {attached(document, true), attached(document, false), 0.0, 0.0};
+    return {attached(document, {BakeKind::AoTexel, BakeKind::AoVertex}),
+            attached(document, {BakeKind::PrtVertex, BakeKind::PrtTexel}),
+            attached(document, {BakeKind::LightMap})};
 }
 
 Result<LadderBakes> ladderBakes(const Document& document, const LadderSettings& settings,
+                                const std::function<Result<IblMaps>(const Image&)>& prepare,
                                 const JobContext& job) {
+    TileSink nobody;
     LadderBakes bakes = attachedLadderBakes(document);
     const BakeInputs inputs = bakeInputs(document);
     // Of the progress; the transfer's bounces take longest.
-    const double half = bakes.transfer ? 1.0 : bakes.occlusion ? 0.0 : kOcclusionShare;
+    const double last = bakes.lightMap ? 1.0 : 1.0 - kLightMapShare;
+    const double half = last * (bakes.transfer ? 1.0 : bakes.occlusion ? 0.0 : kOcclusionShare);
     if (!bakes.occlusion) {
         job.setActivity("baking ambient occlusion");
         BakeRequest request;
         request.kind = BakeKind::AoVertex;
         request.ao.samples = settings.rays;
         Result<BakeArtifactPtr> made =
-            timed(request, inputs, job.part(0.0, half), bakes.occlusionSeconds);
+            timed([&] { return bake(request, inputs, nobody, job.part(0.0, half)); },
+                  bakes.occlusionSeconds);
         if (!made)
             return made.error();
         bakes.occlusion = *made;
@@ -77,10 +86,27 @@ Result<LadderBakes> ladderBakes(const Document& document, const LadderSettings& 
         request.prt.bounces = settings.bounces;
         request.prt.transfer = TransferKind::Interreflected;
         Result<BakeArtifactPtr> made =
-            timed(request, inputs, job.part(half, 1.0), bakes.transferSeconds);
+            timed([&] { return bake(request, inputs, nobody, job.part(half, last)); },
+                  bakes.transferSeconds);
         if (!made)
             return made.error();
         bakes.transfer = *made;
+    }
+    if (!bakes.lightMap) {
+        job.setActivity("baking a light map");
+        const Result<LightMapInputs> light = lightMapInputs(document, prepare);
+        if (!light)
+            return light.error();
+        LightMapSettings lightMap;
+        lightMap.size = settings.lightMapSize;
+        lightMap.samples = settings.lightMapPaths;
+        Result<BakeArtifactPtr> made =
+            timed([&] { return bakeLightMap(*light, lightMap, job.part(last, 1.0)); },
+                  bakes.lightMapSeconds);
+        if (made)
+            bakes.lightMap = *made;
+        else if (made.error().kind != ErrorKind::InputBroken) // without texture coordinates
+            return made.error();
     }
     return bakes;
 }
@@ -117,6 +143,12 @@ std::vector<LadderRung> ladderRungs(const Document& document, const LadderBakes&
         }
         rung.whyNot = whyUnavailable(lighting, rung.document, static_cast<int>(mode));
     }
+    LadderRung& mapped = add("lightMap", "Light map", LightingMode::LightMap);
+    if (bakes.lightMap)
+        attachBake(mapped.document, bakes.lightMap);
+    mapped.bakeSeconds = bakes.lightMapSeconds;
+    mapped.whyNot =
+        whyUnavailable(lighting, mapped.document, static_cast<int>(LightingMode::LightMap));
     return rungs;
 }
 

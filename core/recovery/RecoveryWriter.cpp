@@ -37,6 +37,8 @@ std::string titleOf(BakeKind kind) {
         return "the baked ambient occlusion (per vertex)";
     case BakeKind::PrtTexel:
         return "the baked radiance transfer (texture)";
+    case BakeKind::LightMap:
+        return "the baked light map";
     case BakeKind::PrtVertex:
         break;
     }

@@ -22,11 +22,12 @@ inline constexpr Id kMaxId = 2'000'000'000;
 inline constexpr std::array<std::string_view, 4> kMapChannels{"r", "g", "b", "a"};
 inline constexpr std::string_view kRgbChannel = "rgb";
 
-inline constexpr std::array<std::pair<BakeKind, std::string_view>, 4> kBakeKinds{{
+inline constexpr std::array<std::pair<BakeKind, std::string_view>, 5> kBakeKinds{{
     {BakeKind::AoTexel, "aoTexel"},
     {BakeKind::AoVertex, "aoVertex"},
     {BakeKind::PrtVertex, "prtVertex"},
     {BakeKind::PrtTexel, "prtTexel"},
+    {BakeKind::LightMap, "lightMap"},
 }};
 
 // "metallic" of "material.metallic": parameters are keys without their scope.

@@ -1,6 +1,7 @@
 #include "render/pass/RelightPass.h"
 
 #include "core/base/Check.h"
+#include "core/document/Lighting.h"
 #include "core/document/ViewChoices.h"
 #include "core/light/Light.h"
 #include "render/scene/LightBlocks.h"
@@ -58,7 +59,7 @@ void RelightPass::removeLight(LightId light) {
 
 Result<void> RelightPass::update(GpuScene& scene, const RelightSettings& settings,
                                  const FrameBlock& frame) {
-    if (settings.lighting < LightingMode::Unshadowed)
+    if (!readsBake(settings.lighting) && settings.lighting != LightingMode::Unshadowed)
         return {};
     for (auto& [key, light] : m_far)
         light.current = false;

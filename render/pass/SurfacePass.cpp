@@ -20,7 +20,7 @@ constexpr std::array<const char*, kSurfaceFeatureCount> kDefines{
     "HAS_TRANSFER",       "HAS_PUNCTUAL_LIGHTS", "HAS_AREA_LIGHTS",  "HAS_SHADOWS",
     "HAS_SHADOWS_2",      "HAS_SHADOWS_3",       "HAS_SHADOWS_4",    "HAS_DOMINANT_LIGHT",
     "HAS_TEXEL_TRANSFER", "HAS_TRANSFER_CONE",   "HAS_TRANSMISSION", "HAS_IOR",
-    "THIN_WALLED"};
+    "THIN_WALLED",        "HAS_LIGHT_MAP"};
 
 // The choices of the model: name of the define, value, default.
 struct ModelChoice {
@@ -47,7 +47,8 @@ unsigned modelKey(const ShadingModel& model) {
 }
 
 constexpr unsigned kVisibilityUnit = 6, kPrefilteredUnit = 7, kDfgUnit = 8, kLobesUnit = 9,
-                   kExitUnit = 13, kConeUnit = 14, kNumbersUnit = 15; // 10…12: shadows
+                   kExitUnit = 13, kConeUnit = 14, kNumbersUnit = 15, // 10…12: shadows
+    kLightMapUnit = kExitUnit; // a light map and transfer never light a surface together
 
 // A few lights are unrolled into the program, which is much faster on software OpenGL; many, or
 // area lights, whose code is long, run in loops. Zero: loops. Shadows are unrolled with their
@@ -106,6 +107,13 @@ SurfaceFeatures surfaceFeatures(const SurfaceFeatures& material, const SurfaceBa
     }
     if (settings.lighting == LightingMode::Cosine)
         features |= HasDominantLight;
+    // Its light is that of the document's own environment.
+    if (settings.lighting == LightingMode::LightMap && bakes.lightMap &&
+        settings.isDocumentsLight) {
+        features |= HasLightMap;
+        result.maps[MaterialInput::Occlusion] = {};
+        return result;
+    }
     // One source of ambient visibility is used; the others would only cost fetches.
     if (bakes.texelAo)
         features |= HasTexelAo;
@@ -121,7 +129,8 @@ SurfaceFeatures surfaceFeatures(const SurfaceFeatures& material, const SurfaceBa
 SurfaceFeatures surfaceFeatures(const DrawItem& item, const SurfaceSettings& settings) {
     return surfaceFeatures(item.material->features,
                            {item.transfer != nullptr, item.transfer && item.transfer->side > 0,
-                            item.texelAo != nullptr, item.visibility != nullptr},
+                            item.texelAo != nullptr, item.visibility != nullptr,
+                            item.lightMap != nullptr},
                            settings);
 }
 
@@ -295,6 +304,8 @@ Result<void> SurfacePass::draw(const GpuScene& scene, const std::vector<const Dr
         if (features.has(HasVertexAo))
             item->visibility->bindStorage(kVisibilityBinding);
         bindTransfer(*item, features, settings);
+        if (features.has(HasLightMap))
+            item->lightMap->bind(kLightMapUnit);
         drawItem(*item, !item->material->doubleSided,
                  settings.coarseView ? coarseFor(*item, *settings.coarseView) : nullptr, ranges);
     }

@@ -20,6 +20,7 @@ namespace patina::render {
 struct SurfaceSettings {
     LightingMode lighting{};
     LightId light = kDocumentLight;
+    bool isDocumentsLight = true; // the document's own, or the same beside it
     bool hasPunctualLights = false;
     bool hasAreaLights = false;
     glm::ivec4 lightEnds{0}; // FrameBlock::lightEnds
@@ -77,6 +78,7 @@ class SurfacePass {
 struct SurfaceBakes {
     bool transfer = false, texelTransfer = false; // the latter: per texel
     bool texelAo = false, vertexAo = false;
+    bool lightMap = false;
 };
 
 // What an item needs under these settings. `material`: its own features.

@@ -36,8 +36,9 @@ enum SurfaceFeature : unsigned {
     HasTransmission = 1u << 18,  // MaterialInputInfo::rare
     HasIor = 1u << 19,           // a refractive index other than the standard one
     ThinWalled = 1u << 20,       // with HasTransmission
+    HasLightMap = 1u << 21,      // corrects image-based light
 };
-inline constexpr int kSurfaceFeatureCount = 21;
+inline constexpr int kSurfaceFeatureCount = 22;
 
 // How a variant reads the map of an input.
 struct MapUse {

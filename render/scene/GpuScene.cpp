@@ -4,11 +4,13 @@
 #include "core/base/Check.h"
 #include "core/base/Log.h"
 #include "core/document/Lighting.h"
+#include "core/edit/Edit.h"
 #include "core/light/Light.h"
 #include "core/light/LobeTable.h"
 #include "core/material/Material.h"
 #include "core/mix/TransferLight.h"
 #include "render/scene/LightBlocks.h"
+#include "render/scene/LightMapTexture.h"
 
 #include <algorithm>
 #include <cstring>
@@ -94,6 +96,7 @@ Dirty GpuScene::update(const Document& document) {
         if (m_transfer.update(m_document))
             clearBouncedLight(); // it rests on what was there before
         updateTexelBakes();
+        updateLightMaps();
     }
     if (dirty.casters)
         ++m_shapeRevision;
@@ -217,6 +220,17 @@ void GpuScene::updateTexelBakes() {
     m_texelBakes = std::move(textures); // only now: what both hold is not uploaded again
 }
 
+void GpuScene::updateLightMaps() {
+    BakeArtifactPtr bake = findBake(m_document, BakeKind::LightMap);
+    if (bake == m_lightMapBake)
+        return;
+    m_lightMapBake = std::move(bake);
+    m_lightMaps.clear();
+    if (m_lightMapBake)
+        for (const TexelBake& texels : m_lightMapBake->texels)
+            m_lightMaps.emplace(texels.material, makeLightMap(m_context, texels));
+}
+
 void GpuScene::rebuildItems() {
     ++m_rebuilds;
     m_items.clear();
@@ -279,6 +293,8 @@ void GpuScene::attachBakes(DrawItem& item) {
         item.texelAo = &live->second;
     else if (const auto baked = m_texelBakes.find(item.materialId); baked != m_texelBakes.end())
         item.texelAo = baked->second.get();
+    const auto lightMap = m_lightMaps.find(item.materialId);
+    item.lightMap = lightMap != m_lightMaps.end() ? &lightMap->second : nullptr;
 }
 
 void GpuScene::previewVertices(BakeKind kind, Id mesh, int stride, std::span<const float> values) {

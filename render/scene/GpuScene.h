@@ -35,7 +35,8 @@ struct DrawItem {
     LitElements* litVertices = nullptr;     // the same, or those of its vertices
     glm::mat4 transform{1.0f};
     glm::mat3 normalToWorld{1.0f};
-    const gl::Texture* texelAo = nullptr; // baked AO texture, or null
+    const gl::Texture* texelAo = nullptr;  // baked AO texture, or null
+    const gl::Texture* lightMap = nullptr; // baked, or null
     bool mirrored = false;
     Bounds bounds; // in the world
 };
@@ -113,6 +114,7 @@ class GpuScene {
     void updateMeshes();
     void updateMaterials(const Dirty& dirty);
     void updateTexelBakes();
+    void updateLightMaps();
     void rebuildItems();
     struct InstanceOnGpu {
         gl::Buffer buffer;
@@ -152,6 +154,8 @@ class GpuScene {
     std::map<Id, gl::Buffer> m_texelPlaces;       // by material, of the present geometry
     std::map<Id, gl::Texture> m_texelPreviews;    // by material
     std::map<Id, TexturePtr> m_texelBakes;
+    BakeArtifactPtr m_lightMapBake;
+    std::map<Id, gl::Texture> m_lightMaps; // of it, by material
     std::vector<DrawItem> m_items;
     std::uint64_t m_shapeRevision = 0, m_placeRevision = 0, m_rebuilds = 0;
     Bounds m_bounds;

@@ -150,11 +150,10 @@ void recordChosenDirection(SurfaceTerms s, LightSums sums, vec3 specularIbl, flo
 }
 
 // `diffuseOpen`, `open`: what occlusion leaves of the light of the diffuse and the specular lobe.
-void recordIbl(SurfaceTerms s, vec3 dfg, vec3 arriving, vec3 prefiltered, ShadedLight ambient,
+void recordIbl(SurfaceTerms s, vec3 dfg, vec3 arriving, vec3 prefiltered, vec3 diffuse, vec3 specular,
                float diffuseOpen, float open, float alpha) {
     vec3 single = singleScatterAlbedo(s.model, s.f0, s.metallic, dfg.xy);
     vec3 meanFresnel = single / max(dfg.x + dfg.y, 1e-3);
-    vec3 specular = ambient.specular * open;
     recordRadiance(kViewIrradiance, arriving, 1.0);
     record(kViewDiffuseAlbedo, diffuseReflectance(s.model, s.diffuseColor, s.perceptualRoughness,
                                                   s.diffuseRoughness, s.NoV));
@@ -170,13 +169,13 @@ void recordIbl(SurfaceTerms s, vec3 dfg, vec3 arriving, vec3 prefiltered, Shaded
     record(kViewMultiScatterGain, s.energyCompensation);
     record(kViewSpecularOcclusion, open);
     ShadedLight unhidden = mixed(shadeEnvironment(s, arriving, prefiltered));
-    recordPart(kViewAo, unhidden.diffuse + unhidden.specular - ambient.diffuse - specular, alpha);
-    recordPart(kViewDiffuseOcclusion, unhidden.diffuse - ambient.diffuse, alpha);
+    recordPart(kViewAo, unhidden.diffuse + unhidden.specular - diffuse - specular, alpha);
+    recordPart(kViewDiffuseOcclusion, unhidden.diffuse - diffuse, alpha);
     recordPart(kViewSpecularOcclusion, unhidden.specular - specular, alpha);
     recordPart(kViewIblFresnel, specular * (1.0 - min(s.f0 / max(meanFresnel, vec3(1e-4)), vec3(1.0))),
                alpha);
     recordPart(kViewTransmission,
-               ambient.diffuse * (vec3(1.0) / max(s.transmission, vec3(1e-4)) - vec3(1.0)), alpha);
+               diffuse * (vec3(1.0) / max(s.transmission, vec3(1e-4)) - vec3(1.0)), alpha);
     recordPart(kViewMultiScatterGain,
                specular * (vec3(1.0) - vec3(1.0) / max(s.energyCompensation, vec3(1e-4))), alpha);
 

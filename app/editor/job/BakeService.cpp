@@ -89,6 +89,8 @@ QString bakeTitle(BakeKind kind) {
         return BakeService::tr("Ambient occlusion (per vertex)");
     case BakeKind::PrtTexel:
         return BakeService::tr("Radiance transfer (PRT, texture)");
+    case BakeKind::LightMap:
+        return BakeService::tr("Light map");
     case BakeKind::PrtVertex:
         break;
     }

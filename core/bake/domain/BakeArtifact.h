@@ -13,13 +13,13 @@
 
 namespace patina {
 
-enum class BakeKind { AoTexel, AoVertex, PrtVertex, PrtTexel };
+enum class BakeKind { AoTexel, AoVertex, PrtVertex, PrtTexel, LightMap };
 
 [[nodiscard]] constexpr bool holdsTransfer(BakeKind kind) {
     return kind == BakeKind::PrtVertex || kind == BakeKind::PrtTexel;
 }
 [[nodiscard]] constexpr bool isPerTexel(BakeKind kind) {
-    return kind == BakeKind::AoTexel || kind == BakeKind::PrtTexel;
+    return kind == BakeKind::AoTexel || kind == BakeKind::PrtTexel || kind == BakeKind::LightMap;
 }
 
 // Which transport a transfer bake holds; each includes the ones before it.
@@ -55,7 +55,8 @@ struct VertexBake {
 struct TexelBake {
     Id material = 0;
     ImagePtr image; // AoTexel: F32 Data, 1 channel, ambient visibility 0…1
-    // PrtTexel: side × side elements in rows from the top, as those of VertexBake.
+    // PrtTexel: side × side elements in rows from the top, as those of VertexBake. LightMap: the
+    // same with the values of core/bake/lightmap/LightMap.h alone.
     int side = 0, stride = 0;
     std::vector<float> values = {}, bounced = {}, sky = {}, error = {};
     friend bool operator==(const TexelBake&, const TexelBake&) = default;
@@ -65,6 +66,7 @@ struct BakeArtifact {
     BakeKind kind = BakeKind::AoTexel;
     Hash inputs; // hashBakeInputs() of what it was made from
     Hash albedo; // of the albedo that bounces rest on, or zero
+    Hash light;  // LightMap: of the lights, environments and materials that it rests on
     // What it was asked for with, as its file states it: "samples" → "256" … (requestOf() of
     // BakeOptions.h reads it). An older file states less.
     std::map<std::string, std::string> settings;

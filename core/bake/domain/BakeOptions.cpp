@@ -28,10 +28,17 @@ bool ofTransfer(const BakeRequest& request) {
     return holdsTransfer(request.kind);
 }
 bool ofOcclusion(const BakeRequest& request) {
-    return !holdsTransfer(request.kind);
+    return request.kind == BakeKind::AoTexel || request.kind == BakeKind::AoVertex;
 }
 bool traces(const BakeRequest& request) {
-    return ofOcclusion(request) || request.prt.transfer != TransferKind::Unshadowed;
+    return !ofTransfer(request) || request.prt.transfer != TransferKind::Unshadowed;
+}
+// What all kinds have, of the request's.
+template <class Transfer, class Occlusion, class LightMap>
+auto ofKind(const BakeRequest& r, Transfer transfer, Occlusion occlusion, LightMap lightMap) {
+    return static_cast<double>(ofTransfer(r)    ? r.prt.*transfer
+                               : ofOcclusion(r) ? r.ao.*occlusion
+                                                : r.lightMap.*lightMap);
 }
 bool tracesTransfer(const BakeRequest& request) {
     return ofTransfer(request) && traces(request);
@@ -83,9 +90,12 @@ constexpr std::array kOptions{
                kSamples,
                {},
                [](const BakeRequest& r) {
-                   return static_cast<double>(holdsTransfer(r.kind) ? r.prt.samples : r.ao.samples);
+                   return ofKind(r, &PrtSettings::samples, &AoSettings::samples,
+                                 &LightMapSettings::samples);
                },
-               [](BakeRequest& r, double v) { r.prt.samples = r.ao.samples = static_cast<int>(v); },
+               [](BakeRequest& r, double v) {
+                   r.prt.samples = r.ao.samples = r.lightMap.samples = static_cast<int>(v);
+               },
                traces},
     advanced(BakeOption{
         "tolerance",
@@ -168,9 +178,11 @@ constexpr std::array kOptions{
                kSizes,
                {},
                [](const BakeRequest& r) {
-                   return static_cast<double>(holdsTransfer(r.kind) ? r.prt.size : r.ao.size);
+                   return ofKind(r, &PrtSettings::size, &AoSettings::size, &LightMapSettings::size);
                },
-               [](BakeRequest& r, double v) { r.prt.size = r.ao.size = static_cast<int>(v); },
+               [](BakeRequest& r, double v) {
+                   r.prt.size = r.ao.size = r.lightMap.size = static_cast<int>(v);
+               },
                [](const BakeRequest& r) { return isPerTexel(r.kind); }},
     BakeOption{"maxDistance",
                "Distance",
@@ -211,9 +223,11 @@ constexpr std::array kOptions{
         {},
         {},
         [](const BakeRequest& r) {
-            return static_cast<double>(holdsTransfer(r.kind) ? r.prt.seed : r.ao.seed);
+            return ofKind(r, &PrtSettings::seed, &AoSettings::seed, &LightMapSettings::seed);
         },
-        [](BakeRequest& r, double v) { r.prt.seed = r.ao.seed = static_cast<std::uint32_t>(v); },
+        [](BakeRequest& r, double v) {
+            r.prt.seed = r.ao.seed = r.lightMap.seed = static_cast<std::uint32_t>(v);
+        },
         traces}),
 };
 

@@ -54,10 +54,18 @@ struct TexelPoints {
     std::size_t skippedTriangles = 0; // that repeat the texture more than 8 times
 };
 
+// Where a point lies on its mesh.
+struct SurfacePlace {
+    std::uint32_t mesh = 0, triangle = 0; // of the geometry, of the mesh
+    float b1 = 0.0f, b2 = 0.0f;           // barycentric coordinates of corners 1 and 2
+};
+
 // At most this many points are kept for a texel that several triangles cover.
 inline constexpr int kMaxPointsPerTexel = 4;
 
+// `places`: filled with those of the points.
 [[nodiscard]] TexelPoints texelPoints(const BakeGeometry& geometry, Id material, int size,
-                                      const JobContext& job);
+                                      const JobContext& job,
+                                      std::vector<SurfacePlace>* places = nullptr);
 
 } // namespace patina

@@ -36,10 +36,20 @@ struct PrtSettings {
     std::uint64_t hitBudget = std::uint64_t{1} << 30;
 };
 
+// Of a texture of many slices on the GPU: OpenGL 4.5 promises as much.
+inline constexpr int kMaxLightMapSize = 2048;
+
+struct LightMapSettings {
+    int samples = 256; // paths per texel of both lobes, rounded up to a power of two
+    int size = 256;    // side of the square texture
+    std::uint32_t seed = 0;
+};
+
 struct BakeRequest {
     BakeKind kind = BakeKind::PrtVertex;
     AoSettings ao;   // for the kinds of ambient occlusion
     PrtSettings prt; // for transfer
+    LightMapSettings lightMap = {};
 };
 
 } // namespace patina

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <vector>
 
 namespace patina {
 namespace {
@@ -14,12 +15,6 @@ constexpr double kTexelRadius = 0.7072; // centre to corner
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 using Triangle2 = std::array<glm::dvec2, 3>;
-
-// A point of a triangle: barycentric coordinates of corners 1 and 2.
-struct SurfacePoint {
-    std::uint32_t mesh = kNone, triangle = 0;
-    float b1 = 0.0f, b2 = 0.0f;
-};
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
@@ -82,7 +77,7 @@ class TexelCollector {
     TexelCollector(const BakeGeometry& geometry, int size)
         : m_geometry(geometry)
         , m_size(size)
-        , m_first(static_cast<std::size_t>(size) * static_cast<std::size_t>(size))
+        , m_first(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), {kNone})
         , m_distance(m_first.size(), std::numeric_limits<float>::max()) {}
 
     void draw(std::uint32_t mesh, std::uint32_t triangle, const Triangle2& t) {
@@ -113,7 +108,8 @@ class TexelCollector {
         });
     }
 
-    void finish(TexelPoints& result) {
+    void finish(TexelPoints& result, std::vector<SurfacePlace>* places) {
+        m_places = places;
         std::stable_sort(m_others.begin(), m_others.end(),
                          [](const Other& a, const Other& b) { return a.texel < b.texel; });
         std::size_t other = 0;
@@ -135,7 +131,7 @@ class TexelCollector {
   private:
     struct Other {
         std::uint32_t texel;
-        SurfacePoint point;
+        SurfacePlace point;
     };
 
     static glm::dvec2 centre(std::int64_t x, std::int64_t y) {
@@ -147,25 +143,28 @@ class TexelCollector {
         };
         return wrap(y) * static_cast<std::size_t>(m_size) + wrap(x);
     }
-    static SurfacePoint point(std::uint32_t mesh, std::uint32_t triangle, const glm::dvec2& b) {
+    static SurfacePlace point(std::uint32_t mesh, std::uint32_t triangle, const glm::dvec2& b) {
         return {mesh, triangle, static_cast<float>(b.x), static_cast<float>(b.y)};
     }
-    void add(TexelPoints& result, const SurfacePoint& at) const {
+    void add(TexelPoints& result, const SurfacePlace& at) const {
+        if (m_places != nullptr)
+            m_places->push_back(at);
         result.points.push_back(
             surfacePoint(m_geometry.meshes[at.mesh], at.triangle, at.b1, at.b2));
     }
 
     const BakeGeometry& m_geometry;
     std::int64_t m_size;
-    std::vector<SurfacePoint> m_first;
+    std::vector<SurfacePlace> m_first;
     std::vector<float> m_distance; // of the texel's centre to the triangle of m_first
     std::vector<Other> m_others;   // further triangles over the centre
+    std::vector<SurfacePlace>* m_places = nullptr;
 };
 
 } // namespace
 
-TexelPoints texelPoints(const BakeGeometry& geometry, Id material, int size,
-                        const JobContext& job) {
+TexelPoints texelPoints(const BakeGeometry& geometry, Id material, int size, const JobContext& job,
+                        std::vector<SurfacePlace>* places) {
     TexelPoints result;
     TexelCollector collector(geometry, size);
     for (std::uint32_t m = 0; m < geometry.meshes.size(); ++m) {
@@ -189,7 +188,7 @@ TexelPoints texelPoints(const BakeGeometry& geometry, Id material, int size,
             collector.draw(m, t, triangle);
         }
     }
-    collector.finish(result);
+    collector.finish(result, places);
     return result;
 }
 

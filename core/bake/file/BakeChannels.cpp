@@ -1,6 +1,7 @@
 #include "core/bake/file/BakeChannels.h"
 
 #include "core/bake/file/BakeSource.h"
+#include "core/bake/lightmap/LightMap.h"
 #include "core/base/Check.h"
 
 #include <algorithm>
@@ -25,6 +26,30 @@ std::vector<std::string> coefficientNames(int order) {
     for (int l = 0; l < order; ++l)
         for (int m = -l; m <= l; ++m)
             names.push_back(fmt::format("l{}m{}", l, m));
+    return names;
+}
+
+// Of the values of an element, in their order.
+std::vector<std::string> valueNames(BakeKind kind, int order) {
+    std::vector<std::string> names;
+    if (holdsTransfer(kind)) {
+        for (const std::string& name : coefficientNames(order))
+            names.push_back("sh." + name);
+    } else if (kind == BakeKind::LightMap) {
+        // Those of core/bake/lightmap/LightMap.h.
+        for (const char* color : kColors)
+            names.push_back(std::string("irradiance") + color);
+        names.emplace_back("visibility");
+        for (const std::string& name : coefficientNames(kLightMapOrder)) {
+            for (const char* color : kColors)
+                names.push_back("radiance." + name + color);
+            names.push_back("hidden." + name);
+        }
+        for (const char* axis : {".X", ".Y", ".Z"})
+            names.push_back(std::string("open") + axis);
+    } else {
+        names.emplace_back("ao");
+    }
     return names;
 }
 
@@ -96,15 +121,11 @@ bool within(std::span<const float> values, float low, float high) {
 
 } // namespace
 
-BakeImage imageFromElements(const BakeElementsView& elements, int order, std::size_t width,
-                            const BakeFileOptions& options) {
+BakeImage imageFromElements(const BakeElementsView& elements, BakeKind kind, int order,
+                            std::size_t width, const BakeFileOptions& options) {
     const auto stride = static_cast<std::size_t>(elements.stride);
     const std::size_t count = elements.values.size() / stride;
-    std::vector<std::string> names;
-    for (const std::string& name : coefficientNames(order))
-        names.push_back("sh." + name);
-    if (order == 0)
-        names.emplace_back("ao");
+    std::vector<std::string> names = valueNames(kind, order);
     CHECK_EQ(names.size(), stride);
 
     // Grey light by way of other surfaces needs a third of the place.
@@ -152,8 +173,8 @@ BakeImage imageFromElements(const BakeElementsView& elements, int order, std::si
     return result;
 }
 
-std::optional<BakeElements> elementsFromImage(const Image& image, int order, std::size_t count,
-                                              const BakeSteps& steps) {
+std::optional<BakeElements> elementsFromImage(const Image& image, BakeKind kind, int order,
+                                              std::size_t count, const BakeSteps& steps) {
     const auto pixels =
         static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height());
     if (image.type() != PixelType::F32 || pixels < count ||
@@ -161,15 +182,15 @@ std::optional<BakeElements> elementsFromImage(const Image& image, int order, std
         return std::nullopt;
     BakeElements elements;
     ChannelReader reader(image, count);
-    const std::vector<std::string> names = coefficientNames(order);
-    const std::size_t stride = order == 0 ? 1 : names.size();
+    const std::vector<std::string> held = valueNames(kind, order);
+    const std::size_t stride = held.size();
     elements.stride = static_cast<int>(stride);
-    if (order == 0 && !reader.read("ao", elements.values, 0, 1))
-        return std::nullopt;
-    for (std::size_t i = 0; i < names.size(); ++i)
-        if (!reader.read("sh." + names[i], elements.values, i, stride))
+    for (std::size_t i = 0; i < held.size(); ++i)
+        if (!reader.read(held[i], elements.values, i, stride))
             return std::nullopt;
-    if (hasBounced(image)) {
+    if (const std::vector<std::string> names = coefficientNames(order); hasBounced(image)) {
+        if (names.empty())
+            return std::nullopt;
         const bool mono = reader.has(kBouncedPrefix + names[0]);
         for (std::size_t i = 0; i < names.size(); ++i)
             for (std::size_t c = 0; c < 3; ++c) {
@@ -202,8 +223,11 @@ bool hasBounced(const Image& image) {
                        [](const std::string& name) { return name.starts_with(kBouncedPrefix); });
 }
 
-bool plausible(const BakeElements& elements, bool transfer) {
+bool plausible(const BakeElements& elements, BakeKind kind) {
     constexpr float kLargest = std::numeric_limits<float>::max();
+    if (kind == BakeKind::LightMap)
+        return within(elements.values, -kLargest, kLargest);
+    const bool transfer = holdsTransfer(kind);
     const float low = transfer ? -kMaxDirect : 0.0f, high = transfer ? kMaxDirect : 1.0f;
     return within(elements.values, low, high) &&
            within(elements.bounced, -kMaxBounced, kMaxBounced) &&

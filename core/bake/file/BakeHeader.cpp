@@ -18,6 +18,7 @@ constexpr const char* kVersionAttribute = "patina:version";
 constexpr const char* kKind = "patina:kind";
 constexpr const char* kInputs = "patina:inputHash";
 constexpr const char* kAlbedo = "patina:albedoHash";
+constexpr const char* kLight = "patina:lightHash";
 constexpr const char* kSamples = "patina:samplesDone";
 constexpr const char* kOrder = "patina:order";
 constexpr const char* kBasis = "patina:basis";
@@ -35,7 +36,8 @@ struct KindName {
 constexpr KindName kKinds[] = {{BakeKind::AoTexel, "ao-texel"},
                                {BakeKind::AoVertex, "ao-vertex"},
                                {BakeKind::PrtVertex, "prt-vertex"},
-                               {BakeKind::PrtTexel, "prt-texel"}};
+                               {BakeKind::PrtTexel, "prt-texel"},
+                               {BakeKind::LightMap, "light-map"}};
 
 struct TransferName {
     TransferKind kind;
@@ -54,6 +56,13 @@ constexpr const char* kTransferText =
     "radiance = albedo * sum L_i (T_i + B_i) with L_i = integral L(w) Y_i(w) dw";
 constexpr const char* kAoText =
     "ambient visibility: integral of V(w) max(0, n.w) dw / pi, 1 is open, 0 is closed";
+
+constexpr const char* kLightMapText =
+    "irradiance: to be added to that of nine coefficients; radiance = sum of radiance_i Y_i(r) "
+    "with "
+    "r the mirror direction of the view: to be added to the prefiltered radiance times 1 - sum of "
+    "hidden_i Y_i(r); visibility: ambient; open: integral of V(w) w max(0, n.w) dw / pi; straight "
+    "light of lights is not included; Rec. 709, linear";
 
 // What belongs to a part of its own rather than to the bake.
 constexpr std::array<const char*, 10> kOfParts = {
@@ -149,6 +158,10 @@ BakeAttributes headerAttributes(const BakeArtifact& artifact, const BakeFileOpti
             attributes[kBounces] = std::to_string(artifact.bounces);
             attributes[kAlbedo] = artifact.albedo.hex();
         }
+    } else if (artifact.kind == BakeKind::LightMap) {
+        attributes[kBasis] = kBasisText;
+        attributes[kDefinition] = kLightMapText;
+        attributes[kLight] = artifact.light.hex();
     } else {
         attributes[kDefinition] = kAoText;
     }
@@ -191,6 +204,12 @@ Result<BakeHeader> readBakeHeader(const BakeAttributes& attributes,
     if (holdsTransfer(artifact.kind))
         if (std::optional<Error> error = readTransfer(attributes, header, file))
             return *error;
+    if (artifact.kind == BakeKind::LightMap) {
+        const std::optional<Hash> light = parseHash(findAttribute(attributes, kLight));
+        if (!light)
+            return damagedBake(file, "attributes are missing");
+        artifact.light = *light;
+    }
     if (header.version > 1)
         if (std::optional<Error> error = readStorage(attributes, header, file))
             return *error;

@@ -78,7 +78,7 @@ void addElements(ImagePart& part, const BakeElementsView& elements, const BakeAr
                  std::size_t width, const BakeFileOptions& options,
                  const std::vector<SourceChannel>& source) {
     const int order = holdsTransfer(artifact.kind) ? artifact.order : 0;
-    BakeImage packed = imageFromElements(elements, order, width, options);
+    BakeImage packed = imageFromElements(elements, artifact.kind, order, width, options);
     part.image = std::move(packed.image);
     if (!packed.steps.values.empty())
         part.attributes[kStepsOfValues] = floatsText(packed.steps.values);
@@ -139,7 +139,7 @@ Result<TexelBake> readTexels(const Reader& reader, const ImagePart& part) {
         return e.error();
     TexelBake bake;
     bake.material = reader.targets.document().materials[*target].id;
-    if (!holdsTransfer(reader.header.artifact.kind)) {
+    if (reader.header.artifact.kind == BakeKind::AoTexel) {
         auto image = std::make_shared<Image>(side, side, 1, PixelType::F32, ColorEncoding::Data);
         std::copy(e->values.begin(), e->values.end(), image->f32().begin());
         bake.image = std::move(image);
@@ -270,13 +270,14 @@ Result<BakeElements> elementsFromPart(const ImagePart& part, const BakeHeader& h
         if (bounced)
             steps.bounced = *std::move(bounced);
     }
-    std::optional<BakeElements> elements = elementsFromImage(part.image, order, count, steps);
+    std::optional<BakeElements> elements =
+        elementsFromImage(part.image, header.artifact.kind, order, count, steps);
     if (!elements)
         return damagedBake(file, "elements or channels are missing, or are not those of its kind");
     if (transfer && elements->bounced.empty() &&
         header.artifact.transfer == TransferKind::Interreflected)
         return damagedBake(file, "the channels of its bounces are missing");
-    if (!plausible(*elements, transfer))
+    if (!plausible(*elements, header.artifact.kind))
         return damagedBake(file, "a value is out of range");
     const std::string* hash = findAttribute(part.attributes, kContentHash);
     if (header.version > 1 && (hash == nullptr || *hash != hashContent(part).hex()))

@@ -25,7 +25,8 @@ struct KindName {
 constexpr KindName kKinds[] = {{BakeKind::AoTexel, "ao-texel"},
                                {BakeKind::AoVertex, "ao-vertex"},
                                {BakeKind::PrtVertex, "prt-vertex"},
-                               {BakeKind::PrtTexel, "prt-texel"}};
+                               {BakeKind::PrtTexel, "prt-texel"},
+                               {BakeKind::LightMap, "light-map"}};
 
 std::string hashText(const Hash& hash) {
     return hash == Hash{} ? std::string() : hash.hex();

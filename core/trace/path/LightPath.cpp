@@ -120,7 +120,8 @@ LightPath::Followed LightPath::follow(TracePoint point, TraceSurface terms,
         const ClosestRay hit = closest(TraceScene::origin(point, on.through), l);
         const bool open = hit.mesh == ClosestRay::kNothing;
         const float distance = open ? kEndOfScene : m_scene.metres(hit.ray.maxDistance);
-        radiance += m_split.came(surface, throughput * lightsAlong(search, l, distance));
+        if (m_firstLights || surface > 0)
+            radiance += m_split.came(surface, throughput * lightsAlong(search, l, distance));
         if (open) {
             throughput *= m_media.transmittance(kEndOfScene);
             if (view != nullptr && search.fromCamera) {

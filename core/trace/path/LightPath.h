@@ -49,6 +49,10 @@ class LightPath {
     // The paths from here on fill this; null: none.
     void fill(TraceSample* sample) { m_split = TraceSplit(sample); }
 
+    // From here on the surface where a path begins gets no light of the scene's lights straight
+    // from them: that of the environment, of glowing surfaces and by way of others alone.
+    void leaveOutFirstLights() { m_firstLights = false; }
+
     // From the camera; scene units. `alpha`: how much is seen of that.
     glm::vec3 look(const glm::vec3& origin, const glm::vec3& direction,
                    const PathSequence& sequence, const TraceView& view, float& alpha);
@@ -139,6 +143,7 @@ class LightPath {
     Media m_media;                // that the path is in
     TraceSplit m_split{nullptr};
     std::uint64_t m_rays = 0;
+    bool m_firstLights = true;
 };
 
 } // namespace patina

@@ -118,7 +118,7 @@ glm::vec3 LightPath::direct(const Part& part, const glm::vec3& world, int surfac
                 sum += m_split.sent(
                     surface, left * light * (sent(sky.pdf, part.pdf(sky.direction)) / sky.pdf));
     }
-    if (!m_scene.lights().empty())
+    if (!m_scene.lights().empty() && (m_firstLights || surface > 0))
         sum += m_split.sent(
             surface, fromLight(part, world, choice.x, sequence.at(surface, PathSequence::kLight)));
     if (!m_scene.emissive().empty() && m_settings.search != LightSearch::Surfaces)

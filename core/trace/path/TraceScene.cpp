@@ -90,10 +90,10 @@ Result<TraceScene> TraceScene::build(const TraceInputs& inputs, const JobContext
         const Image table =
             computeDfgTable(kDfgSize, inputs.model.distribution,
                             iblVisibility(inputs.model.visibility), DfgTexels::ToTheEnds);
-        std::vector<glm::vec2> dfg;
+        std::vector<glm::vec3> dfg;
         for (std::size_t i = 0; i < table.f32().size(); i += 3)
-            dfg.emplace_back(table.f32()[i], table.f32()[i + 1]);
-        result.m_dfg = std::make_shared<const std::vector<glm::vec2>>(std::move(dfg));
+            dfg.emplace_back(table.f32()[i], table.f32()[i + 1], table.f32()[i + 2]);
+        result.m_dfg = std::make_shared<const std::vector<glm::vec3>>(std::move(dfg));
     }
     if (job.cancelled())
         return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
@@ -240,12 +240,12 @@ TracePoint TraceScene::pointAt(std::uint32_t meshIndex, std::uint32_t triangle,
 }
 
 // Bilinear between texels at i / (size - 1), both coordinates in 0…1.
-glm::vec2 TraceScene::dfg(float NoV, float perceptualRoughness) const {
+glm::vec3 TraceScene::dfg(float NoV, float perceptualRoughness) const {
     const float x = std::clamp(NoV, 0.0f, 1.0f) * (kDfgSize - 1);
     const float y = std::clamp(perceptualRoughness, 0.0f, 1.0f) * (kDfgSize - 1);
     const int i = std::min(static_cast<int>(x), kDfgSize - 2),
               j = std::min(static_cast<int>(y), kDfgSize - 2);
-    const glm::vec2* texel = m_dfg->data() + j * kDfgSize + i;
+    const glm::vec3* texel = m_dfg->data() + j * kDfgSize + i;
     const float fx = x - static_cast<float>(i), fy = y - static_cast<float>(j);
     return glm::mix(glm::mix(texel[0], texel[1], fx),
                     glm::mix(texel[kDfgSize], texel[kDfgSize + 1], fx), fy);
@@ -255,7 +255,12 @@ shading::SurfaceTerms TraceScene::surface(const TracePoint& point, const glm::ve
     const shading::SurfaceInputs inputs = point.material->inputsAt(point.uv);
     const float NoV = glm::clamp(glm::dot(point.normal, v), shading::kMinNoV, 1.0f);
     return shading::makeSurface(m_model, inputs, point.normal, v,
-                                dfg(NoV, inputs.perceptualRoughness));
+                                glm::vec2(dfg(NoV, inputs.perceptualRoughness)));
+}
+
+glm::vec3 TraceScene::lobeDirection(const shading::SurfaceTerms& terms) const {
+    return glm::normalize(
+        shading::lobeDirection(terms, dfg(terms.NoV, terms.perceptualRoughness).z));
 }
 
 TraceSurface TraceScene::surfaceIn(const TracePoint& point, const glm::vec3& v,
@@ -263,7 +268,7 @@ TraceSurface TraceScene::surfaceIn(const TracePoint& point, const glm::vec3& v,
     TraceSurface surface;
     shading::SurfaceInputs inputs = point.material->inputsAt(point.uv);
     const float NoV = glm::clamp(glm::dot(point.normal, v), shading::kMinNoV, 1.0f);
-    const glm::vec2 entry = dfg(NoV, inputs.perceptualRoughness);
+    const glm::vec2 entry(dfg(NoV, inputs.perceptualRoughness));
     // KHR_materials_transmission: mix(mix(opaque non-metal, glass, transmission), metal, metallic).
     // Without the glass there remain the metal and the opaque non-metal in their proportion.
     surface.glassShare = inputs.transmission * (1.0f - inputs.metallic);

@@ -67,6 +67,11 @@ class TraceScene {
     // Of an emissive triangle at barycentric weights, seen from its front.
     [[nodiscard]] TracePoint pointAt(const EmissiveTriangles::Triangle& triangle,
                                      const glm::vec2& weights) const;
+    // Of a triangle of geometry(), seen from its front.
+    [[nodiscard]] TracePoint pointAt(std::uint32_t mesh, std::uint32_t triangle,
+                                     const glm::vec2& weights) const {
+        return pointAt(mesh, triangle, weights, nullptr);
+    }
     // Clear of the surface, on the side of the face or behind it.
     [[nodiscard]] static glm::vec3 origin(const TracePoint& point, bool behind = false) {
         return point.position + (behind ? -kRayOffset : kRayOffset) * point.face;
@@ -81,6 +86,9 @@ class TraceScene {
 
     // (scale, bias) of the model's lobe, as the viewport looks them up.
     [[nodiscard]] shading::SurfaceTerms surface(const TracePoint& point, const glm::vec3& v) const;
+
+    // Where the viewport looks image-based light up for its specular lobe; unit.
+    [[nodiscard]] glm::vec3 lobeDirection(const shading::SurfaceTerms& terms) const;
 
     // The same as a mixture, for a path: `media` are those on the viewer's side.
     [[nodiscard]] TraceSurface surfaceIn(const TracePoint& point, const glm::vec3& v,
@@ -116,7 +124,7 @@ class TraceScene {
     Result<void> buildGeometry(const JobContext& job, const TraceScene* previous);
     [[nodiscard]] TracePoint pointAt(std::uint32_t mesh, std::uint32_t triangle,
                                      const glm::vec2& weights, const glm::vec3* direction) const;
-    [[nodiscard]] glm::vec2 dfg(float NoV, float perceptualRoughness) const;
+    [[nodiscard]] glm::vec3 dfg(float NoV, float perceptualRoughness) const;
     [[nodiscard]] GlassTerms glassTerms(const TracePoint& point, const glm::vec3& v,
                                         const shading::SurfaceInputs& inputs, const Media& media,
                                         float ior) const;
@@ -137,7 +145,7 @@ class TraceScene {
     LightSampler m_lights{{}};
     EmissiveTriangles m_emissive;
     shading::BrdfModel m_model{};
-    std::shared_ptr<const std::vector<glm::vec2>> m_dfg;
+    std::shared_ptr<const std::vector<glm::vec3>> m_dfg; // computeDfgTable()
     struct GlassTable {
         float eta = 1.5f;
         bool thinWalled = false;
