@@ -43,6 +43,7 @@ struct LightMapSettings {
     int samples = 256; // paths per texel of both lobes, rounded up to a power of two
     int size = 256;    // side of the square texture
     std::uint32_t seed = 0;
+    bool smooth = true; // takes noise out, as far as texels of a surface differ by no more
 };
 
 struct BakeRequest {

@@ -59,15 +59,15 @@ Result<Texels> layOut(const BakeGeometry& geometry, int size, const JobContext& 
     return all;
 }
 
-// Calls visit(texel, places) for all texels, on the pool's threads.
+// Calls visit(texel, places) for texels `from` … `to` - 1, on the pool's threads.
 template <class Visit>
-void forEachTexel(const TraceScene& scene, const Texels& texels, const JobContext& job,
-                  const Visit& begin) {
-    parallelFor(job, texels.count, kTexelsAtATime, [&](std::size_t first, std::size_t last) {
+void forEachTexel(const TraceScene& scene, const Texels& texels, std::size_t from, std::size_t to,
+                  const JobContext& job, const Visit& begin) {
+    parallelFor(job, to - from, kTexelsAtATime, [&](std::size_t first, std::size_t last) {
         const FlushDenormals flush;
         auto visit = begin();
         std::vector<TracePoint> places;
-        for (std::size_t t = first; t < last; ++t) {
+        for (std::size_t t = from + first; t < from + last; ++t) {
             if (job.stopping())
                 return;
             const Texels::Part& part = texels.partOf(t);
@@ -116,14 +116,13 @@ Result<BakeArtifact> bakeLightMap(const LightMapInputs& inputs, const LightMapSe
 
     const auto samples = static_cast<std::uint32_t>(*wanted);
     std::vector<LightMapSums> sums(texels->count);
-    std::vector<std::array<glm::vec4, kLightMapVectors>> values(texels->count);
     std::vector<std::uint32_t> counts(texels->count, 0); // of samples
     std::uint32_t done = 0;
     for (std::uint32_t pass = std::min(kFirstPass, samples); done < samples && !job.stopping();
          pass = std::min(2 * pass, samples)) {
         job.setActivity(fmt::format("tracing {} of {} paths per texel", pass, samples));
         std::atomic<std::size_t> visited{0};
-        forEachTexel(*scene, *texels, job, [&] {
+        forEachTexel(*scene, *texels, 0, texels->count, job, [&] {
             return [&, texel = LightMapTexel(*scene, inputs.imageLight, settings.seed)](
                        std::size_t t, std::span<const TracePoint> places) mutable {
                 const std::uint64_t before = texel.rays();
@@ -152,34 +151,35 @@ Result<BakeArtifact> bakeLightMap(const LightMapInputs& inputs, const LightMapSe
     artifact.light = hashLightMapLight(inputs.scene);
     artifact.samplesDone = static_cast<int>(done);
     artifact.stopped = done < samples;
-    const JobContext nobody;
-    forEachTexel(*scene, *texels, nobody, [&] {
-        return [&, texel = LightMapTexel(*scene, inputs.imageLight, settings.seed)](
-                   std::size_t t, std::span<const TracePoint> places) {
-            if (counts[t] > 0)
-                values[t] = texel.finish(places, static_cast<std::uint32_t>(t), counts[t], sums[t]);
-        };
-    });
-
+    const JobContext nobody; // what there is after a stop is finished
     // Where nothing is known, image-based light stays as it is.
     std::vector<float> unknown(kLightMapStride, 0.0f);
     unknown[3] = 1.0f;
     const auto side = static_cast<std::size_t>(settings.size);
     for (const Texels::Part& part : texels->parts) {
+        LightMapTexture texture{settings.size, std::vector<LightMapTexture::Texel>(side * side)};
+        forEachTexel(
+            *scene, *texels, part.first, part.first + part.texels.texels.size(), nobody, [&] {
+                return [&, texel = LightMapTexel(*scene, inputs.imageLight, settings.seed)](
+                           std::size_t t, std::span<const TracePoint> places) {
+                    if (counts[t] > 0)
+                        texture.texels[part.texels.texels[t - part.first]] =
+                            texel.finish(places, static_cast<std::uint32_t>(t), counts[t], sums[t]);
+                };
+            });
+        if (settings.smooth)
+            filterLightMap(texture, nobody);
         TexelBake& bake = artifact.texels.emplace_back();
         bake.material = part.material;
         bake.side = settings.size;
         bake.stride = kLightMapStride;
         bake.values.resize(side * side * kLightMapStride);
         std::vector<std::uint8_t> known(side * side, 0);
-        for (std::size_t t = 0; t < part.texels.texels.size(); ++t) {
-            if (counts[part.first + t] == 0)
-                continue; // stopped before
-            const std::size_t at = part.texels.texels[t];
-            known[at] = 1;
-            const auto& from = values[part.first + t];
+        for (std::size_t at = 0; at < texture.texels.size(); ++at) {
+            const LightMapTexture::Texel& from = texture.texels[at];
+            known[at] = from.normal != glm::vec3(0.0f) ? 1 : 0;
             for (std::size_t i = 0; i < kLightMapStride; ++i)
-                bake.values[at * kLightMapStride + i] = from[i / 4][static_cast<int>(i % 4)];
+                bake.values[at * kLightMapStride + i] = from.values[i / 4][static_cast<int>(i % 4)];
         }
         fillGutters(bake.values, std::move(known), settings.size, unknown);
     }

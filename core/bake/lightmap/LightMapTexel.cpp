@@ -23,7 +23,7 @@ enum Stream : std::uint32_t {
 // Directions that few views tell apart: see LightMapFit::solve().
 constexpr double kRidge = 0.01;
 // Of the lobe, from each direction of view: the hidden share is that of what they see together.
-constexpr std::uint32_t kRaysPerView = 4;
+constexpr std::uint32_t kRaysPerView = 2;
 // Channels of the lobe's albedo below this reflect nothing that could be told from their rounding.
 constexpr float kLeastAlbedo = 1e-3f;
 
@@ -53,6 +53,12 @@ glm::vec3 mirrored(const shading::SurfaceTerms& terms) {
     return glm::normalize(2.0f * glm::dot(terms.n, terms.v) * terms.n - terms.v);
 }
 
+// How far nine harmonics can follow what a lobe of this roughness shows of an environment, 0…1.
+float harmonicsTell(float perceptualRoughness) {
+    const float x = std::clamp((perceptualRoughness - 0.2f) / 0.25f, 0.0f, 1.0f);
+    return x * x * (3.0f - 2.0f * x);
+}
+
 } // namespace
 
 LightMapTexel::LightMapTexel(const TraceScene& scene, const EnvironmentLookup& imageLight,
@@ -63,6 +69,11 @@ LightMapTexel::LightMapTexel(const TraceScene& scene, const EnvironmentLookup& i
     , m_path(scene, kPaths)
     , m_indirect(scene, kPaths) {
     m_path.leaveOutFirstLights();
+}
+
+glm::vec3 LightMapTexel::drawnLight(const shading::SurfaceTerms& terms) const {
+    return m_imageLight.prefiltered(terms.perceptualRoughness, m_scene.lobeDirection(terms))
+        .value_or(glm::vec3(0.0f));
 }
 
 bool LightMapTexel::isOpen(const TracePoint& place, const glm::vec3& direction) {
@@ -97,8 +108,11 @@ void LightMapTexel::traceDiffuse(const TracePoint& place, std::uint32_t index, s
     const glm::vec3 radiance =
         m_path.follow(place, white, PathSequence(sample, streamSeed(m_seed, index, kDiffusePath)))
             .radiance;
-    if (std::isfinite(shading::luminance(radiance)))
+    if (const float brightness = shading::kPi * shading::luminance(radiance);
+        std::isfinite(brightness)) {
         sums.irradiance += shading::kPi * radiance;
+        sums.squares.x += brightness * brightness;
+    }
     const glm::vec3 sky =
         cosineAbout(place.normal, sobolOwen2D(sample, streamSeed(m_seed, index, kSky)));
     if (isOpen(place, sky)) {
@@ -111,17 +125,20 @@ void LightMapTexel::traceSpecular(const TracePoint& place, const shading::Surfac
                                   std::uint32_t index, std::uint32_t sample, LightMapSums& sums) {
     // Light of the environment that the lobe reflects, by rays of both: all, and what is hidden.
     float all = 0.0f, hidden = 0.0f, hiddenRays = 0.0f;
-    glm::vec3 reflected(0.0f); // of surfaces
+    glm::vec3 environment(0.0f); // the same by channel
+    glm::vec3 reflected(0.0f);   // of surfaces
     for (std::uint32_t k = 0; k < kRaysPerView; ++k) {
         const std::uint32_t ray = sample * kRaysPerView + k;
         if (m_scene.hasEnvironment()) {
             const EnvironmentSampler::Sample sky = m_scene.sampleEnvironment(
                 sobolOwen2D(ray, streamSeed(m_seed, index, kSpecularSky)));
             if (sky.pdf > 0.0f) {
-                const float light = shading::luminance(
-                    shading::shadeDirect(terms, sky.direction, sky.radiance).specular);
+                const glm::vec3 light =
+                    shading::shadeDirect(terms, sky.direction, sky.radiance).specular;
                 const float lobe = shading::brdfPdf(terms, sky.direction);
-                const float share = sky.pdf / (sky.pdf * sky.pdf + lobe * lobe) * light;
+                const float weight = sky.pdf / (sky.pdf * sky.pdf + lobe * lobe);
+                environment += weight * light;
+                const float share = weight * shading::luminance(light);
                 if (share > 0.0f) {
                     all += share;
                     hidden += isOpen(place, sky.direction) ? 0.0f : share;
@@ -138,8 +155,10 @@ void LightMapTexel::traceSpecular(const TracePoint& place, const shading::Surfac
             continue;
         const glm::vec3 lobe = shading::shadeDirect(terms, l, glm::vec3(1.0f)).specular / pdf;
         const float sky = m_scene.environmentPdf(l);
-        const float share = shading::luminance(lobe * m_scene.environmentRadiance(l)) * pdf * pdf /
-                            (pdf * pdf + sky * sky);
+        const glm::vec3 light =
+            lobe * m_scene.environmentRadiance(l) * (pdf * pdf / (pdf * pdf + sky * sky));
+        environment += light;
+        const float share = shading::luminance(light);
         all += share;
         ClosestRay hit;
         const bool below = glm::dot(place.face, l) <= 0.0f;
@@ -151,26 +170,35 @@ void LightMapTexel::traceSpecular(const TracePoint& place, const shading::Surfac
         }
         hidden += share;
         hiddenRays += 1.0f;
-        if (below)
+        if (below || k > 0)
             continue;
+        // Of surfaces by one ray alone: a path goes on from there.
         if (const TracePoint seen = m_scene.pointAt(hit); seen.hasSurface()) {
             const glm::vec3 radiance =
                 seen.emission() +
                 m_indirect
                     .follow(seen, m_scene.surfaceIn(seen, -l, Media()),
-                            PathSequence(ray, streamSeed(m_seed, index, kSpecularPath)))
+                            PathSequence(sample, streamSeed(m_seed, index, kSpecularPath)))
                     .radiance;
             if (std::isfinite(shading::luminance(radiance)))
-                reflected += lobe * radiance;
+                reflected = lobe * radiance;
         }
     }
-    constexpr float kShare = 1.0f / static_cast<float>(kRaysPerView);
-    const glm::vec4 value(kShare * reflected /
-                              glm::max(terms.specularAlbedo, glm::vec3(kLeastAlbedo)),
-                          all > 0.0f ? hidden / all : kShare * hiddenRays);
+    const glm::vec3 albedo = glm::max(terms.specularAlbedo, glm::vec3(kLeastAlbedo));
+    const float share = all > 0.0f ? hidden / all : hiddenRays / static_cast<float>(kRaysPerView);
+    glm::vec3 light = reflected / albedo;
+    if (const float told = harmonicsTell(terms.perceptualRoughness); told > 0.0f && all > 0.0f)
+        light += told * (1.0f - share) *
+                 (environment / (static_cast<float>(kRaysPerView) * albedo) - drawnLight(terms));
+    const glm::vec4 value(light, share);
     const LightMapBasis basis = lightMapBasis(mirrored(terms));
     for (std::size_t j = 0; j < kLightMapTerms; ++j)
         sums.specular[j] += basis[j] * value;
+    const float brightness = shading::luminance(light);
+    sums.squares.y += brightness * brightness;
+    sums.squares.z += share * share;
+    sums.means += glm::vec2(brightness, share);
+    sums.views += 1.0f;
 }
 
 void LightMapTexel::trace(std::span<const TracePoint> places, std::uint32_t index,
@@ -183,19 +211,20 @@ void LightMapTexel::trace(std::span<const TracePoint> places, std::uint32_t inde
     }
 }
 
-std::array<glm::vec4, kLightMapVectors> LightMapTexel::finish(std::span<const TracePoint> places,
-                                                              std::uint32_t index,
-                                                              std::uint32_t count,
-                                                              const LightMapSums& sums) const {
-    std::array<glm::vec4, kLightMapVectors> result{};
+LightMapTexture::Texel LightMapTexel::finish(std::span<const TracePoint> places,
+                                             std::uint32_t index, std::uint32_t count,
+                                             const LightMapSums& sums) const {
+    LightMapTexture::Texel result;
     const float samples = static_cast<float>(count);
     glm::vec3 drawn(0.0f);
     for (const TracePoint& place : places)
         drawn += m_imageLight.irradianceSh9(place.normal).value_or(glm::vec3(0.0f));
     drawn /= static_cast<float>(places.size());
-    result.front() = glm::vec4(sums.irradiance / samples - drawn,
-                               std::clamp(sums.visible / samples, 0.0f, 1.0f));
-    result.back() = glm::vec4(sums.open / samples, 0.0f);
+    result.values.front() = glm::vec4(sums.irradiance / samples - drawn,
+                                      std::clamp(sums.visible / samples, 0.0f, 1.0f));
+    result.values.back() = glm::vec4(sums.open / samples, 0.0f);
+    result.position = places.front().position;
+    result.normal = places.front().normal;
 
     LightMapFit fit;
     std::array<glm::dvec4, kLightMapTerms> moments{};
@@ -206,7 +235,16 @@ std::array<glm::vec4, kLightMapVectors> LightMapTexel::finish(std::span<const Tr
             fit.add(lightMapBasis(mirrored(*terms)));
     if (const auto fitted = fit.solve(moments, kRidge))
         for (std::size_t j = 0; j < kLightMapTerms; ++j)
-            result[1 + j] = glm::vec4((*fitted)[j]);
+            result.values[1 + j] = glm::vec4((*fitted)[j]);
+
+    // Of the means; a constant's coefficient is its value over Y_0.
+    const auto variance = [](float squares, float sum, float n) {
+        return n > 1.0f ? std::max(squares / n - sum * sum / (n * n), 0.0f) / (n - 1.0f) : 0.0f;
+    };
+    constexpr float kOverY0 = 12.566371f; // 1 / Y_0², 4 pi
+    result.variance = {variance(sums.squares.x, shading::luminance(sums.irradiance), samples),
+                       kOverY0 * variance(sums.squares.y, sums.means.x, sums.views),
+                       kOverY0 * variance(sums.squares.z, sums.means.y, sums.views)};
     return result;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/bake/domain/BakeRequest.h"
-#include "core/bake/lightmap/LightMap.h"
+#include "core/bake/lightmap/LightMapFilter.h"
 #include "core/light/EnvironmentLookup.h"
 #include "core/trace/path/LightPath.h"
 #include "core/trace/path/TraceScene.h"
@@ -21,6 +21,11 @@ struct LightMapSums {
     float visible = 0.0f;       // their number
     // Of each harmonic: radiance of what hides the lobe, and how much of it is hidden.
     std::array<glm::vec4, kLightMapTerms> specular{};
+    // Of squares: luminance of the irradiance, of the lobe's light of surfaces, its hidden share;
+    // and what the last two are of the views so far.
+    glm::vec3 squares{0.0f};
+    glm::vec2 means{0.0f};
+    float views = 0.0f;
 };
 
 // Belongs to one thread.
@@ -33,10 +38,9 @@ class LightMapTexel {
     void trace(std::span<const TracePoint> places, std::uint32_t index, std::uint32_t first,
                std::uint32_t count, LightMapSums& sums);
     // What the first `count` samples come to.
-    [[nodiscard]] std::array<glm::vec4, kLightMapVectors> finish(std::span<const TracePoint> places,
-                                                                 std::uint32_t index,
-                                                                 std::uint32_t count,
-                                                                 const LightMapSums& sums) const;
+    [[nodiscard]] LightMapTexture::Texel finish(std::span<const TracePoint> places,
+                                                std::uint32_t index, std::uint32_t count,
+                                                const LightMapSums& sums) const;
 
     [[nodiscard]] std::uint64_t rays() const {
         return m_path.rays() + m_indirect.rays() + m_rays;
@@ -46,6 +50,8 @@ class LightMapTexel {
     // A view of a place from outside; nothing where it is of the surface's back.
     [[nodiscard]] std::optional<shading::SurfaceTerms>
     look(const TracePoint& place, std::uint32_t index, std::uint32_t sample) const;
+    // What image-based light has for the lobe, over its albedo.
+    [[nodiscard]] glm::vec3 drawnLight(const shading::SurfaceTerms& terms) const;
     [[nodiscard]] bool isOpen(const TracePoint& place, const glm::vec3& direction);
     void traceDiffuse(const TracePoint& place, std::uint32_t index, std::uint32_t sample,
                       LightMapSums& sums);
