@@ -10,7 +10,7 @@ const int kLightMapSlices = 10;
 struct LightMapTexel {
     vec3 irradiance; // to be added, before the albedo
     vec3 radiance;   // to be added to what is left of the prefiltered radiance
-    float hidden;    // share of that, 0…1
+    float hidden;    // share of that which is missing, -1…1; below 0: there is more
 };
 
 LightMapTexel noLightMap() {
@@ -27,7 +27,7 @@ LightMapTexel lightMapTexel(vec2 uv, vec3 mirrored) {
     for (int i = 0; i < 9; ++i)
         sum += y[i] * texture(u_lightMap, vec3(uv, (float(i) + 1.5) / float(kLightMapSlices)));
     vec3 irradiance = texture(u_lightMap, vec3(uv, 0.5 / float(kLightMapSlices))).rgb;
-    return LightMapTexel(irradiance, sum.rgb, clamp(sum.a, 0.0, 1.0));
+    return LightMapTexel(irradiance, sum.rgb, clamp(sum.a, -1.0, 1.0));
 }
 
 #endif

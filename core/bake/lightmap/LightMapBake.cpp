@@ -17,7 +17,8 @@
 namespace patina {
 namespace {
 
-constexpr std::uint32_t kFirstPass = 16;
+constexpr std::uint32_t kFirstPass = 8;
+constexpr double kRidge = 0.02; // of fitHemisphere()
 constexpr std::size_t kTexelsAtATime = 16;
 
 // The texels of all materials and their places on the surface.
@@ -81,6 +82,15 @@ void forEachTexel(const TraceScene& scene, const Texels& texels, std::size_t fro
             visit(t, std::span<const TracePoint>(places));
         }
     });
+}
+
+void fitSpecular(LightMapTexture::Texel& texel) {
+    if (texel.normal == glm::vec3(0.0f))
+        return;
+    std::array<glm::vec4, kLightMapTerms> moments{};
+    std::copy_n(texel.values.begin() + 1, kLightMapTerms, moments.begin());
+    const auto fitted = fitHemisphere(texel.normal, moments, kRidge);
+    std::ranges::copy(fitted, texel.values.begin() + 1);
 }
 
 } // namespace
@@ -164,11 +174,16 @@ Result<BakeArtifact> bakeLightMap(const LightMapInputs& inputs, const LightMapSe
                            std::size_t t, std::span<const TracePoint> places) {
                     if (counts[t] > 0)
                         texture.texels[part.texels.texels[t - part.first]] =
-                            texel.finish(places, static_cast<std::uint32_t>(t), counts[t], sums[t]);
+                            texel.finish(places, counts[t], sums[t]);
                 };
             });
         if (settings.smooth)
             filterLightMap(texture, nobody);
+        parallelFor(nobody, texture.texels.size(), kTexelsAtATime,
+                    [&](std::size_t first, std::size_t last) {
+                        for (std::size_t t = first; t < last; ++t)
+                            fitSpecular(texture.texels[t]);
+                    });
         TexelBake& bake = artifact.texels.emplace_back();
         bake.material = part.material;
         bake.side = settings.size;

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-#include <optional>
 
 namespace patina {
 
@@ -18,20 +17,12 @@ using LightMapBasis = std::array<float, kLightMapTerms>;
 // Of a unit direction of the world.
 [[nodiscard]] LightMapBasis lightMapBasis(const glm::vec3& mirrored);
 
-// Four sums at once: of each direction a value of four numbers.
-class LightMapFit {
-  public:
-    void add(const LightMapBasis& basis, double weight = 1.0); // a direction that was looked from
-    // Coefficients a of Σ a_j Y_j, so that its squared distance to the values f is least, where
-    // `moments` are Σ weight f Y_j over the same directions. Directions that few views tell apart
-    // are kept small (a share `ridge` of the mean square is charged for each). Nothing where no
-    // direction was added.
-    [[nodiscard]] std::optional<std::array<glm::dvec4, kLightMapTerms>>
-    solve(const std::array<glm::dvec4, kLightMapTerms>& moments, double ridge) const;
-
-  private:
-    std::array<std::array<double, kLightMapTerms>, kLightMapTerms> m_gram{}; // lower half
-    double m_weight = 0.0;
-};
+// Coefficients a of Σ a_j Y_j, whose mean squared distance over the hemisphere about `normal`
+// (unit) to a value f of each mirror direction is least; `moments` are the means of f Y_j over it.
+// What views tell hardly apart is kept small: each coefficient but the constant's is charged
+// `ridge` times the mean square of Y_0.
+[[nodiscard]] std::array<glm::vec4, kLightMapTerms>
+fitHemisphere(const glm::vec3& normal, const std::array<glm::vec4, kLightMapTerms>& moments,
+              double ridge);
 
 } // namespace patina

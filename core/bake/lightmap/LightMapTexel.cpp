@@ -20,10 +20,10 @@ enum Stream : std::uint32_t {
     kLobeChoice
 };
 
-// Directions that few views tell apart: see LightMapFit::solve().
-constexpr double kRidge = 0.01;
 // Of the lobe, from each direction of view: the hidden share is that of what they see together.
 constexpr std::uint32_t kRaysPerView = 2;
+// How much brighter than image-based light a lobe may be: noise in its estimate, mostly.
+constexpr float kMostGain = 2.0f;
 // Channels of the lobe's albedo below this reflect nothing that could be told from their rounding.
 constexpr float kLeastAlbedo = 1e-3f;
 
@@ -125,20 +125,17 @@ void LightMapTexel::traceSpecular(const TracePoint& place, const shading::Surfac
                                   std::uint32_t index, std::uint32_t sample, LightMapSums& sums) {
     // Light of the environment that the lobe reflects, by rays of both: all, and what is hidden.
     float all = 0.0f, hidden = 0.0f, hiddenRays = 0.0f;
-    glm::vec3 environment(0.0f); // the same by channel
-    glm::vec3 reflected(0.0f);   // of surfaces
+    glm::vec3 reflected(0.0f); // of surfaces
     for (std::uint32_t k = 0; k < kRaysPerView; ++k) {
         const std::uint32_t ray = sample * kRaysPerView + k;
         if (m_scene.hasEnvironment()) {
             const EnvironmentSampler::Sample sky = m_scene.sampleEnvironment(
                 sobolOwen2D(ray, streamSeed(m_seed, index, kSpecularSky)));
             if (sky.pdf > 0.0f) {
-                const glm::vec3 light =
-                    shading::shadeDirect(terms, sky.direction, sky.radiance).specular;
+                const float light = shading::luminance(
+                    shading::shadeDirect(terms, sky.direction, sky.radiance).specular);
                 const float lobe = shading::brdfPdf(terms, sky.direction);
-                const float weight = sky.pdf / (sky.pdf * sky.pdf + lobe * lobe);
-                environment += weight * light;
-                const float share = weight * shading::luminance(light);
+                const float share = sky.pdf / (sky.pdf * sky.pdf + lobe * lobe) * light;
                 if (share > 0.0f) {
                     all += share;
                     hidden += isOpen(place, sky.direction) ? 0.0f : share;
@@ -155,10 +152,8 @@ void LightMapTexel::traceSpecular(const TracePoint& place, const shading::Surfac
             continue;
         const glm::vec3 lobe = shading::shadeDirect(terms, l, glm::vec3(1.0f)).specular / pdf;
         const float sky = m_scene.environmentPdf(l);
-        const glm::vec3 light =
-            lobe * m_scene.environmentRadiance(l) * (pdf * pdf / (pdf * pdf + sky * sky));
-        environment += light;
-        const float share = shading::luminance(light);
+        const float share = shading::luminance(lobe * m_scene.environmentRadiance(l)) *
+                            (pdf * pdf / (pdf * pdf + sky * sky));
         all += share;
         ClosestRay hit;
         const bool below = glm::dot(place.face, l) <= 0.0f;
@@ -185,11 +180,16 @@ void LightMapTexel::traceSpecular(const TracePoint& place, const shading::Surfac
         }
     }
     const glm::vec3 albedo = glm::max(terms.specularAlbedo, glm::vec3(kLeastAlbedo));
-    const float share = all > 0.0f ? hidden / all : hiddenRays / static_cast<float>(kRaysPerView);
-    glm::vec3 light = reflected / albedo;
-    if (const float told = harmonicsTell(terms.perceptualRoughness); told > 0.0f && all > 0.0f)
-        light += told * (1.0f - share) *
-                 (environment / (static_cast<float>(kRaysPerView) * albedo) - drawnLight(terms));
+    const glm::vec3 light = reflected / albedo;
+    float open = 1.0f - (all > 0.0f ? hidden / all : hiddenRays / static_cast<float>(kRaysPerView));
+    if (const float told = harmonicsTell(terms.perceptualRoughness); told > 0.0f && open > 0.0f) {
+        // What the lobe reflects against what image-based light has for it.
+        const float drawn = shading::luminance(terms.specularAlbedo * drawnLight(terms)) *
+                            static_cast<float>(kRaysPerView);
+        if (drawn > 0.0f)
+            open *= glm::mix(1.0f, std::min(all / drawn, kMostGain), told);
+    }
+    const float share = 1.0f - open;
     const glm::vec4 value(light, share);
     const LightMapBasis basis = lightMapBasis(mirrored(terms));
     for (std::size_t j = 0; j < kLightMapTerms; ++j)
@@ -212,8 +212,7 @@ void LightMapTexel::trace(std::span<const TracePoint> places, std::uint32_t inde
 }
 
 LightMapTexture::Texel LightMapTexel::finish(std::span<const TracePoint> places,
-                                             std::uint32_t index, std::uint32_t count,
-                                             const LightMapSums& sums) const {
+                                             std::uint32_t count, const LightMapSums& sums) const {
     LightMapTexture::Texel result;
     const float samples = static_cast<float>(count);
     glm::vec3 drawn(0.0f);
@@ -226,25 +225,18 @@ LightMapTexture::Texel LightMapTexel::finish(std::span<const TracePoint> places,
     result.position = places.front().position;
     result.normal = places.front().normal;
 
-    LightMapFit fit;
-    std::array<glm::dvec4, kLightMapTerms> moments{};
-    for (std::size_t j = 0; j < kLightMapTerms; ++j)
-        moments[j] = glm::dvec4(sums.specular[j]);
-    for (std::uint32_t i = 0; i < count; ++i)
-        if (const auto terms = look(places[i % places.size()], index, i))
-            fit.add(lightMapBasis(mirrored(*terms)));
-    if (const auto fitted = fit.solve(moments, kRidge))
+    if (sums.views > 0.0f)
         for (std::size_t j = 0; j < kLightMapTerms; ++j)
-            result.values[1 + j] = glm::vec4((*fitted)[j]);
+            result.values[1 + j] = sums.specular[j] / sums.views;
 
-    // Of the means; a constant's coefficient is its value over Y_0.
+    // Of the means.
     const auto variance = [](float squares, float sum, float n) {
         return n > 1.0f ? std::max(squares / n - sum * sum / (n * n), 0.0f) / (n - 1.0f) : 0.0f;
     };
-    constexpr float kOverY0 = 12.566371f; // 1 / Y_0², 4 pi
+    constexpr float kY0 = 0.0795775f; // Y_0², 1 / 4 pi
     result.variance = {variance(sums.squares.x, shading::luminance(sums.irradiance), samples),
-                       kOverY0 * variance(sums.squares.y, sums.means.x, sums.views),
-                       kOverY0 * variance(sums.squares.z, sums.means.y, sums.views)};
+                       kY0 * variance(sums.squares.y, sums.means.x, sums.views),
+                       kY0 * variance(sums.squares.z, sums.means.y, sums.views)};
     return result;
 }
 

@@ -37,10 +37,10 @@ class LightMapTexel {
     // Samples `first` … `first` + `count` - 1 of texel number `index`, shared out among its places.
     void trace(std::span<const TracePoint> places, std::uint32_t index, std::uint32_t first,
                std::uint32_t count, LightMapSums& sums);
-    // What the first `count` samples come to.
-    [[nodiscard]] LightMapTexture::Texel finish(std::span<const TracePoint> places,
-                                                std::uint32_t index, std::uint32_t count,
-                                                const LightMapSums& sums) const;
+    // What the first `count` samples come to; of the specular lobe the means of its values times
+    // the harmonics, to be fitted by fitHemisphere().
+    [[nodiscard]] LightMapTexture::Texel
+    finish(std::span<const TracePoint> places, std::uint32_t count, const LightMapSums& sums) const;
 
     [[nodiscard]] std::uint64_t rays() const {
         return m_path.rays() + m_indirect.rays() + m_rays;
