@@ -421,6 +421,9 @@ void main() {
 #ifdef HAS_TRANSFER
     record(kRecordTransfer, 1.0);
 #endif
+#ifdef HAS_LIGHT_MAP
+    recordAs(kRecordLightMap, 0, vec4(mapped.radiance, 1.0));
+#endif
     recordChosenDirection(s, sums, specularIbl, alpha);
     recordIbl(s, dfg, arriving, prefiltered, ambient.diffuse, specularIbl, diffuseOpen, open, alpha);
 #ifdef HAS_TRANSMISSION

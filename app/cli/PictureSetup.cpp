@@ -8,12 +8,14 @@
 #include "core/bake/document/DocumentBakeInputs.h"
 #include "core/bake/document/FollowBounces.h"
 #include "core/bake/domain/BakeHash.h"
+#include "core/bake/lightmap/LightMapBake.h"
 #include "core/base/AtomicFile.h"
 #include "core/document/Lighting.h"
 #include "core/document/Source.h"
 #include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
+#include "core/trace/document/DocumentTraceInputs.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -126,7 +128,11 @@ void warnOfStaleBakes(Session& session, const Document& document) {
     const Hash geometry = hashBakeInputs(bakeInputs(document));
     for (const BakeArtifactPtr& bake : document.bakes)
         for (const std::string& reason :
-             bakeStaleness(*bake, document, geometry, bake->albedo).reasons)
+             bakeStaleness(*bake, document, geometry, bake->albedo,
+                           bake->kind == BakeKind::LightMap
+                               ? hashLightMapLight(traceInputs(document))
+                               : Hash{})
+                 .reasons)
             session.report().warn(fmt::format("a bake is stale: {}; bake it anew", reason));
 }
 

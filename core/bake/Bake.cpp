@@ -31,6 +31,8 @@ BakeRequest normalized(BakeRequest request) {
         request.ao.samples = *samples;
     if (const Result<int> samples = roundSamples(request.prt.samples, request.prt.method))
         request.prt.samples = *samples;
+    if (const Result<int> samples = roundSamples(request.lightMap.samples))
+        request.lightMap.samples = *samples;
     return request;
 }
 

@@ -19,7 +19,9 @@ namespace {
 constexpr std::uint64_t kBytesPerTriangle = 160;
 constexpr std::uint64_t kBytesPerPoint = 2 * sizeof(glm::vec3) + 2; // start, normal, passes
 constexpr std::uint64_t kBytesPerFittedTriangle = 150; // moments, edges, and sorting those
-constexpr double kRoom = 1.1;                          // heaps are never full
+// Of a light map: paths of both lobes, their rays to lights, and those that ask what is hidden.
+constexpr std::uint64_t kRaysPerLightMapPath = 10;
+constexpr double kRoom = 1.1; // heaps are never full
 
 std::optional<std::uint64_t> number(std::string_view text) {
     std::uint64_t value = 0;
@@ -76,8 +78,7 @@ std::uint64_t elementsOf(const BakeRequest& request, const BakeInputs& inputs) {
     }
     if (!isPerTexel(request.kind))
         return vertices;
-    const auto side = static_cast<std::uint64_t>(holdsTransfer(request.kind) ? request.prt.size
-                                                                             : request.ao.size);
+    const auto side = static_cast<std::uint64_t>(textureSizeOf(request));
     return materials.size() * side * side;
 }
 
@@ -99,13 +100,11 @@ std::optional<std::string> advice(const BakeRequest& request, const BakeInputs& 
             return fmt::format("With {} bands it would take {}.", other.prt.order,
                                memoryText(estimateBake(other, inputs).bytes));
     }
-    for (other = request; isPerTexel(request.kind) && other.ao.size > 64 && other.prt.size > 64;) {
-        other.ao.size /= 2;
-        other.prt.size /= 2;
+    for (other = request; isPerTexel(request.kind) && textureSizeOf(other) > 64;) {
+        other.ao.size = other.prt.size = other.lightMap.size = textureSizeOf(other) / 2;
         if (fits(other))
             return fmt::format("With textures of {0} × {0} it would take {1}.",
-                               holdsTransfer(request.kind) ? other.prt.size : other.ao.size,
-                               memoryText(estimateBake(other, inputs).bytes));
+                               textureSizeOf(other), memoryText(estimateBake(other, inputs).bytes));
     }
     return std::nullopt;
 }
@@ -117,8 +116,7 @@ BakeEstimate estimateBake(const BakeRequest& request, const BakeInputs& inputs) 
     result.elements = elementsOf(request, inputs);
     const bool transfer = holdsTransfer(request.kind);
     const bool bounces = transfer && request.prt.transfer == TransferKind::Interreflected;
-    const auto samples =
-        static_cast<std::uint64_t>(transfer ? request.prt.samples : request.ao.samples);
+    const auto samples = static_cast<std::uint64_t>(samplesOf(request));
     const auto bounceSamples =
         bounces ? static_cast<std::uint64_t>(request.prt.bounceSamples) : std::uint64_t{0};
     const bool traces = !transfer || request.prt.transfer != TransferKind::Unshadowed;
@@ -136,6 +134,16 @@ BakeEstimate estimateBake(const BakeRequest& request, const BakeInputs& inputs) 
         }
     const auto stride = transfer ? static_cast<std::uint64_t>(request.prt.order * request.prt.order)
                                  : std::uint64_t{1};
+    if (request.kind == BakeKind::LightMap) {
+        // Sums, the texture that is made and its double while it is filtered, and the values.
+        constexpr std::uint64_t kBytesPerTexel = 240 + 2 * 212 + 2 * kLightMapNumbers * 4;
+        result.rays = result.elements * samples * kRaysPerLightMapPath;
+        result.bytes = static_cast<std::uint64_t>(
+            kRoom *
+            static_cast<double>(triangles * kBytesPerTriangle + vertices * 2 * sizeof(glm::vec3) +
+                                result.elements * kBytesPerTexel));
+        return result;
+    }
     // What is being traced, what becomes of it, and the preview.
     const std::uint64_t values = (stride + 2) * sizeof(float);
     std::uint64_t perElement = kBytesPerPoint + 3 * values;

@@ -17,10 +17,10 @@ struct IblMaps;
 class Image;
 
 struct LadderSettings {
-    int order = 5;                               // bands of the transfer, 1…8
-    int rays = 256;                              // of each vertex, of both bakes
-    int bounces = 3;                             // of the transfer
-    int lightMapSize = 256, lightMapPaths = 128; // texels of a side, paths of each
+    int order = 5;                              // bands of the transfer, 1…8
+    int rays = 256;                             // of each vertex, of both bakes
+    int bounces = 3;                            // of the transfer
+    int lightMapSize = 256, lightMapPaths = 16; // texels of a side, paths of each
 };
 
 // What some of the estimators need; those that the document has are taken, the others baked.

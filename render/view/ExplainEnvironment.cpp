@@ -161,6 +161,9 @@ ExplainedStep diffuseStep(const Subject& subject) {
                 ? "E(n) comes from the transfer, which includes the shadows; AO is left out."
                 : "E(n) comes from the transfer, which includes the shadows and the "
                   "diffuse light of all lights; AO is left out.";
+    if (subject.rebuilt.lightMap)
+        step.note =
+            "E(n) has the light map's correction, which includes the shadows; AO is left out.";
     weigh(step, subject.rebuilt.mix.x);
     glm::vec3 sum = subject.rebuilt.mix.x * albedo * kd * (ao / glm::pi<float>()) * irradiance;
     if (s.clearColor != glm::vec3(0.0f)) {
@@ -210,13 +213,17 @@ ExplainedStep openStep(const Subject& subject) {
                         scalar("visibility", "Visibility of the Bake", "AO", cone.w),
                         scalar("alphaRoughness", "α", "α", subject.rebuilt.surface.alpha)};
     }
+    if (subject.rebuilt.lightMap) {
+        step.formula = "what the light map leaves of the prefiltered radiance";
+        step.factors.clear();
+        return step;
+    }
     compare(step, subject.rebuilt.open);
     return step;
 }
 
 ExplainedStep specularStep(const Subject& subject) {
     const glm::vec3 albedo = subject.vector(kRecordSpecularAlbedo);
-    const glm::vec3 prefiltered = subject.radiance(kViewPrefiltered);
     const float open = subject.number(kViewSpecularOcclusion);
     const ViewInfo& info = viewInfo(kViewSpecularIbl);
     ExplainedStep step{std::string(info.id),
@@ -229,8 +236,13 @@ ExplainedStep specularStep(const Subject& subject) {
                        {},
                        true,
                        {}};
+    if (subject.rebuilt.lightMap) {
+        step.formula = "max(Lₚ · SO + Lₘ, 0) · ρs";
+        step.factors.push_back(vector3("lightMap", "Correction by the Light Map", "Lₘ",
+                                       glm::vec3(subject.pixel.value(kRecordLightMap))));
+    }
     weigh(step, subject.rebuilt.mix.y);
-    compare(step, subject.rebuilt.mix.y * prefiltered * albedo * open);
+    compare(step, subject.rebuilt.mix.y * subject.rebuilt.reflected * albedo);
     return step;
 }
 

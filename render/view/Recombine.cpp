@@ -107,19 +107,24 @@ RebuiltPixel recombine(const Inspection& pixel, const Document& document) {
     result.alpha = pixel.value(kViewAlpha).x;
 
     const float ao = pixel.value(kViewAo).x;
+    result.lightMap = pixel.value(kRecordLightMap).w > 0.0f;
     result.transfer = pixel.value(kRecordTransfer).x > 0.0f;
     result.ao = result.transfer ? 1.0f : ao;
     result.open =
         result.transfer && readsBake(document.view.lighting)
             ? coneOcclusion(pixel.value(kRecordVisibleCone), s.n,
                             glm::normalize(glm::vec3(pixel.value(kRecordLobeDirection))), s.alpha)
-            : specularOcclusion(s.NoV, ao, s.alpha);
+        : result.lightMap ? pixel.value(kViewSpecularOcclusion).x
+                          : specularOcclusion(s.NoV, ao, s.alpha);
     result.mix = mixWeights(document.view.reflectionMix);
     result.terms[0] =
         result.mix.x * (shadeIrradiance(s, result.ao * straight(pixel.value(kViewIrradiance))) +
                         shadeThrough(s, straight(pixel.value(kRecordBehind))));
-    result.terms[1] =
-        result.mix.y * result.open * shadePrefiltered(s, straight(pixel.value(kViewPrefiltered)));
+    result.reflected = result.open * straight(pixel.value(kViewPrefiltered));
+    if (result.lightMap)
+        result.reflected =
+            glm::max(result.reflected + glm::vec3(pixel.value(kRecordLightMap)), glm::vec3(0.0f));
+    result.terms[1] = result.mix.y * shadePrefiltered(s, result.reflected);
 
     for (const LightShare& share : pixel.lights) {
         RebuiltLight light;

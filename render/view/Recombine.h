@@ -27,10 +27,12 @@ struct RebuiltLight {
 
 struct RebuiltPixel {
     shading::SurfaceTerms surface;
-    bool transfer = false; // the irradiance is baked transfer's, that of lights included
-    float ao = 1.0f;       // factor on the irradiance: 1 where baked transfer knows the shadows
-    float open = 1.0f;     // of the specular lobe
-    glm::vec2 mix{1.0f};   // weights of diffuse light and of reflections
+    bool transfer = false;     // the irradiance is baked transfer's, that of lights included
+    bool lightMap = false;     // a light map corrects the irradiance and what is reflected
+    float ao = 1.0f;           // factor on the irradiance: 1 where baked transfer knows the shadows
+    float open = 1.0f;         // of the specular lobe
+    glm::vec3 reflected{0.0f}; // radiance that the lobe's albedo multiplies
+    glm::vec2 mix{1.0f};       // weights of diffuse light and of reflections
     std::vector<RebuiltLight> lights; // as in Inspection::lights
     // Diffuse and specular image-based, direct diffuse and specular, emission: radiance.
     std::array<glm::vec3, kTermCount> terms{};

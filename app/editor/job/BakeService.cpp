@@ -3,18 +3,21 @@
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/document/UserNotice.h"
 #include "app/editor/job/BakeWork.h"
+#include "app/editor/job/LightMapWork.h"
 #include "app/editor/job/LivePreview.h"
 #include "core/bake/Bake.h"
 #include "core/bake/BakeMemory.h"
 #include "core/bake/document/BakeStaleness.h"
 #include "core/bake/document/DocumentBakeInputs.h"
 #include "core/bake/file/BakeFileSize.h"
+#include "core/bake/lightmap/LightMapBake.h"
 #include "core/base/FileLock.h"
 #include "core/document/AbsentBake.h"
 #include "core/document/ViewChoices.h"
 #include "core/edit/Edit.h"
 #include "core/edit/Parameters.h"
 #include "core/job/Parallel.h"
+#include "core/trace/document/DocumentTraceInputs.h"
 
 #include <QFile>
 #include <QMetaObject>
@@ -43,12 +46,19 @@ bool holdsMore(const BakeArtifact& attached, const BakeArtifact& stopped) {
            attached.order >= stopped.order && attached.transfer >= stopped.transfer;
 }
 
+// What a light map corrects is seen in its own light only.
+void showLightMap(DocumentController& controller, const BakeArtifact& bake) {
+    if (bake.kind == BakeKind::LightMap)
+        controller.showLighting(LightingMode::LightMap);
+}
+
 // Its hits are known before anybody hears of it.
 void attach(DocumentController& controller, FinishedHits& hits, const BakeEnd& end) {
     const BakeArtifactPtr attached = findBake(controller.document(), end.artifact->kind);
     if (!attached || !stoppedEarly(*end.artifact) || !holdsMore(*attached, *end.artifact)) {
         hits.keep(end.artifact, end.hits);
         controller.attachBake(end.artifact);
+        showLightMap(controller, *end.artifact);
         return;
     }
     UserNotice notice;
@@ -151,6 +161,20 @@ void BakeService::start(const BakeRequest& request, JobPriority priority) {
 JobManager::Prepare BakeService::preparation(const Bake& bake) const {
     return [controller = &m_controller, hits = m_hits, cache = m_cache, folder = m_folder,
             bake]() -> Result<JobManager::Work> {
+        if (bake.request.kind == BakeKind::LightMap) {
+            if (const Result<void> fits =
+                    checkBake(bake.request, bakeInputs(controller->document()));
+                !fits)
+                return fits.error();
+            const LightMapWork work{controller->document(), bake.request.lightMap};
+            return JobManager::Work([work, controller, hits](const JobContext& job) {
+                const BakeEnd end = runLightMap(work, job);
+                JobOutcome outcome{end.error, end.summary, {}};
+                if (end.artifact)
+                    outcome.apply = [controller, hits, end] { attach(*controller, *hits, end); };
+                return outcome;
+            });
+        }
         auto inputs = std::make_shared<const BakeInputs>(bakeInputs(controller->document()));
         // Asked again: others may have taken the memory since the job was queued.
         if (const Result<void> fits = checkBake(bake.request, *inputs); !fits)
@@ -204,13 +228,17 @@ void BakeService::documentChanged(const Change& change) {
     const bool material = change.target && change.target->scope == Scope::Material;
     if (bakes || material)
         m_inputsValid = m_albedoValid = m_interruptedValid = false;
+    if (change.affects != Affects::Nothing)
+        m_lightValid = false;
+    const bool lightMap =
+        !material && !bakes && findBake(m_controller.document(), BakeKind::LightMap) != nullptr;
     if (touches(change.affects, Affects::Bakes))
         keepBakes();
     if (bakes) {
         m_restore.start(0); // not within the step that is being done
         showPreviews();
         Q_EMIT stateChanged();
-    } else if (material) {
+    } else if (material || lightMap) {
         m_settled.start();
     }
 }
@@ -327,6 +355,14 @@ Hash BakeService::currentInputs() {
         m_inputsValid = true;
     }
     return m_inputs;
+}
+
+Hash BakeService::currentLight() {
+    if (!m_lightValid) {
+        m_light = hashLightMapLight(traceInputs(m_controller.document()));
+        m_lightValid = true;
+    }
+    return m_light;
 }
 
 Hash BakeService::currentAlbedo() {

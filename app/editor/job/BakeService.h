@@ -61,6 +61,7 @@ class BakeService : public QObject {
     // Hashes of what a bake started now would be made from; kept until the document changes.
     [[nodiscard]] Hash currentInputs();
     [[nodiscard]] Hash currentAlbedo();
+    [[nodiscard]] Hash currentLight(); // hashLightMapLight()
 
   Q_SIGNALS:
     // One was started or has ended, or what bakes depend on has changed.
@@ -102,9 +103,10 @@ class BakeService : public QObject {
     QTimer m_viewTimer; // while bakes run: where the user looks
     QTimer m_settled;   // edits of materials come in bursts
     QTimer m_restore;
-    bool m_inputsValid = false, m_albedoValid = false, m_interruptedValid = false;
+    bool m_inputsValid = false, m_albedoValid = false, m_lightValid = false,
+         m_interruptedValid = false;
     std::vector<InterruptedBake> m_interrupted;
-    Hash m_inputs, m_albedo;
+    Hash m_inputs, m_albedo, m_light;
 };
 
 } // namespace patina::editor

@@ -71,7 +71,14 @@ class LadderMaker {
             return completed;
         m_inputs = hashBakeInputs(bakeInputs(m_scene.document));
         const bool kept = m_order->kept && m_order->kept->inputs == m_inputs;
-        setRungs(kept ? m_order->kept->bakes : attachedLadderBakes(m_scene.document));
+        m_lit = traceInputs(m_scene.document);
+        LadderBakes bakes = attachedLadderBakes(m_scene.document);
+        if (kept) {
+            const BakeArtifactPtr attached = std::exchange(bakes, m_order->kept->bakes).lightMap;
+            if (m_order->kept->lit != m_lit)
+                bakes.lightMap = attached;
+        }
+        setRungs(bakes);
         m_shown.steps.emplace_back();
         m_shown.steps.back().name = "path";
         m_shown.steps.back().label = "Path traced";
@@ -110,9 +117,10 @@ class LadderMaker {
             step.name = rung.name;
             step.label = rung.label;
             step.lighting = rung.document.view.lighting;
-            step.bake = rung.name == "ao"       ? bakes.occlusion
-                        : needsLadderBake(step) ? bakes.transfer
-                                                : nullptr;
+            step.bake = rung.name == "ao"                         ? bakes.occlusion
+                        : step.lighting == LightingMode::LightMap ? bakes.lightMap
+                        : needsLadderBake(step)                   ? bakes.transfer
+                                                                  : nullptr;
             // Until it is baked it only waits.
             step.whyNot = needsLadderBake(step) && !step.bake ? std::string() : rung.whyNot;
             step.bakeSeconds = rung.bakeSeconds;
@@ -120,14 +128,22 @@ class LadderMaker {
     }
 
     Result<void> bake() {
-        if (m_bakes.occlusion && m_bakes.transfer)
+        if (m_bakes.occlusion && m_bakes.transfer && m_bakes.lightMap)
             return {};
+        Document document = m_scene.document; // with those that there are
+        for (const BakeArtifactPtr& bake : {m_bakes.occlusion, m_bakes.transfer, m_bakes.lightMap})
+            if (bake)
+                attachBake(document, bake);
+        const auto prepare = [&](const Image& environment) {
+            return computeIbl(environment, IblSettings(), m_job);
+        };
         const Result<LadderBakes> made =
-            ladderBakes(m_scene.document, {}, m_job.part(kLadderTraced, kLadderBaked));
+            ladderBakes(document, {}, prepare, m_job.part(kLadderTraced, kLadderBaked));
         if (!made)
             return made.error();
         setRungs(*made);
-        m_shown.kept = std::make_shared<const KeptLadderBakes>(KeptLadderBakes{m_inputs, *made});
+        m_shown.kept =
+            std::make_shared<const KeptLadderBakes>(KeptLadderBakes{m_inputs, *made, m_lit});
         return {};
     }
 
@@ -241,6 +257,7 @@ class LadderMaker {
     const JobContext& m_job;
     SceneCopy m_scene;
     Hash m_inputs;
+    TraceInputs m_lit;
     LadderBakes m_bakes;
     std::unique_ptr<gl::Context> m_context; // outlives what it holds
     std::unique_ptr<render::SceneRenderer> m_renderer;
@@ -262,7 +279,7 @@ Result<LadderShownPtr> runLadder(std::shared_ptr<const LadderOrder> order, Prepa
 }
 
 bool needsLadderBake(const LadderStep& step) {
-    return step.name == "ao" || readsBake(step.lighting);
+    return step.name == "ao" || readsBake(step.lighting) || step.lighting == LightingMode::LightMap;
 }
 
 std::optional<std::size_t> stepInUse(const std::vector<LadderStep>& steps,

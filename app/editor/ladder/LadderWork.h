@@ -9,6 +9,7 @@
 #include "core/ladder/Ladder.h"
 #include "core/ladder/LadderTruth.h"
 #include "core/trace/error/PictureError.h"
+#include "core/trace/path/TraceInputs.h"
 
 #include <QImage>
 #include <cstddef>
@@ -24,6 +25,7 @@ namespace patina::editor {
 struct KeptLadderBakes {
     Hash inputs; // hashBakeInputs() of the scene
     LadderBakes bakes;
+    TraceInputs lit; // that its light map rests on
 };
 
 struct LadderOrder {

@@ -32,6 +32,8 @@ QString whatChanged(const BakeStaleness& staleness) {
         parts << AttachedBakes::tr("geometry");
     if (staleness.albedo)
         parts << AttachedBakes::tr("albedo");
+    if (staleness.light)
+        parts << AttachedBakes::tr("light");
     return parts.join(QStringLiteral(", "));
 }
 
@@ -96,8 +98,9 @@ void AttachedBakes::refresh() {
             continue;
         }
         const Hash albedo = bake->albedo == Hash{} ? Hash{} : m_bakes.currentAlbedo();
+        const Hash light = bake->kind == BakeKind::LightMap ? m_bakes.currentLight() : Hash{};
         const BakeStaleness staleness =
-            bakeStaleness(*bake, document, m_bakes.currentInputs(), albedo);
+            bakeStaleness(*bake, document, m_bakes.currentInputs(), albedo, light);
         if (staleness.stale())
             stale.push_back(requestOf(*bake));
         addRow(*bake, staleness);

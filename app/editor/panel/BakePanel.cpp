@@ -73,8 +73,7 @@ QString timeText(std::filesystem::file_time_type when) {
 }
 
 int raysOf(const BakeRequest& request) {
-    const BakeRequest rounded = normalized(request);
-    return holdsTransfer(request.kind) ? rounded.prt.samples : rounded.ao.samples;
+    return samplesOf(normalized(request));
 }
 
 } // namespace
@@ -149,14 +148,18 @@ QWidget* BakePanel::makeLighting() {
     auto* row = new QWidget;
     auto* layout = new QHBoxLayout(row);
     layout->setContentsMargins(0, 0, 0, 0);
-    layout->setSpacing(1); // two halves of one switch
+    layout->setSpacing(1); // parts of one switch
     auto* group = new QButtonGroup(this);
     m_ibl = makeTextButton(tr("IBL"), tr("Light from the environment without shadows (live)"));
     m_prt = makeTextButton(tr("PRT"),
                            tr("Soft self-shadows from the baked transfer; needs a PRT bake"));
     m_ibl->setObjectName(QStringLiteral("lightingIbl"));
     m_prt->setObjectName(QStringLiteral("lightingPrt"));
-    for (QPushButton* button : {m_ibl, m_prt}) {
+    m_lightMap = makeTextButton(
+        tr("Light map"), tr("Image-based light, corrected where a baked light map knows better: "
+                            "shadows, bounces and reflections as they are traced"));
+    m_lightMap->setObjectName(QStringLiteral("lightingLightMap"));
+    for (QPushButton* button : {m_ibl, m_prt, m_lightMap}) {
         button->setCheckable(true);
         group->addButton(button);
         layout->addWidget(button);
@@ -168,6 +171,8 @@ QWidget* BakePanel::makeLighting() {
     };
     connect(m_ibl, &QPushButton::clicked, this, [setLighting] { setLighting(LightingMode::Ibl); });
     connect(m_prt, &QPushButton::clicked, this, [setLighting] { setLighting(LightingMode::Prt); });
+    connect(m_lightMap, &QPushButton::clicked, this,
+            [setLighting] { setLighting(LightingMode::LightMap); });
     return row;
 }
 
@@ -305,6 +310,8 @@ void BakePanel::refreshLighting() {
     const Document& document = m_controller.document();
     const bool hasPrt = (m_bakes.running() && m_bakes.preview()) || hasTransfer(document);
     m_prt->setEnabled(hasPrt);
+    m_lightMap->setEnabled(findBake(document, BakeKind::LightMap) != nullptr);
+    m_lightMap->setChecked(document.view.lighting == LightingMode::LightMap);
     m_prt->setChecked(document.view.lighting == LightingMode::Prt);
     m_ibl->setChecked(document.view.lighting == LightingMode::Ibl);
 }

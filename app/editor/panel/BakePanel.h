@@ -53,6 +53,7 @@ class BakePanel : public QWidget {
     AttachedBakes* m_attached = nullptr;
     QPushButton* m_ibl = nullptr;
     QPushButton* m_prt = nullptr;
+    QPushButton* m_lightMap = nullptr;
     std::map<quint64, JobRow*> m_rows;
     std::map<BakeKind, BakeArtifactPtr> m_followed; // whose settings the form took over last
 };

@@ -58,8 +58,8 @@ BakeSettingsForm::BakeSettingsForm(QWidget* parent)
     m_form->setVerticalSpacing(tokens::kGap);
     m_form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
     m_kind = new QComboBox;
-    for (const BakeKind kind :
-         {BakeKind::PrtVertex, BakeKind::PrtTexel, BakeKind::AoTexel, BakeKind::AoVertex}) {
+    for (const BakeKind kind : {BakeKind::PrtVertex, BakeKind::PrtTexel, BakeKind::AoTexel,
+                                BakeKind::AoVertex, BakeKind::LightMap}) {
         m_kind->addItem(bakeTitle(kind), static_cast<int>(kind));
         m_requests[kind].kind = kind;
     }

@@ -53,7 +53,7 @@ bool sameMeshes(const BakeArtifact& artifact, const Document& document) {
 } // namespace
 
 BakeStaleness bakeStaleness(const BakeArtifact& artifact, const Document& document,
-                            const Hash& inputs, const Hash& albedo) {
+                            const Hash& inputs, const Hash& albedo, const Hash& light) {
     BakeStaleness result;
     if (artifact.inputs != inputs) {
         result.geometry = true;
@@ -64,6 +64,10 @@ BakeStaleness bakeStaleness(const BakeArtifact& artifact, const Document& docume
         (!result.geometry || sameMeshes(artifact, document))) {
         result.albedo = true;
         result.reasons.emplace_back("the albedo has changed, and light bounces off it");
+    }
+    if (artifact.kind == BakeKind::LightMap && artifact.light != light) {
+        result.light = true;
+        result.reasons.emplace_back("the lights, the environment or the materials have changed");
     }
     return result;
 }
@@ -83,7 +87,7 @@ std::vector<SettingDifference> settingDifferences(const BakeArtifact& artifact,
 
 std::optional<StoppedBake> stoppedEarly(const BakeArtifact& artifact) {
     const BakeRequest request = requestOf(artifact);
-    const int asked = holdsTransfer(artifact.kind) ? request.prt.samples : request.ao.samples;
+    const int asked = samplesOf(request);
     if (!artifact.settings.contains("samples") || artifact.samplesDone >= asked)
         return std::nullopt;
     // Bakes to a tolerance end before their last ray by themselves.

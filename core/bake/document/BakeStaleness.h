@@ -15,15 +15,18 @@ struct Document;
 struct BakeStaleness {
     bool geometry = false;            // must be traced anew
     bool albedo = false;              // only what surfaces hand on to each other has changed
+    bool light = false;               // of a light map: what lights and surfaces are
     std::vector<std::string> reasons; // for the user: "“Wall” was hidden"
 
-    [[nodiscard]] bool stale() const { return geometry || albedo; }
+    [[nodiscard]] bool stale() const { return geometry || albedo || light; }
 };
 
-// `inputs` and `albedo`: hashBakeInputs() and hashBakeAlbedo() of the document as it is now.
+// `inputs`, `albedo` and `light`: hashBakeInputs(), hashBakeAlbedo() and, for light maps alone,
+// hashLightMapLight() of the document as it is now.
 // Settings do not make a bake stale: it stays right, whatever else could be baked.
 [[nodiscard]] BakeStaleness bakeStaleness(const BakeArtifact& artifact, const Document& document,
-                                          const Hash& inputs, const Hash& albedo);
+                                          const Hash& inputs, const Hash& albedo,
+                                          const Hash& light = {});
 
 // Where a bake was made with other settings than `wanted` has, a request of its kind. Older files
 // do not hold all settings; those count as equal.

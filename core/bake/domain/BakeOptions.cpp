@@ -13,7 +13,7 @@ namespace {
 
 using Type = BakeOption::Type;
 
-constexpr int kSamples[] = {32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384};
+constexpr int kSamples[] = {8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384};
 constexpr int kBounceSamples[] = {16, 32, 64, 128, 256};
 constexpr int kOrders[] = {1, 2, 3, 4, 5, 6, 7, 8};
 constexpr int kHitBudgets[] = {0, 256, 512, 1024, 2048, 4096};
@@ -32,13 +32,6 @@ bool ofOcclusion(const BakeRequest& request) {
 }
 bool traces(const BakeRequest& request) {
     return !ofTransfer(request) || request.prt.transfer != TransferKind::Unshadowed;
-}
-// What all kinds have, of the request's.
-template <class Transfer, class Occlusion, class LightMap>
-auto ofKind(const BakeRequest& r, Transfer transfer, Occlusion occlusion, LightMap lightMap) {
-    return static_cast<double>(ofTransfer(r)    ? r.prt.*transfer
-                               : ofOcclusion(r) ? r.ao.*occlusion
-                                                : r.lightMap.*lightMap);
 }
 bool tracesTransfer(const BakeRequest& request) {
     return ofTransfer(request) && traces(request);
@@ -89,10 +82,7 @@ constexpr std::array kOptions{
                65536,
                kSamples,
                {},
-               [](const BakeRequest& r) {
-                   return ofKind(r, &PrtSettings::samples, &AoSettings::samples,
-                                 &LightMapSettings::samples);
-               },
+               [](const BakeRequest& r) { return static_cast<double>(samplesOf(r)); },
                [](BakeRequest& r, double v) {
                    r.prt.samples = r.ao.samples = r.lightMap.samples = static_cast<int>(v);
                },
@@ -177,9 +167,7 @@ constexpr std::array kOptions{
                8192,
                kSizes,
                {},
-               [](const BakeRequest& r) {
-                   return ofKind(r, &PrtSettings::size, &AoSettings::size, &LightMapSettings::size);
-               },
+               [](const BakeRequest& r) { return static_cast<double>(textureSizeOf(r)); },
                [](BakeRequest& r, double v) {
                    r.prt.size = r.ao.size = r.lightMap.size = static_cast<int>(v);
                },
@@ -198,6 +186,19 @@ constexpr std::array kOptions{
                ofOcclusion,
                true,
                "Unlimited"},
+    BakeOption{"smooth",
+               "Smooth",
+               "Takes noise out: texels share with those about them on the same smooth surface, as "
+               "far as they differ by no more than their noise",
+               "",
+               Type::Toggle,
+               0,
+               1,
+               {},
+               {},
+               [](const BakeRequest& r) { return r.lightMap.smooth ? 1.0 : 0.0; },
+               [](BakeRequest& r, double v) { r.lightMap.smooth = v != 0.0; },
+               [](const BakeRequest& r) { return r.kind == BakeKind::LightMap; }},
     advanced(BakeOption{
         "method",
         "Sampling",
@@ -223,7 +224,9 @@ constexpr std::array kOptions{
         {},
         {},
         [](const BakeRequest& r) {
-            return ofKind(r, &PrtSettings::seed, &AoSettings::seed, &LightMapSettings::seed);
+            return static_cast<double>(r.kind == BakeKind::LightMap ? r.lightMap.seed
+                                       : holdsTransfer(r.kind)      ? r.prt.seed
+                                                                    : r.ao.seed);
         },
         [](BakeRequest& r, double v) {
             r.prt.seed = r.ao.seed = r.lightMap.seed = static_cast<std::uint32_t>(v);

@@ -10,11 +10,12 @@ namespace {
 
 constexpr std::array kPresets{
     BakePreset{"draft", "Draft", "A first look: few rays, coarse textures, some noise", 64, 512, 64,
-               256, 32},
-    BakePreset{"good", "Good", "For work: smooth on most scenes", 256, 1024, 1024, 512, 256},
+               256, 32, 8, 256},
+    BakePreset{"good", "Good", "For work: smooth on most scenes", 256, 1024, 1024, 512, 256, 16,
+               512},
     BakePreset{"final", "Final",
                "For delivery: four to eight times the rays, textures of twice the side", 2048, 2048,
-               4096, 1024, 256},
+               4096, 1024, 256, 32, 1024},
 };
 
 } // namespace
@@ -35,6 +36,8 @@ BakeRequest withPreset(BakeRequest request, const BakePreset& preset) {
     request.prt.samples = preset.transferSamples;
     request.prt.size = preset.transferSize;
     request.prt.bounceSamples = preset.bounceSamples;
+    request.lightMap.samples = preset.lightMapSamples;
+    request.lightMap.size = preset.lightMapSize;
     return request;
 }
 

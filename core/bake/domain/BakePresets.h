@@ -15,6 +15,7 @@ struct BakePreset {
     const char* help;                    // a sentence
     int occlusionSamples, occlusionSize; // rays per element, side of a texture
     int transferSamples, transferSize, bounceSamples;
+    int lightMapSamples, lightMapSize;
 };
 
 // From coarse to fine; the middle one is what requests begin with.

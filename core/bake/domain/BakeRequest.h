@@ -39,9 +39,12 @@ struct PrtSettings {
 // Of a texture of many slices on the GPU: OpenGL 4.5 promises as much.
 inline constexpr int kMaxLightMapSize = 2048;
 
+// Numbers that a light map holds for each texel (core/bake/lightmap/LightMap.h).
+inline constexpr int kLightMapNumbers = 43;
+
 struct LightMapSettings {
-    int samples = 256; // paths per texel of both lobes, rounded up to a power of two
-    int size = 256;    // side of the square texture
+    int samples = 16; // paths per texel of each lobe, rounded up to a power of two
+    int size = 512;   // side of the square texture
     std::uint32_t seed = 0;
     bool smooth = true; // takes noise out, as far as texels of a surface differ by no more
 };
@@ -52,5 +55,17 @@ struct BakeRequest {
     PrtSettings prt; // for transfer
     LightMapSettings lightMap = {};
 };
+
+// Of the settings of the request's kind: rays or paths per element, side of the square texture.
+[[nodiscard]] constexpr int samplesOf(const BakeRequest& request) {
+    return request.kind == BakeKind::LightMap ? request.lightMap.samples
+           : holdsTransfer(request.kind)      ? request.prt.samples
+                                              : request.ao.samples;
+}
+[[nodiscard]] constexpr int textureSizeOf(const BakeRequest& request) {
+    return request.kind == BakeKind::LightMap ? request.lightMap.size
+           : holdsTransfer(request.kind)      ? request.prt.size
+                                              : request.ao.size;
+}
 
 } // namespace patina

@@ -11,6 +11,8 @@ namespace patina {
 namespace {
 
 std::uint64_t channelsOf(const BakeRequest& request) {
+    if (request.kind == BakeKind::LightMap)
+        return kLightMapNumbers;
     if (!holdsTransfer(request.kind))
         return 1;
     const auto coefficients = static_cast<std::uint64_t>(request.prt.order * request.prt.order);
@@ -38,13 +40,10 @@ std::optional<std::string> advice(const BakeRequest& request, const BakeInputs& 
         if (fits(other))
             return fmt::format("With {} bands it would fit.", other.prt.order);
     }
-    for (BakeRequest other = request;
-         isPerTexel(request.kind) && other.ao.size > 64 && other.prt.size > 64;) {
-        other.ao.size /= 2;
-        other.prt.size /= 2;
+    for (BakeRequest other = request; isPerTexel(request.kind) && textureSizeOf(other) > 64;) {
+        other.ao.size = other.prt.size = other.lightMap.size = textureSizeOf(other) / 2;
         if (fits(other))
-            return fmt::format("With textures of {0} × {0} it would fit.",
-                               holdsTransfer(request.kind) ? other.prt.size : other.ao.size);
+            return fmt::format("With textures of {0} × {0} it would fit.", textureSizeOf(other));
     }
     return std::nullopt;
 }

@@ -3,6 +3,7 @@
 // it. Formulas: docs/maths/light-map.md.
 #pragma once
 
+#include "core/bake/domain/BakeRequest.h"
 #include "core/bake/lightmap/LightMapFit.h"
 
 #include <cstddef>
@@ -18,6 +19,7 @@ namespace patina {
 //   last: mean direction of the light of a uniform environment, xyz, times the ambient visibility
 inline constexpr int kLightMapVectors = 2 + static_cast<int>(kLightMapTerms);
 inline constexpr int kLightMapStride = 4 * kLightMapVectors - 1;
+static_assert(kLightMapStride == kLightMapNumbers);
 // The first of them are what surfaces are lit with.
 inline constexpr int kLightMapSlices = 1 + static_cast<int>(kLightMapTerms);
 
