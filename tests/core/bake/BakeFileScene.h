@@ -43,6 +43,8 @@ inline BakeArtifact randomBake(const Document& document, BakeKind kind, int orde
     artifact.note = "a \"note\", 100 %";
     artifact.order = order;
     artifact.samplesDone = 128;
+    if (kind == BakeKind::LightMap)
+        artifact.light = {0xfedcba9876543210, 7};
     const bool bounced = transfer == TransferKind::Interreflected;
     if (holdsTransfer(kind))
         artifact.transfer = transfer;
@@ -68,6 +70,12 @@ inline BakeArtifact randomBake(const Document& document, BakeKind kind, int orde
         for (const Material& material : document.materials) {
             TexelBake& bake = artifact.texels.emplace_back();
             bake.material = material.id;
+            if (kind == BakeKind::LightMap) {
+                bake.side = 5;
+                bake.stride = kLightMapNumbers;
+                fill(bake.values, std::size_t{25} * kLightMapNumbers, -3.0f);
+                continue;
+            }
             if (holdsTransfer(kind)) {
                 bake.side = 17;
                 fillTransfer(bake, 17 * 17);
@@ -100,6 +108,7 @@ inline void expectSame(const BakeArtifact& a, const BakeArtifact& b) {
     EXPECT_EQ(a.order, b.order);
     EXPECT_EQ(a.samplesDone, b.samplesDone);
     EXPECT_EQ(a.albedo, b.albedo);
+    EXPECT_EQ(a.light, b.light);
     EXPECT_EQ(a.transfer, b.transfer);
     EXPECT_EQ(a.bounces, b.bounces);
     EXPECT_EQ(a.vertices, b.vertices);

@@ -33,7 +33,8 @@ TEST(BakeIO, FilesHoldEveryKindExactly) {
     WorkerClient worker;
     const TemporaryFolder folder;
     std::vector<BakeArtifact> bakes = {randomBake(document, BakeKind::AoTexel),
-                                       randomBake(document, BakeKind::AoVertex)};
+                                       randomBake(document, BakeKind::AoVertex),
+                                       randomBake(document, BakeKind::LightMap)};
     for (int order = 1; order <= 8; ++order)
         for (const BakeKind kind : {BakeKind::PrtVertex, BakeKind::PrtTexel})
             bakes.push_back(randomBake(document, kind, order));
