@@ -77,18 +77,21 @@ Result<Image> ladderSheet(const std::vector<LadderRung>& rungs,
     columns.entries.push_back({fmt::format("Path traced · ± {:.1f} %", 100.0 * truth.noise), {}});
     for (const char* row : {"Picture", "Too bright, too dark (±1 EV)", "Visible difference"})
         rows.entries.push_back({row, {}});
-    const Result<Wall> wall = makeWall({columns, rows});
-    if (!wall)
-        return wall.error();
+    // Not by makeWall(): these are pictures on paper, of which a row may have more than a wall.
+    Wall wall;
+    wall.columns = columns;
+    wall.rows = rows;
+    wall.width = columns.entries.size();
+    wall.height = rows.entries.size();
     const int width = truth.picture.radiance.width(), height = truth.picture.radiance.height();
     const Result<sheet::WallSheet> paper = sheet::WallSheet::create(
-        *wall, width, height,
+        wall, width, height,
         sheet::WallSheetText{title, fmt::format("against {} paths per pixel", truth.samples)});
     if (!paper)
         return paper.error();
-    Image picture = paper->draw(*wall);
+    Image picture = paper->draw(wall);
     const Luminance luminance = luminanceOf(truth.picture.radiance);
-    for (const WallCell& cell : cellsOf(*wall)) {
+    for (const WallCell& cell : cellsOf(wall)) {
         const glm::ivec2 place = paper->place(cell);
         const bool isTruth = cell.column == rungs.size();
         if (!isTruth && !drawn[cell.column]) {
