@@ -17,18 +17,25 @@ Error cancelledSequence() {
     return {ErrorKind::Cancelled, "cancelled", {}, {}};
 }
 
-Result<void> drawPicture(ViewRenderer& renderer, const FrameSettings& frame, double sliceMs,
+Result<void> drawPicture(ViewRenderer& renderer, const FrameSettings& settings, double sliceMs,
                          const JobContext& job) {
-    for (bool complete = std::isinf(sliceMs); !complete;) {
+    const FrameSettings frame = withDepthOfField(settings);
+    do {
+        for (bool complete = std::isinf(sliceMs); !complete;) {
+            if (job.cancelled())
+                return cancelledSequence();
+            job.giveWay();
+            const Result<bool> prepared = renderer.prepare(frame, sliceMs, -1.0);
+            if (!prepared)
+                return prepared.error();
+            complete = *prepared;
+        }
         if (job.cancelled())
             return cancelledSequence();
-        job.giveWay();
-        const Result<bool> prepared = renderer.prepare(frame, sliceMs, -1.0);
-        if (!prepared)
-            return prepared.error();
-        complete = *prepared;
-    }
-    return renderer.render(frame, ViewRenderer::kNowhere);
+        if (Result<void> drawn = renderer.render(frame, ViewRenderer::kNowhere); !drawn)
+            return drawn;
+    } while (!renderer.isSteady());
+    return {};
 }
 
 } // namespace

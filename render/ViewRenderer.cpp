@@ -163,9 +163,7 @@ Result<void> ViewRenderer::render(const FrameSettings& wanted, unsigned targetFr
         ++r.shared.scenes;
         if (auto done = r.shared.shadows.update(r.shared.scene); !done)
             return done;
-        const bool accumulates = frame.accumulate && r.targets.samples() == 1;
-        r.accumulated =
-            accumulates ? std::min(continues ? r.accumulated + 1 : 1, kSteadyFrames + 1) : 0;
+        r.accumulated = Impl::framesWith(frame, r.targets, continues ? r.accumulated : 0);
         r.next.hasMeans = r.next.hasMeans && r.accumulated != 1;
     }
     if (!prepared)
@@ -207,7 +205,22 @@ void ViewRenderer::resume() {
 }
 
 int ViewRenderer::accumulatedFrames() const {
-    return std::min(m_impl->accumulated, kSteadyFrames);
+    return std::min(m_impl->accumulated, steadyFrames(m_impl->lastFrame.camera));
+}
+
+int ViewRenderer::steadyFrames(const Camera& camera) {
+    return camera.lensRadius() > 0.0f ? kLensFrames : kSteadyFrames;
+}
+
+bool ViewRenderer::isSteady() const {
+    return m_impl->accumulated == 0 ||
+           accumulatedFrames() == steadyFrames(m_impl->lastFrame.camera);
+}
+
+int ViewRenderer::Impl::framesWith(const FrameSettings& frame, const Targets& into, int before) {
+    const bool accumulates =
+        frame.accumulate && (into.samples() == 1 || frame.camera.lensRadius() > 0.0f);
+    return accumulates ? std::min(before + 1, steadyFrames(frame.camera) + 1) : 0;
 }
 
 std::optional<Luminance> ViewRenderer::luminance() {

@@ -56,9 +56,15 @@ class ViewRenderer {
     // The scene shows again what the last frame was drawn of, after something else: the next frame
     // goes on from there.
     void resume();
-    // Frames that the last one is the mean of; kSteadyFrames: more will not change it.
+    // Frames that the last one is the mean of; steadyFrames(): more will not change it.
     [[nodiscard]] int accumulatedFrames() const;
     static constexpr int kSteadyFrames = 8;
+    // Through a lens each frame sees the scene from another point of it. A pinhole's frames are
+    // kSteadyFrames.
+    static constexpr int kLensFrames = 64;
+    [[nodiscard]] static int steadyFrames(const Camera& camera);
+    // Another frame will not change the last one's picture.
+    [[nodiscard]] bool isSteady() const;
 
     // The newest luminance known of a frame that measured it (automatic exposure, the photographic
     // operator, FrameSettings::measureLuminance); nothing before the first. luminance() is usually

@@ -111,6 +111,9 @@ struct ViewRenderer::Impl {
     [[nodiscard]] std::vector<float> costsOfTiles(const FrameSettings& frame);
 
     // --- ViewRenderer.cpp
+    // That the mean with such a frame is of, after so many; 0: it is no mean.
+    [[nodiscard]] static int framesWith(const FrameSettings& frame, const Targets& into,
+                                        int before);
     // Whether all of a frame but its scene can be drawn whatever the scene has become.
     [[nodiscard]] bool isPlain(const FrameSettings& frame) const;
     // targets.displayed(), with overlays unless they have been drawn.

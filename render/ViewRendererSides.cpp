@@ -28,6 +28,19 @@ glm::mat4 besideBy(int frame, int width, int height, const glm::mat4& worldToCli
     return glm::translate(glm::mat4(1.0f), clip) * worldToClip;
 }
 
+// Points of the unit disc, each in the middle of as much of it, kLensFrames in all: a sunflower
+// (Vogel 1979, "A Better Way to Construct the Sunflower Head"), from which an odd step takes them
+// so that a few are spread as well.
+glm::vec2 lensPoint(int frame) {
+    constexpr int kCount = ViewRenderer::kLensFrames, kStep = 37;
+    constexpr double kGoldenAngle = 2.399963229728653;
+    static_assert((kCount & (kCount - 1)) == 0 && kStep % 2 == 1);
+    const int k = frame * kStep % kCount;
+    const double radius = std::sqrt((k + 0.5) / kCount);
+    return {static_cast<float>(radius * std::cos(kGoldenAngle * k)),
+            static_cast<float>(radius * std::sin(kGoldenAngle * k))};
+}
+
 // With the sky behind: what is made of the whole picture.
 bool hasBackground(const ViewChoice& choice) {
     return choice.mode == ViewMode::Raw && viewInfo(choice.kind).recorded == kViewFinal;
@@ -43,7 +56,7 @@ bool ViewSettings::isOrdinary(const ViewChoice& choice) const {
 
 Result<void> ViewRenderer::Impl::drawRadiance(const FrameSettings& frame, const ViewChoice& choice,
                                               std::size_t sideIndex) {
-    if (accumulated > ViewRenderer::kSteadyFrames) {
+    if (accumulated > ViewRenderer::steadyFrames(frame.camera)) {
         if (slice)
             slice->complete = true;
         return shared.screen.showMean(targets, sideIndex);
@@ -57,7 +70,15 @@ Result<void> ViewRenderer::Impl::drawRadiance(const FrameSettings& frame, const 
     }
     shared.views.setBlock(shared.viewsBlock(frame.view, std::span(&choice, 1), !targets.floats()));
     FrameBlock block = lastBlock;
-    if (accumulated > 1) {
+    const bool hasLens = accumulated > 0 && frame.camera.lensRadius() > 0.0f;
+    if (hasLens) {
+        const glm::vec2 onLens = frame.camera.lensRadius() * lensPoint(accumulated - 1);
+        const auto width = static_cast<float>(frame.width),
+                   height = static_cast<float>(frame.height);
+        block.worldToClip = frame.camera.worldToClip(width / height, shared.scene.bounds(), onLens);
+        block.cameraPosition = glm::vec4(frame.camera.position(onLens), 1.0f);
+    }
+    if (accumulated > 1 || hasLens) {
         block.worldToClip = besideBy(accumulated - 1, frame.width, frame.height, block.worldToClip);
         block.clipToWorld = glm::inverse(block.worldToClip);
         shared.useFrame(block);
@@ -69,7 +90,7 @@ Result<void> ViewRenderer::Impl::drawRadiance(const FrameSettings& frame, const 
     drawing.floats = targets.floats();
     if (auto done = shared.drawPicture(drawing); !done)
         return done;
-    if (accumulated > 1)
+    if (accumulated > 1 || hasLens)
         shared.useFrame(lastBlock);
     if (slice && !slice->complete)
         return {};

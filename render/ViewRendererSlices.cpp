@@ -41,12 +41,13 @@ bool ViewRenderer::isCurrent(const FrameSettings& frame) const {
     if (r.targets.width() == 0 || r.sceneIsNew(frame))
         return false;
     FrameSettings last = r.lastFrame;
-    if (!frame.accumulate || accumulatedFrames() == kSteadyFrames)
+    const bool isWholeMean = accumulatedFrames() == steadyFrames(r.lastFrame.camera);
+    if (!frame.accumulate || isWholeMean)
         last.accumulate = frame.accumulate;
     if (frame.view.split && (!showSameOverlays(frame, last) || frame.view.flags != last.view.flags))
         return false;
     return showSameScene(frame, last) &&
-           (!frame.accumulate || r.targets.samples() > 1 || accumulatedFrames() == kSteadyFrames);
+           (!frame.accumulate || isWholeMean || Impl::framesWith(frame, r.targets, 0) == 0);
 }
 
 void ViewRenderer::Impl::swapWithNext() {
@@ -66,7 +67,7 @@ void ViewRenderer::Impl::takePrepared() {
     drawnRevision = shared.revision(next.frame);
     next.begun = false;
     next.hasMeans = false;
-    if (accumulated == 0 || accumulated >= kSteadyFrames)
+    if (accumulated == 0 || accumulated >= steadyFrames(next.frame.camera))
         next.targets = {}; // at rest the memory is others'
 }
 
@@ -117,9 +118,7 @@ Result<void> ViewRenderer::Impl::beginPreparing(const FrameSettings& frame, doub
     ++shared.scenes;
     if (auto done = shared.shadows.update(shared.scene); !done)
         return done;
-    const bool accumulates = frame.accumulate && next.targets.samples() == 1;
-    next.accumulated =
-        accumulates ? std::min(continues ? accumulated + 1 : 1, kSteadyFrames + 1) : 0;
+    next.accumulated = framesWith(frame, next.targets, continues ? accumulated : 0);
     if (next.accumulated > 1) {
         next.targets.takeMeans(targets);
         next.hasMeans = true;

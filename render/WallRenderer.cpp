@@ -39,8 +39,8 @@ struct Shown {
     [[nodiscard]] bool isDue() const {
         if (cell.waits)
             return false;
-        return !drawn ||
-               (cell.frame.accumulate && frames > 0 && frames < ViewRenderer::kSteadyFrames);
+        return !drawn || (cell.frame.accumulate && frames > 0 &&
+                          frames < ViewRenderer::steadyFrames(cell.frame.camera));
     }
 };
 
@@ -273,8 +273,7 @@ Result<void> WallRenderer::drawFrame(const CellView& cell, ViewRenderer& picture
 }
 
 bool WallRenderer::isFine(const CellView& cell, const ViewRenderer& picture) {
-    const int frames = picture.accumulatedFrames();
-    return !cell.frame.accumulate || frames == 0 || frames >= ViewRenderer::kSteadyFrames;
+    return !cell.frame.accumulate || picture.isSteady();
 }
 
 std::size_t WallRenderer::size() const {

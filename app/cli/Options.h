@@ -56,7 +56,7 @@ struct WhittedOptions {
     std::optional<std::string> model; // patina, 1980
     std::optional<float> minContribution, contrast;
     std::optional<int> subdivisions;
-    bool softShadows = false, gloss = false;
+    bool softShadows = false, gloss = false, depthOfField = false;
 };
 
 struct RenderOptions : PictureOptions {

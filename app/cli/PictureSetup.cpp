@@ -203,4 +203,16 @@ Result<void> writePictures(Session& session, const std::filesystem::path& output
     return {};
 }
 
+Result<void> drawFine(render::ViewRenderer& renderer, render::FrameSettings& frame,
+                      const JobContext& job) {
+    frame = render::withDepthOfField(frame);
+    do {
+        if (job.cancelled())
+            return Error{ErrorKind::Cancelled, "cancelled", {}, {}};
+        if (Result<void> drawn = renderer.render(frame, 0); !drawn)
+            return drawn;
+    } while (!renderer.isSteady());
+    return {};
+}
+
 } // namespace patina::cli

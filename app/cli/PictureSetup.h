@@ -8,6 +8,7 @@
 #include "core/io/DisplayTransform.h"
 #include "core/io/ImageIO.h"
 #include "core/light/EnvironmentTexels.h"
+#include "render/ViewRenderer.h"
 #include "render/gl/Context.h"
 #include "render/view/FrameSettings.h"
 
@@ -54,5 +55,9 @@ Result<std::unique_ptr<gl::Context>> createContext(Session& session,
 // The parts of one file, which the report names.
 Result<void> writePictures(Session& session, const std::filesystem::path& output,
                            std::vector<ImagePart> pictures, ImageFileFormat format);
+
+// A frame without more to come. Through a lens the mean of as many as that takes, without MSAA.
+Result<void> drawFine(render::ViewRenderer& renderer, render::FrameSettings& frame,
+                      const JobContext& job);
 
 } // namespace patina::cli

@@ -214,7 +214,7 @@ Result<void> run(Session& session, const RenderOptions& options) {
     if (*sequence)
         return renderSequence(session, options, **sequence, *document, *prepared->scene, renderer,
                               *frame);
-    if (Result<void> drawn = renderer.render(*frame, 0); !drawn)
+    if (Result<void> drawn = drawFine(renderer, *frame, session.job()); !drawn)
         return drawn;
     if (const std::optional<Luminance> luminance = renderer.readLuminance())
         json["logAverageLuminance"] = luminance->logAverage;

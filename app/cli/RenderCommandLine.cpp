@@ -38,6 +38,9 @@ void CommandParser::addWhitted(CLI::App* c, RenderOptions& options) {
     c->add_flag("--gloss", o.gloss,
                 "Whitted: mirror rays from rough surfaces, too, spread by their roughness; also "
                 "by --samples");
+    c->add_flag("--depth-of-field", o.depthOfField,
+                "Whitted: rays from points all over the lens (view.depthOfField), in place of its "
+                "middle; also by --samples");
     c->add_option("--ray-tree", options.rayTree,
                   "Whitted: the rays of this pixel, counted from the top left, as a tree: what "
                   "each met, what it contributes, why it ended; with --json as JSON. OUT may then "

@@ -98,13 +98,14 @@ bool isWhitted(const RenderOptions& options) {
 Result<void> checkWhitted(const RenderOptions& options) {
     const WhittedOptions& o = options.whitted;
     if (!isWhitted(options)) {
-        for (const auto& [given, name] : std::array<std::pair<bool, const char*>, 7>{
+        for (const auto& [given, name] : std::array<std::pair<bool, const char*>, 8>{
                  {{o.model.has_value(), "--whitted-model"},
                   {o.minContribution.has_value(), "--min-contribution"},
                   {o.contrast.has_value(), "--contrast"},
                   {o.subdivisions.has_value(), "--subdivisions"},
                   {o.softShadows, "--soft-shadows"},
                   {o.gloss, "--gloss"},
+                  {o.depthOfField, "--depth-of-field"},
                   {!options.rayTree.empty(), "--ray-tree"}}})
             if (given)
                 return usageError(fmt::format("{} is for --renderer whitted", name));
@@ -125,8 +126,9 @@ Result<void> checkWhitted(const RenderOptions& options) {
                  {{o.contrast.has_value(), "--contrast"},
                   {o.subdivisions.has_value(), "--subdivisions"}}})
             if (given)
-                return usageError(fmt::format("{} divides pixels adaptively, which --soft-shadows "
-                                              "and --gloss do not: they take --samples",
+                return usageError(fmt::format("{} divides pixels adaptively, which --soft-shadows, "
+                                              "--gloss and --depth-of-field do not: they take "
+                                              "--samples",
                                               name));
         return {};
     }
@@ -135,7 +137,8 @@ Result<void> checkWhitted(const RenderOptions& options) {
                                                       {options.noise.has_value(), "--noise"},
                                                       {options.seed != 0, "--seed"}}})
         if (given)
-            return usageError(fmt::format("{} is for --soft-shadows and --gloss: without them "
+            return usageError(fmt::format("{} is for --soft-shadows, --gloss and "
+                                          "--depth-of-field: without them "
                                           "nothing is random, and --contrast and --subdivisions "
                                           "say how finely pixels are divided",
                                           name));
@@ -153,6 +156,7 @@ WhittedSettings whittedSettings(const RenderOptions& options) {
     settings.subdivisions = o.subdivisions.value_or(settings.subdivisions);
     settings.softShadows = o.softShadows;
     settings.gloss = o.gloss;
+    settings.depthOfField = o.depthOfField;
     settings.seed = options.seed;
     return settings;
 }
@@ -162,7 +166,8 @@ nlohmann::ordered_json describeWhitted(const WhittedSettings& settings) {
                                    {"maxDepth", settings.maxDepth},
                                    {"minContribution", settings.minContribution},
                                    {"softShadows", settings.softShadows},
-                                   {"gloss", settings.gloss}};
+                                   {"gloss", settings.gloss},
+                                   {"depthOfField", settings.depthOfField}};
     if (!settings.isStochastic()) {
         json["contrast"] = settings.contrast;
         json["subdivisions"] = settings.subdivisions;
@@ -179,6 +184,8 @@ void addSettings(const WhittedSettings& settings, StateSettings& to) {
         to["soft-shadows"] = "on";
     if (settings.gloss)
         to["gloss"] = "on";
+    if (settings.depthOfField)
+        to["depth-of-field"] = "on";
     if (!settings.isStochastic()) {
         to["contrast"] = fmt::format("{}", settings.contrast);
         to["subdivisions"] = std::to_string(settings.subdivisions);

@@ -120,6 +120,7 @@ class SheetDrawer {
             return camera.error();
         view.frame = m_frame;
         shown->view.camera = view.frame.camera = *camera;
+        view.frame = render::withDepthOfField(view.frame);
         if (!environmentParts(*shown).empty()) {
             const Result<EnvironmentTexelsPtr> light = lightOf(shownEnvironment(*shown).image);
             if (!light)

@@ -130,8 +130,13 @@ StateSettings displaySettings(const Document& document) {
 }
 
 std::string cameraText(const Camera& camera) {
-    return fmt::format("{},{},{} at {},{},{}, {}°", camera.yawDeg, camera.pitchDeg, camera.distance,
-                       camera.target.x, camera.target.y, camera.target.z, camera.fovDeg);
+    const std::string lens =
+        camera.lens.depthOfField
+            ? fmt::format(", f/{} in focus at {} m", camera.lens.fStop, camera.lens.focusDistance)
+            : std::string();
+    return fmt::format("{},{},{} at {},{},{}, {}°{}", camera.yawDeg, camera.pitchDeg,
+                       camera.distance, camera.target.x, camera.target.y, camera.target.z,
+                       camera.fovDeg, lens);
 }
 
 std::string backgroundText(const View& view) {

@@ -129,6 +129,9 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
     , pinPixel(make(tr("Pin Pixel"), QStringLiteral("pin"), {tr("P")},
                     tr("Keep looking at the point of the surface under the pointer; once more: "
                        "take the pin away")))
+    , focusHere(make(tr("Focus Here"), {}, {tr("Shift+P")},
+                     tr("Then click in the viewport: what is there becomes sharp, with depth of "
+                        "field; Esc: leave the focus as it is")))
     , furnace(make(tr("&White Furnace"), QStringLiteral("furnace"), {tr("Shift+F")},
                    tr("Look at the scene in a uniform white environment without lights, where a "
                       "material that loses nothing cannot be seen")))
@@ -157,6 +160,7 @@ Actions::Actions(UndoStack& undoStack, QObject* parent)
     whitted->setCheckable(true);
     fadeEnvironments->setCheckable(true);
     furnace->setCheckable(true);
+    focusHere->setCheckable(true);
     fullScreen->setCheckable(true);
     // Elsewhere these keys scroll.
     for (QAction* step : {nextEnvironment, previousEnvironment, nextModel, previousModel})
@@ -223,7 +227,8 @@ QList<QAction*> Actions::all() const {
                            nextModel,
                            previousModel} +
            docks() + QList<QAction*>{nextDock, previousDock} + instruments() +
-           QList<QAction*>{pinPixel, furnace, fullScreen, resetLayout, shortcuts, about, recover};
+           QList<QAction*>{pinPixel,    focusHere, furnace, fullScreen,
+                           resetLayout, shortcuts, about,   recover};
 }
 
 } // namespace patina::editor

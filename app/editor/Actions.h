@@ -31,7 +31,7 @@ class Actions : public QObject {
     // Docks to look closer with.
     QAction *pixel, *lightLab, *lens, *energy, *mixer, *transfer, *lightSweep, *rayTree, *ladder,
         *library;
-    QAction* pinPixel;
+    QAction *pinPixel, *focusHere;
     QAction* furnace;
     QAction *fullScreen, *resetLayout;
     QAction *shortcuts, *about;

@@ -227,7 +227,7 @@ void MainWindow::makeMenus() {
     view->addActions({a.nextDock, a.previousDock});
     view->addSeparator();
     view->addActions(a.instruments());
-    view->addActions({a.pinPixel, a.furnace});
+    view->addActions({a.pinPixel, a.focusHere, a.furnace});
     view->addSeparator();
     view->addAction(a.resetLayout);
     view->addSeparator();

@@ -11,6 +11,7 @@
 #include "app/editor/library/LibraryPanel.h"
 #include "app/editor/library/PreviewBadge.h"
 #include "app/editor/turntable/TurntableDialog.h"
+#include "app/editor/viewport/FocusPicker.h"
 #include "app/editor/viewport/SceneProgress.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "app/editor/widget/NoticeArea.h"
@@ -85,6 +86,7 @@ void MainWindow::connectActions() {
         if (!m_session.probe.wanted()) // nobody shows what was asked for
             m_actions->pixel->trigger();
     });
+    new FocusPicker(controller, *m_viewport, *a.focusHere);
     connect(a.shortcuts, &QAction::triggered, this,
             [this] { makeShortcutsDialog(m_actions->all(), m_looks->listed(), this)->show(); });
     connect(a.about, &QAction::triggered, this, [this] { makeAboutDialog(this)->show(); });

@@ -6,7 +6,10 @@
 #include "core/light/Light.h"
 #include "core/material/Material.h"
 
+#include <algorithm>
+#include <array>
 #include <fmt/format.h>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 
@@ -122,7 +125,10 @@ class LookComparison {
 } // namespace
 
 bool isOfLook(const ParameterInfo& info) {
-    return !info.id.ends_with(".name") && info.id != "view.fovDeg";
+    constexpr std::array<std::string_view, 4> kOfCamera = {"view.fovDeg", "view.depthOfField",
+                                                           "view.fStop", "view.focusDistance"};
+    return !info.id.ends_with(".name") &&
+           std::find(kOfCamera.begin(), kOfCamera.end(), info.id) == kOfCamera.end();
 }
 
 std::vector<LookDifference> differencesOf(const Look& a, const Look& b) {

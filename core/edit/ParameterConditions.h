@@ -107,6 +107,9 @@ inline constexpr Condition kInGamma{[](const Document& document, Id) {
                                                    DisplayTransfer::Gamma;
                                     },
                                     "the display is no pure power (view.displayTransfer)"};
+inline constexpr Condition kWithLens{
+    [](const Document& document, Id) { return document.view.camera.lens.depthOfField; },
+    "the camera has no depth of field (view.depthOfField)"};
 inline constexpr Condition kWithBounces{
     [](const Document& document, Id) { return bakedBounces(document) > 0; },
     "there is no radiance transfer bake with bounces"};

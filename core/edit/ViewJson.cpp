@@ -8,11 +8,14 @@
 namespace patina {
 
 nlohmann::ordered_json describeCamera(const Camera& camera) {
-    return {{"yawDeg", camera.yawDeg},
-            {"pitchDeg", camera.pitchDeg},
-            {"distance", camera.distance},
-            {"fovDeg", camera.fovDeg},
-            {"target", {camera.target.x, camera.target.y, camera.target.z}}};
+    nlohmann::ordered_json json{{"yawDeg", camera.yawDeg},
+                                {"pitchDeg", camera.pitchDeg},
+                                {"distance", camera.distance},
+                                {"fovDeg", camera.fovDeg},
+                                {"target", {camera.target.x, camera.target.y, camera.target.z}}};
+    if (camera.lens.depthOfField)
+        json["lens"] = {{"fStop", camera.lens.fStop}, {"focusDistance", camera.lens.focusDistance}};
+    return json;
 }
 
 void describeView(nlohmann::ordered_json& settings, const View& view) {

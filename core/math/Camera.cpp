@@ -41,6 +41,31 @@ glm::mat4 Camera::projectionMatrix(float aspect, const Bounds& scene) const {
                             std::max(nearPlane, 1e-3f * distance), farPlane);
 }
 
+float Camera::focalLength() const {
+    return 0.5f * kSensorHeight / std::tan(0.5f * glm::radians(fovDeg));
+}
+
+float Camera::lensRadius() const {
+    return lens.depthOfField ? 0.5f * focalLength() / lens.fStop : 0.0f;
+}
+
+glm::vec3 Camera::position(const glm::vec2& onLens) const {
+    return position() + onLens.x * right() + onLens.y * up();
+}
+
+glm::mat4 Camera::worldToClip(float aspect, const Bounds& scene, const glm::vec2& onLens) const {
+    glm::mat4 projection = projectionMatrix(aspect, scene);
+    if (onLens == glm::vec2(0.0f))
+        return projection * viewMatrix();
+    // A point x at depth d, seen from o on the lens, is seen through o + (x - o) F / d of the plane
+    // in focus, at F: at (x - o) / d + o / F of a picture at distance 1. The second term shears.
+    const glm::vec2 shear = onLens / lens.focusDistance;
+    projection[2][0] -= projection[0][0] * shear.x;
+    projection[2][1] -= projection[1][1] * shear.y;
+    const glm::vec3 from = position(onLens);
+    return projection * glm::lookAt(from, from + forward(), up());
+}
+
 Camera frameBounds(Camera camera, const Bounds& scene, float aspect) {
     const float margin = 1.12f; // a little air around the object
     const float tanVertical = std::tan(0.5f * glm::radians(camera.fovDeg)) / margin;

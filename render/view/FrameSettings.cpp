@@ -31,6 +31,15 @@ bool isStretched(const FrameSettings& frame) {
            (frame.shownWidth != frame.width || frame.shownHeight != frame.height);
 }
 
+FrameSettings withDepthOfField(const FrameSettings& frame) {
+    FrameSettings result = frame;
+    if (frame.camera.lensRadius() > 0.0f) {
+        result.samples = 1;
+        result.accumulate = true;
+    }
+    return result;
+}
+
 bool showSameScene(const FrameSettings& a, const FrameSettings& b) {
     ViewSettings view = a.view;
     view.flags = b.view.flags; // marks are drawn over the numbers

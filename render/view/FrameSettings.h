@@ -21,8 +21,9 @@ struct FrameSettings {
     // the target framebuffer; 0: those of the picture.
     int shownWidth = 0, shownHeight = 0;
     // Adds the frame to the ones before of the same scene, each a fraction of a pixel beside the
-    // others, ViewRenderer::kSteadyFrames at most: anti-aliasing without MSAA. Where there is MSAA,
-    // and for views of numbers, without effect.
+    // others, ViewRenderer::steadyFrames() at most: anti-aliasing without MSAA, and depth of field
+    // where the camera has it. Where there is MSAA and no depth of field, and for views of numbers,
+    // without effect. Without it the camera is a pinhole.
     bool accumulate = false;
     Camera camera;
     LightId light = kDocumentLight; // environment that lights the scene and stands behind it
@@ -77,6 +78,8 @@ struct Presentation {
 // shaders/include/side.glsl.
 [[nodiscard]] glm::vec3 rightSide(const ViewSplit& split, int width, int height);
 
+// Where the camera has depth of field: the mean of frames, without MSAA, that shows it.
+[[nodiscard]] FrameSettings withDepthOfField(const FrameSettings& frame);
 // Whether frames show the same radiance or numbers of what has been set, from the same camera.
 [[nodiscard]] bool showSameScene(const FrameSettings& a, const FrameSettings& b);
 // Whether they have the same overlays, over as many pixels.

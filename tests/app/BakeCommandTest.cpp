@@ -8,6 +8,7 @@ using namespace patina::test;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 TEST_F(Commands, BakesDoNotDependOnTheThreadCount) {
     for (const char* threads : {"1", "2"})
@@ -49,6 +50,38 @@ TEST_F(Commands, BakeReportsItsWorkAndInfoReadsIt) {
                          "32x32", "--lighting", "prt", "--bake", m_folder / "p.exr"})
                   .status,
               65);
+}
+
+TEST_F(Commands, ALightMapIsBakedReadAndDrawnWith) {
+    const std::string map = m_folder / "map.exr";
+    const auto bake = [&](const char* threads, const std::string& output) {
+        return runPatina({"bake", "light", "builtin:rounded-cube", "-o", output, "--size", "16",
+                          "--samples", "8", "--threads", threads, "--json"});
+    };
+    const Outcome outcome = bake("2", map);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.json()["samplesDone"], 8);
+    ASSERT_EQ(bake("1", m_folder / "one.exr").status, 0);
+    EXPECT_EQ(readBytes(map), readBytes(m_folder / "one.exr"));
+    EXPECT_EQ(runPatina({"info", map, "--json"}).json()["bake"]["kind"], "light map");
+    const auto draw = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{
+            "render", "builtin:rounded-cube", "-o",      m_folder / "p.png", "--size",
+            "32x32",  "--lighting",           "lightMap"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runPatina(arguments);
+    };
+    const Outcome lit = draw({"--bake", map});
+    EXPECT_EQ(lit.status, 0) << lit.err;
+    EXPECT_THAT(lit.err, Not(HasSubstr("stale")));
+    EXPECT_THAT(draw({"--bake", map, "--environment", "builtin:white"}).err,
+                HasSubstr("the lights, the environment or the materials have changed"));
+    EXPECT_NE(draw({}).status, 0) << "there is no map";
+    EXPECT_EQ(runPatina({"bake", "light", "builtin:sphere", "-o", m_folder / "x.png"}).status, 64);
+    EXPECT_EQ(
+        runPatina({"bake", "light", "builtin:sphere", "-o", m_folder / "x.exr", "--size", "9999"})
+            .status,
+        64);
 }
 
 TEST_F(Commands, TexelBakesBecomeOnePictureForEachMaterial) {

@@ -48,7 +48,7 @@ class LocalShadows : public testing::Test {
         d.environment().enabled = false;
         d.view.background = BackgroundMode::Color;
         d.view.reflectionMix = 0.0f; // diffuse light alone
-        d.view.camera = {{0, 0, 0}, 0.0f, 89.0f, 5.0f, 25.0f};
+        d.view.camera = {{0, 0, 0}, 0.0f, 89.0f, 5.0f, 25.0f, {}};
         Light& light = d.lights.emplace_back();
         light.id = d.takeId();
         light.name = "Bulb";

@@ -8,6 +8,7 @@
 #include "tests/render/RenderTest.h"
 
 #include <cmath>
+#include <cstdio>
 #include <gmock/gmock.h>
 
 namespace patina::render {
@@ -114,6 +115,54 @@ TEST_F(TracedPicture, IsTheViewportsWhereThatIsExact) {
                 EXPECT_NEAR(mean[c] / expected[c], 1.0, 0.002)
                     << "metallic " << metallic << ", roughness " << roughness << ", " << c;
         }
+}
+
+// The mean over points of the lens is the path tracer's blur.
+TEST_F(TracedPicture, HasTheDepthOfFieldOfTheViewports) {
+    constexpr int kSize = 48;
+    Document document = makeScene(makeSphere(64));
+    document.view.background = BackgroundMode::Off;
+    document.materials[0].baseColor = glm::vec3(0.0f);
+    document.materials[0].emissive = {0.5f, 1.0f, 0.25f};
+    Camera& camera = document.view.camera;
+    camera.lens = {true, 0.06f, 0.6f * camera.distance};
+    setIblOf(document);
+    sceneRenderer().setDocument(document);
+    FrameSettings frame;
+    frame.width = frame.height = kSize;
+    frame.floats = true;
+    frame.camera = camera;
+    frame = withDepthOfField(frame);
+    ASSERT_TRUE(frame.accumulate);
+    int frames = 0;
+    do {
+        ASSERT_TRUE(renderer().render(frame, 0).ok());
+        ASSERT_LE(++frames, ViewRenderer::kLensFrames);
+    } while (!renderer().isSteady());
+    EXPECT_EQ(frames, ViewRenderer::kLensFrames);
+    const Image drawn = renderer().readLinear(), paths = traced(document, kSize, 1024);
+    frame.camera.lens.depthOfField = false;
+    frame.accumulate = false;
+    ASSERT_TRUE(renderer().render(frame, 0).ok());
+    const Image pinhole = renderer().readLinear();
+    const auto compare = [&](const Image& a) { // RMS of what covers; light
+        double squares = 0.0, mean = 0.0, expected = 0.0;
+        for (int y = 0; y < kSize; ++y)
+            for (int x = 0; x < kSize; ++x) {
+                const double apart = static_cast<double>(a.sample(x, y, 3)) -
+                                     static_cast<double>(paths.sample(x, y, 3));
+                squares += apart * apart;
+                mean += static_cast<double>(a.sample(x, y, 1));
+                expected += static_cast<double>(paths.sample(x, y, 1));
+            }
+        return std::pair(std::sqrt(squares / (kSize * kSize)), mean / expected);
+    };
+    const auto [rms, light] = compare(drawn);
+    std::printf("depth of field: rms %.5f (pinhole %.5f), light %.5f\n", rms,
+                compare(pinhole).first, light);
+    EXPECT_LT(rms, 0.01);
+    EXPECT_GT(compare(pinhole).first, 10.0 * rms);
+    EXPECT_NEAR(light, 1.0, 0.005);
 }
 
 // Maps lie on the surface as the viewport has them, turned and scaled, normals included.

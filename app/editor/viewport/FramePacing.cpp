@@ -26,7 +26,9 @@ float FramePacing::scale() const {
 }
 
 bool FramePacing::accumulating() const {
-    return m_accumulates && !moving() && (m_addsSlowFrames || m_fullMs < kAddedMs);
+    if (moving())
+        return false;
+    return m_hasLens || (m_accumulates && (m_addsSlowFrames || m_fullMs < kAddedMs));
 }
 
 double FramePacing::expectedMs() const {
@@ -40,7 +42,7 @@ bool FramePacing::slices() const {
 }
 
 int FramePacing::samples() const {
-    if (m_accumulates)
+    if (m_accumulates || m_hasLens)
         return 1;
     const bool fast = m_antialiasedMs >= 0.0 && m_antialiasedMs < kAlwaysMs && m_level == 0;
     return fast || m_stage == Stage::Antialiased ? 4 : 1;

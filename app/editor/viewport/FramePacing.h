@@ -13,6 +13,8 @@ class FramePacing {
     [[nodiscard]] int samples() const; // MSAA: 1 or 4
     // Frames are anti-aliased by adding them up (FrameSettings::accumulate), not by MSAA.
     void setAccumulates(bool accumulates) { m_accumulates = accumulates; }
+    // Nothing but their mean has depth of field: they are added up, in slices where they are slow.
+    void setHasLens(bool hasLens) { m_hasLens = hasLens; }
     // They are added up however slow they are: for who needs the very picture that a fast machine
     // ends with, as tests do.
     void setAddsSlowFrames(bool adds) { m_addsSlowFrames = adds; }
@@ -43,6 +45,7 @@ class FramePacing {
     enum class Stage { Moving, FullResolution, Antialiased };
     Stage m_stage = Stage::FullResolution;
     bool m_accumulates = false;
+    bool m_hasLens = false;
     bool m_addsSlowFrames = false;
     int m_level = 0; // index into the scales
     int m_fastFrames = 0;

@@ -19,8 +19,7 @@ Result<bool> TermDrawing::drawFrame() {
         frame.view.shown = render::termPictures()[m_done - 1];
     if (const Result<void> drawn = m_picture->render(frame, render::ViewRenderer::kNowhere); !drawn)
         return drawn.error();
-    const int frames = m_picture->accumulatedFrames();
-    if (frames > 0 && frames < render::ViewRenderer::kSteadyFrames)
+    if (!m_picture->isSteady())
         return false;
     (m_done == 0 ? m_whole : m_terms[m_done - 1]) = m_picture->readLinear();
     m_picture.reset();

@@ -24,8 +24,9 @@ void ViewportWidget::frameSelection() {
 
 void ViewportWidget::resetCamera() {
     const Document& document = m_controller.document();
-    Camera camera; // default yaw and pitch; the field of view is the user's
+    Camera camera; // default yaw and pitch; field of view and lens are the user's
     camera.fovDeg = document.view.camera.fovDeg;
+    camera.lens = document.view.camera.lens;
     setCamera(frameBounds(camera, document.bounds(), viewAspect()));
 }
 
@@ -38,6 +39,21 @@ Id ViewportWidget::meshAt(const QPointF& position) {
         static_cast<int>(position.y() * m_lastFrameSize.height() / std::max(height(), 1)));
     doneCurrent();
     return mesh;
+}
+
+Result<std::optional<glm::vec3>> ViewportWidget::surfaceAt(const QPointF& position) {
+    if (m_lastFrameSize.isEmpty() || !QRectF(rect()).contains(position))
+        return std::optional<glm::vec3>();
+    const Result<render::Inspection> there =
+        inspect({std::min(static_cast<int>(position.x() * m_lastFrameSize.width() / width()),
+                          m_lastFrameSize.width() - 1),
+                 std::min(static_cast<int>(position.y() * m_lastFrameSize.height() / height()),
+                          m_lastFrameSize.height() - 1)});
+    if (!there)
+        return there.error();
+    if (!there->onSurface())
+        return std::optional<glm::vec3>();
+    return std::optional(glm::vec3(there->value(shading::kRecordPosition)));
 }
 
 void ViewportWidget::pickAt(const QPointF& position) {

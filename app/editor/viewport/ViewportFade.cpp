@@ -42,8 +42,9 @@ void ViewportWidget::setFade(EnvironmentLibrary& library, QAction& wanted) {
         if (!m_fade.isOn() || m_fade.waits() || !m_renderer)
             return; // while it waits it covers all: there is nothing to paint
         // Frames that are added up go on: they take the fade along.
-        m_onlyDisplay = !(m_pacing.accumulating() &&
-                          m_renderer->accumulatedFrames() < render::ViewRenderer::kSteadyFrames);
+        m_onlyDisplay = !(m_pacing.accumulating() && m_renderer->accumulatedFrames() <
+                                                         render::ViewRenderer::steadyFrames(
+                                                             m_controller.document().view.camera));
         update();
     });
 }

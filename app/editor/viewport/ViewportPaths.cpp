@@ -62,8 +62,7 @@ void ViewportWidget::drawForError(render::FrameSettings frame) {
         m_drawn.reset();
         return;
     }
-    const int frames = m_drawn->accumulatedFrames();
-    if (frames == 0 || frames >= render::ViewRenderer::kSteadyFrames) {
+    if (m_drawn->isSteady()) {
         m_pathError->setDrawn(m_drawn->readLinear());
         m_drawn.reset();
     } else {

@@ -326,6 +326,7 @@ float ViewportWidget::viewAspect() const {
 render::FrameSettings ViewportWidget::nextFrame() {
     const QSize size = sizeAt(m_pacing.scale()), shown = sizeAt(1.0f);
     render::FrameSettings frame;
+    m_pacing.setHasLens(m_controller.document().view.camera.lensRadius() > 0.0f);
     frame.width = size.width();
     frame.height = size.height();
     frame.shownWidth = shown.width();
@@ -411,7 +412,7 @@ void ViewportWidget::paintPicture() {
         stopSlices();
         // As its own time says: after a slow frame the next one may be fast enough again.
         if (m_pacing.accumulating() &&
-            m_renderer->accumulatedFrames() < render::ViewRenderer::kSteadyFrames)
+            m_renderer->accumulatedFrames() < render::ViewRenderer::steadyFrames(frame.camera))
             m_accumulationTimer.start();
         else if (complete && !m_renderer->isCurrent(m_sliced))
             startSlices();

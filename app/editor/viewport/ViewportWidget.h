@@ -109,6 +109,9 @@ class ViewportWidget : public QOpenGLWidget {
 
     // Of the single picture, under a position in the widget; 0: none.
     [[nodiscard]] Id meshAt(const QPointF& position);
+    // In the world; nothing: the background. The document's picture alone (showsWall()).
+    [[nodiscard]] Result<std::optional<glm::vec3>> surfaceAt(const QPointF& position);
+    [[nodiscard]] bool showsWall() const { return m_wall.isOn(); }
 
     // The picture of the document, reduced to fit, without what fades over it; null while nothing
     // was drawn. Draws nothing of the scene.

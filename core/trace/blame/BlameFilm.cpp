@@ -31,7 +31,8 @@ enum BlameDimension : std::uint32_t {
     kOfDirection,
     kOfSky,
     kOfChoice,
-    kOfLight
+    kOfLight,
+    kOnLens = (1u << 31) - 1
 };
 
 // The power heuristic of docs/maths/path-tracing.md.
@@ -129,8 +130,10 @@ class BlameTracer {
 
     BlameSample look(int x, int y, BlameSums& sums) {
         BlameSample sample{};
-        const glm::vec3 direction = m_eye.direction(x, y, at(kOfPixel));
-        ClosestRay hit = closest(m_eye.origin(), direction);
+        const auto [origin, direction] =
+            m_eye.hasLens() ? m_eye.throughLens(x, y, at(kOfPixel), at(kOnLens))
+                            : Eye::Ray{m_eye.origin(), m_eye.direction(x, y, at(kOfPixel))};
+        ClosestRay hit = closest(origin, direction);
         TracePoint point;
         for (int backs = 0;; ++backs) {
             if (hit.mesh == ClosestRay::kNothing || backs == kMostBacksSeen) {

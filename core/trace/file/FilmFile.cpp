@@ -47,6 +47,10 @@ std::string filmManifestText(const FilmManifest& m) {
     json["environment"] = m.inputs.environment.hex();
     json["camera"] = {m.camera.target.x, m.camera.target.y, m.camera.target.z, m.camera.yawDeg,
                       m.camera.pitchDeg, m.camera.distance, m.camera.fovDeg};
+    if (const Lens& lens = m.camera.lens; !(lens == Lens{}))
+        json["lens"] = {{"depthOfField", lens.depthOfField},
+                        {"fStop", lens.fStop},
+                        {"focusDistance", lens.focusDistance}};
     json["transparent"] = m.transparent;
     json["outputs"] = m.hasOutputs;
     json["scene"] = m.scene;
@@ -76,7 +80,14 @@ std::optional<FilmManifest> filmManifestFromText(const std::string& text) {
         };
         m.inputs = {hash("geometry"), hash("materials"), hash("lights"), hash("environment")};
         const auto camera = json.at("camera").get<std::array<float, 7>>();
-        m.camera = {{camera[0], camera[1], camera[2]}, camera[3], camera[4], camera[5], camera[6]};
+        m.camera.target = {camera[0], camera[1], camera[2]};
+        m.camera.yawDeg = camera[3];
+        m.camera.pitchDeg = camera[4];
+        m.camera.distance = camera[5];
+        m.camera.fovDeg = camera[6];
+        if (const auto lens = json.find("lens"); lens != json.end())
+            m.camera.lens = {lens->at("depthOfField").get<bool>(), lens->at("fStop").get<float>(),
+                             lens->at("focusDistance").get<float>()};
         m.transparent = json.at("transparent").get<bool>();
         m.hasOutputs = json.at("outputs").get<bool>();
         m.scene = json.at("scene").get<std::string>();

@@ -31,11 +31,14 @@ class PathSequence {
     [[nodiscard]] glm::vec2 ofGlass(int surface) const {
         return sobolOwen2D(m_index, seedFor(m_seed, kGlass + static_cast<std::uint32_t>(surface)));
     }
+    // Where a path leaves the lens.
+    [[nodiscard]] glm::vec2 onLens() const { return sobolOwen2D(m_index, seedFor(m_seed, kLens)); }
 
   private:
     static constexpr std::uint32_t kPerSurface = kGlow;
     // Beyond those of any surface, so that pictures without glass keep their samples.
     static constexpr std::uint32_t kGlass = 1u << 31;
+    static constexpr std::uint32_t kLens = kGlass - 1; // likewise
 
     std::uint32_t m_index, m_seed;
 };

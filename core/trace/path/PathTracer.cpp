@@ -34,9 +34,12 @@ Result<void> tracePaths(const TraceScene& scene, const TraceView& view,
                     float alpha = 0.0f;
                     TraceSample sample;
                     path.fill(tiles.outputs != nullptr ? &sample : nullptr);
-                    const glm::vec3 radiance = path.look(
-                        eye.origin(), eye.direction(x, y, sequence.at(0, PathSequence::kPixel)),
-                        sequence, view, alpha);
+                    const glm::vec2 at = sequence.at(0, PathSequence::kPixel);
+                    const Eye::Ray ray = eye.hasLens()
+                                             ? eye.throughLens(x, y, at, sequence.onLens())
+                                             : Eye::Ray{eye.origin(), eye.direction(x, y, at)};
+                    const glm::vec3 radiance =
+                        path.look(ray.origin, ray.direction, sequence, view, alpha);
                     sum.add(radiance, alpha);
                     if (tiles.outputs != nullptr)
                         outputs.add(sample, radiance);

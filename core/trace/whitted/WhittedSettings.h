@@ -23,11 +23,12 @@ struct WhittedSettings {
     float contrast = 0.1f;
     int subdivisions = 2;
     // Stochastic: shadow rays to points of the lights, and mirror rays spread by the roughness of
-    // every surface. A pixel is then the mean of samples over its square.
-    bool softShadows = false, gloss = false;
+    // every surface, and rays from points of the camera's lens, which is else a pinhole. A pixel is
+    // then the mean of samples over its square.
+    bool softShadows = false, gloss = false, depthOfField = false;
     std::uint32_t seed = 0;
 
-    [[nodiscard]] bool isStochastic() const { return softShadows || gloss; }
+    [[nodiscard]] bool isStochastic() const { return softShadows || gloss || depthOfField; }
     friend bool operator==(const WhittedSettings&, const WhittedSettings&) = default;
 };
 

@@ -15,7 +15,8 @@ namespace {
 
 constexpr int kWhittedTile = kTraceTile;
 constexpr std::uint32_t kPixelPosition = 0; // dimensions of a stochastic sample: where in the pixel
-constexpr std::uint32_t kFirstRay = 1;      // and all others
+constexpr std::uint32_t kFirstRay = 1;      // all others but
+constexpr std::uint32_t kOnLens = 2;        // where on the lens
 
 // Mitchell 1987, "Generating Antialiased Images at Low Sampling Densities", section 3.
 float contrastOf(float least, float most) {
@@ -171,8 +172,11 @@ WhittedShader::Sample stochasticSample(WhittedShader& shader, const Eye& eye, co
         seedFor(settings.seed, static_cast<std::uint32_t>(y * view.width + x));
     const glm::vec2 at = sobolOwen2D(index, seedFor(seed, kPixelPosition));
     const int node = tree != nullptr ? static_cast<int>(tree->nodes().size()) : RayNode::kNone;
+    const Eye::Ray ray = settings.depthOfField && eye.hasLens()
+                             ? eye.throughLens(x, y, at, sobolOwen2D(index, seedFor(seed, kOnLens)))
+                             : Eye::Ray{eye.origin(), eye.direction(x, y, at)};
     const WhittedShader::Sample sample =
-        shader.look(eye.origin(), eye.direction(x, y, at), index, seedFor(seed, kFirstRay), tree);
+        shader.look(ray.origin, ray.direction, index, seedFor(seed, kFirstRay), tree);
     if (tree != nullptr)
         tree->at(node).at = at;
     return sample;

@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <glm/geometric.hpp>
 
 namespace patina::editor {
 namespace {
@@ -107,6 +108,41 @@ class PixelWindowTest : public EditorTest {
         return glm::vec3(probe().pin()->value(shading::kRecordPosition));
     }
 };
+
+TEST_F(PixelWindowTest, FocusHereTakesTheDistanceOfWhatIsClicked) {
+    const auto focusHere = [] {
+        viewport().setFocus();
+        QTest::keyClick(&viewport(), Qt::Key_P, Qt::ShiftModifier);
+        EXPECT_EQ(viewport().cursor().shape(), Qt::CrossCursor);
+    };
+    const Camera before = document().view.camera;
+    const Id selected = session->selection.mesh();
+    const int steps = controller().undoStack().count();
+    focusHere();
+    QTest::mouseClick(&viewport(), Qt::LeftButton, Qt::NoModifier, {4, 4}); // the background
+    EXPECT_EQ(document().view.camera, before);
+    EXPECT_NE(viewport().cursor().shape(), Qt::CrossCursor);
+    focusHere();
+    QTest::keyClick(&viewport(), Qt::Key_Escape);
+    EXPECT_NE(viewport().cursor().shape(), Qt::CrossCursor);
+    EXPECT_EQ(controller().undoStack().count(), steps);
+
+    focusHere();
+    QTest::mouseClick(&viewport(), Qt::LeftButton, Qt::NoModifier, center());
+    const Lens lens = document().view.camera.lens;
+    EXPECT_TRUE(lens.depthOfField);
+    EXPECT_EQ(session->selection.mesh(), selected) << "the click was the focus'";
+    // The same point by the pin.
+    openPanel();
+    QTest::mouseClick(&viewport(), Qt::LeftButton, Qt::AltModifier, center());
+    ASSERT_TRUE(probe().pin().has_value());
+    const float depth = glm::dot(pinnedPosition() - before.position(), before.forward());
+    EXPECT_NEAR(lens.focusDistance, depth, 0.02f * depth);
+    EXPECT_NE(lens.focusDistance, before.lens.focusDistance);
+    controller().undoStack().undo();
+    EXPECT_EQ(document().view.camera.lens, before.lens);
+    EXPECT_EQ(controller().undoStack().count(), steps + 1);
+}
 
 TEST_F(PixelWindowTest, HoveringExplainsWhatIsUnderThePointer) {
     QTest::mouseMove(&viewport(), center());

@@ -240,7 +240,7 @@ TEST_F(EditSessionTest, ModifiedMeansOtherThanWhatWasSaved) {
     EXPECT_EQ(session.unsavedSteps(), 1);
     session.redo();
     EXPECT_FALSE(session.isModified());
-    session.setCamera(Camera{.yawDeg = 12.0f}); // navigation is no modification
+    session.setCamera(Camera{.yawDeg = 12.0f, .lens = {}}); // navigation is no modification
     EXPECT_FALSE(session.isModified());
     session.forgetSaved();
     EXPECT_TRUE(session.isModified());

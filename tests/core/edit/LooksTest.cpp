@@ -73,7 +73,9 @@ std::set<Place> placesOf(const std::vector<LookDifference>& differences) {
 std::set<Place> differingPlaces(const Document& a, const Document& b) {
     std::set<Place> places;
     for (const ParameterInfo& info : parameters()) {
-        if (info.id.ends_with(".name") || info.id == "view.fovDeg")
+        if (info.id.ends_with(".name") || info.id == "view.fovDeg" ||
+            info.id == "view.depthOfField" || info.id == "view.fStop" ||
+            info.id == "view.focusDistance")
             continue;
         for (const Id id : RandomDocument::idsOf(a, info.scope))
             if ((info.scope != Scope::Environment || info.ofScene == (id == 0)) &&

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 using namespace patina;
@@ -26,6 +27,36 @@ Extent project(const Camera& camera, const Bounds& box, float aspect) {
         extent.depthInRange &= p.w > 0.0f && std::abs(p.z) <= p.w;
     }
     return extent;
+}
+
+// By the ray from the lens through the point, where it meets the plane in focus.
+TEST(Camera, ThroughTheLensOnlyThePlaneInFocusStaysInPlace) {
+    Bounds box;
+    box.add(glm::vec3(-2.0f));
+    box.add(glm::vec3(2.0f));
+    Camera camera;
+    camera.lens = {true, 0.1f, 3.5f};
+    const glm::vec2 onLens(0.06f, -0.03f);
+    const glm::mat4 middle = camera.worldToClip(1.5f, box),
+                    lens = camera.worldToClip(1.5f, box, onLens);
+    EXPECT_EQ(middle, camera.projectionMatrix(1.5f, box) * camera.viewMatrix());
+    const auto seen = [](const glm::mat4& clip, const glm::vec3& at) {
+        const glm::vec4 p = clip * glm::vec4(at, 1.0f);
+        return glm::vec2(p.x / p.w, p.y / p.w);
+    };
+    const auto at = [&](float depth, float right, float up) {
+        return camera.position() + depth * camera.forward() + right * camera.right() +
+               up * camera.up();
+    };
+    for (const float depth : {2.0f, 3.5f, 6.0f}) {
+        const glm::vec3 point = at(depth, 0.3f, 0.4f), from = camera.position(onLens);
+        const glm::vec3 inFocus = from + (3.5f / depth) * (point - from);
+        const glm::vec2 expected = seen(middle, inFocus), found = seen(lens, point);
+        EXPECT_NEAR(found.x, expected.x, 1e-5f) << depth;
+        EXPECT_NEAR(found.y, expected.y, 1e-5f) << depth;
+    }
+    EXPECT_GT(glm::distance(seen(lens, at(6.0f, 0.3f, 0.4f)), seen(middle, at(6.0f, 0.3f, 0.4f))),
+              0.005f);
 }
 
 TEST(Camera, FramesAnyBoxTightlyInAnyPicture) {

@@ -34,7 +34,7 @@ class FilmFiles : public ::testing::Test {
         m.settings = {{"samples", "64"}, {"seed", "0"}};
         m.display = {{"view.exposureEv", "0"}};
         m.inputs = {{1, 2}, {3, 4}, {5, 6}, {7, 8}};
-        m.camera = {{0.278f, 0.273f, 0.28f}, 180.0f, 0.0f, 1.08f, 39.3f};
+        m.camera = {{0.278f, 0.273f, 0.28f}, 180.0f, 0.0f, 1.08f, 39.3f, {true, 1.2f, 1.1f}};
         m.scene = "builtin:cornell-box";
         m.sets = {"material.metallic=1"};
         return m;

@@ -330,7 +330,7 @@ TEST(PathTracer, SameNumbersForAnyThreadsAndInAnyPieces) {
     TraceView view;
     view.width = 40;
     view.height = 24;
-    view.camera = {{0.278f, 0.273f, 0.28f}, 180.0f, 0.0f, 1.08f, 39.3f};
+    view.camera = {{0.278f, 0.273f, 0.28f}, 180.0f, 0.0f, 1.08f, 39.3f, {}};
     const Film whole = traced(scene, view, 8);
     EXPECT_GT(whole.at(20, 12).sum.y, 0.0);
     for (const int threads : {1, 2, 7}) {
@@ -406,7 +406,7 @@ TEST(PathTracer, StatesTheErrorThatItHas) {
     TraceView view;
     view.width = 40;
     view.height = 24;
-    view.camera = {{0.278f, 0.273f, 0.28f}, 180.0f, 0.0f, 1.08f, 39.3f};
+    view.camera = {{0.278f, 0.273f, 0.28f}, 180.0f, 0.0f, 1.08f, 39.3f, {}};
     constexpr int kSeeds = 24;
     for (const std::uint32_t samples : {15u, 31u, 64u}) {
         std::vector<Film> films;

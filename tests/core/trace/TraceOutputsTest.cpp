@@ -53,7 +53,7 @@ TraceView cornellView() {
     TraceView view;
     view.width = 40;
     view.height = 24;
-    view.camera = {{0.278f, 0.273f, 0.28f}, 180.0f, 0.0f, 1.08f, 39.3f};
+    view.camera = {{0.278f, 0.273f, 0.28f}, 180.0f, 0.0f, 1.08f, 39.3f, {}};
     return view;
 }
 
