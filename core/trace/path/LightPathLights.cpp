@@ -171,7 +171,8 @@ glm::vec3 LightPath::fromGlow(const Part& part, float u, const glm::vec2& u2) {
         cosine = std::abs(cosine);
     if (cosine <= 0.0f)
         return glm::vec3(0.0f);
-    const glm::vec3 value = reflected(part, l) * source.material->emissionAt(source.uv);
+    const glm::vec3 value =
+        reflected(part, l) * source.material->emissionAt(source.uv) * m_scene.solidShare(source);
     const float pdf = glowPdf(source, m_scene.metres(distance), cosine);
     if (value == glm::vec3(0.0f) || !(pdf > 0.0f))
         return glm::vec3(0.0f);

@@ -43,7 +43,7 @@ Result<void> TraceScene::buildGeometry(const JobContext& job, const TraceScene* 
                                    material.doubleSided, bakeSurface(material)});
         const glm::mat3 linear(mesh.transform);
         m_instances.push_back(
-            {mesh.material, linear, glm::determinant(linear) < 0.0f ? -1.0f : 1.0f});
+            {mesh.material, linear, glm::determinant(linear) < 0.0f ? -1.0f : 1.0f, {}});
     }
     if (geometry.meshes.empty())
         return {};
@@ -155,6 +155,8 @@ void TraceScene::collectEmissive() {
             const TraceMaterial& material = m_materials[m_instances[m].material];
             if (!material.emits())
                 continue;
+            if (mesh.surface.alphaMode != AlphaMode::Opaque)
+                m_instances[m].coverage = std::make_shared<const Coverage>(mesh.surface);
             const auto luminance = static_cast<double>(shading::luminance(material.emissive()));
             const double squareMetres = static_cast<double>(m_metresPerUnit) * m_metresPerUnit;
             const std::vector<std::uint32_t>& indices = mesh.mesh->indices;

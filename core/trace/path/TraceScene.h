@@ -105,6 +105,12 @@ class TraceScene {
     [[nodiscard]] bool hasEnvironment() const { return m_environmentPower > 0.0; }
     [[nodiscard]] const LightSampler& lights() const { return m_lights; }
     [[nodiscard]] const EmissiveTriangles& emissive() const { return m_emissive; }
+    // Share of an emissive surface that is there, and so of its light: what rays of a path do not
+    // meet where it is cut out or blended, rays to it must not find either.
+    [[nodiscard]] float solidShare(const TracePoint& emissive) const {
+        const Instance& instance = m_instances[emissive.mesh];
+        return instance.coverage ? instance.coverage->solidShareAt(emissive.uv) : 1.0f;
+    }
     [[nodiscard]] bool isEmpty() const { return !m_scene; }
     // Its triangles; null: none.
     [[nodiscard]] const BakeGeometry* geometry() const {
@@ -129,6 +135,7 @@ class TraceScene {
         std::size_t material = 0;
         glm::mat3 linear{1.0f}; // of the transform, for tangents
         float handedness = 1.0f;
+        std::shared_ptr<const Coverage> coverage; // of what is emissive and not opaque
     };
     std::vector<Instance> m_instances; // of m_scene's meshes
     std::vector<TraceMaterial> m_materials;
