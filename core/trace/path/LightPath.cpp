@@ -130,8 +130,8 @@ LightPath::Followed LightPath::follow(TracePoint point, TraceSurface terms,
                     radiance += m_split.came(surface, throughput * backgroundOf(*view, l));
                 return result;
             }
-            radiance += m_split.came(surface, throughput * m_scene.environmentRadiance(l) *
-                                                  found(search, m_scene.environmentPdf(l)));
+            const EnvironmentSampler::Lookup sky = m_scene.lookUpEnvironment(l);
+            radiance += m_split.came(surface, throughput * sky.radiance * found(search, sky.pdf));
             return result;
         }
         point = m_scene.pointAt(hit);

@@ -87,7 +87,8 @@ class LightPath {
         // there.
         [[nodiscard]] bool isOpenTo(const glm::vec3& l) const {
             const bool above = glm::dot(point.face, l) > 0.0f;
-            return isGlass ? above == (glm::dot(surface.glass.n, l) > 0.0f) : above;
+            return isGlass ? above == (glm::dot(surface.glass.n, l) > 0.0f)
+                           : above && glm::dot(surface.opaque.n, l) > 0.0f;
         }
     };
 
@@ -115,8 +116,8 @@ class LightPath {
     // The reverse.
     [[nodiscard]] float sent(float lightPdf, float pdf) const;
 
-    // Share of the light that arrives from so far; a body that refracts lets no straight ray
-    // through.
+    // Share of the light that arrives from so far, of a part that is open to it; a body that
+    // refracts lets no straight ray through.
     [[nodiscard]] glm::vec3 arriving(const Part& part, const glm::vec3& l, float metres);
     [[nodiscard]] glm::vec3 throughStraightGlass(glm::vec3 from, const glm::vec3& l, float metres,
                                                  Media& media);

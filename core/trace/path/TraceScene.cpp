@@ -340,31 +340,41 @@ glm::vec3 TraceScene::meanEnvironment() const {
     return sum;
 }
 
-// One of them by its power, and a direction of it; what arrives from there of all of them.
 EnvironmentSampler::Sample TraceScene::sampleEnvironment(glm::vec2 u) const {
+    EnvironmentSampler::Sample sample{chooseEnvironment(u), glm::vec3(0.0f)};
+    if (sample.pdf > 0.0f)
+        sample.radiance = environmentRadiance(sample.direction);
+    return sample;
+}
+
+// One of them by its power, and a direction of it.
+EnvironmentSampler::Choice TraceScene::chooseEnvironment(glm::vec2 u) const {
     if (!hasEnvironment())
         return {};
+    if (m_environments.size() == 1)
+        return m_environments.front()->choose(u);
     const EnvironmentSampler* chosen = m_environments.front().get();
-    if (m_environments.size() > 1) {
-        float before = 0.0f;
-        for (const auto& environment : m_environments) {
-            const auto share = static_cast<float>(environment->power() / m_environmentPower);
-            if (!(share > 0.0f))
-                continue;
-            chosen = environment.get();
-            if (u.x < before + share) {
-                u.x = std::clamp((u.x - before) / share, 0.0f, 1.0f - 0x1p-24f);
-                break;
-            }
-            before += share;
+    float before = 0.0f;
+    for (const auto& environment : m_environments) {
+        const auto share = static_cast<float>(environment->power() / m_environmentPower);
+        if (!(share > 0.0f))
+            continue;
+        chosen = environment.get();
+        if (u.x < before + share) {
+            u.x = std::clamp((u.x - before) / share, 0.0f, 1.0f - 0x1p-24f);
+            break;
         }
+        before += share;
     }
-    EnvironmentSampler::Sample sample = chosen->sample(u);
-    if (m_environments.size() > 1) {
-        sample.radiance = environmentRadiance(sample.direction);
-        sample.pdf = environmentPdf(sample.direction);
-    }
-    return sample;
+    EnvironmentSampler::Choice choice = chosen->choose(u);
+    choice.pdf = environmentPdf(choice.direction);
+    return choice;
+}
+
+EnvironmentSampler::Lookup TraceScene::lookUpEnvironment(const glm::vec3& direction) const {
+    if (m_environments.size() == 1 && hasEnvironment())
+        return m_environments.front()->lookUp(direction);
+    return {environmentRadiance(direction), environmentPdf(direction)};
 }
 
 float TraceScene::environmentPdf(const glm::vec3& direction) const {

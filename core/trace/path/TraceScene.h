@@ -102,6 +102,9 @@ class TraceScene {
     [[nodiscard]] glm::vec3 meanEnvironment() const; // over all directions
     [[nodiscard]] EnvironmentSampler::Sample sampleEnvironment(glm::vec2 u) const;
     [[nodiscard]] float environmentPdf(const glm::vec3& direction) const;
+    // The same at less cost: a direction alone, and radiance and density of one.
+    [[nodiscard]] EnvironmentSampler::Choice chooseEnvironment(glm::vec2 u) const;
+    [[nodiscard]] EnvironmentSampler::Lookup lookUpEnvironment(const glm::vec3& direction) const;
     [[nodiscard]] bool hasEnvironment() const { return m_environmentPower > 0.0; }
     [[nodiscard]] const LightSampler& lights() const { return m_lights; }
     [[nodiscard]] const EmissiveTriangles& emissive() const { return m_emissive; }
