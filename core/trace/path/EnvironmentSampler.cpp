@@ -133,7 +133,11 @@ EnvironmentSampler::Lookup EnvironmentSampler::lookUp(const glm::vec3& direction
 
 glm::vec3 EnvironmentSampler::radianceAt(const glm::vec2& pixel) const {
     const glm::vec2 at = pixel - 0.5f;
-    const glm::vec2 low = glm::floor(at), f = at - low;
+    // Down to whole texels: from -0.5 on.
+    const auto down = [](float value) {
+        return value < 0.0f ? -1.0f : static_cast<float>(static_cast<int>(value));
+    };
+    const glm::vec2 low(down(at.x), down(at.y)), f = at - low;
     const int below = static_cast<int>(low.x) + m_width; // -1 … width before
     const int x = below >= m_width ? below - m_width : below, x1 = x + 1 == m_width ? 0 : x + 1;
     const int y = std::clamp(static_cast<int>(low.y), 0, m_height - 1);
@@ -149,17 +153,33 @@ EnvironmentSampler::Sample EnvironmentSampler::sample(const glm::vec2& u) const 
     return result;
 }
 
-EnvironmentSampler::Choice EnvironmentSampler::choose(const glm::vec2& u) const {
+EnvironmentSampler::Search EnvironmentSampler::begin(const glm::vec2& u) const {
     if (!(m_power > 0.0))
         return {};
     const auto [y, fy] = chosen(m_rows.data(), 0, m_height, m_height, u.y);
-    const auto row = static_cast<std::size_t>(y);
-    const float* columns = m_columns.data() + row * static_cast<std::size_t>(m_width);
     // Exact: a power of two.
     const auto guide = static_cast<std::size_t>(u.x * static_cast<float>(m_guided));
     const std::uint16_t* guides =
-        m_guides.data() + row * static_cast<std::size_t>(m_guided + 1) + guide;
-    const auto [x, fx] = chosen(columns, guides[0], guides[1], m_width, u.x);
+        m_guides.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(m_guided + 1) +
+        guide;
+    __builtin_prefetch(guides);
+    return {this, u.x, y, fy, guides};
+}
+
+void EnvironmentSampler::fetch(const Search& search) {
+    if (search.sampler != nullptr)
+        __builtin_prefetch(search.sampler->columnsOf(search.row) + search.guide[0]);
+}
+
+EnvironmentSampler::Choice EnvironmentSampler::end(const Search& search) {
+    return search.sampler != nullptr ? search.sampler->found(search) : Choice{};
+}
+
+EnvironmentSampler::Choice EnvironmentSampler::found(const Search& search) const {
+    const int y = search.row;
+    const auto row = static_cast<std::size_t>(y);
+    const float fy = search.inRow;
+    const auto [x, fx] = chosen(columnsOf(y), search.guide[0], search.guide[1], m_width, search.u);
     // Wanted a ray later.
     __builtin_prefetch(texelAt(x, y));
     __builtin_prefetch(texelAt(x, std::clamp(fy < 0.5f ? y - 1 : y + 1, 0, m_height - 1)));
@@ -169,6 +189,10 @@ EnvironmentSampler::Choice EnvironmentSampler::choose(const glm::vec2& u) const 
         2.0f * kPi * ((static_cast<float>(x) + fx) / static_cast<float>(m_width) - 0.5f);
     const float px = side * std::sin(phi), pz = -side * std::cos(phi);
     return {{m_cos * px + m_sin * pz, up, m_cos * pz - m_sin * px}, pdfOf(x, y)};
+}
+
+const float* EnvironmentSampler::columnsOf(int y) const {
+    return m_columns.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(m_width);
 }
 
 float EnvironmentSampler::pdf(const glm::vec3& direction) const {
@@ -183,10 +207,9 @@ float EnvironmentSampler::pdfAt(const glm::vec2& pixel) const {
 }
 
 float EnvironmentSampler::pdfOf(int x, int y) const {
-    const auto row = static_cast<std::size_t>(y);
-    const float* columns = m_columns.data() + row * static_cast<std::size_t>(m_width);
     return static_cast<float>(static_cast<double>(share(m_rows.data(), y)) *
-                              static_cast<double>(share(columns, x)) / m_solidAngles[row]);
+                              static_cast<double>(share(columnsOf(y), x)) /
+                              m_solidAngles[static_cast<std::size_t>(y)]);
 }
 
 } // namespace patina

@@ -36,7 +36,19 @@ class EnvironmentSampler {
     // a texel all directions are alike. `u` in [0, 1)². Pharr, Jakob & Humphreys 2023, "Physically
     // Based Rendering", 4th edition, section 12.5.
     [[nodiscard]] Sample sample(const glm::vec2& u) const;
-    [[nodiscard]] Choice choose(const glm::vec2& u) const;     // without looking up what is there
+    // The same without looking up what is there, in steps between which a caller has other things
+    // to do while memory is fetched: choose() is end() of begin().
+    struct Search {
+        const EnvironmentSampler* sampler = nullptr; // null: black
+        float u = 0.0f;
+        int row = 0;
+        float inRow = 0.0f;
+        const std::uint16_t* guide = nullptr;
+    };
+    [[nodiscard]] Search begin(const glm::vec2& u) const;
+    static void fetch(const Search& search); // once the guide is there
+    [[nodiscard]] static Choice end(const Search& search);
+    [[nodiscard]] Choice choose(const glm::vec2& u) const { return end(begin(u)); }
     [[nodiscard]] float pdf(const glm::vec3& direction) const; // of sample()
 
     [[nodiscard]] double power() const { return m_power; }         // ∫ luminance dω
@@ -49,6 +61,8 @@ class EnvironmentSampler {
     [[nodiscard]] glm::vec3 radianceAt(const glm::vec2& pixel) const;
     [[nodiscard]] float pdfAt(const glm::vec2& pixel) const;
     [[nodiscard]] float pdfOf(int x, int y) const; // of a texel
+    [[nodiscard]] Choice found(const Search& search) const;
+    [[nodiscard]] const float* columnsOf(int y) const;
     void makeGuides();
 
     ImagePtr m_image;

@@ -122,6 +122,12 @@ class LightPath {
     [[nodiscard]] glm::vec3 throughStraightGlass(glm::vec3 from, const glm::vec3& l, float metres,
                                                  Media& media);
 
+    [[nodiscard]] bool searchesSky() const {
+        return m_scene.hasEnvironment() && m_settings.search != LightSearch::Surfaces;
+    }
+    // The place that a ray has met; m_sky becomes the search of that surface.
+    TracePoint meet(const ClosestRay& hit, int surface, const PathSequence& sequence);
+
     // Light by rays to lights.
     glm::vec3 direct(const Part& part, const glm::vec3& world, int surface,
                      const PathSequence& sequence);
@@ -136,8 +142,9 @@ class LightPath {
 
     const TraceScene& m_scene;
     const PathSettings& m_settings;
-    std::vector<float> m_choices; // among the lights, where light was last searched for
-    Media m_media;                // that the path is in
+    std::vector<float> m_choices;     // among the lights, where light was last searched for
+    Media m_media;                    // that the path is in
+    EnvironmentSampler::Search m_sky; // of the surface where light is searched for
     TraceSplit m_split{nullptr};
     std::uint64_t m_rays = 0;
 };

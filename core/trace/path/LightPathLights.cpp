@@ -105,9 +105,8 @@ glm::vec3 LightPath::throughStraightGlass(glm::vec3 from, const glm::vec3& l, fl
 glm::vec3 LightPath::direct(const Part& part, const glm::vec3& world, int surface,
                             const PathSequence& sequence) {
     glm::vec3 sum(0.0f);
-    if (m_scene.hasEnvironment() && m_settings.search != LightSearch::Surfaces) {
-        const EnvironmentSampler::Choice sky =
-            m_scene.chooseEnvironment(sequence.at(surface, PathSequence::kSky));
+    if (searchesSky()) {
+        const EnvironmentSampler::Choice sky = m_scene.endOf(m_sky);
         // What is there is looked up last: many directions are blocked, and pictures of skies are
         // larger than caches.
         if (sky.pdf > 0.0f && part.isOpenTo(sky.direction))

@@ -223,7 +223,11 @@ TracePoint TraceScene::pointAt(std::uint32_t meshIndex, std::uint32_t triangle,
     const glm::vec3 cross = mesh.winding * glm::cross(b - a, c - a);
     const float length = glm::length(cross);
     point.face = length > 0.0f ? cross / length : glm::vec3(0.0f, 1.0f, 0.0f);
-    point.isBack = direction != nullptr && glm::dot(point.face, *direction) > 0.0f;
+    if (direction == nullptr) {
+        point.normal = point.face;
+        return point;
+    }
+    point.isBack = glm::dot(point.face, *direction) > 0.0f;
     const glm::vec3 smooth = between(mesh.normals);
     const float smoothLength = glm::length(smooth);
     point.normal = smoothLength > 0.0f ? smooth / smoothLength : point.face;
@@ -341,18 +345,18 @@ glm::vec3 TraceScene::meanEnvironment() const {
 }
 
 EnvironmentSampler::Sample TraceScene::sampleEnvironment(glm::vec2 u) const {
-    EnvironmentSampler::Sample sample{chooseEnvironment(u), glm::vec3(0.0f)};
+    EnvironmentSampler::Sample sample{endOf(searchEnvironment(u)), glm::vec3(0.0f)};
     if (sample.pdf > 0.0f)
         sample.radiance = environmentRadiance(sample.direction);
     return sample;
 }
 
 // One of them by its power, and a direction of it.
-EnvironmentSampler::Choice TraceScene::chooseEnvironment(glm::vec2 u) const {
+EnvironmentSampler::Search TraceScene::searchEnvironment(glm::vec2 u) const {
     if (!hasEnvironment())
         return {};
     if (m_environments.size() == 1)
-        return m_environments.front()->choose(u);
+        return m_environments.front()->begin(u);
     const EnvironmentSampler* chosen = m_environments.front().get();
     float before = 0.0f;
     for (const auto& environment : m_environments) {
@@ -366,8 +370,13 @@ EnvironmentSampler::Choice TraceScene::chooseEnvironment(glm::vec2 u) const {
         }
         before += share;
     }
-    EnvironmentSampler::Choice choice = chosen->choose(u);
-    choice.pdf = environmentPdf(choice.direction);
+    return chosen->begin(u);
+}
+
+EnvironmentSampler::Choice TraceScene::endOf(const EnvironmentSampler::Search& search) const {
+    EnvironmentSampler::Choice choice = EnvironmentSampler::end(search);
+    if (m_environments.size() > 1 && hasEnvironment())
+        choice.pdf = environmentPdf(choice.direction);
     return choice;
 }
 

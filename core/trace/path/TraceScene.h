@@ -64,7 +64,7 @@ class TraceScene {
     [[nodiscard]] bool occluded(const glm::vec3& origin, const glm::vec3& direction,
                                 float distance) const; // scene units, may be infinite
     [[nodiscard]] TracePoint pointAt(const ClosestRay& hit) const;
-    // Of an emissive triangle at barycentric weights, seen from its front.
+    // Of an emissive triangle at barycentric weights, seen from its front; normal: its face.
     [[nodiscard]] TracePoint pointAt(const EmissiveTriangles::Triangle& triangle,
                                      const glm::vec2& weights) const;
     // Clear of the surface, on the side of the face or behind it.
@@ -102,8 +102,9 @@ class TraceScene {
     [[nodiscard]] glm::vec3 meanEnvironment() const; // over all directions
     [[nodiscard]] EnvironmentSampler::Sample sampleEnvironment(glm::vec2 u) const;
     [[nodiscard]] float environmentPdf(const glm::vec3& direction) const;
-    // The same at less cost: a direction alone, and radiance and density of one.
-    [[nodiscard]] EnvironmentSampler::Choice chooseEnvironment(glm::vec2 u) const;
+    // The same at less cost: a direction alone, in steps, and radiance and density of one.
+    [[nodiscard]] EnvironmentSampler::Search searchEnvironment(glm::vec2 u) const;
+    [[nodiscard]] EnvironmentSampler::Choice endOf(const EnvironmentSampler::Search& search) const;
     [[nodiscard]] EnvironmentSampler::Lookup lookUpEnvironment(const glm::vec3& direction) const;
     [[nodiscard]] bool hasEnvironment() const { return m_environmentPower > 0.0; }
     [[nodiscard]] const LightSampler& lights() const { return m_lights; }
