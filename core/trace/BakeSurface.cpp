@@ -127,11 +127,15 @@ float Coverage::alphaAt(const glm::vec2& uv) const {
     return m_opacity * (top + fy * (bottom - top)) / 255.0f;
 }
 
-bool Coverage::solidAt(const glm::vec2& uv, float chance) const {
+float Coverage::solidShareAt(const glm::vec2& uv) const {
     if (m_mode == AlphaMode::Opaque)
-        return true;
+        return 1.0f;
     const float alpha = alphaAt(uv);
-    return m_mode == AlphaMode::Mask ? alpha >= m_cutoff : chance < alpha;
+    return m_mode == AlphaMode::Mask ? (alpha >= m_cutoff ? 1.0f : 0.0f) : alpha;
+}
+
+bool Coverage::solidAt(const glm::vec2& uv, float chance) const {
+    return chance < solidShareAt(uv);
 }
 
 std::uint32_t AlbedoTexels::Picture::at(const glm::vec2& uv) const {

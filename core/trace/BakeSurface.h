@@ -44,6 +44,8 @@ class Coverage {
 
     // 0…1 at texture coordinates, bilinear.
     [[nodiscard]] float alphaAt(const glm::vec2& uv) const;
+    // Share of the rays that stop there: 0 or 1 of a mask.
+    [[nodiscard]] float solidShareAt(const glm::vec2& uv) const;
     // Whether a ray stops. Mask: alpha reaches the cutoff. Blend: by chance with probability alpha,
     // `chance` being even in [0, 1).
     [[nodiscard]] bool solidAt(const glm::vec2& uv, float chance) const;

@@ -28,10 +28,11 @@ struct Sieve {
     Coverage coverage;
 };
 
-// Even in [0, 1), and always the same for the same ray through the same triangle.
-float chanceOf(const glm::vec3& direction, unsigned triangle) {
+// Even in [0, 1), and always the same for the same ray through the same triangle. Of its origin,
+// too: all rays to a light without extent that is far away have one direction.
+float chanceOf(const glm::vec3& origin, const glm::vec3& direction, unsigned triangle) {
     std::uint32_t bits = hash32(triangle + 0x9e3779b9u);
-    for (const float c : {direction.x, direction.y, direction.z})
+    for (const float c : {origin.x, origin.y, origin.z, direction.x, direction.y, direction.z})
         bits = hash32(bits ^ std::bit_cast<std::uint32_t>(c));
     return detail::unitFloat(bits);
 }
@@ -49,9 +50,11 @@ void keepSolid(const RTCFilterFunctionNArguments* args) {
         const std::uint32_t* index = mesh.indices.data() + 3 * std::size_t{triangle};
         const glm::vec2 uv =
             (1.0f - u - v) * mesh.uvs[index[0]] + u * mesh.uvs[index[1]] + v * mesh.uvs[index[2]];
+        const glm::vec3 origin(RTCRayN_org_x(args->ray, n, i), RTCRayN_org_y(args->ray, n, i),
+                               RTCRayN_org_z(args->ray, n, i));
         const glm::vec3 direction(RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i),
                                   RTCRayN_dir_z(args->ray, n, i));
-        if (!sieve.coverage.solidAt(uv, chanceOf(direction, triangle)))
+        if (!sieve.coverage.solidAt(uv, chanceOf(origin, direction, triangle)))
             args->valid[i] = 0;
     }
 }

@@ -38,7 +38,7 @@ glm::vec3 LightPath::look(const glm::vec3& origin, const glm::vec3& direction,
                 sample->background = behind;
             return behind;
         }
-        point = m_scene.pointAt(hit);
+        point = meet(hit, 0, sequence);
         if (point.hasSurface())
             break;
         hit = closest(TraceScene::origin(point, true), direction);
@@ -66,8 +66,11 @@ glm::vec3 LightPath::look(const glm::vec3& origin, const glm::vec3& direction,
 LightPath::Followed LightPath::follow(TracePoint point, TraceSurface terms,
                                       const PathSequence& sequence, const TraceView* view,
                                       const glm::vec3& seen) {
-    if (view == nullptr)
+    if (view == nullptr) {
         m_media = Media();
+        if (searchesSky())
+            m_sky = m_scene.searchEnvironment(sequence.at(0, PathSequence::kSky));
+    }
     Followed result;
     glm::vec3& radiance = result.radiance;
     glm::vec3 throughput(seen);
@@ -131,11 +134,11 @@ LightPath::Followed LightPath::follow(TracePoint point, TraceSurface terms,
                     radiance += m_split.came(surface, throughput * backgroundOf(*view, l));
                 return result;
             }
-            radiance += m_split.came(surface, throughput * m_scene.environmentRadiance(l) *
-                                                  found(search, m_scene.environmentPdf(l)));
+            const EnvironmentSampler::Lookup sky = m_scene.lookUpEnvironment(l);
+            radiance += m_split.came(surface, throughput * sky.radiance * found(search, sky.pdf));
             return result;
         }
-        point = m_scene.pointAt(hit);
+        point = meet(hit, surface + 1, sequence);
         throughput *= leftOnWay(m_media, point, distance);
         search.travelled += distance;
         if (!point.hasSurface())
@@ -148,6 +151,15 @@ LightPath::Followed LightPath::follow(TracePoint point, TraceSurface terms,
             return result;
         terms = m_scene.surfaceIn(point, -l, m_media);
     }
+}
+
+TracePoint LightPath::meet(const ClosestRay& hit, int surface, const PathSequence& sequence) {
+    if (!searchesSky())
+        return m_scene.pointAt(hit);
+    m_sky = m_scene.searchEnvironment(sequence.at(surface, PathSequence::kSky));
+    const TracePoint point = m_scene.pointAt(hit);
+    EnvironmentSampler::fetch(m_sky);
+    return point;
 }
 
 glm::vec3 LightPath::leftOnWay(Media& media, const TracePoint& point, float metres) const {

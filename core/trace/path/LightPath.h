@@ -94,7 +94,8 @@ class LightPath {
         // there.
         [[nodiscard]] bool isOpenTo(const glm::vec3& l) const {
             const bool above = glm::dot(point.face, l) > 0.0f;
-            return isGlass ? above == (glm::dot(surface.glass.n, l) > 0.0f) : above;
+            return isGlass ? above == (glm::dot(surface.glass.n, l) > 0.0f)
+                           : above && glm::dot(surface.opaque.n, l) > 0.0f;
         }
     };
 
@@ -122,11 +123,17 @@ class LightPath {
     // The reverse.
     [[nodiscard]] float sent(float lightPdf, float pdf) const;
 
-    // Share of the light that arrives from so far; a body that refracts lets no straight ray
-    // through.
+    // Share of the light that arrives from so far, of a part that is open to it; a body that
+    // refracts lets no straight ray through.
     [[nodiscard]] glm::vec3 arriving(const Part& part, const glm::vec3& l, float metres);
     [[nodiscard]] glm::vec3 throughStraightGlass(glm::vec3 from, const glm::vec3& l, float metres,
                                                  Media& media);
+
+    [[nodiscard]] bool searchesSky() const {
+        return m_scene.hasEnvironment() && m_settings.search != LightSearch::Surfaces;
+    }
+    // The place that a ray has met; m_sky becomes the search of that surface.
+    TracePoint meet(const ClosestRay& hit, int surface, const PathSequence& sequence);
 
     // Light by rays to lights.
     glm::vec3 direct(const Part& part, const glm::vec3& world, int surface,
@@ -142,8 +149,9 @@ class LightPath {
 
     const TraceScene& m_scene;
     const PathSettings& m_settings;
-    std::vector<float> m_choices; // among the lights, where light was last searched for
-    Media m_media;                // that the path is in
+    std::vector<float> m_choices;     // among the lights, where light was last searched for
+    Media m_media;                    // that the path is in
+    EnvironmentSampler::Search m_sky; // of the surface where light is searched for
     TraceSplit m_split{nullptr};
     std::uint64_t m_rays = 0;
     bool m_firstLights = true;

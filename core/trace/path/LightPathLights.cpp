@@ -64,8 +64,6 @@ float LightPath::sent(float lightPdf, float pdf) const {
 }
 
 glm::vec3 LightPath::arriving(const Part& part, const glm::vec3& l, float metres) {
-    if (!part.isOpenTo(l))
-        return glm::vec3(0.0f);
     const bool through = part.isGlass && glm::dot(part.point.face, l) < 0.0f;
     const glm::vec3 from = TraceScene::origin(part.point, through);
     Media media = m_media;
@@ -107,21 +105,27 @@ glm::vec3 LightPath::throughStraightGlass(glm::vec3 from, const glm::vec3& l, fl
 glm::vec3 LightPath::direct(const Part& part, const glm::vec3& world, int surface,
                             const PathSequence& sequence) {
     glm::vec3 sum(0.0f);
-    const glm::vec2 choice = sequence.at(surface, PathSequence::kChoice);
-    if (m_scene.hasEnvironment() && m_settings.search != LightSearch::Surfaces) {
-        const EnvironmentSampler::Sample sky =
-            m_scene.sampleEnvironment(sequence.at(surface, PathSequence::kSky));
-        const glm::vec3 light = reflected(part, sky.direction) * sky.radiance;
-        if (sky.pdf > 0.0f && light != glm::vec3(0.0f))
-            if (const glm::vec3 left = arriving(part, sky.direction, kUnbounded);
-                left != glm::vec3(0.0f))
-                sum += m_split.sent(
-                    surface, left * light * (sent(sky.pdf, part.pdf(sky.direction)) / sky.pdf));
+    if (searchesSky()) {
+        const EnvironmentSampler::Choice sky = m_scene.endOf(m_sky);
+        // What is there is looked up last: many directions are blocked, and pictures of skies are
+        // larger than caches.
+        if (sky.pdf > 0.0f && part.isOpenTo(sky.direction))
+            if (const glm::vec3 value = reflected(part, sky.direction); value != glm::vec3(0.0f))
+                if (const glm::vec3 left = arriving(part, sky.direction, kUnbounded);
+                    left != glm::vec3(0.0f))
+                    sum += m_split.sent(
+                        surface, left * (value * m_scene.environmentRadiance(sky.direction)) *
+                                     (sent(sky.pdf, part.pdf(sky.direction)) / sky.pdf));
     }
-    if (!m_scene.lights().empty() && (m_firstLights || surface > 0))
+    const bool toGlow = !m_scene.emissive().empty() && m_settings.search != LightSearch::Surfaces;
+    const bool toLights = !m_scene.lights().empty() && (m_firstLights || surface > 0);
+    if (!toLights && !toGlow)
+        return sum;
+    const glm::vec2 choice = sequence.at(surface, PathSequence::kChoice);
+    if (toLights)
         sum += m_split.sent(
             surface, fromLight(part, world, choice.x, sequence.at(surface, PathSequence::kLight)));
-    if (!m_scene.emissive().empty() && m_settings.search != LightSearch::Surfaces)
+    if (toGlow)
         sum += m_split.sent(surface,
                             fromGlow(part, choice.y, sequence.at(surface, PathSequence::kGlow)));
     return sum;
@@ -142,13 +146,15 @@ glm::vec3 LightPath::fromLight(const Part& part, const glm::vec3& world, float u
     if (chosen == m_choices.size())
         return glm::vec3(0.0f);
     const LightSample light = m_scene.lights().sample(chosen, world, u2);
+    if (!part.isOpenTo(light.direction))
+        return glm::vec3(0.0f);
     const glm::vec3 value = reflected(part, light.direction) * light.light;
     if (value == glm::vec3(0.0f))
         return value;
     float weight = 1.0f / m_choices[chosen];
     if (light.pdf > 0.0f)
         weight *= sent(light.pdf * m_choices[chosen], part.pdf(light.direction)) / light.pdf;
-    if (weight == 0.0f || !part.isOpenTo(light.direction))
+    if (weight == 0.0f)
         return glm::vec3(0.0f);
     if (!m_scene.lights().isHidden(chosen))
         return value * weight;
@@ -169,9 +175,10 @@ glm::vec3 LightPath::fromGlow(const Part& part, float u, const glm::vec2& u2) {
     float cosine = -glm::dot(source.face, l);
     if (source.material->doubleSided())
         cosine = std::abs(cosine);
-    if (cosine <= 0.0f)
+    if (cosine <= 0.0f || !part.isOpenTo(l))
         return glm::vec3(0.0f);
-    const glm::vec3 value = reflected(part, l) * source.material->emissionAt(source.uv);
+    const glm::vec3 value =
+        reflected(part, l) * source.material->emissionAt(source.uv) * m_scene.solidShare(source);
     const float pdf = glowPdf(source, m_scene.metres(distance), cosine);
     if (value == glm::vec3(0.0f) || !(pdf > 0.0f))
         return glm::vec3(0.0f);

@@ -41,6 +41,11 @@ TraceMap::TraceMap(const MapSlot& slot)
     , m_offset(slot.uvOffset) {
     if (!m_image)
         return;
+    m_width = m_image->width();
+    m_height = m_image->height();
+    m_channels = m_image->channels();
+    if (m_image->type() == PixelType::U8)
+        m_bytes = reinterpret_cast<const std::uint8_t*>(m_image->bytes().data());
     if (m_image->encoding() == ColorEncoding::Srgb)
         m_decoded = srgbTable8();
     else
@@ -48,23 +53,25 @@ TraceMap::TraceMap(const MapSlot& slot)
             m_decoded[i] = static_cast<float>(i) / 255.0f;
 }
 
-glm::vec4 TraceMap::texel(int x, int y) const {
-    if (m_image->type() != PixelType::U8)
-        return m_image->linear(x, y);
-    const int channels = m_image->channels();
-    const auto width = static_cast<std::size_t>(m_image->width());
-    const auto* p = reinterpret_cast<const std::uint8_t*>(m_image->bytes().data()) +
-                    (static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)) *
-                        static_cast<std::size_t>(channels);
-    const auto alpha = [](std::uint8_t byte) { return static_cast<float>(byte) / 255.0f; };
-    if (channels < 3) {
-        const float grey = m_decoded[p[0]];
-        return {grey, grey, grey, channels == 2 ? alpha(p[1]) : 1.0f};
-    }
-    return {m_decoded[p[0]], m_decoded[p[1]], m_decoded[p[2]], channels > 3 ? alpha(p[3]) : 1.0f};
+const std::uint8_t* TraceMap::bytesAt(int x, int y) const {
+    return m_bytes + (static_cast<std::size_t>(y) * static_cast<std::size_t>(m_width) +
+                      static_cast<std::size_t>(x)) *
+                         static_cast<std::size_t>(m_channels);
 }
 
-glm::vec4 TraceMap::at(const glm::vec2& uv) const {
+glm::vec4 TraceMap::texel(int x, int y) const {
+    if (m_bytes == nullptr)
+        return m_image->linear(x, y);
+    const std::uint8_t* p = bytesAt(x, y);
+    const auto alpha = [](std::uint8_t byte) { return static_cast<float>(byte) / 255.0f; };
+    if (m_channels < 3) {
+        const float grey = m_decoded[p[0]];
+        return {grey, grey, grey, m_channels == 2 ? alpha(p[1]) : 1.0f};
+    }
+    return {m_decoded[p[0]], m_decoded[p[1]], m_decoded[p[2]], m_channels > 3 ? alpha(p[3]) : 1.0f};
+}
+
+TraceMap::Place TraceMap::placeOf(const glm::vec2& uv) const {
     const glm::vec2 moved =
         glm::vec2(m_matrix.x * uv.x + m_matrix.y * uv.y, m_matrix.z * uv.x + m_matrix.w * uv.y) +
         m_offset;
@@ -77,15 +84,31 @@ glm::vec4 TraceMap::at(const glm::vec2& uv) const {
         const float wrapped = std::isfinite(coordinate) ? coordinate - std::floor(coordinate) : 0;
         const float texel = wrapped * static_cast<float>(size) - 0.5f;
         const float base = std::floor(texel);
-        const int low = (static_cast<int>(base) + size) % size;
+        int low = static_cast<int>(base); // -1 … size
+        low += low < 0 ? size : low >= size ? -size : 0;
         return {low, low + 1 == size ? 0 : low + 1, texel - base};
     };
-    const Axis x = axis(moved.x, m_image->width()), y = axis(moved.y, m_image->height());
-    return glm::mix(glm::mix(texel(x.low, y.low), texel(x.high, y.low), x.fraction),
-                    glm::mix(texel(x.low, y.high), texel(x.high, y.high), x.fraction), y.fraction);
+    const Axis x = axis(moved.x, m_width), y = axis(moved.y, m_height);
+    return {x.low, x.high, y.low, y.high, x.fraction, y.fraction};
+}
+
+glm::vec4 TraceMap::at(const glm::vec2& uv) const {
+    const Place at = placeOf(uv);
+    return glm::mix(glm::mix(texel(at.x0, at.y0), texel(at.x1, at.y0), at.fx),
+                    glm::mix(texel(at.x0, at.y1), texel(at.x1, at.y1), at.fx), at.fy);
 }
 
 glm::vec3 TraceMap::colorAt(const glm::vec2& uv) const {
+    // The usual map, without its alpha.
+    if (m_bytes != nullptr && m_channel == MapChannel::Rgb && m_channels >= 3) {
+        const Place at = placeOf(uv);
+        const auto color = [&](int x, int y) {
+            const std::uint8_t* p = bytesAt(x, y);
+            return glm::vec3(m_decoded[p[0]], m_decoded[p[1]], m_decoded[p[2]]);
+        };
+        return glm::mix(glm::mix(color(at.x0, at.y0), color(at.x1, at.y0), at.fx),
+                        glm::mix(color(at.x0, at.y1), color(at.x1, at.y1), at.fx), at.fy);
+    }
     const glm::vec4 c = at(uv);
     switch (m_channel) {
     case MapChannel::Rgb:
@@ -103,7 +126,14 @@ glm::vec3 TraceMap::colorAt(const glm::vec2& uv) const {
 }
 
 float TraceMap::numberAt(const glm::vec2& uv) const {
-    return colorAt(uv).x;
+    if (m_bytes == nullptr || m_channel == MapChannel::A)
+        return colorAt(uv).x;
+    const Place at = placeOf(uv);
+    const int channel =
+        m_channels < 3 || m_channel == MapChannel::Rgb ? 0 : static_cast<int>(m_channel) - 1;
+    const auto number = [&](int x, int y) { return m_decoded[bytesAt(x, y)[channel]]; };
+    return glm::mix(glm::mix(number(at.x0, at.y0), number(at.x1, at.y0), at.fx),
+                    glm::mix(number(at.x0, at.y1), number(at.x1, at.y1), at.fx), at.fy);
 }
 
 TraceMaterial::TraceMaterial(const Material& material)

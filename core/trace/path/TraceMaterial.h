@@ -26,9 +26,17 @@ class TraceMap {
     [[nodiscard]] float numberAt(const glm::vec2& uv) const;    // the channel, else the first
 
   private:
+    struct Place { // of a lookup: two columns, two rows, and how far between them
+        int x0, x1, y0, y1;
+        float fx, fy;
+    };
+    [[nodiscard]] Place placeOf(const glm::vec2& uv) const;
+    [[nodiscard]] const std::uint8_t* bytesAt(int x, int y) const;
     [[nodiscard]] glm::vec4 texel(int x, int y) const;
 
     ImagePtr m_image;
+    const std::uint8_t* m_bytes = nullptr; // of m_image, where it has 8 bits a channel
+    int m_width = 0, m_height = 0, m_channels = 0;
     MapChannel m_channel = MapChannel::Rgb;
     glm::vec4 m_matrix{1, 0, 0, 1};
     glm::vec2 m_offset{0.0f};

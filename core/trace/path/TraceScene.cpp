@@ -43,7 +43,7 @@ Result<void> TraceScene::buildGeometry(const JobContext& job, const TraceScene* 
                                    material.doubleSided, bakeSurface(material)});
         const glm::mat3 linear(mesh.transform);
         m_instances.push_back(
-            {mesh.material, linear, glm::determinant(linear) < 0.0f ? -1.0f : 1.0f});
+            {mesh.material, linear, glm::determinant(linear) < 0.0f ? -1.0f : 1.0f, {}});
     }
     if (geometry.meshes.empty())
         return {};
@@ -155,6 +155,8 @@ void TraceScene::collectEmissive() {
             const TraceMaterial& material = m_materials[m_instances[m].material];
             if (!material.emits())
                 continue;
+            if (mesh.surface.alphaMode != AlphaMode::Opaque)
+                m_instances[m].coverage = std::make_shared<const Coverage>(mesh.surface);
             const auto luminance = static_cast<double>(shading::luminance(material.emissive()));
             const double squareMetres = static_cast<double>(m_metresPerUnit) * m_metresPerUnit;
             const std::vector<std::uint32_t>& indices = mesh.mesh->indices;
@@ -221,7 +223,11 @@ TracePoint TraceScene::pointAt(std::uint32_t meshIndex, std::uint32_t triangle,
     const glm::vec3 cross = mesh.winding * glm::cross(b - a, c - a);
     const float length = glm::length(cross);
     point.face = length > 0.0f ? cross / length : glm::vec3(0.0f, 1.0f, 0.0f);
-    point.isBack = direction != nullptr && glm::dot(point.face, *direction) > 0.0f;
+    if (direction == nullptr) {
+        point.normal = point.face;
+        return point;
+    }
+    point.isBack = glm::dot(point.face, *direction) > 0.0f;
     const glm::vec3 smooth = between(mesh.normals);
     const float smoothLength = glm::length(smooth);
     point.normal = smoothLength > 0.0f ? smooth / smoothLength : point.face;
@@ -343,31 +349,46 @@ glm::vec3 TraceScene::meanEnvironment() const {
     return sum;
 }
 
-// One of them by its power, and a direction of it; what arrives from there of all of them.
 EnvironmentSampler::Sample TraceScene::sampleEnvironment(glm::vec2 u) const {
+    EnvironmentSampler::Sample sample{endOf(searchEnvironment(u)), glm::vec3(0.0f)};
+    if (sample.pdf > 0.0f)
+        sample.radiance = environmentRadiance(sample.direction);
+    return sample;
+}
+
+// One of them by its power, and a direction of it.
+EnvironmentSampler::Search TraceScene::searchEnvironment(glm::vec2 u) const {
     if (!hasEnvironment())
         return {};
+    if (m_environments.size() == 1)
+        return m_environments.front()->begin(u);
     const EnvironmentSampler* chosen = m_environments.front().get();
-    if (m_environments.size() > 1) {
-        float before = 0.0f;
-        for (const auto& environment : m_environments) {
-            const auto share = static_cast<float>(environment->power() / m_environmentPower);
-            if (!(share > 0.0f))
-                continue;
-            chosen = environment.get();
-            if (u.x < before + share) {
-                u.x = std::clamp((u.x - before) / share, 0.0f, 1.0f - 0x1p-24f);
-                break;
-            }
-            before += share;
+    float before = 0.0f;
+    for (const auto& environment : m_environments) {
+        const auto share = static_cast<float>(environment->power() / m_environmentPower);
+        if (!(share > 0.0f))
+            continue;
+        chosen = environment.get();
+        if (u.x < before + share) {
+            u.x = std::clamp((u.x - before) / share, 0.0f, 1.0f - 0x1p-24f);
+            break;
         }
+        before += share;
     }
-    EnvironmentSampler::Sample sample = chosen->sample(u);
-    if (m_environments.size() > 1) {
-        sample.radiance = environmentRadiance(sample.direction);
-        sample.pdf = environmentPdf(sample.direction);
-    }
-    return sample;
+    return chosen->begin(u);
+}
+
+EnvironmentSampler::Choice TraceScene::endOf(const EnvironmentSampler::Search& search) const {
+    EnvironmentSampler::Choice choice = EnvironmentSampler::end(search);
+    if (m_environments.size() > 1 && hasEnvironment())
+        choice.pdf = environmentPdf(choice.direction);
+    return choice;
+}
+
+EnvironmentSampler::Lookup TraceScene::lookUpEnvironment(const glm::vec3& direction) const {
+    if (m_environments.size() == 1 && hasEnvironment())
+        return m_environments.front()->lookUp(direction);
+    return {environmentRadiance(direction), environmentPdf(direction)};
 }
 
 float TraceScene::environmentPdf(const glm::vec3& direction) const {

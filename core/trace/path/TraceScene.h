@@ -64,7 +64,7 @@ class TraceScene {
     [[nodiscard]] bool occluded(const glm::vec3& origin, const glm::vec3& direction,
                                 float distance) const; // scene units, may be infinite
     [[nodiscard]] TracePoint pointAt(const ClosestRay& hit) const;
-    // Of an emissive triangle at barycentric weights, seen from its front.
+    // Of an emissive triangle at barycentric weights, seen from its front; normal: its face.
     [[nodiscard]] TracePoint pointAt(const EmissiveTriangles::Triangle& triangle,
                                      const glm::vec2& weights) const;
     // Of a triangle of geometry(), seen from its front.
@@ -110,9 +110,19 @@ class TraceScene {
     [[nodiscard]] glm::vec3 meanEnvironment() const; // over all directions
     [[nodiscard]] EnvironmentSampler::Sample sampleEnvironment(glm::vec2 u) const;
     [[nodiscard]] float environmentPdf(const glm::vec3& direction) const;
+    // The same at less cost: a direction alone, in steps, and radiance and density of one.
+    [[nodiscard]] EnvironmentSampler::Search searchEnvironment(glm::vec2 u) const;
+    [[nodiscard]] EnvironmentSampler::Choice endOf(const EnvironmentSampler::Search& search) const;
+    [[nodiscard]] EnvironmentSampler::Lookup lookUpEnvironment(const glm::vec3& direction) const;
     [[nodiscard]] bool hasEnvironment() const { return m_environmentPower > 0.0; }
     [[nodiscard]] const LightSampler& lights() const { return m_lights; }
     [[nodiscard]] const EmissiveTriangles& emissive() const { return m_emissive; }
+    // Share of an emissive surface that is there, and so of its light: what rays of a path do not
+    // meet where it is cut out or blended, rays to it must not find either.
+    [[nodiscard]] float solidShare(const TracePoint& emissive) const {
+        const Instance& instance = m_instances[emissive.mesh];
+        return instance.coverage ? instance.coverage->solidShareAt(emissive.uv) : 1.0f;
+    }
     [[nodiscard]] bool isEmpty() const { return !m_scene; }
     // Its triangles; null: none.
     [[nodiscard]] const BakeGeometry* geometry() const {
@@ -137,6 +147,7 @@ class TraceScene {
         std::size_t material = 0;
         glm::mat3 linear{1.0f}; // of the transform, for tangents
         float handedness = 1.0f;
+        std::shared_ptr<const Coverage> coverage; // of what is emissive and not opaque
     };
     std::vector<Instance> m_instances; // of m_scene's meshes
     std::vector<TraceMaterial> m_materials;

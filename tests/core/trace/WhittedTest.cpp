@@ -2,8 +2,8 @@
 #include "core/trace/whitted/WhittedTracer.h"
 
 #include "core/job/Parallel.h"
-#include "core/trace/whitted/TeachingHierarchy.h"
 #include "tests/core/trace/TraceBall.h"
+#include "tests/core/trace/WhittedScenes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,177 +11,21 @@
 #include <gtest/gtest.h>
 #include <map>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace patina {
-namespace {
 
-TraceScene whittedScene(const TraceInputs& inputs) {
-    Result<TraceScene> scene = TraceScene::build(inputs, {});
-    EXPECT_TRUE(scene.ok()) << (scene.ok() ? std::string() : scene.error().text());
-    return *std::move(scene);
-}
-
-TraceView viewFrom(float distance, int size = 16) {
-    TraceView view;
-    view.width = view.height = size;
-    view.camera.distance = distance;
-    return view;
-}
-
-Film whitted(const TraceScene& scene, const TraceView& view, const WhittedSettings& settings = {},
-             std::uint32_t samples = 1) {
-    Film film(view.width, view.height);
-    EXPECT_TRUE(traceWhitted(scene, view, settings, film, 0, samples, {}).ok());
-    return film;
-}
-
-// A square of 4 m in y = 0, seen from above.
-MeshPtr floorMesh() {
-    Mesh mesh;
-    mesh.positions = {{-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}};
-    mesh.normals.assign(4, {0, 1, 0});
-    mesh.tangents.assign(4, {1, 0, 0, 1});
-    mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    mesh.indices = {0, 1, 2, 0, 2, 3};
-    return std::make_shared<const Mesh>(std::move(mesh));
-}
-
-TraceInputs floorUnderPoint(float roughness = 0.5f) {
-    TraceInputs inputs;
-    Material material;
-    material.baseColor = {0.6f, 0.4f, 0.2f};
-    material.metallic = 0.0f;
-    material.perceptualRoughness = roughness;
-    inputs.materials = {material};
-    inputs.meshes = {{1, floorMesh(), glm::mat4(1.0f), 0}};
-    inputs.model.fresnel = Fresnel::Dielectric; // of index 1: no gloss above the diffuse lobe
-    inputs.model.ior = 1.0f;
-    Light light;
-    light.id = 9;
-    light.type = LightType::Point;
-    light.position = {0.5f, 1.5f, -0.25f};
-    light.intensity = 7.0f;
-    inputs.lights = {light};
-    return inputs;
-}
-
-TraceView fromAbove() {
-    TraceView view = viewFrom(3.0f);
-    view.camera.pitchDeg = 60.0f;
-    return view;
-}
-
-Material mirror(float reflectance) {
-    Material material;
-    material.baseColor = glm::vec3(reflectance);
-    material.metallic = 1.0f;
-    material.perceptualRoughness = 0.0f;
-    material.doubleSided = true;
-    return material;
-}
-
-// A cube from -1 to 1.
-MeshPtr cubeMesh() {
-    Mesh mesh;
-    for (int axis = 0; axis < 3; ++axis)
-        for (const float side : {-1.0f, 1.0f}) {
-            glm::vec3 n(0.0f), u(0.0f), v(0.0f);
-            n[axis] = side;
-            u[(axis + 1) % 3] = 1.0f;
-            v[(axis + 2) % 3] = side; // u × v = n
-            const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-            for (const glm::vec2 at :
-                 {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
-                mesh.positions.push_back(n + at.x * u + at.y * v);
-                mesh.normals.push_back(n);
-                mesh.tangents.emplace_back(u, 1.0f);
-                mesh.uvs.emplace_back(0.5f * at + 0.5f);
-            }
-            for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u})
-                mesh.indices.push_back(first + corner);
-        }
-    return std::make_shared<const Mesh>(std::move(mesh));
-}
-
-Material glass(float ior = 1.5f) {
-    Material material;
-    material.baseColor = glm::vec3(1.0f);
-    material.metallic = 0.0f;
-    material.perceptualRoughness = 0.0f;
-    material.transmission = 1.0f;
-    material.ior = ior;
-    material.thinWalled = false;
-    return material;
-}
-
-// Fresnel's equations for both polarisations, of a ray from index 1 to `eta`; 1 beyond the critical
-// angle.
-double fresnelOf(double cosine, double eta) {
-    const double sin2 = (1.0 - cosine * cosine) / (eta * eta);
-    if (sin2 >= 1.0)
-        return 1.0;
-    const double behind = std::sqrt(1.0 - sin2);
-    const double s = (cosine - eta * behind) / (cosine + eta * behind);
-    const double p = (eta * cosine - behind) / (eta * cosine + behind);
-    return 0.5 * (s * s + p * p);
-}
-
-// Rays that meet mirrors, rough things, things that glow, lights of every kind and the sky.
-TraceInputs variedScene() {
-    TraceInputs inputs = test::ballUnderSky(mirror(0.9f), 0.3f);
-    Image sky(16, 8, 3, PixelType::F32, ColorEncoding::Linear);
-    for (std::size_t i = 0; i < sky.f32().size(); ++i)
-        sky.f32()[i] = 0.1f + 0.37f * static_cast<float>(i % 5);
-    inputs.environments = {{std::make_shared<const Image>(sky), 30.0f, glm::vec3(1.0f)}};
-    Material rough;
-    rough.baseColor = {0.8f, 0.5f, 0.2f};
-    rough.metallic = 0.0f;
-    Material glow;
-    glow.emissive = {2.0f, 4.0f, 6.0f};
-    Material green = glass();
-    green.attenuationColor = {0.2f, 0.9f, 0.3f};
-    green.attenuationDistance = 0.5f;
-    inputs.materials.push_back(rough);
-    inputs.materials.push_back(glow);
-    inputs.materials.push_back(green);
-    glm::mat4 clear(0.4f);
-    clear[3] = {-0.9f, -0.3f, 0.9f, 1.0f};
-    inputs.meshes.push_back({4, test::ball(16), clear, 3});
-    glm::mat4 below(1.0f);
-    below[3] = {0.0f, -1.0f, 0.0f, 1.0f};
-    inputs.meshes.push_back({2, floorMesh(), below, 1});
-    glm::mat4 small(0.3f);
-    small[3] = {1.3f, 0.4f, 0.6f, 1.0f};
-    inputs.meshes.push_back({3, test::ball(8), small, 2});
-    for (const LightType type : {LightType::Point, LightType::Spot, LightType::Directional,
-                                 LightType::Sphere, LightType::Rectangle}) {
-        Light light;
-        light.id = 10 + static_cast<Id>(type);
-        light.castsShadow = type != LightType::Spot;
-        light.type = type;
-        light.intensity = 2.0f;
-        inputs.lights.push_back(light);
-    }
-    return inputs;
-}
-
-TraceView ofVariedScene() {
-    TraceView view = viewFrom(4.5f, 20);
-    view.camera.target = {0.2f, -0.2f, 0.0f};
-    view.camera.pitchDeg = 25.0f;
-    return view;
-}
-
-std::vector<RayNode> ofKind(const RayTree& tree, RayKind kind) {
-    std::vector<RayNode> found;
-    for (const RayNode& node : tree.nodes())
-        if (node.kind == kind)
-            found.push_back(node);
-    return found;
-}
-
-} // namespace
+using test::floorMesh;
+using test::floorUnderPoint;
+using test::fromAbove;
+using test::mirror;
+using test::ofKind;
+using test::ofVariedScene;
+using test::variedScene;
+using test::viewFrom;
+using test::whitted;
+using test::whittedScene;
 
 // Lambert's law: albedo/π I cos/d² at each place that a ray of the camera meets.
 TEST(Whitted, PointLightOnAFloorIsTheClosedForm) {
@@ -353,157 +197,6 @@ TEST(Whitted, AMirrorBallReflectsTheSky) {
     }
 }
 
-// Snell's law, Fresnel's equations and total reflection, at every surface of a cube of glass.
-TEST(Whitted, GlassFollowsSnellAndFresnel) {
-    for (const float ior : {1.0f, 1.3f, 1.5f, 2.4f}) {
-        TraceInputs inputs = test::ballUnderSky(glass(ior));
-        inputs.meshes[0].mesh = cubeMesh();
-        const TraceScene scene = whittedScene(inputs);
-        TraceView view = viewFrom(5.0f);
-        view.camera.pitchDeg = 35.0f;
-        WhittedSettings settings;
-        settings.minContribution = 1e-3f;
-        int refracted = 0, total = 0, partly = 0;
-        for (int y = 4; y < 12; ++y) {
-            const RayTree tree = traceRayTree(scene, view, settings, 6, y, 1);
-            for (const RayNode& node : tree.nodes()) {
-                if (node.parent == RayNode::kNone || node.kind == RayKind::Shadow)
-                    continue;
-                const RayNode& from = tree.nodes()[static_cast<std::size_t>(node.parent)];
-                const glm::dvec3 n(from.normal), d(from.direction), out(node.direction);
-                const double cosine = -glm::dot(n, d);
-                const double sine = glm::length(glm::cross(n, d));
-                // Within the cube at its odd surfaces.
-                const bool leaves = from.etaRatio > 1.0f;
-                const double eta =
-                    leaves ? 1.0 / static_cast<double>(ior) : static_cast<double>(ior);
-                const double reflectance = fresnelOf(cosine, eta);
-                const double ratio = static_cast<double>(node.weight.y / from.weight.y);
-                EXPECT_NEAR(from.cosIncident, cosine, 1e-5);
-                EXPECT_EQ(from.totalReflection, sine >= eta) << sine;
-                if (node.kind == RayKind::Reflected) {
-                    EXPECT_LT(glm::length(out - (d + 2.0 * cosine * n)), 1e-5);
-                    EXPECT_NEAR(ratio, reflectance, 2e-4);
-                    total += from.totalReflection ? 1 : 0;
-                    partly += from.totalReflection ? 0 : 1;
-                } else {
-                    EXPECT_NEAR(glm::length(glm::cross(n, out)), sine / eta, 1e-5);
-                    EXPECT_LT(glm::dot(n, out), 0.0);
-                    EXPECT_NEAR(ratio, 1.0 - reflectance, 2e-4);
-                    ++refracted;
-                }
-            }
-        }
-        EXPECT_GT(refracted, 20);
-        if (ior >= 1.5f) { // the light that enters cannot leave by a side
-            EXPECT_GT(total, 10);
-        }
-        EXPECT_EQ(partly > 0, ior != 1.0f);
-    }
-}
-
-// Of a sheet both faces: 2R / (1 + R) comes back and the rest goes straight on.
-TEST(Whitted, ASheetOfGlassIsBothOfItsFaces) {
-    Material sheet = glass();
-    sheet.thinWalled = true;
-    sheet.baseColor = {0.9f, 0.5f, 0.25f};
-    TraceInputs inputs = test::ballUnderSky(sheet);
-    inputs.meshes[0].mesh = floorMesh();
-    const TraceScene scene = whittedScene(inputs);
-    TraceView view = fromAbove();
-    view.camera.pitchDeg = 20.0f;
-    const RayTree tree = traceRayTree(scene, view, {}, 7, 8, 1);
-    ASSERT_EQ(ofKind(tree, RayKind::Refracted).size(), tree.sampleCount());
-    for (const RayNode& node : tree.nodes()) {
-        if (node.kind == RayKind::Camera)
-            continue;
-        const RayNode& from = tree.nodes()[static_cast<std::size_t>(node.parent)];
-        const double once = fresnelOf(-static_cast<double>(from.direction.y), 1.5);
-        const double reflectance = 2.0 * once / (1.0 + once);
-        if (node.kind == RayKind::Reflected) {
-            EXPECT_NEAR(node.weight.y, reflectance, 2e-4);
-        } else {
-            EXPECT_LT(glm::length(node.direction - from.direction), 1e-6f);
-            EXPECT_NEAR(node.weight.y, 0.5 * (1.0 - reflectance), 2e-4);
-        }
-    }
-}
-
-// Through a sheet the background is seen as it would be without: as it was asked for, or not there.
-TEST(Whitted, BehindASheetIsTheBackground) {
-    Material sheet = glass();
-    sheet.thinWalled = true;
-    TraceInputs inputs = test::ballUnderSky(sheet, 0.5f);
-    inputs.meshes[0].mesh = floorMesh();
-    const TraceScene scene = whittedScene(inputs);
-    TraceView view = fromAbove();
-    WhittedSettings settings;
-    settings.subdivisions = 0;
-    const RayTree tree = traceRayTree(scene, view, settings, 8, 8, 1);
-    double reflected = 0.0;
-    for (const RayNode& node : ofKind(tree, RayKind::Reflected))
-        reflected += 0.25 * static_cast<double>(node.weight.y);
-    view.background = [](const glm::vec3&) { return glm::vec3(2.0f); };
-    EXPECT_NEAR(whitted(scene, view, settings).at(8, 8).luminance(),
-                reflected * 0.5 + (1.0 - reflected) * 2.0, 1e-4);
-    view.transparent = true;
-    const Film film = whitted(scene, view, settings);
-    EXPECT_NEAR(film.at(8, 8).coverage, reflected, 1e-5);
-    EXPECT_NEAR(film.at(8, 8).luminance(), reflected * 0.5, 1e-4);
-    view.camera.distance = 20.0f;
-    EXPECT_EQ(whitted(scene, view, settings).at(0, 0).coverage, 0.0f); // beside it
-}
-
-// Beer and Lambert's law, of what is seen through the body and of the light that comes through.
-TEST(Whitted, BodiesAbsorbByTheLengthOfTheWay) {
-    TraceInputs inputs = floorUnderPoint();
-    Material body = glass(1.0f); // rays go straight on
-    body.attenuationColor = {0.5f, 0.25f, 1.0f};
-    body.attenuationDistance = 0.3f;
-    inputs.materials.push_back(body);
-    glm::mat4 slab(1.0f); // 0.2 m thick, above the floor
-    slab[1].y = 0.1f;
-    slab[3].y = 0.5f;
-    inputs.meshes.push_back({2, cubeMesh(), slab, 1});
-    inputs.lights[0].position = {0.1f, 1.5f, 0.1f};
-    const TraceScene scene = whittedScene(inputs);
-    TraceView view = fromAbove();
-    view.camera.pitchDeg = 85.0f;
-    const RayTree tree = traceRayTree(scene, view, {}, 8, 8, 1);
-    int floors = 0;
-    for (const RayNode& node : tree.nodes()) {
-        if (node.kind != RayKind::Shadow || node.end != RayEnd::Lit)
-            continue;
-        const RayNode& seen = tree.nodes()[static_cast<std::size_t>(node.parent)];
-        if (seen.mesh != 1)
-            continue;
-        ++floors;
-        const double up = 0.2 / std::abs(static_cast<double>(node.direction.y));
-        const double down = 0.2 / std::abs(static_cast<double>(seen.direction.y));
-        EXPECT_NEAR(node.passes.x, std::pow(0.5, up / 0.3), 1e-4);
-        EXPECT_NEAR(node.passes.y, std::pow(0.25, up / 0.3), 1e-4);
-        EXPECT_NEAR(node.passes.z, 1.0, 1e-5);
-        EXPECT_NEAR(seen.weight.x, std::pow(0.5, down / 0.3), 1e-4);
-        EXPECT_NEAR(seen.weight.y, std::pow(0.25, down / 0.3), 1e-4);
-    }
-    EXPECT_EQ(floors, static_cast<int>(tree.sampleCount()));
-}
-
-// A closed scene of glass in uniform light shows that light: nothing is lost but what is cut.
-TEST(Whitted, GlassInUniformLightIsInvisible) {
-    for (const bool thin : {false, true}) {
-        Material material = glass();
-        material.thinWalled = thin;
-        const TraceScene scene = whittedScene(test::ballUnderSky(material, 0.7f));
-        WhittedSettings settings;
-        settings.maxDepth = 32;
-        settings.minContribution = kLeastContribution;
-        const Film film = whitted(scene, viewFrom(3.4f), settings);
-        for (const Film::Pixel& pixel : film.pixels())
-            EXPECT_NEAR(pixel.luminance(), 0.7, 0.004);
-    }
-}
-
 TEST(Whitted, TheSumOfATreeIsTheFilmToTheLastBit) {
     const TraceScene scene = whittedScene(variedScene());
     const TraceView view = ofVariedScene();
@@ -642,63 +335,6 @@ TEST(Whitted, StochasticSwitchesConvergeToPaths) {
             difference += std::abs(soft.at(x, y).luminance() - paths.at(x, y).luminance());
         }
     EXPECT_LT(difference, 0.01 * all);
-}
-
-TEST(Whitted, HeatMapsCountWhatTheTreeHas) {
-    const TraceScene scene = whittedScene(variedScene());
-    const TraceView view = ofVariedScene();
-    const TeachingHierarchy hierarchy = TeachingHierarchy::build(*scene.geometry(), {});
-    Film film(view.width, view.height);
-    RayCountMap counts(view.width, view.height);
-    ASSERT_TRUE(
-        traceWhitted(scene, view, {}, film, 0, 1, {}, nullptr, {}, &counts, &hierarchy).ok());
-    for (int y = 0; y < view.height; y += 4)
-        for (int x = 0; x < view.width; x += 2) {
-            const RayTree tree = traceRayTree(scene, view, {}, x, y, 1);
-            std::uint32_t rays = 0, depth = 0;
-            for (const RayNode& node : tree.nodes())
-                if (wasCast(node.end)) {
-                    ++rays;
-                    depth = std::max(depth, static_cast<std::uint32_t>(node.depth));
-                }
-            const RayCounts& pixel = counts.pixels()[static_cast<std::size_t>(y * view.width + x)];
-            EXPECT_EQ(pixel.rays, rays) << x << " " << y;
-            EXPECT_EQ(pixel.depth, depth) << x << " " << y;
-            EXPECT_GE(pixel.boxTests, rays);
-            EXPECT_LT(pixel.triangleTests, rays * hierarchy.triangleCount() / 10);
-        }
-}
-
-// What is found with the boxes is what is found without.
-TEST(TeachingHierarchy, BoxesHoldWhatIsBelowThem) {
-    const TraceScene scene = whittedScene(variedScene());
-    const TeachingHierarchy hierarchy = TeachingHierarchy::build(*scene.geometry(), {});
-    EXPECT_EQ(hierarchy.triangleCount(), scene.geometry()->triangleCount());
-    ASSERT_EQ(hierarchy.boxes(0).size(), 1u);
-    const TeachingHierarchy::Box whole = hierarchy.boxes(0)[0];
-    glm::vec3 low(1e9f), high(-1e9f);
-    for (const BakeGeometryMesh& mesh : scene.geometry()->meshes)
-        for (const std::uint32_t i : mesh.mesh->indices) {
-            low = glm::min(low, mesh.positions[i]);
-            high = glm::max(high, mesh.positions[i]);
-        }
-    EXPECT_EQ(whole.low, low);
-    EXPECT_EQ(whole.high, high);
-    std::size_t before = 1;
-    for (int level = 1; level < hierarchy.levels(); ++level) {
-        const std::vector<TeachingHierarchy::Box> boxes = hierarchy.boxes(level);
-        EXPECT_GT(boxes.size(), before);
-        before = boxes.size();
-        for (const TeachingHierarchy::Box& box : boxes)
-            for (int axis = 0; axis < 3; ++axis) {
-                EXPECT_GE(box.low[axis], low[axis]);
-                EXPECT_LE(box.high[axis], high[axis]);
-            }
-    }
-    // A ray that passes the scene tests its box alone.
-    const TeachingHierarchy::Tests none = hierarchy.count({0, 5, 0}, {0, 1, 0}, 1e9f);
-    EXPECT_EQ(none.boxes, 1u);
-    EXPECT_EQ(none.triangles, 0u);
 }
 
 } // namespace patina
