@@ -75,6 +75,9 @@ void rtcSetGeometryIntersectFilterFunction(RTCGeometry geometry, RTCFilterFuncti
 void rtcCommitGeometry(RTCGeometry geometry);
 unsigned rtcAttachGeometry(RTCScene scene, RTCGeometry geometry);
 
+float& RTCRayN_org_x(RTCRayN* ray, unsigned n, unsigned i);
+float& RTCRayN_org_y(RTCRayN* ray, unsigned n, unsigned i);
+float& RTCRayN_org_z(RTCRayN* ray, unsigned n, unsigned i);
 float& RTCRayN_dir_x(RTCRayN* ray, unsigned n, unsigned i);
 float& RTCRayN_dir_y(RTCRayN* ray, unsigned n, unsigned i);
 float& RTCRayN_dir_z(RTCRayN* ray, unsigned n, unsigned i);
