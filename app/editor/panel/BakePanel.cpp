@@ -308,7 +308,9 @@ void BakePanel::refreshInterrupted() {
 
 void BakePanel::refreshLighting() {
     const Document& document = m_controller.document();
-    const bool hasPrt = (m_bakes.running() && m_bakes.preview()) || hasTransfer(document);
+    const bool arrives =
+        m_bakes.running() && m_bakes.preview() && m_bakes.preview()->kind() != BakeKind::LightMap;
+    const bool hasPrt = arrives || hasTransfer(document);
     m_prt->setEnabled(hasPrt);
     m_lightMap->setEnabled(findBake(document, BakeKind::LightMap) != nullptr);
     m_lightMap->setChecked(document.view.lighting == LightingMode::LightMap);
