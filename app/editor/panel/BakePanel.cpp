@@ -2,6 +2,7 @@
 
 #include "app/editor/document/DocumentController.h"
 #include "app/editor/job/JobManager.h"
+#include "app/editor/job/LivePreview.h"
 #include "app/editor/panel/AttachedBakes.h"
 #include "app/editor/panel/BakeSettingsForm.h"
 #include "app/editor/panel/JobRow.h"
