@@ -194,6 +194,9 @@ void CommandParser::addBakeLight(CLI::App& bake) {
         ->check(plain(CLI::Range(1, kMaxLightMapSize)))
         ->capture_default_str()
         ->type_name("N");
+    c->add_flag_callback(
+        "--no-smooth", [&o] { o.settings.smooth = false; },
+        "Leave the noise in, which texels of a smooth surface else share out");
     addRays(c, o.settings.samples, o.settings.seed, "texel");
     addSets(c);
     addThreads(c);

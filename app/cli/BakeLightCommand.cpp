@@ -5,8 +5,11 @@
 #include "app/cli/PreparedLight.h"
 #include "app/cli/Report.h"
 #include "app/cli/SceneSetup.h"
+#include "core/bake/BakeMemory.h"
 #include "core/bake/document/DocumentBakeInputs.h"
+#include "core/bake/file/BakeFileSize.h"
 #include "core/bake/lightmap/LightMapBake.h"
+#include "core/base/DiskSpace.h"
 #include "core/trace/document/DocumentLightMap.h"
 
 #include <nlohmann/json.hpp>
@@ -18,6 +21,7 @@ Result<void> run(Session& session, const BakeLightOptions& options) {
     session.report().json()["settings"] = {{"scene", options.scene},
                                            {"size", settings.size},
                                            {"samples", settings.samples},
+                                           {"smooth", settings.smooth},
                                            {"seed", settings.seed}};
     if (Result<void> fits = checkBakeOutput(options.output, BakeKind::LightMap); !fits)
         return fits;
@@ -26,6 +30,17 @@ Result<void> run(Session& session, const BakeLightOptions& options) {
     const Result<Document> document = openSceneFor(session, request);
     if (!document)
         return document.error();
+    const BakeInputs geometry = bakeInputs(*document);
+    BakeRequest bake;
+    bake.kind = BakeKind::LightMap;
+    bake.lightMap = settings;
+    if (Result<void> fits = checkBakeFile(bake, geometry); !fits)
+        return fits;
+    const std::uint64_t bytes = bakeFileBytes(bake, geometry);
+    if (Result<void> fits = checkDiskSpace(options.output, bytes, bytes); !fits)
+        return fits;
+    if (Result<void> fits = checkBakeMemory(bake, geometry, availableMemory()); !fits)
+        return fits;
     session.beginPhase();
     session.job().setActivity("preparing light");
     const Result<LightMapInputs> inputs = lightMapInputs(
@@ -37,7 +52,7 @@ Result<void> run(Session& session, const BakeLightOptions& options) {
     const Result<BakeArtifact> artifact = bakeLightMap(*inputs, settings, session.job());
     if (!artifact)
         return artifact.error();
-    reportBake(session, bakeInputs(*document), *artifact);
+    reportBake(session, geometry, *artifact);
     session.report().json()["partial"] = session.interrupted();
     return writeBake(session, *document, *artifact, options.output, {});
 }

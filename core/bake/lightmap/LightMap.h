@@ -15,7 +15,7 @@ namespace patina {
 // but not straight from lights.
 //   0: irradiance that is to be added to the nine coefficients', rgb; ambient visibility, 0…1
 //   1 … 9: of each harmonic of the mirror direction what is to be added to the prefiltered
-//      radiance, rgb, and the share of the specular lobe that is hidden
+//      radiance, rgb, and the share of that which is missing (below 0: there is more)
 //   last: mean direction of the light of a uniform environment, xyz, times the ambient visibility
 inline constexpr int kLightMapVectors = 2 + static_cast<int>(kLightMapTerms);
 inline constexpr int kLightMapStride = 4 * kLightMapVectors - 1;

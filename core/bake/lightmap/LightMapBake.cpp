@@ -21,67 +21,59 @@ constexpr std::uint32_t kFirstPass = 8;
 constexpr double kRidge = 0.02; // of fitHemisphere()
 constexpr std::size_t kTexelsAtATime = 16;
 
-// The texels of all materials and their places on the surface.
+// The texels of all materials, one after another, and their places on the surface.
 struct Texels {
-    struct Part {
-        Id material = 0;
-        TexelPoints texels; // without points
-        std::vector<SurfacePlace> places;
-        std::size_t first = 0; // of all texels
-    };
-    std::vector<Part> parts;
+    TexelLayout layout;               // without points, which paths do not begin at
+    std::vector<SurfacePlace> places; // of those points
+    std::vector<std::size_t> first;   // of each of the layout's parts
     std::size_t count = 0;
-    std::size_t shared = 0;
 
-    [[nodiscard]] const Part& partOf(std::size_t texel) const {
-        return *(std::upper_bound(parts.begin(), parts.end(), texel,
-                                  [](std::size_t t, const Part& part) { return t < part.first; }) -
-                 1);
+    [[nodiscard]] std::size_t partOf(std::size_t texel) const {
+        return static_cast<std::size_t>(std::ranges::upper_bound(first, texel) - first.begin()) - 1;
     }
 };
 
 Result<Texels> layOut(const BakeGeometry& geometry, int size, const JobContext& job) {
-    Result<TexelLayout> checked = texelLayout(geometry, std::span<const Id>(), size, job);
-    if (!checked)
-        return checked.error();
     Texels all;
-    for (const Id material : materialsInOrder(geometry)) {
-        Texels::Part part;
-        part.material = material;
-        part.first = all.count;
-        part.texels = texelPoints(geometry, material, size, job, &part.places);
-        std::vector<BakePoint>().swap(part.texels.points);
-        if (job.cancelled())
-            return Error{ErrorKind::Cancelled, "the bake was cancelled", {}, {}};
+    Result<TexelLayout> layout =
+        texelLayout(geometry, materialsInOrder(geometry), size, job, &all.places);
+    if (!layout)
+        return layout.error();
+    all.layout = *std::move(layout);
+    std::vector<BakePoint>().swap(all.layout.points);
+    for (const MaterialTexels& part : all.layout.parts) {
+        all.first.push_back(all.count);
         all.count += part.texels.texels.size();
-        all.shared += part.texels.sharedTexels;
-        all.parts.push_back(std::move(part));
     }
     return all;
 }
 
-// Calls visit(texel, places) for texels `from` … `to` - 1, on the pool's threads.
-template <class Visit>
+// Calls visit(texel, places) for texels `from` … `to` - 1, on the pool's threads; `begin` makes one
+// for some of them. Ends early when the job is cancelled.
+template <class Begin>
 void forEachTexel(const TraceScene& scene, const Texels& texels, std::size_t from, std::size_t to,
-                  const JobContext& job, const Visit& begin) {
+                  const JobContext& job, const Begin& begin) {
     parallelFor(job, to - from, kTexelsAtATime, [&](std::size_t first, std::size_t last) {
         const FlushDenormals flush;
         auto visit = begin();
         std::vector<TracePoint> places;
-        for (std::size_t t = from + first; t < from + last; ++t) {
-            if (job.stopping())
-                return;
-            const Texels::Part& part = texels.partOf(t);
-            const std::size_t at = t - part.first;
+        for (std::size_t t = from + first; t < from + last && !job.cancelled(); ++t) {
+            const std::size_t p = texels.partOf(t);
+            const MaterialTexels& part = texels.layout.parts[p];
+            const std::size_t at = t - texels.first[p];
             places.clear();
-            for (std::size_t p = part.texels.firstPoint[at]; p < part.texels.firstPoint[at + 1];
-                 ++p) {
-                const SurfacePlace& place = part.places[p];
+            for (std::size_t i = part.texels.firstPoint[at]; i < part.texels.firstPoint[at + 1];
+                 ++i) {
+                const SurfacePlace& place = texels.places[part.firstPoint + i];
                 places.push_back(scene.pointAt(place.mesh, place.triangle, {place.b1, place.b2}));
             }
             visit(t, std::span<const TracePoint>(places));
         }
     });
+}
+
+Error cancelledBake() {
+    return {ErrorKind::Cancelled, "the bake was cancelled", {}, {}};
 }
 
 void fitSpecular(LightMapTexture::Texel& texel) {
@@ -135,6 +127,8 @@ Result<BakeArtifact> bakeLightMap(const LightMapInputs& inputs, const LightMapSe
         forEachTexel(*scene, *texels, 0, texels->count, job, [&] {
             return [&, texel = LightMapTexel(*scene, inputs.imageLight, settings.seed)](
                        std::size_t t, std::span<const TracePoint> places) mutable {
+                if (job.stopping())
+                    return; // keeps the samples that it has
                 const std::uint64_t before = texel.rays();
                 texel.trace(places, static_cast<std::uint32_t>(t), done, pass - done, sums[t]);
                 counts[t] = pass;
@@ -148,8 +142,10 @@ Result<BakeArtifact> bakeLightMap(const LightMapInputs& inputs, const LightMapSe
             done = pass; // else some texels have more
     }
     if (job.cancelled())
-        return Error{ErrorKind::Cancelled, "the bake was cancelled", {}, {}};
+        return cancelledBake();
 
+    // What there is after a stop is finished; a cancel ends that, too.
+    job.setActivity("finishing");
     BakeArtifact artifact;
     artifact.kind = BakeKind::LightMap;
     BakeRequest request;
@@ -161,29 +157,31 @@ Result<BakeArtifact> bakeLightMap(const LightMapInputs& inputs, const LightMapSe
     artifact.light = hashLightMapLight(inputs.scene);
     artifact.samplesDone = static_cast<int>(done);
     artifact.stopped = done < samples;
-    const JobContext nobody; // what there is after a stop is finished
     // Where nothing is known, image-based light stays as it is.
     std::vector<float> unknown(kLightMapStride, 0.0f);
     unknown[3] = 1.0f;
     const auto side = static_cast<std::size_t>(settings.size);
-    for (const Texels::Part& part : texels->parts) {
+    for (std::size_t p = 0; p < texels->layout.parts.size(); ++p) {
+        const MaterialTexels& part = texels->layout.parts[p];
+        const std::size_t first = texels->first[p];
         LightMapTexture texture{settings.size, std::vector<LightMapTexture::Texel>(side * side)};
-        forEachTexel(
-            *scene, *texels, part.first, part.first + part.texels.texels.size(), nobody, [&] {
-                return [&, texel = LightMapTexel(*scene, inputs.imageLight, settings.seed)](
-                           std::size_t t, std::span<const TracePoint> places) {
-                    if (counts[t] > 0)
-                        texture.texels[part.texels.texels[t - part.first]] =
-                            texel.finish(places, counts[t], sums[t]);
-                };
-            });
+        forEachTexel(*scene, *texels, first, first + part.texels.texels.size(), job, [&] {
+            return [&, texel = LightMapTexel(*scene, inputs.imageLight, settings.seed)](
+                       std::size_t t, std::span<const TracePoint> places) {
+                if (counts[t] > 0)
+                    texture.texels[part.texels.texels[t - first]] =
+                        texel.finish(places, counts[t], sums[t]);
+            };
+        });
         if (settings.smooth)
-            filterLightMap(texture, nobody);
-        parallelFor(nobody, texture.texels.size(), kTexelsAtATime,
-                    [&](std::size_t first, std::size_t last) {
-                        for (std::size_t t = first; t < last; ++t)
+            filterLightMap(texture, job);
+        parallelFor(job, texture.texels.size(), kTexelsAtATime,
+                    [&](std::size_t begin, std::size_t end) {
+                        for (std::size_t t = begin; t < end; ++t)
                             fitSpecular(texture.texels[t]);
                     });
+        if (job.cancelled())
+            return cancelledBake();
         TexelBake& bake = artifact.texels.emplace_back();
         bake.material = part.material;
         bake.side = settings.size;
@@ -198,12 +196,7 @@ Result<BakeArtifact> bakeLightMap(const LightMapInputs& inputs, const LightMapSe
         }
         fillGutters(bake.values, std::move(known), settings.size, unknown);
     }
-    if (texels->shared * 1000 > texels->count)
-        artifact.note = fmt::format("UVs overlap or repeat on {:.0f} % of the baked texels, which "
-                                    "hold the mean of the places that share them. Unwrap the mesh "
-                                    "for one value per place.",
-                                    std::max(1.0, 100.0 * static_cast<double>(texels->shared) /
-                                                      static_cast<double>(texels->count)));
+    artifact.note = texels->layout.note();
     job.setProgress(1.0);
     return artifact;
 }

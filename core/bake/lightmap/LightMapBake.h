@@ -18,8 +18,8 @@ struct LightMapInputs {
     EnvironmentLookup imageLight;
 };
 
-// Passes of 16, 32, 64 … samples over all texels; the same numbers for any number of threads.
-// stop() keeps what the last whole pass has, cancel() returns ErrorKind::Cancelled.
+// Passes of 8, 16, 32 … samples over all texels; the same numbers for any number of threads.
+// stop() keeps the samples that there are, cancel() returns ErrorKind::Cancelled.
 // Errors: InputBroken for a scene without triangles or a mesh without texture coordinates; Usage
 // for settings out of range; those of TraceScene::build().
 Result<BakeArtifact> bakeLightMap(const LightMapInputs& inputs, const LightMapSettings& settings,

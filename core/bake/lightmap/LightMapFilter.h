@@ -17,6 +17,7 @@ namespace patina {
 // A texture while it is made.
 struct LightMapTexture {
     struct Texel {
+        // As LightMap.h has them; of the specular lobe the moments that fitHemisphere() takes.
         std::array<glm::vec4, kLightMapVectors> values{};
         glm::vec3 position{0.0f}; // scene units
         glm::vec3 normal{0.0f};   // unit; zero: nothing is known of the texel

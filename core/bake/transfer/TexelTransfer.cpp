@@ -70,7 +70,8 @@ Result<TexelLayout> texelLayout(const BakeGeometry& geometry, int size, const Jo
 }
 
 Result<TexelLayout> texelLayout(const BakeGeometry& geometry, std::span<const Id> materials,
-                                int size, const JobContext& job) {
+                                int size, const JobContext& job,
+                                std::vector<SurfacePlace>* places) {
     if (size < 1 || size > kMaxSide)
         return Error{
             ErrorKind::Usage,
@@ -89,7 +90,7 @@ Result<TexelLayout> texelLayout(const BakeGeometry& geometry, std::span<const Id
     TexelLayout layout;
     layout.size = size;
     for (const Id material : materials) {
-        MaterialTexels part{material, texelPoints(geometry, material, size, job),
+        MaterialTexels part{material, texelPoints(geometry, material, size, job, places),
                             layout.points.size()};
         if (job.cancelled())
             return bakeCancelled();

@@ -34,9 +34,10 @@ struct TexelLayout {
 // Errors: Usage unless 1 <= size <= 8192; InputBroken for a mesh without texture coordinates;
 // Cancelled.
 Result<TexelLayout> texelLayout(const BakeGeometry& geometry, int size, const JobContext& job);
-// The same of some materials alone.
+// The same of some materials alone. `places`: filled with those of the points.
 Result<TexelLayout> texelLayout(const BakeGeometry& geometry, std::span<const Id> materials,
-                                int size, const JobContext& job);
+                                int size, const JobContext& job,
+                                std::vector<SurfacePlace>* places = nullptr);
 [[nodiscard]] std::vector<Id> materialsInOrder(const BakeGeometry& geometry); // of the meshes
 // A texture of ambient visibility with gutters filled: 1 channel, F32 Data.
 [[nodiscard]] ImagePtr occlusionTexture(const TexelLayout& layout, const MaterialTexels& part,
