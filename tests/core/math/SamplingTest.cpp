@@ -51,6 +51,48 @@ TEST(Sobol, DimensionsMatchTheDirectionNumbers) {
     }
 }
 
+TEST(Sobol, InFourDimensionsIsEvenInEachAndTheFirstTwoAreANet) {
+    for (const std::uint32_t seed : {0u, 77u, 0xffffffffu})
+        for (int k = 1; k <= 10; ++k)
+            for (std::uint32_t block = 0; block < 3; ++block) {
+                const std::uint32_t count = 1u << k;
+                const auto boxes = static_cast<float>(count);
+                std::array<std::set<int>, 5> taken;
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    const glm::vec4 p = sobolOwen4D(block * count + i, seed);
+                    for (int d = 0; d < 4; ++d)
+                        taken[static_cast<std::size_t>(d)].insert(static_cast<int>(p[d] * boxes));
+                    const int columns = 1 << (k / 2), rows = static_cast<int>(count) / columns;
+                    taken[4].insert(static_cast<int>(p.x * static_cast<float>(columns)) * rows +
+                                    static_cast<int>(p.y * static_cast<float>(rows)));
+                }
+                for (const std::set<int>& boxesTaken : taken)
+                    ASSERT_EQ(boxesTaken.size(), count) << seed << " " << k << " " << block;
+            }
+}
+
+TEST(Sobol, InFourDimensionsKnowsWhatDependsOnAllOfThem) {
+    // How often the sum of four numbers is below 2: half of the time. Root mean square errors over
+    // many seeds.
+    constexpr std::uint32_t kPoints = 1024, kSeeds = 64;
+    double together = 0.0, inPairs = 0.0;
+    for (std::uint32_t seed = 0; seed < kSeeds; ++seed) {
+        int below = 0, pairsBelow = 0;
+        for (std::uint32_t i = 0; i < kPoints; ++i) {
+            const glm::vec4 p = sobolOwen4D(i, seedFor(3, seed));
+            below += p.x + p.y + p.z + p.w < 2.0f ? 1 : 0;
+            const glm::vec2 a = sobolOwen2D(i, seedFor(4, seed)),
+                            b = sobolOwen2D(i, seedFor(5, seed));
+            pairsBelow += a.x + a.y + b.x + b.y < 2.0f ? 1 : 0;
+        }
+        together += std::pow(below / double{kPoints} - 0.5, 2.0);
+        inPairs += std::pow(pairsBelow / double{kPoints} - 0.5, 2.0);
+    }
+    EXPECT_LT(std::sqrt(together / kSeeds), 0.5 * 0.5 / std::sqrt(double{kPoints}))
+        << "half of what chance has";
+    EXPECT_LT(together, 0.7 * inPairs);
+}
+
 TEST(Sobol, EveryAlignedBlockIsANet) {
     // One point in each elementary interval of area 2^-k, for all shapes, blocks and seeds.
     for (const std::uint32_t seed : {0u, 1u, 77u, 0xffffffffu})

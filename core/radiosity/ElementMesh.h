@@ -1,0 +1,107 @@
+// The surfaces of a scene divided into flat elements, each of one radiosity: quads and triangles in
+// grids over the scene's own faces, any of them divided in four again as often as it takes.
+#pragma once
+
+#include "core/base/Result.h"
+#include "core/radiosity/PolygonFactor.h"
+#include "core/trace/RayScene.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace patina::radiosity {
+
+inline constexpr std::uint32_t kNone = ~0u;
+
+// How finely faces are divided to begin with; what is 0 sets no limit.
+struct ElementLimits {
+    double maxEdge = 0.0; // metres: no edge is longer
+    double maxArea = 0.0; // m²: no element is larger
+    std::size_t maxElements = 1'000'000;
+};
+
+// A face of the scene seen from one side: a triangle, or two that make a flat convex quad.
+struct Face {
+    std::array<glm::dvec3, 4> corners{}; // scene units, counter-clockwise about the normal
+    std::array<glm::dvec2, 4> uvs{};     // texture coordinates there
+    glm::dvec3 normal{0.0};              // unit
+    std::uint32_t cornerCount = 3;
+    std::uint32_t mesh = 0;                               // of the scene
+    std::array<std::uint32_t, 2> triangles{kNone, kNone}; // of the mesh
+    bool back = false;                   // of triangles whose two sides both reflect
+    std::uint32_t columns = 1, rows = 1; // a triangle has as many rows as columns
+    std::uint32_t firstNode = 0;
+};
+
+// A face's position from its own coordinates: bilinear over a quad; of a triangle the weights of
+// the second and third corner.
+[[nodiscard]] glm::dvec3 positionOn(const Face& face, const glm::dvec2& at);
+// The inverse, for points in the face's plane.
+[[nodiscard]] glm::dvec2 coordinatesOn(const Face& face, const glm::dvec3& position);
+
+class ElementMesh {
+  public:
+    // A rectangle in a quad's coordinates, or a triangle of legs `extent` in a triangle's, the
+    // other way round where they are negative.
+    struct Node {
+        glm::vec2 origin{0.0f}, extent{1.0f};
+        std::uint32_t face = 0;
+        std::uint32_t firstChild = kNone; // of four; kNone: it is an element
+        std::uint32_t parent = kNone;
+        std::uint32_t element = kNone; // its number, of one that is not divided
+    };
+
+    // Errors: InputBroken where `geometry` has no face of any area, Usage for a division finer
+    // than limits.maxElements. `geometry` must outlive the answer.
+    static Result<ElementMesh> make(const BakeGeometry& geometry, const ElementLimits& limits);
+
+    [[nodiscard]] std::size_t size() const { return m_elements.size(); }
+    [[nodiscard]] const Face& face(std::uint32_t element) const {
+        return m_faces[m_nodes[m_elements[element]].face];
+    }
+    [[nodiscard]] const std::vector<Face>& faces() const { return m_faces; }
+    [[nodiscard]] const Node& node(std::uint32_t element) const {
+        return m_nodes[m_elements[element]];
+    }
+    [[nodiscard]] double area(std::uint32_t element) const { return m_areas[element]; } // m²
+    [[nodiscard]] std::span<const double> areas() const { return m_areas; }
+    [[nodiscard]] Polygon polygon(std::uint32_t element) const; // scene units
+    [[nodiscard]] glm::dvec3 centre(std::uint32_t element) const;
+    // In the face's coordinates; u is even in the unit square, the point even over the element.
+    [[nodiscard]] glm::dvec2 samplePoint(std::uint32_t element, const glm::vec2& u) const;
+    [[nodiscard]] glm::dvec3 samplePosition(std::uint32_t element, const glm::vec2& u) const {
+        return positionOn(face(element), samplePoint(element, u));
+    }
+    [[nodiscard]] glm::dvec2 uvAt(std::uint32_t element, const glm::dvec2& at) const;
+
+    // The element that a ray has met; kNone: nothing, or a side that only absorbs.
+    [[nodiscard]] std::uint32_t met(const ClosestRay& ray) const;
+    // The element at a place of a face.
+    [[nodiscard]] std::uint32_t elementAt(std::uint32_t face, const glm::dvec2& at) const;
+
+    // Divides each of these elements in four. Numbers change: the answer has for each new element
+    // the old one that it is, or is a part of.
+    std::vector<std::uint32_t> divide(std::span<const std::uint32_t> elements);
+
+    [[nodiscard]] double metresPerUnit() const { return m_metresPerUnit; }
+    [[nodiscard]] std::size_t memoryBytes() const;
+
+  private:
+    void number();
+
+    const BakeGeometry* m_geometry = nullptr;
+    std::vector<Face> m_faces;
+    std::vector<std::uint32_t> m_firstTriangle;         // of each mesh, in m_faceOf
+    std::vector<std::array<std::uint32_t, 2>> m_faceOf; // of a triangle's front and back
+    std::vector<Node> m_nodes;
+    std::vector<std::uint32_t> m_elements; // their nodes
+    std::vector<double> m_areas;
+    double m_metresPerUnit = 1.0;
+};
+
+} // namespace patina::radiosity

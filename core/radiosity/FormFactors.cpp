@@ -1,0 +1,53 @@
+#include "core/radiosity/FormFactors.h"
+
+#include "core/radiosity/AnalyticFactors.h"
+#include "core/radiosity/HemicubeFactors.h"
+#include "core/radiosity/RayFactors.h"
+
+namespace patina::radiosity {
+
+double FactorRow::sum() const {
+    double total = 0.0;
+    for (const Share& share : shares)
+        total += share.factor;
+    return total;
+}
+
+std::string_view name(FactorMethod method) {
+    switch (method) {
+    case FactorMethod::Rays:
+        return "raycast";
+    case FactorMethod::Hemicube:
+        return "hemicube";
+    case FactorMethod::Analytic:
+        break;
+    }
+    return "analytic";
+}
+
+ResolutionRange resolutionRange(FactorMethod method) {
+    switch (method) {
+    case FactorMethod::Rays:
+        return {256, 1, 1 << 20};
+    case FactorMethod::Hemicube:
+        return {256, 2, 4096};
+    case FactorMethod::Analytic:
+        break;
+    }
+    return {64, 1, 65536};
+}
+
+std::unique_ptr<FormFactors> makeFormFactors(const ElementMesh& elements, const RayScene& rays,
+                                             const FactorSettings& settings) {
+    switch (settings.method) {
+    case FactorMethod::Rays:
+        return std::make_unique<RayFactors>(elements, rays, settings);
+    case FactorMethod::Hemicube:
+        return std::make_unique<HemicubeFactors>(elements, rays, settings);
+    case FactorMethod::Analytic:
+        break;
+    }
+    return std::make_unique<AnalyticFactors>(elements, rays, settings);
+}
+
+} // namespace patina::radiosity

@@ -1,0 +1,69 @@
+// Form factors between the elements of a scene: which share of the light that leaves one arrives at
+// each other one, obstacles in between included. Several methods behind one interface.
+#pragma once
+
+#include "core/base/Result.h"
+#include "core/radiosity/ElementMesh.h"
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace patina::radiosity {
+
+// What becomes of the light that leaves an element: the mean over its area. All shares sum up to 1
+// (rays, hemicube) or to 1 but for the method's error (analytic).
+struct FactorRow {
+    struct Share {
+        std::uint32_t element;
+        float factor; // > 0
+    };
+    std::vector<Share> shares; // ascending by element, each once
+    float absorbed = 0.0f;     // meets backs that only absorb
+    float escaped = 0.0f;      // leaves the scene
+
+    void clear() {
+        shares.clear();
+        absorbed = escaped = 0.0f;
+    }
+    [[nodiscard]] double sum() const; // of shares
+};
+
+enum class FactorMethod {
+    Rays,     // Malley's: cosine-weighted rays from points all over the element
+    Hemicube, // Cohen & Greenberg 1985
+    Analytic, // polygons in closed form, times a visibility by pairs of points
+};
+
+[[nodiscard]] std::string_view name(FactorMethod method); // raycast, hemicube, analytic
+
+struct FactorSettings {
+    FactorMethod method = FactorMethod::Rays;
+    // Rays: how many leave an element (a power of two is spread most evenly). Hemicube: cells along
+    // an edge, even. Analytic: pairs of points that decide over the visibility of two elements.
+    int resolution = 256;
+    std::uint32_t seed = 0;
+    // Hemicube: one at the element's centre, as in 1985, even where others are near.
+    bool classicalHemicube = false;
+    friend bool operator==(const FactorSettings&, const FactorSettings&) = default;
+};
+
+// The resolution that `method` has unless it is told otherwise, and its bounds.
+struct ResolutionRange {
+    int usual, lowest, highest;
+};
+[[nodiscard]] ResolutionRange resolutionRange(FactorMethod method);
+
+class FormFactors {
+  public:
+    virtual ~FormFactors() = default;
+    // Callable from any thread. The same row whenever it is asked for.
+    virtual void row(std::uint32_t element, FactorRow& row) const = 0;
+};
+
+// `elements` and `rays`, both of one scene, must outlive the answer.
+[[nodiscard]] std::unique_ptr<FormFactors>
+makeFormFactors(const ElementMesh& elements, const RayScene& rays, const FactorSettings& settings);
+
+} // namespace patina::radiosity

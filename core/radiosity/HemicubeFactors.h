@@ -1,0 +1,55 @@
+// The hemicube: what an element sees through the cells of half a cube about it, each cell counting
+// as much as the form factor through it. Cohen & Greenberg 1985, "The Hemi-Cube: A Radiosity
+// Solution for Complex Environments". What is in a cell is asked by a ray through its middle.
+#pragma once
+
+#include "core/radiosity/FormFactors.h"
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace patina::radiosity {
+
+// The cells of half a cube of edge 2 about the origin, over the plane z = 0.
+class HemicubeCells {
+  public:
+    struct Cell {
+        glm::vec3 direction; // unit, of its middle
+        double factor;       // through it, integrated exactly
+    };
+    enum class Face { Top, Right, Left, Back, Front }; // +z, +x, -x, +y, -y
+
+    explicit HemicubeCells(int resolution); // along an edge of the top; even, at least 2
+
+    [[nodiscard]] std::span<const Cell> cells() const { return m_cells; } // face after face
+    [[nodiscard]] int resolution() const { return m_resolution; }
+    // Cells of a face: resolution² of the top, half as many of a side.
+    [[nodiscard]] std::span<const Cell> cells(Face face) const;
+
+    // Form factor through a part of the top, and of a side whose height is z.
+    [[nodiscard]] static double top(double x0, double x1, double y0, double y1);
+    [[nodiscard]] static double side(double y0, double y1, double z0, double z1);
+
+  private:
+    int m_resolution;
+    std::vector<Cell> m_cells;
+};
+
+class HemicubeFactors final : public FormFactors {
+  public:
+    HemicubeFactors(const ElementMesh& elements, const RayScene& rays,
+                    const FactorSettings& settings);
+    void row(std::uint32_t element, FactorRow& row) const override;
+
+  private:
+    [[nodiscard]] bool isNear(std::uint32_t element, const FactorRow& row) const;
+
+    const ElementMesh& m_elements;
+    const RayScene& m_rays;
+    FactorSettings m_settings;
+    HemicubeCells m_cells;
+};
+
+} // namespace patina::radiosity

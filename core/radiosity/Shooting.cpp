@@ -1,0 +1,103 @@
+#include "core/radiosity/Shooting.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace patina::radiosity {
+
+Shooting::Shooting(const Problem& problem, ShootingRule rule, bool overshoot)
+    : m_problem(problem)
+    , m_rule(rule)
+    , m_overshoot(overshoot)
+    , m_shot(problem.size(), glm::dvec3(0.0))
+    , m_irradiance(problem.size(), glm::dvec3(0.0))
+    , m_emitted(emittedPower(problem)) {
+    for (std::size_t e = 0; e < problem.size(); ++e) {
+        m_area += problem.areas[e];
+        m_meanReflectance += problem.areas[e] * problem.reflectance[e];
+    }
+    if (m_area > 0.0)
+        m_meanReflectance /= m_area;
+}
+
+glm::dvec3 Shooting::radiosity(std::uint32_t e) const {
+    return m_problem.emission[e] + m_problem.reflectance[e] * m_irradiance[e];
+}
+
+glm::dvec3 Shooting::unshot(std::uint32_t e) const {
+    return radiosity(e) - m_shot[e];
+}
+
+std::vector<std::uint32_t> Shooting::next(std::size_t count) const {
+    std::vector<std::pair<double, std::uint32_t>> best; // the largest first
+    const glm::dvec3 ahead = m_overshoot ? ambient() : glm::dvec3(0.0);
+    for (std::uint32_t e = 0; e < m_problem.size(); ++e) {
+        const double size = magnitude(unshot(e) + m_problem.reflectance[e] * ahead) *
+                            (m_rule == ShootingRule::Power ? m_problem.areas[e] : 1.0);
+        if (!(size > 0.0) || (best.size() == count && size <= best.back().first))
+            continue;
+        const auto place =
+            std::upper_bound(best.begin(), best.end(), size,
+                             [](double value, const auto& other) { return value > other.first; });
+        best.insert(place, {size, e});
+        if (best.size() > count)
+            best.pop_back();
+    }
+    std::vector<std::uint32_t> result;
+    for (const auto& entry : best)
+        result.push_back(entry.second);
+    return result;
+}
+
+void Shooting::shoot(std::uint32_t element, const FactorRow& row) {
+    glm::dvec3 light = unshot(element);
+    if (m_overshoot)
+        light += m_problem.reflectance[element] * ambient();
+    m_shot[element] += light;
+    const glm::dvec3 power = m_problem.areas[element] * light;
+    for (const FactorRow::Share& share : row.shares)
+        m_irradiance[share.element] +=
+            double{share.factor} / m_problem.areas[share.element] * power;
+    m_lost += (double{row.absorbed} + double{row.escaped}) * power;
+    ++m_shots;
+}
+
+glm::dvec3 Shooting::ambient() const {
+    glm::dvec3 sum(0.0);
+    for (std::uint32_t e = 0; e < m_problem.size(); ++e)
+        sum += m_problem.areas[e] * unshot(e);
+    const glm::dvec3 left = glm::dvec3(1.0) - m_meanReflectance;
+    for (int c = 0; c < 3; ++c)
+        sum[c] = left[c] > 0.0 && m_area > 0.0 ? sum[c] / (m_area * left[c]) : 0.0;
+    return sum;
+}
+
+Solution Shooting::solution() const {
+    Solution result;
+    result.irradiance = m_irradiance;
+    for (std::uint32_t e = 0; e < m_problem.size(); ++e)
+        result.radiosity.push_back(radiosity(e));
+    return result;
+}
+
+double Shooting::residual() const {
+    double sum = 0.0;
+    for (std::uint32_t e = 0; e < m_problem.size(); ++e)
+        sum += m_problem.areas[e] * magnitude(unshot(e));
+    return m_emitted > 0.0 ? sum / m_emitted : 0.0;
+}
+
+Shooting::Energy Shooting::energy() const {
+    const auto total = [](const glm::dvec3& v) { return v.x + v.y + v.z; };
+    Energy energy;
+    energy.emitted = m_emitted;
+    energy.lost = total(m_lost);
+    for (std::uint32_t e = 0; e < m_problem.size(); ++e) {
+        energy.absorbed += m_problem.areas[e] *
+                           total((glm::dvec3(1.0) - m_problem.reflectance[e]) * m_irradiance[e]);
+        energy.unshot += m_problem.areas[e] * total(unshot(e));
+    }
+    return energy;
+}
+
+} // namespace patina::radiosity

@@ -1,0 +1,64 @@
+// Progressive radiosity: one element after another sends the light that it has not sent yet to all
+// others. The picture is there from the first shot on, and only one row of form factors at a time.
+// Cohen, Chen, Wallace & Greenberg 1988, "A Progressive Refinement Approach to Fast Radiosity Image
+// Generation"; as a relaxation: Gortler, Cohen & Slusallek 1994, "Radiosity and Relaxation
+// Methods".
+#pragma once
+
+#include "core/radiosity/FormFactors.h"
+#include "core/radiosity/Problem.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace patina::radiosity {
+
+// Which element shoots next; of equals the one with the lowest index.
+enum class ShootingRule {
+    Power,    // the largest unshot power, A |ΔB|: progressive shooting
+    Residual, // the largest unshot radiosity, |ΔB|: Southwell's relaxation
+};
+
+class Shooting {
+  public:
+    // `overshoot`: an element also sends what it will receive yet, as far as the mean of all unshot
+    // light tells; what was too much is taken back with the opposite sign. Feda & Purgathofer 1992,
+    // "Accelerating Radiosity by Overshooting".
+    Shooting(const Problem& problem, ShootingRule rule, bool overshoot);
+
+    // The elements that shoot next, the first one first, at most `count`; none where all is shot.
+    // With overshooting, what they would send decides.
+    [[nodiscard]] std::vector<std::uint32_t> next(std::size_t count) const;
+    // Sends the unshot light of an element along its row of form factors.
+    void shoot(std::uint32_t element, const FactorRow& row);
+
+    [[nodiscard]] glm::dvec3 radiosity(std::uint32_t element) const; // with what is unshot
+    [[nodiscard]] glm::dvec3 unshot(std::uint32_t element) const;
+    [[nodiscard]] Solution solution() const;
+    // Unshot power by emitted power: the residual of what has been shot.
+    [[nodiscard]] double residual() const;
+    [[nodiscard]] std::uint64_t shots() const { return m_shots; }
+
+    // Where the emitted power is now; they sum up to it.
+    struct Energy {
+        double emitted = 0.0, absorbed = 0.0, lost = 0.0, unshot = 0.0; // W, summed over colours
+    };
+    [[nodiscard]] Energy energy() const;
+    // What an element would show if the light that is still unshot were spread evenly (1988,
+    // section 5): an estimate for the eye, never part of the solution.
+    [[nodiscard]] glm::dvec3 ambient() const;
+
+  private:
+    const Problem& m_problem;
+    ShootingRule m_rule;
+    bool m_overshoot;
+    std::vector<glm::dvec3> m_shot;       // of each element so far
+    std::vector<glm::dvec3> m_irradiance; // of each element so far
+    glm::dvec3 m_meanReflectance{0.0};    // by area
+    double m_area = 0.0, m_emitted = 0.0;
+    glm::dvec3 m_lost{0.0};
+    std::uint64_t m_shots = 0;
+};
+
+} // namespace patina::radiosity
