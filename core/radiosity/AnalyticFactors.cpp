@@ -72,7 +72,8 @@ double AnalyticFactors::visibility(std::uint32_t a, std::uint32_t b) const {
             const glm::dvec3 way = to - from;
             const double cosA = glm::dot(normalA, way), cosB = -glm::dot(normalB, way);
             const double length2 = glm::dot(way, way);
-            if (!(cosA > 0.0 && cosB > 0.0 && length2 > 0.0))
+            if (!(cosA > 0.0 && cosB > 0.0 && length2 > 0.0) ||
+                m_elements.isBuried(a, from, m_rays) || m_elements.isBuried(b, to, m_rays))
                 continue;
             const double distance = std::sqrt(length2);
             OcclusionRay ray;

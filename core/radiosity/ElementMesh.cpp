@@ -1,25 +1,40 @@
 #include "core/radiosity/ElementMesh.h"
 
+#include "core/job/Parallel.h"
+#include "core/math/Sampling.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <tuple>
-#include <utility>
 
 namespace patina::radiosity {
 namespace {
 
 constexpr double kFlat = 1e-5; // of the longest edge: how far a quad's corner may be off its plane
 
-using Corner = std::pair<glm::dvec3, glm::dvec2>; // position, texture coordinates
+struct Corner {
+    glm::dvec3 position;
+    glm::dvec2 uv;
+    glm::vec3 normal;
+    // Its place in the scene and on a texture is the same.
+    friend bool operator==(const Corner& a, const Corner& b) {
+        return a.position == b.position && a.uv == b.uv;
+    }
+};
+
+void setCorner(Face& face, std::size_t k, const Corner& corner) {
+    face.corners[k] = corner.position;
+    face.uvs[k] = corner.uv;
+    face.normals[k] = corner.normal;
+}
 
 std::array<Corner, 3> cornersOf(const BakeGeometryMesh& mesh, std::uint32_t triangle) {
     std::array<Corner, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t vertex = mesh.mesh->indices[3 * triangle + k];
-        corners[k] = {mesh.positions[vertex], mesh.mesh->uvs[vertex]};
+        corners[k] = {mesh.positions[vertex], mesh.mesh->uvs[vertex], mesh.normals[vertex]};
     }
     return corners;
 }
@@ -49,10 +64,8 @@ bool makeQuad(const std::array<Corner, 3>& first, const std::array<Corner, 3>& s
                 continue;
             const std::array<Corner, 4> corners{first[i], second[(k + 2) % 3], first[(i + 1) % 3],
                                                 first[(i + 2) % 3]};
-            for (std::size_t c = 0; c < 4; ++c) {
-                face.corners[c] = corners[c].first;
-                face.uvs[c] = corners[c].second;
-            }
+            for (std::size_t c = 0; c < 4; ++c)
+                setCorner(face, c, corners[c]);
             face.cornerCount = 4;
             const glm::dvec3 area = areaVectorOf(face);
             const double length = glm::length(area);
@@ -76,6 +89,7 @@ bool makeQuad(const std::array<Corner, 3>& first, const std::array<Corner, 3>& s
 void reverse(Face& face) {
     std::reverse(face.corners.begin() + 1, face.corners.begin() + face.cornerCount);
     std::reverse(face.uvs.begin() + 1, face.uvs.begin() + face.cornerCount);
+    std::reverse(face.normals.begin() + 1, face.normals.begin() + face.cornerCount);
     face.normal = -face.normal;
 }
 
@@ -136,6 +150,22 @@ glm::dvec3 positionOn(const Face& face, const glm::dvec2& at) {
     return glm::mix(glm::mix(c[0], c[1], at.x), glm::mix(c[3], c[2], at.x), at.y);
 }
 
+glm::dvec2 uvOn(const Face& f, const glm::dvec2& at) {
+    if (f.cornerCount == 3)
+        return f.uvs[0] + at.x * (f.uvs[1] - f.uvs[0]) + at.y * (f.uvs[2] - f.uvs[0]);
+    return glm::mix(glm::mix(f.uvs[0], f.uvs[1], at.x), glm::mix(f.uvs[3], f.uvs[2], at.x), at.y);
+}
+
+glm::vec3 normalOn(const Face& face, const glm::dvec2& at) {
+    const std::array<glm::vec3, 4>& n = face.normals;
+    const glm::vec2 w(at);
+    const glm::vec3 mean =
+        face.cornerCount == 3 ? (1.0f - w.x - w.y) * n[0] + w.x * n[1] + w.y * n[2]
+                              : glm::mix(glm::mix(n[0], n[1], w.x), glm::mix(n[3], n[2], w.x), w.y);
+    const float length = glm::length(mean);
+    return length > 1e-3f ? mean / length : glm::vec3(face.normal);
+}
+
 glm::dvec2 coordinatesOn(const Face& face, const glm::dvec3& position) {
     const std::array<glm::dvec3, 4>& c = face.corners;
     const auto flat = [&](const glm::dvec3& v) { return flattened(v, face.normal); };
@@ -162,8 +192,11 @@ Result<ElementMesh> ElementMesh::make(const BakeGeometry& geometry, const Elemen
     result.m_metresPerUnit = 1.0 / geometry.unitsPerMetre;
     double count = 0.0;
     const auto add = [&](Face face, bool back) {
-        if (back)
+        if (back) {
             reverse(face);
+            for (glm::vec3& normal : face.normals)
+                normal = -normal;
+        }
         face.back = back;
         divideFace(face, limits, result.m_metresPerUnit);
         count += static_cast<double>(face.columns) * face.rows;
@@ -188,7 +221,7 @@ Result<ElementMesh> ElementMesh::make(const BakeGeometry& geometry, const Elemen
             } else {
                 face.cornerCount = 3;
                 for (std::size_t k = 0; k < 3; ++k)
-                    std::tie(face.corners[k], face.uvs[k]) = corners[k];
+                    setCorner(face, k, corners[k]);
             }
             const glm::dvec3 area = areaVectorOf(face);
             const double size = glm::length(area);
@@ -250,6 +283,7 @@ void ElementMesh::number() {
             m_elements.push_back(n);
         }
     }
+    m_exposed.clear();
     m_areas.resize(m_elements.size());
     for (std::uint32_t e = 0; e < m_elements.size(); ++e)
         m_areas[e] =
@@ -297,13 +331,6 @@ glm::dvec2 ElementMesh::samplePoint(std::uint32_t element, const glm::vec2& u) c
     const glm::dvec3 position = inFirst ? c[0] + w.x * (c[1] - c[0]) + w.y * (c[2] - c[0])
                                         : c[0] + w.x * (c[2] - c[0]) + w.y * (c[3] - c[0]);
     return coordinatesOn(face(element), position);
-}
-
-glm::dvec2 ElementMesh::uvAt(std::uint32_t element, const glm::dvec2& at) const {
-    const Face& f = face(element);
-    if (f.cornerCount == 3)
-        return f.uvs[0] + at.x * (f.uvs[1] - f.uvs[0]) + at.y * (f.uvs[2] - f.uvs[0]);
-    return glm::mix(glm::mix(f.uvs[0], f.uvs[1], at.x), glm::mix(f.uvs[3], f.uvs[2], at.x), at.y);
 }
 
 std::uint32_t ElementMesh::elementAt(std::uint32_t faceIndex, const glm::dvec2& at) const {
@@ -354,6 +381,46 @@ std::uint32_t ElementMesh::met(const ClosestRay& ray) const {
         return kNone;
     const glm::dvec3 position = a + double{ray.u} * (b - a) + double{ray.v} * (c - a);
     return elementAt(index, coordinatesOn(m_faces[index], position));
+}
+
+bool ElementMesh::isBuried(std::uint32_t element, const glm::dvec3& position,
+                           const RayScene& rays) const {
+    if (exposed(element) >= 1.0f)
+        return false;
+    const glm::vec3 normal(face(element).normal);
+    glm::vec3 x, y;
+    orthonormalBasis(normal, x, y);
+    // Backs in every direction: straight up, and flat to four sides.
+    constexpr float kFlatSine = 0.96f, kFlatCosine = 0.28f;
+    for (const glm::vec3& direction :
+         {normal, kFlatSine * x + kFlatCosine * normal, kFlatSine * y + kFlatCosine * normal,
+          -kFlatSine * x + kFlatCosine * normal, -kFlatSine * y + kFlatCosine * normal}) {
+        ClosestRay ray;
+        ray.ray.origin = glm::vec3(position) + kRayOffset * normal;
+        ray.ray.direction = direction;
+        rays.intersect({&ray, 1});
+        if (ray.mesh == ClosestRay::kNothing || met(ray) != kNone)
+            return false;
+    }
+    return true;
+}
+
+void ElementMesh::findBuried(const RayScene& rays, const JobContext& job) {
+    constexpr std::uint32_t kPoints = 64;
+    m_exposed.assign(size(), 0.5f); // asks every point
+    std::vector<float> exposed(size(), 1.0f);
+    parallelFor(job, size(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t e = begin; e < end; ++e) {
+            const auto element = static_cast<std::uint32_t>(e);
+            std::uint32_t buried = 0;
+            for (std::uint32_t i = 0; i < kPoints; ++i)
+                buried += isBuried(element, samplePosition(element, sobolOwen2D(i, element)), rays)
+                              ? 1
+                              : 0;
+            exposed[e] = 1.0f - static_cast<float>(buried) / float{kPoints};
+        }
+    });
+    m_exposed = std::move(exposed);
 }
 
 std::vector<std::uint32_t> ElementMesh::divide(std::span<const std::uint32_t> elements) {

@@ -29,6 +29,7 @@ struct ElementLimits {
 struct Face {
     std::array<glm::dvec3, 4> corners{}; // scene units, counter-clockwise about the normal
     std::array<glm::dvec2, 4> uvs{};     // texture coordinates there
+    std::array<glm::vec3, 4> normals{};  // the scene's there, unit, on the side that is seen
     glm::dvec3 normal{0.0};              // unit
     std::uint32_t cornerCount = 3;
     std::uint32_t mesh = 0;                               // of the scene
@@ -41,7 +42,11 @@ struct Face {
 // A face's position from its own coordinates: bilinear over a quad; of a triangle the weights of
 // the second and third corner.
 [[nodiscard]] glm::dvec3 positionOn(const Face& face, const glm::dvec2& at);
-// The inverse, for points in the face's plane.
+// Texture coordinates there.
+[[nodiscard]] glm::dvec2 uvOn(const Face& face, const glm::dvec2& at);
+// The scene's normal there, interpolated; unit.
+[[nodiscard]] glm::vec3 normalOn(const Face& face, const glm::dvec2& at);
+// The inverse of positionOn(), for points in the face's plane.
 [[nodiscard]] glm::dvec2 coordinatesOn(const Face& face, const glm::dvec3& position);
 
 class ElementMesh {
@@ -70,6 +75,17 @@ class ElementMesh {
     }
     [[nodiscard]] double area(std::uint32_t element) const { return m_areas[element]; } // m²
     [[nodiscard]] std::span<const double> areas() const { return m_areas; }
+    // Share of its area that is not within something else, as a floor is below a block: points that
+    // see nothing but backs are. They receive nothing, and what is said of an element is said
+    // of the rest of it; 1 until findBuried() was called.
+    [[nodiscard]] float exposed(std::uint32_t element) const {
+        return m_exposed.empty() ? 1.0f : m_exposed[element];
+    }
+    void findBuried(const RayScene& rays, const JobContext& job);
+    // Whether a point of an element is. Costs a ray, and none for elements that are exposed wholly.
+    [[nodiscard]] bool isBuried(std::uint32_t element, const glm::dvec3& position,
+                                const RayScene& rays) const;
+
     [[nodiscard]] Polygon polygon(std::uint32_t element) const; // scene units
     [[nodiscard]] glm::dvec3 centre(std::uint32_t element) const;
     // In the face's coordinates; u is even in the unit square, the point even over the element.
@@ -77,7 +93,6 @@ class ElementMesh {
     [[nodiscard]] glm::dvec3 samplePosition(std::uint32_t element, const glm::vec2& u) const {
         return positionOn(face(element), samplePoint(element, u));
     }
-    [[nodiscard]] glm::dvec2 uvAt(std::uint32_t element, const glm::dvec2& at) const;
 
     // The element that a ray has met; kNone: nothing, or a side that only absorbs.
     [[nodiscard]] std::uint32_t met(const ClosestRay& ray) const;
@@ -101,6 +116,7 @@ class ElementMesh {
     std::vector<Node> m_nodes;
     std::vector<std::uint32_t> m_elements; // their nodes
     std::vector<double> m_areas;
+    std::vector<float> m_exposed;
     double m_metresPerUnit = 1.0;
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kCellBatch = 2048;
 // Points along each direction of an element that others are near to.
-constexpr int kNearPoints = 5;
+constexpr int kNearPoints = 3;
 // How much nearer than its size others may be: Baum et al. 1989 found the hemicube's error to be
 // small from five times on.
 constexpr double kNearSizes = 5.0;
@@ -120,7 +120,8 @@ void HemicubeFactors::row(std::uint32_t element, FactorRow& row) const {
     };
     look(m_elements.centre(element), 1.0);
     hits.finish(row);
-    if (m_settings.classicalHemicube || !isNear(element, row))
+    if (m_settings.classicalHemicube ||
+        (!isNear(element, row) && m_elements.exposed(element) >= 1.0f))
         return;
     static const GaussLegendre kPoints(kNearPoints);
     const ElementMesh::Node& node = m_elements.node(element);
@@ -132,7 +133,10 @@ void HemicubeFactors::row(std::uint32_t element, FactorRow& row) const {
                 weight *= 2.0 * (1.0 - at.x);
                 at.y *= 1.0 - at.x;
             }
-            look(positionOn(face, glm::dvec2(node.origin) + at * glm::dvec2(node.extent)), weight);
+            const glm::dvec3 from =
+                positionOn(face, glm::dvec2(node.origin) + at * glm::dvec2(node.extent));
+            if (!m_elements.isBuried(element, from, m_rays))
+                look(from, weight);
         }
     hits.finish(row);
 }

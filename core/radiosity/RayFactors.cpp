@@ -25,11 +25,13 @@ void RayFactors::row(std::uint32_t element, FactorRow& row) const {
     const auto count = static_cast<std::uint32_t>(m_settings.resolution);
     for (std::uint32_t first = 0; first < count; first += kRayBatch) {
         const std::uint32_t size = std::min(kRayBatch, count - first);
-        rays.assign(size, {});
+        rays.clear();
         for (std::uint32_t i = 0; i < size; ++i) {
             const glm::vec4 u = sobolOwen4D(first + i, seed);
             const glm::dvec3 from = m_elements.samplePosition(element, {u.x, u.y});
-            OcclusionRay& ray = rays[i].ray;
+            if (m_elements.isBuried(element, from, m_rays))
+                continue;
+            OcclusionRay& ray = rays.emplace_back().ray;
             ray.origin = glm::vec3(from) + kRayOffset * normal;
             ray.direction = frame * cosineHemisphere({u.z, u.w});
         }

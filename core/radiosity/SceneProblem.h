@@ -16,20 +16,35 @@
 namespace patina::radiosity {
 
 struct SceneProblemSettings {
-    int lightSamples = 64; // rays per element to each lamp, and to the sky
+    int lightSamples = 64; // rays per element to each lamp and glowing face, and to the sky
     std::uint32_t seed = 0;
+    // Elements that glow shoot or are gathered from like all others, as in the textbooks. Else what
+    // they send counts as direct light, which is exact but for shadows: the small bright lamps that
+    // rays of form factors seldom meet are then no matter of form factors.
+    bool glowByFactors = false;
 };
 
 // All light is linear sRGB. Reflection is Lambert's, of base colour × (1 - metallic) ×
 // (1 - transmission), textures averaged over the element: view.reflectionMix = 0 in every renderer.
 struct SceneProblem {
     Problem problem;
-    // H of lamps and sky, W/m²; its reflection is a part of problem.emission. Elements that glow
-    // are no lamps here.
+    // H of lamps, sky and, but for glowByFactors, glowing elements, W/m²; its reflection is a part
+    // of problem.emission.
     std::vector<glm::dvec3> direct;
+    std::vector<glm::dvec3>
+        glow;                // radiosity of its own, W/m²: with glowByFactors a part of it, too
     std::size_t clamped = 0; // elements whose reflectance was above kMaxReflectance
 
     static constexpr double kMaxReflectance = 0.995; // so that light dies out
+
+    // Errors: Cancelled.
+    // All light that an element sends, and that falls on it, of a solution of `problem`.
+    [[nodiscard]] glm::dvec3 radiosity(const Solution& solution, std::uint32_t element) const {
+        return glow[element] + problem.reflectance[element] * irradiance(solution, element);
+    }
+    [[nodiscard]] glm::dvec3 irradiance(const Solution& solution, std::uint32_t element) const {
+        return direct[element] + solution.irradiance[element];
+    }
 
     // Errors: Cancelled.
     static Result<SceneProblem> make(const TraceScene& scene, const ElementMesh& elements,

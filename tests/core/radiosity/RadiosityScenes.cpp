@@ -69,12 +69,14 @@ std::unique_ptr<FormFactors> DividedScene::factors(const FactorSettings& setting
     return makeFormFactors(elements, *scene.rays(), settings);
 }
 
-std::unique_ptr<DividedScene> divided(const TraceInputs& inputs, const ElementLimits& limits) {
+std::unique_ptr<DividedScene> divided(const TraceInputs& inputs, const ElementLimits& limits,
+                                      const SceneProblemSettings& light) {
     auto scene = TraceScene::build(inputs, {});
     EXPECT_TRUE(scene) << scene.error().text();
     auto elements = ElementMesh::make(*scene->geometry(), limits);
     EXPECT_TRUE(elements) << elements.error().text();
-    auto lit = SceneProblem::make(*scene, *elements, {}, {});
+    elements->findBuried(*scene->rays(), {});
+    auto lit = SceneProblem::make(*scene, *elements, light, {});
     EXPECT_TRUE(lit) << lit.error().text();
     return std::make_unique<DividedScene>(
         DividedScene{std::move(*scene), std::move(*elements), std::move(*lit)});

@@ -38,6 +38,8 @@ struct DividedScene {
     factors(const radiosity::FactorSettings& settings) const;
 };
 [[nodiscard]] std::unique_ptr<DividedScene> divided(const TraceInputs& inputs,
-                                                    const radiosity::ElementLimits& limits);
+                                                    const radiosity::ElementLimits& limits,
+                                                    const radiosity::SceneProblemSettings& light =
+                                                        {.glowByFactors = true});
 
 } // namespace patina::test

@@ -1,0 +1,65 @@
+// Solves the equation of radiosity by any of the solvers until it is as exact as asked for.
+#pragma once
+
+#include "core/base/Result.h"
+#include "core/job/JobContext.h"
+#include "core/radiosity/FactorMatrix.h"
+#include "core/radiosity/Problem.h"
+#include "core/radiosity/Shooting.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace patina::radiosity {
+
+enum class Solver {
+    Progressive,  // shooting, the largest unshot power first
+    Southwell,    // shooting, the largest unshot radiosity first
+    Overshooting, // progressive, ahead of what will be received
+    Jacobi,
+    GaussSeidel,
+    Direct,
+};
+
+[[nodiscard]] std::string_view name(Solver solver); // as the command line has it
+// Needs a row at a time, and keeps as many as there is room for; the others need all of them.
+[[nodiscard]] bool shoots(Solver solver);
+
+struct SolveSettings {
+    Solver solver = Solver::GaussSeidel;
+    double residual = 1e-3;                      // where to stop: Σ A |B - E - ρ F B| / Σ A E
+    std::uint64_t maxIterations = 0;             // shots or sweeps; 0: no limit
+    std::size_t shotsPerStep = 16;               // whose rows are computed side by side
+    std::size_t maxBytes = std::size_t{2} << 30; // of form factors that are kept; 0: no limit
+};
+
+struct SolveReport {
+    std::uint64_t iterations = 0; // shots or sweeps
+    double residual = 0.0;
+    bool converged = false; // residual is what was asked for
+    std::size_t factorBytes = 0;
+    std::optional<FactorQuality> quality;   // where all factors are kept
+    std::optional<Shooting::Energy> energy; // of shooting
+    std::vector<double> history;            // residual after each step
+};
+
+struct Solved {
+    Solution solution;
+    SolveReport report;
+};
+
+// Told after every step (some shots, or a sweep); false: stop here and keep what there is.
+using SolveObserver = std::function<bool(std::uint64_t iterations, double residual,
+                                         const std::function<Solution()>& solution)>;
+
+// `job.stopping()` ends it with what there is. Errors: InputBroken where nothing emits light;
+// Cancelled; those of FactorMatrix::compute() and directSolution().
+Result<Solved> solve(const Problem& problem, const FormFactors& factors,
+                     const SolveSettings& settings, const JobContext& job,
+                     const SolveObserver& observer = {});
+
+} // namespace patina::radiosity
