@@ -40,6 +40,22 @@ set(PATINA_TEST_ENVIRONMENT
   "PATINA_LIGHT_CACHE=${CMAKE_BINARY_DIR}/tests/light-cache"
   ${PATINA_SANITIZER_ENVIRONMENT})
 
+# The longest tests begin first in a fresh build folder, too, where ctest has measured none yet: the last
+# minutes have work for every processor. Seconds, of which the order alone counts; what ctest has measured
+# overrides them.
+set(PATINA_COST_90 test_editor_library test_renderer test_wall_window)
+set(PATINA_COST_50 test_editor_docks test_editor_ladder test_equation test_explanation test_incremental
+  test_long_picture test_recovery_runs test_render_and_bake test_trace test_trace_bias test_viewport_window)
+set(PATINA_COST_30 test_bake_manager test_cli test_editor_window test_environment_command test_ibl_updater
+  test_light test_lighting test_near_shadow_window test_path_window test_pixel_window test_sheet test_views)
+function(patina_test_cost name)
+  foreach(seconds IN ITEMS 90 50 30)
+    if(name IN_LIST PATINA_COST_${seconds})
+      set_tests_properties(${name} PROPERTIES COST ${seconds})
+    endif()
+  endforeach()
+endfunction()
+
 # patina_test_support(NAME): a static library that tests share. Compiled like a program, so that tests
 # can reuse the headers it precompiles.
 function(patina_test_support name)
@@ -71,6 +87,7 @@ function(patina_test name)
   endif()
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   add_test(NAME ${name} COMMAND ${name})
+  patina_test_cost(${name})
   math(EXPR timeout "${T_TIMEOUT} * ${PATINA_TIMEOUT_FACTOR}")
   set_tests_properties(${name} PROPERTIES LABELS "${T_LABEL}" TIMEOUT ${timeout}
     FAIL_REGULAR_EXPRESSION "${PATINA_FAILING_OUTPUT}"
@@ -105,6 +122,7 @@ function(patina_gui_test name)
   set_target_properties(${name} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   add_test(NAME ${name} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-xvfb $<TARGET_FILE:${name}>)
+  patina_test_cost(${name})
   set_tests_properties(${name} PROPERTIES LABELS "app" TIMEOUT ${T_TIMEOUT}
     FAIL_REGULAR_EXPRESSION "\\[  SKIPPED \\]"
     ENVIRONMENT "${PATINA_TEST_ENVIRONMENT};PATINA_SCREENSHOTS=${CMAKE_BINARY_DIR}/tests/screenshots")
