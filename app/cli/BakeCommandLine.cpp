@@ -67,6 +67,7 @@ void CommandParser::addBakes() {
 
     addBakePrt(*bake);
     addBakeLight(*bake);
+    addBakeRadiosity(*bake);
     addBakeIbl(*bake);
 }
 
@@ -198,6 +199,80 @@ void CommandParser::addBakeLight(CLI::App& bake) {
         "--no-smooth", [&o] { o.settings.smooth = false; },
         "Leave the noise in, which texels of a smooth surface else share out");
     addRays(c, o.settings.samples, o.settings.seed, "texel");
+    addSets(c);
+    addThreads(c);
+}
+
+void CommandParser::addBakeRadiosity(CLI::App& bake) {
+    using radiosity::FactorMethod;
+    using radiosity::Solver;
+    BakeRadiosityOptions& o = m_radiosity;
+    RadiositySettings& settings = o.settings;
+    CLI::App* c = addCommand(bake, "radiosity",
+                             "Light that surfaces send to one another, at the vertices of the "
+                             "scene divided for it",
+                             o);
+    addSceneAndOutput(c, o, ".glb, .gltf (COLOR_0, _RADIANCE) or .ply");
+    c->add_option("--environment", o.environment, "Environment that lights the scene")
+        ->type_name("HDR");
+    addLayout(c, o.environmentLayout);
+    c->add_option("--form-factors", settings.factors.method,
+                  "How the light between two elements is found: by rays, a hemicube, or polygons "
+                  "in closed form with rays for what is in between")
+        ->transform(plain(CLI::CheckedTransformer(
+            std::map<std::string, FactorMethod>{{"raycast", FactorMethod::Rays},
+                                                {"hemicube", FactorMethod::Hemicube},
+                                                {"analytic", FactorMethod::Analytic}})))
+        ->default_str("raycast")
+        ->type_name("raycast|hemicube|analytic");
+    c->add_option("--resolution", o.resolution,
+                  "raycast: rays per element (default 256); hemicube: cells along an edge (256); "
+                  "analytic: pairs of points per two elements (64)")
+        ->type_name("N");
+    std::map<std::string, Solver> solvers;
+    for (const Solver solver : {Solver::Progressive, Solver::Southwell, Solver::Overshooting,
+                                Solver::GaussSeidel, Solver::Jacobi, Solver::Direct})
+        solvers.emplace(name(solver), solver);
+    c->add_option("--solver", settings.solve.solver,
+                  "progressive, southwell and overshooting shoot; gathering and jacobi sweep; "
+                  "direct is exact, up to 2048 elements")
+        ->transform(plain(CLI::CheckedTransformer(solvers)))
+        ->default_str("gathering")
+        ->type_name("NAME");
+    c->add_option("--iterations", settings.solve.maxIterations,
+                  "Shots or sweeps at most (default: as many as it takes)")
+        ->check(plain(CLI::Range(1, 1'000'000'000)))
+        ->type_name("N");
+    c->add_option("--residual", settings.solve.residual,
+                  "Share of the light that may be left unsolved")
+        ->check(plain(CLI::Range(1e-12, 1.0)))
+        ->capture_default_str()
+        ->type_name("X");
+    c->add_option("--subdivide", settings.maxArea,
+                  "Largest element in square metres (default: about 4000 elements)")
+        ->check(plain(CLI::PositiveNumber))
+        ->type_name("AREA");
+    c->add_option("--max-elements", settings.maxElements, "Refuse to divide into more than these")
+        ->check(plain(CLI::Range(std::size_t{1}, std::size_t{50'000'000})))
+        ->capture_default_str()
+        ->type_name("N");
+    c->add_option("--exposure", o.exposure,
+                  "k of the colours 1 - e^(-k radiance); none: cut off at 1 (default: the "
+                  "median becomes middle grey)")
+        ->type_name("K|none");
+    c->add_flag("--classic", settings.classic,
+                "Glowing elements shoot like all others, and a hemicube stands at the centre only, "
+                "as in the textbooks");
+    c->add_option("--samples", settings.lightSamples,
+                  "Rays per element to each lamp and to the environment")
+        ->check(plain(CLI::Range(1, 65536)))
+        ->capture_default_str()
+        ->type_name("N");
+    c->add_option("--seed", settings.factors.seed, "Seed of the sample pattern")
+        ->capture_default_str()
+        ->type_name("N");
+    c->add_flag("--keep-partial", m_invocation.common.keepPartial,
+                "When interrupted, write what has converged so far");
     addSets(c);
     addThreads(c);
 }

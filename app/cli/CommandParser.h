@@ -69,6 +69,7 @@ class CommandParser {
     void addBakes();
     void addBakePrt(CLI::App& bake);
     void addBakeLight(CLI::App& bake);
+    void addBakeRadiosity(CLI::App& bake);
     void addBakeIbl(CLI::App& bake);
     void addMerge();
     void addRays(CLI::App* command, int& samples, unsigned& seed, const char* per);
@@ -108,6 +109,7 @@ class CommandParser {
     BakeAoOptions m_ao;
     BakePrtOptions m_prt;
     BakeLightOptions m_light;
+    BakeRadiosityOptions m_radiosity;
     BakeIblOptions m_ibl;
     MergeOptions m_merge;
     EnvironmentOptions m_environment;

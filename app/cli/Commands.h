@@ -13,6 +13,7 @@ Result<void> run(Session& session, const RankOptions& options);
 Result<void> run(Session& session, const BakeAoOptions& options);
 Result<void> run(Session& session, const BakePrtOptions& options);
 Result<void> run(Session& session, const BakeLightOptions& options);
+Result<void> run(Session& session, const BakeRadiosityOptions& options);
 Result<void> run(Session& session, const BakeIblOptions& options);
 Result<void> run(Session& session, const MergeOptions& options);
 Result<void> run(Session& session, const EnvironmentOptions& options);

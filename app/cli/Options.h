@@ -5,6 +5,7 @@
 #include "core/bake/domain/BakeStorage.h"
 #include "core/export/IblPackage.h"
 #include "core/light/EnvironmentProjection.h"
+#include "core/radiosity/document/LitDocument.h"
 
 #include <optional>
 #include <string>
@@ -143,6 +144,14 @@ struct BakeLightOptions {
     LightMapSettings settings;
 };
 
+struct BakeRadiosityOptions {
+    std::string scene, output;
+    std::string environment, environmentLayout; // empty: the scene's own; guessed
+    RadiositySettings settings;
+    std::optional<int> resolution; // not given: as the method has it
+    std::string exposure;          // a number or "none"; empty: found
+};
+
 struct MergeOptions {
     std::vector<std::string> parts;
     std::string output;
@@ -223,9 +232,9 @@ struct ParametersOptions {
 struct Invocation {
     CommonOptions common;
     std::variant<InfoOptions, RenderOptions, LadderOptions, SheetOptions, RankOptions,
-                 BakeAoOptions, BakePrtOptions, BakeLightOptions, BakeIblOptions, MergeOptions,
-                 EnvironmentOptions, BracketCommandOptions, ExportOptions, RefineOptions,
-                 CompareOptions, ParametersOptions>
+                 BakeAoOptions, BakePrtOptions, BakeLightOptions, BakeRadiosityOptions,
+                 BakeIblOptions, MergeOptions, EnvironmentOptions, BracketCommandOptions,
+                 ExportOptions, RefineOptions, CompareOptions, ParametersOptions>
         options;
 };
 

@@ -6,10 +6,12 @@
 #include "core/base/AtomicFile.h"
 #include "core/base/Result.h"
 #include "core/document/Document.h"
+#include "core/export/LitVertices.h"
 #include "core/job/JobContext.h"
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -35,6 +37,9 @@ struct ExportSettings {
     bool includeVariants = true;     // KHR_materials_variants: one for each snapshot, where any has
                                      // other materials (core/export/Variants.h)
     bool visibleOnly = true;
+    // Meshes whose vertices have their light: shown as it is (KHR_materials_unlit), as COLOR_0 and
+    // unclamped as _RADIANCE. Null: none.
+    std::shared_ptr<const LitMeshes> lit;
 };
 
 // The bytes of a file; empty for what lies inside another file, whose function has kept it.

@@ -183,6 +183,11 @@ ExportContents gatherContents(const Document& document, const ExportSettings& se
     addInstances(document, settings, contents);
     addVariants(document, settings, contents);
     addTransfer(document, settings, contents);
+    if (settings.lit != nullptr)
+        for (ExportedInstance& exported : contents.instances)
+            if (const auto light = settings.lit->find(exported.instance->id);
+                light != settings.lit->end())
+                exported.light = &light->second;
     if (settings.includeLights)
         for (const Light& light : document.lights)
             if (light.enabled)

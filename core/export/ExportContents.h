@@ -19,6 +19,7 @@ struct ExportedInstance {
     std::vector<NodeTransform> transform; // nested nodes, outermost first
     int material = -1;                    // index into ExportContents::materials; -1: none
     const VertexBake* transfer = nullptr;
+    const LitVertices* light = nullptr;
     std::vector<int> variants{}; // of each of ExportContents::variants the material; -1: `material`
 };
 

@@ -77,6 +77,10 @@ int GltfGeometry::addAttribute(const std::vector<glm::vec4>& values) {
     return addAccessor(values, "VEC4", kFloat, kArrayBuffer);
 }
 
+int GltfGeometry::addAttribute(const std::vector<glm::vec3>& values) {
+    return addAccessor(values, "VEC3", kFloat, kArrayBuffer);
+}
+
 Json GltfGeometry::primitive(const Mesh& mesh, bool tangents) {
     if (const auto known = m_known.find(&mesh); known != m_known.end())
         return known->second;

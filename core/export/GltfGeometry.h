@@ -17,7 +17,8 @@ class GltfGeometry {
     // often it is asked for; ask with the same `tangents` each time.
     nlohmann::ordered_json primitive(const Mesh& mesh, bool tangents);
     int addAttribute(const std::vector<glm::vec4>& values); // index of its accessor
-    int addImage(const Bytes& file);                        // index of its buffer view
+    int addAttribute(const std::vector<glm::vec3>& values);
+    int addImage(const Bytes& file); // index of its buffer view
 
     [[nodiscard]] const std::vector<nlohmann::ordered_json>& accessors() const {
         return m_accessors;

@@ -30,6 +30,7 @@ constexpr int kRepeat = 10497, kLinear = 9729, kLinearMipmapLinear = 9987;
 constexpr std::uint32_t kGlbMagic = 0x46546c67, kGlbJson = 0x4e4f534a, kGlbBinary = 0x004e4942;
 constexpr std::uint64_t kMaxBytes = 0xffffffffu;
 constexpr const char* kVariants = "KHR_materials_variants";
+constexpr const char* kUnlit = "KHR_materials_unlit";
 
 template <class Vector>
 Json toJson(const Vector& v) {
@@ -63,7 +64,10 @@ class Writer {
     void writeInstances() {
         // A mesh is written once for each material it is seen with, and for each place whose light
         // is baked; its numbers only once.
-        std::map<std::tuple<const Mesh*, int, const VertexBake*, std::vector<int>>, int> known;
+        std::map<
+            std::tuple<const Mesh*, int, const VertexBake*, const LitVertices*, std::vector<int>>,
+            int>
+            known;
         std::set<const Mesh*> needTangents;
         const auto hasNormalMap = [&](int material) {
             return material >= 0 && textures(material)[MaterialInput::Normal].texture >= 0;
@@ -77,9 +81,9 @@ class Writer {
         for (const ExportedInstance& exported : m_contents.instances) {
             const MeshInstance& instance = *exported.instance;
             const Mesh& mesh = *instance.mesh;
-            const auto [entry, isNew] =
-                known.try_emplace({&mesh, exported.material, exported.transfer, exported.variants},
-                                  static_cast<int>(m_meshes.size()));
+            const auto [entry, isNew] = known.try_emplace(
+                {&mesh, exported.material, exported.transfer, exported.light, exported.variants},
+                static_cast<int>(m_meshes.size()));
             if (isNew) {
                 Json primitive = m_geometry.primitive(mesh, needTangents.contains(&mesh));
                 if (exported.material >= 0)
@@ -87,6 +91,11 @@ class Writer {
                 addVariants(primitive, exported.variants);
                 if (exported.transfer != nullptr)
                     addTransfer(primitive["attributes"], *exported.transfer);
+                if (exported.light != nullptr) {
+                    Json& attributes = primitive["attributes"];
+                    attributes["COLOR_0"] = m_geometry.addAttribute(exported.light->colors);
+                    attributes["_RADIANCE"] = m_geometry.addAttribute(exported.light->radiance);
+                }
                 const std::string name = cleanName(mesh.name, cleanName(instance.name, "Mesh"));
                 m_meshes.push_back(
                     {{"name", meshNames.take(name)}, {"primitives", Json::array({primitive})}});
@@ -194,7 +203,8 @@ class Writer {
                     m.*info.number;
         addEmission(result, m);
         addExtensions(result, m, t);
-        addVolume(result, m, index);
+        if (m_settings.lit == nullptr)
+            addVolume(result, m, index);
         if (m.alphaMode == AlphaMode::Mask) {
             result["alphaMode"] = "MASK";
             result["alphaCutoff"] = m.alphaCutoff;
@@ -203,6 +213,10 @@ class Writer {
         }
         if (m.doubleSided)
             result["doubleSided"] = true;
+        if (m_settings.lit != nullptr) {
+            result["extensions"][kUnlit] = Json::object();
+            m_extensions.insert(kUnlit);
+        }
         return result;
     }
 

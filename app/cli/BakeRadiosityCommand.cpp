@@ -1,0 +1,174 @@
+// `patina bake radiosity`: the light that surfaces send to one another, at their vertices.
+#include "app/cli/Commands.h"
+#include "app/cli/Numbers.h"
+#include "app/cli/Report.h"
+#include "app/cli/SceneSetup.h"
+#include "core/base/AtomicFile.h"
+#include "core/base/LowerCase.h"
+#include "core/export/Export.h"
+#include "core/radiosity/document/LitDocument.h"
+#include "core/radiosity/document/PlyFile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace patina::cli {
+namespace {
+
+using namespace radiosity;
+
+bool isPly(const std::filesystem::path& output) {
+    return lowerCase(output.extension().string()) == ".ply";
+}
+
+Result<RadiositySettings> settingsOf(const BakeRadiosityOptions& options) {
+    RadiositySettings settings = options.settings;
+    const ResolutionRange range = resolutionRange(settings.factors.method);
+    settings.factors.resolution = options.resolution.value_or(range.usual);
+    const bool odd =
+        settings.factors.method == FactorMethod::Hemicube && settings.factors.resolution % 2 != 0;
+    if (settings.factors.resolution < range.lowest || settings.factors.resolution > range.highest ||
+        odd)
+        return usageError(fmt::format("--resolution of {} is {}from {} to {}, not {}",
+                                      name(settings.factors.method), odd ? "even, " : "",
+                                      range.lowest, range.highest, settings.factors.resolution));
+    settings.factors.classicalHemicube = settings.classic;
+    return settings;
+}
+
+// nullopt: values as they are.
+Result<std::optional<double>> exposureOf(const std::string& text, const Document& document,
+                                         const std::vector<LitPart>& parts) {
+    if (text.empty())
+        return std::optional(automaticExposure(document, parts));
+    if (text == "none")
+        return std::optional<double>();
+    std::vector<double> numbers;
+    if (!parseNumbers(text, ',', numbers) || numbers.size() != 1 || !(numbers[0] > 0.0) ||
+        !std::isfinite(numbers[0]))
+        return usageError("--exposure is a number above 0, or none");
+    return std::optional(numbers[0]);
+}
+
+void report(Report& report, const RadiosityScene& scene, const SolveReport& solved) {
+    nlohmann::ordered_json& json = report.json();
+    json["counts"] = {{"elements", scene.elements().size()},
+                      {"faces", scene.elements().faces().size()}};
+    json["iterations"] = solved.iterations;
+    json["residual"] = solved.residual;
+    json["converged"] = solved.converged;
+    json["factorBytes"] = solved.factorBytes;
+    std::vector<std::pair<std::string, std::string>> rows{
+        {"Elements", countText(scene.elements().size())},
+        {"Iterations", countText(solved.iterations)},
+        {"Residual", fmt::format("{:.2g}{}", solved.residual,
+                                 solved.converged ? "" : ", stopped before it was reached")},
+        {"Form factors", bytesText(solved.factorBytes)}};
+    if (solved.quality) {
+        json["formFactors"] = {{"closure", solved.quality->closure},
+                               {"reciprocity", solved.quality->reciprocity},
+                               {"escaped", solved.quality->escaped},
+                               {"absorbed", solved.quality->absorbed}};
+        rows.emplace_back("Escapes from the scene",
+                          fmt::format("{:.1f} %", 100.0 * solved.quality->escaped));
+    }
+    if (solved.energy) {
+        json["energy"] = {{"emitted", solved.energy->emitted},
+                          {"absorbed", solved.energy->absorbed},
+                          {"escaped", solved.energy->lost},
+                          {"unshot", solved.energy->unshot}};
+        rows.emplace_back("Escapes from the scene",
+                          fmt::format("{:.1f} %", 100.0 * solved.energy->lost /
+                                                      std::max(solved.energy->emitted, 1e-300)));
+    }
+    report.table({}, rows);
+    if (scene.lit().clamped > 0)
+        report.warn(fmt::format("{} elements reflect all light or more; they are taken to reflect "
+                                "{:.1f} %, so that it dies out",
+                                scene.lit().clamped, 100.0 * SceneProblem::kMaxReflectance));
+}
+
+} // namespace
+
+Result<void> run(Session& session, const BakeRadiosityOptions& options) {
+    const std::filesystem::path output = options.output;
+    if (!isPly(output))
+        if (const Result<ExportFormat> format = exportFormatOf(output); !format)
+            return usageError(fmt::format("{}: radiosity is written to .glb, .gltf or .ply",
+                                          output.filename().string()));
+    if (Result<void> writable = checkOutput(output); !writable)
+        return writable;
+    const Result<RadiositySettings> settings = settingsOf(options);
+    if (!settings)
+        return settings.error();
+    if (const auto exposure = exposureOf(options.exposure, {}, {}); !exposure)
+        return exposure.error();
+    session.report().json()["settings"] = {{"scene", options.scene},
+                                           {"formFactors", name(settings->factors.method)},
+                                           {"resolution", settings->factors.resolution},
+                                           {"solver", name(settings->solve.solver)},
+                                           {"iterations", settings->solve.maxIterations},
+                                           {"residual", settings->solve.residual},
+                                           {"subdivide", settings->maxArea},
+                                           {"classic", settings->classic},
+                                           {"samples", settings->lightSamples},
+                                           {"seed", settings->factors.seed}};
+
+    session.beginPhase();
+    SceneRequest request{options.scene, options.environment, options.environmentLayout, {}};
+    const Result<Document> document = openSceneFor(session, request);
+    if (!document)
+        return document.error();
+    session.beginPhase();
+    const auto scene = RadiosityScene::make(*document, *settings, session.job());
+    if (!scene)
+        return scene.error();
+    session.beginPhase();
+    session.allowPartialResult();
+    const Result<Solved> solved = (*scene)->solve(*settings, session.job());
+    if (!solved)
+        return solved.error();
+    report(session.report(), **scene, solved->report);
+    session.report().json()["partial"] = session.interrupted();
+
+    session.beginPhase();
+    session.job().setActivity("writing");
+    const std::vector<LitPart> parts = litParts(**scene, solved->solution);
+    const auto exposure = exposureOf(options.exposure, *document, parts);
+    if (!exposure)
+        return exposure.error();
+    if (*exposure)
+        session.report().json()["exposure"] = **exposure;
+    const LitDocument lit = litDocument(*document, parts, *exposure);
+    if (isPly(output)) {
+        const Bytes file = litPly(lit);
+        if (Result<void> written = writeFileAtomically(output, file); !written)
+            return written;
+        session.report().output(output, bytesText(file.size()));
+        return {};
+    }
+    ExportSettings files;
+    files.output = output;
+    files.format = *exportFormatOf(output);
+    files.lit = lit.lit;
+    files.includeLights = files.includeVariants = files.includeBakedAo = files.includeTransfer =
+        false;
+    const ExportPlan plan = planExport(lit.document, files);
+    if (plan.problem)
+        return *plan.problem;
+    for (const std::string& warning : plan.warnings)
+        session.report().warn(warning);
+    const auto written = runExport(session.worker(), plan, session.job());
+    if (!written)
+        return written.error();
+    for (const std::filesystem::path& file : *written) {
+        std::error_code unknown;
+        const std::uintmax_t size = std::filesystem::file_size(file, unknown);
+        session.report().output(file, unknown ? "" : bytesText(size));
+    }
+    return {};
+}
+
+} // namespace patina::cli

@@ -1,0 +1,145 @@
+#include "core/radiosity/document/LitDocument.h"
+
+#include "core/document/Snapshot.h"
+#include "core/math/Shading.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <utility>
+
+namespace patina {
+namespace {
+
+constexpr double kMiddleGrey = 0.18;
+
+float cutOff(double value) {
+    return static_cast<float>(std::clamp(value, 0.0, 1.0));
+}
+
+const Material* materialOf(const Document& document, Id id) {
+    const auto found = std::ranges::find(document.materials, id, &Material::id);
+    return found != document.materials.end() ? &*found : nullptr;
+}
+
+const Material* materialOf(const Document& document, const LitPart& part) {
+    const auto instance = std::ranges::find(document.meshes, part.instance, &MeshInstance::id);
+    return instance != document.meshes.end() ? materialOf(document, instance->material) : nullptr;
+}
+
+bool isTextured(const Material* material) {
+    return material != nullptr && material->baseColorMap.image != nullptr;
+}
+
+// What becomes colours: where a texture multiplies them, the light of a white surface.
+const std::vector<glm::vec3>& shownLight(const Document& document, const LitPart& part) {
+    return isTextured(materialOf(document, part)) ? part.irradiance : part.radiosity;
+}
+
+// As its light already is in the vertices: what is left is a texture, and what is cut out.
+Material shown(const Material& material, bool textured) {
+    Material result;
+    result.id = material.id;
+    result.name = material.name;
+    if (textured) {
+        result.baseColor = material.baseColor;
+        result.baseColorMap = material.baseColorMap;
+    } else {
+        result.baseColor = glm::vec3(1.0f);
+    }
+    result.metallic = 0.0f;
+    result.opacity = material.opacity;
+    result.alphaMode = material.alphaMode;
+    result.alphaCutoff = material.alphaCutoff;
+    return result;
+}
+
+} // namespace
+
+glm::vec3 exposed(const glm::vec3& radiance, double k) {
+    glm::vec3 result;
+    for (int c = 0; c < 3; ++c)
+        result[c] = cutOff(-std::expm1(-k * std::max(0.0, double{radiance[c]})));
+    return result;
+}
+
+double automaticExposure(const Document& document, const std::vector<LitPart>& parts) {
+    struct Piece {
+        double area, irradiance, radiance;
+    };
+    std::vector<Piece> pieces; // triangles
+    double area = 0.0, arriving = 0.0;
+    for (const LitPart& part : parts) {
+        const std::vector<glm::vec3>& shown = shownLight(document, part);
+        for (std::size_t i = 0; i < part.mesh->indices.size(); i += 3) {
+            const std::uint32_t* v = part.mesh->indices.data() + i;
+            const glm::vec3 &a = part.mesh->positions[v[0]], &b = part.mesh->positions[v[1]],
+                            &c = part.mesh->positions[v[2]];
+            const auto mean = [v](const std::vector<glm::vec3>& light) {
+                return double{shading::luminance((light[v[0]] + light[v[1]] + light[v[2]]) / 3.0f)};
+            };
+            const Piece piece{glm::length(glm::cross(glm::dvec3(b - a), glm::dvec3(c - a))),
+                              mean(part.irradiance), mean(shown) / std::numbers::pi};
+            pieces.push_back(piece);
+            area += piece.area;
+            arriving += piece.area * piece.irradiance;
+        }
+    }
+    // The inside of things, where next to no light comes, is not what is looked at.
+    const double dark = area > 0.0 ? 0.02 * arriving / area : 0.0;
+    std::erase_if(pieces, [dark](const Piece& piece) {
+        return piece.irradiance <= dark || !(piece.radiance > 0.0);
+    });
+    std::ranges::sort(pieces, {}, &Piece::radiance);
+    double lit = 0.0, below = 0.0;
+    for (const Piece& piece : pieces)
+        lit += piece.area;
+    for (const Piece& piece : pieces) {
+        below += piece.area;
+        if (below >= 0.5 * lit)
+            return -std::log1p(-kMiddleGrey) / piece.radiance;
+    }
+    return 1.0;
+}
+
+LitDocument litDocument(const Document& document, const std::vector<LitPart>& parts,
+                        std::optional<double> exposure) {
+    LitDocument result;
+    result.document = document;
+    Document& lit = result.document;
+    lit.meshes.clear();
+    lit.materials.clear();
+    lit.lights.clear();
+    lit.snapshots.clear();
+    lit.bakes = {};
+    LitMeshes meshes;
+    for (const LitPart& part : parts) {
+        const auto instance = std::ranges::find(document.meshes, part.instance, &MeshInstance::id);
+        if (instance == document.meshes.end())
+            continue;
+        const Material* material = materialOf(document, instance->material);
+        MeshInstance& copy = lit.meshes.emplace_back(*instance);
+        copy.id = static_cast<Id>(lit.meshes.size());
+        if (part.back)
+            copy.name += " (back)";
+        copy.mesh = part.mesh;
+        copy.transform = glm::mat4(1.0f);
+        if (material != nullptr && materialOf(lit, material->id) == nullptr)
+            lit.materials.push_back(shown(*material, isTextured(material)));
+        LitVertices& vertices = meshes[copy.id];
+        const std::vector<glm::vec3>& light = shownLight(document, part);
+        for (std::size_t v = 0; v < part.radiosity.size(); ++v) {
+            const auto pi = std::numbers::pi_v<float>;
+            const glm::vec3 color = exposure ? exposed(light[v] / pi, *exposure)
+                                             : glm::clamp(light[v] / pi, 0.0f, 1.0f);
+            vertices.colors.emplace_back(color, 1.0f);
+            vertices.radiance.push_back(part.radiosity[v] / pi);
+        }
+    }
+    result.lit = std::make_shared<const LitMeshes>(std::move(meshes));
+    return result;
+}
+
+} // namespace patina

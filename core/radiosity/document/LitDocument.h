@@ -1,0 +1,81 @@
+// A document's scene solved for radiosity, and the solution as a document whose meshes have their
+// light at the vertices: what files of it are written from.
+#pragma once
+
+#include "core/base/Result.h"
+#include "core/document/Document.h"
+#include "core/export/LitVertices.h"
+#include "core/job/JobContext.h"
+#include "core/radiosity/Reconstruction.h"
+#include "core/radiosity/SceneProblem.h"
+#include "core/radiosity/Solve.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace patina {
+
+struct RadiositySettings {
+    double maxArea = 0.0; // m² of an element; 0: about kUsualElements of them, whatever the scene
+    std::size_t maxElements = 1'000'000;
+    radiosity::FactorSettings factors;
+    radiosity::SolveSettings solve;
+    int lightSamples = 64;
+    // Elements that glow shoot like all others, as in the textbooks, instead of being sent rays to.
+    bool classic = false;
+    static constexpr double kUsualElements = 4000.0;
+};
+
+// A scene and its elements. Stays where it is: its parts refer to one another.
+class RadiosityScene {
+  public:
+    // Errors: those of TraceScene::build(), ElementMesh::make() and SceneProblem::make().
+    static Result<std::unique_ptr<RadiosityScene>>
+    make(const Document& document, const RadiositySettings& settings, const JobContext& job);
+
+    // Errors: those of radiosity::solve().
+    [[nodiscard]] Result<radiosity::Solved>
+    solve(const RadiositySettings& settings, const JobContext& job,
+          const radiosity::SolveObserver& observer = {}) const;
+
+    [[nodiscard]] const radiosity::ElementMesh& elements() const { return m_elements; }
+    [[nodiscard]] const radiosity::SceneProblem& lit() const { return m_lit; }
+    [[nodiscard]] const TraceScene& scene() const { return m_scene; }
+
+  private:
+    RadiosityScene(TraceScene scene, radiosity::ElementMesh elements);
+
+    TraceScene m_scene;
+    radiosity::ElementMesh m_elements;
+    radiosity::SceneProblem m_lit;
+};
+
+// The part of a mesh of the document that is seen from one side, divided as it was solved.
+struct LitPart {
+    Id instance = 0; // MeshInstance::id
+    bool back = false;
+    MeshPtr mesh;                      // world
+    std::vector<glm::vec3> irradiance; // of each vertex, W/m²
+    std::vector<glm::vec3> radiosity;  // of each vertex, W/m²
+};
+
+[[nodiscard]] std::vector<LitPart> litParts(const RadiosityScene& scene,
+                                            const radiosity::Solution& solution);
+
+// 1 - e^(-kL): from light of any size to 0…1. `k` per unit of radiance.
+[[nodiscard]] glm::vec3 exposed(const glm::vec3& radiance, double k);
+// The k that shows the median, by area, of what is lit as middle grey, .18: lamps, and insides
+// where no light comes, have no say.
+[[nodiscard]] double automaticExposure(const Document& document, const std::vector<LitPart>& parts);
+
+struct LitDocument {
+    Document document; // meshes and materials are those that are lit; cameras and names stay
+    std::shared_ptr<const LitMeshes> lit;
+};
+// `exposure`: k; nullopt: values as they are, cut off at 1.
+[[nodiscard]] LitDocument litDocument(const Document& document, const std::vector<LitPart>& parts,
+                                      std::optional<double> exposure);
+
+} // namespace patina
