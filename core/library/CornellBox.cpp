@@ -4,8 +4,6 @@
 #include "core/material/Material.h"
 
 #include <array>
-#include <cmath>
-#include <glm/geometric.hpp>
 
 namespace patina::library {
 
@@ -44,57 +42,23 @@ glm::dvec3 toWorld(const glm::dvec3& mm) {
     return {(278.0 - mm.x) / 1000.0, mm.y / 1000.0, (279.6 - mm.z) / 1000.0};
 }
 
-// Cell `cell` of a layout of cells × cells squares, with a margin.
 void addQuad(Mesh& mesh, const Quad& quad, int steps, int cells, int cell) {
-    const double size = 1.0 / cells, margin = cells == 1 ? 0.0 : 0.006;
-    const glm::dvec2 corner((cell % cells) * size + margin,
-                            static_cast<double>(cell / cells) * size + margin);
-    const double scale = size - 2.0 * margin;
     std::array<glm::dvec3, 4> p;
     for (std::size_t i = 0; i < 4; ++i)
         p[i] = toWorld(quad[i]);
-    // The left wall's corners are not in one plane: the wall is the two triangles (0, 1, 2) and
-    // (0, 2, 3), whose diagonal the grid follows; they share the mean normal (0.3° off each).
-    const glm::dvec3 normal = glm::normalize(glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0])) +
-                                             glm::normalize(glm::cross(p[2] - p[0], p[3] - p[0])));
-    const auto start = static_cast<std::uint32_t>(mesh.positions.size());
-    for (int j = 0; j <= steps; ++j)
-        for (int i = 0; i <= steps; ++i) {
-            const double s = static_cast<double>(i) / steps, t = static_cast<double>(j) / steps;
-            const glm::dvec3 position = s >= t ? p[0] + (p[1] - p[0]) * s + (p[2] - p[1]) * t
-                                               : p[0] + (p[3] - p[0]) * t + (p[2] - p[3]) * s;
-            mesh.positions.push_back(glm::vec3(position));
-            mesh.normals.push_back(glm::vec3(normal));
-            mesh.uvs.push_back(glm::vec2(corner + glm::dvec2(s, 1.0 - t) * scale));
-        }
-    const auto stride = static_cast<std::uint32_t>(steps) + 1u;
-    for (int j = 0; j < steps; ++j)
-        for (int i = 0; i < steps; ++i) {
-            const std::uint32_t a =
-                start + static_cast<std::uint32_t>(j) * stride + static_cast<std::uint32_t>(i);
-            const std::uint32_t b = a + 1, c = a + stride + 1, d = a + stride;
-            mesh.indices.insert(mesh.indices.end(), {a, b, c, a, c, d});
-        }
-}
-
-Material plainMaterial(const char* name, const glm::vec3& color) {
-    Material m;
-    m.name = name;
-    m.baseColor = color;
-    m.perceptualRoughness = 1.0f;
-    return m;
+    addQuadGrid(mesh, p, steps, cells, cell);
 }
 
 } // namespace
 
 std::vector<ModelPart> cornellBox() {
     constexpr int kWallSteps = 32, kBlockSteps = 12, kLightSteps = 8;
-    const Material white = plainMaterial("White", {0.738239f, 0.735992f, 0.738601f});
-    const Material red = plainMaterial("Red", {0.493880f, 0.048870f, 0.051155f});
-    const Material green = plainMaterial("Green", {0.068413f, 0.398461f, 0.086545f});
+    const Material white = matteMaterial("White", {0.738239f, 0.735992f, 0.738601f});
+    const Material red = matteMaterial("Red", {0.493880f, 0.048870f, 0.051155f});
+    const Material green = matteMaterial("Green", {0.068413f, 0.398461f, 0.086545f});
     // The lamp's spectrum in linear sRGB, relative to its green; 0.78 is its reflectance. The
     // strength is a choice: the data sheet's scale is arbitrary.
-    Material light = plainMaterial("Light", glm::vec3(0.78f));
+    Material light = matteMaterial("Light", glm::vec3(0.78f));
     light.emissive = {1.908584f, 1.0f, 0.255261f};
     light.emissiveStrength = 10.85455f;
 
@@ -110,6 +74,40 @@ std::vector<ModelPart> cornellBox() {
     addQuad(redWall, kLeftWall, kWallSteps, 1, 0);
     addQuad(greenWall, kRightWall, kWallSteps, 1, 0);
     addQuad(lamp, kLight, kLightSteps, 1, 0);
+    return {makePart("Room", std::move(room), white),
+            makePart("Left Wall", std::move(redWall), red),
+            makePart("Right Wall", std::move(greenWall), green),
+            makePart("Short Block", std::move(shortBlock), white),
+            makePart("Tall Block", std::move(tallBlock), white),
+            makePart("Light", std::move(lamp), light)};
+}
+
+std::vector<ModelPart> cornellReference() {
+    const Material white = matteMaterial("White", {0.738239f, 0.735992f, 0.738601f});
+    const Material red = matteMaterial("Red", {0.493880f, 0.048870f, 0.051155f});
+    const Material green = matteMaterial("Green", {0.068413f, 0.398461f, 0.086545f});
+    Material light = matteMaterial("Light", glm::vec3(0.0f));
+    light.emissive = glm::vec3(1.0f);
+    // The ceiling has a hole where the lamp is, in its plane.
+    const double y = 548.8, z = 559.2;
+    const std::array<Quad, 4> ceiling{
+        {{{{556, y, 0}, {556, y, 227}, {0, y, 227}, {0, y, 0}}},
+         {{{556, y, 332}, {556, y, z}, {0, y, z}, {0, y, 332}}},
+         {{{556, y, 227}, {556, y, 332}, {343, y, 332}, {343, y, 227}}},
+         {{{213, y, 227}, {213, y, 332}, {0, y, 332}, {0, y, 227}}}}};
+    const Quad lampQuad{{{343, y, 227}, {343, y, 332}, {213, y, 332}, {213, y, 227}}};
+    Mesh room, shortBlock, tallBlock, redWall, greenWall, lamp;
+    addQuad(room, kFloor, 1, 4, 0);
+    addQuad(room, kBackWall, 1, 4, 1);
+    for (int i = 0; i < 4; ++i)
+        addQuad(room, ceiling[static_cast<std::size_t>(i)], 1, 4, 2 + i);
+    for (int i = 0; i < 5; ++i) {
+        addQuad(shortBlock, kShortBlock[static_cast<std::size_t>(i)], 1, 4, 6 + i);
+        addQuad(tallBlock, kTallBlock[static_cast<std::size_t>(i)], 1, 4, 11 + i);
+    }
+    addQuad(redWall, kLeftWall, 1, 1, 0);
+    addQuad(greenWall, kRightWall, 1, 1, 0);
+    addQuad(lamp, lampQuad, 1, 1, 0);
     return {makePart("Room", std::move(room), white),
             makePart("Left Wall", std::move(redWall), red),
             makePart("Right Wall", std::move(greenWall), green),

@@ -23,7 +23,8 @@ struct Entry {
 };
 
 [[nodiscard]] const std::vector<Entry>&
-models(); // sphere rounded-cube torus-knot shader-ball cornell-box plane sphere-grid glass-spheres
+models(); // sphere rounded-cube torus-knot shader-ball cornell-box cornell-reference wall chess
+          // plane …
 [[nodiscard]] const std::vector<Entry>&
 environments(); // white clear-sky overcast studio sunset night
 [[nodiscard]] const std::vector<Entry>&

@@ -35,6 +35,43 @@ ModelPart makePart(const char* name, Mesh mesh, const Material& material) {
     return {name, std::make_shared<const Mesh>(std::move(mesh)), material.name, material};
 }
 
+void addQuadGrid(Mesh& mesh, const std::array<glm::dvec3, 4>& p, int steps, int cells, int cell) {
+    const double size = 1.0 / cells, margin = cells == 1 ? 0.0 : 0.006;
+    const glm::dvec2 corner((cell % cells) * size + margin,
+                            static_cast<double>(cell / cells) * size + margin);
+    const double scale = size - 2.0 * margin;
+    // Corners that are not in one plane: the quad is the two triangles (0, 1, 2) and (0, 2, 3),
+    // whose diagonal the grid follows; they share the mean normal.
+    const glm::dvec3 normal = glm::normalize(glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0])) +
+                                             glm::normalize(glm::cross(p[2] - p[0], p[3] - p[0])));
+    const auto start = static_cast<std::uint32_t>(mesh.positions.size());
+    for (int j = 0; j <= steps; ++j)
+        for (int i = 0; i <= steps; ++i) {
+            const double s = static_cast<double>(i) / steps, t = static_cast<double>(j) / steps;
+            const glm::dvec3 position = s >= t ? p[0] + (p[1] - p[0]) * s + (p[2] - p[1]) * t
+                                               : p[0] + (p[3] - p[0]) * t + (p[2] - p[3]) * s;
+            mesh.positions.push_back(glm::vec3(position));
+            mesh.normals.push_back(glm::vec3(normal));
+            mesh.uvs.push_back(glm::vec2(corner + glm::dvec2(s, 1.0 - t) * scale));
+        }
+    const auto stride = static_cast<std::uint32_t>(steps) + 1u;
+    for (int j = 0; j < steps; ++j)
+        for (int i = 0; i < steps; ++i) {
+            const std::uint32_t a =
+                start + static_cast<std::uint32_t>(j) * stride + static_cast<std::uint32_t>(i);
+            const std::uint32_t b = a + 1, c = a + stride + 1, d = a + stride;
+            mesh.indices.insert(mesh.indices.end(), {a, b, c, a, c, d});
+        }
+}
+
+Material matteMaterial(const char* name, const glm::vec3& color) {
+    Material m;
+    m.name = name;
+    m.baseColor = color;
+    m.perceptualRoughness = 1.0f;
+    return m;
+}
+
 Material materialNamed(const char* partName, const char* materialName, glm::vec2 repeat) {
     Result<Material> result = material(materialName);
     CHECK(result.ok());
@@ -170,7 +207,7 @@ Mesh makeTorusKnot(int segments, int sides) {
 }
 
 std::span<const ModelRecipe> modelRecipes() {
-    static constexpr std::array<ModelRecipe, 8> kRecipes = {{
+    static constexpr std::array<ModelRecipe, 11> kRecipes = {{
         {"sphere", "Sphere", "A ball of 1 m.",
          [] {
              return std::vector{makePart("Sphere", makeSphere(128, 64),
@@ -193,6 +230,17 @@ std::span<const ModelRecipe> modelRecipes() {
          shaderBall},
         {"cornell-box", "Cornell Box", "The measured box of Cornell University (55 cm).",
          cornellBox},
+        {"cornell-reference", "Cornell Reference",
+         "The Cornell box of undivided walls around a black lamp in its ceiling, whose light is "
+         "known to six digits: for checking radiosity.",
+         cornellReference},
+        {"wall", "Wall",
+         "A white lamp aimed at a white wall above a white floor: a first room for radiosity.",
+         lampAtWall},
+        {"chess", "Chess Floor",
+         "A checkered floor below a lamp, and a green wall without thickness: its "
+         "colour on the floor is light that the wall has sent.",
+         chessFloor},
         {"plane", "Plane", "A square of 2 m, lying flat.",
          [] {
              return std::vector{makePart("Plane", makePlane(64),

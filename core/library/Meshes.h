@@ -5,6 +5,8 @@
 #include "core/library/Library.h"
 #include "core/mesh/Mesh.h"
 
+#include <array>
+#include <glm/vec3.hpp>
 #include <span>
 
 namespace patina::library {
@@ -31,7 +33,18 @@ ModelPart makePart(const char* name, Mesh mesh, const Material& material);
 Material materialNamed(const char* partName, const char* materialName, glm::vec2 repeat);
 
 std::vector<ModelPart> shaderBall();
+// Rough, of the default index.
+Material matteMaterial(const char* name, const glm::vec3& color);
+
+// steps × steps quads between four corners, in cell `cell` of a texture of cells × cells squares,
+// with a margin.
+void addQuadGrid(Mesh& mesh, const std::array<glm::dvec3, 4>& corners, int steps, int cells,
+                 int cell);
+
 std::vector<ModelPart> cornellBox();
+std::vector<ModelPart> cornellReference();
+std::vector<ModelPart> lampAtWall();
+std::vector<ModelPart> chessFloor();
 std::vector<ModelPart> sphereGrid();
 std::vector<ModelPart> glassSpheres();
 

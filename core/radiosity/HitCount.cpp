@@ -22,7 +22,11 @@ void HitCount::finish(FactorRow& row) {
     double total = m_absorbed + m_escaped;
     for (const auto& hit : m_hits)
         total += hit.second;
-    const double scale = total > 0.0 ? 1.0 / total : 0.0;
+    if (!(total > 0.0)) { // all of it is within something
+        row.absorbed = 1.0f;
+        return;
+    }
+    const double scale = 1.0 / total;
     for (std::size_t i = 0; i < m_hits.size();) {
         const std::uint32_t element = m_hits[i].first;
         double sum = 0.0;

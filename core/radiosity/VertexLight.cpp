@@ -65,8 +65,8 @@ using Edges = std::map<std::pair<std::uint32_t, std::uint32_t>, Crossing>;
 // Light about an edge as a row that is 0 where the light on one side is the other's, continued:
 // values at the corner opposite of the edge, less what the edge has at its foot, over the distance.
 // False: too flat a triangle.
-bool addBend(const LitMesh& mesh, std::pair<std::uint32_t, std::uint32_t> ends, const Crossing& edge,
-             std::vector<std::pair<std::uint32_t, double>>& row) {
+bool addBend(const LitMesh& mesh, std::pair<std::uint32_t, std::uint32_t> ends,
+             const Crossing& edge, std::vector<std::pair<std::uint32_t, double>>& row) {
     row.assign({{ends.first, 0.0}, {ends.second, 0.0}});
     double heights = 0.0;
     for (const LitMesh::Triangle* triangle : edge.sides) {

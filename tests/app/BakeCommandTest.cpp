@@ -229,3 +229,59 @@ TEST_F(Commands, KeepPartialWritesWhatHasConverged) {
     EXPECT_THAT(m_folder.files(), ElementsAre("x.exr"));
     EXPECT_EQ(runPatina({"info", m_folder / "x.exr"}).status, 0);
 }
+
+TEST_F(Commands, RadiosityIsSolvedAndWrittenWhereverItIsAskedFor) {
+    const auto bake = [&](const std::string& output, std::vector<std::string> more,
+                          const char* area = "0.005") {
+        std::vector<std::string> arguments{
+            "bake", "radiosity", "builtin:cornell-reference", "-o",
+            output, "--set",     "environment.enabled=false", "--subdivide",
+            area,   "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runPatina(arguments);
+    };
+    const Outcome outcome = bake(m_folder / "a.glb", {"--threads", "2"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const nlohmann::json json = outcome.json();
+    EXPECT_EQ(json["command"], "bake radiosity");
+    EXPECT_EQ(json["converged"], true);
+    EXPECT_LE(json["residual"].get<double>(), 1e-3);
+    EXPECT_GT(json["counts"]["elements"].get<int>(), 400);
+    EXPECT_LT(json["formFactors"]["closure"].get<double>(), 1e-6);
+    EXPECT_GT(json["exposure"].get<double>(), 0.0);
+    ASSERT_EQ(bake(m_folder / "b.glb", {"--threads", "1"}).status, 0);
+    EXPECT_EQ(readBytes(m_folder / "a.glb"), readBytes(m_folder / "b.glb"));
+    // Any program's file is a model here, too.
+    EXPECT_GT(runPatina({"info", m_folder / "a.glb", "--json"}).json()["counts"]["triangles"], 800);
+
+    // Every solver and method; partly solved.
+    for (const char* solver : {"progressive", "southwell", "overshooting", "jacobi", "direct"}) {
+        const Outcome solved = bake(m_folder / "s.ply", {"--solver", solver, "--resolution", "64"});
+        ASSERT_EQ(solved.status, 0) << solved.err;
+        EXPECT_EQ(solved.json()["converged"], true) << solver;
+    }
+    for (const char* method : {"hemicube", "analytic"})
+        EXPECT_EQ(bake(m_folder / "m.ply",
+                       {"--form-factors", method, "--resolution", "8", "--exposure", "none"},
+                       "0.02")
+                      .status,
+                  0);
+    const Outcome ten =
+        bake(m_folder / "ten.ply", {"--solver", "progressive", "--classic", "--iterations", "10"});
+    EXPECT_EQ(ten.json()["iterations"], 10);
+    EXPECT_EQ(ten.json()["converged"], false);
+    EXPECT_THAT(readBytes(m_folder / "ten.ply"), HasSubstr("property float radiance_r"));
+
+    EXPECT_EQ(bake(m_folder / "x.obj", {}).status, 2);
+    EXPECT_EQ(bake(m_folder / "x.ply", {"--exposure", "-1"}).status, 2);
+    EXPECT_EQ(bake(m_folder / "x.ply", {"--form-factors", "hemicube", "--resolution", "7"}).status,
+              2);
+    const Outcome fine = bake(m_folder / "x.ply", {}, "1e-9");
+    EXPECT_NE(fine.status, 0);
+    EXPECT_THAT(fine.err + fine.out, HasSubstr("divide it less finely"));
+    const Outcome dark = runPatina({"bake", "radiosity", "builtin:sphere", "-o", m_folder / "x.ply",
+                                    "--set", "environment.enabled=false"});
+    EXPECT_EQ(dark.status, 65);
+    EXPECT_THAT(dark.err, HasSubstr("Nothing in the scene gives light"));
+    EXPECT_THAT(m_folder.files(), Not(testing::Contains("x.ply")));
+}

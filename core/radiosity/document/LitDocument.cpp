@@ -68,6 +68,7 @@ glm::vec3 exposed(const glm::vec3& radiance, double k) {
 double automaticExposure(const Document& document, const std::vector<LitPart>& parts) {
     struct Piece {
         double area, irradiance, radiance;
+        bool glows; // sends more than it receives
     };
     std::vector<Piece> pieces; // triangles
     double area = 0.0, arriving = 0.0;
@@ -81,7 +82,8 @@ double automaticExposure(const Document& document, const std::vector<LitPart>& p
                 return double{shading::luminance((light[v[0]] + light[v[1]] + light[v[2]]) / 3.0f)};
             };
             const Piece piece{glm::length(glm::cross(glm::dvec3(b - a), glm::dvec3(c - a))),
-                              mean(part.irradiance), mean(shown) / std::numbers::pi};
+                              mean(part.irradiance), mean(shown) / std::numbers::pi,
+                              mean(part.radiosity) > 1.001 * mean(part.irradiance)};
             pieces.push_back(piece);
             area += piece.area;
             arriving += piece.area * piece.irradiance;
@@ -90,7 +92,7 @@ double automaticExposure(const Document& document, const std::vector<LitPart>& p
     // The inside of things, where next to no light comes, is not what is looked at.
     const double dark = area > 0.0 ? 0.02 * arriving / area : 0.0;
     std::erase_if(pieces, [dark](const Piece& piece) {
-        return piece.irradiance <= dark || !(piece.radiance > 0.0);
+        return piece.glows || piece.irradiance <= dark || !(piece.radiance > 0.0);
     });
     std::ranges::sort(pieces, {}, &Piece::radiance);
     double lit = 0.0, below = 0.0;

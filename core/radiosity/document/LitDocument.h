@@ -22,7 +22,7 @@ struct RadiositySettings {
     std::size_t maxElements = 1'000'000;
     radiosity::FactorSettings factors;
     radiosity::SolveSettings solve;
-    int lightSamples = 64;
+    int lightSamples = 128;
     // Elements that glow shoot like all others, as in the textbooks, instead of being sent rays to.
     bool classic = false;
     static constexpr double kUsualElements = 4000.0;

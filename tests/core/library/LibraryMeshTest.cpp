@@ -90,7 +90,8 @@ class EveryModel : public testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(Library, EveryModel,
                          testing::Values("sphere", "rounded-cube", "torus-knot", "shader-ball",
-                                         "cornell-box", "plane", "sphere-grid", "glass-spheres"));
+                                         "cornell-box", "cornell-reference", "wall", "chess",
+                                         "plane", "sphere-grid", "glass-spheres"));
 
 TEST_P(EveryModel, NeedsNoRepair) {
     for (const library::ModelPart& p : partsOf(GetParam())) {
