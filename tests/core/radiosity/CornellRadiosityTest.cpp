@@ -1,15 +1,18 @@
 // Radiosity of whole scenes against exact values: the Cornell box by every method and solver, and
 // the cube whose continuous solution a division must converge to.
-#include "core/radiosity/Reconstruction.h"
+#include "core/radiosity/RadiosityPicture.h"
 #include "core/radiosity/Solve.h"
 #include "tests/core/radiosity/RadiosityScenes.h"
 #include "tests/core/trace/CornellScene.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 namespace patina::test {
 
@@ -33,49 +36,19 @@ class SmoothLight {
   public:
     SmoothLight(const DividedScene& scene, const Solution& solution)
         : m_scene(scene)
-        , m_mesh(litMesh(scene.elements, *scene.scene.geometry())) {
-        std::vector<glm::dvec3> irradiance;
-        for (std::uint32_t e = 0; e < scene.elements.size(); ++e)
-            irradiance.push_back(scene.lit.irradiance(solution, e));
-        m_values = vertexLight(m_mesh, scene.elements, irradiance);
-    }
+        , m_seen(scene.scene, scene.elements, scene.lit, solution) {}
 
     [[nodiscard]] glm::dvec3 at(const glm::dvec3& point, const glm::dvec3& normal) const {
-        ClosestRay ray;
-        ray.ray.origin = m_scene.scene.toScene(point + 1e-3 * normal);
-        ray.ray.direction = glm::vec3(-normal);
-        m_scene.scene.rays()->intersect({&ray, 1});
+        const ClosestRay ray =
+            m_scene.scene.closest(m_scene.scene.toScene(point + 1e-3 * normal), glm::vec3(-normal));
         const std::uint32_t element = m_scene.elements.met(ray);
-        double best = -1e300;
-        glm::dvec3 result(-1.0);
-        for (const LitMesh::Triangle& triangle : m_mesh.triangles) {
-            if (triangle.element != element)
-                continue;
-            const auto corner = [&](std::size_t k) {
-                return glm::dvec3(m_mesh.vertices[triangle.vertices[k]].position);
-            };
-            const glm::dvec3 x = corner(1) - corner(0), y = corner(2) - corner(0),
-                             n = glm::cross(x, y), p = point - corner(0);
-            const double b = glm::dot(glm::cross(p, y), n) / glm::dot(n, n),
-                         c = glm::dot(glm::cross(x, p), n) / glm::dot(n, n);
-            const double inside = std::min({1.0 - b - c, b, c});
-            if (inside > best) {
-                best = inside;
-                const auto light = [&](std::size_t k) {
-                    return m_values[m_mesh.vertices[triangle.vertices[k]].light];
-                };
-                result = (1.0 - b - c) * light(0) + b * light(1) + c * light(2);
-            }
-        }
-        EXPECT_GT(best, -1e-3);
-        return result;
+        EXPECT_NE(element, kNone);
+        return glm::dvec3(m_seen.irradiance(element, m_scene.scene.toScene(point)));
     }
-    [[nodiscard]] const LitMesh& mesh() const { return m_mesh; }
 
   private:
     const DividedScene& m_scene;
-    LitMesh m_mesh;
-    std::vector<glm::dvec3> m_values;
+    SeenSolution m_seen;
 };
 
 class CornellBox : public ::testing::TestWithParam<std::tuple<FactorMethod, Solver, bool>> {};
@@ -110,6 +83,83 @@ TEST_P(CornellBox, IsLitAsRandomWalksSay) {
         }
     }
     EXPECT_EQ(points, blocks ? 14 : 8);
+}
+
+// Relative differences of two pictures of the box, lamp and its edges left out: of each pixel, of
+// blocks of 4 × 4, whose noise is a quarter, and of the whole.
+struct Apart {
+    double pixels, blocks, whole;
+};
+
+Apart apart(const Image& picture, const Film& film) {
+    const int size = film.width(), blocks = size / 4;
+    const auto truthAt = [&](int x, int y) {
+        return film.at(x, y).sum / static_cast<double>(film.at(x, y).samples);
+    };
+    const auto seesLamp = [&](int x, int y) {
+        for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx)
+                if (truthAt(std::clamp(x + dx, 0, size - 1), std::clamp(y + dy, 0, size - 1)).y >
+                    0.1)
+                    return true;
+        return false;
+    };
+    double square = 0.0, sum = 0.0, difference = 0.0, count = 0.0;
+    std::vector<double> blockSums(static_cast<std::size_t>(blocks * blocks), 0.0);
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            if (seesLamp(x, y))
+                continue;
+            const glm::dvec3 truth = truthAt(x, y);
+            const float* drawn = picture.f32().data() + 4 * (y * size + x);
+            for (int c = 0; c < 3; ++c) {
+                const double d = drawn[c] - truth[c];
+                square += d * d;
+                difference += d;
+                sum += truth[c];
+                count += 1.0;
+                blockSums[static_cast<std::size_t>(y / 4 * blocks + x / 4)] += d / 48.0;
+            }
+        }
+    const double mean = sum / count;
+    double blockSquare = 0.0;
+    for (const double block : blockSums)
+        blockSquare += block * block;
+    return {std::sqrt(square / count) / mean,
+            std::sqrt(blockSquare / static_cast<double>(blockSums.size())) / mean,
+            std::abs(difference) / sum};
+}
+
+// Pictures of the box with its blocks against that of paths: the same light, seen the same way.
+TEST(CornellBoxPicture, IsThatOfPaths) {
+    const auto scene = divided(cornellBox(kCornellWalls[0], true), {0.02}, {64, 1, false});
+    const auto factors = scene->factors({FactorMethod::Rays, 1024, 1});
+    const auto solved = solve(scene->problem(), *factors, {}, {});
+    ASSERT_TRUE(solved);
+    const SeenSolution seen(scene->scene, scene->elements, scene->lit, solved->solution);
+    TraceView view;
+    view.width = view.height = 48;
+    view.camera.target = {0.278f, 0.2744f, 0.2796f};
+    view.camera.yawDeg = 180.0f;
+    view.camera.pitchDeg = 0.0f;
+    view.camera.distance = 1.08f;
+    view.camera.fovDeg = 39.3077f;
+    Film film(view.width, view.height);
+    ASSERT_TRUE(tracePaths(scene->scene, view, {}, film, 0, 1024, {}));
+    const auto look = [&](const PictureSettings& settings) {
+        const auto picture = seen.picture(view, settings, {});
+        EXPECT_TRUE(picture);
+        return apart(*picture, film);
+    };
+    const Apart gathered = look({Look::Gathered, 16, 64, 3}),
+                smooth = look({Look::Smooth, 64, 1, 3}), flat = look({Look::Elements, 64, 1, 3});
+    EXPECT_LT(gathered.blocks, 0.01);
+    EXPECT_LT(gathered.whole, 0.002);
+    EXPECT_LT(smooth.pixels, 0.04) << "paths of 1024 samples have noise, too";
+    EXPECT_LT(smooth.blocks, 0.02);
+    EXPECT_LT(smooth.whole, 0.002);
+    EXPECT_LT(smooth.pixels, flat.pixels);
+    EXPECT_LT(flat.whole, 0.003);
 }
 
 // The irradiance of points and the mean over a wall, as the division gets finer.
