@@ -212,7 +212,7 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
                              "Light that surfaces send to one another, at the vertices of the "
                              "scene divided for it",
                              o);
-    addSceneAndOutput(c, o, ".glb, .gltf (COLOR_0, _RADIANCE) or .ply");
+    addSceneAndOutput(c, o, ".glb, .gltf (COLOR_0, _RADIANCE), .ply, or a picture: .png, .exr");
     c->add_option("--environment", o.environment, "Environment that lights the scene")
         ->type_name("HDR");
     addLayout(c, o.environmentLayout);
@@ -260,6 +260,19 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
                   "k of the colours 1 - e^(-k radiance); none: cut off at 1 (default: the "
                   "median becomes middle grey)")
         ->type_name("K|none");
+    c->add_option("--look", o.look,
+                  "Of a picture: light interpolated over the surfaces, each element in its colour, "
+                  "or light gathered at every point from the solution (slow)")
+        ->transform(plain(CLI::CheckedTransformer(
+            std::map<std::string, radiosity::Look>{{"smooth", radiosity::Look::Smooth},
+                                                   {"elements", radiosity::Look::Elements},
+                                                   {"gathered", radiosity::Look::Gathered}})))
+        ->default_str("smooth")
+        ->type_name("smooth|elements|gathered");
+    c->add_option("--size", o.size, "Of a picture: pixels (default: 1280x720)")->type_name("WxH");
+    c->add_option("--camera", o.camera,
+                  "Of a picture: yaw and pitch in degrees about the scene, and the distance")
+        ->type_name("YAW,PITCH[,DISTANCE]");
     c->add_flag("--classic", settings.classic,
                 "Glowing elements shoot like all others, and a hemicube stands at the centre only, "
                 "as in the textbooks");

@@ -1,11 +1,15 @@
 // `patina bake radiosity`: the light that surfaces send to one another, at their vertices.
 #include "app/cli/Commands.h"
 #include "app/cli/Numbers.h"
+#include "app/cli/PictureSetup.h"
 #include "app/cli/Report.h"
 #include "app/cli/SceneSetup.h"
 #include "core/base/AtomicFile.h"
 #include "core/base/LowerCase.h"
 #include "core/export/Export.h"
+#include "core/io/ImageIO.h"
+#include "core/math/Shading.h"
+#include "core/radiosity/RadiosityPicture.h"
 #include "core/radiosity/document/LitDocument.h"
 #include "core/radiosity/document/PlyFile.h"
 
@@ -19,8 +23,85 @@ namespace {
 
 using namespace radiosity;
 
+std::string extensionOf(const std::filesystem::path& output) {
+    return lowerCase(output.extension().string());
+}
 bool isPly(const std::filesystem::path& output) {
-    return lowerCase(output.extension().string()) == ".ply";
+    return extensionOf(output) == ".ply";
+}
+bool isPicture(const std::filesystem::path& output) {
+    return extensionOf(output) == ".png" || extensionOf(output) == ".exr";
+}
+
+// Usage error for options that have no effect, and for files that radiosity is not written to.
+Result<void> checkFile(const BakeRadiosityOptions& options) {
+    const std::filesystem::path output = options.output;
+    if (!isPly(output) && !isPicture(output) && !exportFormatOf(output))
+        return usageError(fmt::format(
+            "{}: radiosity is written to .glb, .gltf, .ply, or as a picture to .png or .exr",
+            output.filename().string()));
+    if (!isPicture(output) && (options.size || options.camera || options.look))
+        return usageError("--size, --camera and --look are for pictures: -o OUT.png or OUT.exr");
+    return checkOutput(output);
+}
+
+// As displayed into a .png, radiance into an .exr.
+Result<void> writePicture(Session& session, const BakeRadiosityOptions& options,
+                          const SceneRequest& request, const Document& document,
+                          const RadiosityScene& scene, const Solution& solution,
+                          std::optional<double> exposure) {
+    PictureOptions picture;
+    picture.size = options.size.value_or(picture.size);
+    picture.camera = options.camera.value_or("");
+    const Result<render::FrameSettings> frame = frameSettings(picture);
+    if (!frame)
+        return frame.error();
+    TraceView view;
+    view.width = frame->width;
+    view.height = frame->height;
+    const Result<Camera> camera =
+        chooseCamera(picture, document, request.isProject,
+                     static_cast<float>(view.width) / static_cast<float>(view.height));
+    if (!camera)
+        return camera.error();
+    view.camera = *camera;
+    view.transparent = true;
+    PictureSettings settings;
+    settings.look = options.look.value_or(Look::Smooth);
+    settings.seed = options.settings.factors.seed;
+    session.beginPhase();
+    session.job().setActivity("drawing");
+    const SeenSolution seen(scene.scene(), scene.elements(), scene.lit(), solution);
+    const Result<Image> drawn = seen.picture(view, settings, session.job());
+    if (!drawn)
+        return drawn.error();
+    const std::filesystem::path output = options.output;
+    if (extensionOf(output) == ".exr") {
+        if (Result<void> saved = saveImage(session.worker(), *drawn, output); !saved)
+            return saved;
+    } else {
+        Image shown(view.width, view.height, 4, PixelType::U8, ColorEncoding::Srgb);
+        const std::span<const float> light = drawn->f32();
+        for (std::size_t i = 0; i < light.size(); i += 4) {
+            const glm::vec3 radiance(light[i], light[i + 1], light[i + 2]);
+            const glm::vec3 color =
+                exposure ? exposed(radiance, *exposure) : glm::clamp(radiance, 0.0f, 1.0f);
+            // Files have colours without their coverage.
+            const float alpha = light[i + 3];
+            for (int c = 0; c < 4; ++c) {
+                const float value =
+                    c == 3 ? alpha
+                           : shading::srgbEncode(alpha > 0.0f ? std::min(color[c] / alpha, 1.0f)
+                                                              : 0.0f);
+                shown.u8()[i + static_cast<std::size_t>(c)] =
+                    static_cast<std::uint8_t>(std::lround(255.0f * value));
+            }
+        }
+        if (Result<void> saved = saveImage(session.worker(), shown, output); !saved)
+            return saved;
+    }
+    session.report().output(output, fmt::format("{} x {}", view.width, view.height));
+    return {};
 }
 
 Result<RadiositySettings> settingsOf(const BakeRadiosityOptions& options) {
@@ -94,12 +175,8 @@ void report(Report& report, const RadiosityScene& scene, const SolveReport& solv
 
 Result<void> run(Session& session, const BakeRadiosityOptions& options) {
     const std::filesystem::path output = options.output;
-    if (!isPly(output))
-        if (const Result<ExportFormat> format = exportFormatOf(output); !format)
-            return usageError(fmt::format("{}: radiosity is written to .glb, .gltf or .ply",
-                                          output.filename().string()));
-    if (Result<void> writable = checkOutput(output); !writable)
-        return writable;
+    if (Result<void> file = checkFile(options); !file)
+        return file;
     const Result<RadiositySettings> settings = settingsOf(options);
     if (!settings)
         return settings.error();
@@ -141,6 +218,9 @@ Result<void> run(Session& session, const BakeRadiosityOptions& options) {
         return exposure.error();
     if (*exposure)
         session.report().json()["exposure"] = **exposure;
+    if (isPicture(output))
+        return writePicture(session, options, request, *document, **scene, solved->solution,
+                            *exposure);
     const LitDocument lit = litDocument(*document, parts, *exposure);
     if (isPly(output)) {
         const Bytes file = litPly(lit);

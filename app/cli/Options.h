@@ -5,6 +5,7 @@
 #include "core/bake/domain/BakeStorage.h"
 #include "core/export/IblPackage.h"
 #include "core/light/EnvironmentProjection.h"
+#include "core/radiosity/RadiosityPicture.h"
 #include "core/radiosity/document/LitDocument.h"
 
 #include <optional>
@@ -147,6 +148,9 @@ struct BakeLightOptions {
 struct BakeRadiosityOptions {
     std::string scene, output;
     std::string environment, environmentLayout; // empty: the scene's own; guessed
+    // Of a picture.
+    std::optional<std::string> size, camera;
+    std::optional<radiosity::Look> look;
     RadiositySettings settings;
     std::optional<int> resolution; // not given: as the method has it
     std::string exposure;          // a number or "none"; empty: found

@@ -272,6 +272,18 @@ TEST_F(Commands, RadiosityIsSolvedAndWrittenWhereverItIsAskedFor) {
     EXPECT_EQ(ten.json()["converged"], false);
     EXPECT_THAT(readBytes(m_folder / "ten.ply"), HasSubstr("property float radiance_r"));
 
+    // Pictures of it: as displayed, and the light itself.
+    for (const char* look : {"smooth", "elements", "gathered"})
+        ASSERT_EQ(bake(m_folder / (std::string(look) + ".png"),
+                       {"--look", look, "--size", "24x16", "--camera", "0,0"})
+                      .status,
+                  0);
+    EXPECT_NE(readBytes(m_folder / "smooth.png"), readBytes(m_folder / "elements.png"));
+    EXPECT_EQ(load(m_folder / "smooth.png").width(), 24);
+    ASSERT_EQ(bake(m_folder / "p.exr", {"--size", "24x16"}).status, 0);
+    EXPECT_EQ(load(m_folder / "p.exr").type(), PixelType::F32);
+    EXPECT_EQ(bake(m_folder / "x.ply", {"--look", "smooth"}).status, 2);
+
     EXPECT_EQ(bake(m_folder / "x.obj", {}).status, 2);
     EXPECT_EQ(bake(m_folder / "x.ply", {"--exposure", "-1"}).status, 2);
     EXPECT_EQ(bake(m_folder / "x.ply", {"--form-factors", "hemicube", "--resolution", "7"}).status,
