@@ -248,10 +248,10 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
         ->check(plain(CLI::Range(1e-12, 1.0)))
         ->capture_default_str()
         ->type_name("X");
-    c->add_option("--subdivide", settings.maxArea,
-                  "Largest element in square metres (default: about 4000 elements)")
-        ->check(plain(CLI::PositiveNumber))
-        ->type_name("AREA");
+    c->add_option("--subdivide", o.subdivide,
+                  "Largest element in square metres (default: about 4000 elements); adaptive:X "
+                  "divides elements on which the light differs by more than a share X, as .1")
+        ->type_name("AREA|adaptive:X");
     c->add_option("--max-elements", settings.maxElements, "Refuse to divide into more than these")
         ->check(plain(CLI::Range(std::size_t{1}, std::size_t{50'000'000})))
         ->capture_default_str()

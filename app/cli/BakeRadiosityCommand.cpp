@@ -116,6 +116,18 @@ Result<RadiositySettings> settingsOf(const BakeRadiosityOptions& options) {
                                       name(settings.factors.method), odd ? "even, " : "",
                                       range.lowest, range.highest, settings.factors.resolution));
     settings.factors.classicalHemicube = settings.classic;
+    constexpr std::string_view kAdaptive = "adaptive:";
+    std::string_view division = options.subdivide;
+    const bool adaptive = division.starts_with(kAdaptive);
+    if (adaptive)
+        division.remove_prefix(kAdaptive.size());
+    std::vector<double> number;
+    if (!options.subdivide.empty() && (!parseNumbers(division, ',', number) || number.size() != 1 ||
+                                       !(number[0] > 0.0) || !std::isfinite(number[0])))
+        return usageError("--subdivide is an area in square metres, or adaptive:X with a share X "
+                          "of the light, as adaptive:0.1");
+    if (!number.empty())
+        (adaptive ? settings.adaptive : settings.maxArea) = number[0];
     return settings;
 }
 
@@ -189,6 +201,7 @@ Result<void> run(Session& session, const BakeRadiosityOptions& options) {
                                            {"iterations", settings->solve.maxIterations},
                                            {"residual", settings->solve.residual},
                                            {"subdivide", settings->maxArea},
+                                           {"adaptive", settings->adaptive},
                                            {"classic", settings->classic},
                                            {"samples", settings->lightSamples},
                                            {"seed", settings->factors.seed}};

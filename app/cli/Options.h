@@ -153,6 +153,7 @@ struct BakeRadiosityOptions {
     std::optional<radiosity::Look> look;
     RadiositySettings settings;
     std::optional<int> resolution; // not given: as the method has it
+    std::string subdivide;         // an area or "adaptive:X"; empty: as the settings have it
     std::string exposure;          // a number or "none"; empty: found
 };
 

@@ -272,6 +272,12 @@ TEST_F(Commands, RadiosityIsSolvedAndWrittenWhereverItIsAskedFor) {
     EXPECT_EQ(ten.json()["converged"], false);
     EXPECT_THAT(readBytes(m_folder / "ten.ply"), HasSubstr("property float radiance_r"));
 
+    const Outcome adaptive = bake(m_folder / "d.ply", {}, "adaptive:0.3");
+    ASSERT_EQ(adaptive.status, 0) << adaptive.err;
+    EXPECT_GT(adaptive.json()["counts"]["elements"].get<int>(), 1100) << "more than the first ones";
+    EXPECT_EQ(bake(m_folder / "x.ply", {}, "adaptive:").status, 2);
+    EXPECT_EQ(bake(m_folder / "x.ply", {}, "-1").status, 2);
+
     // Pictures of it: as displayed, and the light itself.
     for (const char* look : {"smooth", "elements", "gathered"})
         ASSERT_EQ(bake(m_folder / (std::string(look) + ".png"),

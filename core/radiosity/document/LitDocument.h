@@ -19,19 +19,25 @@ namespace patina {
 
 struct RadiositySettings {
     double maxArea = 0.0; // m² of an element; 0: about kUsualElements of them, whatever the scene
+    // Above 0: elements are divided in four, again and again, as long as the light on one differs
+    // by more than this share of what it has or of what the scene has in the mean; maxArea is then
+    // that of the first ones (0: about kFirstElements), and none becomes smaller than 1 / 256 of
+    // it.
+    double adaptive = 0.0;
     std::size_t maxElements = 1'000'000;
     radiosity::FactorSettings factors;
     radiosity::SolveSettings solve;
     int lightSamples = 128;
     // Elements that glow shoot like all others, as in the textbooks, instead of being sent rays to.
     bool classic = false;
-    static constexpr double kUsualElements = 4000.0;
+    static constexpr double kUsualElements = 4000.0, kFirstElements = 1000.0;
 };
 
 // A scene and its elements. Stays where it is: its parts refer to one another.
 class RadiosityScene {
   public:
-    // Errors: those of TraceScene::build(), ElementMesh::make() and SceneProblem::make().
+    // Errors: those of TraceScene::build(), ElementMesh::make() and SceneProblem::make(); with
+    // settings.adaptive, which solves as it divides, those of solve(), too.
     static Result<std::unique_ptr<RadiosityScene>>
     make(const Document& document, const RadiositySettings& settings, const JobContext& job);
 
@@ -46,6 +52,8 @@ class RadiosityScene {
 
   private:
     RadiosityScene(TraceScene scene, radiosity::ElementMesh elements);
+    Result<void> light(const RadiositySettings& settings, const JobContext& job);
+    Result<void> divideWhereLightChanges(const RadiositySettings& settings, const JobContext& job);
 
     TraceScene m_scene;
     radiosity::ElementMesh m_elements;

@@ -1,8 +1,9 @@
 #include "core/radiosity/document/LitDocument.h"
 #include "core/trace/document/DocumentTraceInputs.h"
 
-#include <cmath>
-#include <numbers>
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
 #include <utility>
 
 namespace patina {
@@ -41,24 +42,86 @@ Result<std::unique_ptr<RadiosityScene>> RadiosityScene::make(const Document& doc
         const auto whole = ElementMesh::make(*scene->geometry(), limits);
         if (!whole)
             return whole.error();
-        limits.maxArea = surfaceArea(*whole) / RadiositySettings::kUsualElements;
+        limits.maxArea =
+            surfaceArea(*whole) / (settings.adaptive > 0.0 ? RadiositySettings::kFirstElements
+                                                           : RadiositySettings::kUsualElements);
     }
     auto elements = ElementMesh::make(*scene->geometry(), limits);
     if (!elements)
         return elements.error();
     std::unique_ptr<RadiosityScene> result(
         new RadiosityScene(std::move(*scene), std::move(*elements)));
+    if (Result<void> lit = result->light(settings, job.part(0.4, 1.0)); !lit)
+        return lit.error();
+    if (settings.adaptive > 0.0)
+        if (Result<void> divided = result->divideWhereLightChanges(settings, job); !divided)
+            return divided.error();
+    return result;
+}
+
+Result<void> RadiosityScene::light(const RadiositySettings& settings, const JobContext& job) {
     job.setActivity("collecting light");
-    result->m_elements.findBuried(*result->m_scene.rays(), job.part(0.4, 0.5));
+    m_elements.findBuried(*m_scene.rays(), job.part(0.0, 0.2));
     SceneProblemSettings light;
     light.lightSamples = settings.lightSamples;
     light.seed = settings.factors.seed;
     light.glowByFactors = settings.classic;
-    auto lit = SceneProblem::make(result->m_scene, result->m_elements, light, job.part(0.5, 1.0));
+    auto lit = SceneProblem::make(m_scene, m_elements, light, job.part(0.2, 1.0));
     if (!lit)
         return lit.error();
-    result->m_lit = std::move(*lit);
-    return result;
+    m_lit = std::move(*lit);
+    return {};
+}
+
+Result<void> RadiosityScene::divideWhereLightChanges(const RadiositySettings& settings,
+                                                     const JobContext& job) {
+    constexpr int kRounds = 4; // each halves an edge
+    for (int round = 0; round < kRounds && !job.stopping(); ++round) {
+        const Result<Solved> solved = solve(settings, job.part(0.0, 0.5));
+        if (!solved)
+            return solved.error();
+        job.setActivity("dividing");
+        const LitMesh mesh = litMesh(m_elements, *m_scene.geometry());
+        std::vector<glm::dvec3> irradiance;
+        double mean = 0.0, area = 0.0;
+        for (std::uint32_t e = 0; e < m_elements.size(); ++e) {
+            irradiance.push_back(m_lit.irradiance(solved->solution, e));
+            mean += m_lit.problem.areas[e] * magnitude(irradiance.back());
+            area += m_lit.problem.areas[e];
+        }
+        mean /= area > 0.0 ? area : 1.0;
+        const std::vector<glm::dvec3> light = vertexLight(mesh, m_elements, irradiance);
+        struct Range {
+            double least = std::numeric_limits<double>::infinity(), most = 0.0;
+        };
+        std::vector<Range> ranges(m_elements.size());
+        for (const LitMesh::Triangle& triangle : mesh.triangles)
+            for (const std::uint32_t v : triangle.vertices) {
+                const double value = magnitude(light[mesh.vertices[v].light]);
+                Range& range = ranges[triangle.element];
+                range.least = std::min(range.least, value);
+                range.most = std::max(range.most, value);
+            }
+        std::vector<std::uint32_t> tooCoarse;
+        for (std::uint32_t e = 0; e < m_elements.size(); ++e) {
+            const double allowed = settings.adaptive * std::max(magnitude(irradiance[e]), mean);
+            if (m_elements.exposed(e) > 0.0f && ranges[e].most - ranges[e].least > allowed)
+                tooCoarse.push_back(e);
+        }
+        if (tooCoarse.empty())
+            break;
+        if (m_elements.size() + 3 * tooCoarse.size() > settings.maxElements)
+            return Error{ErrorKind::Usage,
+                         fmt::format("Dividing where light changes would make more than the {} "
+                                     "elements that are allowed; let it differ by more than {:g}.",
+                                     settings.maxElements, settings.adaptive),
+                         {},
+                         {}};
+        m_elements.divide(tooCoarse);
+        if (Result<void> lit = this->light(settings, job.part(0.5, 1.0)); !lit)
+            return lit.error();
+    }
+    return {};
 }
 
 Result<Solved> RadiosityScene::solve(const RadiositySettings& settings, const JobContext& job,

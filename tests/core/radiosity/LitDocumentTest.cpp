@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <string>
@@ -144,6 +145,34 @@ TEST(LitDocument, AsAPlyHasEveryVertexOnce) {
     }
     EXPECT_EQ(file.size() - end, vertices * (11 * 4 + 3) + triangles * 13);
     EXPECT_EQ(litPly(bake(twoSquares(false, false), 1.0).lit), file) << "the same bytes";
+}
+
+TEST(RadiosityScene, DividesWhereTheLightChanges) {
+    // A lamp just above a corner of a large floor.
+    Document document = twoSquares(false, false);
+    document.meshes[1].transform = glm::scale(glm::mat4(1.0f), glm::vec3(4.0f, 0.5f, 4.0f));
+    RadiositySettings settings;
+    settings.maxArea = 1.0;
+    settings.adaptive = 0.3;
+    const auto scene = RadiosityScene::make(document, settings, {});
+    ASSERT_TRUE(scene);
+    double near = 1.0, far = 0.0; // smallest edge near the lamp's centre, largest at the other end
+    const ElementMesh& elements = (*scene)->elements();
+    for (std::uint32_t e = 0; e < elements.size(); ++e) {
+        const glm::vec3 centre = (*scene)->scene().toWorld(glm::vec3(elements.centre(e)));
+        if (elements.face(e).mesh != 1)
+            continue;
+        if (centre.x < 1.2f && centre.z < 1.2f)
+            near = std::min(near, elements.area(e));
+        if (centre.x > 3.0f && centre.z > 3.0f)
+            far = std::max(far, elements.area(e));
+    }
+    EXPECT_LE(near, 1.0 / 16.0);
+    EXPECT_NEAR(far, 1.0, 1e-6);
+    settings.maxElements = 20;
+    const auto limited = RadiosityScene::make(document, settings, {});
+    ASSERT_FALSE(limited);
+    EXPECT_EQ(limited.error().kind, ErrorKind::Usage);
 }
 
 TEST(RadiosityScene, SaysWhatIsMissing) {
