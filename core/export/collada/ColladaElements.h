@@ -1,0 +1,62 @@
+// New elements of a COLLADA tree, as both a lit document and a new one have them.
+#pragma once
+
+#include "core/export/collada/ColladaTree.h"
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace patina::collada {
+
+xml_node append(xml_node parent, const char* name);
+xml_node append(xml_node parent, const char* name, const std::string& text);
+void setAttribute(xml_node element, const char* name, const std::string& value);
+
+// Puts each element within `element` that has no text onto a line of its own.
+void indent(xml_node element);
+// A new element, on a line of its own, after `sibling`; the first one of `parent` where that is
+// empty.
+xml_node insertAfter(xml_node parent, xml_node sibling, const char* name);
+// The same for a copy of `element`.
+xml_node insertCopyAfter(xml_node parent, xml_node sibling, xml_node element);
+// The last child element with one of these names; empty: none.
+[[nodiscard]] xml_node lastOf(xml_node parent, std::initializer_list<std::string_view> names);
+
+[[nodiscard]] std::string numberText(double value);             // as short as reads back the same
+[[nodiscard]] std::string matrixText(const glm::dmat4& matrix); // row after row
+[[nodiscard]] std::string dateText(std::chrono::sys_seconds time); // ISO 8601, UTC
+
+// What is new in a geometry, in its own space and units, v upwards.
+struct LitVertices {
+    std::vector<glm::vec3> positions, normals;
+    std::vector<glm::vec2> uvs; // empty: none
+    std::vector<glm::vec4> colors;
+    std::vector<glm::vec3> radiosity; // W/m², linear sRGB
+};
+struct LitTriangles {
+    std::string material; // its symbol; empty: none
+    int textureSet = -1;  // none
+    std::vector<std::uint32_t> indices;
+};
+
+// The <mesh> of a lit geometry. `newId` makes ids that nothing else has.
+void appendLitMesh(xml_node geometry, const LitVertices& vertices,
+                   std::span<const LitTriangles> triangles,
+                   const std::function<std::string(xml_node, std::string_view)>& newId);
+// The <extra> with the radiosity of its vertices.
+void appendRadiosity(xml_node geometry, const LitVertices& vertices);
+[[nodiscard]] bool isRadiosity(xml_node extra);
+
+// Patina among the contributors, and the date.
+void stampAsset(xml_node root, std::chrono::sys_seconds modified);
+
+} // namespace patina::collada
