@@ -16,8 +16,6 @@ class DocumentController;
 class NumberField;
 class ViewState;
 
-enum class ViewSide { Shown, Other }; // of the split
-
 class ViewLegend : public QFrame {
     Q_OBJECT
   public:
