@@ -15,6 +15,7 @@ class ColorScale;
 class DocumentController;
 class NumberField;
 class ViewState;
+enum class ViewSide;
 
 class ViewLegend : public QFrame {
     Q_OBJECT
