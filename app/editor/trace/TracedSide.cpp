@@ -5,7 +5,8 @@
 #include "app/editor/viewport/SplitHandle.h"
 #include "app/editor/viewport/ViewState.h"
 
-#include <QMouseEvent>
+#include <QCursor>
+#include <QWidget>
 #include <utility>
 
 namespace patina::editor {
@@ -28,17 +29,8 @@ TracedSide::TracedSide(ViewState& views, PathView& paths, PathError& error, Whit
     connect(&paths, &PathView::changed, this, &TracedSide::follow);
 }
 
-void TracedSide::watch(QWidget& viewport) {
+void TracedSide::setViewport(QWidget& viewport) {
     m_viewport = &viewport;
-    viewport.installEventFilter(this);
-}
-
-bool TracedSide::eventFilter(QObject*, QEvent* event) {
-    if (event->type() == QEvent::MouseMove)
-        m_pointer = static_cast<const QMouseEvent*>(event)->position();
-    else if (event->type() == QEvent::Leave)
-        m_pointer.reset();
-    return false;
 }
 
 const render::ViewChoice& TracedSide::choiceOf(ViewSide side) const {
@@ -78,9 +70,12 @@ ViewSide TracedSide::meant() const {
     const auto& split = m_views.settings().split;
     if (!split)
         return ViewSide::Shown;
-    if (m_viewport != nullptr && m_pointer)
-        return SplitLine(*split, m_viewport->size()).distance(*m_pointer) > 0.0 ? ViewSide::Other
-                                                                                : ViewSide::Shown;
+    // Legends lie over it, so that its own mouse events do not tell.
+    if (m_viewport != nullptr)
+        if (const QPoint pointer = m_viewport->mapFromGlobal(QCursor::pos());
+            m_viewport->rect().contains(pointer))
+            return SplitLine(*split, m_viewport->size()).distance(pointer) > 0.0 ? ViewSide::Other
+                                                                                 : ViewSide::Shown;
     return m_paths.isOn() ? m_side : ViewSide::Other;
 }
 

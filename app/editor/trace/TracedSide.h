@@ -7,7 +7,6 @@
 #include "render/view/ViewSettings.h"
 
 #include <QObject>
-#include <QPointF>
 #include <optional>
 
 class QWidget;
@@ -23,7 +22,7 @@ class TracedSide : public QObject {
     TracedSide(ViewState& views, PathView& paths, PathError& error, WhittedHeat& heat,
                QObject* parent = nullptr);
 
-    void watch(QWidget& viewport); // where the pointer is in it says which side is meant
+    void setViewport(QWidget& viewport); // where the pointer is in it says which side is meant
 
     // What a tracer's key does. Without a split: on, or off. With one, for the side that the
     // pointer is on (away from the picture: the traced one, or the right one): on, over to there,
@@ -46,9 +45,6 @@ class TracedSide : public QObject {
   Q_SIGNALS:
     void changed(); // side()
 
-  protected:
-    bool eventFilter(QObject* viewport, QEvent* event) override;
-
   private:
     void follow();
     void end();
@@ -61,7 +57,6 @@ class TracedSide : public QObject {
     PathError& m_error;
     WhittedHeat& m_heat;
     QWidget* m_viewport = nullptr;
-    std::optional<QPointF> m_pointer;    // in the viewport
     ViewSide m_side = ViewSide::Shown;   // of a split; without one it is the whole
     std::optional<ViewKind> m_before;    // what that side showed before it was traced
     std::optional<ViewSide> m_announced; // side() at the last changed()

@@ -38,7 +38,7 @@ void ViewportWidget::setPaths(PathView& paths, PathError& error, PathBlame& blam
     m_pathBlame = &blame;
     m_tracedSide = &side;
     m_viewFeed.setTraced(side);
-    side.watch(*this);
+    side.setViewport(*this);
     connect(&side, &TracedSide::changed, this, [this] {
         hurry(); // the viewport's own picture is another one
         update();

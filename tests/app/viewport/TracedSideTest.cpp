@@ -10,8 +10,8 @@
 #include "tests/app/editor/EditorFixture.h"
 
 #include <QComboBox>
+#include <QCursor>
 #include <QLabel>
-#include <QMouseEvent>
 
 namespace patina::editor {
 namespace {
@@ -54,11 +54,9 @@ class TracedSideWindow : public EditorTest {
         const int x = where == ViewSide::Shown ? kWidth / 5 : kWidth * 4 / 5;
         pointAt(QPoint(x, kHeight / 4));
     }
-    // QTest::mouseMove() leaves it to the window system when, and whether, the event comes.
     static void pointAt(const QPoint& place) {
-        QMouseEvent move(QEvent::MouseMove, place, viewport().mapToGlobal(place), Qt::NoButton,
-                         Qt::NoButton, Qt::NoModifier);
-        QApplication::sendEvent(&viewport(), &move);
+        QCursor::setPos(viewport().mapToGlobal(place));
+        ASSERT_TRUE(eventually([&] { return viewport().mapFromGlobal(QCursor::pos()) == place; }));
     }
     static void key(Qt::Key code, Qt::KeyboardModifiers modifiers = {}) {
         QTest::keyClick(&viewport(), code, modifiers);
@@ -142,6 +140,7 @@ TEST_F(TracedSideWindow, ATracedPictureIsSplitFromTheDrawnOne) {
     ASSERT_TRUE(isDrawn());
     EXPECT_EQ(now(ViewSide::Other), drawn(ViewSide::Other));
     EXPECT_NE(now(ViewSide::Shown), drawn(ViewSide::Shown));
+    pointAt(ViewSide::Shown);
     key(Qt::Key_F12, Qt::ShiftModifier); // the same side, by the other tracer
     EXPECT_TRUE(paths().isWhitted());
     EXPECT_THAT(names.leftName().toStdString(), testing::HasSubstr("Whitted"));
