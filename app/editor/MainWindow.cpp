@@ -19,6 +19,7 @@
 #include "app/editor/trace/TransferRemedy.h"
 #include "app/editor/viewport/DropTarget.h"
 #include "app/editor/viewport/EquationBar.h"
+#include "app/editor/viewport/LensBadge.h"
 #include "app/editor/viewport/SceneProgress.h"
 #include "app/editor/viewport/SplitHandle.h"
 #include "app/editor/viewport/ViewOverlay.h"
@@ -70,7 +71,7 @@ MainWindow::MainWindow(Session& session)
     m_viewport->setLobe(session.lobe);
     m_viewport->setViews(session.views);
     m_viewport->setWall(session.wall, session.comparison);
-    m_viewport->setPaths(session.paths, session.pathError, session.pathBlame);
+    m_viewport->setPaths(session.paths, session.pathError, session.pathBlame, session.side);
     m_viewport->setProbe(session.probe);
 
     auto* centre = new QWidget;
@@ -89,14 +90,16 @@ MainWindow::MainWindow(Session& session)
     new SplitHandle(session.comparison, *m_viewport);
     new PathErrorOverlay(session.pathError, session.pathBlame, *m_viewport);
     auto* badge = new PathBadge(
-        session.paths, session.pathError, session.heat, session.views,
+        session.paths, session.pathError, session.heat, session.side,
         new TransferRemedy(session.pathError, session.pathBlame, session.controller, session.bakes),
         *m_viewport);
     m_notices->keepClearOf(*badge);
+    new LensBadge(session.controller, session.side, *m_viewport);
     connect(badge, &PathBadge::saveWanted, this, [this] {
         askAndSaveTraced(m_session.paths, m_session.controller, m_session.jobs, *this);
     });
-    m_overlay = new ViewOverlay(session.views, session.controller, session.wall, *m_viewport);
+    m_overlay =
+        new ViewOverlay(session.views, session.side, session.controller, session.wall, *m_viewport);
     m_progress = new SceneProgress(session.controller, *m_viewport);
     m_drop = new DropTarget(*this, *m_viewport, session.controller, session.selection,
                             {session.wall, session.controller, *wallOverlay},

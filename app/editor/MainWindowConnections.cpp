@@ -46,19 +46,19 @@ void MainWindow::connectActions() {
         if (m_session.wall.isOn())
             m_session.paths.setOn(false); // the viewport draws it
     });
-    const auto trace = [this](TracedBy tracer, bool on) {
-        if (on)
-            m_session.wall.setOn(false); // that is drawn by the viewport
-        m_session.paths.setTracer(tracer);
-        m_session.paths.setOn(on);
-    };
-    connect(a.pathTraced, &QAction::triggered, this, [=](bool on) { trace(TracedBy::Paths, on); });
-    connect(a.whitted, &QAction::triggered, this, [=](bool on) { trace(TracedBy::Whitted, on); });
-    connect(&m_session.paths, &PathView::changed, this, [this] {
+    const auto showTracer = [this] {
         const PathView& paths = m_session.paths;
         m_actions->pathTraced->setChecked(paths.isOn() && !paths.isWhitted());
         m_actions->whitted->setChecked(paths.isWhitted());
-    });
+    };
+    const auto trace = [=, this](TracedBy tracer) {
+        m_session.wall.setOn(false); // that is drawn by the viewport
+        m_session.side.toggle(tracer);
+        showTracer(); // on another side it is as it was
+    };
+    connect(a.pathTraced, &QAction::triggered, this, [=] { trace(TracedBy::Paths); });
+    connect(a.whitted, &QAction::triggered, this, [=] { trace(TracedBy::Whitted); });
+    connect(&m_session.paths, &PathView::changed, this, showTracer);
     const auto lighting = [this](LightingMode mode) {
         m_session.controller.setParameter(parameter("view.lighting"), {Scope::View, 0},
                                           static_cast<int>(mode));

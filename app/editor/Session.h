@@ -16,6 +16,7 @@
 #include "app/editor/trace/PathError.h"
 #include "app/editor/trace/PathView.h"
 #include "app/editor/trace/RayTreeProbe.h"
+#include "app/editor/trace/TracedSide.h"
 #include "app/editor/trace/WhittedHeat.h"
 #include "app/editor/viewport/IblUpdater.h"
 #include "app/editor/viewport/LightLimitNotice.h"
@@ -52,6 +53,7 @@ struct Session {
     PathBlame pathBlame{controller, paths, pathError};
     RayTreeProbe rayTree{controller, paths};
     WhittedHeat heat{controller, paths};
+    TracedSide side{views, paths, pathError, heat};
     JobManager jobs{controller};
     BakeService bakes{controller, jobs};
     BounceUpdater bounces{controller, bakes.hits()};

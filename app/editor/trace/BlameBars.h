@@ -5,6 +5,7 @@
 
 #include <QString>
 #include <QStringList>
+#include <optional>
 #include <vector>
 
 class QFontMetrics;
@@ -17,9 +18,11 @@ struct BlameBars {
     struct Bar {
         QString label;
         double share = 0.0;
+        std::optional<double> here, hereNoise; // of the pixels under the pointer; standard error
     };
     QString title;
     std::vector<Bar> bars; // the largest share first
+    QString here;          // over the column of `Bar::here`; empty: there is none
     QString note;          // below them; may be empty
 
     [[nodiscard]] QStringList lines() const; // as they are read out
@@ -27,7 +30,8 @@ struct BlameBars {
     void paint(QPainter& painter, const QRect& area) const;
 };
 
-// `of`: the picture or a material's name.
-[[nodiscard]] BlameBars blameBars(const BlameScore& score, const QString& of);
+// `of`: the picture or a material's name. `here`: of the pixels under the pointer, if any.
+[[nodiscard]] BlameBars blameBars(const BlameScore& score, const QString& of,
+                                  const std::optional<BlameScore>& here);
 
 } // namespace patina::editor

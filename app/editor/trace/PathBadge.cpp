@@ -4,8 +4,9 @@
 #include "app/editor/style/Tokens.h"
 #include "app/editor/trace/PathError.h"
 #include "app/editor/trace/PathView.h"
+#include "app/editor/trace/TracedSide.h"
 #include "app/editor/trace/WhittedHeat.h"
-#include "app/editor/viewport/ViewState.h"
+#include "app/editor/viewport/SplitHandle.h"
 #include "app/editor/widget/ControlHelp.h"
 
 #include <QComboBox>
@@ -29,13 +30,13 @@ constexpr int kShownLetters = 15; // of what is shown: it hides the picture
 
 } // namespace
 
-PathBadge::PathBadge(PathView& paths, PathError& error, WhittedHeat& heat, ViewState& views,
+PathBadge::PathBadge(PathView& paths, PathError& error, WhittedHeat& heat, TracedSide& side,
                      QPushButton* remedy, QWidget& viewport)
     : QFrame(&viewport)
     , m_paths(paths)
     , m_error(error)
     , m_heat(heat)
-    , m_views(views)
+    , m_side(side)
     , m_viewport(viewport)
     , m_text(new QLabel)
     , m_shown(new QComboBox)
@@ -93,7 +94,8 @@ PathBadge::PathBadge(PathView& paths, PathError& error, WhittedHeat& heat, ViewS
     connect(&paths, &PathView::changed, this, &PathBadge::refresh);
     connect(&error, &PathError::changed, this, &PathBadge::refresh);
     connect(&heat, &WhittedHeat::changed, this, &PathBadge::refresh);
-    connect(&views, &ViewState::changed, this, &PathBadge::refresh);
+    connect(&side.views(), &ViewState::changed, this, &PathBadge::refresh);
+    connect(&side, &TracedSide::changed, this, &PathBadge::refresh);
     viewport.installEventFilter(this);
     refresh();
 }
@@ -130,8 +132,7 @@ void PathBadge::addWhitted(QBoxLayout& row) {
 }
 
 QString PathBadge::text() const {
-    const render::ViewSettings& view = m_views.settings();
-    if (view.split || !view.isOrdinary(view.shown))
+    if (!m_side.showsPicture())
         return (m_paths.isWhitted() ? tr("Whitted") : tr("Path traced")) +
                tr(": the picture alone. This view is drawn as usual.");
     const PathView::Progress& progress = m_paths.progress();
@@ -141,20 +142,33 @@ QString PathBadge::text() const {
         return m_paths.isWhitted() ? tr("Whitted, coarse at first…")
                                    : tr("Path traced, coarse at first…");
     const QLocale locale;
+    const bool beside = m_side.side().has_value(); // which has half the room
     if (m_paths.isWhitted()) {
-        QStringList parts{tr("Whitted"),
-                          tr("%1 million rays").arg(locale.toString(1e-6 * progress.rays, 'f', 1)),
-                          tr("%1 s").arg(locale.toString(progress.seconds, 'f', 1))};
-        parts << (progress.refined ? tr("done") : tr("smoothing edges…"));
+        QStringList parts{tr("Whitted")};
+        if (progress.noise) // through the lens
+            parts << tr("%1 samples per pixel").arg(progress.samples)
+                  << tr("± %1 % of the mean").arg(locale.toString(100.0 * *progress.noise, 'g', 2));
+        if (!beside)
+            parts << tr("%1 million rays").arg(locale.toString(1e-6 * progress.rays, 'f', 1));
+        parts << tr("%1 s").arg(locale.toString(progress.seconds, 'f', 1));
+        if (progress.refined)
+            parts << tr("done");
+        else if (!progress.noise)
+            parts << tr("smoothing edges…");
         return parts.join(QStringLiteral("  ·  "));
     }
     QStringList parts{tr("Path traced"), progress.samples == 1
                                              ? tr("1 path per pixel")
                                              : tr("%1 paths per pixel").arg(progress.samples)};
     if (progress.noise)
-        parts << tr("± %1 % of the mean").arg(locale.toString(100.0 * *progress.noise, 'g', 2));
-    parts << tr("%1 million rays/s").arg(locale.toString(1e-6 * progress.raysPerSecond, 'f', 1));
-    parts << tr("%1 s").arg(locale.toString(progress.seconds, 'f', progress.seconds < 10 ? 1 : 0));
+        parts << (beside ? tr("± %1 %") : tr("± %1 % of the mean"))
+                     .arg(locale.toString(100.0 * *progress.noise, 'g', 2));
+    if (!beside) {
+        parts
+            << tr("%1 million rays/s").arg(locale.toString(1e-6 * progress.raysPerSecond, 'f', 1));
+        parts << tr("%1 s").arg(
+            locale.toString(progress.seconds, 'f', progress.seconds < 10 ? 1 : 0));
+    }
     if (progress.refined)
         parts << tr("done");
     const QString line = parts.join(QStringLiteral("  ·  "));
@@ -180,12 +194,14 @@ void PathBadge::refresh() {
     m_save->setEnabled(m_paths.progress().samples > 0);
     m_pause->setChecked(m_paths.isPaused());
     m_pause->setText(m_paths.isPaused() ? tr("Resume") : tr("Pause"));
-    m_pause->setVisible(!m_paths.progress().refined && !m_paths.isWhitted());
-    m_shown->setVisible(!m_paths.isWhitted()); // which is no measure of the drawn one
-    m_whittedShown->setVisible(m_paths.isWhitted());
+    m_pause->setVisible(!m_paths.progress().refined &&
+                        (!m_paths.isWhitted() || m_paths.progress().noise));
+    const bool whole = !m_side.side(); // what covers the picture leaves no room for another side
+    m_shown->setVisible(whole && !m_paths.isWhitted()); // which is no measure of the drawn one
+    m_whittedShown->setVisible(whole && m_paths.isWhitted());
     m_whittedShown->setCurrentIndex(
         m_heat.shown() ? m_whittedShown->findData(static_cast<int>(*m_heat.shown())) : 0);
-    m_boxes->setVisible(m_paths.isWhitted());
+    m_boxes->setVisible(whole && m_paths.isWhitted());
     if (const auto counted = m_heat.counted()) // how many levels there are is known then
         m_boxes->setMaximum(std::max(counted->deepestLevel, 1));
     place();
@@ -193,7 +209,12 @@ void PathBadge::refresh() {
 
 void PathBadge::place() {
     adjustSize();
-    move(tokens::kMargin, m_viewport.height() - height() - tokens::kMargin);
+    const auto& split = m_side.views().settings().split;
+    const bool right = m_side.side() && split &&
+                       (SplitLine(*split, m_viewport.size()).right.x() >= 0.0) ==
+                           (m_side.side() == ViewSide::Other);
+    const int farRight = std::max(m_viewport.width() - width() - tokens::kMargin, tokens::kMargin);
+    move(right ? farRight : tokens::kMargin, m_viewport.height() - height() - tokens::kMargin);
     raise();
 }
 

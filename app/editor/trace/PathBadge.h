@@ -14,14 +14,14 @@ namespace patina::editor {
 
 class PathError;
 class PathView;
-class ViewState;
+class TracedSide;
 class WhittedHeat;
 
 class PathBadge : public QFrame {
     Q_OBJECT
   public:
     // `remedy`: for its row.
-    PathBadge(PathView& paths, PathError& error, WhittedHeat& heat, ViewState& views,
+    PathBadge(PathView& paths, PathError& error, WhittedHeat& heat, TracedSide& side,
               QPushButton* remedy, QWidget& viewport);
 
   Q_SIGNALS:
@@ -39,7 +39,7 @@ class PathBadge : public QFrame {
     PathView& m_paths;
     PathError& m_error;
     WhittedHeat& m_heat;
-    ViewState& m_views;
+    TracedSide& m_side;
     QWidget& m_viewport;
     QLabel* m_text;
     QComboBox *m_shown, *m_whittedShown;

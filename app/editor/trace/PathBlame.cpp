@@ -8,8 +8,11 @@
 #include "core/document/ViewChoices.h"
 #include "core/trace/error/SeenMaterials.h"
 
+#include <QPoint>
+#include <QRect>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace patina::editor {
@@ -142,26 +145,42 @@ Result<std::shared_ptr<const PathBlame::Found>> PathBlame::work(Work& work, std:
     const Result<BlameFilm> truths = traceBlame(scene, view, work.subject.model, 0, samples, job);
     if (!truths)
         return truths.error();
-    Result<Blame> made = blame(work.terms, *truths, work.film, work.look, *work.materials, job);
+    Result<Blame> made =
+        blame(work.terms, *truths, work.film, work.look, *work.materials, job, true);
     if (!made)
         return made.error();
     return std::make_shared<const Found>(Found{*std::move(made), work.materials, samples});
 }
 
+std::optional<QPoint> PathBlame::pixelAt(const std::optional<QPointF>& position) const {
+    if (!position)
+        return std::nullopt;
+    const QPoint pixel(static_cast<int>(std::floor(position->x() * m_size.width())),
+                       static_cast<int>(std::floor(position->y() * m_size.height())));
+    return QRect({}, m_size).contains(pixel) ? std::optional(pixel) : std::nullopt;
+}
+
+Id PathBlame::materialAt(const QPoint& pixel) const {
+    return (*m_found->materials)[static_cast<std::size_t>(pixel.y()) *
+                                     static_cast<std::size_t>(m_size.width()) +
+                                 static_cast<std::size_t>(pixel.x())];
+}
+
 const BlameScore& PathBlame::scoreAt(const std::optional<QPointF>& position) const {
     const Blame& blame = m_found->blame;
-    if (!position)
+    const std::optional<QPoint> pixel = pixelAt(position);
+    if (!pixel)
         return blame.whole;
-    const int x = static_cast<int>(position->x() * m_size.width()),
-              y = static_cast<int>(position->y() * m_size.height());
-    if (x < 0 || y < 0 || x >= m_size.width() || y >= m_size.height())
-        return blame.whole;
-    const Id material =
-        (*m_found
-              ->materials)[static_cast<std::size_t>(y) * static_cast<std::size_t>(m_size.width()) +
-                           static_cast<std::size_t>(x)];
-    const auto found = std::ranges::find(blame.materials, material, &BlameScore::material);
+    const auto found =
+        std::ranges::find(blame.materials, materialAt(*pixel), &BlameScore::material);
     return found != blame.materials.end() ? *found : blame.whole;
+}
+
+std::optional<BlameScore> PathBlame::hereAt(const std::optional<QPointF>& position) const {
+    const std::optional<QPoint> pixel = pixelAt(position);
+    if (!pixel || materialAt(*pixel) == 0)
+        return std::nullopt;
+    return m_found->blame.around(pixel->x(), pixel->y(), kAround, *m_found->materials);
 }
 
 } // namespace patina::editor

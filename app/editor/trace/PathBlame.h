@@ -46,6 +46,10 @@ class PathBlame : public QObject {
     // Of the material at a position, 0…1 from the top left, or of the picture where there is none.
     // `found()` is there.
     [[nodiscard]] const BlameScore& scoreAt(const std::optional<QPointF>& position) const;
+    // Of the pixels of that material next to the position, kAround to each side; nothing where no
+    // surface is seen, or no position is given.
+    static constexpr int kAround = 2;
+    [[nodiscard]] std::optional<BlameScore> hereAt(const std::optional<QPointF>& position) const;
     // Why there is none and will not be; empty: there will.
     [[nodiscard]] const QString& problem() const { return m_problem; }
     [[nodiscard]] bool isOn() const; // it is wanted
@@ -56,6 +60,8 @@ class PathBlame : public QObject {
 
   private:
     struct Work; // of one task at a time
+    [[nodiscard]] std::optional<QPoint> pixelAt(const std::optional<QPointF>& position) const;
+    [[nodiscard]] Id materialAt(const QPoint& pixel) const;
     void follow();
     void reset();
     void trace();

@@ -154,15 +154,16 @@ BlameBars PathErrorOverlay::causes() const {
     if (!m_error.measured())
         return {};
     if (!m_blame.problem().isEmpty())
-        return {tr("Causes"), {}, m_blame.problem()};
+        return {tr("Causes"), {}, {}, m_blame.problem()};
     if (!m_blame.found())
-        return {tr("Causes"), {}, tr("Drawing and tracing…")};
+        return {tr("Causes"), {}, {}, tr("Drawing and tracing…")};
     std::optional<QPointF> position;
     if (m_pointer && width() > 0 && height() > 0)
         position = QPointF(m_pointer->x() / width(), m_pointer->y() / height());
     const BlameScore& score = m_blame.scoreAt(position);
     const Material* material = m_error.controller().document().material(score.material);
-    return blameBars(score, material != nullptr ? toQString(material->name) : tr("picture"));
+    return blameBars(score, material != nullptr ? toQString(material->name) : tr("picture"),
+                     m_blame.hereAt(position));
 }
 
 int PathErrorOverlay::paintLegend(QPainter& painter, const QRect& box, int y) const {

@@ -21,6 +21,8 @@ constexpr int kCoarsest = 8;
 // what somebody waits for comes first.
 constexpr double kPassSeconds = 0.25;
 constexpr std::uint32_t kMostAtOnce = 64;
+// Of a classical picture through the lens, the only thing in it that is spread.
+constexpr std::uint32_t kMostWhittedSamples = 256;
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -56,10 +58,14 @@ struct PathView::Work {
     TracedBy tracer = TracedBy::Paths;
     WhittedSettings whitted;
 
-    // A classical picture is done after the corners of pixels and what lies between those that
-    // differ.
+    // A pinhole's classical picture is done after the corners of pixels and what lies between those
+    // that differ.
     [[nodiscard]] std::uint32_t mostSamples() const {
-        return tracer == TracedBy::Paths ? kMostSamples : whitted.subdivisions > 0 ? 2 : 1;
+        if (tracer == TracedBy::Paths)
+            return kMostSamples;
+        if (whitted.isStochastic())
+            return kMostWhittedSamples;
+        return whitted.subdivisions > 0 ? 2 : 1;
     }
 };
 
@@ -174,6 +180,7 @@ void PathView::begin() {
     }
     m_work->tracer = m_tracer;
     m_work->whitted = m_whitted;
+    m_work->whitted.depthOfField = m_camera.lensRadius() > 0.0f;
     m_hasFirst = m_paused = false;
     m_reference = {};
     ++m_number;
@@ -336,8 +343,21 @@ Result<void> PathView::tracePass(Work& work, Pass& pass, const JobContext& job, 
 
 Result<void> PathView::traceWhittedPass(Work& work, Pass& pass, const JobContext& job,
                                         TraceRays& rays) {
-    const TraceView view = reduced(work.view, work.reduction);
     WhittedSettings settings = work.whitted;
+    if (work.reduction == 1 && settings.isStochastic()) {
+        if (work.samples == 0)
+            work.film = Film(work.view.width, work.view.height);
+        const std::uint32_t count = std::min(work.next, kMostWhittedSamples - work.samples);
+        if (auto done = traceWhitted(*work.scene, work.view, settings, work.film, work.samples,
+                                     count, job, &rays);
+            !done)
+            return done;
+        work.samples += count;
+        pass.picture = std::make_shared<const Image>(work.film.radiance(true));
+        pass.noise = work.film.noise();
+        return {};
+    }
+    const TraceView view = reduced(work.view, work.reduction);
     if (work.reduction > 1 || work.samples == 0)
         settings.subdivisions = 0;
     Film film(view.width, view.height);

@@ -37,7 +37,7 @@ class PathView : public QObject {
     void setTracer(TracedBy tracer);
     [[nodiscard]] TracedBy tracer() const { return m_tracer; }
     [[nodiscard]] bool isWhitted() const { return m_on && m_tracer == TracedBy::Whitted; }
-    void setWhitted(const WhittedSettings& settings); // not stochastic
+    void setWhitted(const WhittedSettings& settings); // not stochastic: the camera has the lens
     [[nodiscard]] const WhittedSettings& whitted() const { return m_whitted; }
     void setPaused(bool paused); // after the pass that is under way
     [[nodiscard]] bool isPaused() const { return m_paused; }

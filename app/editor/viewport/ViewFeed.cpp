@@ -1,6 +1,7 @@
 #include "app/editor/viewport/ViewFeed.h"
 
 #include "app/editor/document/DocumentController.h"
+#include "app/editor/trace/TracedSide.h"
 #include "app/editor/viewport/ViewGate.h"
 #include "app/editor/viewport/ViewState.h"
 #include "core/edit/ViewReasons.h"
@@ -55,6 +56,10 @@ ViewSettings ViewFeed::beginFrame(ViewGate& gate) {
     standIn(settings.shown);
     if (settings.split)
         standIn(settings.split->other);
+    if (m_traced != nullptr)
+        settings = m_traced->drawn(settings);
+    m_drawsOther = m_traced != nullptr && m_traced->side() == ViewSide::Shown &&
+                   m_views->settings().split && !settings.split;
     settings = gate.choose(settings);
     m_same = settings == m_drawn;
     m_drawn = settings;
@@ -63,7 +68,11 @@ ViewSettings ViewFeed::beginFrame(ViewGate& gate) {
 }
 
 void ViewFeed::endFrame(const render::ViewRenderer& renderer) {
-    if (m_views)
+    if (!m_views)
+        return;
+    if (m_drawsOther)
+        m_views->setMeasuredRanges(std::nullopt, renderer.shownRange());
+    else
         m_views->setMeasuredRanges(renderer.shownRange(), renderer.otherRange());
 }
 

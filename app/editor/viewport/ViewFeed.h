@@ -14,6 +14,7 @@ class ViewRenderer;
 namespace patina::editor {
 
 class DocumentController;
+class TracedSide;
 class ViewGate;
 class ViewState;
 
@@ -23,6 +24,7 @@ class ViewFeed : public QObject {
     explicit ViewFeed(DocumentController& controller, QObject* parent = nullptr);
 
     void setViews(ViewState& views);
+    void setTraced(const TracedSide& traced) { m_traced = &traced; } // its side is not drawn
 
     // Of the frame that is drawn next, as the gate lets it.
     [[nodiscard]] render::ViewSettings beginFrame(ViewGate& gate);
@@ -48,9 +50,11 @@ class ViewFeed : public QObject {
 
     DocumentController& m_controller;
     ViewState* m_views = nullptr;
+    const TracedSide* m_traced = nullptr;
     render::ViewSettings m_followed; // as chosen, and announced last
     render::ViewSettings m_drawn;    // as drawn last, with marks at full strength
     bool m_same = false;
+    bool m_drawsOther = false; // that frame has the other side's view alone
     Blink m_blink;
 };
 

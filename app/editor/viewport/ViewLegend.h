@@ -15,8 +15,7 @@ class ColorScale;
 class DocumentController;
 class NumberField;
 class ViewState;
-
-enum class ViewSide { Shown, Other }; // of the split
+enum class ViewSide;
 
 class ViewLegend : public QFrame {
     Q_OBJECT

@@ -11,13 +11,13 @@
 
 namespace patina::editor {
 
-ViewOverlay::ViewOverlay(ViewState& views, DocumentController& controller, const WallState& wall,
-                         QWidget& viewport)
+ViewOverlay::ViewOverlay(ViewState& views, const TracedSide& traced, DocumentController& controller,
+                         const WallState& wall, QWidget& viewport)
     : QObject(&viewport)
     , m_views(views)
     , m_wall(wall)
     , m_viewport(viewport)
-    , m_split(new SplitHandle(*new ViewSplitModel(views, this), viewport))
+    , m_split(new SplitHandle(*new ViewSplitModel(views, traced, this), viewport))
     , m_shown(new ViewLegend(views, controller, ViewSide::Shown, &viewport))
     , m_other(new ViewLegend(views, controller, ViewSide::Other, &viewport)) {
     for (ViewLegend* legend : {m_shown, m_other}) {

@@ -12,6 +12,7 @@ namespace patina::editor {
 
 class DocumentController;
 class SplitHandle;
+class TracedSide;
 class ViewLegend;
 class ViewState;
 class WallState;
@@ -19,8 +20,8 @@ class WallState;
 class ViewOverlay : public QObject {
     Q_OBJECT
   public:
-    ViewOverlay(ViewState& views, DocumentController& controller, const WallState& wall,
-                QWidget& viewport);
+    ViewOverlay(ViewState& views, const TracedSide& traced, DocumentController& controller,
+                const WallState& wall, QWidget& viewport);
 
   Q_SIGNALS:
     void remedyWanted(patina::ViewRemedy remedy); // ViewLegend::remedyWanted()

@@ -5,12 +5,14 @@
 
 namespace patina::editor {
 
+class TracedSide;
 class ViewState;
+enum class ViewSide;
 
 class ViewSplitModel : public SplitModel {
     Q_OBJECT
   public:
-    explicit ViewSplitModel(ViewState& views, QObject* parent = nullptr);
+    ViewSplitModel(ViewState& views, const TracedSide& traced, QObject* parent = nullptr);
 
     [[nodiscard]] std::optional<render::ViewSplit> line() const override;
     void moveLine(const render::ViewSplit& line) override;
@@ -19,7 +21,11 @@ class ViewSplitModel : public SplitModel {
     [[nodiscard]] QString rightName() const override;
 
   private:
+    [[nodiscard]] QString nameOf(const render::ViewChoice& choice, ViewSide side) const;
+
     ViewState& m_views;
+    const TracedSide& m_traced;
+    bool m_whitted = false; // the names say so
 };
 
 } // namespace patina::editor

@@ -87,6 +87,10 @@ void ViewState::toggleSplit() {
         edit([](ViewSettings& settings) { settings.split.reset(); });
         return;
     }
+    if (m_traced && m_settings.isOrdinary(m_settings.shown)) {
+        showOther(shading::kViewFinal);
+        return;
+    }
     // Two different ones: what came before, else the picture, else the first factor there is.
     const ViewKind picture = shading::kViewFinal;
     ViewKind other = m_before;

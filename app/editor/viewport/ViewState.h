@@ -13,6 +13,8 @@ namespace patina::editor {
 // Whether colours stand for numbers over a range, so that it can be locked.
 [[nodiscard]] bool hasRange(const render::ViewChoice& choice);
 
+enum class ViewSide { Shown, Other }; // of the split
+
 class ViewState : public QObject {
     Q_OBJECT
   public:
@@ -38,8 +40,10 @@ class ViewState : public QObject {
     // The next view of the group; from another group the one that was looked at there last. Back:
     // the one before.
     void cycle(ViewGroup group, bool back = false);
-    // Splits what is shown from what was shown before it; or joins.
+    // Splits what is shown from what was shown before it; or joins. A traced picture is split from
+    // the drawn one.
     void toggleSplit();
+    void setTraced(bool traced) { m_traced = traced; } // the picture is
 
     // Contributions are a wish: views without one (ViewInfo::contribution) show their value.
     void setMode(render::ViewMode mode);
@@ -70,7 +74,7 @@ class ViewState : public QObject {
     render::ViewMode m_mode = render::ViewMode::Raw;
     std::map<ViewKind, render::ViewRange> m_ranges; // the locked ones
     std::optional<render::ViewRange> m_shownRange, m_otherRange;
-    bool m_preparing = false;
+    bool m_preparing = false, m_traced = false;
     std::array<ViewKind, kViewGroupCount> m_lastOfGroup{}; // looked at last
     ViewKind m_before = shading::kViewFinal;               // shown before the one that is
     ViewKind m_lastFactor = shading::kViewFinal;           // the last one that is not the picture

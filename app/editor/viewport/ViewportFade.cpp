@@ -72,6 +72,7 @@ void ViewportWidget::fadeFromHere() {
 
 void ViewportWidget::paintGL() {
     paintPicture();
+    paintTracedSide();
     if (!m_renderer || !m_fade.isOn())
         return;
     if (m_controller.document().view.camera != m_fadeCamera)

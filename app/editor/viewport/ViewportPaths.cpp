@@ -2,13 +2,17 @@
 #include "app/editor/trace/PathBlame.h"
 #include "app/editor/trace/PathError.h"
 #include "app/editor/trace/PathView.h"
+#include "app/editor/trace/TracedSide.h"
 #include "app/editor/viewport/TermDrawing.h"
 #include "app/editor/viewport/ViewportWidget.h"
 #include "core/base/Log.h"
+#include "core/document/ToneResponse.h"
+#include "core/document/ViewChoices.h"
 
 #include <QElapsedTimer>
 #include <QOpenGLContext>
 #include <QOpenGLFunctions>
+#include <cmath>
 
 namespace patina::editor {
 namespace {
@@ -27,10 +31,18 @@ render::FrameSettings accumulating(render::FrameSettings frame, const QSize& siz
 
 } // namespace
 
-void ViewportWidget::setPaths(PathView& paths, PathError& error, PathBlame& blame) {
+void ViewportWidget::setPaths(PathView& paths, PathError& error, PathBlame& blame,
+                              TracedSide& side) {
     m_paths = &paths;
     m_pathError = &error;
     m_pathBlame = &blame;
+    m_tracedSide = &side;
+    m_viewFeed.setTraced(side);
+    side.setViewport(*this);
+    connect(&side, &TracedSide::changed, this, [this] {
+        hurry(); // the viewport's own picture is another one
+        update();
+    });
     connect(&blame, &PathBlame::termsWanted, this, qOverload<>(&QWidget::update));
     connect(&error, &PathError::drawnWanted, this, qOverload<>(&QWidget::update));
     connect(&paths, &PathView::changed, this, [this] {
@@ -97,8 +109,8 @@ void ViewportWidget::drawForBlame(const render::FrameSettings& frame) {
 
 // It has no depth: overlays and looks at pixels are for the other pictures.
 bool ViewportWidget::paintPaths(render::FrameSettings frame) {
-    const bool wanted = m_paths != nullptr && m_paths->isOn() && !frame.view.split &&
-                        frame.view.isOrdinary(frame.view.shown);
+    const bool wanted = m_paths != nullptr && m_paths->isOn() && !m_tracedSide->side() &&
+                        !frame.view.split && frame.view.isOrdinary(frame.view.shown);
     if (!wanted)
         return false;
     m_paths->want(frame.camera, sizeAt(1.0f));
@@ -129,6 +141,45 @@ bool ViewportWidget::paintPaths(render::FrameSettings frame) {
     letOthersDraw();
     m_picker.frameDrawn({}, false);
     return true;
+}
+
+// Exposed as what is drawn beside it, so that only light differs; the photographic operator, which
+// exposes by the picture itself, is given each side's own.
+void ViewportWidget::paintTracedSide() {
+    const bool wanted = m_paths != nullptr && m_tracedSide->side() && !m_wall.isOn() &&
+                        !m_documentPicture && m_renderer != nullptr;
+    if (!wanted) {
+        m_traced.reset();
+        m_tracedPicture = nullptr;
+        return;
+    }
+    const View& view = m_controller.document().view;
+    m_paths->want(view.camera, sizeAt(1.0f));
+    if (!m_tracedSide->isShown())
+        return;
+    if (!m_traced)
+        m_traced = std::make_unique<render::ViewRenderer>(*m_scene);
+    render::FrameSettings frame;
+    frame.radiance = m_paths->picture();
+    frame.width = frame.radiance->width();
+    frame.height = frame.radiance->height();
+    frame.samples = 1;
+    frame.camera = view.camera;
+    frame.dither = true;
+    frame.reuseScene = frame.radiance == m_tracedPicture;
+    m_tracedPicture = frame.radiance;
+    if (view.exposureMode == ExposureMode::Automatic && m_luminance) {
+        frame.look = view;
+        frame.look->exposureMode = ExposureMode::Fixed;
+        frame.look->exposureEv = std::log2(exposureScale(view, *m_luminance));
+    }
+    const QSize size = sizeAt(1.0f);
+    Result<void> shown = m_traced->render(frame, render::ViewRenderer::kNowhere);
+    if (shown)
+        shown = m_traced->present(defaultFramebufferObject(),
+                                  {{0, 0, size.width(), size.height()}, m_tracedSide->line()});
+    if (!shown)
+        logError("the traced side could not be shown: {}", shown.error().text());
 }
 
 } // namespace patina::editor

@@ -299,6 +299,7 @@ void ViewportWidget::releaseGl() {
     m_thumbnails.reset();
     m_drawn.reset();
     m_terms.reset();
+    m_traced.reset();
     m_documentPicture.reset();
     m_previewLight = render::kDocumentLight;
     m_renderer.reset();

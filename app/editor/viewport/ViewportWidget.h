@@ -54,6 +54,7 @@ class PathError;
 class PathView;
 class SelectionModel;
 class TermDrawing;
+class TracedSide;
 class ViewState;
 class WallComparison;
 class WallState;
@@ -80,7 +81,8 @@ class ViewportWidget : public QOpenGLWidget {
     void setWall(WallState& wall,
                  WallComparison& comparison); // whether many of it are shown beside each other
     // Whose picture is shown while it is on, and who measures the drawn one against it.
-    void setPaths(PathView& paths, PathError& error, PathBlame& blame);
+    // `side`: where it is shown.
+    void setPaths(PathView& paths, PathError& error, PathBlame& blame, TracedSide& side);
     // What the library lights the scene with is faded to while `wanted` is checked.
     void setFade(EnvironmentLibrary& library, QAction& wanted);
     // What is looked at before it is used is shown in the picture, or in the wall's current cell.
@@ -178,6 +180,7 @@ class ViewportWidget : public QOpenGLWidget {
     [[nodiscard]] render::FrameSettings nextFrame();
     // The traced picture in place of the frame's; false: there is none of what it shows.
     [[nodiscard]] bool paintPaths(render::FrameSettings frame);
+    void paintTracedSide(); // over what was drawn
     void drawForError(render::FrameSettings frame);
     void drawForBlame(const render::FrameSettings& frame);
     [[nodiscard]] QSize sizeAt(float scale) const; // in device pixels
@@ -218,9 +221,12 @@ class ViewportWidget : public QOpenGLWidget {
     PathView* m_paths = nullptr;
     PathError* m_pathError = nullptr;
     PathBlame* m_pathBlame = nullptr;
-    std::unique_ptr<render::ViewRenderer> m_drawn;         // for it; null: none is under way
-    std::uint64_t m_drawnWanted = 0;                       // which of PathError's m_drawn is
-    std::unique_ptr<TermDrawing> m_terms;                  // for PathBlame; null: none is under way
+    TracedSide* m_tracedSide = nullptr;
+    std::unique_ptr<render::ViewRenderer> m_traced; // of one side of the split; null: none is
+    ImagePtr m_tracedPicture;                       // that it shows
+    std::unique_ptr<render::ViewRenderer> m_drawn;  // for it; null: none is under way
+    std::uint64_t m_drawnWanted = 0;                // which of PathError's m_drawn is
+    std::unique_ptr<TermDrawing> m_terms;           // for PathBlame; null: none is under way
     std::pair<std::uint64_t, std::uint64_t> m_termsWanted; // which of its terms
     IblUpdater* m_ibl;
     ViewportHand m_hand;

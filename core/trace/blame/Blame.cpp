@@ -1,5 +1,6 @@
 #include "core/trace/blame/Blame.h"
 
+#include "core/base/Check.h"
 #include "core/document/DisplayedPicture.h"
 #include "core/document/View.h"
 #include "core/math/Shading.h"
@@ -109,14 +110,43 @@ std::optional<std::array<double, kBlameCauses>> Blame::at(std::size_t pixel) con
     return result;
 }
 
+BlameScore Blame::around(int x, int y, int radius, std::span<const Id> materials) const {
+    const int width = steps.front().width(), height = steps.front().height();
+    CHECK(pixels.size() == materials.size());
+    CHECK(x >= 0 && y >= 0 && x < width && y < height);
+    const auto at = [&](int column, int row) {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(column);
+    };
+    const Id material = materials[at(x, y)];
+    BlameScoreSums sums;
+    for (int row = std::max(y - radius, 0); row <= std::min(y + radius, height - 1); ++row)
+        for (int column = std::max(x - radius, 0); column <= std::min(x + radius, width - 1);
+             ++column) {
+            const BlamePixel& pixel = pixels[at(column, row)];
+            if (materials[at(column, row)] != material)
+                continue;
+            BlameSteps::Pixel parts;
+            std::ranges::copy(pixel.first, parts.first.begin());
+            std::ranges::copy(pixel.others, parts.others.begin());
+            sums.add(parts, static_cast<double>(pixel.weight), static_cast<double>(pixel.traced),
+                     firstShare);
+        }
+    return sums.score(material);
+}
+
 Result<Blame> blame(const DrawnTerms& drawn, const BlameFilm& traced, const Film& film,
-                    const View& view, std::span<const Id> materials, const JobContext& job) {
+                    const View& view, std::span<const Id> materials, const JobContext& job,
+                    bool keepsPixels) {
     const Result<BlameSteps> steps = BlameSteps::of(drawn, traced, film);
     if (!steps)
         return steps.error();
     Blame result;
     for (Image& image : result.steps)
         image = Image(film.width(), film.height(), 3, PixelType::F32, ColorEncoding::Linear);
+    result.firstShare = steps->firstShare();
+    if (keepsPixels)
+        result.pixels.resize(film.pixels().size());
     const double dark = darkLuminance(view, luminanceOf(film.radiance()));
     const bool tellsMaterials = materials.size() == film.pixels().size();
     BlameScoreSums all;
@@ -131,6 +161,15 @@ Result<Blame> blame(const DrawnTerms& drawn, const BlameFilm& traced, const Film
                     pixel.steps[c][channel];
         const double truth = film.pixels()[i].luminance();
         const double weight = 1.0 / (truth * truth + dark * dark);
+        if (keepsPixels) {
+            BlamePixel& kept = result.pixels[i];
+            for (std::size_t c = 0; c < kBlameCauses; ++c) {
+                kept.first[c] = static_cast<float>(pixel.first[c]);
+                kept.others[c] = static_cast<float>(pixel.others[c]);
+            }
+            kept.weight = static_cast<float>(weight);
+            kept.traced = static_cast<float>(truth);
+        }
         all.add(pixel, weight, truth, steps->firstShare());
         if (tellsMaterials && materials[i] != 0)
             each[materials[i]].add(pixel, weight, truth, steps->firstShare());

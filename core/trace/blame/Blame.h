@@ -43,19 +43,34 @@ struct BlameScore {
     [[nodiscard]] std::optional<BlameCause> largest() const;
 };
 
+// What the shares of a few pixels are computed from: BlameSteps::Pixel, as floats.
+struct BlamePixel {
+    std::array<float, kBlameCauses> first{}, others{};
+    float weight = 0.0f, traced = 0.0f; // of the relative error; luminance
+};
+
 struct Blame {
     BlameScore whole;
     std::vector<BlameScore> materials; // those seen, by their part of the whole error
     // F32, linear, 3 channels: BlameSteps::Pixel::steps, by BlameCause.
     std::array<Image, kBlameCauses> steps;
 
+    std::vector<BlamePixel> pixels; // empty unless they were to be kept
+    double firstShare = 0.5;        // BlameSteps::firstShare()
+
+    // Of the pixels of one material, materials[pixel], that are at most `radius` pixels beside or
+    // above one: of the pixel itself alone the noise would be as large as its shares. CHECKs that
+    // `pixels` were kept and the pixel is one of them.
+    [[nodiscard]] BlameScore around(int x, int y, int radius, std::span<const Id> materials) const;
+
     // Shares of the error of one pixel's luminance; nothing where there is none.
     [[nodiscard]] std::optional<std::array<double, kBlameCauses>> at(std::size_t pixel) const;
 };
 
 // `view`: whose exposure says what counts as dark. `materials`: seenMaterials(); empty: no scores
-// of materials. Errors: those of BlameSteps::of(); Cancelled.
+// of materials. `keepsPixels`: 72 bytes each. Errors: those of BlameSteps::of(); Cancelled.
 Result<Blame> blame(const DrawnTerms& drawn, const BlameFilm& traced, const Film& film,
-                    const View& view, std::span<const Id> materials, const JobContext& job);
+                    const View& view, std::span<const Id> materials, const JobContext& job,
+                    bool keepsPixels = false);
 
 } // namespace patina

@@ -1,4 +1,5 @@
 // The viewport's picture traced by paths: switched on by a key, followed through edits and moves.
+#include "app/editor/trace/BlameBars.h"
 #include "app/editor/trace/PathBadge.h"
 #include "app/editor/trace/PathError.h"
 #include "app/editor/trace/PathErrorOverlay.h"
@@ -270,6 +271,29 @@ TEST_F(PathErrorWindow, ItSaysWhichShortcutsMakeTheError) {
     EXPECT_EQ(blame.scoreAt(QPointF(0.5, 0.5)).material, document().materials.front().id);
     EXPECT_EQ(blame.scoreAt(QPointF(0.01, 0.01)).material, 0u);
     EXPECT_EQ(blame.scoreAt(std::nullopt).material, 0u);
+    // And those of the pixels there, with their noise where it is not all.
+    const auto here = blame.hereAt(QPointF(0.5, 0.5));
+    ASSERT_TRUE(here.has_value());
+    EXPECT_EQ(here->material, document().materials.front().id);
+    EXPECT_GE(here->pixels, 1u);
+    EXPECT_LE(here->pixels, 25u);
+    EXPECT_FALSE(blame.hereAt(QPointF(0.01, 0.01))) << "no surface";
+    EXPECT_FALSE(blame.hereAt(QPointF(1.5, 0.5)));
+    EXPECT_FALSE(blame.hereAt(std::nullopt));
+    BlameScore pixel = *here;
+    pixel.isKnown = true;
+    pixel.causes[0].share = -0.4;
+    pixel.causes[0].noise = 0.07;
+    BlameScore whole = blame.scoreAt(std::nullopt);
+    whole.isKnown = true;
+    EXPECT_THAT(blameBars(whole, QStringLiteral("Gold"), pixel)
+                    .lines()
+                    .join(QLatin1Char('\n'))
+                    .toStdString(),
+                testing::HasSubstr("−40 ± 7 %"));
+    pixel.isKnown = false;
+    EXPECT_THAT(blameBars(whole, QStringLiteral("Gold"), pixel).lines().constFirst().toStdString(),
+                testing::HasSubstr("within the noise"));
 
     // Exposure makes other weights.
     const auto before = blame.found();

@@ -7,6 +7,7 @@
 #include "core/trace/blame/PrefilterLobe.h"
 #include "tests/core/trace/TraceBall.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -278,6 +279,60 @@ TEST(Blame, FindsTheStepThatIsWrong) {
     EXPECT_NEAR(occluded.whole.of(BlameCause::Occlusion).share, 1.0, 0.02);
     EXPECT_NEAR(occluded.whole.of(BlameCause::Occlusion).bias, -0.5, 0.01);
     EXPECT_LT(occluded.whole.of(BlameCause::Occlusion).noise, 0.05);
+}
+
+// One half of the picture is dark by occlusion, the other has a specular term that is off: a pixel
+// is blamed for what is wrong about itself, and an error below its noise for nothing.
+TEST(Blame, APixelHasItsOwnCauses) {
+    TraceInputs inputs = glossyBall(halfSky(), 1.0f);
+    inputs.materials[0].baseColor = glm::vec3(0.0f);
+    inputs.materials[0].perceptualRoughness = 0.9f;
+    const TraceScene scene = blamedScene(inputs);
+    const BlameFilm film = blameOf(scene, 64, 0, true), another = blameOf(scene, 1024, 7, true);
+    const Film traced = tracedFilmOf(scene, 64, true);
+    DrawnTerms drawn = drawnAs(another, BlameTerm::Diffuse, BlameTerm::Lobe);
+    const DrawnTerms right = drawnAs(another, BlameTerm::Diffuse, BlameTerm::Specular);
+    const int width = traced.width();
+    std::vector<Id> materials(traced.pixels().size(), 5);
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        if (static_cast<int>(i) % width >= width / 2)
+            continue;
+        materials[i] = 6;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::size_t channels = static_cast<std::size_t>(drawn.picture.channels());
+            drawn.picture.f32()[channels * i + c] = 0.5f * right.picture.f32()[channels * i + c];
+            drawn.unoccluded.f32()[channels * i + c] = right.unoccluded.f32()[channels * i + c];
+            drawn.specular.f32()[4 * i + c] = right.specular.f32()[4 * i + c];
+        }
+    }
+    const Result<Blame> made = blame(drawn, film, traced, View(), materials, {}, true);
+    ASSERT_TRUE(made.ok());
+    ASSERT_EQ(made->pixels.size(), materials.size());
+    const int row = width / 2;
+    const BlameScore occluded = made->around(width / 4, row, 2, materials);
+    EXPECT_EQ(occluded.material, 6u);
+    EXPECT_EQ(occluded.pixels, 25u);
+    EXPECT_TRUE(occluded.isKnown);
+    EXPECT_NEAR(occluded.of(BlameCause::Occlusion).share, 1.0,
+                5.0 * occluded.of(BlameCause::Occlusion).noise + 0.01);
+    // At the border only those of its own material count.
+    const BlameScore beside = made->around(width / 2, row, 2, materials);
+    EXPECT_EQ(beside.material, 5u);
+    EXPECT_EQ(beside.pixels, 15u);
+    EXPECT_NEAR(beside.of(BlameCause::Occlusion).share, 0.0, 0.05);
+    // All pixels of a material around one are that material's score.
+    const BlameScore whole = made->around(0, 0, width, materials);
+    const auto same = std::ranges::find(made->materials, Id(6), &BlameScore::material);
+    ASSERT_NE(same, made->materials.end());
+    EXPECT_EQ(whole.pixels, same->pixels);
+    EXPECT_NEAR(whole.of(BlameCause::Occlusion).share, same->of(BlameCause::Occlusion).share, 1e-4);
+    EXPECT_NEAR(whole.of(BlameCause::Occlusion).noise, same->of(BlameCause::Occlusion).noise, 1e-4);
+
+    // The truth itself: what is left is noise.
+    const Result<Blame> nothing = blame(drawnAs(film, BlameTerm::Diffuse, BlameTerm::Specular),
+                                        film, traced, View(), materials, {}, true);
+    ASSERT_TRUE(nothing.ok());
+    EXPECT_FALSE(nothing->around(width / 2, row, 2, materials).isKnown);
 }
 
 TEST(Blame, RefusesPicturesThatDoNotFit) {
