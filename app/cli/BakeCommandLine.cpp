@@ -212,7 +212,10 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
                              "Light that surfaces send to one another, at the vertices of the "
                              "scene divided for it",
                              o);
-    addSceneAndOutput(c, o, ".glb, .gltf (COLOR_0, _RADIANCE), .ply, or a picture: .png, .exr");
+    addSceneAndOutput(
+        c, o,
+        ".dae (of a COLLADA scene: that document, lit), .glb, .gltf (COLOR_0, _RADIANCE), "
+        ".ply, or a picture: .png, .exr");
     c->add_option("--environment", o.environment, "Environment that lights the scene")
         ->type_name("HDR");
     addLayout(c, o.environmentLayout);

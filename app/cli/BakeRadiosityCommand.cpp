@@ -10,10 +10,12 @@
 #include "core/io/ImageIO.h"
 #include "core/math/Shading.h"
 #include "core/radiosity/RadiosityPicture.h"
+#include "core/radiosity/document/LitCollada.h"
 #include "core/radiosity/document/LitDocument.h"
 #include "core/radiosity/document/PlyFile.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -33,12 +35,16 @@ bool isPicture(const std::filesystem::path& output) {
     return extensionOf(output) == ".png" || extensionOf(output) == ".exr";
 }
 
+bool isCollada(const std::filesystem::path& output) {
+    return extensionOf(output) == ".dae";
+}
+
 // Usage error for options that have no effect, and for files that radiosity is not written to.
 Result<void> checkFile(const BakeRadiosityOptions& options) {
     const std::filesystem::path output = options.output;
-    if (!isPly(output) && !isPicture(output) && !exportFormatOf(output))
+    if (!isPly(output) && !isCollada(output) && !isPicture(output) && !exportFormatOf(output))
         return usageError(fmt::format(
-            "{}: radiosity is written to .glb, .gltf, .ply, or as a picture to .png or .exr",
+            "{}: radiosity is written to .dae, .glb, .gltf, .ply, or as a picture to .png or .exr",
             output.filename().string()));
     if (!isPicture(output) && (options.size || options.camera || options.look))
         return usageError("--size, --camera and --look are for pictures: -o OUT.png or OUT.exr");
@@ -145,6 +151,34 @@ Result<std::optional<double>> exposureOf(const std::string& text, const Document
     return std::optional(numbers[0]);
 }
 
+// Into the document that the scene came from, or a new one.
+Result<void> writeCollada(Session& session, const BakeRadiosityOptions& options,
+                          const SceneRequest& request, const Document& document,
+                          const LitDocument& lit) {
+    const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+    Result<LitCollada> collada = Error{};
+    if (isCollada(options.scene)) {
+        Result<ColladaDocument> source = ColladaDocument::read(options.scene);
+        if (!source)
+            return source.error();
+        collada = lightCollada(std::move(*source), document, lit, now);
+    } else {
+        const Result<Camera> camera = chooseCamera({}, document, request.isProject, 16.0f / 9.0f);
+        if (!camera)
+            return camera.error();
+        collada = newLitCollada(lit, *camera, now);
+    }
+    if (!collada)
+        return collada.error();
+    for (const std::string& notice : collada->notices)
+        session.report().warn(notice);
+    const std::string text = collada->document.text();
+    if (Result<void> written = writeFileAtomically(options.output, text); !written)
+        return written;
+    session.report().output(options.output, bytesText(text.size()));
+    return {};
+}
+
 void report(Report& report, const RadiosityScene& scene, const SolveReport& solved) {
     nlohmann::ordered_json& json = report.json();
     json["counts"] = {{"elements", scene.elements().size()},
@@ -235,6 +269,8 @@ Result<void> run(Session& session, const BakeRadiosityOptions& options) {
         return writePicture(session, options, request, *document, **scene, solved->solution,
                             *exposure);
     const LitDocument lit = litDocument(*document, parts, *exposure);
+    if (isCollada(output))
+        return writeCollada(session, options, request, *document, lit);
     if (isPly(output)) {
         const Bytes file = litPly(lit);
         if (Result<void> written = writeFileAtomically(output, file); !written)

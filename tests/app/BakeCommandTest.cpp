@@ -230,6 +230,69 @@ TEST_F(Commands, KeepPartialWritesWhatHasConverged) {
     EXPECT_EQ(runPatina({"info", m_folder / "x.exr"}).status, 0);
 }
 
+namespace {
+
+// A floor, a wall and a lamp that share one quad, Z up and in centimetres, with what Patina does
+// not know.
+constexpr const char* kColladaRoom = R"(<?xml version="1.0" encoding="utf-8"?>
+<!-- kept -->
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+  <asset><contributor><authoring_tool>by hand</authoring_tool></contributor><created>2020-01-01T00:00:00Z</created><modified>2020-01-01T00:00:00Z</modified><unit name="centimeter" meter="0.01"/><up_axis>Z_UP</up_axis></asset>
+  <library_cameras><camera id="cam" name="Cam"><optics><technique_common><perspective><xfov>45</xfov><znear>1</znear><zfar>1000</zfar></perspective></technique_common></optics><extra><technique profile="OTHER"><foo>bar</foo></technique></extra></camera></library_cameras>
+  <library_effects>
+    <effect id="white-fx"><profile_COMMON><technique sid="common"><lambert><diffuse><color>0.8 0.8 0.8 1</color></diffuse></lambert></technique></profile_COMMON></effect>
+    <effect id="lamp-fx"><profile_COMMON><technique sid="common"><lambert><emission><color>1 0.9 0.8 1</color></emission><diffuse><color>0.5 0.5 0.5 1</color></diffuse></lambert></technique></profile_COMMON></effect>
+  </library_effects>
+  <library_materials><material id="white"><instance_effect url="#white-fx"/></material><material id="lamp"><instance_effect url="#lamp-fx"/></material></library_materials>
+  <library_geometries><geometry id="quad"><mesh>
+    <source id="p"><float_array id="pa" count="12">-100 -100 0 100 -100 0 100 100 0 -100 100 0</float_array><technique_common><accessor source="#pa" count="4" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+    <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+    <polylist count="1" material="m"><input semantic="VERTEX" source="#v" offset="0"/><vcount>4</vcount><p>0 1 2 3</p></polylist>
+  </mesh></geometry></library_geometries>
+  <library_visual_scenes><visual_scene id="s">
+    <node name="Floor"><instance_geometry url="#quad"><bind_material><technique_common><instance_material symbol="m" target="#white"/></technique_common></bind_material></instance_geometry></node>
+    <node name="Wall"><translate>0 100 100</translate><rotate>1 0 0 90</rotate><instance_geometry url="#quad"><bind_material><technique_common><instance_material symbol="m" target="#white"/></technique_common></bind_material></instance_geometry></node>
+    <node name="Lamp"><translate>0 0 180</translate><rotate>1 0 0 180</rotate><scale>0.3 0.3 0.3</scale><instance_geometry url="#quad"><bind_material><technique_common><instance_material symbol="m" target="#lamp"/></technique_common></bind_material></instance_geometry></node>
+    <node name="CamNode"><translate>0 -400 100</translate><instance_camera url="#cam"/></node>
+  </visual_scene></library_visual_scenes>
+  <scene><instance_visual_scene url="#s"/></scene>
+</COLLADA>
+)";
+
+} // namespace
+
+TEST_F(Commands, RadiosityIsPutIntoTheColladaDocumentThatItCameFrom) {
+    writeBytes(m_folder / "room.dae", kColladaRoom);
+    const auto bake = [&](const std::string& scene, const std::string& output) {
+        return runPatina({"bake", "radiosity", scene, "-o", output, "--set",
+                          "environment.enabled=false", "--subdivide", "0.1"});
+    };
+    const Outcome lit = bake(m_folder / "room.dae", m_folder / "lit.dae");
+    ASSERT_EQ(lit.status, 0) << lit.err;
+    const std::string text = readBytes(m_folder / "lit.dae");
+    for (const char* kept :
+         {"<!-- kept -->", "<foo>bar</foo>", "<up_axis>Z_UP</up_axis>", "name=\"centimeter\"",
+          "<authoring_tool>by hand</authoring_tool>", "<instance_camera url=\"#cam\""})
+        EXPECT_THAT(text, HasSubstr(kept));
+    EXPECT_THAT(text, HasSubstr("<authoring_tool>Patina"));
+    EXPECT_THAT(text, HasSubstr("semantic=\"COLOR\""));
+    // It opens again, each instance with a mesh of its own where it was.
+    const nlohmann::json before = runPatina({"info", m_folder / "room.dae", "--json"}).json(),
+                         after = runPatina({"info", m_folder / "lit.dae", "--json"}).json();
+    EXPECT_EQ(before["counts"]["triangles"], 6);
+    EXPECT_GT(after["counts"]["triangles"], 150);
+    EXPECT_EQ(after["counts"]["meshes"], 3);
+    for (const char* end : {"min", "max"})
+        for (std::size_t c = 0; c < 3; ++c)
+            EXPECT_NEAR(before["bounds"][end][c].get<double>(),
+                        after["bounds"][end][c].get<double>(), 1e-6);
+
+    // Scenes from elsewhere get a document of their own.
+    ASSERT_EQ(bake("builtin:cornell-reference", m_folder / "new.dae").status, 0);
+    EXPECT_THAT(readBytes(m_folder / "new.dae"), HasSubstr("semantic=\"COLOR\""));
+    EXPECT_EQ(runPatina({"info", m_folder / "new.dae", "--json"}).json()["counts"]["meshes"], 6);
+}
+
 TEST_F(Commands, RadiosityIsSolvedAndWrittenWhereverItIsAskedFor) {
     const auto bake = [&](const std::string& output, std::vector<std::string> more,
                           const char* area = "0.005") {

@@ -130,6 +130,7 @@ LitDocument litDocument(const Document& document, const std::vector<LitPart>& pa
         copy.transform = glm::mat4(1.0f);
         if (material != nullptr && materialOf(lit, material->id) == nullptr)
             lit.materials.push_back(shown(*material, isTextured(material)));
+        result.instanceOf[copy.id] = part.instance;
         LitVertices& vertices = meshes[copy.id];
         const std::vector<glm::vec3>& light = shownLight(document, part);
         for (std::size_t v = 0; v < part.radiosity.size(); ++v) {

@@ -11,6 +11,7 @@
 #include "core/radiosity/Solve.h"
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -81,6 +82,7 @@ struct LitPart {
 struct LitDocument {
     Document document; // meshes and materials are those that are lit; cameras and names stay
     std::shared_ptr<const LitMeshes> lit;
+    std::map<Id, Id> instanceOf; // of each lit mesh: the MeshInstance::id that it is a part of
 };
 // `exposure`: k; nullopt: values as they are, cut off at 1.
 [[nodiscard]] LitDocument litDocument(const Document& document, const std::vector<LitPart>& parts,
