@@ -242,12 +242,9 @@ class MeshReader {
         Corners corners = triangulated(m_primitive, m_faces, [&](std::size_t corner) {
             return m_positions->vector(index(corner, *m_position));
         });
-        // Mirrored: fronts would turn clockwise.
-        if (glm::determinant(glm::dmat3(m_toWorld)) < 0.0)
-            for (std::size_t i = 0; i < corners.corners.size(); i += 3)
-                std::swap(corners.corners[i + 1], corners.corners[i + 2]);
         ColladaMesh result;
         join(corners, result.mesh);
+        turnOver(result.mesh.indices);
         result.faces = std::move(corners.faces);
         result.skippedFaces = corners.skipped;
         result.computedNormals = m_normal == nullptr;
@@ -268,6 +265,13 @@ class MeshReader {
                     static_cast<long long>(count) - 1));
     }
 
+    // The fronts of a mirrored instance would turn clockwise.
+    void turnOver(std::vector<std::uint32_t>& indices) const {
+        if (glm::determinant(glm::dmat3(m_toWorld)) < 0.0)
+            for (std::size_t i = 0; i < indices.size(); i += 3)
+                std::swap(indices[i + 1], indices[i + 2]);
+    }
+
     // Corners of equal indices become one vertex.
     void join(const Corners& corners, Mesh& mesh) const {
         std::vector<glm::vec3> computed;
@@ -278,6 +282,7 @@ class MeshReader {
             std::vector<std::uint32_t> indices;
             for (const std::size_t corner : corners.corners)
                 indices.push_back(index(corner, *m_position));
+            turnOver(indices);
             computed = smoothNormals(all, std::move(indices));
         }
         const glm::dmat3 toWorldNormal = glm::transpose(adjugate(glm::dmat3(m_toWorld)));

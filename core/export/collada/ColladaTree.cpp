@@ -15,11 +15,11 @@
 namespace patina::collada {
 namespace {
 
-// All of the document is kept, white space and comments included; references to characters are
-// resolved, entities of a DTD are not.
+// All of the document is kept, white space and comments included, outside of the root element, too
+// (parse_fragment); references to characters are resolved, entities of a DTD are not.
 constexpr unsigned int kParse = pugi::parse_comments | pugi::parse_pi | pugi::parse_declaration |
                                 pugi::parse_doctype | pugi::parse_cdata | pugi::parse_escapes |
-                                pugi::parse_ws_pcdata;
+                                pugi::parse_ws_pcdata | pugi::parse_fragment;
 
 bool isSpace(char c) {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r';
@@ -61,13 +61,18 @@ void checkRoot(const pugi::xml_document& document) {
             throw Fault("its DOCTYPE declares entities, which are not read; replace them by what "
                         "they stand for, and delete the DOCTYPE");
     const xml_node root = document.document_element();
+    if (!root)
+        throw Fault("it is damaged or empty: it has no elements; export it again");
     if (std::string_view(root.name()) != "COLLADA")
         throw Fault(fmt::format("its root element is <{}> instead of <COLLADA>; export it as "
                                 "COLLADA 1.4 or 1.5",
                                 root.name()));
-    for (xml_node next = root.next_sibling(); next; next = next.next_sibling())
-        if (next.type() == pugi::node_element)
-            throw Fault("it has more than one root element; export it again");
+    for (const xml_node& node : document.children())
+        if ((node.type() == pugi::node_element && node != root) ||
+            ((node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata) &&
+             !trimmed(node.value()).empty()))
+            throw Fault(
+                "it has more than one root element, or text outside of it; export it again");
     const std::string version = root.attribute("version").value();
     if (!version.starts_with("1.4") && !version.starts_with("1.5"))
         throw Fault(fmt::format("it is COLLADA \"{}\"; export it as COLLADA 1.4 or 1.5", version));
