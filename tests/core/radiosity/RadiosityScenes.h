@@ -37,9 +37,8 @@ struct DividedScene {
     [[nodiscard]] std::unique_ptr<radiosity::FormFactors>
     factors(const radiosity::FactorSettings& settings) const;
 };
-[[nodiscard]] std::unique_ptr<DividedScene> divided(const TraceInputs& inputs,
-                                                    const radiosity::ElementLimits& limits,
-                                                    const radiosity::SceneProblemSettings& light =
-                                                        {.glowByFactors = true});
+[[nodiscard]] std::unique_ptr<DividedScene>
+divided(const TraceInputs& inputs, const radiosity::ElementLimits& limits,
+        const radiosity::SceneProblemSettings& light = {.glowByFactors = true});
 
 } // namespace patina::test
