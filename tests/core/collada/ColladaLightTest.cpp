@@ -153,7 +153,7 @@ TEST(ColladaLight, VerticesHaveColoursAndRadiosity) {
     light(document, {0});
     const auto tree = treeOf(document.text());
     const pugi::xml_node geometry = geometryOf(tree, "Square-lit");
-    EXPECT_STREQ(geometry.attribute("name").value(), "Square mesh");
+    EXPECT_STREQ(geometry.attribute("name").value(), "Square-mesh");
     const pugi::xml_node mesh = geometry.child("mesh");
     const auto source = [&](const char* id) {
         return std::string(mesh.find_child_by_attribute("id", id).child_value("float_array"));
