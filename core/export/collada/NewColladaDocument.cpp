@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <map>
+#include <string_view>
 #include <utility>
 
 namespace patina {

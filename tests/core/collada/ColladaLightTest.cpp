@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <gmock/gmock.h>
+#include <limits>
 #include <map>
 #include <pugixml.hpp>
+#include <set>
 #include <sstream>
 
 using namespace patina;

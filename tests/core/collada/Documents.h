@@ -6,7 +6,9 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace patina::test {
 
