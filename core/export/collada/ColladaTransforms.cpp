@@ -2,7 +2,6 @@
 
 #include "core/export/Names.h"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
@@ -107,14 +106,13 @@ glm::dmat4 assetTransform(const Tree& tree) {
     const xml_node asset = tree.root().child("asset");
     double metres = 1.0;
     if (const xml_node unit = asset.child("unit"); unit.attribute("meter")) {
-        // Some programs write the decimal comma of their user's language.
-        std::string text = trimmed(unit.attribute("meter").value());
-        std::ranges::replace(text, ',', '.');
+        const std::string text = trimmed(unit.attribute("meter").value());
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), metres);
         if (error != std::errc() || end != text.data() + text.size() || !(metres > 0.0) ||
             !std::isfinite(metres))
-            throw Fault(fmt::format("its <unit> is \"{}\" metres; set it to a positive number",
-                                    cleanName(unit.attribute("meter").value(), "")));
+            throw Fault(
+                fmt::format("its <unit> is \"{}\" metres; set it to a positive number, with a dot",
+                            cleanName(unit.attribute("meter").value(), "")));
     }
     const std::string up = trimmed(textOf(asset.child("up_axis")));
     glm::dmat4 axes(1.0);

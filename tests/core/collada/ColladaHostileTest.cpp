@@ -94,6 +94,7 @@ TEST(ColladaHostile, EachFaultIsNamed) {
          "<matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 1 1</matrix>", "matrix", "last row"},
         {"id=\"Right\"", "id=\"Chair\"", "two <node>", "rename"},
         {"meter=\"0.5\"", "meter=\"0\"", "unit", "positive"},
+        {"meter=\"0.5\"", "meter=\"0,5\"", "unit", "with a dot"},
         {"Z_UP", "W_UP", "up_axis", "W_UP"},
         {"<instance_visual_scene url=\"#Scene\"", "<instance_visual_scene url=\"#No\"", "No",
          "not there"},
