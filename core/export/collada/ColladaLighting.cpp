@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 #include <set>
 #include <string_view>
 #include <unordered_set>
@@ -119,7 +120,6 @@ class Lighting {
         LitVertices vertices;
         std::vector<LitTriangles> triangles;
         std::set<std::string> left;
-        std::vector<std::size_t> litPrimitives; // among the children of <mesh>
         for (const ColladaLitMesh* lit : instance.meshes)
             triangles.push_back(addPart(*lit, vertices, left));
         for (const std::string& semantic : left)

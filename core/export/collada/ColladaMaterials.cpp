@@ -1,10 +1,11 @@
 #include "core/export/collada/ColladaMaterials.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <fmt/format.h>
+#include <initializer_list>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace patina::collada {
 namespace {

@@ -1,12 +1,16 @@
 #include "core/export/collada/ColladaTransforms.h"
 
-#include <algorithm>
+#include "core/export/Names.h"
+
+#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
+#include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace patina::collada {
@@ -102,10 +106,13 @@ glm::dmat4 assetTransform(const Tree& tree) {
     const xml_node asset = tree.root().child("asset");
     double metres = 1.0;
     if (const xml_node unit = asset.child("unit"); unit.attribute("meter")) {
-        metres = unit.attribute("meter").as_double(0.0);
-        if (!(metres > 0.0) || !std::isfinite(metres))
-            throw Fault(fmt::format("its <unit> is \"{}\" metres; set it to a positive number",
-                                    trimmed(unit.attribute("meter").value())));
+        const std::string text = trimmed(unit.attribute("meter").value());
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), metres);
+        if (error != std::errc() || end != text.data() + text.size() || !(metres > 0.0) ||
+            !std::isfinite(metres))
+            throw Fault(
+                fmt::format("its <unit> is \"{}\" metres; set it to a positive number, with a dot",
+                            cleanName(unit.attribute("meter").value(), "")));
     }
     const std::string up = trimmed(textOf(asset.child("up_axis")));
     glm::dmat4 axes(1.0);
@@ -116,7 +123,8 @@ glm::dmat4 assetTransform(const Tree& tree) {
         axes[0] = {0.0, 1.0, 0.0, 0.0};
         axes[1] = {-1.0, 0.0, 0.0, 0.0};
     } else if (!up.empty() && up != "Y_UP") {
-        throw Fault(fmt::format("its <up_axis> is \"{}\"; set it to X_UP, Y_UP or Z_UP", up));
+        throw Fault(fmt::format("its <up_axis> is \"{}\"; set it to X_UP, Y_UP or Z_UP",
+                                cleanName(up, "")));
     }
     return glm::scale(axes, glm::dvec3(metres));
 }

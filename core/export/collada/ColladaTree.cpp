@@ -1,15 +1,13 @@
 #include "core/export/collada/ColladaTree.h"
 
-#include "core/base/Utf8.h"
 #include "core/export/Names.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <fmt/format.h>
-#include <limits>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 
 namespace patina::collada {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <map>
+#include <string_view>
 #include <utility>
 
 namespace patina {
@@ -37,6 +38,21 @@ std::string uriOf(const std::string& file) {
             uri += fmt::format("%{:02X}", static_cast<unsigned char>(c));
     }
     return uri;
+}
+
+// The schema wants names (NCName) where one would put any text: no spaces, no leading digit. What
+// is no ASCII is taken for letters.
+std::string xmlName(const std::string& title) {
+    std::string name = cleanName(title, "");
+    for (char& c : name) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                           (c >= '0' && c <= '9') || c == '-' || c == '.' ||
+                           static_cast<unsigned char>(c) >= 0x80;
+        c = plain ? c : '_';
+    }
+    if (!name.empty() && (name[0] == '-' || name[0] == '.' || (name[0] >= '0' && name[0] <= '9')))
+        name.insert(0, "_");
+    return name;
 }
 
 std::string colorText(const glm::vec3& color, float alpha) {
@@ -85,7 +101,7 @@ class NewDocument {
         const xml_node element = append(parent, name);
         setAttribute(element, "id", id);
         if (!title.empty())
-            setAttribute(element, "name", cleanName(title, name));
+            setAttribute(element, "name", xmlName(title));
         m_tree.add(element, id);
         return element;
     }
@@ -120,7 +136,7 @@ class NewDocument {
             const xml_node images = append(m_tree.root(), "library_images");
             for (auto& [file, id] : m_images) {
                 id = m_tree.newId("image-" + file.substr(file.find_last_of('/') + 1));
-                append(appendWithId(images, "image", id, file), "init_from", uriOf(file));
+                append(appendWithId(images, "image", id, {}), "init_from", uriOf(file));
             }
         }
         const xml_node effects = append(m_tree.root(), "library_effects");

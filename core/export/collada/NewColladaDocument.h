@@ -16,7 +16,7 @@
 namespace patina {
 
 struct NewColladaMesh {
-    std::string name;
+    std::string name;                 // what the schema allows in names; the rest becomes _
     int material = -1;                // of NewColladaScene::materials; -1: none
     Mesh mesh;                        // world space; texture coordinates may be missing
     std::vector<glm::vec4> colors;    // as in ColladaLitMesh

@@ -3,6 +3,7 @@
 #include "tests/support/TemporaryFolder.h"
 
 #include <gmock/gmock.h>
+#include <random>
 
 using namespace patina;
 using namespace patina::test;
@@ -18,6 +19,21 @@ std::string errorOf(const std::string& text, const ColladaLimits& limits = {}) {
         if (Result<ColladaMesh> mesh = document->mesh(i); !mesh)
             return mesh.error().text();
     return {};
+}
+
+// Lights all that it can of what is read: the result is a document again.
+void lightAll(ColladaDocument& document) {
+    std::vector<ColladaLitMesh> meshes;
+    for (std::size_t i = 0; i < document.instances().size(); ++i)
+        if (Result<ColladaMesh> mesh = document.mesh(i); mesh && !mesh->mesh.indices.empty())
+            meshes.push_back(litMesh(document, i));
+    const std::size_t count = document.instances().size();
+    const Result<std::vector<std::string>> notices =
+        document.light(meshes, std::chrono::sys_seconds{});
+    EXPECT_TRUE(notices.ok()) << notices.error().text();
+    const Result<ColladaDocument> again = ColladaDocument::parse(document.text(), "lit.dae");
+    ASSERT_TRUE(again.ok()) << again.error().text();
+    EXPECT_EQ(again->instances().size(), count);
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -78,6 +94,7 @@ TEST(ColladaHostile, EachFaultIsNamed) {
          "<matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 1 1</matrix>", "matrix", "last row"},
         {"id=\"Right\"", "id=\"Chair\"", "two <node>", "rename"},
         {"meter=\"0.5\"", "meter=\"0\"", "unit", "positive"},
+        {"meter=\"0.5\"", "meter=\"0,5\"", "unit", "with a dot"},
         {"Z_UP", "W_UP", "up_axis", "W_UP"},
         {"<instance_visual_scene url=\"#Scene\"", "<instance_visual_scene url=\"#No\"", "No",
          "not there"},
@@ -186,8 +203,32 @@ TEST(ColladaHostile, WithoutAnyAttributeOrElement) {
         ++(errorOf(without).empty() ? read : refused);
         if (Result<ColladaDocument> document = ColladaDocument::parse(without, "test.dae")) {
             EXPECT_TRUE(ColladaDocument::parse(document->text(), "test.dae").ok());
+            lightAll(*document);
         }
     }
     EXPECT_GT(refused, 40);
     EXPECT_GT(read, 20);
+}
+
+// Characters of the document are replaced by others of it, or by worse.
+TEST(ColladaHostile, RandomDamage) {
+    const std::string text = roomDocument();
+    const std::string worse = std::string("<>&;#\"'/ -.e0]") + '\0' + '\xff';
+    std::mt19937 random(20);
+    const auto below = [&](std::size_t end) {
+        return std::uniform_int_distribution<std::size_t>(0, end - 1)(random);
+    };
+    int read = 0;
+    for (int i = 0; i < 3000; ++i) {
+        SCOPED_TRACE(fmt::format("seed 20, number {}", i));
+        std::string damaged = text;
+        for (std::size_t n = 1 + below(3); n > 0; --n)
+            damaged[below(text.size())] =
+                below(2) == 0 ? text[below(text.size())] : worse[below(worse.size())];
+        if (Result<ColladaDocument> document = ColladaDocument::parse(damaged, "test.dae")) {
+            lightAll(*document);
+            ++read;
+        }
+    }
+    EXPECT_GT(read, 100);
 }

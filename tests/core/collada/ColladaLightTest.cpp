@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <gmock/gmock.h>
+#include <limits>
 #include <map>
 #include <pugixml.hpp>
+#include <set>
 #include <sstream>
 
 using namespace patina;
@@ -153,7 +155,7 @@ TEST(ColladaLight, VerticesHaveColoursAndRadiosity) {
     light(document, {0});
     const auto tree = treeOf(document.text());
     const pugi::xml_node geometry = geometryOf(tree, "Square-lit");
-    EXPECT_STREQ(geometry.attribute("name").value(), "Square mesh");
+    EXPECT_STREQ(geometry.attribute("name").value(), "Square-mesh");
     const pugi::xml_node mesh = geometry.child("mesh");
     const auto source = [&](const char* id) {
         return std::string(mesh.find_child_by_attribute("id", id).child_value("float_array"));

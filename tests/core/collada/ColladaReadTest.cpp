@@ -207,7 +207,7 @@ TEST(ColladaRead, DocumentsAreWrittenAsTheyWere) {
 TEST(ColladaRead, OtherEncodingsBecomeUtf8) {
     std::string text = squareDocument(kSquareAsQuad);
     text.replace(text.find("utf-8"), 5, "iso-8859-1");
-    text.replace(text.find("Square mesh"), 11,
+    text.replace(text.find("Square-mesh"), 11,
                  "Fl\xe4"
                  "che");
     const ColladaDocument document = parsed(text);

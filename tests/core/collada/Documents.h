@@ -6,7 +6,9 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace patina::test {
 
@@ -15,7 +17,7 @@ inline const std::string kNamespace15 = "http://www.collada.org/2008/03/COLLADAS
 
 // A square of 1 in the plane z = 0, its front towards +Z, whose primitive element is `primitive`.
 inline std::string squareGeometry(const std::string& primitive) {
-    return fmt::format(R"(<geometry id="Square" name="Square mesh"><mesh>
+    return fmt::format(R"(<geometry id="Square" name="Square-mesh"><mesh>
       <source id="Sq-p"><float_array id="Sq-p-a" count="12">0 0 0  1 0 0  1 1 0  0 1 0</float_array>
         <technique_common><accessor source="#Sq-p-a" count="4" stride="3">
           <param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
