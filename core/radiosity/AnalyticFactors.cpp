@@ -72,8 +72,7 @@ double AnalyticFactors::visibility(std::uint32_t a, std::uint32_t b) const {
             const glm::dvec3 way = to - from;
             const double cosA = glm::dot(normalA, way), cosB = -glm::dot(normalB, way);
             const double length2 = glm::dot(way, way);
-            if (!(cosA > 0.0 && cosB > 0.0 && length2 > 0.0) ||
-                m_elements.isBuried(a, from, m_rays) || m_elements.isBuried(b, to, m_rays))
+            if (!(cosA > 0.0 && cosB > 0.0 && length2 > 0.0))
                 continue;
             const double distance = std::sqrt(length2);
             OcclusionRay ray;
@@ -84,8 +83,13 @@ double AnalyticFactors::visibility(std::uint32_t a, std::uint32_t b) const {
                 std::max(0.0, glm::length(offsetWay) - 0.5 * double{kRayOffset}));
             if (distance <= 2.0 * double{kRayOffset}) // nothing fits in between
                 ray.maxDistance = 0.0f;
+            const double weight = cosA * cosB / (length2 * length2);
+            if (m_elements.isBuried(a, from, m_rays) || m_elements.isBuried(b, to, m_rays)) {
+                total += weight; // sees nothing
+                continue;
+            }
             rays.push_back(ray);
-            weights.push_back(cosA * cosB / (length2 * length2));
+            weights.push_back(weight);
         }
         m_rays.occlude(rays);
         for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -103,13 +107,17 @@ double AnalyticFactors::visibility(std::uint32_t a, std::uint32_t b) const {
 
 void AnalyticFactors::row(std::uint32_t element, FactorRow& row) const {
     row.clear();
+    if (m_elements.exposed(element) <= 0.0f) {
+        row.absorbed = 1.0f; // all of it is within something
+        return;
+    }
     const Polygon own = m_elements.polygon(element);
     const glm::dvec3 normal = m_elements.face(element).normal;
     const Round& round = m_rounds[element];
-    const double area = glm::length(areaVector(own.points()));
+    const double area = glm::length(areaVector(own.points())) * double{m_elements.exposed(element)};
     double sum = 0.0;
     for (std::uint32_t other = 0; other < m_elements.size(); ++other) {
-        if (other == element)
+        if (other == element || m_elements.exposed(other) <= 0.0f)
             continue;
         const Round& there = m_rounds[other];
         const glm::dvec3 otherNormal = m_elements.face(other).normal;

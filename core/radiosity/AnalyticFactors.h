@@ -15,6 +15,7 @@ class AnalyticFactors final : public FormFactors {
     void row(std::uint32_t element, FactorRow& row) const override;
 
   private:
+    // Of all pairs, the share that is exposed at both ends and has nothing in between.
     [[nodiscard]] double visibility(std::uint32_t a, std::uint32_t b) const;
 
     const ElementMesh& m_elements;

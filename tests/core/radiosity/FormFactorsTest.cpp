@@ -4,6 +4,7 @@
 #include "tests/core/radiosity/RadiosityScenes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <set>
@@ -166,6 +167,43 @@ TEST_P(EveryMethod, LetsNothingThroughAWall) {
         }
         EXPECT_NEAR(row.sum(), 1.0, GetParam() == FactorMethod::Analytic ? 1e-4 : 1e-6) << e;
     }
+}
+
+TEST_P(EveryMethod, LeavesOutWhatABlockStandsOn) {
+    // Some elements of the floor are below the block, wholly or in part.
+    std::vector<Wall> walls = unitCube(0.5f);
+    const float x0 = 0.3f, x1 = 0.73f, y0 = 0.2f, y1 = 0.66f, z = 0.4f;
+    const std::array<std::array<glm::vec3, 4>, 5> block{
+        {{{{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}}},
+         {{{x0, y0, 0}, {x1, y0, 0}, {x1, y0, z}, {x0, y0, z}}},
+         {{{x1, y0, 0}, {x1, y1, 0}, {x1, y1, z}, {x1, y0, z}}},
+         {{{x1, y1, 0}, {x0, y1, 0}, {x0, y1, z}, {x1, y1, z}}},
+         {{{x0, y1, 0}, {x0, y0, 0}, {x0, y0, z}, {x0, y1, z}}}}};
+    for (const std::array<glm::vec3, 4>& corners : block)
+        walls.push_back({corners});
+    const auto scene = divided(sceneOf(walls), {0.13});
+    const int resolution = GetParam() == FactorMethod::Hemicube ? 32 : 256;
+    const auto factors = scene->factors({GetParam(), resolution, 3});
+    int buried = 0, partly = 0;
+    double error = 0.0, rows = 0.0;
+    FactorRow row;
+    for (std::uint32_t e = 0; e < scene->elements.size(); ++e) {
+        factors->row(e, row);
+        const float exposed = scene->elements.exposed(e);
+        buried += exposed == 0.0f ? 1 : 0;
+        partly += exposed > 0.0f && exposed < 1.0f ? 1 : 0;
+        for (const FactorRow::Share& share : row.shares)
+            EXPECT_GT(scene->elements.exposed(share.element), 0.0f) << e;
+        if (exposed == 0.0f) {
+            EXPECT_EQ(row.absorbed, 1.0f);
+            continue;
+        }
+        error += std::abs(row.sum() - 1.0);
+        rows += 1.0;
+    }
+    EXPECT_GE(buried, 4);
+    EXPECT_GE(partly, 8);
+    EXPECT_LT(error / rows, GetParam() == FactorMethod::Analytic ? 0.01 : 1e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Radiosity, EveryMethod,
