@@ -246,6 +246,10 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
                   "Shots or sweeps at most (default: as many as it takes)")
         ->check(plain(CLI::Range(1, 1'000'000'000)))
         ->type_name("N");
+    c->add_option("--output-every", o.outputEvery,
+                  "Also write what is there after every N shots or sweeps: OUT-000001.glb …")
+        ->check(plain(CLI::Range(1, 1'000'000'000)))
+        ->type_name("N");
     c->add_option("--residual", settings.solve.residual,
                   "Share of the light that may be left unsolved")
         ->check(plain(CLI::Range(1e-12, 1.0)))

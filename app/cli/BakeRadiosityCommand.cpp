@@ -17,7 +17,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 namespace patina::cli {
@@ -55,7 +57,7 @@ Result<void> checkFile(const BakeRadiosityOptions& options) {
 Result<void> writePicture(Session& session, const BakeRadiosityOptions& options,
                           const SceneRequest& request, const Document& document,
                           const RadiosityScene& scene, const Solution& solution,
-                          std::optional<double> exposure) {
+                          std::optional<double> exposure, const std::filesystem::path& output) {
     PictureOptions picture;
     picture.size = options.size.value_or(picture.size);
     picture.camera = options.camera.value_or("");
@@ -75,13 +77,11 @@ Result<void> writePicture(Session& session, const BakeRadiosityOptions& options,
     PictureSettings settings;
     settings.look = options.look.value_or(Look::Smooth);
     settings.seed = options.settings.factors.seed;
-    session.beginPhase();
     session.job().setActivity("drawing");
     const SeenSolution seen(scene.scene(), scene.elements(), scene.lit(), solution);
     const Result<Image> drawn = seen.picture(view, settings, session.job());
     if (!drawn)
         return drawn.error();
-    const std::filesystem::path output = options.output;
     if (extensionOf(output) == ".exr") {
         if (Result<void> saved = saveImage(session.worker(), *drawn, output); !saved)
             return saved;
@@ -122,6 +122,9 @@ Result<RadiositySettings> settingsOf(const BakeRadiosityOptions& options) {
                                       name(settings.factors.method), odd ? "even, " : "",
                                       range.lowest, range.highest, settings.factors.resolution));
     settings.factors.classicalHemicube = settings.classic;
+    if (options.outputEvery) // no more at a time than a file is asked for
+        settings.solve.shotsPerStep =
+            std::min<std::size_t>(settings.solve.shotsPerStep, *options.outputEvery);
     constexpr std::string_view kAdaptive = "adaptive:";
     std::string_view division = options.subdivide;
     const bool adaptive = division.starts_with(kAdaptive);
@@ -137,24 +140,10 @@ Result<RadiositySettings> settingsOf(const BakeRadiosityOptions& options) {
     return settings;
 }
 
-// nullopt: values as they are.
-Result<std::optional<double>> exposureOf(const std::string& text, const Document& document,
-                                         const std::vector<LitPart>& parts) {
-    if (text.empty())
-        return std::optional(automaticExposure(document, parts));
-    if (text == "none")
-        return std::optional<double>();
-    std::vector<double> numbers;
-    if (!parseNumbers(text, ',', numbers) || numbers.size() != 1 || !(numbers[0] > 0.0) ||
-        !std::isfinite(numbers[0]))
-        return usageError("--exposure is a number above 0, or none");
-    return std::optional(numbers[0]);
-}
-
 // Into the document that the scene came from, or a new one.
 Result<void> writeCollada(Session& session, const BakeRadiosityOptions& options,
                           const SceneRequest& request, const Document& document,
-                          const LitDocument& lit) {
+                          const LitDocument& lit, const std::filesystem::path& output) {
     const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     Result<LitCollada> collada = Error{};
     if (isCollada(options.scene)) {
@@ -173,9 +162,77 @@ Result<void> writeCollada(Session& session, const BakeRadiosityOptions& options,
     for (const std::string& notice : collada->notices)
         session.report().warn(notice);
     const std::string text = collada->document.text();
-    if (Result<void> written = writeFileAtomically(options.output, text); !written)
+    if (Result<void> written = writeFileAtomically(output, text); !written)
         return written;
-    session.report().output(options.output, bytesText(text.size()));
+    session.report().output(output, bytesText(text.size()));
+    return {};
+}
+
+// nullopt: values as they are.
+Result<std::optional<double>> exposureOf(const std::string& text, const Document& document,
+                                         const std::vector<LitPart>& parts) {
+    if (text.empty())
+        return std::optional(automaticExposure(document, parts));
+    if (text == "none")
+        return std::optional<double>();
+    std::vector<double> numbers;
+    if (!parseNumbers(text, ',', numbers) || numbers.size() != 1 || !(numbers[0] > 0.0) ||
+        !std::isfinite(numbers[0]))
+        return usageError("--exposure is a number above 0, or none");
+    return std::optional(numbers[0]);
+}
+
+// OUT-000012.glb of OUT.glb.
+std::filesystem::path numbered(const std::filesystem::path& output, std::uint64_t iterations) {
+    std::filesystem::path result = output;
+    result.replace_filename(
+        fmt::format("{}-{:06}{}", output.stem().string(), iterations, output.extension().string()));
+    return result;
+}
+
+// As `output`, which may be another file than the options say.
+Result<void> writeSolution(Session& session, const BakeRadiosityOptions& options,
+                           const SceneRequest& request, const Document& document,
+                           const RadiosityScene& scene, const Solution& solution,
+                           const std::filesystem::path& output) {
+    const std::vector<LitPart> parts = litParts(scene, solution);
+    const auto exposure = exposureOf(options.exposure, document, parts);
+    if (!exposure)
+        return exposure.error();
+    if (*exposure)
+        session.report().json()["exposure"] = **exposure;
+    if (isPicture(output))
+        return writePicture(session, options, request, document, scene, solution, *exposure,
+                            output);
+    const LitDocument lit = litDocument(document, parts, *exposure);
+    if (isCollada(output))
+        return writeCollada(session, options, request, document, lit, output);
+    if (isPly(output)) {
+        const Bytes file = litPly(lit);
+        if (Result<void> written = writeFileAtomically(output, file); !written)
+            return written;
+        session.report().output(output, bytesText(file.size()));
+        return {};
+    }
+    ExportSettings files;
+    files.output = output;
+    files.format = *exportFormatOf(output);
+    files.lit = lit.lit;
+    files.includeLights = files.includeVariants = files.includeBakedAo = files.includeTransfer =
+        false;
+    const ExportPlan plan = planExport(lit.document, files);
+    if (plan.problem)
+        return *plan.problem;
+    for (const std::string& warning : plan.warnings)
+        session.report().warn(warning);
+    const auto written = runExport(session.worker(), plan, session.job());
+    if (!written)
+        return written.error();
+    for (const std::filesystem::path& file : *written) {
+        std::error_code unknown;
+        const std::uintmax_t size = std::filesystem::file_size(file, unknown);
+        session.report().output(file, unknown ? "" : bytesText(size));
+    }
     return {};
 }
 
@@ -251,53 +308,28 @@ Result<void> run(Session& session, const BakeRadiosityOptions& options) {
         return scene.error();
     session.beginPhase();
     session.allowPartialResult();
-    const Result<Solved> solved = (*scene)->solve(*settings, session.job());
+    // What is there after so many shots or sweeps, in files of their own.
+    Result<void> partial;
+    std::uint64_t nextOutput = options.outputEvery.value_or(0);
+    const auto keepPartial = [&](std::uint64_t iterations, double,
+                                 const std::function<Solution()>& solution) {
+        if (nextOutput == 0 || iterations < nextOutput)
+            return true;
+        nextOutput = iterations + *options.outputEvery;
+        partial = writeSolution(session, options, request, *document, **scene, solution(),
+                                numbered(output, iterations));
+        return partial.ok();
+    };
+    const Result<Solved> solved = (*scene)->solve(*settings, session.job(), keepPartial);
     if (!solved)
         return solved.error();
+    if (!partial)
+        return partial;
     report(session.report(), **scene, solved->report);
     session.report().json()["partial"] = session.interrupted();
-
     session.beginPhase();
     session.job().setActivity("writing");
-    const std::vector<LitPart> parts = litParts(**scene, solved->solution);
-    const auto exposure = exposureOf(options.exposure, *document, parts);
-    if (!exposure)
-        return exposure.error();
-    if (*exposure)
-        session.report().json()["exposure"] = **exposure;
-    if (isPicture(output))
-        return writePicture(session, options, request, *document, **scene, solved->solution,
-                            *exposure);
-    const LitDocument lit = litDocument(*document, parts, *exposure);
-    if (isCollada(output))
-        return writeCollada(session, options, request, *document, lit);
-    if (isPly(output)) {
-        const Bytes file = litPly(lit);
-        if (Result<void> written = writeFileAtomically(output, file); !written)
-            return written;
-        session.report().output(output, bytesText(file.size()));
-        return {};
-    }
-    ExportSettings files;
-    files.output = output;
-    files.format = *exportFormatOf(output);
-    files.lit = lit.lit;
-    files.includeLights = files.includeVariants = files.includeBakedAo = files.includeTransfer =
-        false;
-    const ExportPlan plan = planExport(lit.document, files);
-    if (plan.problem)
-        return *plan.problem;
-    for (const std::string& warning : plan.warnings)
-        session.report().warn(warning);
-    const auto written = runExport(session.worker(), plan, session.job());
-    if (!written)
-        return written.error();
-    for (const std::filesystem::path& file : *written) {
-        std::error_code unknown;
-        const std::uintmax_t size = std::filesystem::file_size(file, unknown);
-        session.report().output(file, unknown ? "" : bytesText(size));
-    }
-    return {};
+    return writeSolution(session, options, request, *document, **scene, solved->solution, output);
 }
 
 } // namespace patina::cli

@@ -152,9 +152,10 @@ struct BakeRadiosityOptions {
     std::optional<std::string> size, camera;
     std::optional<radiosity::Look> look;
     RadiositySettings settings;
-    std::optional<int> resolution; // not given: as the method has it
-    std::string subdivide;         // an area or "adaptive:X"; empty: as the settings have it
-    std::string exposure;          // a number or "none"; empty: found
+    std::optional<int> resolution;            // not given: as the method has it
+    std::optional<std::uint64_t> outputEvery; // shots or sweeps
+    std::string subdivide; // an area or "adaptive:X"; empty: as the settings have it
+    std::string exposure;  // a number or "none"; empty: found
 };
 
 struct MergeOptions {

@@ -333,6 +333,13 @@ TEST_F(Commands, RadiosityIsSolvedAndWrittenWhereverItIsAskedFor) {
         bake(m_folder / "ten.ply", {"--solver", "progressive", "--classic", "--iterations", "10"});
     EXPECT_EQ(ten.json()["iterations"], 10);
     EXPECT_EQ(ten.json()["converged"], false);
+    ASSERT_EQ(bake(m_folder / "step.png", {"--solver", "progressive", "--classic", "--iterations",
+                                           "5", "--output-every", "2", "--size", "8x8"})
+                  .status,
+              0);
+    std::vector<std::string> steps = m_folder.files();
+    std::erase_if(steps, [](const std::string& file) { return !file.starts_with("step"); });
+    EXPECT_THAT(steps, ElementsAre("step-000002.png", "step-000004.png", "step.png"));
     EXPECT_THAT(readBytes(m_folder / "ten.ply"), HasSubstr("property float radiance_r"));
 
     const Outcome adaptive = bake(m_folder / "d.ply", {}, "adaptive:0.3");
