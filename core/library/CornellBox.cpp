@@ -4,6 +4,7 @@
 #include "core/material/Material.h"
 
 #include <array>
+#include <utility>
 
 namespace patina::library {
 
@@ -49,13 +50,26 @@ void addQuad(Mesh& mesh, const Quad& quad, int steps, int cells, int cell) {
     addQuadGrid(mesh, p, steps, cells, cell);
 }
 
+struct Box {
+    Mesh room, shortBlock, tallBlock, redWall, greenWall, lamp;
+
+    std::vector<ModelPart> parts(const Material& light) {
+        const Material white = matteMaterial("White", {0.738239f, 0.735992f, 0.738601f});
+        const Material red = matteMaterial("Red", {0.493880f, 0.048870f, 0.051155f});
+        const Material green = matteMaterial("Green", {0.068413f, 0.398461f, 0.086545f});
+        return {makePart("Room", std::move(room), white),
+                makePart("Left Wall", std::move(redWall), red),
+                makePart("Right Wall", std::move(greenWall), green),
+                makePart("Short Block", std::move(shortBlock), white),
+                makePart("Tall Block", std::move(tallBlock), white),
+                makePart("Light", std::move(lamp), light)};
+    }
+};
+
 } // namespace
 
 std::vector<ModelPart> cornellBox() {
     constexpr int kWallSteps = 32, kBlockSteps = 12, kLightSteps = 8;
-    const Material white = matteMaterial("White", {0.738239f, 0.735992f, 0.738601f});
-    const Material red = matteMaterial("Red", {0.493880f, 0.048870f, 0.051155f});
-    const Material green = matteMaterial("Green", {0.068413f, 0.398461f, 0.086545f});
     // The lamp's spectrum in linear sRGB, relative to its green; 0.78 is its reflectance. The
     // strength is a choice: the data sheet's scale is arbitrary.
     Material light = matteMaterial("Light", glm::vec3(0.78f));
@@ -63,29 +77,21 @@ std::vector<ModelPart> cornellBox() {
     light.emissiveStrength = 10.85455f;
 
     // Parts that share the white material share its unit square: 4 × 4 cells.
-    Mesh room, shortBlock, tallBlock, redWall, greenWall, lamp;
-    addQuad(room, kFloor, kWallSteps, 4, 0);
-    addQuad(room, kCeiling, kWallSteps, 4, 1);
-    addQuad(room, kBackWall, kWallSteps, 4, 2);
+    Box box;
+    addQuad(box.room, kFloor, kWallSteps, 4, 0);
+    addQuad(box.room, kCeiling, kWallSteps, 4, 1);
+    addQuad(box.room, kBackWall, kWallSteps, 4, 2);
     for (int i = 0; i < 5; ++i) {
-        addQuad(shortBlock, kShortBlock[static_cast<std::size_t>(i)], kBlockSteps, 4, 3 + i);
-        addQuad(tallBlock, kTallBlock[static_cast<std::size_t>(i)], kBlockSteps, 4, 8 + i);
+        addQuad(box.shortBlock, kShortBlock[static_cast<std::size_t>(i)], kBlockSteps, 4, 3 + i);
+        addQuad(box.tallBlock, kTallBlock[static_cast<std::size_t>(i)], kBlockSteps, 4, 8 + i);
     }
-    addQuad(redWall, kLeftWall, kWallSteps, 1, 0);
-    addQuad(greenWall, kRightWall, kWallSteps, 1, 0);
-    addQuad(lamp, kLight, kLightSteps, 1, 0);
-    return {makePart("Room", std::move(room), white),
-            makePart("Left Wall", std::move(redWall), red),
-            makePart("Right Wall", std::move(greenWall), green),
-            makePart("Short Block", std::move(shortBlock), white),
-            makePart("Tall Block", std::move(tallBlock), white),
-            makePart("Light", std::move(lamp), light)};
+    addQuad(box.redWall, kLeftWall, kWallSteps, 1, 0);
+    addQuad(box.greenWall, kRightWall, kWallSteps, 1, 0);
+    addQuad(box.lamp, kLight, kLightSteps, 1, 0);
+    return box.parts(light);
 }
 
 std::vector<ModelPart> cornellReference() {
-    const Material white = matteMaterial("White", {0.738239f, 0.735992f, 0.738601f});
-    const Material red = matteMaterial("Red", {0.493880f, 0.048870f, 0.051155f});
-    const Material green = matteMaterial("Green", {0.068413f, 0.398461f, 0.086545f});
     Material light = matteMaterial("Light", glm::vec3(0.0f));
     light.emissive = glm::vec3(1.0f);
     // The ceiling has a hole where the lamp is, in its plane.
@@ -96,24 +102,19 @@ std::vector<ModelPart> cornellReference() {
          {{{556, y, 227}, {556, y, 332}, {343, y, 332}, {343, y, 227}}},
          {{{213, y, 227}, {213, y, 332}, {0, y, 332}, {0, y, 227}}}}};
     const Quad lampQuad{{{343, y, 227}, {343, y, 332}, {213, y, 332}, {213, y, 227}}};
-    Mesh room, shortBlock, tallBlock, redWall, greenWall, lamp;
-    addQuad(room, kFloor, 1, 4, 0);
-    addQuad(room, kBackWall, 1, 4, 1);
+    Box box;
+    addQuad(box.room, kFloor, 1, 4, 0);
+    addQuad(box.room, kBackWall, 1, 4, 1);
     for (int i = 0; i < 4; ++i)
-        addQuad(room, ceiling[static_cast<std::size_t>(i)], 1, 4, 2 + i);
+        addQuad(box.room, ceiling[static_cast<std::size_t>(i)], 1, 4, 2 + i);
     for (int i = 0; i < 5; ++i) {
-        addQuad(shortBlock, kShortBlock[static_cast<std::size_t>(i)], 1, 4, 6 + i);
-        addQuad(tallBlock, kTallBlock[static_cast<std::size_t>(i)], 1, 4, 11 + i);
+        addQuad(box.shortBlock, kShortBlock[static_cast<std::size_t>(i)], 1, 4, 6 + i);
+        addQuad(box.tallBlock, kTallBlock[static_cast<std::size_t>(i)], 1, 4, 11 + i);
     }
-    addQuad(redWall, kLeftWall, 1, 1, 0);
-    addQuad(greenWall, kRightWall, 1, 1, 0);
-    addQuad(lamp, lampQuad, 1, 1, 0);
-    return {makePart("Room", std::move(room), white),
-            makePart("Left Wall", std::move(redWall), red),
-            makePart("Right Wall", std::move(greenWall), green),
-            makePart("Short Block", std::move(shortBlock), white),
-            makePart("Tall Block", std::move(tallBlock), white),
-            makePart("Light", std::move(lamp), light)};
+    addQuad(box.redWall, kLeftWall, 1, 1, 0);
+    addQuad(box.greenWall, kRightWall, 1, 1, 0);
+    addQuad(box.lamp, lampQuad, 1, 1, 0);
+    return box.parts(light);
 }
 
 } // namespace patina::library
