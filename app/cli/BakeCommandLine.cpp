@@ -284,7 +284,7 @@ void CommandParser::addBakeRadiosity(CLI::App& bake) {
                 "Glowing elements shoot like all others, and a hemicube stands at the centre only, "
                 "as in the textbooks");
     c->add_option("--samples", settings.lightSamples,
-                  "Rays per element to each lamp and to the environment")
+                  "Rays per element to each light and to the environment")
         ->check(plain(CLI::Range(1, 65536)))
         ->capture_default_str()
         ->type_name("N");

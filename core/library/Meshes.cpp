@@ -231,14 +231,14 @@ std::span<const ModelRecipe> modelRecipes() {
         {"cornell-box", "Cornell Box", "The measured box of Cornell University (55 cm).",
          cornellBox},
         {"cornell-reference", "Cornell Reference",
-         "The Cornell box of undivided walls around a black lamp in its ceiling, whose light is "
+         "The Cornell box of undivided walls around a black light in its ceiling, whose light is "
          "known to six digits: for checking radiosity.",
          cornellReference},
         {"wall", "Wall",
-         "A white lamp aimed at a white wall above a white floor: a first room for radiosity.",
-         lampAtWall},
+         "A light aimed at a white wall above a white floor: a first scene for radiosity.",
+         lightAtWall},
         {"chess", "Chess Floor",
-         "A checkered floor below a lamp, and a green wall without thickness: its "
+         "A checkered floor below a light, and a green wall without thickness: its "
          "colour on the floor is light that the wall has sent.",
          chessFloor},
         {"plane", "Plane", "A square of 2 m, lying flat.",

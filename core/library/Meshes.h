@@ -43,7 +43,7 @@ void addQuadGrid(Mesh& mesh, const std::array<glm::dvec3, 4>& corners, int steps
 
 std::vector<ModelPart> cornellBox();
 std::vector<ModelPart> cornellReference();
-std::vector<ModelPart> lampAtWall();
+std::vector<ModelPart> lightAtWall();
 std::vector<ModelPart> chessFloor();
 std::vector<ModelPart> sphereGrid();
 std::vector<ModelPart> glassSpheres();

@@ -9,8 +9,8 @@ namespace {
 
 using Corners = std::array<glm::dvec3, 4>; // metres, counter-clockwise from where it is seen
 
-Material lampMaterial(float radiance) {
-    Material m = matteMaterial("Lamp", glm::vec3(0.78f));
+Material lightMaterial(float radiance) {
+    Material m = matteMaterial("Light", glm::vec3(0.78f));
     m.emissive = glm::vec3(1.0f);
     m.emissiveStrength = radiance;
     return m;
@@ -18,26 +18,26 @@ Material lampMaterial(float radiance) {
 
 } // namespace
 
-std::vector<ModelPart> lampAtWall() {
-    Mesh wall, floor, lamp;
+std::vector<ModelPart> lightAtWall() {
+    Mesh wall, floor, light;
     addQuadGrid(wall, Corners{{{-1, 0, -0.75}, {1, 0, -0.75}, {1, 1.25, -0.75}, {-1, 1.25, -0.75}}},
                 1, 1, 0);
     addQuadGrid(floor, Corners{{{-1, 0, 0.75}, {1, 0, 0.75}, {1, 0, -0.75}, {-1, 0, -0.75}}}, 1, 1,
                 0);
     // A quarter of a metre wide, three quarters from the wall, with its back to the room.
     addQuadGrid(
-        lamp,
+        light,
         Corners{{{0.125, 0.625, 0}, {-0.125, 0.625, 0}, {-0.125, 0.875, 0}, {0.125, 0.875, 0}}}, 1,
         1, 0);
     const Material white = matteMaterial("White", glm::vec3(0.75f));
     return {makePart("Wall", std::move(wall), white),
             makePart("Floor", std::move(floor), matteMaterial("Floor", glm::vec3(0.75f))),
-            makePart("Lamp", std::move(lamp), lampMaterial(20.0f))};
+            makePart("Light", std::move(light), lightMaterial(20.0f))};
 }
 
 std::vector<ModelPart> chessFloor() {
     constexpr int kFields = 8;
-    Mesh fields[2], wall, lamp;
+    Mesh fields[2], wall, light;
     for (int row = 0; row < kFields; ++row)
         for (int column = 0; column < kFields; ++column) {
             const double x = column * 0.25 - 1.0, z = row * 0.25 - 1.0;
@@ -51,7 +51,7 @@ std::vector<ModelPart> chessFloor() {
         wall,
         Corners{{{-0.75, 0, -0.25}, {0.75, 0, -0.25}, {0.75, 0.75, -0.25}, {-0.75, 0.75, -0.25}}},
         1, 1, 0);
-    addQuadGrid(lamp,
+    addQuadGrid(light,
                 Corners{{{-0.2, 1.2, 0.2}, {0.2, 1.2, 0.2}, {0.2, 1.2, 0.6}, {-0.2, 1.2, 0.6}}}, 1,
                 1, 0);
     Material green = matteMaterial("Green Wall", {0.1f, 0.6f, 0.15f});
@@ -61,7 +61,7 @@ std::vector<ModelPart> chessFloor() {
             makePart("Dark Fields", std::move(fields[1]),
                      matteMaterial("Dark Fields", glm::vec3(0.08f))),
             makePart("Green Wall", std::move(wall), green),
-            makePart("Lamp", std::move(lamp), lampMaterial(20.0f))};
+            makePart("Light", std::move(light), lightMaterial(20.0f))};
 }
 
 } // namespace patina::library

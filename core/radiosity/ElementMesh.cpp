@@ -262,7 +262,7 @@ Result<ElementMesh> ElementMesh::make(const BakeGeometry& geometry, const Elemen
             if (face.cornerCount == 4) {
                 for (std::uint32_t x = 0; x < face.columns; ++x)
                     addNode(x, y, extent);
-            } else { // a row of triangles, upright and turned ones in turn
+            } else { // a row of triangles, upright and inverted ones in turn
                 for (std::uint32_t x = 0; x + y < face.columns; ++x) {
                     addNode(x, y, extent);
                     if (x + y + 1 < face.columns)
@@ -346,9 +346,9 @@ std::uint32_t ElementMesh::elementAt(std::uint32_t faceIndex, const glm::dvec2& 
         const std::uint32_t n = f.columns;
         x = std::min(x, n - 1 - y);
         const double restX = at.x * n - x, restY = at.y * n - y;
-        const bool turned = restX + restY > 1.0 && x + y + 1 < n;
+        const bool inverted = restX + restY > 1.0 && x + y + 1 < n;
         // Rows below have 2 n - 1, 2 n - 3 … triangles.
-        index += y * (2 * n - y) + 2 * x + (turned ? 1 : 0);
+        index += y * (2 * n - y) + 2 * x + (inverted ? 1 : 0);
     }
     while (m_nodes[index].firstChild != kNone) {
         const Node& n = m_nodes[index];

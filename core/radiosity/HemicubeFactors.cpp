@@ -96,7 +96,7 @@ void HemicubeFactors::row(std::uint32_t element, FactorRow& row) const {
     thread_local HitCount hits;
     const Face& face = m_elements.face(element);
     const glm::vec3 normal(face.normal);
-    // Turned about the normal by an angle of the element's own: edges of cells that line up with
+    // Rotated about the normal by an angle of the element's own: edges of cells that line up with
     // those of elements would make the same error everywhere.
     glm::vec3 tangent, bitangent;
     orthonormalBasis(normal, tangent, bitangent);

@@ -14,7 +14,7 @@ struct Problem {
     std::vector<double> areas;           // m²
     std::vector<glm::dvec3> reflectance; // ρ, 0…1; of all of them times their factors below 1
     // E: what leaves without having come from another element, W/m² (π times the radiance): what
-    // glows, and the light of lamps and sky that is reflected for the first time.
+    // glows, and the light of lights and sky that is reflected for the first time.
     std::vector<glm::dvec3> emission;
 
     [[nodiscard]] std::size_t size() const { return areas.size(); }

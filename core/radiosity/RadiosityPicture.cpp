@@ -74,7 +74,7 @@ glm::vec3 SeenSolution::irradiance(std::uint32_t element, const glm::dvec3& posi
 glm::vec3 SeenSolution::gathered(const TracePoint& point, const PictureSettings& settings,
                                  std::uint32_t seed) const {
     const auto count = static_cast<std::uint32_t>(settings.gatherRays);
-    // Lamps, sky and what glows: rays straight to them.
+    // Lights, sky and what glows: rays straight to them.
     Film::Pixel straight;
     PathSettings paths;
     paths.maxBounces = 0;

@@ -16,13 +16,14 @@ namespace patina::radiosity {
 enum class Look {
     Smooth,   // light interpolated between vertices, textures and glow as they are
     Elements, // each element's own, in one colour
-    Gathered, // every point gathers the light of what it sees, lamps straight: without the division
+    Gathered, // every point gathers the light of what it sees, lights straight: without the
+              // division
 };
 
 struct PictureSettings {
     Look look = Look::Smooth;
     int samples = 4;     // rays per pixel
-    int gatherRays = 64; // Gathered: of each of them, to surfaces as to lamps
+    int gatherRays = 64; // Gathered: of each of them, to surfaces as to lights
     std::uint32_t seed = 0;
 };
 

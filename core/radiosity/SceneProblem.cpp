@@ -56,16 +56,16 @@ class Sampler {
         glow /= double{kTexturePoints};
     }
 
-    // Mean irradiance of lamps and sky on an element.
+    // Mean irradiance of lights and sky on an element.
     [[nodiscard]] glm::dvec3 direct(std::uint32_t element) const {
         glm::dvec3 sum(0.0);
         const auto count = static_cast<std::uint32_t>(m_settings.lightSamples);
-        const auto lamps = static_cast<std::uint32_t>(m_scene.lights().size());
+        const auto lights = static_cast<std::uint32_t>(m_scene.lights().size());
         const bool byPoints =
             !m_settings.glowByFactors && !m_byFaces && !m_scene.emissive().empty();
         for (const std::uint32_t face : m_glowing)
             sum += ofGlowingFace(element, face);
-        if (lamps == 0 && !m_scene.hasEnvironment() && !byPoints)
+        if (lights == 0 && !m_scene.hasEnvironment() && !byPoints)
             return sum;
         glm::dvec3 sampled(0.0);
         std::uint32_t points = 0;
@@ -79,13 +79,13 @@ class Sampler {
             if (isBuried(element, glm::dvec3(from)))
                 continue;
             ++points;
-            for (std::uint32_t lamp = 0; lamp < lamps; ++lamp) {
+            for (std::uint32_t l = 0; l < lights; ++l) {
                 const LightSample light = m_scene.lights().sample(
-                    lamp, m_scene.toWorld(from), sobolOwen2D(i, seedFor(seed, lamp + 1)));
+                    l, m_scene.toWorld(from), sobolOwen2D(i, seedFor(seed, l + 1)));
                 const float cosine = glm::dot(normal, light.direction);
                 if (!(cosine > 0.0f) || light.light == glm::vec3(0.0f))
                     continue;
-                if (m_scene.lights().isHidden(lamp) &&
+                if (m_scene.lights().isHidden(l) &&
                     m_scene.occluded(from, light.direction, m_scene.sceneUnits(light.distance)))
                     continue;
                 sampled += glm::dvec3(light.light) * double{cosine} /
@@ -117,14 +117,15 @@ class Sampler {
     // The face's polygon in closed form, times what pairs of points tell of its radiance and of
     // what is in between (core/radiosity/AnalyticFactors.h).
     [[nodiscard]] glm::dvec3 ofGlowingFace(std::uint32_t element, std::uint32_t faceIndex) const {
-        const Face& lamp = m_elements.faces()[faceIndex];
+        const Face& glowing = m_elements.faces()[faceIndex];
         const Face& face = m_elements.face(element);
         const Polygon polygon = m_elements.polygon(element);
-        const double factor = exchange(polygon, Polygon({lamp.corners.data(), lamp.cornerCount})) /
-                              glm::length(areaVector(polygon.points()));
+        const double factor =
+            exchange(polygon, Polygon({glowing.corners.data(), glowing.cornerCount})) /
+            glm::length(areaVector(polygon.points()));
         if (!(factor > 0.0))
             return glm::dvec3(0.0);
-        const TraceMaterial& material = materialOf(lamp);
+        const TraceMaterial& material = materialOf(glowing);
         const std::uint32_t seed = seedFor(m_settings.seed ^ (faceIndex * 0x9e3779b9u), element);
         glm::dvec3 seen(0.0);
         double total = 0.0;
@@ -132,23 +133,24 @@ class Sampler {
             const glm::vec4 u = sobolOwen4D(static_cast<std::uint32_t>(i), seed);
             const glm::dvec3 from =
                 m_elements.samplePosition(element, {u.x, u.y}) + double{kRayOffset} * face.normal;
-            const glm::dvec2 at = lamp.cornerCount == 4
+            const glm::dvec2 at = glowing.cornerCount == 4
                                       ? glm::dvec2(u.z, u.w)
                                       : glm::dvec2(EmissiveTriangles::point({u.z, u.w}));
-            const glm::dvec3 to = positionOn(lamp, at) + double{kRayOffset} * lamp.normal;
+            const glm::dvec3 to = positionOn(glowing, at) + double{kRayOffset} * glowing.normal;
             const glm::dvec3 way = to - from;
             const double distance2 = glm::dot(way, way);
             const double cosHere = glm::dot(face.normal, way),
-                         cosThere = -glm::dot(lamp.normal, way);
+                         cosThere = -glm::dot(glowing.normal, way);
             if (!(cosHere > 0.0 && cosThere > 0.0) || isBuried(element, from))
                 continue;
-            const double weight = cosHere * cosThere / (distance2 * distance2) * stretch(lamp, at);
+            const double weight =
+                cosHere * cosThere / (distance2 * distance2) * stretch(glowing, at);
             total += weight;
             const double distance = std::sqrt(distance2);
             if (m_scene.occluded(glm::vec3(from), glm::vec3(way / distance),
                                  static_cast<float>(distance - 0.5 * double{kRayOffset})))
                 continue;
-            seen += weight * glm::dvec3(material.emissionAt(glm::vec2(uvOn(lamp, at))));
+            seen += weight * glm::dvec3(material.emissionAt(glm::vec2(uvOn(glowing, at))));
         }
         if (!(total > 0.0))
             return glm::dvec3(0.0);

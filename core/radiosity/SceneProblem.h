@@ -1,5 +1,5 @@
 // The equation of radiosity of a scene whose surfaces are divided: what its elements reflect, how
-// they glow, and the light of lamps and sky that falls on them.
+// they glow, and the light of lights and sky that falls on them.
 #pragma once
 
 #include "core/base/Result.h"
@@ -16,10 +16,10 @@
 namespace patina::radiosity {
 
 struct SceneProblemSettings {
-    int lightSamples = 64; // rays per element to each lamp and glowing face, and to the sky
+    int lightSamples = 64; // rays per element to each light and glowing face, and to the sky
     std::uint32_t seed = 0;
     // Elements that glow shoot or are gathered from like all others, as in the textbooks. Else what
-    // they send counts as direct light, which is exact but for shadows: the small bright lamps that
+    // they send counts as direct light, which is exact but for shadows: the small bright faces that
     // rays of form factors seldom meet are then no matter of form factors.
     bool glowByFactors = false;
 };
@@ -28,7 +28,7 @@ struct SceneProblemSettings {
 // (1 - transmission), textures averaged over the element: view.reflectionMix = 0 in every renderer.
 struct SceneProblem {
     Problem problem;
-    // H of lamps, sky and, but for glowByFactors, glowing elements, W/m²; its reflection is a part
+    // H of lights, sky and, but for glowByFactors, glowing elements, W/m²; its reflection is a part
     // of problem.emission.
     std::vector<glm::dvec3> direct;
     std::vector<glm::dvec3>

@@ -15,6 +15,7 @@ Shooting::Shooting(const Problem& problem, ShootingRule rule, bool overshoot)
     for (std::size_t e = 0; e < problem.size(); ++e) {
         m_area += problem.areas[e];
         m_meanReflectance += problem.areas[e] * problem.reflectance[e];
+        m_unshotPower += problem.areas[e] * problem.emission[e];
     }
     if (m_area > 0.0)
         m_meanReflectance /= m_area;
@@ -55,17 +56,18 @@ void Shooting::shoot(std::uint32_t element, const FactorRow& row) {
         light += m_problem.reflectance[element] * ambient();
     m_shot[element] += light;
     const glm::dvec3 power = m_problem.areas[element] * light;
-    for (const FactorRow::Share& share : row.shares)
-        m_irradiance[share.element] +=
-            double{share.factor} / m_problem.areas[share.element] * power;
+    m_unshotPower -= power;
+    for (const FactorRow::Share& share : row.shares) {
+        const glm::dvec3 arriving = double{share.factor} * power;
+        m_irradiance[share.element] += arriving / m_problem.areas[share.element];
+        m_unshotPower += m_problem.reflectance[share.element] * arriving;
+    }
     m_lost += (double{row.absorbed} + double{row.escaped}) * power;
     ++m_shots;
 }
 
 glm::dvec3 Shooting::ambient() const {
-    glm::dvec3 sum(0.0);
-    for (std::uint32_t e = 0; e < m_problem.size(); ++e)
-        sum += m_problem.areas[e] * unshot(e);
+    glm::dvec3 sum = m_unshotPower;
     const glm::dvec3 left = glm::dvec3(1.0) - m_meanReflectance;
     for (int c = 0; c < 3; ++c)
         sum[c] = left[c] > 0.0 && m_area > 0.0 ? sum[c] / (m_area * left[c]) : 0.0;

@@ -56,6 +56,7 @@ class Shooting {
     std::vector<glm::dvec3> m_shot;       // of each element so far
     std::vector<glm::dvec3> m_irradiance; // of each element so far
     glm::dvec3 m_meanReflectance{0.0};    // by area
+    glm::dvec3 m_unshotPower{0.0};        // Σ A ΔB
     double m_area = 0.0, m_emitted = 0.0;
     glm::dvec3 m_lost{0.0};
     std::uint64_t m_shots = 0;

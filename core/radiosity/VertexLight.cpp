@@ -188,12 +188,12 @@ std::vector<glm::dvec3> vertexLight(const LitMesh& mesh, const ElementMesh& elem
         }
         precondition();
         const glm::dvec3 next = dot(residual, scaled);
-        glm::dvec3 turn(0.0);
+        glm::dvec3 beta(0.0);
         for (int c = 0; c < 3; ++c)
-            turn[c] = product2[c] > 0.0 ? next[c] / product2[c] : 0.0;
+            beta[c] = product2[c] > 0.0 ? next[c] / product2[c] : 0.0;
         product2 = next;
         for (std::size_t v = 0; v < n; ++v)
-            search[v] = scaled[v] + turn * search[v];
+            search[v] = scaled[v] + beta * search[v];
     }
     const bool negative = std::any_of(elements.begin(), elements.end(), [](const glm::dvec3& e) {
         return e.x < 0.0 || e.y < 0.0 || e.z < 0.0;

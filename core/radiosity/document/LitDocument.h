@@ -75,7 +75,7 @@ struct LitPart {
 
 // 1 - e^(-kL): from light of any size to 0…1. `k` per unit of radiance.
 [[nodiscard]] glm::vec3 exposed(const glm::vec3& radiance, double k);
-// The k that shows the median, by area, of what is lit as middle grey, .18: lamps, and insides
+// The k that shows the median, by area, of what is lit as middle grey, .18: what glows, and insides
 // where no light comes, have no say.
 [[nodiscard]] double automaticExposure(const Document& document, const std::vector<LitPart>& parts);
 

@@ -29,7 +29,8 @@ Result<std::unique_ptr<RadiosityScene>> RadiosityScene::make(const Document& doc
                                                              const RadiositySettings& settings,
                                                              const JobContext& job) {
     job.setActivity("building the scene");
-    auto scene = TraceScene::build(traceInputs(document), job.part(0.0, 0.4));
+    const bool adaptive = settings.adaptive > 0.0;
+    auto scene = TraceScene::build(traceInputs(document), job.part(0.0, adaptive ? 0.1 : 0.4));
     if (!scene)
         return scene.error();
     if (scene->isEmpty())
@@ -42,19 +43,21 @@ Result<std::unique_ptr<RadiosityScene>> RadiosityScene::make(const Document& doc
         const auto whole = ElementMesh::make(*scene->geometry(), limits);
         if (!whole)
             return whole.error();
-        limits.maxArea =
-            surfaceArea(*whole) / (settings.adaptive > 0.0 ? RadiositySettings::kFirstElements
-                                                           : RadiositySettings::kUsualElements);
+        limits.maxArea = surfaceArea(*whole) / (adaptive ? RadiositySettings::kFirstElements
+                                                         : RadiositySettings::kUsualElements);
     }
     auto elements = ElementMesh::make(*scene->geometry(), limits);
     if (!elements)
         return elements.error();
     std::unique_ptr<RadiosityScene> result(
         new RadiosityScene(std::move(*scene), std::move(*elements)));
-    if (Result<void> lit = result->light(settings, job.part(0.4, 1.0)); !lit)
+    if (Result<void> lit =
+            result->light(settings, adaptive ? job.part(0.1, 0.2) : job.part(0.4, 1.0));
+        !lit)
         return lit.error();
-    if (settings.adaptive > 0.0)
-        if (Result<void> divided = result->divideWhereLightChanges(settings, job); !divided)
+    if (adaptive)
+        if (Result<void> divided = result->divideWhereLightChanges(settings, job.part(0.2, 1.0));
+            !divided)
             return divided.error();
     return result;
 }
@@ -77,7 +80,9 @@ Result<void> RadiosityScene::divideWhereLightChanges(const RadiositySettings& se
                                                      const JobContext& job) {
     constexpr int kRounds = 4; // each halves an edge
     for (int round = 0; round < kRounds && !job.stopping(); ++round) {
-        const Result<Solved> solved = solve(settings, job.part(0.0, 0.5));
+        const JobContext step = job.part(static_cast<double>(round) / kRounds,
+                                         static_cast<double>(round + 1) / kRounds);
+        const Result<Solved> solved = solve(settings, step.part(0.0, 0.5));
         if (!solved)
             return solved.error();
         job.setActivity("dividing");
@@ -118,7 +123,7 @@ Result<void> RadiosityScene::divideWhereLightChanges(const RadiositySettings& se
                          {},
                          {}};
         m_elements.divide(tooCoarse);
-        if (Result<void> lit = this->light(settings, job.part(0.5, 1.0)); !lit)
+        if (Result<void> lit = this->light(settings, step.part(0.5, 1.0)); !lit)
             return lit.error();
     }
     return {};
@@ -143,21 +148,15 @@ std::vector<LitPart> litParts(const RadiosityScene& scene, const Solution& solut
     std::vector<LitPart> parts;
     std::vector<std::unique_ptr<Mesh>> meshes;
     std::vector<std::uint32_t> numbers(mesh.vertices.size(), kNone); // in the part's mesh
-    std::uint32_t lastMesh = kNone;
-    bool lastBack = false;
     std::vector<std::size_t> partOf(2 * scene.scene().geometry()->meshes.size(), ~std::size_t{0});
     for (const LitMesh::Triangle& triangle : mesh.triangles) {
         const Face& face = elements.face(triangle.element);
         std::size_t& index = partOf[2 * face.mesh + (face.back ? 1 : 0)];
-        if (face.mesh != lastMesh || face.back != lastBack) {
-            lastMesh = face.mesh;
-            lastBack = face.back;
-            if (index == ~std::size_t{0}) {
-                index = parts.size();
-                parts.push_back(
-                    {scene.scene().geometry()->meshes[face.mesh].id, face.back, nullptr, {}, {}});
-                meshes.push_back(std::make_unique<Mesh>());
-            }
+        if (index == ~std::size_t{0}) {
+            index = parts.size();
+            parts.push_back(
+                {scene.scene().geometry()->meshes[face.mesh].id, face.back, nullptr, {}, {}});
+            meshes.push_back(std::make_unique<Mesh>());
         }
         LitPart& part = parts[index];
         Mesh& to = *meshes[index];
