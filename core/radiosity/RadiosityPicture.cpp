@@ -134,7 +134,14 @@ Result<Image> SeenSolution::picture(const TraceView& view, const PictureSettings
                 seedFor(settings.seed, static_cast<std::uint32_t>(y * view.width + x));
             for (std::uint32_t s = 0; s < samples; ++s) {
                 const glm::vec3 direction = eye.direction(x, y, sobolOwen2D(s, pixel));
-                const ClosestRay ray = m_scene.closest(eye.origin(), direction);
+                ClosestRay ray = m_scene.closest(eye.origin(), direction);
+                // Backs that only absorb are not there for a camera, as in all other pictures.
+                while (ray.mesh != ClosestRay::kNothing && m_elements.met(ray) == kNone) {
+                    const TracePoint back = m_scene.pointAt(ray);
+                    if (back.hasSurface())
+                        break;
+                    ray = m_scene.closest(TraceScene::origin(back, true), direction);
+                }
                 if (ray.mesh != ClosestRay::kNothing)
                     sum += glm::vec4(radiance(ray, settings, seedFor(pixel, s)), 1.0f);
                 else if (view.background)

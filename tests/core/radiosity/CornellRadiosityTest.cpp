@@ -162,6 +162,26 @@ TEST(CornellBoxPicture, IsThatOfPaths) {
     EXPECT_LT(flat.whole, 0.003);
 }
 
+// From above, a ceiling is not there: its back only absorbs, and hides nothing from a camera.
+TEST(RadiosityPicture, LooksThroughBacksAsAllPicturesDo) {
+    const auto scene = divided(sceneOf(unitCube(0.5f)), {0.5}, {64, 1, false});
+    const auto factors = scene->factors({});
+    const auto solved = solve(scene->problem(), *factors, {}, {});
+    ASSERT_TRUE(solved);
+    const SeenSolution seen(scene->scene, scene->elements, scene->lit, solved->solution);
+    TraceView view;
+    view.width = view.height = 5;
+    view.camera.target = glm::vec3(0.5f);
+    view.camera.yawDeg = view.camera.pitchDeg = 0.0f;
+    view.camera.distance = 3.0f;
+    view.transparent = true;
+    const auto picture = seen.picture(view, {Look::Elements}, {});
+    ASSERT_TRUE(picture);
+    const float* middle = picture->f32().data() + 4 * 12;
+    EXPECT_EQ(middle[3], 1.0f);
+    EXPECT_GT(middle[0], 0.01f) << "the wall across, by way of the back of the nearer one";
+}
+
 // The irradiance of points and the mean over a wall, as the division gets finer.
 // radiosity.cube_continuous: the inside of a unit cube whose ceiling sends 1 W/m² out.
 TEST(Cube, DividedFinelyIsLitAsTheContinuousOne) {
